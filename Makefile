@@ -1,0 +1,78 @@
+# Everything runs in .venv, made on first use; nothing is written that git sees.
+PYTHON       ?= python3
+PYTEST_FLAGS ?= -n auto --dist loadgroup
+
+VENV := .venv
+PY   := $(VENV)/bin/python
+TMM  := $(VENV)/bin/tmm-gen
+CORE := $(VENV)/.installed-core
+TEST := $(VENV)/.installed-test
+
+export PIP_DISABLE_PIP_VERSION_CHECK := 1
+export PYTHONUNBUFFERED := 1
+
+.DEFAULT_GOAL := help
+.DELETE_ON_ERROR:
+.NOTPARALLEL:
+.PHONY: help demo test lint build check bench format clean compiler
+
+help:  ## list the targets
+	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-7s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+
+demo: $(CORE) compiler  ## build, run and compare the example scenes: one table, one picture in out/demo
+	$(TMM) demo --out out/demo
+
+test: $(TEST) compiler  ## lint, types, tests, drift of generated/
+	$(PY) -m ruff check .
+	$(PY) -m ruff format --check .
+	$(PY) -m mypy
+	$(PY) -m pytest $(PYTEST_FLAGS)
+	$(TMM) build --check
+
+lint: $(TEST)  ## style and types only
+	$(PY) -m ruff check .
+	$(PY) -m ruff format --check .
+	$(PY) -m mypy
+
+format: $(TEST)  ## rewrite sources in the project's style
+	$(PY) -m ruff check --fix .
+	$(PY) -m ruff format .
+
+build: $(CORE)  ## regenerate generated/ from scenes/
+	$(TMM) build
+
+check: $(CORE)  ## fail where generated/ differs from what scenes/ give
+	$(TMM) build --check
+
+bench: $(CORE) compiler  ## run every script of benchmarks/, results in out/bench
+	@mkdir -p out/bench
+	@set -e; for script in benchmarks/*.py; do \
+	    [ -e "$$script" ] || { echo "error: no scripts in benchmarks/" >&2; exit 1; }; \
+	    echo "$(PY) $$script --out out/bench"; $(PY) "$$script" --out out/bench; \
+	done
+
+clean:  ## remove the environment, caches and all outputs
+	rm -rf $(VENV) out build dist .hypothesis .mypy_cache .pytest_cache .ruff_cache
+	find src tests generated -name __pycache__ -type d -prune -exec rm -rf {} + 2>/dev/null || true
+
+compiler:
+	@command -v gcc >/dev/null || { \
+	    echo "error: gcc not found; install a C compiler (Debian, Ubuntu: apt-get install gcc libc6-dev)" >&2; exit 1; }
+
+$(PY):
+	@command -v $(PYTHON) >/dev/null || { \
+	    echo "error: $(PYTHON) not found; install Python 3.11 or later, or name one: make PYTHON=/path/to/python3" >&2; exit 1; }
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { \
+	    echo "error: $(PYTHON) is $$($(PYTHON) -V 2>&1); Python 3.11 or later is needed: make PYTHON=/path/to/python3.11" >&2; exit 1; }
+	@$(PYTHON) -c 'import ensurepip, venv' 2>/dev/null || { \
+	    echo "error: $(PYTHON) cannot make environments; install its venv module (Debian, Ubuntu: apt-get install python3-venv)" >&2; exit 1; }
+	$(PYTHON) -m venv $(VENV)
+
+# Stamps: an install happens when pyproject.toml is newer, and the larger install counts as the smaller.
+$(CORE): pyproject.toml | $(PY)
+	$(PY) -m pip install --quiet --editable .
+	@touch $@
+
+$(TEST): pyproject.toml | $(PY)
+	$(PY) -m pip install --quiet --editable '.[test]'
+	@touch $(CORE) $@

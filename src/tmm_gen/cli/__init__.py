@@ -1,0 +1,124 @@
+"""The command line: a group whose commands are imported only when they are called.
+
+To add a command: write ``cli/<name>.py`` with a click command in it, and add one line to `COMMANDS`.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import sys
+from collections.abc import Sequence
+
+import click
+from click.shell_completion import shell_complete
+
+from tmm_gen.cli.lazy import LazyCommand, LazyGroup
+from tmm_gen.errors import UserError
+from tmm_gen.version import __version__
+
+__all__ = ["COMMANDS", "main", "tmm_gen"]
+
+_PROGRAM = "tmm-gen"
+
+COMMANDS = {
+    "new": LazyCommand("tmm_gen.cli.new:new", "Write a commented scene to start from."),
+    "build": LazyCommand("tmm_gen.cli.build:build", "Generate the kernels of scenes; --check only compares."),
+    "check": LazyCommand("tmm_gen.cli.check:check", "Compile and compare every backend of a scene."),
+    "run": LazyCommand("tmm_gen.cli.run:run", "Simulate a scene."),
+    "integrators": LazyCommand(
+        "tmm_gen.cli.integrators:integrators", "Show what is derived about each integrator."
+    ),
+    "errata": LazyCommand("tmm_gen.cli.errata:errata", "Compare the thesis's coefficients with the derived."),
+    "demo": LazyCommand("tmm_gen.cli.demo:demo", "Build, run and compare the example scenes."),
+}
+
+
+@click.group(
+    cls=LazyGroup,
+    commands_by_name=COMMANDS,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+@click.version_option(__version__, prog_name=_PROGRAM, message="%(prog)s %(version)s")
+def tmm_gen() -> None:
+    """Derive, generate and measure transfer-matrix kernels of flexible arms.
+
+    A scene, written in TOML, says what the arm is; `tmm-gen new NAME` writes one to start from.
+    """
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command line.
+
+    Parameters
+    ----------
+    arguments
+        Words after the program's name; by default those of the process.
+
+    Returns
+    -------
+    int
+        Exit code: 0 done, 1 a check failed, 2 bad usage or bad scene, 130 interrupted,
+        141 the reader of standard output went away.
+    """
+    words = list(sys.argv[1:] if arguments is None else arguments)
+    if instruction := os.environ.get("_TMM_GEN_COMPLETE"):
+        return shell_complete(tmm_gen, {}, _PROGRAM, "_TMM_GEN_COMPLETE", instruction)
+    try:
+        code = _invoke(words)
+        sys.stdout.flush()
+        return code
+    except BrokenPipeError:
+        return _reader_gone()
+    except SystemExit as stop:
+        # rich turns a broken pipe into this.
+        if isinstance(stop.__context__, BrokenPipeError):
+            return _reader_gone()
+        raise
+    except KeyboardInterrupt:
+        return 130
+    except OSError as error:
+        if error.filename is None:
+            raise
+        return _fail(f"{error.filename}: {error.strerror}", UserError.exit_code)
+    except Exception as error:
+        if (mendable := _exit_code(error)) is None:
+            raise
+        return _fail(str(error), mendable)
+
+
+def _invoke(words: list[str]) -> int:
+    """Parse and run; click's own ``main`` is passed by, since it settles broken pipes its own way."""
+    try:
+        with tmm_gen.make_context(_PROGRAM, words) as context:
+            outcome = tmm_gen.invoke(context)
+    except click.exceptions.Exit as finished:
+        return finished.exit_code
+    except click.Abort:
+        return 130
+    except click.ClickException as error:
+        error.show()
+        return 2
+    return outcome if isinstance(outcome, int) else 0
+
+
+def _exit_code(error: Exception) -> int | None:
+    """Return the exit code of an error the user can mend, None for a defect."""
+    if isinstance(error, UserError):
+        return error.exit_code
+    # Known by its shape, so that `scene` is not imported where it is not needed.
+    if hasattr(error, "problems") and type(error).__module__.startswith("tmm_gen.scene"):
+        return UserError.exit_code
+    return None
+
+
+def _fail(message: str, code: int) -> int:
+    click.echo(f"error: {message}", err=True)
+    return code
+
+
+def _reader_gone() -> int:
+    """Point standard output at nothing, so that the flush at exit stays quiet too."""
+    with contextlib.suppress(OSError, ValueError):  # standard output may be no file
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    return 141

@@ -1,0 +1,215 @@
+"""What commands show: tables for people, JSON for machines, progress for those who wait."""
+
+from __future__ import annotations
+
+import json
+import math
+import sys
+import threading
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from enum import Enum
+from pathlib import PurePath
+from typing import Any, Literal, Protocol
+
+import click
+
+__all__ = ["Advance", "Column", "plain", "print_json", "progress", "table"]
+
+# rich is imported inside functions: it costs more than all of `tmm-gen --help`.
+
+_WIDE = 10_000  # columns; a table that goes to a file or a pipe is not to be folded
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column of a printed table.
+
+    Attributes
+    ----------
+    key
+        Key of the row, snake_case.
+    heading
+        What is printed above; by default the key with spaces.
+    form
+        A format specification (``".3g"``) for numbers, or a function from the value to text.
+    justify
+        Side; numbers are right-justified when this is None.
+    """
+
+    key: str
+    heading: str | None = None
+    form: str | Callable[[Any], str] = ""
+    justify: Literal["left", "center", "right"] | None = None
+
+    def text(self, value: object) -> str:
+        """Return a cell's text: a dash for what is absent, yes or no for a truth value."""
+        value = plain(value, finite=False)
+        if callable(self.form):
+            return self.form(value)
+        if value is None:
+            return "-"
+        if isinstance(value, bool):
+            return "yes" if value else "no"
+        if isinstance(value, int | float):
+            return format(value, self.form)
+        return str(value)
+
+
+def plain(value: object, *, finite: bool = True) -> Any:
+    """Return a value made of what JSON knows.
+
+    NumPy scalars and arrays become numbers and lists, paths text, enumerations their values,
+    and, if `finite`, numbers that are not finite None.
+
+    Raises
+    ------
+    TypeError
+        If JSON has nothing like it.
+    """
+    if isinstance(value, Enum):
+        return plain(value.value, finite=finite)
+    if value is None or isinstance(value, bool | str):
+        return value
+    if isinstance(value, int):
+        return int(value)
+    if isinstance(value, float):
+        return float(value) if math.isfinite(value) or not finite else None
+    if isinstance(value, Mapping):
+        return {_key(key): plain(item, finite=finite) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [plain(item, finite=finite) for item in value]
+    if isinstance(value, PurePath):
+        return str(value)
+    if hasattr(value, "tolist"):  # NumPy, without importing it
+        return plain(value.tolist(), finite=finite)
+    raise TypeError(f"no JSON for {type(value).__name__}: {value!r}")
+
+
+def _key(key: object) -> str:
+    if not (isinstance(key, str) and key.isidentifier() and key == key.lower()):
+        raise TypeError(f"a JSON key is to be snake_case, not {key!r}")
+    return key
+
+
+def print_json(values: Mapping[str, object]) -> None:
+    """Print one JSON object: keys in snake_case, null for numbers that are not finite.
+
+    Raises
+    ------
+    TypeError
+        If a key is not in snake_case or a value has no JSON.
+    """
+    click.echo(json.dumps(plain(values), indent=2, allow_nan=False, ensure_ascii=False))
+
+
+def table(
+    rows: Sequence[Mapping[str, object]],
+    columns: Sequence[Column | str],
+    json_mode: bool = False,
+    *,
+    title: str | None = None,
+    more: Mapping[str, object] | None = None,
+) -> None:
+    """Print rows as a table, or as one JSON object ``{..., "rows": [...]}``.
+
+    Parameters
+    ----------
+    rows
+        Values by key. JSON shows all of a row, the table only its `columns`.
+    columns
+        What the table shows, in order; a plain string is the key of a `Column` of no format.
+    json_mode
+        Whether JSON is asked for.
+    title
+        Line above the table; not in the JSON.
+    more
+        Further keys of the JSON object, beside ``rows``; not in the table.
+
+    Raises
+    ------
+    TypeError
+        If a key is not in snake_case or a value has no JSON.
+    """
+    if json_mode:
+        print_json({**(more or {}), "rows": list(rows)})
+        return
+
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
+    shown = [column if isinstance(column, Column) else Column(column) for column in columns]
+    grid = Table(title=title, title_justify="left")
+    for column in shown:
+        grid.add_column(
+            Text(column.heading or column.key.replace("_", " ")),
+            justify=column.justify or _side(rows, column.key),
+            overflow="fold",
+        )
+    for row in rows:
+        # Text: square brackets are to stay themselves.
+        grid.add_row(*(Text(column.text(row.get(column.key))) for column in shown))
+    Console(width=None if sys.stdout.isatty() else _WIDE).print(grid)
+
+
+def _side(rows: Sequence[Mapping[str, object]], key: str) -> Literal["left", "right"]:
+    """Numbers go to the right, so that their digits stand below each other."""
+    values = [plain(row.get(key), finite=False) for row in rows]
+    present = [value for value in values if value is not None]
+    numeric = all(isinstance(value, int | float) and not isinstance(value, bool) for value in present)
+    return "right" if present and numeric else "left"
+
+
+class Advance(Protocol):
+    """Say that a piece of work is done, and optionally what is being done now."""
+
+    def __call__(self, count: float = 1, doing: str | None = None) -> None:
+        """Count `count` units of work as done."""
+
+
+@contextmanager
+def progress(doing: str, total: float | None = None, *, after: float = 1.0) -> Iterator[Advance]:
+    """Show a progress bar on standard error while the block runs.
+
+    Nothing is shown where standard error is not a terminal, nor for work shorter than `after`.
+
+    Parameters
+    ----------
+    doing
+        What is being done, in a few words.
+    total
+        Units of work; None where it is not known.
+    after
+        Seconds of work before the bar appears.
+
+    Yields
+    ------
+    Advance
+        To be called as work is done.
+    """
+    if not sys.stderr.isatty():
+        yield lambda count=1, doing=None: None
+        return
+
+    from rich.console import Console
+    from rich.progress import Progress
+
+    bar = Progress(console=Console(stderr=True), transient=True)
+    task = bar.add_task(doing, total=total)
+
+    def advance(count: float = 1, doing: str | None = None) -> None:
+        bar.update(task, advance=count, description=doing)
+
+    # A timer, not a look at the clock in `advance`: one long piece of work is to be shown too.
+    appear = threading.Timer(after, bar.start)
+    appear.daemon = True
+    appear.start()
+    try:
+        yield advance
+    finally:
+        appear.cancel()
+        appear.join()  # so that it cannot start the bar after the stop below
+        if bar.live.is_started:
+            bar.stop()

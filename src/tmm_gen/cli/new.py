@@ -1,0 +1,52 @@
+"""`tmm-gen new`: a commented scene to start from."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from tmm_gen.errors import UserError
+from tmm_gen.files import write_whole
+
+if TYPE_CHECKING:
+    from tmm_gen.scene.model import Kind
+
+# The scene package is imported inside: it loads pydantic, which `tmm-gen --help` has no use for.
+
+
+@click.command("new")
+@click.argument("name")
+@click.option(
+    "--kind",
+    type=click.Choice(["chain", "planar"]),
+    default="chain",
+    show_default=True,
+    help="Torsional chain, or arm in a plane.",
+)
+@click.option(
+    "--out",
+    type=click.Path(file_okay=False, path_type=Path),
+    default=Path("scenes"),
+    show_default=True,
+    help="Folder to write to; made if missing.",
+)
+@click.option("--force", is_flag=True, help="Replace a scene of that name.")
+def new(name: str, kind: Kind, out: Path, force: bool) -> None:
+    """Write a commented scene NAME.toml to start from."""
+    from tmm_gen.scene.identifier import scene_name_fault
+    from tmm_gen.scene.problem import show_value
+    from tmm_gen.scene.template import template
+
+    if fault := scene_name_fault(name):
+        raise UserError(f"NAME: {fault[0]} (got {show_value(name)}). {fault[1]}")
+    target = out / f"{name}.toml"
+    if target.is_symlink() or target.exists():
+        if target.is_dir():
+            raise UserError(f"{target}: is a directory. Choose another name.")
+        if not force:
+            raise UserError(f"{target}: exists already. Choose another name, or replace it with --force.")
+    write_whole(target, template(name, kind))
+    click.echo(f"wrote {target}")
+    click.echo(f"next: edit it, then `tmm-gen build {target}` and `tmm-gen run {target}`")

@@ -1,0 +1,1 @@
+"""Physics to expressions: elements, integrators, transfer matrices and sweeps, all in SymPy."""

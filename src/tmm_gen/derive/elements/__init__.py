@@ -1,0 +1,1 @@
+"""Elements, each declared by its equations."""

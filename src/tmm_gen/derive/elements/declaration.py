@@ -1,0 +1,68 @@
+"""What an element is: textbook equations between the state at its inboard and at its outboard side.
+
+A state is made of motions (displacement ``q``, velocity ``v``, acceleration ``a`` of one coordinate each) and of the
+forces conjugate to them, Gholampour (2018), sec. 2-1. Equations are written once, in these symbols, and
+:mod:`tmm_gen.derive.transfer` turns them into transfer matrices in discrete time and in the Laplace domain.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import sympy as sp
+
+
+@dataclass(frozen=True)
+class Motion:
+    """One coordinate of a station with its time derivatives."""
+
+    q: sp.Symbol
+    v: sp.Symbol
+    a: sp.Symbol
+
+
+@dataclass(frozen=True)
+class Port:
+    """The state at one side of an element: motions and conjugate forces, in the same order."""
+
+    motions: tuple[Motion, ...]
+    forces: tuple[sp.Symbol, ...]
+
+
+@dataclass(frozen=True)
+class Element:
+    """A physical element.
+
+    Parameters
+    ----------
+    name : str
+        Identifier.
+    source : str
+        Equation numbers.
+    inboard, outboard : Port
+        States the equations relate.
+    equations : tuple of sympy.Expr
+        Each vanishes. As many as the outboard state has entries.
+    parameters : tuple of sympy.Symbol
+        Physical parameters.
+    inputs : tuple of sympy.Symbol
+        External loads or prescribed values.
+    """
+
+    name: str
+    source: str
+    inboard: Port
+    outboard: Port
+    equations: tuple[sp.Expr, ...]
+    parameters: tuple[sp.Symbol, ...] = ()
+    inputs: tuple[sp.Symbol, ...] = ()
+
+
+def motion(name: str, side: str) -> Motion:
+    """Return the symbols of one coordinate at a side ("in" or "out")."""
+    return Motion(*(sp.Symbol(f"{prefix}{name}_{side}", real=True) for prefix in ("", "d", "dd")))
+
+
+def torsion_port(side: str) -> Port:
+    """Return the state ``[theta, tau]`` of the torsional chain."""
+    return Port((motion("theta", side),), (sp.Symbol(f"tau_{side}", real=True),))

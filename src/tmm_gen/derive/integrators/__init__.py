@@ -1,0 +1,1 @@
+"""Time integrators: one short file each, declared by their defining formulas."""

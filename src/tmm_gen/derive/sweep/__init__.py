@@ -1,0 +1,1 @@
+"""Sweeps over a chain of elements: Riccati recursion and plain product."""

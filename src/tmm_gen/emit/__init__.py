@@ -1,0 +1,1 @@
+"""From a program to text: one folder per language. No physics here."""

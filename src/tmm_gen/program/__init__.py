@@ -1,0 +1,1 @@
+"""The intermediate representation: variables over stations, loops, assignments, and passes over them."""

@@ -1,0 +1,98 @@
+"""Operation counts of programs, by the conventions in which backends print them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import sympy as sp
+
+from tmm_gen.program.statements import Loop, Routine
+
+
+@dataclass(frozen=True)
+class Operations:
+    """Floating-point operations; a change of sign is none.
+
+    Parameters
+    ----------
+    additions, multiplications, divisions, functions : int
+        Subtractions count as additions; functions are sines, cosines and square roots.
+    """
+
+    additions: int = 0
+    multiplications: int = 0
+    divisions: int = 0
+    functions: int = 0
+
+    @property
+    def total(self) -> int:
+        """All of them, each counted as one."""
+        return self.additions + self.multiplications + self.divisions + self.functions
+
+    def __add__(self, other: Operations) -> Operations:
+        """Add counts."""
+        return Operations(
+            self.additions + other.additions,
+            self.multiplications + other.multiplications,
+            self.divisions + other.divisions,
+            self.functions + other.functions,
+        )
+
+    def __mul__(self, times: int) -> Operations:
+        """Repeat."""
+        return Operations(
+            self.additions * times, self.multiplications * times, self.divisions * times, self.functions * times
+        )
+
+
+def count_expression(e: sp.Expr) -> Operations:
+    """Count the operations of one expression as printed."""
+    e = sp.sympify(e)
+    if e.is_Atom:
+        return Operations()
+    if e.is_Add:
+        return sum((count_expression(t) for t in e.args), Operations(additions=len(e.args) - 1))
+    if e.is_Mul:
+        return _count_product(e)
+    if e.is_Pow:
+        return _count_power(e)
+    return sum((count_expression(a) for a in e.args), Operations(functions=1))
+
+
+def count_routine(routine: Routine) -> Operations:
+    """Count the operations of one call of a routine."""
+    total = Operations()
+    for statement in routine.statements():
+        if isinstance(statement, Loop):
+            body = sum((count_expression(s.value) for s in statement.body), Operations())
+            total += body * (statement.stop - statement.start)
+        else:
+            total += count_expression(statement.value)
+    return total
+
+
+def _count_product(e: sp.Expr) -> Operations:
+    above = below = 0
+    inner = Operations()
+    for factor in e.args:
+        if factor in (1, -1):
+            continue
+        base, exponent = factor.as_base_exp()
+        if exponent.is_Integer and not factor.is_Number:
+            count = abs(int(exponent))
+            above, below = (above + count, below) if exponent > 0 else (above, below + count)
+            inner += count_expression(base) * count
+        else:
+            above += 1
+            inner += count_expression(factor)
+    multiplications = max(above - 1, 0) + max(below - 1, 0)
+    return inner + Operations(multiplications=multiplications, divisions=1 if below else 0)
+
+
+def _count_power(e: sp.Expr) -> Operations:
+    base, exponent = e.as_base_exp()
+    inner = count_expression(base)
+    if exponent.is_Integer:
+        count = abs(int(exponent))
+        return inner * count + Operations(multiplications=count - 1, divisions=1 if exponent < 0 else 0)
+    return inner + Operations(functions=1, divisions=1 if exponent.is_negative else 0)

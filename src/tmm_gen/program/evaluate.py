@@ -1,0 +1,109 @@
+"""An interpreter of programs: the oracle that shares no printer with any backend.
+
+It walks the statements one by one in whatever number type it is given (Python floats, mpmath, intervals, counting
+numbers), so that generated code can be compared with the program it came from.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import sympy as sp
+
+from tmm_gen.program.statements import Assign, Loop, Order, Require, Routine
+from tmm_gen.program.variables import Ref, Variable
+
+Values = dict[str, Any]
+"""Scalars and lists by variable name."""
+
+
+class VanishingPivotError(ArithmeticError):
+    """A pivot that must be positive is not."""
+
+
+def allocate(variables: tuple[Variable, ...], number: Callable[[float], Any]) -> Values:
+    """Return zeros (or defaults, where there are any) for variables."""
+    values: Values = {}
+    for variable in variables:
+        default = variable.default if variable.default is not None else 0.0
+        if variable.length is None:
+            values[variable.name] = number(default)  # type: ignore[arg-type]
+        elif isinstance(default, tuple):
+            values[variable.name] = [number(x) for x in default]
+        else:
+            values[variable.name] = [number(default)] * variable.length
+    return values
+
+
+def execute(routine: Routine, values: Values, number: Callable[[float], Any] = float, modules: Any = "math") -> None:
+    """Run a routine in place.
+
+    Parameters
+    ----------
+    routine : Routine
+        What to run.
+    values : dict
+        Every variable by name; arrays are lists. Written in place, scratch is added.
+    number : callable
+        Makes a number of the wanted type from a float, for scratch arrays.
+    modules : str or module
+        As for :func:`sympy.lambdify`: where ``sin`` and ``cos`` come from.
+
+    Raises
+    ------
+    VanishingPivotError
+        If a required pivot is not positive and finite.
+    """
+    for variable in routine.written():
+        if variable.name not in values:
+            values[variable.name] = number(0.0) if variable.length is None else [number(0.0)] * variable.length
+    compiled = {}
+    for value in routine.values():
+        refs = sorted(value.free_symbols, key=lambda s: s.name)
+        compiled[value] = (refs, sp.lambdify([sp.Dummy() for _ in refs], 0) if not refs and value == 0 else _function(refs, value, modules))
+
+    def compute(value: sp.Expr, j: int | None) -> Any:
+        refs, function = compiled[value]
+        return function(*(_read(values, ref, j) for ref in refs))
+
+    def run(statement: Assign | Require, j: int | None) -> None:
+        result = compute(statement.value, j)
+        if isinstance(statement, Require):
+            if not result > 0:
+                raise VanishingPivotError(f"{statement.value} = {result} at station {j}")
+        else:
+            _write(values, statement.target, j, result)
+
+    for statement in routine.statements():
+        if isinstance(statement, Loop):
+            stations = range(statement.start, statement.stop)
+            for j in reversed(stations) if statement.order is Order.INWARD else stations:
+                for inner in statement.body:
+                    run(inner, j)
+        else:
+            run(statement, None)
+
+
+def _function(refs: list[sp.Symbol], value: sp.Expr, modules: Any) -> Callable[..., Any]:
+    dummies = [sp.Dummy() for _ in refs]
+    return sp.lambdify(dummies, value.xreplace(dict(zip(refs, dummies, strict=True))), modules=modules)  # type: ignore[no-any-return]
+
+
+def _read(values: Mapping[str, Any], ref: Ref, j: int | None) -> Any:
+    held = values[ref.variable.name]
+    return held if ref.variable.length is None else held[_index(ref, j)]
+
+
+def _write(values: Values, ref: Ref, j: int | None, result: Any) -> None:
+    if ref.variable.length is None:
+        values[ref.variable.name] = result
+    else:
+        values[ref.variable.name][_index(ref, j)] = result
+
+
+def _index(ref: Ref, j: int | None) -> int:
+    index = ref.entry if ref.offset is None else (j or 0) + ref.offset
+    if index is None or index < 0:
+        raise IndexError(f"{ref} outside its array")
+    return index

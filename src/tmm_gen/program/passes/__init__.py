@@ -1,0 +1,1 @@
+"""Passes: each takes routines and returns routines that compute the same values."""

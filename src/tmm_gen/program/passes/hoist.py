@@ -1,0 +1,77 @@
+"""Hoisting by binding time: what depends on parameters and the step alone moves from step to prepare.
+
+An expression of the step that is polynomial in what changes from step to step is rewritten as a sum of monomials;
+the factor of each monomial is bound at prepare. A factor that takes any arithmetic becomes a coefficient of the model,
+shared wherever the same factor occurs again, in this routine or another.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import sympy as sp
+
+from tmm_gen.program.passes.rewrite import map_values
+from tmm_gen.program.statements import Assign, Routine, Section
+from tmm_gen.program.variables import Ref, Role, Variable, refs_in
+
+
+@dataclass
+class Hoister:
+    """Collects hoisted factors over several routines.
+
+    Parameters
+    ----------
+    names : dict from sympy.Expr to (name, doc, unit)
+        How to call factors that have a physical meaning; others are numbered.
+    """
+
+    names: dict[sp.Expr, tuple[str, str, str]] = field(default_factory=dict)
+    _found: dict[sp.Expr, Variable] = field(default_factory=dict)
+
+    def hoist(self, routine: Routine) -> Routine:
+        """Return the routine with factors replaced by coefficients."""
+        return map_values(routine, self._rewrite)
+
+    @property
+    def coefficients(self) -> tuple[Variable, ...]:
+        """The coefficients found, in order of discovery."""
+        return tuple(self._found.values())
+
+    def section(self) -> Section:
+        """Return the statements that compute them in prepare."""
+        return Section(
+            "Factors of the step that depend on the time step and parameters alone",
+            tuple(Assign(variable.ref, value) for value, variable in self._found.items()),
+        )
+
+    def _rewrite(self, value: sp.Expr) -> sp.Expr:
+        changing = sorted((r for r in refs_in(value) if not r.variable.role.bound_at_prepare), key=lambda r: r.name)
+        if not changing or not value.is_polynomial(*changing):
+            return value
+        polynomial = sp.Poly(value, *changing)
+        by_factor: dict[sp.Expr, list[sp.Expr]] = {}
+        for powers, factor in polynomial.terms():
+            monomial = sp.Mul(*(ref**power for ref, power in zip(changing, powers, strict=True)))
+            held, sign = self._factor(sp.factor(factor))
+            by_factor.setdefault(held, []).append(sign * monomial)
+        terms = [
+            sp.Mul(factor, sp.Add(*monomials), evaluate=factor.is_Number or len(monomials) == 1)
+            if factor != 1
+            else sp.Add(*monomials)
+            for factor, monomials in by_factor.items()
+        ]
+        return sp.Add(*terms)
+
+    def _factor(self, factor: sp.Expr) -> tuple[sp.Expr, int]:
+        """Return what stands for a factor, and its sign."""
+        sign = -1 if factor.could_extract_minus_sign() else 1
+        factor = sign * factor
+        if factor.is_Number or isinstance(factor, Ref):
+            return factor, sign
+        if factor not in self._found:
+            if any(ref.offset is not None for ref in refs_in(factor)):
+                return factor, sign  # per-station factors are named by whoever builds the sweep
+            name, doc, unit = self.names.get(factor, (f"factor_{len(self._found) + 1}", str(factor), "SI"))
+            self._found[factor] = Variable(name, Role.COEFFICIENT, doc=doc, unit=unit)
+        return self._found[factor].ref, sign

@@ -1,0 +1,45 @@
+"""Shared walking of routines for passes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import sympy as sp
+
+from tmm_gen.program.statements import Assign, Loop, Require, Routine, Section
+
+
+def map_values(routine: Routine, change: Callable[[sp.Expr], sp.Expr]) -> Routine:
+    """Return the routine with every expression changed."""
+
+    def changed(statement: Assign | Require | Loop) -> Assign | Require | Loop:
+        if isinstance(statement, Loop):
+            return replace(statement, body=tuple(changed(s) for s in statement.body))  # type: ignore[misc]
+        return replace(statement, value=change(statement.value))
+
+    sections = tuple(
+        replace(section, statements=tuple(changed(s) for s in section.statements)) for section in routine.sections
+    )
+    return replace(routine, sections=sections)
+
+
+def keep_assignments(routine: Routine, keep: Callable[[Assign], bool]) -> Routine:
+    """Return the routine without the assignments that are not kept, nor loops and sections left empty."""
+
+    def kept(statement: Assign | Require | Loop) -> bool:
+        return not isinstance(statement, Assign) or keep(statement)
+
+    sections: list[Section] = []
+    for section in routine.sections:
+        statements: list[Assign | Require | Loop] = []
+        for statement in section.statements:
+            if isinstance(statement, Loop):
+                body = tuple(s for s in statement.body if kept(s))
+                if body:
+                    statements.append(replace(statement, body=body))
+            elif kept(statement):
+                statements.append(statement)
+        if statements:
+            sections.append(replace(section, statements=tuple(statements)))
+    return replace(routine, sections=tuple(sections))

@@ -1,0 +1,181 @@
+"""Statements, routines and programs: what every backend prints."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from enum import Enum
+
+import sympy as sp
+
+from tmm_gen.program.variables import Ref, Role, Variable, refs_in
+
+
+@dataclass(frozen=True)
+class Assign:
+    """``target = value``."""
+
+    target: Ref
+    value: sp.Expr
+
+
+@dataclass(frozen=True)
+class Require:
+    """Leave the routine with ``vanishing_pivot`` unless ``value`` is positive and finite.
+
+    Pivots of a passive arm are positive; a zero, negative or non-finite one means the model cannot be solved.
+    """
+
+    value: sp.Expr
+
+
+class Order(Enum):
+    """In which order a loop visits stations."""
+
+    OUTWARD = "outward"
+    INWARD = "inward"
+
+
+@dataclass(frozen=True)
+class Loop:
+    """A loop over stations ``j`` in ``range(start, stop)``, from base to tip or from tip to base."""
+
+    order: Order
+    start: int
+    stop: int
+    body: tuple[Assign | Require, ...]
+
+    @property
+    def parallel(self) -> bool:
+        """Whether iterations are independent, so that a backend may do all stations at once."""
+        written = {s.target.variable: s.target.offset for s in self.body if isinstance(s, Assign)}
+        assigned: set[sp.Symbol] = set()
+        for statement in self.body:
+            for ref in refs_in(statement.value):
+                if ref.variable not in written:
+                    continue
+                if ref.offset is None:
+                    if ref not in assigned:
+                        return False  # a scalar carried from one station to the next
+                elif ref.offset != written[ref.variable]:
+                    return False  # another station's element
+            if isinstance(statement, Assign):
+                assigned.add(statement.target)
+        return True
+
+
+@dataclass(frozen=True)
+class Section:
+    """Statements under a title; titles become comments in the generated code."""
+
+    title: str
+    statements: tuple[Assign | Require | Loop, ...]
+
+
+Statement = Assign | Require | Loop
+
+
+@dataclass(frozen=True)
+class Routine:
+    """A function of the generated kernel.
+
+    Parameters
+    ----------
+    name : str
+        "prepare", "initialise", "step", "step_start1", ... or "output".
+    doc : str
+        What it does, for readers of the generated code.
+    sections : tuple of Section
+        The body.
+    """
+
+    name: str
+    doc: str
+    sections: tuple[Section, ...]
+
+    def statements(self) -> Iterator[Statement]:
+        """Yield top-level statements (loops included) in order."""
+        for section in self.sections:
+            yield from section.statements
+
+    def assignments(self) -> Iterator[Assign]:
+        """Yield every assignment, also those inside loops."""
+        for statement in self.statements():
+            for inner in statement.body if isinstance(statement, Loop) else (statement,):
+                if isinstance(inner, Assign):
+                    yield inner
+
+    def values(self) -> Iterator[sp.Expr]:
+        """Yield every expression that is evaluated."""
+        for statement in self.statements():
+            for inner in statement.body if isinstance(statement, Loop) else (statement,):
+                yield inner.value
+
+    def read(self) -> frozenset[Variable]:
+        """Variables that occur in expressions."""
+        return frozenset(ref.variable for value in self.values() for ref in refs_in(value))
+
+    def written(self) -> frozenset[Variable]:
+        """Variables that are assigned."""
+        return frozenset(assign.target.variable for assign in self.assignments())
+
+    def variables(self, role: Role) -> tuple[Variable, ...]:
+        """Variables of a role that the routine reads or writes, by name."""
+        return tuple(sorted((v for v in self.read() | self.written() if v.role is role), key=lambda v: v.name))
+
+
+@dataclass(frozen=True)
+class Program:
+    """A whole kernel.
+
+    Parameters
+    ----------
+    name, title : str
+        Of the scene.
+    stations : int
+        Number of links.
+    step : Variable
+        The time step, with the scene's default.
+    parameters, coefficients, state, inputs, outputs, given : tuple of Variable
+        In the order in which backends lay them out.
+    prepare, initialise, output : Routine
+        Phases besides the step.
+    startup : tuple of Routine
+        The first steps, one routine each (empty for one-step methods).
+    main : Routine
+        The step.
+    stage_instants : tuple of tuple of float
+        For each start-up routine and then the main one: instants in units of the step at which inputs are read.
+    facts : mapping from str to str
+        For headers: integrator, sweep, unknown and so on, in reading order.
+    """
+
+    name: str
+    title: str
+    stations: int
+    step: Variable
+    parameters: tuple[Variable, ...]
+    coefficients: tuple[Variable, ...]
+    state: tuple[Variable, ...]
+    inputs: tuple[Variable, ...]
+    outputs: tuple[Variable, ...]
+    given: tuple[Variable, ...]
+    prepare: Routine
+    initialise: Routine
+    startup: tuple[Routine, ...]
+    main: Routine
+    output: Routine
+    stage_instants: tuple[tuple[float, ...], ...]
+    facts: dict[str, str] = field(default_factory=dict)
+
+    @property
+    def steps(self) -> tuple[Routine, ...]:
+        """Start-up routines in order, then the main one."""
+        return (*self.startup, self.main)
+
+    @property
+    def model(self) -> tuple[Variable, ...]:
+        """What prepare leaves for the later phases: coefficients, and parameters the later phases read."""
+        later = set().union(*(routine.read() for routine in (*self.steps, self.output)))
+        kept = tuple(v for v in (self.step, *self.parameters) if v in later)
+        return (*kept, *(c for c in self.coefficients if c in later))

@@ -1,0 +1,244 @@
+"""From a chain's scene and integrator to its program."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import sympy as sp
+
+from tmm_gen.derive import torsion_chain as chain
+from tmm_gen.derive.elements.torsion import INERTIA
+from tmm_gen.derive.integrators.declaration import CONSISTENT_START, STEP, Integrator, Past, Scheme, past
+from tmm_gen.derive.integrators.relations import Unknown, affine_motion
+from tmm_gen.program.passes.hoist import Hoister
+from tmm_gen.program.passes.prune import prune
+from tmm_gen.program.statements import Assign, Program, Routine, Section
+from tmm_gen.program.torsion.factors import (
+    Factors,
+    Gains,
+    bind,
+    gains_of,
+    hub_values,
+    parameter_values,
+    product_factors,
+    riccati_factors,
+)
+from tmm_gen.program.torsion.layout import OUTPUT_KINDS, ChainLayout, chain_layout
+from tmm_gen.program.torsion.loads import Loads, loads_of
+from tmm_gen.program.torsion.motion import history_values
+from tmm_gen.program.torsion.step import StepBuilder
+from tmm_gen.program.variables import Role, Variable
+from tmm_gen.scene import Scene
+
+
+def build_chain(scene: Scene, integrator: Integrator) -> Program:
+    """Build the program of a torsional chain.
+
+    Parameters
+    ----------
+    scene : Scene
+        With ``model.kind == "chain"``.
+    integrator : Integrator
+        With its parameters bound to numbers.
+
+    Raises
+    ------
+    UnsuitableUnknownError
+        If the integrator cannot be solved for the scene's unknown.
+    """
+    layout = chain_layout(scene, integrator)
+    loads = loads_of(scene, layout.inputs)
+    unknown: Unknown = scene.model.unknown
+    factors = _FactorSets(layout, scene.model.sweep)
+    hoister = Hoister(names=_gain_names(integrator, unknown, layout))
+    routines = {}
+    # the main scheme first: its factors get the plain names
+    for position, scheme in sorted(enumerate(integrator.schemes), key=lambda item: item[1] is not integrator.main):
+        name = "step" if scheme is integrator.main else f"step_start{position + 1}"
+        builder = StepBuilder(
+            layout=layout,
+            loads=loads,
+            base=scene.base.kind,
+            scheme=scheme,
+            unknown=unknown,
+            factors=tuple(factors.of(affine_and_gains) for affine_and_gains in _stage_gains(scheme, unknown)),
+            sources=layout.state,
+            hub_sources=history_values(layout.hub, lambda v: v.ref),
+        )
+        doc = "Advance the state by one step." if name == "step" else f"Start-up: take step {position + 1}."
+        routines[name] = hoister.hoist(Routine(name, doc, builder.sections()))
+    main = routines.pop("step")
+    startup = tuple(routines[f"step_start{k + 1}"] for k in range(len(integrator.startup)))
+    initialise = _initialise(layout, loads, scene.base.kind)
+    output = _output(scene, layout)
+    state = _living(layout.all_state, (*startup, main), output)
+    wanted = frozenset(state)
+    startup = tuple(prune(r, wanted) for r in startup)
+    main = prune(main, wanted)
+    initialise = prune(initialise, wanted)
+    coefficients = (*hoister.coefficients, *factors.coefficients)
+    used = frozenset().union(*(r.read() for r in (*startup, main, output)))
+    prepare = prune(
+        Routine("prepare", "Compute what depends on parameters and step alone.", (hoister.section(), *factors.sections)),
+        used,
+    )
+    read = prepare.read() | used | initialise.read()
+    return Program(
+        name=scene.name,
+        title=scene.title,
+        stations=scene.stations,
+        step=layout.step,
+        parameters=tuple(p for p in layout.parameters if p in read),
+        coefficients=tuple(c for c in coefficients if c in used),
+        state=state,
+        inputs=layout.inputs,
+        outputs=layout.outputs,
+        given=layout.given,
+        prepare=prepare,
+        initialise=initialise,
+        startup=startup,
+        main=main,
+        output=output,
+        stage_instants=tuple(
+            tuple(float(stage.instant) for stage in scheme.stages) for scheme in integrator.schemes
+        ),
+        facts={
+            "model": "torsional chain (linear)",
+            "stations": str(scene.stations),
+            "base": scene.base.kind,
+            "integrator": integrator.title
+            + "".join(f", {k} = {float(v):g}" for k, v in integrator.parameters.items()),
+            "sweep": scene.model.sweep,
+            "unknown": scene.model.unknown,
+        },
+    )
+
+
+class _FactorSets:
+    """Factors by gains: stages with equal gains share one set."""
+
+    def __init__(self, layout: ChainLayout, sweep: str) -> None:
+        self._layout = layout
+        self._build = riccati_factors if sweep == "riccati" else product_factors
+        self._sets: dict[Gains, Factors] = {}
+
+    def of(self, gains: Gains) -> Factors:
+        if gains not in self._sets:
+            suffix = f"_{len(self._sets) + 1}" if self._sets else ""
+            self._sets[gains] = self._build(self._layout, gains, suffix)
+        return self._sets[gains]
+
+    @property
+    def sections(self) -> tuple[Section, ...]:
+        return tuple(f.section for f in self._sets.values())
+
+    @property
+    def coefficients(self) -> tuple[Variable, ...]:
+        return tuple(v for f in self._sets.values() for v in f.coefficients)
+
+
+def _stage_gains(scheme: Scheme, unknown: Unknown) -> list[Gains]:
+    return [gains_of(affine_motion(scheme, i + 1, unknown)) for i in range(len(scheme.stages))]
+
+
+def _gain_names(
+    integrator: Integrator, unknown: Unknown, layout: ChainLayout
+) -> dict[sp.Expr, tuple[str, str, str]]:
+    """Name the gains of the main scheme after what they do."""
+    words = {"q": "angle", "v": "rate", "a": "acceleration"}
+    names: dict[sp.Expr, tuple[str, str, str]] = {}
+    gains = affine_motion(integrator.main, 1, unknown).gain
+    for kind, word in words.items():
+        value = sp.factor(gains[kind].subs(STEP, layout.step.ref))
+        doc = f"{word} per unit of {unknown}: {value}"
+        names.setdefault(value, (f"{word}_per_{unknown}", doc, "SI"))
+    return names
+
+
+def _initialise(layout: ChainLayout, loads: Loads, base: str) -> Routine:
+    """Build the start: given motion, consistent acceleration, an older history that nothing reads yet."""
+    angle, rate = layout.given
+    sources = {Past("q", 0): angle, Past("v", 0): rate}
+    motion = affine_motion(CONSISTENT_START, 1, "acceleration")
+    gains = dict(zip(chain.GAINS.values(), gains_of(motion), strict=True))
+    law = chain.riccati_station()
+    pivot = bind(law.pivot.subs(chain.JOINT_IMPEDANCE, 0), {}, layout).subs(
+        chain.IMPEDANCE, law.link_impedance.subs(chain.IMPEDANCE, 0).subs(gains)
+    )
+    hub_admittance = None
+    if layout.hub_inertia is not None:
+        hub = chain.hub_law().pivot.subs(chain.IMPEDANCE, 0).subs(gains)
+        hub_admittance = 1 / bind(hub, hub_values(layout), layout)
+    factors = Factors(
+        section=Section("", ()),
+        coefficients=(),
+        admittance=1 / pivot.subs(INERTIA, parameter_values(layout)[INERTIA]),
+        hub_admittance=hub_admittance,
+    )
+    hub_start = {past("q"): loads.angle, past("v"): sp.Integer(0), past("a"): sp.Integer(0)}
+    builder = StepBuilder(
+        layout=replace(
+            layout,
+            state={p: v for p, v in layout.state.items() if p.lag == 0},
+            hub={p: v for p, v in layout.hub.items() if p.lag == 0},
+        ),
+        loads=loads,
+        base=base,
+        scheme=CONSISTENT_START,
+        unknown="acceleration",
+        factors=(factors,),
+        sources=sources,
+        hub_sources=hub_start,
+    )
+    older = tuple(Assign(v.ref, sp.Integer(0)) for p, v in layout.hub.items() if p.lag)
+    return Routine(
+        "initialise",
+        "Start from given angles and rates with the acceleration that satisfies the equations of motion.",
+        (*builder.sections(), *((Section("older history of the hub", older),) if older else ())),
+    )
+
+
+def _output(scene: Scene, layout: ChainLayout) -> Routine:
+    """Build the outputs from the state."""
+    assignments = []
+    for described, variable in zip(scene.outputs, layout.outputs, strict=True):
+        link = {"base": 0, "tip": scene.stations}.get(described.at, described.at)  # type: ignore[call-overload]
+        if described.of == "torque":
+            value = _joint_torque(layout, max(int(link), 1))
+        else:
+            value = _motion(layout, int(link), Past(OUTPUT_KINDS[described.of], 0))
+        assignments.append(Assign(variable.ref, value))
+    sections = (Section("outputs", tuple(assignments)),) if assignments else ()
+    return Routine("output", "Read the outputs off the state.", sections)
+
+
+def _motion(layout: ChainLayout, link: int, which: Past) -> sp.Expr:
+    """Return the motion of a link, counted from 1; 0 is the base."""
+    if link:
+        return layout.state[which].entry(link - 1)
+    return layout.hub[which].ref if layout.hub else sp.Integer(0)
+
+
+def _joint_torque(layout: ChainLayout, joint: int) -> sp.Expr:
+    law = chain.joint_law().known_torque
+    symbols = {}
+    for kind in ("q", "v"):
+        if Past(kind, 0) in layout.state:
+            symbols[chain.INNER[kind]] = _motion(layout, joint - 1, Past(kind, 0))
+            symbols[chain.OUTER[kind]] = _motion(layout, joint, Past(kind, 0))
+    value = bind(law.subs(symbols), parameter_values(layout), layout)
+    at_joint = {
+        v.at(): v.entry(joint - 1) for v in (layout.stiffness, layout.damping) if v is not None and v.length is not None
+    }
+    return value.xreplace(at_joint)
+
+
+def _living(state: tuple[Variable, ...], steps: tuple[Routine, ...], output: Routine) -> tuple[Variable, ...]:
+    """Return the state that outputs depend on, through any number of steps; the angle always stays."""
+    alive = {v for v in state if v in output.read() or v.name == "angle"}
+    while True:
+        wanted = frozenset(alive)
+        for routine in steps:
+            alive |= {v for v in prune(routine, wanted).read() if v.role is Role.STATE}
+        if alive == set(wanted):
+            return tuple(v for v in state if v in alive)

@@ -1,0 +1,124 @@
+"""Variables of a program, and the symbols by which expressions refer to them.
+
+A variable is a scalar or an array over stations. Inside a loop over stations its element is a :class:`Ref` with an
+offset from the loop's index ``j``; outside, one with a fixed entry. A ``Ref`` is a SymPy symbol, so expressions stay
+ordinary SymPy and every pass can rely on that.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+import sympy as sp
+
+
+class Role(Enum):
+    """What a variable is for, which also says when its value is known."""
+
+    STEP = "step"
+    """The time step: bound at prepare."""
+    PARAMETER = "parameter"
+    """Physical parameter: bound at prepare."""
+    COEFFICIENT = "coefficient"
+    """Computed by prepare, kept in the model."""
+    STATE = "state"
+    INPUT = "input"
+    OUTPUT = "output"
+    GIVEN = "given"
+    """Argument of initialise: angles and rates to start from."""
+    WORK = "work"
+    """Scratch array of a routine."""
+    LOCAL = "local"
+    """Scratch scalar of a routine."""
+
+    @property
+    def bound_at_prepare(self) -> bool:
+        """Whether the value is known before the first step."""
+        return self in (Role.STEP, Role.PARAMETER, Role.COEFFICIENT)
+
+
+@dataclass(frozen=True)
+class Variable:
+    """A named quantity.
+
+    Parameters
+    ----------
+    name : str
+        Identifier in every backend.
+    role : Role
+        Where it lives and when it is known.
+    length : int or None
+        Number of elements; None for a scalar.
+    doc : str
+        One line for readers of the generated code.
+    unit : str
+        SI unit, "1" when dimensionless.
+    default : float, tuple of float or None
+        The scene's value, for parameters and the step.
+    """
+
+    name: str
+    role: Role
+    length: int | None = None
+    doc: str = ""
+    unit: str = "1"
+    default: float | tuple[float, ...] | None = None
+
+    def at(self, offset: int = 0) -> Ref:
+        """Return the element ``j + offset`` of the enclosing loop (the scalar itself if there is no length)."""
+        return Ref(self, offset=offset if self.length is not None else None)
+
+    def entry(self, index: int) -> Ref:
+        """Return the fixed element ``index`` (the scalar itself if there is no length)."""
+        return Ref(self, entry=index if self.length is not None else None)
+
+    @property
+    def ref(self) -> Ref:
+        """The symbol of a scalar."""
+        if self.length is not None:
+            raise ValueError(f"{self.name} is an array: use at() or entry()")
+        return Ref(self)
+
+
+class Ref(sp.Symbol):
+    """A symbol standing for a scalar variable or one element of an array.
+
+    Attributes
+    ----------
+    variable : Variable
+        What it refers to.
+    offset : int or None
+        Element ``j + offset``, relative to the enclosing loop.
+    entry : int or None
+        Fixed element.
+    """
+
+    variable: Variable
+    offset: int | None
+    entry: int | None
+
+    def __new__(cls, variable: Variable, offset: int | None = None, entry: int | None = None) -> Ref:
+        """Make the symbol; equal references are equal symbols."""
+        name = variable.name
+        if offset is not None:
+            name += f"[j{offset:+d}]" if offset else "[j]"
+        elif entry is not None:
+            name += f"[{entry}]"
+        symbol: Ref = sp.Symbol.__xnew__(cls, name, real=True)
+        symbol.variable, symbol.offset, symbol.entry = variable, offset, entry
+        return symbol
+
+    def __getnewargs_ex__(self) -> tuple[tuple[object, ...], dict[str, object]]:
+        """Support pickling and copying."""
+        return (self.variable, self.offset, self.entry), {}
+
+
+def refs_in(expression: sp.Basic) -> frozenset[Ref]:
+    """Return the references in an expression."""
+    return frozenset(s for s in expression.free_symbols if isinstance(s, Ref))
+
+
+def local(name: str, doc: str = "", unit: str = "1") -> Ref:
+    """Return the symbol of a scratch scalar."""
+    return Variable(name, Role.LOCAL, doc=doc, unit=unit).ref

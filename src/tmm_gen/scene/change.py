@@ -1,0 +1,80 @@
+"""Changing keys of a scene by their dotted names."""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Mapping
+from typing import Any
+
+from tmm_gen.scene.check import check_data
+from tmm_gen.scene.integrator import underscored
+from tmm_gen.scene.problem import Finding, Path, Problem, SceneError, show_path, show_value
+from tmm_gen.scene.scene import Scene, Source
+
+
+def changed(scene: Scene, changes: Mapping[str, object]) -> Scene:
+    """Return a scene with keys changed; see :meth:`Scene.replace`.
+
+    Raises
+    ------
+    SceneError
+        If a key leads nowhere or the result is not a valid scene.
+    """
+    data: dict[str, Any] = copy.deepcopy(dict(scene.source.data))
+    told = ", ".join(f"{key} = {show_value(value)}" for key, value in changes.items())
+    origin = f"{scene.source.origin} (with {told})" if changes else scene.source.origin
+    name = changes.get("integrator.name")
+    if isinstance(name, str) and underscored(name) != scene.integrator.name:
+        data["integrator"] = {"name": name, "step": scene.integrator.step}
+    for key, value in changes.items():
+        path = _path(key)
+        fault = _assign(data, path, _plain(value))
+        if fault:
+            line = scene.source.lines.get(path[:1], 1)
+            problem = Problem(origin, line, show_path(path), fault.value, fault.message, fault.remedy)
+            raise SceneError([problem])
+    return check_data(Source(origin, data, scene.source.lines))
+
+
+def _path(key: str) -> Path:
+    """Split ``link.2.inertia`` into ``("link", 1, "inertia")``."""
+    return tuple(int(part) - 1 if part.isdecimal() else part for part in key.split("."))
+
+
+def _assign(data: dict[str, Any], path: Path, value: object) -> Finding | None:
+    """Set or, for None, remove the value at a path, making tables on the way."""
+    place: Any = data
+    for depth, part in enumerate(path[:-1]):
+        if isinstance(place, dict) and isinstance(part, str):
+            place = place.setdefault(part, {})
+        elif isinstance(place, list) and isinstance(part, int) and 0 <= part < len(place):
+            place = place[part]
+        else:
+            return _nowhere(path[: depth + 1])
+    last = path[-1]
+    if isinstance(place, dict) and isinstance(last, str):
+        place[last] = value
+        if value is None:
+            del place[last]
+    elif isinstance(place, list) and isinstance(last, int) and 0 <= last < len(place) and value is not None:
+        place[last] = value
+    else:
+        return _nowhere(path)
+    return None
+
+
+def _nowhere(path: Path) -> Finding:
+    return Finding(
+        path, "is not in this scene", "Name a key of the file, tables counted from 1: link.2.inertia."
+    )
+
+
+def _plain(value: object) -> object:
+    """Turn tuples and NumPy values to lists and numbers, as a TOML file would have them."""
+    if isinstance(value, Mapping):
+        return {key: _plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(item) for item in value]
+    if callable(tolist := getattr(value, "tolist", None)):  # NumPy, without importing it
+        return tolist()
+    return value

@@ -1,0 +1,56 @@
+"""From the data of a scene file to a scene, or to everything that is wrong with it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from pydantic import ValidationError
+
+from tmm_gen.scene.complaints import findings
+from tmm_gen.scene.document import Document
+from tmm_gen.scene.locate import nearest_line
+from tmm_gen.scene.problem import Finding, Problem, SceneError, show_path
+from tmm_gen.scene.rules import broken_rules
+from tmm_gen.scene.scene import Scene, Source, scene_of
+
+
+def check_data(source: Source) -> Scene:
+    """Check a document and expand it.
+
+    Parameters
+    ----------
+    source : Source
+        The document with its lines.
+
+    Returns
+    -------
+    Scene
+        The scene.
+
+    Raises
+    ------
+    SceneError
+        With every fault found: first those of single tables, and where there is none, those between tables.
+    """
+    try:
+        document = Document.model_validate(source.data)
+    except ValidationError as error:
+        raise _located(findings(error), source) from None
+    broken = broken_rules(document)
+    if broken:
+        raise _located(broken, source)
+    return scene_of(document, source)
+
+
+def _located(found: Iterable[Finding], source: Source) -> SceneError:
+    return SceneError(
+        Problem(
+            source.origin,
+            nearest_line(source.lines, finding.path),
+            show_path(finding.path),
+            finding.value,
+            finding.message,
+            finding.remedy,
+        )
+        for finding in found
+    )

@@ -1,0 +1,77 @@
+"""What is generated for a scene, and the bounds it must keep."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import AfterValidator, Field, PlainValidator
+
+from tmm_gen.scene.table import Count, Table, fault, is_finite_number
+
+Backend = Literal["numpy", "c", "casadi"]
+BACKENDS: tuple[Backend, ...] = ("numpy", "c", "casadi")
+
+
+def _distinct(backends: tuple[Backend, ...]) -> tuple[Backend, ...]:
+    """Return the backends in one order whatever the order they are written in."""
+    if not backends:
+        raise fault("must name at least one backend", 'Write for example `backends = ["numpy", "c"]`.')
+    if len(set(backends)) < len(backends):
+        raise fault("names a backend twice", "Remove the repetition.")
+    return tuple(backend for backend in BACKENDS if backend in backends)
+
+
+def _interval(value: object) -> tuple[float, float]:
+    """Return ``[low, high]`` of finite numbers as a pair."""
+    if isinstance(value, list | tuple) and len(value) == 2 and all(is_finite_number(end) for end in value):
+        low, high = float(value[0]), float(value[1])
+        if low < high:
+            return low, high
+        raise fault("must be increasing", "Write the lower bound first.")
+    raise fault("must be two finite numbers", "Write for example `[-10.0, 10.0]`.")
+
+
+Interval = Annotated[tuple[float, float], PlainValidator(_interval)]
+
+
+class Budget(Table):
+    """``[emit.budget]``: what one step of the emitted C may cost on a target; absent bounds do not bind.
+
+    Parameters
+    ----------
+    instructions : int, optional
+        Instructions per step.
+    flash, ram, stack : int, optional
+        Bytes.
+    """
+
+    instructions: Count | None = Field(default=None, description="instructions per step", examples=["700"])
+    flash: Count | None = Field(default=None, description="bytes of code and constants", examples=["900"])
+    ram: Count | None = Field(default=None, description="bytes of data", examples=["2048"])
+    stack: Count | None = Field(default=None, description="bytes of stack", examples=["256"])
+
+
+class Emit(Table):
+    """``[emit]``: what is generated.
+
+    Parameters
+    ----------
+    backends : tuple of {"numpy", "c", "casadi"}
+        In this order, each at most once; all three by default.
+    real : {"float64", "float32"}
+        Number type of the C code.
+    budget : Budget, optional
+        Bounds on the cost of the C code.
+    box : dict from str to (low, high), optional
+        Bounds within which the C code must be proved free of faults: ``angles`` (rad), ``rates`` (rad/s),
+        ``accelerations`` (rad/s^2) of all stations, ``step`` (s), and each input by its name.
+    """
+
+    backends: Annotated[tuple[Backend, ...], AfterValidator(_distinct)] = Field(
+        default=BACKENDS, description="languages", examples=['["numpy", "c", "casadi"]']
+    )
+    real: Literal["float64", "float32"] = Field(
+        default="float64", description="number type of the C code", examples=['"float64"']
+    )
+    budget: Budget | None = Field(default=None, description="bounds on the cost of the C code")
+    box: dict[str, Interval] | None = Field(default=None, description="bounds of inputs and state")

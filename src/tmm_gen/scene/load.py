@@ -1,0 +1,101 @@
+"""Reading scene files."""
+
+from __future__ import annotations
+
+import tomllib
+from difflib import get_close_matches
+from os import PathLike
+from pathlib import Path
+
+from tmm_gen.scene.check import check_data
+from tmm_gen.scene.locate import locate
+from tmm_gen.scene.problem import Problem, SceneError
+from tmm_gen.scene.scene import Scene, Source
+from tmm_gen.scene.syntax import syntax_problem
+
+
+def load_scene(path: str | PathLike[str]) -> Scene:
+    """Read and check a scene file.
+
+    Parameters
+    ----------
+    path : str or path-like
+        A TOML file in UTF-8, with or without byte order mark.
+
+    Returns
+    -------
+    Scene
+        The scene.
+
+    Raises
+    ------
+    SceneError
+        If the file cannot be read or is not a valid scene; ``problems`` says where and what to do.
+    """
+    path = Path(path)
+    origin = str(path)
+    try:
+        content = path.read_bytes()
+    except FileNotFoundError:
+        raise _unreadable(origin, "no such file", _missing_file_remedy(path)) from None
+    except IsADirectoryError:
+        raise _unreadable(origin, "is a directory", "Name a scene file in it.") from None
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise _unreadable(
+            origin, f"cannot be read: {reason}", "Check the path and its permissions."
+        ) from None
+    try:
+        text = content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = content.count(b"\n", 0, error.start) + 1
+        byte = f"byte 0x{content[error.start]:02X}"
+        raise SceneError(
+            [Problem(origin, line, "", None, f"is not UTF-8 text ({byte})", "Save the file as UTF-8.")]
+        ) from None
+    return parse_scene(text, origin)
+
+
+def parse_scene(text: str, origin: str = "<string>") -> Scene:
+    """Check the text of a scene file.
+
+    Parameters
+    ----------
+    text : str
+        TOML.
+    origin : str
+        Name used in errors.
+
+    Returns
+    -------
+    Scene
+        The scene.
+
+    Raises
+    ------
+    SceneError
+        If the text is not a valid scene.
+    """
+    try:
+        data = tomllib.loads(text)
+        source = Source(origin, data, locate(text))
+    except RecursionError:
+        problem = Problem(origin, 1, "", None, "is nested too deeply", "Remove superfluous brackets.")
+        raise SceneError([problem]) from None
+    except ValueError as error:  # syntax, or an integer of thousands of digits
+        raise SceneError([syntax_problem(text, origin, error)]) from None
+    return check_data(source)
+
+
+def _unreadable(origin: str, message: str, remedy: str) -> SceneError:
+    return SceneError([Problem(origin, 0, "", None, message, remedy)])
+
+
+def _missing_file_remedy(path: Path) -> str:
+    """Suggest a scene that exists, or how to make one."""
+    near: list[str] = []
+    if path.parent.is_dir():
+        near = get_close_matches(path.name, [item.name for item in path.parent.glob("*.toml")], n=1)
+    if near:
+        return f"Did you mean '{path.parent / near[0]}'?"
+    return f"Check the path, or make a scene by `tmm-gen new {path.stem or 'NAME'}`."

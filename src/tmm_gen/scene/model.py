@@ -1,0 +1,65 @@
+"""Which equations are derived, and how they are solved."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import Field
+
+from tmm_gen.scene.table import Count, NonNegative, Table
+
+Kind = Literal["chain", "planar"]
+Linearisation = Literal["newton", "taylor", "frozen"]
+Sweep = Literal["riccati", "product"]
+Unknown = Literal["acceleration", "increment", "displacement"]
+
+
+class Model(Table):
+    """``[model]``.
+
+    Parameters
+    ----------
+    kind : {"chain", "planar"}
+        Torsional chain, linear; or arm in a plane with large rotations.
+    gravity : float, optional
+        m/s^2 along -y, not negative; planar only.
+    linearisation : {"newton", "taylor", "frozen"}
+        Planar only.
+    iterations : int
+        Sweeps per stage; with ``newton`` only.
+    sweep : {"riccati", "product"}
+        How the stations' matrices are combined.
+    unknown : {"acceleration", "increment", "displacement"}
+        Number a sweep solves for at each station.
+    """
+
+    kind: Kind = Field(description="family of models", examples=['"chain"'])
+    gravity: NonNegative | None = Field(
+        default=None, description="gravity along -y in m/s^2", examples=["9.81"]
+    )
+    linearisation: Linearisation = Field(default="newton", description="linearisation", examples=['"newton"'])
+    iterations: Count = Field(default=1, description="sweeps per stage", examples=["1"])
+    sweep: Sweep = Field(default="riccati", description="sweep", examples=['"riccati"'])
+    unknown: Unknown = Field(
+        default="acceleration", description="unknown of the sweep", examples=['"acceleration"']
+    )
+
+
+class Base(Table):
+    """``[base]``: what the inboard end stands on.
+
+    Parameters
+    ----------
+    kind : {"clamp", "motor", "prescribed"}
+        Ground; a hub that turns freely under torques; or a hub whose angle is an input.
+    inertia : float
+        Of the hub, kg m^2; positive for a motor, 0 for a clamp.
+    damping : float
+        Viscous, from hub to ground, N m s/rad, not negative.
+    """
+
+    kind: Literal["clamp", "motor", "prescribed"] = Field(description="kind of base", examples=['"clamp"'])
+    inertia: NonNegative = Field(default=0.0, description="inertia of the hub in kg m^2", examples=["0.05"])
+    damping: NonNegative = Field(
+        default=0.0, description="damping of the hub in N m s/rad", examples=["0.01"]
+    )

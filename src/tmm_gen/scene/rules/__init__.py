@@ -1,0 +1,41 @@
+"""Rules across the tables of a scene: each looks at a well-formed document and yields what does not fit."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+from tmm_gen.scene.document import Document
+from tmm_gen.scene.problem import Finding
+from tmm_gen.scene.rules.control import control_values
+from tmm_gen.scene.rules.emission import box_names, budget_not_empty, real_is_used
+from tmm_gen.scene.rules.inputs import inputs_possible, prescribed_motion
+from tmm_gen.scene.rules.integration import explicit_needs_acceleration, integrator_parameters
+from tmm_gen.scene.rules.kinds import base_hub, kind_keys, newton_keys
+from tmm_gen.scene.rules.names import distinct_names
+from tmm_gen.scene.rules.outputs import outputs_possible
+from tmm_gen.scene.rules.stations import initial_lengths, stations_consistent
+
+Rule = Callable[[Document], Iterator[Finding]]
+
+RULES: tuple[Rule, ...] = (
+    kind_keys,
+    newton_keys,
+    base_hub,
+    stations_consistent,
+    initial_lengths,
+    integrator_parameters,
+    explicit_needs_acceleration,
+    distinct_names,
+    inputs_possible,
+    prescribed_motion,
+    outputs_possible,
+    real_is_used,
+    budget_not_empty,
+    box_names,
+    control_values,
+)
+
+
+def broken_rules(document: Document) -> list[Finding]:
+    """Return everything in a document that breaks a rule, in the order of the rules."""
+    return [finding for rule in RULES for finding in rule(document)]

@@ -1,0 +1,59 @@
+"""What is emitted, and the bounds set on it, concern something in the scene."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from tmm_gen.scene.complaints import closest
+from tmm_gen.scene.document import Document
+from tmm_gen.scene.emit import Budget
+from tmm_gen.scene.problem import Finding
+
+BOX_STATES = ("angles", "rates", "accelerations", "step")
+
+
+def real_is_used(document: Document) -> Iterator[Finding]:
+    """Find settings of the C code where none is emitted."""
+    emit = document.emit
+    if "c" in emit.backends:
+        return
+    if emit.real == "float32":
+        yield Finding(
+            ("emit", "real"),
+            "is for the C code, which is not emitted",
+            'Add "c" to backends, or remove it.',
+            emit.real,
+        )
+    for key in ("budget", "box"):
+        if getattr(emit, key) is not None:
+            yield Finding(
+                ("emit", key), "is for the C code, which is not emitted", 'Add "c" to backends, or remove it.'
+            )
+
+
+def budget_not_empty(document: Document) -> Iterator[Finding]:
+    """Find a budget that bounds nothing."""
+    budget = document.emit.budget
+    if budget is not None and not budget.model_fields_set:
+        yield Finding(
+            ("emit", "budget"),
+            "is empty",
+            f"Set one of {', '.join(Budget.model_fields)}, or remove the table.",
+        )
+
+
+def box_names(document: Document) -> Iterator[Finding]:
+    """Find bounds on what is neither state nor input of this scene."""
+    known = [*BOX_STATES, *(item.name for item in document.input)]
+    for key, bounds in (document.emit.box or {}).items():
+        if key not in known:
+            yield Finding(
+                ("emit", "box", key),
+                "is neither a state nor an input of this scene",
+                closest(key, known),
+                bounds,
+            )
+        elif key == "step" and bounds[0] <= 0.0:
+            yield Finding(
+                ("emit", "box", key), "must be greater than 0", "Write for example `[1e-4, 1e-2]`.", bounds
+            )

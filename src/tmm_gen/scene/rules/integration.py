@@ -1,0 +1,76 @@
+"""The integrator is known, its parameters are its own and in range, and the unknown suits it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from tmm_gen.scene.complaints import closest
+from tmm_gen.scene.document import Document
+from tmm_gen.scene.integrator import INTEGRATOR_NAMES, METHODS, Method, method_named
+from tmm_gen.scene.problem import Finding
+from tmm_gen.scene.table import is_finite_number
+
+
+def integrator_parameters(document: Document) -> Iterator[Finding]:
+    """Find an unknown method, and parameters that are not its own or out of range."""
+    table = document.integrator
+    method = method_named(table.name)
+    if method is None:
+        yield Finding(
+            ("integrator", "name"),
+            "is not a known integrator",
+            f"{_did_you_mean(table.name)}Known are {', '.join(INTEGRATOR_NAMES)}.",
+            table.name,
+        )
+        return
+    parameters = {parameter.name: parameter for parameter in method.parameters}
+    for key, value in (table.model_extra or {}).items():
+        path = ("integrator", key)
+        if key not in parameters:
+            yield Finding(path, f"is not a parameter of {method.name}", _parameter_remedy(key, method), value)
+            continue
+        parameter = parameters[key]
+        if not is_finite_number(value):
+            remedy = f"Write for example `{key} = {parameter.default:g}`."
+            yield Finding(path, "must be a finite number", remedy, value)
+        elif not parameter.admits(float(value)):
+            remedy = f"Write for example `{key} = {parameter.default:g}`."
+            yield Finding(path, f"must be {parameter.range}", remedy, value)
+
+
+def explicit_needs_acceleration(document: Document) -> Iterator[Finding]:
+    """Find an explicit method asked to solve for displacements, which do not depend on the new forces."""
+    unknown = document.model.unknown
+    method = method_named(document.integrator.name)
+    if method is None or unknown == "acceleration":
+        return
+    given = {
+        key: float(value)
+        for key, value in (document.integrator.model_extra or {}).items()
+        if is_finite_number(value)
+    }
+    if method.explicit(given):
+        yield Finding(
+            ("model", "unknown"),
+            f"cannot be solved for: {method.name} is explicit"
+            + "".join(f" at {key} = {value:g}" for key, value in (method.explicit_at or {}).items()),
+            'Write `unknown = "acceleration"`.',
+            unknown,
+        )
+
+
+def _did_you_mean(name: str) -> str:
+    remedy = closest(name, INTEGRATOR_NAMES)
+    return f"{remedy} " if remedy.startswith("Did") else ""
+
+
+def _parameter_remedy(key: str, method: Method) -> str:
+    names = [parameter.name for parameter in method.parameters]
+    if names:
+        remedy = closest(key, names)
+        if remedy.startswith("Did"):
+            return remedy
+    owners = [other.name for other in METHODS if any(p.name == key for p in other.parameters)]
+    hint = f" ({key} belongs to {', '.join(owners)})" if owners else ""
+    known = f"Its parameters are {', '.join(names)}" if names else "It has no parameters; remove the key"
+    return f"{known}{hint}."

@@ -1,0 +1,47 @@
+"""Names of inputs and outputs are distinct, in the scene and in the CSV file a run writes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from tmm_gen.scene.document import Document
+from tmm_gen.scene.problem import Finding
+from tmm_gen.scene.signal import Output
+
+VECTORS = ("position", "velocity", "acceleration", "force")
+"""Quantities with two components in a planar scene."""
+
+
+def distinct_names(document: Document) -> Iterator[Finding]:
+    """Find signals that share a name, and outputs named as a component of another."""
+    first: dict[str, str] = {}
+    for table in ("input", "output"):
+        for index, signal in enumerate(getattr(document, table)):
+            place = f"[[{table}]] number {index + 1}"
+            if signal.name in first:
+                yield Finding(
+                    (table, index, "name"),
+                    f"is already the name of {first[signal.name]}",
+                    f"Choose another, for example '{signal.name}_{index + 1}'.",
+                    signal.name,
+                )
+            first.setdefault(signal.name, place)
+    if document.model.kind == "planar":
+        yield from _distinct_columns(document.output)
+
+
+def _distinct_columns(outputs: tuple[Output, ...]) -> Iterator[Finding]:
+    columns = {
+        f"{output.name}_{axis}": output.name
+        for output in outputs
+        if output.of in VECTORS
+        for axis in ("x", "y")
+    }
+    for index, output in enumerate(outputs):
+        if output.name in columns:
+            yield Finding(
+                ("output", index, "name"),
+                f"is also the name of a component of output '{columns[output.name]}'",
+                f"Choose another, for example '{output.name}_2'.",
+                output.name,
+            )

@@ -1,0 +1,173 @@
+"""A scene: everything a user says about an arm, checked and expanded to joints and links."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields
+
+from tmm_gen.scene.beam import Beam, Tip
+from tmm_gen.scene.digest import content_digest
+from tmm_gen.scene.document import Document
+from tmm_gen.scene.emit import Emit
+from tmm_gen.scene.initial import Initial, broadcast
+from tmm_gen.scene.integrator import Integrator, underscored
+from tmm_gen.scene.model import Base, Model
+from tmm_gen.scene.problem import Path
+from tmm_gen.scene.signal import Input, Output
+from tmm_gen.scene.station import Joint, Link
+
+
+@dataclass(frozen=True, eq=False)
+class Source:
+    """Where a scene came from, so that later complaints can be located.
+
+    Parameters
+    ----------
+    origin : str
+        File as the user named it.
+    data : dict
+        The TOML document as Python values; never changed in place.
+    lines : dict from path to int
+        Lines of its keys.
+    """
+
+    origin: str
+    data: Mapping[str, object]
+    lines: dict[Path, int]
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """A checked scene. Two scenes are equal if they say the same, however they are written.
+
+    Parameters
+    ----------
+    name : str
+        Identifier; also that of the generated package.
+    title : str
+        One line; the name where the scene has none.
+    model : Model
+        What is derived and how it is solved.
+    integrator : Integrator
+        Time integration.
+    base : Base
+        What the arm stands on.
+    joints : tuple of Joint, length n
+        Joint i stands inboard of link i.
+    links : tuple of Link, length n
+        Base to tip.
+    beam : Beam or None
+        The beam that joints and links came from.
+    tip : Tip or None
+        Body at the tip.
+    inputs : tuple of Input
+        In the order of the file, which is that of the vector u.
+    outputs : tuple of Output
+        In the order of the file, which is that of the vector y.
+    initial : Initial
+        Motion at time zero.
+    emit : Emit
+        What is generated.
+    control : mapping or None
+        Controller, as written.
+    """
+
+    name: str
+    title: str
+    model: Model
+    integrator: Integrator
+    base: Base
+    joints: tuple[Joint, ...]
+    links: tuple[Link, ...]
+    beam: Beam | None
+    tip: Tip | None
+    inputs: tuple[Input, ...]
+    outputs: tuple[Output, ...]
+    initial: Initial
+    emit: Emit
+    control: Mapping[str, object] | None
+    source: Source = field(repr=False)
+    digest: str = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        """Fingerprint the content, which is all fields but the source."""
+        names = [item.name for item in fields(self) if item.name not in ("source", "digest")]
+        content = {name: getattr(self, name) for name in names}
+        object.__setattr__(self, "digest", content_digest(content))
+
+    @property
+    def stations(self) -> int:
+        """Number of links, n."""
+        return len(self.links)
+
+    def replace(self, **changes: object) -> Scene:
+        """Return a scene with some keys of its file changed, checked again.
+
+        Parameters
+        ----------
+        **changes : object
+            New values by dotted key: ``scene.replace(**{"integrator.name": "zhou", "link.2.inertia": 3.0})``,
+            tables counted from 1. None removes a key. Where the integrator's name changes, parameters of the
+            former one are dropped.
+
+        Returns
+        -------
+        Scene
+            The changed scene; this one is left as it is.
+
+        Raises
+        ------
+        SceneError
+            If the result is not a valid scene.
+        """
+        from tmm_gen.scene.change import changed
+
+        return changed(self, changes)
+
+    def __eq__(self, other: object) -> bool:
+        """Compare what the scenes say."""
+        return self.digest == other.digest if isinstance(other, Scene) else NotImplemented
+
+    def __hash__(self) -> int:
+        """Hash what the scene says."""
+        return hash(self.digest)
+
+
+def scene_of(document: Document, source: Source) -> Scene:
+    """Expand a document that keeps all rules into a scene.
+
+    Parameters
+    ----------
+    document : Document
+        Checked document.
+    source : Source
+        Where it came from.
+
+    Returns
+    -------
+    Scene
+        The scene.
+    """
+    table = document.integrator
+    n = document.stations
+    return Scene(
+        name=document.name,
+        title=document.title or document.name,
+        model=document.model,
+        integrator=Integrator(
+            name=underscored(table.name),
+            step=table.step,
+            parameters={key: float(value) for key, value in sorted((table.model_extra or {}).items())},
+        ),
+        base=document.base,
+        joints=document.joints(),
+        links=document.links(),
+        beam=document.beam,
+        tip=document.tip,
+        inputs=document.input,
+        outputs=document.output,
+        initial=Initial(broadcast(document.initial.angles, n), broadcast(document.initial.rates, n)),
+        emit=document.emit,
+        control=document.control,
+        source=source,
+    )

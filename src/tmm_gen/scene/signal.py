@@ -1,0 +1,71 @@
+"""What goes into a scene and what comes out: named inputs and outputs."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field, PlainValidator
+
+from tmm_gen.scene.identifier import Name
+from tmm_gen.scene.table import Table, fault
+
+Acts = Literal["torque", "force_x", "force_y", "angle"]
+Of = Literal["position", "angle", "velocity", "acceleration", "torque", "force"]
+
+
+def _place(value: object) -> str | int:
+    if value in ("base", "tip") or (isinstance(value, int) and not isinstance(value, bool)):
+        return value
+    raise fault(
+        'must be "base", "tip" or the number of a link',
+        'Write for example `at = "tip"`, or a whole number from 1 without quotes.',
+    )
+
+
+Place = Annotated[Literal["base", "tip"] | int, PlainValidator(_place)]
+"""Where a signal acts or is measured: the base, the tip (outer end of the last link), or a link from 1."""
+
+
+def station_of(at: str | int, stations: int) -> int:
+    """Return the number of a place: 0 for the base, i for link i, n for the tip."""
+    if isinstance(at, int):
+        return at
+    return 0 if at == "base" else stations
+
+
+class Input(Table):
+    """``[[input]]``: a load or a prescribed motion, zero unless it is given.
+
+    Parameters
+    ----------
+    name : str
+        Identifier, unique among inputs and outputs.
+    at : {"base", "tip"} or int
+        Where it acts; a link's forces act at its outer end.
+    acts : {"torque", "force_x", "force_y", "angle"}
+        N m on the hub or link, N along x or y (planar), or rad of a prescribed base.
+    """
+
+    name: Name = Field(description="identifier", examples=['"tip_torque"'])
+    at: Place = Field(description='"base", "tip" or a link number', examples=['"tip"'])
+    acts: Acts = Field(description="what the input is", examples=['"torque"'])
+
+
+class Output(Table):
+    """``[[output]]``: what a simulation reports.
+
+    Parameters
+    ----------
+    name : str
+        Identifier, unique among inputs and outputs.
+    at : {"base", "tip"} or int
+        Where it is measured. ``torque`` and ``force`` at link i are those in joint i, inboard of the link; at
+        the base they are those in joint 1; at a planar tip, those between the last link and the tip mass.
+    of : {"position", "angle", "velocity", "acceleration", "torque", "force"}
+        In a chain velocity and acceleration are those of the angle, in a planar scene those of the outer end
+        of the link.
+    """
+
+    name: Name = Field(description="identifier", examples=['"tip_angle"'])
+    at: Place = Field(description='"base", "tip" or a link number', examples=['"tip"'])
+    of: Of = Field(description="quantity", examples=['"angle"'])

@@ -1,0 +1,40 @@
+"""What all tables of a scene file share: no unknown keys, no later change, numbers that are numbers."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, TypeGuard
+
+from pydantic import BaseModel, ConfigDict, Field
+from pydantic_core import PydanticCustomError
+
+# Strict: TOML's true is not the number 1, nor "1"; a TOML integer is accepted where a float is expected.
+Finite = Annotated[float, Field(strict=True, allow_inf_nan=False)]
+Positive = Annotated[float, Field(strict=True, allow_inf_nan=False, gt=0.0)]
+NonNegative = Annotated[float, Field(strict=True, allow_inf_nan=False, ge=0.0)]
+Fraction = Annotated[float, Field(strict=True, allow_inf_nan=False, ge=0.0, le=1.0)]
+Count = Annotated[int, Field(strict=True, ge=1)]
+
+STATION_LIMIT = 100_000
+"""Most links of a scene; more is a slip of the keyboard, to be told before it fills the memory."""
+
+
+class Table(BaseModel):
+    """A table of the scene file: frozen, and every key is a declared one."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+
+def is_finite_number(value: object) -> TypeGuard[int | float]:
+    """Return whether a value is a number (true and false are not) that a float can hold."""
+    if not isinstance(value, int | float) or isinstance(value, bool):
+        return False
+    try:
+        return math.isfinite(value)
+    except OverflowError:  # an integer beyond the largest float
+        return False
+
+
+def fault(problem: str, remedy: str) -> PydanticCustomError:
+    """Return the error by which a validator rejects a value and says what to do."""
+    return PydanticCustomError("scene", "{problem}", {"problem": problem, "remedy": remedy})

@@ -1,0 +1,134 @@
+"""The distribution: built, installed where the sources are not, and used."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import tarfile
+import zipfile
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from tmm_gen import __version__
+
+pytestmark = [pytest.mark.packaging, pytest.mark.xdist_group("packaging")]
+
+USE_THE_RESULT = """
+import inspect, sys
+import numpy as np
+sys.path.insert(0, "generated_here")
+import foo
+assert "site-packages" not in foo.__file__, foo.__file__
+assert inspect.getdoc(foo.prepare) and inspect.getdoc(foo.step)
+print(foo.__file__)
+"""
+
+
+def _run(words: list[str | Path], cwd: Path) -> str:
+    # Nothing may lead back to the sources.
+    environment = {key: value for key, value in os.environ.items() if not key.startswith("PYTHON")}
+    done = subprocess.run(
+        [str(word) for word in words], cwd=cwd, env=environment, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, f"{words} ended with {done.returncode}:\n{done.stdout}\n{done.stderr}"
+    return done.stdout
+
+
+def _build(kind: str, repository: Path, folder: Path) -> Path:
+    _run(
+        [sys.executable, "-m", "build", f"--{kind}", "--no-isolation", "--outdir", folder, repository], folder
+    )
+    (made,) = [path for path in folder.iterdir() if path.suffix in {".whl", ".gz"}]
+    return made
+
+
+def _shipped(repository: Path) -> set[str]:
+    """Every file of the repository that an installed tmm-gen needs, as named in the wheel."""
+    names = set()
+    for source, target in {
+        "src/tmm_gen": "tmm_gen",
+        "templates": "tmm_gen/templates",
+        "scenes": "tmm_gen/scenes",
+    }.items():
+        folder = repository / source
+        names |= {
+            f"{target}/{path.relative_to(folder).as_posix()}"
+            for path in folder.rglob("*")
+            if path.is_file() and "__pycache__" not in path.parts
+        }
+    return names
+
+
+@pytest.fixture(scope="module")
+def wheel(repository: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return _build("wheel", repository, tmp_path_factory.mktemp("wheel"))
+
+
+@pytest.fixture(scope="module")
+def installed(
+    wheel: Path, tmp_path_factory: pytest.TempPathFactory, borrow_environment: Callable[[Path], Path]
+) -> Path:
+    """The ``bin`` of an environment whose tmm-gen is the wheel's."""
+    folder = tmp_path_factory.mktemp("installed")
+    programs = borrow_environment(folder / "venv")
+    offline = ["--no-index", "--no-deps", "--force-reinstall"]
+    _run([programs / "python", "-m", "pip", "install", "--quiet", *offline, wheel], folder)
+    return programs
+
+
+def test_the_wheel_holds_the_package_its_templates_and_scenes_and_nothing_else(
+    wheel: Path, repository: Path
+) -> None:
+    with zipfile.ZipFile(wheel) as archive:
+        names = set(archive.namelist())
+    inside = {name for name in names if ".dist-info/" not in name}
+    assert inside == _shipped(repository)
+    for needed in ("tmm_gen/py.typed", "tmm_gen/templates/", "tmm_gen/scenes/"):
+        assert any(name.startswith(needed) for name in inside), needed
+
+
+def test_the_sdist_can_be_built_from_and_holds_no_outputs(repository: Path, tmp_path: Path) -> None:
+    sdist = _build("sdist", repository, tmp_path)
+    with tarfile.open(sdist) as archive:
+        names = {name.partition("/")[2] for name in archive.getnames()}
+        archive.extractall(tmp_path / "unpacked", filter="data")
+    assert {
+        "pyproject.toml",
+        "README.md",
+        "LICENSE",
+        "CHANGELOG.md",
+        "Makefile",
+        "tests/conftest.py",
+    } <= names
+    assert not [
+        name for name in names if name.startswith((".venv", "out/", "dist/")) or "__pycache__" in name
+    ]
+
+    (source,) = (tmp_path / "unpacked").iterdir()
+    (tmp_path / "again").mkdir()
+    with zipfile.ZipFile(_build("wheel", source, tmp_path / "again")) as archive:
+        assert _shipped(repository) <= set(archive.namelist())
+
+
+def test_the_installed_command_is_the_wheels(installed: Path, tmp_path: Path, repository: Path) -> None:
+    origin = Path(
+        _run([installed / "python", "-c", "import tmm_gen; print(tmm_gen.__file__)"], tmp_path).strip()
+    )
+    assert origin.is_relative_to(installed.parent)
+    assert not origin.is_relative_to(repository)
+    assert _run([installed / "tmm-gen", "--version"], tmp_path) == f"tmm-gen {__version__}\n"
+
+    ask = "from tmm_gen import resources as r; print(r.templates_dir()); print(r.scenes_dir())"
+    folders = _run([installed / "python", "-c", ask], tmp_path).splitlines()
+    assert folders == [str(origin.parent / "templates"), str(origin.parent / "scenes")]
+
+
+def test_the_installed_command_writes_a_scene_and_a_kernel_that_runs(installed: Path, tmp_path: Path) -> None:
+    _run([installed / "tmm-gen", "new", "foo"], tmp_path)
+    assert (tmp_path / "foo.toml").is_file()
+    _run([installed / "tmm-gen", "build", "foo.toml", "--out", "generated_here"], tmp_path)
+    kernel = Path(_run([installed / "python", "-c", USE_THE_RESULT], tmp_path).strip())
+    assert (tmp_path / kernel) == tmp_path / "generated_here" / "foo" / "__init__.py"

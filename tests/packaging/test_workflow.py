@@ -1,0 +1,70 @@
+"""Continuous integration and the Makefile say one thing, in one place each."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+from pathlib import Path
+
+import pytest
+
+TARGETS = ["help", "demo", "test", "lint", "format", "build", "check", "bench", "clean"]
+
+
+def _dry_run(repository: Path, target: str) -> str:
+    """What `make target` would do, as if nothing had been made yet."""
+    done = subprocess.run(
+        ["make", "--always-make", "--dry-run", "--no-print-directory", target],
+        cwd=repository,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def test_the_workflow_runs_what_anyone_can_run(repository: Path) -> None:
+    (workflow,) = (repository / ".github" / "workflows").iterdir()
+    text = workflow.read_text()
+    assert re.findall(r"^\s*(?:- )?run:\s*(.*)$", text, flags=re.MULTILINE) == ["bash .ci/run"]
+    assert re.findall(r'"(3\.\d+)"', text) == ["3.11", "3.13"]
+
+
+def test_ci_tests_then_shows_then_looks_for_changes(repository: Path) -> None:
+    script = repository / ".ci" / "run"
+    lines = script.read_text().splitlines()
+    assert lines[0] == "#!/usr/bin/env bash"
+    assert "set -euo pipefail" in lines
+    assert script.stat().st_mode & 0o111
+    order = [
+        lines.index("make test"),
+        lines.index("make demo"),
+        lines.index('changes="$(git status --porcelain)"'),
+    ]
+    assert order == sorted(order)
+    assert subprocess.run(["bash", "-n", script], check=False).returncode == 0
+
+
+@pytest.mark.parametrize("target", TARGETS)
+def test_the_makefile_has_the_target(repository: Path, target: str) -> None:
+    _dry_run(repository, target)
+
+
+def test_make_help_lists_every_target(repository: Path) -> None:
+    done = subprocess.run(
+        ["make", "--no-print-directory"], cwd=repository, capture_output=True, text=True, check=True
+    )
+    assert sorted(re.findall(r"^make (\w+)", done.stdout, flags=re.MULTILINE)) == sorted(TARGETS)
+
+
+def test_make_test_leaves_nothing_out(repository: Path) -> None:
+    steps = _dry_run(repository, "test")
+    for step in ("ruff check", "ruff format --check", "-m mypy", "-m pytest", "tmm-gen build --check"):
+        assert step in steps, step
+
+
+def test_make_demo_needs_no_test_tools(repository: Path) -> None:
+    steps = _dry_run(repository, "demo")
+    assert "tmm-gen demo --out out/demo" in steps
+    assert "[test]" not in steps
