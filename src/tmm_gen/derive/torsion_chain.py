@@ -11,7 +11,15 @@ from functools import cache
 
 import sympy as sp
 
-from tmm_gen.derive.elements.torsion import DAMPING, GROUND_DAMPER, GROUND_DAMPING, INERTIA, JOINT, LINK, LOAD, STIFFNESS, TORQUE
+from tmm_gen.derive.elements.torsion import (
+    DAMPING,
+    GROUND_DAMPER,
+    JOINT,
+    LINK,
+    LOAD,
+    STIFFNESS,
+    TORQUE,
+)
 from tmm_gen.derive.sweep.product import product_step
 from tmm_gen.derive.sweep.riccati import riccati_step
 from tmm_gen.derive.transfer import DiscreteMotion, TransferMatrix, transfer_matrix
@@ -73,7 +81,9 @@ def joint_law() -> JointLaw:
     matrix = transfer_matrix(JOINT, [DiscreteMotion(GAINS, INNER)], [DiscreteMotion(GAINS, OUTER)])
     impedance = sp.expand(sp.cancel(1 / matrix.U12[0, 0]))
     torque = sp.expand(sp.cancel(-matrix.u1[0] * impedance))
-    return JointLaw(impedance, sum(torque.coeff(p) and p * sp.factor(torque.coeff(p)) for p in (STIFFNESS, DAMPING)))
+    return JointLaw(
+        impedance, sum(torque.coeff(p) and p * sp.factor(torque.coeff(p)) for p in (STIFFNESS, DAMPING))
+    )
 
 
 @cache
@@ -161,7 +171,12 @@ def _joint_matrix() -> TransferMatrix:
     """Return the joint's blocks with its impedance and known torque as names."""
     one, zero = sp.eye(1), sp.zeros(1, 1)
     return TransferMatrix(
-        one, sp.Matrix([[1 / JOINT_IMPEDANCE]]), zero, one, sp.Matrix([[-KNOWN_TORQUE / JOINT_IMPEDANCE]]), zero
+        one,
+        sp.Matrix([[1 / JOINT_IMPEDANCE]]),
+        zero,
+        one,
+        sp.Matrix([[-KNOWN_TORQUE / JOINT_IMPEDANCE]]),
+        zero,
     )
 
 
@@ -177,4 +192,3 @@ def _over_pivot(expression: sp.Expr, pivot: sp.Expr) -> sp.Expr:
     if not factor.is_number:
         raise ArithmeticError(f"{expression} does not have the pivot {pivot} as its denominator")
     return sp.expand(numerator / factor) * PIVOT_INVERSE
-

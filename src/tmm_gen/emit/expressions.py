@@ -1,8 +1,8 @@
 """Printing of expressions, the same operations in the same order in every language.
 
-Backends agree to rounding because they print from here: sums and products are written in one canonical order, small
-integer powers as products, quotients as one division, rational factors as exact literals or as one quotient of
-literals. A language only says how it writes numbers, references and functions.
+Backends agree to rounding because they print from here: sums and products are written in one canonical order,
+small integer powers as products, quotients as one division, rational factors as exact literals or as one
+quotient of literals. A language only says how it writes numbers, references and functions.
 """
 
 from __future__ import annotations
@@ -18,6 +18,11 @@ _SUM, _PRODUCT, _ATOM = 1, 2, 3
 
 class ExpressionPrinter(ABC):
     """Turns SymPy expressions into text of a language."""
+
+    times = "*"
+    """How a product's factors are joined."""
+    over = "/"
+    """How a quotient's parts are joined."""
 
     @abstractmethod
     def reference(self, ref: Ref) -> str:
@@ -40,6 +45,8 @@ class ExpressionPrinter(ABC):
             return self.reference(e), _ATOM
         if e.is_Number:
             return self._number(e)
+        if e.is_NumberSymbol:
+            return self.literal(float(e)), _ATOM
         if e.is_Add:
             return self._sum(e), _SUM
         if e.is_Mul:
@@ -63,33 +70,36 @@ class ExpressionPrinter(ABC):
         text = self._factor_text(terms[0], _SUM)
         for term in terms[1:]:
             if _is_negative(term):
-                text += f" - {self._factor_text(-term, _PRODUCT)}"
+                text += f" - {self._factor_text(opposite(term), _PRODUCT)}"
             else:
                 text += f" + {self._factor_text(term, _PRODUCT)}"
         return text
 
     def _product(self, e: sp.Expr) -> tuple[str, int]:
         if _is_negative(e):
-            return f"-{self._factor_text(-e, _PRODUCT)}", _PRODUCT
+            return f"-{self._factor_text(opposite(e), _PRODUCT)}", _PRODUCT
         above, below = numerator_and_denominator(e)
-        text = "*".join(self._factor_text(f, _PRODUCT if i == 0 else _ATOM) for i, f in enumerate(above))
-        text = text or self.literal(1.0)
-        if below:
-            under = "*".join(self._factor_text(f, _ATOM) for f in below)
-            text += f"/{under}" if len(below) == 1 and under.isidentifier() else f"/({under})"
-        return text, _PRODUCT
+        text = self.times.join(
+            self._factor_text(f, _PRODUCT if i == 0 else _ATOM) for i, f in enumerate(above)
+        )
+        return self._quotient(text or self.literal(1.0), below), _PRODUCT
+
+    def _quotient(self, above: str, below: list[sp.Expr]) -> str:
+        if not below:
+            return above
+        under = self.times.join(self._factor_text(f, _ATOM) for f in below)
+        return f"{above}{self.over}{under}" if len(below) == 1 else f"{above}{self.over}({under})"
 
     def _power(self, e: sp.Expr) -> tuple[str, int]:
         base, exponent = e.as_base_exp()
         if exponent.is_Integer and exponent > 0:
-            return "*".join([self._factor_text(base, _ATOM)] * int(exponent)), _PRODUCT
+            return self.times.join([self._factor_text(base, _ATOM)] * int(exponent)), _PRODUCT
         if exponent.is_Integer:
-            under = "*".join([self._factor_text(base, _ATOM)] * int(-exponent))
-            return f"{self.literal(1.0)}/({under})" if exponent < -1 else f"{self.literal(1.0)}/{under}", _PRODUCT
+            return self._quotient(self.literal(1.0), [base] * int(-exponent)), _PRODUCT
         if exponent == sp.Rational(1, 2):
             return f"{self.function('sqrt')}({self.text(base)})", _ATOM
         if exponent == sp.Rational(-1, 2):
-            return f"{self.literal(1.0)}/{self.function('sqrt')}({self.text(base)})", _PRODUCT
+            return f"{self.literal(1.0)}{self.over}{self.function('sqrt')}({self.text(base)})", _PRODUCT
         raise TypeError(f"no way to write the power {e}")
 
     def _factor_text(self, e: sp.Expr, level: int) -> str:
@@ -119,6 +129,17 @@ def numerator_and_denominator(e: sp.Expr) -> tuple[list[sp.Expr], list[sp.Expr]]
     return sorted(above, key=key), sorted(below, key=key)
 
 
+def opposite(term: sp.Expr) -> sp.Expr:
+    """Change the sign of a term without multiplying its number into a sum."""
+    if not term.is_Mul:
+        return -term
+    factors = list(term.args)
+    place = next(i for i, f in enumerate(factors) if f.is_Number and f.is_negative)
+    factors[place] = -factors[place]
+    rest = [f for f in factors if f != 1]
+    return sp.Mul(*rest, evaluate=False) if len(rest) > 1 else sp.Mul(*rest)
+
+
 def _is_negative(term: sp.Expr) -> bool:
-    coefficient = term.as_coeff_Mul()[0] if term.is_Mul or term.is_Number else sp.Integer(1)
-    return bool(coefficient.is_negative)
+    numbers = [f for f in sp.Mul.make_args(term) if f.is_Number]
+    return bool(sum(1 for f in numbers if f.is_negative) % 2)

@@ -41,7 +41,10 @@ class Operations:
     def __mul__(self, times: int) -> Operations:
         """Repeat."""
         return Operations(
-            self.additions * times, self.multiplications * times, self.divisions * times, self.functions * times
+            self.additions * times,
+            self.multiplications * times,
+            self.divisions * times,
+            self.functions * times,
         )
 
 

@@ -36,7 +36,9 @@ def allocate(variables: tuple[Variable, ...], number: Callable[[float], Any]) ->
     return values
 
 
-def execute(routine: Routine, values: Values, number: Callable[[float], Any] = float, modules: Any = "math") -> None:
+def execute(
+    routine: Routine, values: Values, number: Callable[[float], Any] = float, modules: Any = "math"
+) -> None:
     """Run a routine in place.
 
     Parameters
@@ -57,11 +59,18 @@ def execute(routine: Routine, values: Values, number: Callable[[float], Any] = f
     """
     for variable in routine.written():
         if variable.name not in values:
-            values[variable.name] = number(0.0) if variable.length is None else [number(0.0)] * variable.length
+            values[variable.name] = (
+                number(0.0) if variable.length is None else [number(0.0)] * variable.length
+            )
     compiled = {}
     for value in routine.values():
         refs = sorted(value.free_symbols, key=lambda s: s.name)
-        compiled[value] = (refs, sp.lambdify([sp.Dummy() for _ in refs], 0) if not refs and value == 0 else _function(refs, value, modules))
+        compiled[value] = (
+            refs,
+            sp.lambdify([sp.Dummy() for _ in refs], 0)
+            if not refs and value == 0
+            else _function(refs, value, modules),
+        )
 
     def compute(value: sp.Expr, j: int | None) -> Any:
         refs, function = compiled[value]

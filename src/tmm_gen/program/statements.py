@@ -121,7 +121,9 @@ class Routine:
 
     def variables(self, role: Role) -> tuple[Variable, ...]:
         """Variables of a role that the routine reads or writes, by name."""
-        return tuple(sorted((v for v in self.read() | self.written() if v.role is role), key=lambda v: v.name))
+        return tuple(
+            sorted((v for v in self.read() | self.written() if v.role is role), key=lambda v: v.name)
+        )
 
 
 @dataclass(frozen=True)
@@ -137,7 +139,8 @@ class Program:
     step : Variable
         The time step, with the scene's default.
     parameters, coefficients, state, inputs, outputs, given : tuple of Variable
-        In the order in which backends lay them out.
+        In the order in which backends lay them out. Inputs are scalars, or, where a step has several stages,
+        arrays over the stages: the value at ``t + instant*h`` of each (``stage_instants``); a held input repeats it.
     prepare, initialise, output : Routine
         Phases besides the step.
     startup : tuple of Routine

@@ -109,6 +109,12 @@ class Ref(sp.Symbol):
         symbol.variable, symbol.offset, symbol.entry = variable, offset, entry
         return symbol
 
+    def _hashable_content(self) -> tuple[object, ...]:
+        # SymPy caches expressions by equality: a namesake of another program must not be equal
+        default = self.variable.default
+        held = hash(default) if isinstance(default, tuple) else default
+        return (self.name, f"{self.variable.role} {self.variable.length} {held} {self.variable.doc}")
+
     def __getnewargs_ex__(self) -> tuple[tuple[object, ...], dict[str, object]]:
         """Support pickling and copying."""
         return (self.variable, self.offset, self.entry), {}

@@ -86,7 +86,7 @@ METHODS: tuple[Method, ...] = (
     Method("generalized_alpha", (Parameter("rho_inf", 0.8, 0.0, 1.0),)),
     Method("bathe", (Parameter("gamma", 0.5, 0.0, 1.0, open=True),)),
     Method("park"),
-    Method("zhai", (Parameter("psi", 0.5, 0.0), Parameter("phi", 0.5, 0.0)), {}),
+    Method("zhai", (Parameter("psi", 0.5), Parameter("phi", 0.5)), {}),
     Method("sdirk2"),
     Method("sdirk4"),
 )

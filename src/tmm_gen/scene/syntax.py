@@ -59,19 +59,36 @@ def syntax_problem(text: str, origin: str, error: ValueError) -> Problem:
         message = "number of thousands of digits"
         line = text.count("\n", 0, digits.start()) + 1
     row = rows[line - 1] if line <= len(rows) else ""
+    if _inside_brackets(message, row, column):
+        line = _opening_line(rows, line)
+        row = rows[line - 1]
+        message = "Unclosed array" if "[" in row else "Unclosed inline table"
     key, value = "", row.strip()
     if pair := _KEY.match(row):
         key, value = pair[1], pair[2]
     elif header := _HEADER.match(row):
         key = header[1]
-    if message == "Invalid value" and 0 < column <= row.find("="):
-        remedy = "Close the bracket opened above this line."
-    elif message == "Invalid value" or message.startswith("Expected newline"):
+    if message == "Invalid value" or message.startswith("Expected newline"):
         remedy = _value_remedy(value)
     else:
         remedy = next((advice for start, advice in _REMEDIES if message.startswith(start)), _FORM)
     shown = _Verbatim(value) if value else None
     return Problem(origin, line, key, shown, f"not valid TOML: {message}", remedy)
+
+
+def _inside_brackets(message: str, row: str, column: int) -> bool:
+    """Return whether the parser stumbled over a row because a bracket above it is still open."""
+    if message == "Invalid value":
+        return 0 < column <= row.find("=")
+    return message.startswith("Unclosed") and not 0 <= row.find("=") < column - 1
+
+
+def _opening_line(rows: list[str], line: int) -> int:
+    """Return the nearest line above at which a list or inline table opens, or the line itself."""
+    for number in range(line - 1, 0, -1):
+        if (pair := _KEY.match(rows[number - 1])) and pair[2].startswith(("[", "{")):
+            return number
+    return line
 
 
 class _Verbatim:

@@ -1,6 +1,6 @@
 """The amplification matrix of a step on ``q'' + 2 zeta w q' + w^2 q = f``, from the declaration alone.
 
-Time is counted in steps: the history is ``(q, h v, h^2 a)`` at each instant, the frequency is ``Omega = w h``.
+Time is counted in steps: the history is ``(q, h v, h^2 a)`` at each instant, the frequency ``Omega = w h``.
 """
 
 from __future__ import annotations
@@ -53,10 +53,15 @@ class Amplification:
     instants: tuple[sp.Expr, ...]
     roots: Mapping[sp.Symbol, sp.Expr]
 
+    @property
+    def expression(self) -> sp.Matrix:
+        """The amplification matrix, (n, n), as expressions in ``OMEGA`` and ``ZETA``."""
+        return self.matrix.to_Matrix().subs(self.roots)
+
     @cached_property
     def characteristic(self) -> sp.Poly:
         """``det(LAMBDA - matrix)`` with its fractions cleared, a polynomial in ``LAMBDA, OMEGA, ZETA``."""
-        return self._polynomials([self._monic])[0]
+        return self.cleared([self._monic])[0]
 
     @cached_property
     def response(self) -> tuple[sp.Poly, tuple[tuple[sp.Poly, ...], ...]]:
@@ -81,7 +86,7 @@ class Amplification:
                     power = self.matrix * power + load * monic[k]
                 for row in range(size):
                     rows[row][column].append(power[row, 0].element)
-        flat = self._polynomials([monic, *(cell for row in rows for cell in row)])
+        flat = self.cleared([monic, *(cell for row in rows for cell in row)])
         stages = len(self.instants)
         numerators = flat[1:]
         return flat[0], tuple(tuple(numerators[r * stages : (r + 1) * stages]) for r in range(size))
@@ -91,8 +96,11 @@ class Amplification:
         """Coefficients of ``det(LAMBDA - matrix)``, highest power first."""
         return list(self.matrix.charpoly())
 
-    def _polynomials(self, coefficients: list[list[FracElement]]) -> list[sp.Poly]:
-        """Make polynomials in ``LAMBDA`` from rows of coefficients, highest first, over one common denominator."""
+    def cleared(self, coefficients: list[list[FracElement]]) -> list[sp.Poly]:
+        """Make polynomials in ``LAMBDA, OMEGA, ZETA`` from rows of coefficients of powers of ``LAMBDA``.
+
+        Highest powers come first; all rows are multiplied by their least common denominator.
+        """
         one = self.matrix.domain.one
         clear = reduce(lambda a, b: a.lcm(b), {c.denom for row in coefficients for c in row}, one.denom)
         made = []
@@ -150,7 +158,7 @@ def amplification(scheme: Scheme) -> Amplification:
 
 
 def _rational_functions(expressions: Iterable[sp.Expr]) -> tuple[sp.Domain, dict[sp.Expr, sp.Symbol]]:
-    """Return the field of rational functions in ``OMEGA``, ``ZETA`` and parameters, and names for irrational numbers.
+    """Return the rational functions in ``OMEGA``, ``ZETA`` and parameters, and names for irrational numbers.
 
     Irrational numbers are carried as parameters, because fractions over algebraic fields are slow to reduce.
     """

@@ -10,13 +10,14 @@ from tmm_gen.derive.integrators.newmark import newmark_scheme
 from tmm_gen.derive.integrators.parameters import require
 
 
-def bathe(gamma: sp.Expr = sp.Rational(1, 2)) -> Integrator:
+def bathe(gamma: sp.Expr = sp.S.Half) -> Integrator:
     """Return Bathe's method.
 
     Parameters
     ----------
     gamma : sympy.Expr
-        The first stage ends at ``t + gamma*h``; between 0 and 1. With 2 - sqrt(2) both stages have equal gains.
+        The first stage ends at ``t + gamma*h``; between 0 and 1. With 2 - sqrt(2) both
+        stages have equal gains.
 
     References
     ----------
@@ -36,6 +37,6 @@ def bathe(gamma: sp.Expr = sp.Rational(1, 2)) -> Integrator:
 
 
 def _rate(kind: Kind, gamma: sp.Expr) -> sp.Expr:
-    """Return the derivative at ``t + h`` of the parabola through a quantity's values at ``t`` and both stages."""
+    """Return the derivative at ``t + h`` of the parabola through a quantity at ``t`` and at both stages."""
     older = [Datum(sp.Integer(0), past(kind)), Datum(gamma, stage(kind, 1))]
     return backward_difference(older, stage(kind, 2))

@@ -1,9 +1,10 @@
 """What an integrator is: its defining formulas, declared as data.
 
 One step of any linear time integrator is a sequence of *stages*. Each stage imposes equilibrium at its own
-instant ``t + instant*h`` and carries exactly two linear relations among its displacement ``q``, velocity ``v``
-and acceleration ``a``, the history, and the stages before it. An *update* then states the values at ``t + h``.
-Everything else (A, B, D, E, order, stability, dissipation, history depth) is derived from that declaration.
+instant ``t + instant*h`` and carries exactly two linear relations among its displacement ``q``, velocity
+``v`` and acceleration ``a``, the history, and the stages before it. An *update* then states the values at
+``t + h``. Everything else (A, B, D, E, order, stability, dissipation, history depth) is derived from that
+declaration.
 
 Symbols are plain SymPy symbols made by :func:`past` and :func:`stage`, so that two declarations share them.
 """

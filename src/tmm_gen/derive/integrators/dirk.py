@@ -6,8 +6,9 @@ from collections.abc import Sequence
 
 import sympy as sp
 
-from tmm_gen.derive.integrators.declaration import STEP as h
-from tmm_gen.derive.integrators.declaration import Scheme, Stage, Tableau, end_of_step, past, stage
+from tmm_gen.derive.integrators.declaration import STEP, Scheme, Stage, Tableau, end_of_step, past, stage
+
+h = STEP
 
 
 def tableau(rows: Sequence[Sequence[sp.Expr]], weights: Sequence[sp.Expr] | None = None) -> Tableau:

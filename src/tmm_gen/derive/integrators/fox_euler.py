@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import sympy as sp
 
-from tmm_gen.derive.integrators.declaration import STEP as h
-from tmm_gen.derive.integrators.declaration import Integrator, Scheme, Stage, end_of_step, past, stage
+from tmm_gen.derive.integrators.declaration import STEP, Integrator, Scheme, Stage, end_of_step, past, stage
+
+h = STEP
 
 
 def fox_euler() -> Integrator:

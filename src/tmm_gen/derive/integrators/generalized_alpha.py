@@ -1,15 +1,16 @@
-"""The generalised-alpha method: equilibrium of weighted quantities, dissipation chosen at infinite frequency."""
+"""The generalised-alpha method: equilibrium of weighted quantities, dissipation chosen at high frequency."""
 
 from __future__ import annotations
 
 import sympy as sp
 
-from tmm_gen.derive.integrators.declaration import STEP as h
-from tmm_gen.derive.integrators.declaration import Integrator, Kind, Scheme, Stage, past, stage
+from tmm_gen.derive.integrators.declaration import STEP, Integrator, Kind, Scheme, Stage, past, stage
 from tmm_gen.derive.integrators.parameters import require
 
+h = STEP
 
-def generalized_alpha(rho_inf: sp.Expr = sp.Rational(4, 5)) -> Integrator:
+
+def generalized_alpha(rho_inf: sp.Expr = 4 * sp.S.One / 5) -> Integrator:
     """Return the generalised-alpha method.
 
     Parameters
@@ -20,7 +21,7 @@ def generalized_alpha(rho_inf: sp.Expr = sp.Rational(4, 5)) -> Integrator:
     References
     ----------
     J. Chung, G. M. Hulbert, A time integration algorithm for structural dynamics with improved numerical
-    dissipation: the generalized-alpha method, J. Appl. Mech. 60 (1993), eqs. 4 to 8, 17, 18, 25.
+    dissipation: the generalized-alpha method, J. Appl. Mech. 60 (1993).
     """
     require(sp.And(rho_inf >= 0, rho_inf <= 1), "generalized_alpha", "rho_inf", rho_inf, "between 0 and 1")
     alpha_m = (2 * rho_inf - 1) / (rho_inf + 1)
@@ -35,7 +36,7 @@ def generalized_alpha(rho_inf: sp.Expr = sp.Rational(4, 5)) -> Integrator:
     return Integrator(
         name="generalized_alpha",
         title="Generalised alpha (Chung & Hulbert 1993)",
-        source="Chung & Hulbert (1993), eqs. 4 to 8, 17, 18, 25",
+        source="Chung & Hulbert (1993)",
         main=Scheme(
             (Stage(1 - alpha_f, (sp.expand(weighted[0]), sp.expand(weighted[1]))),),
             {kind: sp.expand(value) for kind, value in new.items()},

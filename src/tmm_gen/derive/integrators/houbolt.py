@@ -13,8 +13,8 @@ def houbolt() -> Integrator:
 
     References
     ----------
-    J. C. Houbolt, A recurrence matrix solution for the dynamic response of elastic aircraft, J. Aeronaut. Sci. 17
-    (1950); start-up as in Gholampour (2018), tables 3-5 and 3-6.
+    J. C. Houbolt, A recurrence matrix solution for the dynamic response of elastic aircraft, J. Aeronaut.
+    Sci. 17 (1950); start-up as in Gholampour (2018), tables 3-5 and 3-6.
     """
     return Integrator(
         name="houbolt",

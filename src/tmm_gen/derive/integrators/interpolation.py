@@ -7,8 +7,9 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from tmm_gen.derive.integrators.declaration import STEP as h
-from tmm_gen.derive.integrators.declaration import Kind, past, stage
+from tmm_gen.derive.integrators.declaration import STEP, Kind, past, stage
+
+h = STEP
 
 TIME = sp.Symbol("tau", real=True)
 """Time since the newest known instant, in steps."""
@@ -81,6 +82,6 @@ def motion_relations(data: Sequence[Datum], index: int = 1) -> tuple[sp.Expr, sp
 
 
 def backward_difference(older: Sequence[Datum], newest: sp.Expr) -> sp.Expr:
-    """Return the first derivative at ``t + h`` of the polynomial through ``older`` and ``newest`` at ``t + h``."""
+    """Return the rate at ``t + h`` of the polynomial through ``older`` and ``newest``, which is there."""
     one = sp.Integer(1)
     return sp.expand(derivative(interpolant([*older, Datum(one, newest)]), 1, one))

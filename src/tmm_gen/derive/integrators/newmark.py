@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import sympy as sp
 
-from tmm_gen.derive.integrators.declaration import STEP as h
-from tmm_gen.derive.integrators.declaration import Integrator, Scheme, Stage, end_of_step, past, stage
+from tmm_gen.derive.integrators.declaration import STEP, Integrator, Scheme, Stage, end_of_step, past, stage
 from tmm_gen.derive.integrators.parameters import require
 
+h = STEP
 
-def newmark_scheme(beta: sp.Expr, gamma: sp.Expr, span: sp.Expr = sp.Integer(1)) -> Scheme:
+
+def newmark_scheme(beta: sp.Expr, gamma: sp.Expr, span: sp.Expr = sp.S.One) -> Scheme:
     """Return one Newmark step over ``span*h`` (Gholampour 2018, eqs. 3-54 and 3-55)."""
     q, v, a = past("q"), past("v"), past("a")
     dt = span * h
@@ -18,7 +19,10 @@ def newmark_scheme(beta: sp.Expr, gamma: sp.Expr, span: sp.Expr = sp.Integer(1))
             Stage(
                 instant=span,
                 relations=(
-                    q + dt * v + dt**2 * ((sp.Rational(1, 2) - beta) * a + beta * stage("a", 1)) - stage("q", 1),
+                    q
+                    + dt * v
+                    + dt**2 * ((sp.Rational(1, 2) - beta) * a + beta * stage("a", 1))
+                    - stage("q", 1),
                     v + dt * ((1 - gamma) * a + gamma * stage("a", 1)) - stage("v", 1),
                 ),
             ),
@@ -27,7 +31,7 @@ def newmark_scheme(beta: sp.Expr, gamma: sp.Expr, span: sp.Expr = sp.Integer(1))
     )
 
 
-def newmark(beta: sp.Expr = sp.Rational(1, 4), gamma: sp.Expr = sp.Rational(1, 2)) -> Integrator:
+def newmark(beta: sp.Expr = sp.S.One / 4, gamma: sp.Expr = sp.S.Half) -> Integrator:
     """Return Newmark's method.
 
     Parameters

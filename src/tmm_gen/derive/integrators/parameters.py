@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
+from typing import TypeAlias
 
 import sympy as sp
 
-Number = int | float | Fraction | sp.Expr
+Number: TypeAlias = "int | float | Fraction | sp.Expr"
 """What a caller may give for a parameter."""
 
 _SIMPLE = 1000
@@ -17,8 +18,8 @@ _SIMPLE = 1000
 def exact(value: Number) -> sp.Expr:
     """Return a parameter as an exact number; symbols and exact expressions pass unchanged.
 
-    A float becomes the simple fraction that rounds to it (``0.25`` is 1/4, ``1/3`` is 1/3), or else the decimal
-    number it is written as.
+    A float becomes the simple fraction that rounds to it (``0.25`` is 1/4, ``1/3`` is 1/3), or else the
+    decimal number it is written as.
 
     Raises
     ------
@@ -27,14 +28,11 @@ def exact(value: Number) -> sp.Expr:
     """
     if isinstance(value, sp.Expr) and not value.has(sp.Float):
         return value
-    if isinstance(value, bool) or not isinstance(value, int | float | Fraction | sp.Expr):
-        raise ValueError(f"{value!r} is not a number")
-    if isinstance(value, int | Fraction):
+    if isinstance(value, int | Fraction) and not isinstance(value, bool):
         return sp.Rational(value)
-    try:
-        number = float(value)
-    except TypeError:
-        raise ValueError(f"{value} mixes symbols with rounded numbers; write fractions instead") from None
+    if not isinstance(value, float) and not (isinstance(value, sp.Expr) and value.is_number):
+        raise ValueError(f"{value!r} is not an exact expression nor a number")
+    number = float(value)
     if not math.isfinite(number):
         raise ValueError(f"{number} is not a finite number")
     simple = Fraction(number).limit_denominator(_SIMPLE)

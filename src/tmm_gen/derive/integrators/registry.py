@@ -1,4 +1,4 @@
-"""All integrators, found by looking: a module ``x`` whose function ``x`` returns an Integrator declares one."""
+"""All integrators, found by looking: a module ``x`` whose function ``x`` returns an Integrator is one."""
 
 from __future__ import annotations
 
@@ -64,6 +64,9 @@ def _factories() -> dict[str, Factory]:
     found: dict[str, Factory] = {}
     for name in sorted(module.name for module in pkgutil.iter_modules(package.__path__)):
         candidate = getattr(import_module(f"{package.__name__}.{name}"), name, None)
-        if inspect.isfunction(candidate) and candidate.__annotations__.get("return") in ("Integrator", Integrator):
+        if inspect.isfunction(candidate) and candidate.__annotations__.get("return") in (
+            "Integrator",
+            Integrator,
+        ):
             found[name] = candidate
     return found

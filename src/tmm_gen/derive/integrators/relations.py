@@ -1,8 +1,8 @@
 """From a stage's two declared relations to affine maps of one unknown, and to A, B, D, E.
 
-A sweep solves for one number per node and stage: the displacement itself, its increment over the step, or the
-acceleration. Whatever is chosen, ``q = gain_q*u + offset_q`` and likewise ``v`` and ``a``, where gains depend on
-the step alone and offsets on history and earlier stages.
+A sweep solves for one number per node and stage: the displacement itself, its increment over the step, or
+the acceleration. Whatever is chosen, ``q = gain_q*u + offset_q`` and likewise ``v`` and ``a``, where gains
+depend on the step alone and offsets on history and earlier stages.
 """
 
 from __future__ import annotations
@@ -102,7 +102,9 @@ def _collect(expression: sp.Expr) -> sp.Expr:
 
 
 def _simple(coefficient: sp.Expr) -> sp.Expr:
-    """Factor a coefficient; roots (as in Alexander's tableau) leave the denominator, so that equals look equal."""
-    if coefficient.has(sp.Pow) and any(p.exp.is_Rational and not p.exp.is_Integer for p in coefficient.atoms(sp.Pow)):
+    """Factor a coefficient; square roots leave the denominator, so that equals look equal."""
+    if coefficient.has(sp.Pow) and any(
+        p.exp.is_Rational and not p.exp.is_Integer for p in coefficient.atoms(sp.Pow)
+    ):
         return sp.factor(sp.expand(sp.radsimp(sp.cancel(coefficient, extension=True))))
     return sp.factor(coefficient)

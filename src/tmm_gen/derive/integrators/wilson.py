@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import sympy as sp
 
-from tmm_gen.derive.integrators.declaration import STEP as h
-from tmm_gen.derive.integrators.declaration import Integrator, Scheme, Stage, past, stage
+from tmm_gen.derive.integrators.declaration import STEP, Integrator, Kind, Scheme, Stage, past, stage
 from tmm_gen.derive.integrators.interpolation import TIME, Datum, interpolant
 from tmm_gen.derive.integrators.parameters import require
 
+h = STEP
 
-def wilson(theta: sp.Expr = sp.Rational(7, 5)) -> Integrator:
+
+def wilson(theta: sp.Expr = 7 * sp.S.One / 5) -> Integrator:
     """Return Wilson's method.
 
     Parameters
@@ -21,14 +22,14 @@ def wilson(theta: sp.Expr = sp.Rational(7, 5)) -> Integrator:
 
     References
     ----------
-    E. L. Wilson, I. Farhoomand, K. J. Bathe, Nonlinear dynamic analysis of complex structures, Earthquake Eng.
-    Struct. Dyn. 1 (1973); Gholampour (2018), eqs. 3-60 to 3-64.
+    E. L. Wilson, I. Farhoomand, K. J. Bathe, Nonlinear dynamic analysis of complex structures, Earthquake
+    Eng. Struct. Dyn. 1 (1973); Gholampour (2018), eqs. 3-60 to 3-64.
     """
     require(theta >= 1, "wilson", "theta", theta, "at least 1")
     acceleration = interpolant([Datum(sp.Integer(0), past("a")), Datum(theta, stage("a", 1))])
     velocity = past("v") + h * _integral(acceleration)
     displacement = past("q") + h * _integral(velocity)
-    motion = {"q": displacement, "v": velocity, "a": acceleration}
+    motion: dict[Kind, sp.Expr] = {"q": displacement, "v": velocity, "a": acceleration}
     only = Stage(
         instant=theta,
         relations=(

@@ -4,27 +4,29 @@ from __future__ import annotations
 
 import sympy as sp
 
-from tmm_gen.derive.integrators.declaration import STEP as h
-from tmm_gen.derive.integrators.declaration import Integrator, Scheme, Stage, end_of_step, past, stage
+from tmm_gen.derive.integrators.declaration import STEP, Integrator, Scheme, Stage, end_of_step, past, stage
+
+h = STEP
 
 
-def zhai(psi: sp.Expr = sp.Rational(1, 2), phi: sp.Expr = sp.Rational(1, 2)) -> Integrator:
+def zhai(psi: sp.Expr = sp.S.Half, phi: sp.Expr = sp.S.Half) -> Integrator:
     """Return Zhai's method; equilibrium at ``t + h`` only yields the new acceleration.
 
     Parameters
     ----------
     psi, phi : sympy.Expr
-        Weights of the older acceleration in displacement and velocity; zero in the first step, which has none.
+        Weights of the older acceleration in displacement and velocity; zero in the first step, which has
+        none.
 
     References
     ----------
     W. M. Zhai, Two simple fast integration methods for large-scale dynamic problems in engineering, Int. J.
-    Numer. Methods Eng. 39 (1996), eq. 3.
+    Numer. Methods Eng. 39 (1996).
     """
     return Integrator(
         name="zhai",
         title="Zhai 1996, explicit",
-        source="Zhai (1996), eq. 3",
+        source="Zhai (1996)",
         main=_scheme(psi, phi),
         startup=(_scheme(sp.Integer(0), sp.Integer(0)),),
         parameters={"psi": psi, "phi": phi},

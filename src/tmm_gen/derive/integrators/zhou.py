@@ -6,8 +6,18 @@ from functools import cache
 
 import sympy as sp
 
-from tmm_gen.derive.integrators.declaration import STEP as h
-from tmm_gen.derive.integrators.declaration import Integrator, Kind, Scheme, Stage, end_of_step, past, stage
+from tmm_gen.derive.integrators.declaration import (
+    STEP,
+    Integrator,
+    Kind,
+    Scheme,
+    Stage,
+    end_of_step,
+    past,
+    stage,
+)
+
+h = STEP
 
 
 def zhou(g1: sp.Expr | None = None, g2: sp.Expr | None = None) -> Integrator:
@@ -16,8 +26,8 @@ def zhou(g1: sp.Expr | None = None, g2: sp.Expr | None = None) -> Integrator:
     Parameters
     ----------
     g1, g2 : sympy.Expr, optional
-        Weights of the older acceleration in velocity and displacement; where absent, the values that cancel the
-        leading error (:func:`optimal_pair`).
+        Weights of the older acceleration in velocity and displacement; where absent, the values that cancel
+        the leading error (:func:`optimal_pair`).
 
     References
     ----------
@@ -40,7 +50,7 @@ def zhou(g1: sp.Expr | None = None, g2: sp.Expr | None = None) -> Integrator:
 
 @cache
 def optimal_pair() -> tuple[sp.Expr, sp.Expr]:
-    """Return the weights ``(g1, g2)`` for which the leading errors of velocity and displacement vanish (3-84, 3-85)."""
+    """Return the ``(g1, g2)`` that cancel the leading errors of velocity and displacement (3-84, 3-85)."""
     g1, g2 = sp.symbols("g1 g2", real=True)
     displacement, velocity = _scheme(g1, g2).stages[0].relations
     return _cancelling(velocity, g1), _cancelling(displacement, g2)
@@ -52,7 +62,10 @@ def _scheme(g1: sp.Expr, g2: sp.Expr) -> Scheme:
     only = Stage(
         instant=sp.Integer(1),
         relations=(
-            q + h * v + h**2 * ((2 + g2) / 6 * newest + (2 - g2) / 12 * new - g2 / 12 * older) - stage("q", 1),
+            q
+            + h * v
+            + h**2 * ((2 + g2) / 6 * newest + (2 - g2) / 12 * new - g2 / 12 * older)
+            - stage("q", 1),
             v + h * ((1 + g1) / 2 * newest + (2 - g1) / 4 * new - g1 / 4 * older) - stage("v", 1),
         ),
     )

@@ -31,7 +31,11 @@ class ProductStep:
 
 
 def product_step(
-    matrix: TransferMatrix, motion_gain: sp.Matrix, force_gain: sp.Matrix, motion_known: sp.Matrix, force_known: sp.Matrix
+    matrix: TransferMatrix,
+    motion_gain: sp.Matrix,
+    force_gain: sp.Matrix,
+    motion_known: sp.Matrix,
+    force_known: sp.Matrix,
 ) -> ProductStep:
     """Carry the state from the inboard to the outboard side of an element."""
     return ProductStep(

@@ -1,8 +1,9 @@
 """Hoisting by binding time: what depends on parameters and the step alone moves from step to prepare.
 
-An expression of the step that is polynomial in what changes from step to step is rewritten as a sum of monomials;
-the factor of each monomial is bound at prepare. A factor that takes any arithmetic becomes a coefficient of the model,
-shared wherever the same factor occurs again, in this routine or another.
+An expression that is affine in what changes from step to step is rewritten as a sum of those things, each with a
+factor bound at prepare; any other keeps its shape, and only the early-bound parts of its sums and products move. A
+factor that takes any arithmetic becomes a coefficient of the model, shared wherever the same factor occurs again,
+in this routine or another.
 """
 
 from __future__ import annotations
@@ -46,10 +47,14 @@ class Hoister:
         )
 
     def _rewrite(self, value: sp.Expr) -> sp.Expr:
-        changing = sorted((r for r in refs_in(value) if not r.variable.role.bound_at_prepare), key=lambda r: r.name)
-        if not changing or not value.is_polynomial(*changing):
+        changing = sorted(
+            (r for r in refs_in(value) if not r.variable.role.bound_at_prepare), key=lambda r: r.name
+        )
+        if not changing:
             return value
-        polynomial = sp.Poly(value, *changing)
+        polynomial = sp.Poly(value, *changing) if value.is_polynomial(*changing) else None
+        if polynomial is None or polynomial.total_degree() > 1:
+            return self._inside(value)
         by_factor: dict[sp.Expr, list[sp.Expr]] = {}
         for powers, factor in polynomial.terms():
             monomial = sp.Mul(*(ref**power for ref, power in zip(changing, powers, strict=True)))
@@ -63,6 +68,17 @@ class Hoister:
         ]
         return sp.Add(*terms)
 
+    def _inside(self, value: sp.Expr) -> sp.Expr:
+        """Keep the shape of a non-linear expression; hoist what each of its sums and products has bound early."""
+        if value.is_Atom:
+            return value
+        if not (value.is_Add or value.is_Mul):
+            return value.func(*(self._inside(a) for a in value.args))
+        early = [a for a in value.args if _bound_early(a)]
+        late = [self._inside(a) for a in value.args if not _bound_early(a)]
+        held, sign = self._factor(sp.factor(value.func(*early))) if early else (value.func(), 1)
+        return value.func(sign * held, *late)
+
     def _factor(self, factor: sp.Expr) -> tuple[sp.Expr, int]:
         """Return what stands for a factor, and its sign."""
         sign = -1 if factor.could_extract_minus_sign() else 1
@@ -72,6 +88,28 @@ class Hoister:
         if factor not in self._found:
             if any(ref.offset is not None for ref in refs_in(factor)):
                 return factor, sign  # per-station factors are named by whoever builds the sweep
-            name, doc, unit = self.names.get(factor, (f"factor_{len(self._found) + 1}", str(factor), "SI"))
+            name, doc, unit = self.names.get(factor) or self._name(factor)
             self._found[factor] = Variable(name, Role.COEFFICIENT, doc=doc, unit=unit)
         return self._found[factor].ref, sign
+
+    def _name(self, factor: sp.Expr) -> tuple[str, str, str]:
+        """Name a power of the step after what it is, anything else by a number."""
+        numbers, rest = factor.as_coeff_Mul()
+        base, power = rest.as_base_exp()
+        if (
+            isinstance(base, Ref)
+            and base.variable.role is Role.STEP
+            and numbers.is_Rational
+            and power.is_Integer
+        ):
+            over = f"_over_{numbers.q}" if numbers.q != 1 else ""
+            times = f"_{numbers.p}" if numbers.p != 1 or over else ""
+            exponent = {1: "", -1: "_inverse"}.get(
+                int(power), f"{abs(int(power))}" + ("_inverse" if power < 0 else "")
+            )
+            return f"step{exponent}{times}{over}", str(factor), f"s^{power}" if power != 1 else "s"
+        return f"factor_{len(self._found) + 1}", str(factor), "SI"
+
+
+def _bound_early(expression: sp.Expr) -> bool:
+    return all(ref.variable.role.bound_at_prepare for ref in refs_in(expression))

@@ -19,7 +19,8 @@ def map_values(routine: Routine, change: Callable[[sp.Expr], sp.Expr]) -> Routin
         return replace(statement, value=change(statement.value))
 
     sections = tuple(
-        replace(section, statements=tuple(changed(s) for s in section.statements)) for section in routine.sections
+        replace(section, statements=tuple(changed(s) for s in section.statements))
+        for section in routine.sections
     )
     return replace(routine, sections=sections)
 

@@ -8,8 +8,10 @@ import sympy as sp
 
 from tmm_gen.derive import torsion_chain as chain
 from tmm_gen.derive.elements.torsion import INERTIA
-from tmm_gen.derive.integrators.declaration import CONSISTENT_START, STEP, Integrator, Past, Scheme, past
+from tmm_gen.derive.integrators.declaration import CONSISTENT_START, Integrator, Past, Scheme, past
 from tmm_gen.derive.integrators.relations import Unknown, affine_motion
+from tmm_gen.program.fields import gain_names, living_state
+from tmm_gen.program.motion import history_values
 from tmm_gen.program.passes.hoist import Hoister
 from tmm_gen.program.passes.prune import prune
 from tmm_gen.program.statements import Assign, Program, Routine, Section
@@ -25,9 +27,8 @@ from tmm_gen.program.torsion.factors import (
 )
 from tmm_gen.program.torsion.layout import OUTPUT_KINDS, ChainLayout, chain_layout
 from tmm_gen.program.torsion.loads import Loads, loads_of
-from tmm_gen.program.torsion.motion import history_values
 from tmm_gen.program.torsion.step import StepBuilder
-from tmm_gen.program.variables import Role, Variable
+from tmm_gen.program.variables import Variable
 from tmm_gen.scene import Scene
 
 
@@ -47,17 +48,18 @@ def build_chain(scene: Scene, integrator: Integrator) -> Program:
         If the integrator cannot be solved for the scene's unknown.
     """
     layout = chain_layout(scene, integrator)
-    loads = loads_of(scene, layout.inputs)
     unknown: Unknown = scene.model.unknown
     factors = _FactorSets(layout, scene.model.sweep)
-    hoister = Hoister(names=_gain_names(integrator, unknown, layout))
+    hoister = Hoister(names=gain_names(integrator, unknown, layout.step))
     routines = {}
     # the main scheme first: its factors get the plain names
-    for position, scheme in sorted(enumerate(integrator.schemes), key=lambda item: item[1] is not integrator.main):
+    for position, scheme in sorted(
+        enumerate(integrator.schemes), key=lambda item: item[1] is not integrator.main
+    ):
         name = "step" if scheme is integrator.main else f"step_start{position + 1}"
         builder = StepBuilder(
             layout=layout,
-            loads=loads,
+            loads=tuple(loads_of(scene, layout.inputs, k) for k in range(len(scheme.stages))),
             base=scene.base.kind,
             scheme=scheme,
             unknown=unknown,
@@ -69,9 +71,9 @@ def build_chain(scene: Scene, integrator: Integrator) -> Program:
         routines[name] = hoister.hoist(Routine(name, doc, builder.sections()))
     main = routines.pop("step")
     startup = tuple(routines[f"step_start{k + 1}"] for k in range(len(integrator.startup)))
-    initialise = _initialise(layout, loads, scene.base.kind)
+    initialise = _initialise(layout, loads_of(scene, layout.inputs, 0), scene.base.kind)
     output = _output(scene, layout)
-    state = _living(layout.all_state, (*startup, main), output)
+    state = living_state(layout.all_state, (*startup, main), output)
     wanted = frozenset(state)
     startup = tuple(prune(r, wanted) for r in startup)
     main = prune(main, wanted)
@@ -79,7 +81,11 @@ def build_chain(scene: Scene, integrator: Integrator) -> Program:
     coefficients = (*hoister.coefficients, *factors.coefficients)
     used = frozenset().union(*(r.read() for r in (*startup, main, output)))
     prepare = prune(
-        Routine("prepare", "Compute what depends on parameters and step alone.", (hoister.section(), *factors.sections)),
+        Routine(
+            "prepare",
+            "Compute what depends on parameters and step alone.",
+            (hoister.section(), *factors.sections),
+        ),
         used,
     )
     read = prepare.read() | used | initialise.read()
@@ -141,20 +147,6 @@ def _stage_gains(scheme: Scheme, unknown: Unknown) -> list[Gains]:
     return [gains_of(affine_motion(scheme, i + 1, unknown)) for i in range(len(scheme.stages))]
 
 
-def _gain_names(
-    integrator: Integrator, unknown: Unknown, layout: ChainLayout
-) -> dict[sp.Expr, tuple[str, str, str]]:
-    """Name the gains of the main scheme after what they do."""
-    words = {"q": "angle", "v": "rate", "a": "acceleration"}
-    names: dict[sp.Expr, tuple[str, str, str]] = {}
-    gains = affine_motion(integrator.main, 1, unknown).gain
-    for kind, word in words.items():
-        value = sp.factor(gains[kind].subs(STEP, layout.step.ref))
-        doc = f"{word} per unit of {unknown}: {value}"
-        names.setdefault(value, (f"{word}_per_{unknown}", doc, "SI"))
-    return names
-
-
 def _initialise(layout: ChainLayout, loads: Loads, base: str) -> Routine:
     """Build the start: given motion, consistent acceleration, an older history that nothing reads yet."""
     angle, rate = layout.given
@@ -182,7 +174,7 @@ def _initialise(layout: ChainLayout, loads: Loads, base: str) -> Routine:
             state={p: v for p, v in layout.state.items() if p.lag == 0},
             hub={p: v for p, v in layout.hub.items() if p.lag == 0},
         ),
-        loads=loads,
+        loads=(loads,),
         base=base,
         scheme=CONSISTENT_START,
         unknown="acceleration",
@@ -228,17 +220,8 @@ def _joint_torque(layout: ChainLayout, joint: int) -> sp.Expr:
             symbols[chain.OUTER[kind]] = _motion(layout, joint, Past(kind, 0))
     value = bind(law.subs(symbols), parameter_values(layout), layout)
     at_joint = {
-        v.at(): v.entry(joint - 1) for v in (layout.stiffness, layout.damping) if v is not None and v.length is not None
+        v.at(): v.entry(joint - 1)
+        for v in (layout.stiffness, layout.damping)
+        if v is not None and v.length is not None
     }
     return value.xreplace(at_joint)
-
-
-def _living(state: tuple[Variable, ...], steps: tuple[Routine, ...], output: Routine) -> tuple[Variable, ...]:
-    """Return the state that outputs depend on, through any number of steps; the angle always stays."""
-    alive = {v for v in state if v in output.read() or v.name == "angle"}
-    while True:
-        wanted = frozenset(alive)
-        for routine in steps:
-            alive |= {v for v in prune(routine, wanted).read() if v.role is Role.STATE}
-        if alive == set(wanted):
-            return tuple(v for v in state if v in alive)

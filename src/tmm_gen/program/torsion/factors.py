@@ -93,8 +93,12 @@ def riccati_factors(layout: ChainLayout, gains: Gains, suffix: str) -> Factors:
         named = local("joint_impedance")
         (body if _per_station(joint) else before).append(Assign(named, joint))
     admittance = Variable(f"admittance{suffix}", Role.COEFFICIENT, n, "inverse pivot of each joint")
-    transmission = Variable(f"transmission{suffix}", Role.COEFFICIENT, n, "share of torque and motion each joint passes on")
-    reflection = Variable(f"reflection{suffix}", Role.COEFFICIENT, n, "share of its own known torque each joint passes on")
+    transmission = Variable(
+        f"transmission{suffix}", Role.COEFFICIENT, n, "share of torque and motion each joint passes on"
+    )
+    reflection = Variable(
+        f"reflection{suffix}", Role.COEFFICIENT, n, "share of its own known torque each joint passes on"
+    )
     symbols = {chain.IMPEDANCE: impedance, chain.JOINT_IMPEDANCE: named, chain.PIVOT_INVERSE: admittance.at()}
     body += [
         Assign(impedance, bind(law.link_impedance, values, layout).subs(chain.IMPEDANCE, impedance)),
@@ -139,11 +143,17 @@ def product_factors(layout: ChainLayout, gains: Gains, suffix: str) -> Factors:
     values = {**parameter_values(layout), **dict(zip(chain.GAINS.values(), gains, strict=True))}
     joint = bind(chain.joint_law().impedance, values, layout)
     if joint == 0:
-        raise UnsuitableUnknownError("an explicit integrator has no joint impedance to multiply by; use sweep = 'riccati'")
+        raise UnsuitableUnknownError(
+            "an explicit integrator has no joint impedance to multiply by; use sweep = 'riccati'"
+        )
     length = n if _per_station(joint) else None
     compliance = Variable(f"compliance{suffix}", Role.COEFFICIENT, length, "inverse joint impedance")
-    unknown_gain = Variable(f"unknown_gain{suffix}", Role.COEFFICIENT, n, "unknown of each station per base unknown")
-    tip = Variable(f"tip_compliance{suffix}", Role.COEFFICIENT, doc="base unknown per torque left over at the tip")
+    unknown_gain = Variable(
+        f"unknown_gain{suffix}", Role.COEFFICIENT, n, "unknown of each station per base unknown"
+    )
+    tip = Variable(
+        f"tip_compliance{suffix}", Role.COEFFICIENT, doc="base unknown per torque left over at the tip"
+    )
     force, motion = local("force_gain"), local("motion_gain")
     named = {chain.UNKNOWN_GAIN: motion, chain.TORQUE_GAIN: force, chain.COMPLIANCE: compliance.at()}
     first: tuple[sp.Expr, sp.Expr] = (sp.Integer(0), sp.Integer(1))
@@ -175,14 +185,18 @@ def product_factors(layout: ChainLayout, gains: Gains, suffix: str) -> Factors:
     )
 
 
-def bind(expression: sp.Expr, values: dict[sp.Symbol, sp.Expr], layout: ChainLayout, gains: Gains | None = None) -> sp.Expr:
+def bind(
+    expression: sp.Expr, values: dict[sp.Symbol, sp.Expr], layout: ChainLayout, gains: Gains | None = None
+) -> sp.Expr:
     """Put this chain's variables for the symbols of a derivation."""
     if gains is not None:
         expression = expression.subs(dict(zip(chain.GAINS.values(), gains, strict=True)))
     return expression.subs(values).subs(STEP, layout.step.ref)
 
 
-def _hub(layout: ChainLayout, gains: Gains, impedance: Ref, suffix: str) -> tuple[list[Assign | Require], Variable]:
+def _hub(
+    layout: ChainLayout, gains: Gains, impedance: Ref, suffix: str
+) -> tuple[list[Assign | Require], Variable]:
     """Return statements for the pivot of a free hub."""
     variable = Variable(f"hub_admittance{suffix}", Role.COEFFICIENT, doc="inverse pivot of the hub")
     pivot = local("hub_pivot")

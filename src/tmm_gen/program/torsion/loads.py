@@ -42,8 +42,8 @@ class Loads:
         return (zeros, *(Assign(self.array.entry(index), torque) for index, torque in self.inner))
 
 
-def loads_of(scene: Scene, inputs: tuple[Variable, ...]) -> Loads:
-    """Sort a scene's inputs by the place they act at."""
+def loads_of(scene: Scene, inputs: tuple[Variable, ...], stage: int) -> Loads:
+    """Sort a scene's inputs by the place they act at, read at a stage (from 0) of the step."""
     n = scene.stations
     places: dict[str | int, sp.Expr] = {}
     for described, variable in zip(scene.inputs, inputs, strict=True):
@@ -52,12 +52,14 @@ def loads_of(scene: Scene, inputs: tuple[Variable, ...]) -> Loads:
             place = "angle"
         elif place == n:
             place = "tip"
-        places[place] = places.get(place, sp.Integer(0)) + variable.ref
+        places[place] = places.get(place, sp.Integer(0)) + variable.entry(stage)
     zero = sp.Integer(0)
     return Loads(
         tip=places.get("tip", zero),
         base=places.get("base", zero),
         angle=places.get("angle", zero),
-        inner=tuple((place - 1, torque) for place, torque in sorted(places.items(), key=str) if isinstance(place, int)),
+        inner=tuple(
+            (place - 1, torque) for place, torque in sorted(places.items(), key=str) if isinstance(place, int)
+        ),
         array=Variable("load", Role.WORK, n, "external torque on each link but the last", "N m"),
     )

@@ -8,19 +8,19 @@ from dataclasses import dataclass
 import sympy as sp
 
 from tmm_gen.derive import torsion_chain as chain
-from tmm_gen.derive.elements.torsion import LOAD
 from tmm_gen.derive.integrators.declaration import KINDS, STEP, Kind, Past, Scheme, stage
 from tmm_gen.derive.integrators.relations import UNKNOWN, AffineMotion, Unknown, affine_motion
-from tmm_gen.program.statements import Assign, Loop, Order, Section, Statement
-from tmm_gen.program.torsion.factors import Factors, bind, hub_values, parameter_values
-from tmm_gen.program.torsion.layout import MOTION_NAMES, ChainLayout
-from tmm_gen.program.torsion.loads import Loads
-from tmm_gen.program.torsion.motion import (
+from tmm_gen.program.fields import MOTION_NAMES
+from tmm_gen.program.motion import (
     history_values,
     kept_stage_values,
     stage_variable,
     update_assignments,
 )
+from tmm_gen.program.statements import Assign, Loop, Order, Section, Statement
+from tmm_gen.program.torsion.factors import Factors, bind, hub_values, parameter_values
+from tmm_gen.program.torsion.layout import ChainLayout
+from tmm_gen.program.torsion.loads import Loads
 from tmm_gen.program.variables import Ref, Role, Variable, local
 
 _BASE = 0
@@ -35,8 +35,8 @@ class StepBuilder:
     ----------
     layout : ChainLayout
         The chain's variables.
-    loads : Loads
-        Where inputs act.
+    loads : sequence of Loads
+        Where inputs act, one for each stage.
     base : str
         "clamp", "motor" or "prescribed".
     scheme : Scheme
@@ -50,7 +50,7 @@ class StepBuilder:
     """
 
     layout: ChainLayout
-    loads: Loads
+    loads: tuple[Loads, ...]
     base: str
     scheme: Scheme
     unknown: Unknown
@@ -66,12 +66,13 @@ class StepBuilder:
             self.scheme, {(i, k): m.offset[k] for i, m in enumerate(motions) for k in KINDS}
         )
         sections: list[Section] = []
-        for index, (motion, factors) in enumerate(zip(motions, self.factors, strict=True), start=1):
+        each = zip(motions, self.factors, self.loads, strict=True)
+        for index, (motion, factors, loads) in enumerate(each, start=1):
             title = f"Stage {index} of {stages}: " if stages > 1 else ""
             last = index == stages
             sections += [
                 Section(title + "motion known before the sweep", tuple(self._predict(motion))),
-                *self._sweep(title, motion, factors),
+                *self._sweep(title, motion, factors, loads),
                 self._outward_end(title, index, motion, kept, last),
             ]
         return tuple(s for s in sections if s.statements)
@@ -88,7 +89,12 @@ class StepBuilder:
             if offset == 0:
                 continue
             known = _known(kind, self.layout.stations)
-            body.append(Assign(known.at(1), offset.subs({**at_links, _KNOWN_RATE: _known("v", self.layout.stations).at(1)})))
+            body.append(
+                Assign(
+                    known.at(1),
+                    offset.subs({**at_links, _KNOWN_RATE: _known("v", self.layout.stations).at(1)}),
+                )
+            )
             at_base = sp.Integer(0)
             if self.base != "clamp":
                 at_base = offset.subs({**at_hub, _KNOWN_RATE: _known("v", self.layout.stations).entry(_BASE)})
@@ -100,7 +106,9 @@ class StepBuilder:
     def _link_values(self) -> dict[sp.Symbol, sp.Expr]:
         n = self.layout.stations
         stages = {
-            stage(kind, i): stage_variable(kind, i, "", n).at() for kind in KINDS for i in range(1, len(self.scheme.stages))
+            stage(kind, i): stage_variable(kind, i, "", n).at()
+            for kind in KINDS
+            for i in range(1, len(self.scheme.stages))
         }
         return {STEP: self.layout.step.ref, **history_values(self.sources, lambda v: v.at()), **stages}
 
@@ -130,18 +138,19 @@ class StepBuilder:
         value = bind(chain.joint_law().known_torque.subs(symbols), parameter_values(self.layout), self.layout)
         n = self.layout.stations
         return Section(
-            "torque of each joint at the known motion", (Loop(Order.OUTWARD, 0, n, (Assign(_torque(n).at(), value),)),)
+            "torque of each joint at the known motion",
+            (Loop(Order.OUTWARD, 0, n, (Assign(_torque(n).at(), value),)),),
         )
 
-    def _sweep(self, title: str, motion: AffineMotion, factors: Factors) -> list[Section]:
+    def _sweep(self, title: str, motion: AffineMotion, factors: Factors, loads: Loads) -> list[Section]:
         torque = self._joint_torque(motion)
         build = self._riccati if factors.unknown_gain is None else self._product
         return [
             Section(title + torque.title, torque.statements),
-            *(Section(title + s.title, s.statements) for s in build(motion, factors)),
+            *(Section(title + s.title, s.statements) for s in build(motion, factors, loads)),
         ]
 
-    def _riccati(self, motion: AffineMotion, factors: Factors) -> list[Section]:
+    def _riccati(self, motion: AffineMotion, factors: Factors, loads: Loads) -> list[Section]:
         n = self.layout.stations
         law = chain.riccati_station()
         bias, correction, torque = local("bias", "torque beyond this station"), _correction(n), _torque(n)
@@ -153,8 +162,8 @@ class StepBuilder:
             self.layout,
         )
         body: list[Assign] = []
-        if self.loads.inner:
-            body.append(Assign(bias, bias + self.loads.array.at()))
+        if loads.inner:
+            body.append(Assign(bias, bias + loads.array.at()))
         if link_bias != bias:
             body.append(Assign(bias, link_bias))
         body += [
@@ -163,9 +172,9 @@ class StepBuilder:
         ]
         inward = Section(
             "sweep inward: torque beyond each joint as if its inner side did not move",
-            (*self.loads.statements(), Assign(bias, self.loads.tip), Loop(Order.INWARD, 0, n, tuple(body))),
+            (*loads.statements(), Assign(bias, loads.tip), Loop(Order.INWARD, 0, n, tuple(body))),
         )
-        base = Section("the base", (Assign(unknown, self._base_unknown(motion, factors, bias)),))
+        base = Section("the base", (Assign(unknown, self._base_unknown(motion, factors, loads, bias)),))
         outward = Section(
             "sweep outward: the unknown of each station",
             (
@@ -183,7 +192,7 @@ class StepBuilder:
         base = Section(base.title, (*base.statements, *self._keep_hub_unknown(unknown)))
         return [inward, base, outward]
 
-    def _product(self, motion: AffineMotion, factors: Factors) -> list[Section]:
+    def _product(self, motion: AffineMotion, factors: Factors, loads: Loads) -> list[Section]:
         n = self.layout.stations
         law = chain.product_station()
         assert factors.unknown_gain is not None and factors.tip_compliance is not None
@@ -199,18 +208,18 @@ class StepBuilder:
         }
         gains = dict(zip(chain.GAINS.values(), (motion.gain[k] for k in ("q", "v", "a")), strict=True))
         force = bind(law.known_torque.subs(gains).subs(symbols), parameter_values(self.layout), self.layout)
-        if self.loads.inner:
-            force -= self.loads.array.at()
+        if loads.inner:
+            force -= loads.array.at()
         first_unknown: sp.Expr = sp.Integer(0)
         first_torque: sp.Expr = sp.Integer(0)
         if self.base == "motor":
-            first_torque = self._hub_known(motion) - self.loads.base
+            first_torque = self._hub_known(motion) - loads.base
         elif self.base == "prescribed":
-            first_unknown = self._base_unknown(motion, factors, sp.Integer(0))
+            first_unknown = self._base_unknown(motion, factors, loads, sp.Integer(0))
         outward = Section(
             "product outward: state of each station if the base unknown were zero",
             (
-                *self.loads.statements(),
+                *loads.statements(),
                 Assign(known, first_unknown),
                 *(self._keep_hub_unknown(known) if self.base == "prescribed" else ()),
                 Assign(torque, first_torque),
@@ -224,10 +233,13 @@ class StepBuilder:
                         Assign(torque, force),
                     ),
                 ),
-                Assign(base, factors.tip_compliance * (self.loads.tip - torque)),
+                Assign(base, factors.tip_compliance * (loads.tip - torque)),
                 *(self._keep_hub_unknown(base) if self.base == "motor" else ()),
                 Loop(
-                    Order.OUTWARD, 0, n, (Assign(solved.at(), factors.unknown_gain.at() * base + partial.at()),)
+                    Order.OUTWARD,
+                    0,
+                    n,
+                    (Assign(solved.at(), factors.unknown_gain.at() * base + partial.at()),),
                 ),
             ),
         )
@@ -240,16 +252,16 @@ class StepBuilder:
         law = chain.hub_law().known.subs({chain.INNER[k]: known[k] for k in KINDS})
         return bind(law, hub_values(self.layout), self.layout)
 
-    def _base_unknown(self, motion: AffineMotion, factors: Factors, bias: sp.Expr) -> sp.Expr:
+    def _base_unknown(self, motion: AffineMotion, factors: Factors, loads: Loads, bias: sp.Expr) -> sp.Expr:
         if self.base == "clamp":
             return sp.Integer(0)
         if self.base == "prescribed":
             if motion.gain["q"] == 0:  # the initial instant: at rest
                 return sp.Integer(0)
             angle = self._known_at(motion, _BASE)["q"]
-            return ((self.loads.angle - angle) / motion.gain["q"]).subs(STEP, self.layout.step.ref)
+            return ((loads.angle - angle) / motion.gain["q"]).subs(STEP, self.layout.step.ref)
         assert factors.hub_admittance is not None
-        return factors.hub_admittance * (bias + self.loads.base - self._hub_known(motion))
+        return factors.hub_admittance * (bias + loads.base - self._hub_known(motion))
 
     def _keep_hub_unknown(self, unknown: Ref) -> list[Assign]:
         return [] if self.base == "clamp" else [Assign(_HUB_UNKNOWN, unknown)]
@@ -265,7 +277,9 @@ class StepBuilder:
         hubbed = self.base != "clamp"
         if not last:
             body = [Assign(stage_variable(k, i, "", n).at(), links[k]) for k, i in sorted(kept) if i == index]
-            own = [Assign(stage_variable(k, i, "hub_", None).ref, hub[k]) for k, i in sorted(kept) if i == index]
+            own = [
+                Assign(stage_variable(k, i, "hub_", None).ref, hub[k]) for k, i in sorted(kept) if i == index
+            ]
             loop = (Loop(Order.OUTWARD, 0, n, tuple(body)),) if body else ()
             return Section(title + "motion at this stage", (*(own if hubbed else ()), *loop))
         new_links = self._new_values(index, links, self._link_values())
@@ -277,7 +291,9 @@ class StepBuilder:
         statements.append(Loop(Order.OUTWARD, 0, n, tuple(body)))
         return Section(title + "motion at the end of the step", tuple(statements))
 
-    def _stage_values(self, motion: AffineMotion, unknown: Ref, known: Mapping[str, sp.Expr]) -> dict[Kind, sp.Expr]:
+    def _stage_values(
+        self, motion: AffineMotion, unknown: Ref, known: Mapping[str, sp.Expr]
+    ) -> dict[Kind, sp.Expr]:
         return {k: motion.gain[k].subs(STEP, self.layout.step.ref) * unknown + known[k] for k in KINDS}
 
     def _new_values(
@@ -305,7 +321,13 @@ def _short_offsets(motion: AffineMotion) -> AffineMotion:
 
 def _known(kind: Kind | str, n: int) -> Variable:
     name, unit = MOTION_NAMES[kind]  # type: ignore[index]
-    return Variable(f"known_{name}", Role.WORK, n + 1, f"{name} of each node without the unknown's share, base first", unit)
+    return Variable(
+        f"known_{name}",
+        Role.WORK,
+        n + 1,
+        f"{name} of each node without the unknown's share, base first",
+        unit,
+    )
 
 
 def _torque(n: int) -> Variable:

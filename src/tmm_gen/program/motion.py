@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 import sympy as sp
 
 from tmm_gen.derive.integrators.declaration import KINDS, Kind, Past, Scheme, past, stage
+from tmm_gen.program.fields import MOTION_NAMES
 from tmm_gen.program.statements import Assign
 from tmm_gen.program.variables import Ref, Role, Variable, local, refs_in
 
@@ -19,7 +20,9 @@ def history_values(state: Mapping[Past, Variable], read: Read) -> dict[sp.Symbol
     return {past(p.kind, p.lag): read(variable) for p, variable in state.items()}
 
 
-def kept_stage_values(scheme: Scheme, offsets: Mapping[tuple[int, Kind], sp.Expr]) -> frozenset[tuple[Kind, int]]:
+def kept_stage_values(
+    scheme: Scheme, offsets: Mapping[tuple[int, Kind], sp.Expr]
+) -> frozenset[tuple[Kind, int]]:
     """Return the stage values that later stages or the update read after their own stage is solved."""
     last = len(scheme.stages)
     names = {stage(kind, i).name: (kind, i) for kind in KINDS for i in range(1, last)}
@@ -31,14 +34,14 @@ def kept_stage_values(scheme: Scheme, offsets: Mapping[tuple[int, Kind], sp.Expr
 
 def stage_variable(kind: Kind, index: int, prefix: str, length: int | None) -> Variable:
     """Return the scratch variable that keeps a stage value."""
-    from tmm_gen.program.torsion.layout import MOTION_NAMES
-
     name, unit = MOTION_NAMES[kind]
     role = Role.LOCAL if length is None else Role.WORK
     return Variable(f"{prefix}stage{index}_{name}", role, length, f"{name} at stage {index}", unit)
 
 
-def update_assignments(state: Mapping[Past, Variable], new: Mapping[Kind, sp.Expr], read: Read, prefix: str) -> list[Assign]:
+def update_assignments(
+    state: Mapping[Past, Variable], new: Mapping[Kind, sp.Expr], read: Read, prefix: str
+) -> list[Assign]:
     """Age the history and store the new values, in an order in which nothing is overwritten before it is read."""
     pending: list[Assign] = []
     for p, variable in state.items():

@@ -1,0 +1,170 @@
+"""`tmm-gen run`: simulate a scene with its generated kernel."""
+
+from __future__ import annotations
+
+import math
+import tomllib
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from tmm_gen.cli.console import Column, progress, table
+from tmm_gen.errors import UserError
+
+if TYPE_CHECKING:
+    from tmm_gen.measure.simulation import Simulation
+    from tmm_gen.scene import Scene
+
+# NumPy, SymPy and Matplotlib are imported inside: `tmm-gen --help` has no use for them.
+
+_PICTURE = "picture"
+"""What ``--plot`` without a file stands for."""
+
+_PICTURES = (".png", ".svg", ".pdf")
+
+_COLUMNS = [
+    "output",
+    Column("what", ""),
+    "unit",
+    Column("final", form=".6g"),
+    Column("rest", "at rest", ".6g"),
+    Column("peak", form=".6g"),
+    Column("peak_time", "at (s)", ".4g"),
+    Column("overshoot_percent", "overshoot (%)", ".1f"),
+    Column("settling_time", "settled after (s)", ".4g"),
+]
+
+
+def _time(_context: click.Context, parameter: click.Parameter, value: float | None) -> float | None:
+    if value is not None and not 0.0 < value < math.inf:
+        raise click.BadParameter("must be a positive number of seconds", param=parameter)
+    return value
+
+
+def _picture(_context: click.Context, parameter: click.Parameter, value: str | None) -> Path | None:
+    if value not in (None, _PICTURE) and Path(value).suffix.lower() not in _PICTURES:
+        raise click.BadParameter(f"'{value}' must end in {', '.join(_PICTURES)}", param=parameter)
+    return None if value is None else Path(value)
+
+
+@click.command("run")
+@click.argument("scene", metavar="SCENE", type=click.Path(path_type=Path))
+@click.option("--until", type=float, callback=_time, help="Time to simulate, s; by default five slow periods.")
+@click.option("--step", type=float, callback=_time, help="Time step, s; by default the scene's.")
+@click.option(
+    "--input",
+    "given",
+    metavar="NAME=VALUE|NAME=FILE.csv|FILE.csv",
+    multiple=True,
+    help="An input: a constant, a column of a file, or all from one file. Repeatable; the rest is zero.",
+)
+@click.option("--set", "changes", metavar="KEY=VALUE", multiple=True, help="Change a key of the scene. Repeatable.")
+@click.option("--backend", type=click.Choice(["numpy", "c"]), default="numpy", show_default=True)
+@click.option("--csv", "csv_file", type=click.Path(path_type=Path), help="Write the outputs over time.")
+@click.option(
+    "--plot",
+    "picture",
+    metavar="[FILE.png]",
+    is_flag=False,
+    flag_value=_PICTURE,
+    callback=_picture,
+    help="Draw inputs and outputs; by default into NAME.png.",
+)
+@click.option("--json", "json_mode", is_flag=True, help="One JSON object instead of a table.")
+def run(
+    scene: Path,
+    until: float | None,
+    step: float | None,
+    given: tuple[str, ...],
+    changes: tuple[str, ...],
+    backend: str,
+    csv_file: Path | None,
+    picture: Path | None,
+    json_mode: bool,
+) -> None:
+    """Simulate SCENE with its generated kernel.
+
+    Files of inputs have a `time` column and a column for each input; between rows values are linear, and the
+    last one stays.
+    """
+    from tmm_gen.measure.duration import default_duration
+    from tmm_gen.measure.given import read_inputs
+    from tmm_gen.measure.run import number_of_steps, simulate
+
+    chosen = _scene(scene, step, changes)
+    signals = read_inputs(given, tuple(item.name for item in chosen.inputs))
+    for target in (csv_file, picture):
+        if target is not None and target.is_dir():
+            raise UserError(f"{target}: is a directory. Name a file in it.")
+    duration = until or default_duration(chosen)
+    steps = number_of_steps(duration, chosen.integrator.step)
+    with progress(f"simulating {chosen.name}", total=steps) as advance:
+        simulation = simulate(chosen, signals, duration, backend, advance)  # type: ignore[arg-type]
+    written = _write(simulation, csv_file, picture)
+    _show(simulation, written, json_mode)
+
+
+def _scene(path: Path, step: float | None, changes: tuple[str, ...]) -> Scene:
+    """Read the scene and change what is asked for."""
+    from tmm_gen.scene import load_scene
+
+    wanted: dict[str, object] = {}
+    for text in changes:
+        key, equals, value = text.partition("=")
+        if not equals or not key.strip():
+            raise UserError(f"--set {text}: is not KEY=VALUE. Write for example --set integrator.step=0.01.")
+        wanted[key.strip()] = _value(value.strip())
+    if step is not None:
+        wanted["integrator.step"] = step
+    loaded = load_scene(path)
+    return loaded.replace(**wanted) if wanted else loaded
+
+
+def _value(text: str) -> object:
+    """Read a value as TOML has it; what is none is a string without its quotes."""
+    try:
+        read: dict[str, Any] = tomllib.loads(f"value = {text}")
+    except ValueError:
+        return text
+    return read["value"] if set(read) == {"value"} else text
+
+
+def _write(simulation: Simulation, csv_file: Path | None, picture: Path | None) -> list[Path]:
+    """Write the files asked for, all or none; return them."""
+    from tmm_gen.files import write_tree_whole
+
+    files: dict[Path, str | bytes] = {}
+    if csv_file is not None:
+        files[csv_file] = simulation.csv()
+    if picture is not None:
+        from tmm_gen.measure.plots import response_picture
+
+        target = Path(f"{simulation.scene.name}.png") if picture == Path(_PICTURE) else picture
+        files[target] = response_picture(simulation, target.suffix[1:].lower())
+    write_tree_whole(files)
+    return list(files)
+
+
+def _show(simulation: Simulation, written: list[Path], json_mode: bool) -> None:
+    """Print the figures, what was done, and what could be done next."""
+    scene, last = simulation.scene, float(simulation.time[-1])
+    facts = {
+        "scene": scene.name,
+        "integrator": scene.integrator.name,
+        "backend": simulation.backend,
+        "step": scene.integrator.step,
+        "steps": simulation.steps,
+        "until": last,
+        "files": written,
+    }
+    done = f"{last:g} s in {simulation.steps} steps of {scene.integrator.step:g} s by {scene.integrator.name}"
+    table(list(simulation.rows()), _COLUMNS, json_mode, title=f"{scene.title}: {done}", more=facts)
+    if json_mode:
+        return
+    for path in written:
+        click.echo(f"wrote {path}")
+    if simulation.still and scene.inputs:
+        click.echo(f"nothing moves, as all inputs are zero: try --input {scene.inputs[0].name}=1")
+    elif not written:
+        click.echo("more: --plot draws it, --csv FILE writes it, --until and --step change it")

@@ -1,0 +1,176 @@
+"""Routines as the bodies of C functions."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from tmm_gen.emit.c.printer import CPrinter, element
+from tmm_gen.emit.c.real import Real
+from tmm_gen.emit.c.scalars import place_scalars
+from tmm_gen.emit.c.structs import described, dimension
+from tmm_gen.emit.c.wrap import INDENT, WIDTH, comment, statement
+from tmm_gen.program.statements import Assign, Loop, Order, Program, Require, Routine
+from tmm_gen.program.variables import Ref, Role, Variable, refs_in
+
+SOURCES: dict[str, dict[Role, str]] = {
+    "prepare": {Role.STEP: "", Role.PARAMETER: "params->", Role.COEFFICIENT: "model->"},
+    "initialise": {
+        Role.STEP: "",
+        Role.GIVEN: "",
+        Role.PARAMETER: "params->",
+        Role.INPUT: "inputs->",
+        Role.STATE: "state->",
+    },
+    "step": {
+        **dict.fromkeys((Role.STEP, Role.PARAMETER, Role.COEFFICIENT), "model->"),
+        Role.INPUT: "inputs->",
+        Role.STATE: "state->",
+    },
+    "output": {
+        **dict.fromkeys((Role.STEP, Role.PARAMETER, Role.COEFFICIENT), "model->"),
+        Role.STATE: "state->",
+        Role.OUTPUT: "outputs->",
+    },
+}
+"""For each kind of function, where variables of a role are found."""
+
+
+@dataclass(frozen=True)
+class Body:
+    """The body of one function.
+
+    Parameters
+    ----------
+    program : Program
+        Lowered.
+    routine : Routine
+        One of its routines.
+    kind : str
+        Key of :data:`SOURCES`.
+    real : Real
+        Number type.
+    """
+
+    program: Program
+    routine: Routine
+    kind: str
+    real: Real
+
+    def reads(self, name: str) -> bool:
+        """Whether the function uses one of its pointers."""
+        return any(self._source(v) == f"{name}->" for v in self.routine.read() | self.routine.written())
+
+    def text(self) -> str:
+        """Return the statements, indented by one level."""
+        return "\n".join(self._lines()).removeprefix("\n")
+
+    # -- where things are ---------------------------------------------------------------------------
+
+    def _source(self, variable: Variable) -> str:
+        if variable.role in (Role.WORK, Role.LOCAL):
+            return ""
+        if variable.role is Role.COEFFICIENT and variable not in self.program.model:
+            return ""  # an intermediate result of prepare
+        try:
+            return SOURCES[self.kind][variable.role]
+        except KeyError:
+            raise ValueError(f"{self.routine.name} has no access to {variable.name}") from None
+
+    def _hoisted(self) -> tuple[Variable, ...]:
+        """Return the scalars read inside loops that never change: they go into locals before the first."""
+        inside = {
+            ref.variable
+            for loop in self.routine.statements()
+            if isinstance(loop, Loop)
+            for inner in loop.body
+            for ref in refs_in(inner.value)
+        }
+        constant = inside - self.routine.written()
+        return tuple(
+            v
+            for v in (
+                self.program.step,
+                *self.program.parameters,
+                *self.program.coefficients,
+                *self.program.inputs,
+            )
+            if v in constant and v.length is None and self._source(v)
+        )
+
+    # -- lines --------------------------------------------------------------------------------------
+
+    def _lines(self) -> Iterator[str]:
+        hoisted = self._hoisted()
+        placement = place_scalars(self.routine)
+        local = frozenset(hoisted)
+        printer = CPrinter(self.real, lambda ref: self._refer(ref, local))
+        for variable in hoisted:
+            yield f"{INDENT}const real {variable.name} = {self._source(variable)}{variable.name};"
+        for variable in (*self._intermediate(), *self.routine.variables(Role.WORK), *placement.at_top):
+            yield from self._declaration(variable)
+        positions = iter(range(len(tuple(self.routine.assignments()))))
+
+        def simple(inner: Assign | Require, depth: int) -> list[str]:
+            if isinstance(inner, Require):
+                return self._required(printer.text(inner.value), depth)
+            constant = placement.constant.get(next(positions))
+            head = "" if constant is None else "const real " if constant else "real "
+            return statement(f"{head}{printer.text(inner.target)} = {printer.text(inner.value)};", depth)
+
+        for section in self.routine.sections:
+            yield ""
+            yield from comment(sentence(section.title), 1)
+            for top in section.statements:
+                if isinstance(top, Loop):
+                    yield f"{INDENT}{self._loop_head(top)} {{"
+                    for inner in top.body:
+                        yield from simple(inner, 2)
+                    yield f"{INDENT}}}"
+                else:
+                    yield from simple(top, 1)
+
+    def _refer(self, ref: Ref, local: frozenset[Variable]) -> str:
+        source = "" if ref.variable in local else self._source(ref.variable)
+        return element(source + ref.variable.name, ref)
+
+    def _intermediate(self) -> tuple[Variable, ...]:
+        return tuple(v for v in self.routine.variables(Role.COEFFICIENT) if not self._source(v))
+
+    def _declaration(self, variable: Variable) -> list[str]:
+        line = f"{INDENT}real {variable.name}{dimension(variable, self.program)};"
+        remark = f" /* {described(variable)} */"
+        if variable.doc and len(line) + len(remark) <= WIDTH:
+            return [line + remark]
+        return [*(comment(described(variable), 1) if variable.doc else ()), line]
+
+    def _loop_head(self, loop: Loop) -> str:
+        stop = (
+            f"{self.program.name.upper()}_STATIONS" if loop.stop == self.program.stations else str(loop.stop)
+        )
+        if loop.order is Order.OUTWARD:
+            return f"for (int j = {loop.start}; j < {stop}; ++j)"
+        return f"for (int j = {stop} - 1; j >= {loop.start}; --j)"
+
+    def _required(self, value: str, depth: int) -> list[str]:
+        pad = INDENT * depth
+        return [
+            *statement(f"if (!({value} > {self.real.literal(0.0)}) || !isfinite({value})) {{", depth),
+            f"{pad}{INDENT}return {self.program.name.upper()}_VANISHING_PIVOT;",
+            f"{pad}}}",
+        ]
+
+
+def sentence(title: str) -> str:
+    """Write the titles of a section as sentences, one for each stage they belong to."""
+    stages: dict[str, list[str]] = {}
+    for part in title.split("; "):
+        found = re.fullmatch(r"(Stage \d+ of \d+: )?(.*)", part)
+        assert found is not None
+        stages.setdefault(found[1] or "", []).append(found[2])
+    return " ".join(_capital(f"{stage}{'; '.join(parts)}.") for stage, parts in stages.items())
+
+
+def _capital(text: str) -> str:
+    return text[:1].upper() + text[1:]

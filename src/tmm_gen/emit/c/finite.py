@@ -1,0 +1,45 @@
+"""Checks that numbers are finite."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from tmm_gen.emit.c.structs import dimension
+from tmm_gen.emit.c.wrap import INDENT, statement
+from tmm_gen.program.statements import Program
+from tmm_gen.program.variables import Variable
+
+
+def finite_checks(
+    pointer: str, variables: tuple[Variable, ...], program: Program, failure: str
+) -> Iterator[str]:
+    """Yield lines that leave a function unless all of some variables are finite.
+
+    Parameters
+    ----------
+    pointer : str
+        What stands before their names, "inputs->" for example.
+    variables : tuple of Variable
+        Scalars and arrays.
+    program : Program
+        Whose macros give the lengths of arrays.
+    failure : str
+        What to return.
+    """
+    by_length: dict[str, list[str]] = {}
+    for variable in variables:
+        by_length.setdefault(dimension(variable, program), []).append(pointer + variable.name)
+    for length, names in by_length.items():
+        if not length:
+            yield from _check(names, failure, 1)
+            continue
+        yield f"{INDENT}for (int j = 0; j < {length[1:-1]}; ++j) {{"
+        yield from _check([f"{name}[j]" for name in names], failure, 2)
+        yield f"{INDENT}}}"
+
+
+def _check(names: list[str], failure: str, depth: int) -> Iterator[str]:
+    condition = " || ".join(f"!isfinite({name})" for name in names)
+    yield from statement(f"if ({condition}) {{", depth)
+    yield f"{INDENT * (depth + 1)}return {failure};"
+    yield f"{INDENT * depth}}}"

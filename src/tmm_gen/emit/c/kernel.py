@@ -1,0 +1,169 @@
+"""A program prepared for the templates of C."""
+
+from __future__ import annotations
+
+import textwrap
+from dataclasses import dataclass
+from functools import cached_property
+
+from tmm_gen.emit.c.body import Body
+from tmm_gen.emit.c.finite import finite_checks
+from tmm_gen.emit.c.guard import telling_value
+from tmm_gen.emit.c.lower import lower
+from tmm_gen.emit.c.printer import element
+from tmm_gen.emit.c.real import REALS, Real
+from tmm_gen.emit.c.structs import COUNTER, Struct, described, dimension, structs_of
+from tmm_gen.emit.c.wrap import INDENT, WIDTH
+from tmm_gen.emit.header import header_lines
+from tmm_gen.program.statements import Program, Routine
+from tmm_gen.program.variables import Variable
+from tmm_gen.scene import Scene
+
+
+@dataclass(frozen=True)
+class Kernel:
+    """What the templates of C ask for.
+
+    Parameters
+    ----------
+    source : Program
+        As built, for reference values.
+    program : Program
+        Lowered.
+    real : Real
+        Number type.
+    header : tuple of str
+        Lines for the head of every file.
+    structs : dict from str to Struct
+        By name: params, model, state, inputs, outputs.
+    """
+
+    source: Program
+    program: Program
+    real: Real
+    header: tuple[str, ...]
+    structs: dict[str, Struct]
+
+    @classmethod
+    def of(cls, program: Program, scene: Scene) -> Kernel:
+        """Prepare a program for a scene's number type."""
+        real = REALS[scene.emit.real]
+        structs = {struct.name: struct for struct in structs_of(program)}
+        sizes = ", ".join(f"{name} {struct.size(real)}" for name, struct in structs.items())
+        lines = (*header_lines(program, scene), f"number type: {real.c}", f"bytes of the structs: {sizes}")
+        return cls(program, lower(program), real, lines, structs)
+
+    def comment(self, lead: str) -> str:
+        """Return the head of a file, every line with a lead."""
+        wrapped: list[str] = []
+        for line in self.header:
+            wrapped += textwrap.wrap(line, WIDTH - len(lead) - 1, subsequent_indent=INDENT) or [""]
+        return "\n".join(f"{lead} {line}".rstrip() for line in wrapped)
+
+    # -- pieces of the header -----------------------------------------------------------------------
+
+    @property
+    def stages(self) -> int:
+        """Number of instants of a step at which inputs are read."""
+        return max(len(instants) for instants in self.program.stage_instants)
+
+    @property
+    def instants(self) -> str:
+        """The instants of the main step at which inputs are read, in words."""
+        named = [_instant(x) for x in self.program.stage_instants[-1]]
+        return named[0] if len(named) == 1 else f"{', '.join(named[:-1])} and {named[-1]}"
+
+    def members(self, which: str) -> list[str]:
+        """Return the members of a struct, documented beside, or above where that is too wide."""
+        struct, number = self.structs[which], f"{self.program.name}_real"
+        members = [(f"{number} {f.name}{f.dimension};", f.doc) for f in struct.fields]
+        if not members:
+            members = [(f"{number} none;", "unused: C has no empty structs")]
+        if struct.counter:
+            members.append(
+                (f"int {COUNTER};", "how many of the integrator's first steps, which differ, are done")
+            )
+        beside = [f"{declaration} /**< {doc} */" for declaration, doc in members]
+        if max(map(len, beside)) <= WIDTH - len(INDENT):
+            return beside
+        return [line for declaration, doc in members for line in (f"/** {doc} */", declaration)]
+
+    @property
+    def given(self) -> list[tuple[str, str, str]]:
+        """Name, length in brackets and description of what initialise starts from."""
+        return [(v.name, dimension(v, self.program), described(v)) for v in self.program.given]
+
+    @property
+    def starts_from_step(self) -> bool:
+        """Whether initialise needs the time step."""
+        return self.program.step in self.program.initialise.read()
+
+    # -- bodies of functions ------------------------------------------------------------------------
+
+    @cached_property
+    def prepare(self) -> Body:
+        """The body of prepare."""
+        return Body(self.program, self.program.prepare, "prepare", self.real)
+
+    @cached_property
+    def initialise(self) -> Body:
+        """The body of initialise."""
+        return Body(self.program, self.program.initialise, "initialise", self.real)
+
+    @cached_property
+    def output(self) -> Body:
+        """The body of output."""
+        return Body(self.program, self.program.output, "output", self.real)
+
+    @cached_property
+    def main(self) -> Body:
+        """The body of the step."""
+        return Body(self.program, self.program.main, "step", self.real)
+
+    @cached_property
+    def startup(self) -> list[Body]:
+        """The bodies of the start-up steps."""
+        return [Body(self.program, routine, "step", self.real) for routine in self.program.startup]
+
+    def telling(self, routine: Routine) -> str | None:
+        """Return the number of the new state that is NaN whenever the step met one, or None."""
+        found = telling_value(routine, self.program.state)
+        if found is None:
+            return None
+        if found.variable.length is not None and found.entry:
+            return f"state->{found.variable.name}[{self.program.name.upper()}_STATIONS - 1]"
+        return element(f"state->{found.variable.name}", found)
+
+    def checks(self, pointer: str, variables: tuple[Variable, ...], failure: str) -> str:
+        """Return statements that leave a function with ``failure`` unless all variables are finite."""
+        return "\n".join(finite_checks(pointer, variables, self.program, failure))
+
+    @property
+    def copied(self) -> list[tuple[str, str, str]]:
+        """Parameters the model keeps: member, its source, its length in brackets."""
+        kept = [v for v in (self.program.step, *self.program.parameters) if v in self.program.model]
+        return [(v.name, self._argument(v), dimension(v, self.program)) for v in kept]
+
+    def defaults(self) -> list[tuple[Variable, list[str]]]:
+        """Return the scene's parameters as literals, those of arrays in lines that fit."""
+        return [(v, self._literals(v)) for v in self.program.parameters]
+
+    @property
+    def default_step(self) -> str:
+        """The scene's time step as a literal."""
+        assert isinstance(self.program.step.default, float)
+        return self.real.literal(self.program.step.default)
+
+    def _argument(self, variable: Variable) -> str:
+        return variable.name if variable is self.program.step else f"params->{variable.name}"
+
+    def _literals(self, variable: Variable) -> list[str]:
+        values = variable.default if isinstance(variable.default, tuple) else (variable.default,)
+        numbers = [self.real.literal(value) for value in values if value is not None]
+        return textwrap.wrap(", ".join(numbers), WIDTH - 2 * len(INDENT))
+
+
+def _instant(at: float) -> str:
+    if at == 1:
+        return "the end of the step"
+    return "its beginning" if at == 0 else f"{at:.6g} of the step"

@@ -1,0 +1,55 @@
+"""Passes before emission: few loops, little scratch, no state left undefined."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import sympy as sp
+
+from tmm_gen.program.passes.contract import contract
+from tmm_gen.program.passes.dependence import read_before_written
+from tmm_gen.program.passes.fuse import fuse
+from tmm_gen.program.statements import Assign, Loop, Order, Program, Routine, Section, Statement
+from tmm_gen.program.variables import Variable
+
+
+def lower(program: Program) -> Program:
+    """Return the program in the form in which C is written; every value stays the same bit for bit.
+
+    Raises
+    ------
+    ValueError
+        If a routine reads a variable before it is written: an array language may forgive that, C does not.
+    """
+    return replace(
+        program,
+        prepare=_lowered(program.prepare),
+        initialise=_lowered(_defining_all_state(program)),
+        startup=tuple(_lowered(routine) for routine in program.startup),
+        main=_lowered(program.main),
+        output=_lowered(program.output),
+    )
+
+
+def _lowered(routine: Routine) -> Routine:
+    if (variable := read_before_written(routine)) is not None:
+        raise ValueError(f"{routine.name} reads {variable.name} before it is written")
+    return contract(fuse(routine))
+
+
+def _defining_all_state(program: Program) -> Routine:
+    """Let initialise clear the history that start-up steps shift but do not use."""
+    missing = [v for v in program.state if v not in program.initialise.written()]
+    if not missing:
+        return program.initialise
+    older = Section("older history: not known yet, not used before it is", tuple(_cleared(missing, program)))
+    return replace(program.initialise, sections=(*program.initialise.sections, older))
+
+
+def _cleared(variables: list[Variable], program: Program) -> Iterator[Statement]:
+    zero = sp.Integer(0)
+    yield from (Assign(v.ref, zero) for v in variables if v.length is None)
+    arrays = tuple(Assign(v.at(), zero) for v in variables if v.length is not None)
+    if arrays:
+        yield Loop(Order.OUTWARD, 0, program.stations, arrays)

@@ -1,0 +1,51 @@
+"""Expressions in C."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from tmm_gen.emit.c.real import Real
+from tmm_gen.emit.expressions import ExpressionPrinter
+from tmm_gen.program.variables import Ref
+
+
+class CPrinter(ExpressionPrinter):
+    """Writes expressions in one number type, without a trace of any other.
+
+    Parameters
+    ----------
+    real : Real
+        The type.
+    refer : callable
+        Writes a reference.
+    """
+
+    times = " * "
+    over = " / "
+
+    def __init__(self, real: Real, refer: Callable[[Ref], str]) -> None:
+        self._real = real
+        self._refer = refer
+
+    def reference(self, ref: Ref) -> str:
+        """Write a scalar or an array element."""
+        return self._refer(ref)
+
+    def literal(self, value: float) -> str:
+        """Write a number."""
+        return self._real.literal(value)
+
+    def function(self, name: str) -> str:
+        """Write the name of a function of ``<math.h>``."""
+        return self._real.function(name)
+
+
+def element(name: str, ref: Ref) -> str:
+    """Write an element of an array, ``j`` being the loop's station, or the scalar itself."""
+    if ref.variable.length is None:
+        return name
+    if ref.offset is None:
+        return f"{name}[{ref.entry}]"
+    if ref.offset == 0:
+        return f"{name}[j]"
+    return f"{name}[j {'+' if ref.offset > 0 else '-'} {abs(ref.offset)}]"

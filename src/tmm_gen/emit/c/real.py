@@ -1,0 +1,75 @@
+"""The number type of emitted C."""
+
+from __future__ import annotations
+
+import struct
+from dataclasses import dataclass
+
+from tmm_gen.errors import UserError
+
+
+@dataclass(frozen=True)
+class Real:
+    """A floating-point type of C.
+
+    Parameters
+    ----------
+    name : str
+        As scenes say it: "float64" or "float32".
+    c : str
+        "double" or "float".
+    suffix : str
+        Of literals and of the functions of ``<math.h>``.
+    size : int
+        Bytes.
+    epsilon : float
+        Distance from 1 to the next number.
+    """
+
+    name: str
+    c: str
+    suffix: str
+    size: int
+    epsilon: float
+
+    def literal(self, value: float) -> str:
+        """Write a number: the shortest decimal that reads back as the same ``double``.
+
+        Raises
+        ------
+        UserError
+            If the type cannot hold it.
+        """
+        self.round(value)
+        return repr(float(value)) + self.suffix
+
+    def function(self, name: str) -> str:
+        """Return the name of a function of ``<math.h>`` for this type."""
+        return name + self.suffix
+
+    def round(self, value: float) -> float:
+        """Return the nearest number of the type.
+
+        Raises
+        ------
+        UserError
+            If it is too large, or so small that it would become zero.
+        """
+        if self.size == 8:
+            return float(value)
+        try:
+            rounded: float = struct.unpack("f", struct.pack("f", value))[0]
+        except OverflowError:
+            rounded = float("inf")
+        if rounded in (float("inf"), float("-inf")) or (rounded == 0) != (value == 0):
+            raise UserError(
+                f"{value!r} is out of the range of emit.real = '{self.name}'; "
+                "write emit.real = 'float64', or choose other units"
+            )
+        return rounded
+
+
+DOUBLE = Real("float64", "double", "", 8, 2.0**-52)
+FLOAT = Real("float32", "float", "f", 4, 2.0**-23)
+REALS: dict[str, Real] = {real.name: real for real in (DOUBLE, FLOAT)}
+"""By the name scenes use."""

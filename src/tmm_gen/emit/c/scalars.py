@@ -1,0 +1,67 @@
+"""Where scratch scalars are declared: as late and as narrowly as their use allows."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from tmm_gen.program.passes.dependence import accesses, carried_scalars
+from tmm_gen.program.statements import Assign, Loop, Routine, Statement
+from tmm_gen.program.variables import Role, Variable
+
+
+@dataclass(frozen=True)
+class Placement:
+    """Declarations of a routine's scratch scalars.
+
+    Parameters
+    ----------
+    at_top : tuple of Variable
+        Declared before the first statement, without a value.
+    constant : dict from int to bool
+        By the position of an assignment among :meth:`Routine.assignments`: those that declare their target,
+        and whether it never changes afterwards.
+    """
+
+    at_top: tuple[Variable, ...] = ()
+    constant: dict[int, bool] = field(default_factory=dict)
+
+
+def place_scalars(routine: Routine) -> Placement:
+    """Decide where each scratch scalar of a routine is declared."""
+    statements = tuple(routine.statements())
+    settings = _settings(statements)
+    at_top: list[Variable] = []
+    constant: dict[int, bool] = {}
+    for variable in routine.variables(Role.LOCAL):
+        users = [
+            place for place, s in enumerate(statements) if any(a.variable == variable for a in accesses(s))
+        ]
+        by_user = {
+            user: [at for at, place, target in settings if place == user and target == variable]
+            for user in users
+        }
+        if all(_private(statements[user], variable) for user in users):
+            constant |= {found[0]: len(found) == 1 for found in by_user.values()}
+        elif isinstance(statements[users[0]], Assign):
+            constant[by_user[users[0]][0]] = sum(map(len, by_user.values())) == 1
+        else:
+            at_top.append(variable)
+    return Placement(tuple(at_top), constant)
+
+
+def _settings(statements: tuple[Statement, ...]) -> list[tuple[int, int, Variable]]:
+    """Return every assignment's position, top-level statement and target."""
+    targets = [
+        (place, inner.target.variable)
+        for place, statement in enumerate(statements)
+        for inner in (statement.body if isinstance(statement, Loop) else (statement,))
+        if isinstance(inner, Assign)
+    ]
+    return [(at, place, target) for at, (place, target) in enumerate(targets)]
+
+
+def _private(statement: Statement, variable: Variable) -> bool:
+    """Whether a statement is a loop that sets a scalar at every station before it reads it."""
+    if not isinstance(statement, Loop) or variable in carried_scalars(statement):
+        return False
+    return any(a.writes for a in accesses(statement) if a.variable == variable)

@@ -1,0 +1,173 @@
+"""Test vectors: what the program gives in 30 digits, and how far rounding can take a kernel from it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import mpmath
+
+from tmm_gen.emit.c.estimate import Estimate, estimate_of
+from tmm_gen.emit.c.kernel import Kernel
+from tmm_gen.emit.c.real import Real
+from tmm_gen.program.evaluate import Values, allocate, execute
+from tmm_gen.program.statements import Program
+from tmm_gen.program.variables import Ref, Variable
+
+DIGITS = 30
+STEPS = 3
+"""Steps after the start-up."""
+SHOWN = 10
+"""Stations whose state is compared, spread from base to tip."""
+_SAFETY = 2.0
+"""On the first-order bound of rounding errors, for the higher orders."""
+
+
+@dataclass(frozen=True)
+class Expected:
+    """A number to compare.
+
+    Parameters
+    ----------
+    what : str
+        Its name in C, behind ``state.`` or ``outputs.``.
+    value : str
+        Literal.
+    tolerance : str
+        Literal: how far it may be off.
+    """
+
+    what: str
+    value: str
+    tolerance: str
+
+
+@dataclass(frozen=True)
+class Step:
+    """One step of the test: inputs as (member, literal), outputs after it."""
+
+    inputs: tuple[tuple[str, str], ...]
+    outputs: tuple[Expected, ...]
+
+
+@dataclass(frozen=True)
+class Vectors:
+    """A short simulation.
+
+    Parameters
+    ----------
+    start : tuple of (str, str)
+        Members of the input and literals at the initial instant.
+    steps : tuple of Step
+        In order.
+    state : tuple of Expected
+        After the last.
+    """
+
+    start: tuple[tuple[str, str], ...]
+    steps: tuple[Step, ...]
+    state: tuple[Expected, ...]
+
+
+def vectors(kernel: Kernel) -> Vectors:
+    """Simulate a program in 30 digits with parameters rounded to the kernel's number type."""
+    program, real = kernel.source, kernel.real
+    shown = [ref for v in program.state for ref in _shown(v)]
+    records = _simulate(program, real, shown)
+    tolerance = _tolerances(records, real)
+
+    def expected(ref: Ref, record: dict[Ref, Estimate]) -> Expected:
+        return Expected(ref.name, _literal(record[ref].value, real), real.literal(tolerance[ref.variable]))
+
+    steps = tuple(
+        Step(_inputs(program, k + 1, real), tuple(expected(v.ref, record) for v in program.outputs))
+        for k, record in enumerate(records)
+    )
+    state = tuple(expected(ref, records[-1]) for ref in shown)
+    return Vectors(_inputs(program, 0, real), steps, state)
+
+
+def initial_value(j: int) -> float:
+    """Return where station ``j`` starts, angle and rate: the same formula stands in the template."""
+    return ((7 * j + 3) % 16 - 8) / 64
+
+
+def _simulate(program: Program, real: Real, shown: list[Ref]) -> list[dict[Ref, Estimate]]:
+    """Return outputs after every step, and the state that is shown."""
+
+    def number(value: float) -> Estimate:
+        return Estimate(mpmath.mpf(real.round(value)))
+
+    with mpmath.workdps(DIGITS):
+        variables = (program.step, *program.parameters, *program.state, *program.inputs, *program.outputs)
+        values = allocate(variables, number)
+        for given in program.given:
+            values[given.name] = [number(initial_value(j)) for j in range(given.length or 1)]
+        _apply(program, values, 0, number)
+        for routine in (program.prepare, program.initialise):
+            execute(routine, values, number, "mpmath")
+        records = []
+        for k in range(len(program.startup) + STEPS):
+            _apply(program, values, k + 1, number)
+            for routine in (program.steps[min(k, len(program.startup))], program.output):
+                execute(routine, values, number, "mpmath")
+            records.append({ref: _value(values, ref) for ref in (*(v.ref for v in program.outputs), *shown)})
+        return records
+
+
+def _apply(program: Program, values: Values, k: int, number: Callable[[float], Estimate]) -> None:
+    for which, variable in enumerate(program.inputs):
+        numbers = [number(_input(which, k, stage)) for stage in range(variable.length or 1)]
+        values[variable.name] = numbers[0] if variable.length is None else numbers
+
+
+def _input(which: int, k: int, stage: int) -> float:
+    """Return an input at a stage of step ``k``, a number that every type holds exactly."""
+    return ((5 * k + 3 * which + 2 * stage + 1) % 9 - 4) / 8
+
+
+def _inputs(program: Program, k: int, real: Real) -> tuple[tuple[str, str], ...]:
+    members = [
+        (which, stage, variable.entry(stage))
+        for which, variable in enumerate(program.inputs)
+        for stage in range(variable.length or 1)
+    ]
+    return tuple((ref.name, real.literal(_input(which, k, stage))) for which, stage, ref in members)
+
+
+def _shown(variable: Variable) -> list[Ref]:
+    if variable.length is None:
+        return [variable.ref]
+    last = variable.length - 1
+    entries = {round(k * last / (SHOWN - 1)) for k in range(SHOWN)}
+    return [variable.entry(k) for k in sorted(entries)]
+
+
+def _value(values: Values, ref: Ref) -> Estimate:
+    held = values[ref.variable.name]
+    return estimate_of(held if ref.variable.length is None else held[ref.entry])
+
+
+def _tolerances(records: list[dict[Ref, Estimate]], real: Real) -> dict[Variable, float]:
+    """Return, for each variable, what rounding explains."""
+    error: dict[Variable, float] = {}
+    for record in records:
+        for ref, estimate in record.items():
+            # one rounding more, that of the literal it is compared with
+            bound = estimate.error + abs(float(estimate.value))
+            error[ref.variable] = max(error.get(ref.variable, 0.0), bound)
+    unit = real.epsilon / 2
+    return {v: _two_digits_up(_SAFETY * unit * (bound or 1.0)) for v, bound in error.items()}
+
+
+def _two_digits_up(value: float) -> float:
+    exponent = math.floor(math.log10(value)) - 1
+    return float(f"{math.ceil(value / 10.0**exponent)}e{exponent}")
+
+
+def _literal(value: Any, real: Real) -> str:
+    """Write a reference value; what the type cannot tell from zero is zero."""
+    number = float(value)
+    return real.literal(0.0 if abs(number) < 2.0**-126 else number)

@@ -1,0 +1,68 @@
+"""Statements of a program on Python lists of symbols: loops over stations stay loops, of Python."""
+
+from __future__ import annotations
+
+from tmm_gen.emit.python.lines import assignment, comment
+from tmm_gen.emit.python.names import Names
+from tmm_gen.emit.python.printer import PythonPrinter, element
+from tmm_gen.emit.python.scratch import ScratchTypes
+from tmm_gen.program.statements import Assign, Loop, Order, Require, Routine
+from tmm_gen.program.variables import Role, Variable
+
+_INDENT = "    "
+
+
+class RoutineText:
+    """The body of one generated function.
+
+    Parameters
+    ----------
+    routine : Routine
+        What to print; requirements are left out, since symbols have no sign.
+    names : Names
+        Names of variables inside functions.
+    stations : int
+        Number of links, which the generated module calls ``STATIONS``.
+    """
+
+    def __init__(self, routine: Routine, names: Names, stations: int) -> None:
+        self._routine = routine
+        self._names = names
+        self._stations = stations
+        self._types = ScratchTypes()
+        self._printer = PythonPrinter(lambda ref: element(names[ref.variable], ref), "ca")
+
+    def lines(self, absent: tuple[Variable, ...] = ()) -> list[str]:
+        """Return the statements, indented once, after lists for arrays they fill and what is absent."""
+        filled = {v for v in self._routine.written() if v.length is not None and v.role is not Role.STATE}
+        lines = [self._zeros(variable) for variable in sorted(filled | set(absent), key=lambda v: v.name)]
+        for section in self._routine.sections:
+            lines += ["", *comment(section.title, _INDENT)]
+            for statement in section.statements:
+                if isinstance(statement, Loop):
+                    lines.append(f"{_INDENT}for j in {self._range(statement)}:")
+                    for inner in statement.body:
+                        lines += self._single(inner, 2 * _INDENT)
+                else:
+                    lines += self._single(statement, _INDENT)
+        return lines
+
+    def _single(self, statement: Assign | Require, indent: str) -> list[str]:
+        if isinstance(statement, Require):
+            return []
+        target = self._printer.text(statement.target) + self._types.annotation(statement)
+        return assignment(target, self._printer.text(statement.value), indent)
+
+    def _zeros(self, variable: Variable) -> str:
+        name = f"{_INDENT}{self._names[variable]}"
+        if variable.length is None:
+            return f"{name} = 0.0"
+        return f"{name}: list[Any] = [0.0] * {self._count(variable.length)}"
+
+    def _range(self, loop: Loop) -> str:
+        stop = "STATIONS" if loop.stop == self._stations else str(loop.stop)
+        stations = f"range({stop})" if loop.start == 0 else f"range({loop.start}, {stop})"
+        return f"reversed({stations})" if loop.order is Order.INWARD else stations
+
+    def _count(self, length: int) -> str:
+        return {0: "STATIONS", 1: "(STATIONS + 1)"}.get(length - self._stations, str(length))

@@ -1,0 +1,115 @@
+"""Statements of a program in NumPy: loops over stations become whole-array statements where they can."""
+
+from __future__ import annotations
+
+from tmm_gen.emit.python.lines import assignment, comment
+from tmm_gen.emit.python.names import Names
+from tmm_gen.emit.python.printer import PythonPrinter, element
+from tmm_gen.emit.python.scratch import ScratchTypes
+from tmm_gen.emit.python.storage import rebound, vectorised, written_later
+from tmm_gen.program.statements import Assign, Loop, Order, Require, Routine, Statement
+from tmm_gen.program.variables import Ref, Variable
+
+_INDENT = "    "
+
+
+class RoutineText:
+    """The body of one generated function.
+
+    Parameters
+    ----------
+    routine : Routine
+        What to print.
+    names : Names
+        Names of variables inside functions.
+    stations : int
+        Number of links, which the generated module calls ``STATIONS``.
+    """
+
+    def __init__(self, routine: Routine, names: Names, stations: int) -> None:
+        self._routine = routine
+        self._names = names
+        self._stations = stations
+        self._whole = vectorised(routine)
+        self.rebound = rebound(routine, self._whole)
+        self._types = ScratchTypes()
+        self._elements = PythonPrinter(lambda ref: element(names[ref.variable], ref), "np")
+
+    @property
+    def filled(self) -> frozenset[Variable]:
+        """Arrays that are written element by element, so that they must exist before."""
+        return frozenset(v for v in self._routine.written() if v.length is not None) - self.rebound
+
+    def lines(self) -> list[str]:
+        """Return the statements, indented once, with the sections' titles as comments."""
+        lines: list[str] = []
+        place = 0
+        for section in self._routine.sections:
+            if lines:
+                lines.append("")
+            lines += comment(section.title, _INDENT)
+            for statement in section.statements:
+                lines += self._statement(statement, place)
+                place += 1
+        return lines
+
+    def _statement(self, statement: Statement, place: int) -> list[str]:
+        if not isinstance(statement, Loop):
+            return self._single(statement, self._elements, place, _INDENT)
+        lines: list[str] = []
+        if place in self._whole:
+            printer = PythonPrinter(lambda ref: self._slice(ref, statement), "np")
+            for inner in statement.body:
+                lines += self._single(inner, printer, place, _INDENT)
+            return lines
+        lines.append(f"{_INDENT}for j in {self._range(statement)}:")
+        for inner in statement.body:
+            lines += self._single(inner, self._elements, place, 2 * _INDENT)
+        return lines
+
+    def _single(
+        self, statement: Assign | Require, printer: PythonPrinter, place: int, indent: str
+    ) -> list[str]:
+        value = printer.text(statement.value)
+        if isinstance(statement, Require):
+            at = "j" if indent != _INDENT else "None"
+            return [f'{indent}_require_positive({value}, "{value}", {at})']
+        target = statement.target
+        if self._would_alias(statement, place):
+            value = f"np.copy({value})"
+        if target.variable in self.rebound:
+            return assignment(self._names[target.variable], value, indent)
+        where = printer.reference(target)
+        if target.offset is not None and where == self._names[target.variable]:
+            where += "[:]"
+        return assignment(where + self._types.annotation(statement), value, indent)
+
+    def _would_alias(self, statement: Assign, place: int) -> bool:
+        """Whether a bare element or slice would be a view of what is written in place later."""
+        target, value = statement.target, statement.value
+        keeps = target.variable.length is None or target.variable in self.rebound
+        if not keeps or not isinstance(value, Ref) or value.variable.length is None:
+            return False
+        return value.variable not in self.rebound and value.variable in written_later(self._routine, place)
+
+    def _slice(self, ref: Ref, loop: Loop) -> str:
+        """Write all of a loop's elements of an array."""
+        name = self._names[ref.variable]
+        length = ref.variable.length
+        if length is None or ref.offset is None:
+            return element(name, ref)
+        start, stop = loop.start + ref.offset, loop.stop + ref.offset
+        if start == 0 and stop == length:
+            return name
+        return f"{name}[{start or ''}:{stop if stop != length else ''}]"
+
+    def _range(self, loop: Loop) -> str:
+        stop = self.count(loop.stop)
+        stations = f"range({stop})" if loop.start == 0 else f"range({loop.start}, {stop})"
+        return f"reversed({stations})" if loop.order is Order.INWARD else stations
+
+    def count(self, number: int) -> str:
+        """Write a number of stations or nodes by what it means."""
+        if number == self._stations:
+            return "STATIONS"
+        return "STATIONS + 1" if number == self._stations + 1 else str(number)

@@ -1,0 +1,54 @@
+"""All files of a scene's generated package."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from importlib import import_module
+
+from tmm_gen.emit.seal import is_intact
+from tmm_gen.program.build import build_program
+from tmm_gen.program.statements import Program
+from tmm_gen.scene import Scene
+
+Emitter = Callable[[Program, Scene], dict[str, str]]
+
+EMITTERS: dict[str, str] = {
+    "numpy": "tmm_gen.emit.numpy:emit_numpy",
+    "c": "tmm_gen.emit.c:emit_c",
+    "casadi": "tmm_gen.emit.casadi:emit_casadi",
+}
+"""Where the emitter of each backend lies."""
+
+
+def emit_package(scene: Scene) -> dict[str, str]:
+    """Derive, build and print a scene for its backends.
+
+    Parameters
+    ----------
+    scene : Scene
+        What to generate; ``scene.emit.backends`` says for which languages.
+
+    Returns
+    -------
+    dict from str to str
+        Text by path inside the package, sorted by path.
+
+    Raises
+    ------
+    UserError
+        If the scene asks for something that cannot be generated.
+    """
+    program = build_program(scene)
+    files: dict[str, str] = {}
+    for backend in scene.emit.backends:
+        for path, text in _emitter(backend)(program, scene).items():
+            if path in files or not is_intact(text):
+                raise ValueError(f"backend {backend}: {path} is written twice or not sealed")
+            files[path] = text
+    return dict(sorted(files.items()))
+
+
+def _emitter(backend: str) -> Emitter:
+    module, _, name = EMITTERS[backend].partition(":")
+    emitter: Emitter = getattr(import_module(module), name)
+    return emitter

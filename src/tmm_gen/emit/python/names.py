@@ -1,0 +1,45 @@
+"""Names of variables inside the generated functions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from tmm_gen.program.statements import Program
+from tmm_gen.program.variables import Role, Variable
+
+_CHOSEN_BY_USERS = frozenset({Role.INPUT, Role.OUTPUT})
+
+
+class Names:
+    """Gives every variable a name inside functions, whatever users call their inputs and outputs.
+
+    Attributes of the generated classes keep the scene's names; only local names may differ, by underscores
+    behind.
+
+    Parameters
+    ----------
+    program : Program
+        Whose variables are named.
+    reserved : iterable of str
+        Names that the templates use.
+    """
+
+    def __init__(self, program: Program, reserved: Iterable[str]) -> None:
+        self._names: dict[Variable, str] = {}
+        taken = set(reserved) | {v.name for v in _variables(program) if v.role not in _CHOSEN_BY_USERS}
+        for variable in (*program.inputs, *program.outputs):
+            name = variable.name
+            while name in taken:
+                name += "_"
+            taken.add(name)
+            self._names[variable] = name
+
+    def __getitem__(self, variable: Variable) -> str:
+        """Return the name of a variable."""
+        return self._names.get(variable, variable.name)
+
+
+def _variables(program: Program) -> set[Variable]:
+    routines = (program.prepare, program.initialise, *program.steps, program.output)
+    declared = {program.step, *program.parameters, *program.coefficients, *program.state, *program.given}
+    return declared.union(*(routine.read() | routine.written() for routine in routines))

@@ -1,0 +1,38 @@
+"""The environment of the templates: thin frames, in which an undefined name is an error."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import Any
+
+import jinja2
+
+from tmm_gen.resources import templates_dir
+
+
+def render(template: str, **context: Any) -> str:
+    """Fill in a template.
+
+    Parameters
+    ----------
+    template : str
+        Path below ``templates/``.
+
+    Raises
+    ------
+    jinja2.UndefinedError
+        If the template uses a name that it is not given.
+    """
+    return _environment().get_template(template).render(**context)
+
+
+@cache
+def _environment() -> jinja2.Environment:
+    return jinja2.Environment(
+        loader=jinja2.FileSystemLoader(templates_dir()),
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+        autoescape=False,  # code is not markup
+    )

@@ -1,0 +1,1 @@
+"""Measurements of generated kernels: independent references, errors, stability, speed."""

@@ -1,0 +1,143 @@
+"""One step of every backend from the same random states: how far apart are the results?"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Values = dict[str, Array]
+"""Numbers and arrays over stations, by the names of a program's variables."""
+
+VECTORS = 20
+"""Random states for each routine of a step."""
+
+
+@dataclass(frozen=True)
+class Vector:
+    """A state to step from.
+
+    Parameters
+    ----------
+    taken : int
+        Steps that led there: less than the number of start-up steps, or that number.
+    state : dict from str to array
+        By variable.
+    inputs : dict from str to float
+        Held over the step.
+    """
+
+    taken: int
+    state: Values
+    inputs: dict[str, float]
+
+
+@dataclass(frozen=True)
+class Stepped:
+    """The state one step later, and the outputs where the step began."""
+
+    state: Values
+    outputs: Values
+
+
+Step = Callable[[Vector], Stepped]
+
+
+def random_vectors(program: Any, count: int = VECTORS, seed: int = 0) -> Iterator[Vector]:
+    """Yield random states and inputs for each start-up step and for the main one.
+
+    Parameters
+    ----------
+    program : Program
+        Whose state is meant.
+    count : int
+        Vectors for each routine.
+    seed : int
+        Of the random numbers, so that a check says the same twice.
+    """
+    random = np.random.default_rng(seed)
+    for taken in range(len(program.steps)):
+        for _ in range(count):
+            state = {v.name: random.normal(size=v.length or ()) for v in program.state}
+            inputs = {v.name: float(random.normal()) for v in program.inputs}
+            yield Vector(taken, {name: np.asarray(value) for name, value in state.items()}, inputs)
+
+
+def largest_difference(program: Any, one: Step, other: Step, vectors: Iterable[Vector]) -> float:
+    """Return the largest difference in any variable, relative to that variable's largest value."""
+    worst = 0.0
+    for vector in vectors:
+        a, b = one(vector), other(vector)
+        for left, right in ((a.state, b.state), (a.outputs, b.outputs)):
+            for name, value in left.items():
+                size = max(float(np.max(np.abs(value))), float(np.max(np.abs(right[name]))))
+                if size > 0.0:
+                    worst = max(worst, float(np.max(np.abs(value - right[name]))) / size)
+    return worst
+
+
+def numpy_step(module: ModuleType, program: Any) -> Step:
+    """Return the step of a generated NumPy package."""
+    model = module.prepare()
+
+    def step(vector: Vector) -> Stepped:
+        counted = {"steps_taken": vector.taken} if program.startup else {}
+        state = module.State(**vector.state, **counted)
+        after = module.step(model, state, module.Input(**vector.inputs))
+        found = module.output(model, state)
+        return Stepped(
+            {v.name: np.asarray(getattr(after, v.name)) for v in program.state},
+            {v.name: np.asarray(getattr(found, v.name)) for v in program.outputs},
+        )
+
+    return step
+
+
+def casadi_step(module: ModuleType, program: Any) -> Step:
+    """Return the step of a generated CasADi model."""
+    functions = (*module.start_functions(), module.step_function())
+    parameters = module.default_parameters()
+
+    def step(vector: Vector) -> Stepped:
+        x = np.concatenate([np.atleast_1d(vector.state[v.name]) for v in program.state])
+        u = np.array([vector.inputs[v.name] for v in program.inputs])
+        found = functions[vector.taken](x=x, u=u, p=parameters)
+        return Stepped(
+            _parts(np.array(found["x_next"]).ravel(), program.state),
+            _parts(np.array(found["y"]).ravel(), program.outputs),
+        )
+
+    return step
+
+
+def _parts(column: Array, variables: Any) -> Values:
+    """Take a column apart into variables."""
+    found: Values = {}
+    start = 0
+    for variable in variables:
+        stop = start + (variable.length or 1)
+        found[variable.name] = column[start:stop] if variable.length else column[start]
+        start = stop
+    return found
+
+
+def native_step(kernel: Any, program: Any) -> Step:
+    """Return the step of a compiled kernel."""
+    from tmm_gen.emit.c.structs import COUNTER
+
+    kernel.prepare()
+
+    def step(vector: Vector) -> Stepped:
+        counted = {COUNTER: vector.taken} if program.startup else {}
+        kernel.state = {**vector.state, **counted}
+        outputs = {name: np.asarray(value) for name, value in kernel.output().items()}
+        kernel.step(vector.inputs)
+        after = kernel.state
+        return Stepped({v.name: np.asarray(after[v.name]) for v in program.state}, outputs)
+
+    return step

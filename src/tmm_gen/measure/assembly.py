@@ -1,0 +1,176 @@
+"""Mass, damping and stiffness matrices of a chain, assembled as in a textbook.
+
+Nothing here comes from `derive` or `program`: the reference solutions built on it are to be independent
+of the derivation they check. Each joint adds its stiffness to four entries of the stiffness matrix,
+each inertia one to the diagonal of the mass matrix.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.scene import Output, Scene, station_of
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Assembly:
+    """``M q'' + C q' + K q = F u + G u'`` with outputs ``y = Q q + V q' + W q'' + D u + E u'``.
+
+    The coordinates ``q`` are the angles that are free: of a motor's hub, then of the links from base to
+    tip.
+
+    Parameters
+    ----------
+    mass, damping, stiffness : array, (m, m)
+        kg m^2, N m s/rad, N m/rad; the mass matrix is diagonal.
+    load, load_rate : array, (m, inputs)
+        What inputs and their rates contribute to the torques; the rates only where the base is prescribed.
+    from_angle, from_rate, from_acceleration : array, (outputs, m)
+        Shares of ``q, q', q''`` in the outputs.
+    from_input, from_input_rate : array, (outputs, inputs)
+        Shares of inputs and their rates in the outputs; of a prescribed base only.
+    angle, rate : array, (m,)
+        Initial values.
+    inputs, outputs : tuple of str
+        Names, in the order of the scene.
+    """
+
+    mass: Array
+    damping: Array
+    stiffness: Array
+    load: Array
+    load_rate: Array
+    from_angle: Array
+    from_rate: Array
+    from_acceleration: Array
+    from_input: Array
+    from_input_rate: Array
+    angle: Array
+    rate: Array
+    inputs: tuple[str, ...]
+    outputs: tuple[str, ...]
+
+    @property
+    def free(self) -> bool:
+        """Whether the chain can turn as a whole: no angle holds it."""
+        rigid = np.ones(len(self.mass))
+        return not np.any(self.stiffness @ rigid)
+
+    def static(self, inputs: Array) -> Array:
+        """Return the outputs at rest under constant inputs, ``(outputs,)``.
+
+        Raises
+        ------
+        ValueError
+            If the chain can turn as a whole: it need not come to rest.
+        """
+        if self.free:
+            raise ValueError("a chain that turns freely has no static deflection")
+        angle = np.linalg.solve(self.stiffness, self.load @ inputs)
+        return self.from_angle @ angle + self.from_input @ inputs
+
+
+def assemble(scene: Scene) -> Assembly:
+    """Assemble a scene of kind "chain".
+
+    Raises
+    ------
+    ValueError
+        If the scene is of another kind.
+    """
+    if scene.model.kind != "chain":
+        raise ValueError(f"scene '{scene.name}' is no chain but {scene.model.kind}")
+    hub = scene.base.kind == "motor"
+    n, first = scene.stations, int(hub)
+    m = n + first
+    mass, damping, stiffness = np.zeros((m, m)), np.zeros((m, m)), np.zeros((m, m))
+    if hub:
+        mass[0, 0] = scene.base.inertia
+        damping[0, 0] = scene.base.damping
+    for i, (joint, link) in enumerate(zip(scene.joints, scene.links, strict=True)):
+        outer = first + i
+        mass[outer, outer] = link.inertia
+        for matrix, value in ((stiffness, joint.stiffness), (damping, joint.damping)):
+            matrix[outer, outer] += value
+            if outer:
+                matrix[outer - 1, outer - 1] += value
+                matrix[outer - 1, outer] -= value
+                matrix[outer, outer - 1] -= value
+
+    load, load_rate = np.zeros((m, len(scene.inputs))), np.zeros((m, len(scene.inputs)))
+    for k, item in enumerate(scene.inputs):
+        if item.acts == "angle":  # through the spring and the damper of joint 1
+            load[0, k] = scene.joints[0].stiffness
+            load_rate[0, k] = scene.joints[0].damping
+        else:
+            load[station_of(item.at, n) - 1 + first, k] = 1.0
+
+    measured = _Measured(scene, m, first)
+    for row, output in enumerate(scene.outputs):
+        measured.add(row, output)
+    return Assembly(
+        mass,
+        damping,
+        stiffness,
+        load,
+        load_rate,
+        measured.from_angle,
+        measured.from_rate,
+        measured.from_acceleration,
+        measured.from_input,
+        measured.from_input_rate,
+        angle=np.array([0.0] * first + list(scene.initial.angles)),
+        rate=np.array([0.0] * first + list(scene.initial.rates)),
+        inputs=tuple(item.name for item in scene.inputs),
+        outputs=tuple(item.name for item in scene.outputs),
+    )
+
+
+class _Measured:
+    """Rows of the output matrices, filled one output at a time."""
+
+    def __init__(self, scene: Scene, coordinates: int, first: int) -> None:
+        rows = len(scene.outputs)
+        self.scene, self.first = scene, first
+        self.from_angle = np.zeros((rows, coordinates))
+        self.from_rate = np.zeros((rows, coordinates))
+        self.from_acceleration = np.zeros((rows, coordinates))
+        self.from_input = np.zeros((rows, len(scene.inputs)))
+        self.from_input_rate = np.zeros((rows, len(scene.inputs)))
+        angles = [k for k, item in enumerate(scene.inputs) if item.acts == "angle"]
+        self.base_input = angles[0] if angles else None
+
+    def add(self, row: int, output: Output) -> None:
+        station = station_of(output.at, self.scene.stations)
+        if output.of == "torque":
+            number = max(station, 1)  # the torque at the base is that of joint 1
+            joint = self.scene.joints[number - 1]
+            for sign, at in ((1.0, number), (-1.0, number - 1)):
+                self._angle(row, at, sign * joint.stiffness)
+                self._rate(row, at, sign * joint.damping)
+        elif output.of == "angle":
+            self._angle(row, station, 1.0)
+        elif output.of == "velocity":
+            self._rate(row, station, 1.0)
+        elif self._moves(station):  # that of a prescribed base is zero between the knots of its angle
+            self.from_acceleration[row, self.first + station - 1] = 1.0
+
+    def _moves(self, station: int) -> bool:
+        return self.first + station >= 1
+
+    def _angle(self, row: int, station: int, factor: float) -> None:
+        if self._moves(station):
+            self.from_angle[row, self.first + station - 1] += factor
+        elif self.base_input is not None:
+            self.from_input[row, self.base_input] += factor
+
+    def _rate(self, row: int, station: int, factor: float) -> None:
+        if self._moves(station):
+            self.from_rate[row, self.first + station - 1] += factor
+        elif self.base_input is not None:
+            self.from_input_rate[row, self.base_input] += factor

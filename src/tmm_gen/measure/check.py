@@ -1,0 +1,229 @@
+"""Checks of a scene: its backends against each other, and against the exact response."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from tmm_gen.measure.agreement import (
+    Step,
+    casadi_step,
+    largest_difference,
+    native_step,
+    numpy_step,
+    random_vectors,
+)
+from tmm_gen.measure.duration import default_duration
+from tmm_gen.measure.frequency import fastest_mode
+from tmm_gen.measure.host_test import run_host_test
+from tmm_gen.measure.metrics import convergence_slope, largest_error, rms_error
+from tmm_gen.measure.module import casadi_module, numpy_module
+from tmm_gen.measure.reference import exact_response
+from tmm_gen.measure.run import simulate
+from tmm_gen.measure.signals import Constant, Signal
+from tmm_gen.scene import Scene
+
+ONE_STEP = {"float64": 1e-13, "float32": 2e-5}
+"""Relative difference allowed between backends after one step, by the number type of the C code."""
+
+RUN = {"float64": 1e-9, "float32": 1e-3}
+"""The same over a whole run, in which differences add up."""
+
+ERROR = 0.05
+"""RMS error over a run, relative to the peak, beyond which a step is too coarse for its scene."""
+
+SLOPE = 0.1
+"""How far the fitted order may be from the derived one."""
+
+_STEPS = (64, 128, 256, 512)
+_TURN = 0.5
+"""Highest natural frequency, or decay rate, times the coarsest step of the slope."""
+
+
+@dataclass(frozen=True)
+class CheckRow:
+    """One comparison.
+
+    Parameters
+    ----------
+    check : str
+        Key.
+    value, bound : float
+        What was found, and what it may be at most.
+    meaning : str
+        In a sentence.
+    """
+
+    check: str
+    value: float
+    bound: float
+    meaning: str
+
+    @property
+    def passed(self) -> bool:
+        """Whether the value is within its bound; what is no number is not."""
+        return self.value <= self.bound
+
+
+@dataclass(frozen=True)
+class CheckReport:
+    """All comparisons of a scene.
+
+    Parameters
+    ----------
+    rows : tuple of CheckRow
+        In the order in which they were made.
+    facts : dict from str to object
+        Further figures by key: ``ns_per_step``, ``operations_per_step``, ``fitted_order``, ``derived_order``.
+    """
+
+    rows: tuple[CheckRow, ...]
+    facts: Mapping[str, object]
+
+    @property
+    def passed(self) -> bool:
+        """Whether every value is within its bound."""
+        return all(row.passed for row in self.rows)
+
+
+def check_scene(scene: Scene, advance: Callable[[float, str], None]) -> CheckReport:
+    """Compile and compare every backend of a scene.
+
+    Parameters
+    ----------
+    scene : Scene
+        Of kind "chain".
+    advance : callable
+        Called with the share of the work that is done and what comes next.
+
+    Raises
+    ------
+    UserError
+        If the scene asks for something that does not exist, or there is no C compiler.
+    """
+    from tmm_gen.program.build import build_program
+    from tmm_gen.program.count import count_routine
+
+    backends, real = scene.emit.backends, scene.emit.real
+    program = build_program(scene)
+    facts: dict[str, object] = {"operations_per_step": count_routine(program.main).total}
+    module = numpy_module(scene, program)
+    reference = numpy_step(module, program)
+    rows: list[CheckRow] = []
+    if "c" in backends:
+        advance(0.1, "compiling the C")
+        rows.append(_host_test(program, scene))
+        rows.append(_one_step("c", reference, _native(program, scene, facts), program, ONE_STEP[real]))
+    if "casadi" in backends:
+        advance(0.2, "building the CasADi model")
+        step = casadi_step(casadi_module(scene, program), program)
+        rows.append(_one_step("casadi", reference, step, program, ONE_STEP["float64"]))
+    advance(0.2, "simulating")
+    rows += _runs(scene)
+    advance(0.3, "refining the step")
+    rows.append(_slope(scene, facts))
+    advance(0.2, "done")
+    return CheckReport(tuple(rows), facts)
+
+
+def _host_test(program: Any, scene: Scene) -> CheckRow:
+    failures, said = run_host_test(program, scene)
+    return CheckRow(
+        "c_host_test",
+        failures,
+        0,
+        f"the generated C compiles without a warning and passes its own test ({said})",
+    )
+
+
+def _native(program: Any, scene: Scene, facts: dict[str, object]) -> Step:
+    from tmm_gen.native import compile_kernel
+
+    kernel = compile_kernel(program, scene)
+    facts["ns_per_step"] = kernel.time_step()
+    return native_step(kernel, program)
+
+
+def _one_step(name: str, one: Step, other: Step, program: Any, bound: float) -> CheckRow:
+    vectors = list(random_vectors(program))
+    return CheckRow(
+        f"numpy_against_{name}",
+        largest_difference(program, one, other, vectors),
+        bound,
+        f"largest relative difference after one step from {len(vectors)} random states",
+    )
+
+
+def unit_inputs(scene: Scene) -> dict[str, Signal]:
+    """Return a constant 1 for every input."""
+    return {item.name: Constant(1.0) for item in scene.inputs}
+
+
+def _runs(scene: Scene) -> list[CheckRow]:
+    """Compare a run with the exact response, and in C with that in NumPy."""
+    loads = unit_inputs(scene)
+    duration = default_duration(scene) / 5
+    found = simulate(scene, loads, duration)
+    exact = exact_response(scene, loads, found.time)
+    scale = {name: float(np.max(np.abs(values))) or 1.0 for name, values in exact.items()}
+    worst = max(exact, key=lambda name: rms_error(found.outputs[name], exact[name], scale[name]))
+    rows = [
+        CheckRow(
+            "error_against_exact",
+            rms_error(found.outputs[worst], exact[worst], scale[worst]),
+            ERROR,
+            f"RMS error of {worst} over {found.time[-1]:.3g} s under unit inputs, relative to its peak",
+        )
+    ]
+    if "c" in scene.emit.backends:
+        native = simulate(scene, loads, duration, "c")
+        apart = max(largest_error(native.outputs[k], found.outputs[k], scale[k]) for k in scale)
+        rows.append(
+            CheckRow(
+                "c_run_against_numpy",
+                apart,
+                RUN[scene.emit.real],
+                f"largest difference over the same {found.steps} steps, relative to the peak",
+            )
+        )
+    return rows
+
+
+def _slope(scene: Scene, facts: dict[str, object]) -> CheckRow:
+    """Fit the order of convergence of the tip angle under unit inputs."""
+    from tmm_gen.derive.integrators.order import order
+    from tmm_gen.derive.integrators.registry import integrator
+
+    derived = order(integrator(scene.integrator.name, **scene.integrator.parameters))
+    mode = fastest_mode(scene)
+    rate = mode.frequency * max(1.0, 2.0 * mode.damping_ratio)
+    coarsest = _TURN / rate
+    watched = scene.replace(
+        **{
+            "output": [{"name": "tip_angle", "at": "tip", "of": "angle"}],
+            "initial": {"rates": 1.0},  # so that something moves even without inputs
+            "integrator.step": coarsest,
+        }
+    )
+    module = numpy_module(watched)
+    times = coarsest * np.arange(_STEPS[0] + 1)
+    exact = exact_response(watched, unit_inputs(scene), times)["tip_angle"]
+    scale = float(np.max(np.abs(exact)))
+    errors = []
+    for steps in _STEPS:
+        stride = steps // _STEPS[0]
+        values = {item.name: 1.0 for item in scene.inputs}
+        found = module.simulate(times[-1], values, step=coarsest / stride)
+        errors.append(largest_error(found.outputs["tip_angle"][::stride], exact, scale))
+    fitted = convergence_slope([1.0 / steps for steps in _STEPS], errors).order
+    facts |= {"fitted_order": fitted, "derived_order": derived}
+    return CheckRow(
+        "order_against_derived",
+        abs(fitted - derived),
+        SLOPE,
+        f"error goes with step^{fitted:.3f}, fitted on {len(_STEPS)} steps from {coarsest:.2g} s down; "
+        f"derived: step^{derived}",
+    )

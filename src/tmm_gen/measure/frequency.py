@@ -1,0 +1,42 @@
+"""The highest natural frequency of a chain: what a time step is measured by."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tmm_gen.measure.assembly import assemble
+from tmm_gen.scene import Scene
+
+
+@dataclass(frozen=True)
+class FastestMode:
+    """The mode of the highest natural frequency.
+
+    Parameters
+    ----------
+    frequency : float
+        Undamped, rad/s.
+    damping_ratio : float
+        ``phi C phi / (2 w)`` with the mode shape normalised to unit mass; other modes are left out of it.
+    """
+
+    frequency: float
+    damping_ratio: float
+
+
+def fastest_mode(scene: Scene) -> FastestMode:
+    """Return the mode of the highest natural frequency, from the assembled matrices."""
+    from scipy.linalg import eigh_tridiagonal  # slow to import
+
+    assembly = assemble(scene)
+    root = np.sqrt(np.diag(assembly.mass))
+    scaled = assembly.stiffness / np.outer(root, root)
+    last = len(root) - 1
+    squares, shapes = eigh_tridiagonal(
+        np.diag(scaled), np.diag(scaled, 1), select="i", select_range=(last, last)
+    )
+    frequency = float(np.sqrt(squares[0]))
+    shape = shapes[:, 0] / root
+    return FastestMode(frequency, float(shape @ assembly.damping @ shape / (2.0 * frequency)))

@@ -1,0 +1,173 @@
+"""What a user gives as inputs of a simulation: numbers and CSV files.
+
+``NAME=NUMBER`` is constant; ``NAME=FILE.csv`` is one column of a file; ``FILE.csv`` has a column for
+each input. In files values are linear in between, and the last one stays; so does the first before it.
+"""
+
+from __future__ import annotations
+
+import csv
+import math
+from collections.abc import Iterable, Iterator
+from difflib import get_close_matches
+from pathlib import Path
+
+import numpy as np
+
+from tmm_gen.errors import UserError
+from tmm_gen.measure.signals import Constant, Signal, Table
+
+TIME = "time"
+"""Name of the column of instants, s."""
+
+
+def read_inputs(given: Iterable[str], names: tuple[str, ...]) -> dict[str, Signal]:
+    """Return the inputs a user gives, by name.
+
+    Parameters
+    ----------
+    given : iterable of str
+        ``NAME=NUMBER``, ``NAME=FILE.csv`` or ``FILE.csv``.
+    names : tuple of str
+        Inputs of the scene.
+
+    Raises
+    ------
+    UserError
+        If a name is unknown or given twice, a number is none, or a file cannot be used.
+    """
+    found: dict[str, Signal] = {}
+    files: list[str] = []
+    for text in given:
+        name, equals, value = text.partition("=")
+        if not equals or Path(text).is_file():
+            files.append(text)
+            continue
+        _known(name.strip(), names, text)
+        _once(name.strip(), found, text)
+        found[name.strip()] = _signal(name.strip(), value.strip(), text)
+    for text in files:
+        wanted = tuple(name for name in names if name not in found)
+        if not wanted:
+            raise UserError(f"--input {text}: every input is given already. Leave it out.")
+        found |= read_tables(Path(text), wanted)
+    return found
+
+
+def _signal(name: str, value: str, text: str) -> Signal:
+    """Return a constant, or the column of a file."""
+    try:
+        number = float(value)
+    except ValueError:
+        if Path(value).suffix.lower() != ".csv" and not Path(value).is_file():
+            raise UserError(
+                f"--input {text}: '{value}' is neither a number nor a CSV file. "
+                f"Write for example --input {name}=1.5 or --input {name}=file.csv."
+            ) from None
+        return read_tables(Path(value), (name,))[name]
+    if not math.isfinite(number):
+        raise UserError(f"--input {text}: {value} is not finite. Write for example --input {name}=1.5.")
+    return Constant(number)
+
+
+def _known(name: str, names: tuple[str, ...], text: str) -> None:
+    if name in names:
+        return
+    if not names:
+        raise UserError(f"--input {text}: the scene has no inputs. Add [[input]] to it.")
+    near = get_close_matches(name, names, n=1)
+    remedy = f"Did you mean {near[0]}?" if near else f"Its inputs are {', '.join(names)}."
+    raise UserError(f"--input {text}: the scene has no input '{name}'. {remedy}")
+
+
+def _once(name: str, found: dict[str, Signal], text: str) -> None:
+    if name in found:
+        raise UserError(f"--input {text}: '{name}' is given twice. Give it once.")
+
+
+def read_tables(path: Path, names: tuple[str, ...]) -> dict[str, Signal]:
+    """Return columns of a CSV file with a ``time`` column.
+
+    Parameters
+    ----------
+    path : path
+        Comma-separated, UTF-8, one line of headings.
+    names : tuple of str
+        Columns wanted; further ones are ignored. A single one may go by any heading if there is no other.
+
+    Raises
+    ------
+    UserError
+        Naming the file, the line and what to do.
+    """
+    rows = _rows(path)
+    try:
+        _, header = next(rows)
+    except StopIteration:
+        raise UserError(
+            f"{path}: is empty. Its first line names the columns: {TIME},{','.join(names)}."
+        ) from None
+    headings = [cell.strip() for cell in header]
+    columns = {name: _column(path, headings, name, names) for name in (TIME, *names)}
+    times: list[float] = []
+    values: dict[str, list[float]] = {name: [] for name in names}
+    for line, row in rows:
+        if len(row) != len(headings):
+            raise UserError(
+                f"{path}:{line}: has {len(row)} value{'s' if len(row) != 1 else ''} "
+                f"where the first line names {len(headings)} columns. Give each row a value for each column."
+            )
+        now = _number(path, line, TIME, row[columns[TIME]])
+        if times and now <= times[-1]:
+            raise UserError(
+                f"{path}:{line}: {TIME}: {now!r} does not follow {times[-1]!r}. "
+                "Sort the rows by time and leave out repetitions."
+            )
+        times.append(now)
+        for name in names:
+            values[name].append(_number(path, line, name, row[columns[name]]))
+    if not times:
+        raise UserError(f"{path}: has no rows below its headings. Add at least one.")
+    return {name: Table(np.array(times), np.array(column)) for name, column in values.items()}
+
+
+def _rows(path: Path) -> Iterator[tuple[int, list[str]]]:
+    """Yield the rows that are not blank, each with its line."""
+    try:
+        with path.open(encoding="utf-8-sig", newline="") as file:
+            reader = csv.reader(file)
+            for row in reader:
+                if any(cell.strip() for cell in row):
+                    yield reader.line_num, row
+    except FileNotFoundError:
+        raise UserError(f"--input: {path}: no such file. Check the path.") from None
+    except UnicodeDecodeError:
+        raise UserError(f"{path}: is not UTF-8 text. Save it as CSV in UTF-8.") from None
+    except csv.Error as error:
+        raise UserError(f"{path}: {error}. Save it as comma-separated values.") from None
+
+
+def _column(path: Path, headings: list[str], name: str, names: tuple[str, ...]) -> int:
+    """Return the place of a column."""
+    if headings.count(name) > 1:
+        raise UserError(f"{path}:1: two columns are named '{name}'. Remove one.")
+    if name in headings:
+        return headings.index(name)
+    others = [place for place, heading in enumerate(headings) if heading != TIME]
+    if name != TIME and len(names) == 1 and TIME in headings and len(others) == 1:
+        return others[0]
+    there = ", ".join(headings)
+    remedy = f"It has {there}. Add the column, with this name in the first line."
+    if len(headings) == 1 and any(mark in there for mark in ";\t"):
+        remedy = "Separate columns by commas."
+    raise UserError(f"{path}:1: has no column '{name}'. {remedy}")
+
+
+def _number(path: Path, line: int, name: str, cell: str) -> float:
+    try:
+        number = float(cell)
+    except ValueError:
+        number = math.nan
+    if not math.isfinite(number):
+        raise UserError(f"{path}:{line}: {name}: '{cell.strip()}' is not a finite number. Correct it.")
+    return number

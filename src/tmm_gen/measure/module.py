@@ -1,0 +1,94 @@
+"""A scene's generated NumPy package, imported without a trace in the user's tree."""
+
+from __future__ import annotations
+
+import sys
+import tempfile
+from importlib.util import module_from_spec, spec_from_file_location
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from tmm_gen.scene import Scene
+
+
+def numpy_module(scene: Scene, program: Any = None) -> ModuleType:
+    """Generate a scene's NumPy package and import it.
+
+    Parameters
+    ----------
+    scene : Scene
+        What to generate.
+    program : Program, optional
+        That of the scene, if it is built already.
+
+    Returns
+    -------
+    module
+        With the generated functions ``prepare``, ``initialise``, ``step``, ``output``, ``simulate`` and what they take.
+
+    Raises
+    ------
+    UserError
+        If the scene asks for something that does not exist.
+    """
+    from tmm_gen.emit.numpy import emit_numpy  # loads SymPy and Jinja2
+    from tmm_gen.program.build import build_program
+
+    return import_package(emit_numpy(program or build_program(scene), scene), scene.name)
+
+
+def casadi_module(scene: Scene, program: Any = None) -> ModuleType:
+    """Generate a scene's CasADi model and import it.
+
+    Parameters
+    ----------
+    scene : Scene
+        What to generate.
+    program : Program, optional
+        That of the scene, if it is built already.
+
+    Returns
+    -------
+    module
+        With the generated functions ``step_function``, ``start_functions``, ``initial_function``.
+
+    Raises
+    ------
+    UserError
+        If the scene asks for something that does not exist.
+    """
+    from tmm_gen.emit.casadi import emit_casadi  # loads SymPy and Jinja2
+    from tmm_gen.program.build import build_program
+
+    (text,) = emit_casadi(program or build_program(scene), scene).values()
+    return import_package({"__init__.py": text}, f"{scene.name}_casadi")
+
+
+def import_package(files: dict[str, str], name: str) -> ModuleType:
+    """Import a package from the texts of its files.
+
+    Parameters
+    ----------
+    files : dict from str to str
+        Text by path inside the package, ``__init__.py`` among them. It must not read them once it is imported.
+    name : str
+        What it is called in messages.
+    """
+    unique = f"_tmm_gen_{name}_{len(sys.modules)}"
+    with tempfile.TemporaryDirectory(prefix="tmm-gen-") as folder:
+        for path, text in files.items():
+            target = Path(folder, path)
+            target.parent.mkdir(parents=True, exist_ok=True)
+            target.write_text(text, encoding="utf-8")
+        spec = spec_from_file_location(unique, Path(folder, "__init__.py"), submodule_search_locations=[folder])
+        assert spec is not None
+        assert spec.loader is not None
+        module = module_from_spec(spec)
+        sys.modules[unique] = module
+        try:
+            spec.loader.exec_module(module)
+        finally:  # whoever holds the module keeps it; nobody else is to find it
+            for loaded in [key for key in sys.modules if key == unique or key.startswith(f"{unique}.")]:
+                del sys.modules[loaded]
+    return module

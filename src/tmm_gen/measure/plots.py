@@ -1,0 +1,73 @@
+"""A simulation as a picture: a panel for each unit of the outputs, the inputs below."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.measure.simulation import UNITS, Simulation
+from tmm_gen.measure.style import PALETTE, figure, picture, style, subtitle
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+Array = NDArray[np.float64]
+
+_LINES = ("-", "--", ":", "-.")
+_QUANTITIES = {"rad": "angle", "rad/s": "rate", "rad/s^2": "acceleration", "N m": "torque"}
+
+
+def response_picture(simulation: Simulation, form: str = "png") -> bytes:
+    """Draw a simulation.
+
+    Parameters
+    ----------
+    simulation : Simulation
+        What to draw.
+    form : {"png", "svg", "pdf"}
+        Format.
+    """
+    with style():
+        return picture(_drawn(simulation), form)
+
+
+def _drawn(simulation: Simulation) -> Figure:
+    scene = simulation.scene
+    units = list(dict.fromkeys(UNITS[output.of] for output in scene.outputs))
+    acting = [item for item in scene.inputs if np.any(simulation.inputs[item.name])]
+    ratios = [3.0] * len(units) + [1.2] * bool(acting)
+    made, axes = figure(
+        8.0,
+        1.1 + 0.78 * sum(ratios),
+        nrows=len(ratios),
+        sharex=True,
+        squeeze=False,
+        gridspec_kw={"height_ratios": ratios},
+    )
+    panels = axes[:, 0]
+    for panel, unit in zip(panels, units, strict=False):
+        shown = [output.name for output in scene.outputs if UNITS[output.of] == unit]
+        _curves(panel, simulation.time, {name: simulation.outputs[name] for name in shown})
+        panel.set_ylabel(f"{_QUANTITIES[unit]} ({unit.replace('^2', '²')})")
+    if acting:
+        _curves(panels[-1], simulation.time, {item.name: simulation.inputs[item.name] for item in acting})
+        panels[-1].set_ylabel("input (rad)" if all(i.acts == "angle" for i in acting) else "input (N m)")
+        panels[-1].update_datalim([(0.0, 0.0)])
+        panels[-1].margins(y=0.25)
+        panels[-1].autoscale_view()
+    step = f"{scene.integrator.name}, step {scene.integrator.step:g} s, {simulation.backend} kernel"
+    subtitle(panels[0], scene.title, step)
+    panels[-1].set_xlabel("time (s)")
+    panels[-1].set_xlim(0.0, simulation.time[-1])
+    made.align_ylabels(panels)
+    return made
+
+
+def _curves(panel: Axes, time: Array, values: Mapping[str, Array]) -> None:
+    for k, (name, curve) in enumerate(values.items()):
+        panel.plot(time, curve, color=PALETTE[k % len(PALETTE)], linestyle=_LINES[k // len(PALETTE) % 4], label=name)
+    panel.legend(loc="lower right", ncols=min(len(values), 4), bbox_to_anchor=(1.0, 1.0), borderaxespad=0.2)

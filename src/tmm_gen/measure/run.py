@@ -1,0 +1,170 @@
+"""Simulating a scene with its generated kernel, in NumPy or in C."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import suppress
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.measure.assembly import assemble
+from tmm_gen.measure.divergence import Watch, watch
+from tmm_gen.measure.module import numpy_module
+from tmm_gen.measure.signals import Constant, Signal
+from tmm_gen.measure.simulation import Simulation
+from tmm_gen.scene import Scene
+
+Array = NDArray[np.float64]
+Backend = Literal["numpy", "c"]
+
+_CHUNK = 1000
+"""Steps between two looks at the motion and the progress bar."""
+
+
+def number_of_steps(until: float, step: float) -> int:
+    """Return how many steps it takes to reach a time; the last one may end behind it."""
+    return max(1, math.ceil(until / step * (1.0 - 1e-12)))
+
+
+def simulate(
+    scene: Scene,
+    signals: Mapping[str, Signal],
+    until: float,
+    backend: Backend = "numpy",
+    advance: Callable[[float], None] | None = None,
+) -> Simulation:
+    """Simulate a scene at its own step.
+
+    Parameters
+    ----------
+    scene : Scene
+        What to simulate.
+    signals : mapping from str to Signal
+        Inputs by name; those not given are zero.
+    until : float
+        s; the last step ends there or just behind.
+    backend : {"numpy", "c"}
+        Which generated kernel.
+    advance : callable, optional
+        Called with the number of steps taken since the last call.
+
+    Raises
+    ------
+    DivergedError
+        If the motion leaves all bounds.
+    UserError
+        If the kernel cannot be made.
+    """
+    steps = number_of_steps(until, scene.integrator.step)
+    inputs = {item.name: signals.get(item.name, Constant(0.0)) for item in scene.inputs}
+    guard = watch(scene, inputs, until, scene.integrator.step)
+    run = _numpy if backend == "numpy" else _native
+    outputs = np.empty((steps + 1, len(scene.outputs)))
+    row = 0
+    for block in run(scene, inputs, steps, guard):
+        outputs[row : row + len(block)] = block
+        row += len(block)
+        if advance is not None:
+            advance(len(block))
+    time = scene.integrator.step * np.arange(steps + 1)
+    return Simulation(
+        scene=scene,
+        backend=backend,
+        time=time,
+        outputs={item.name: outputs[:, k] for k, item in enumerate(scene.outputs)},
+        inputs={name: signal.at(time) for name, signal in inputs.items()},
+        rest=_rest(scene, inputs, float(time[-1])),
+    )
+
+
+def _rest(scene: Scene, signals: Mapping[str, Signal], until: float) -> dict[str, float] | None:
+    """Return the outputs at rest under the last values of the inputs; None where there is no such thing."""
+    assembly = assemble(scene)
+    moving = any(signal.frequency or np.any(signal.knots > until) for signal in signals.values())
+    if moving or assembly.free:
+        return None
+    last = np.array([float(signal.at(until)) for signal in signals.values()])
+    return dict(zip(assembly.outputs, assembly.static(last).tolist(), strict=True))
+
+
+def _numpy(scene: Scene, signals: Mapping[str, Signal], steps: int, guard: Watch) -> Iterator[Array]:
+    """Yield blocks of outputs, (rows, outputs), the first one with the start."""
+    module = numpy_module(scene)
+    h = scene.integrator.step
+
+    def read(time: float) -> Any:
+        return module.Input(**{name: float(signal.at(time)) for name, signal in signals.items()})
+
+    def row() -> list[float]:
+        found = module.output(model, state)
+        return [float(getattr(found, item.name)) for item in scene.outputs]
+
+    model = module.prepare()
+    state = module.initialise(module.Params(), read(0.0))
+    instants = module.STAGE_INSTANTS
+    held = all(isinstance(signal, Constant) for signal in signals.values())
+    constant = read(0.0)
+    rows = [row()]
+    with np.errstate(all="ignore"):  # the guard tells what becomes of it
+        for index in range(steps):
+            given = constant
+            if not held:
+                now = index * h
+                stages = [read(now + at * h) for at in instants[min(index, len(instants) - 1)]]
+                given = stages if len(stages) > 1 else stages[0]
+            state = module.step(model, state, given)
+            guard.look((index + 1) * h, state.angle)
+            rows.append(row())
+            if len(rows) >= _CHUNK or index + 1 == steps:
+                yield np.array(rows)
+                rows = []
+
+
+def _native(scene: Scene, signals: Mapping[str, Signal], steps: int, guard: Watch) -> Iterator[Array]:
+    """Yield all outputs, (steps + 1, outputs)."""
+    from tmm_gen.native import NonFiniteStateError, compile_kernel
+    from tmm_gen.program.build import build_program
+
+    kernel = compile_kernel(build_program(scene), scene)
+    h = scene.integrator.step
+    given = {
+        name: signal.value if isinstance(signal, Constant) else _number(signal)
+        for name, signal in signals.items()
+    }
+    try:
+        _, outputs = kernel.simulate(h * steps, given)
+        kept = np.max(np.abs(kernel.state["angle"])) <= guard.bound
+    except NonFiniteStateError:
+        kept = False
+    if not kept:
+        _find_divergence(kernel, given, h, steps, guard)
+    yield np.column_stack([outputs[item.name] for item in scene.outputs])
+
+
+def _find_divergence(kernel: Any, given: Mapping[str, Any], h: float, steps: int, guard: Watch) -> None:
+    """Run once more, looking at each step, until the guard raises."""
+    from tmm_gen.native import NonFiniteStateError
+
+    def read(time: float) -> dict[str, float]:
+        return {name: value(time) if callable(value) else value for name, value in given.items()}
+
+    kernel.prepare()
+    kernel.initialise(read(0.0))
+    instants = kernel.program.stage_instants
+    longest = max(len(each) for each in instants)
+    for index in range(steps):
+        stages = [read((index + at) * h) for at in instants[min(index, len(instants) - 1)]]
+        stages += stages[-1:] * (longest - len(stages))
+        values = {
+            name: [stage[name] for stage in stages] if longest > 1 else stages[0][name] for name in given
+        }
+        with suppress(NonFiniteStateError):  # its state tells where
+            kernel.step(values)
+        guard.look((index + 1) * h, kernel.state["angle"])
+
+
+def _number(signal: Signal) -> Callable[[float], float]:
+    return lambda time: float(signal.at(time))

@@ -1,0 +1,93 @@
+"""What a simulation leaves, and its files."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.measure.metrics import step_figures
+from tmm_gen.scene import Output, Scene
+
+Array = NDArray[np.float64]
+
+UNITS = {"angle": "rad", "velocity": "rad/s", "acceleration": "rad/s^2", "torque": "N m"}
+"""Unit of each quantity of a chain."""
+
+
+@dataclass(frozen=True, eq=False)
+class Simulation:
+    """Outputs over time.
+
+    Parameters
+    ----------
+    scene : Scene
+        What was simulated, with the step that was used.
+    backend : str
+        "numpy" or "c".
+    time : array, (k + 1,)
+        Instants, s, from 0 on.
+    outputs : dict from str to array, (k + 1,)
+        By name, in the order of the scene.
+    inputs : dict from str to array, (k + 1,)
+        The inputs at the same instants.
+    rest : dict from str to float, optional
+        The outputs once all motion has died out; None where it need not come to rest.
+    """
+
+    scene: Scene
+    backend: str
+    time: Array
+    outputs: dict[str, Array]
+    inputs: dict[str, Array]
+    rest: dict[str, float] | None
+
+    @property
+    def steps(self) -> int:
+        """Number of steps taken."""
+        return len(self.time) - 1
+
+    @property
+    def still(self) -> bool:
+        """Whether nothing happens: no input, no motion."""
+        return not any(np.any(values) for values in (*self.inputs.values(), *self.outputs.values()))
+
+    def csv(self) -> str:
+        """Return a table of outputs over time with 17 significant digits: every bit of a double."""
+        lines = [",".join(("time", *self.outputs))]
+        columns = [self.time.tolist(), *(values.tolist() for values in self.outputs.values())]
+        lines += [",".join(f"{value:.17g}" for value in row) for row in zip(*columns, strict=True)]
+        return "\n".join(lines) + "\n"
+
+    def rows(self) -> Iterator[dict[str, object]]:
+        """Yield one row of figures for each output."""
+        for output in self.scene.outputs:
+            yield self._row(output)
+
+    def _row(self, output: Output) -> dict[str, object]:
+        values = self.outputs[output.name]
+        largest = int(np.argmax(np.abs(values)))
+        row: dict[str, object] = {
+            "output": output.name,
+            "what": f"{output.of} at {_place(output.at)}",
+            "unit": UNITS[output.of],
+            "final": float(values[-1]),
+            "rest": None,
+            "peak": float(values[largest]),
+            "peak_time": float(self.time[largest]),
+            "overshoot_percent": None,
+            "settling_time": None,
+        }
+        if self.rest is not None:
+            figures = step_figures(self.time, values, self.rest[output.name])
+            row["rest"] = figures.final
+            row["settling_time"] = figures.settling_time
+            if figures.start != figures.final:
+                row["overshoot_percent"] = 100.0 * figures.overshoot
+        return row
+
+
+def _place(at: str | int) -> str:
+    return f"station {at}" if isinstance(at, int) else f"the {at}"

@@ -1,0 +1,274 @@
+"""A compiled kernel, with the interface of the generated NumPy module."""
+
+from __future__ import annotations
+
+import ctypes
+import statistics
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.emit.c import emit_c
+from tmm_gen.emit.c.real import REALS
+from tmm_gen.emit.templates import render
+from tmm_gen.native.compiler import FLAGS, compile_library
+from tmm_gen.native.layout import Value, element_values, read, write
+from tmm_gen.native.library import Library
+from tmm_gen.program.statements import Program
+from tmm_gen.scene import Scene
+
+Signal = float | Callable[[float], float]
+"""An input: constant, or a function of time in s."""
+Array = NDArray[np.float64]
+
+_MEASURED_SECONDS = 5e-3
+"""Least duration of one timed repetition."""
+
+
+def compile_kernel(
+    program: Program, scene: Scene, cc: str = "gcc", flags: Sequence[str] = FLAGS
+) -> NativeKernel:
+    """Emit a program as C, compile it and load it.
+
+    Parameters
+    ----------
+    program : Program
+        As built for the scene.
+    scene : Scene
+        Gives the number type.
+    cc : str
+        Compiler.
+    flags : sequence of str
+        Options besides ``-std=c99``.
+
+    Raises
+    ------
+    UserError
+        If there is no such compiler, or it refuses the sources.
+    """
+    wanted = (f"c/{program.name}.h", f"c/{program.name}.c")
+    files = {path: text for path, text in emit_c(program, scene).items() if path in wanted}
+    files["c/harness.c"] = render("c/harness.c.jinja", name=program.name)
+    handle = ctypes.CDLL(str(compile_library(files, cc, flags)))
+    return NativeKernel(program, Library(program, REALS[scene.emit.real], handle))
+
+
+class NativeKernel:
+    """One arm in compiled C: a model and a state, and the functions that work on them.
+
+    Parameters
+    ----------
+    program : Program
+        What was emitted.
+    library : Library
+        What was compiled.
+    """
+
+    def __init__(self, program: Program, library: Library) -> None:
+        self.program = program
+        self._library = library
+        self._params, self._model, self._state, self._inputs, self._outputs = (
+            kind() for kind in library.types.values()
+        )
+        self._step = self._default_step
+        library.call("default_params", self._params)
+
+    # -- phases -------------------------------------------------------------------------------
+
+    def prepare(self, params: Mapping[str, Value] | None = None, step: float | None = None) -> None:
+        """Compute what depends on parameters and step alone.
+
+        Parameters
+        ----------
+        params : mapping from str, optional
+            Parameters that differ from the scene's.
+        step : float, optional
+            Time step (s), by default the scene's.
+
+        Raises
+        ------
+        FloatingPointError
+            If a parameter is not finite.
+        ValueError
+            If the step is not positive, or a parameter has another name or length.
+        VanishingPivotError
+            If a pivot is not positive.
+        """
+        self._library.call("default_params", self._params)
+        write(self._params, self._library.structs["params"], params or {})
+        self._step = self._default_step if step is None else float(step)
+        self._library.call("prepare", self._model, self._params, self._step)
+
+    def initialise(self, inputs: Mapping[str, Value] | None = None, **given: Value) -> None:
+        """Start from the scene's initial motion or a given one, with the parameters of :meth:`prepare`.
+
+        Parameters
+        ----------
+        inputs : mapping from str, optional
+            What acts at the initial instant; inputs not named are zero.
+        **given : float or array_like
+            ``initial_angle`` and ``initial_rate``, where they differ from the scene's.
+
+        Raises
+        ------
+        FloatingPointError
+            If an argument is not finite.
+        ValueError
+            If there is no such argument, or it has another length.
+        """
+        names = [v.name for v in self.program.given]
+        if unknown := sorted(set(given) - set(names)):
+            raise ValueError(f"initialise takes no {', '.join(unknown)}; it takes {', '.join(names)}")
+        arrays = []
+        for variable in self.program.given:
+            value = given.get(variable.name, variable.default or 0.0)
+            arrays.append(element_values(variable, value, self._library.number_array(variable.length or 1)))
+        self._apply(inputs)
+        extra = (self._step,) if self.program.step in self.program.initialise.read() else ()
+        self._library.call("initialise", self._state, self._params, *arrays, self._inputs, *extra)
+
+    def step(self, inputs: Mapping[str, Value] | None = None) -> None:
+        """Advance the state by one step.
+
+        Parameters
+        ----------
+        inputs : mapping from str, optional
+            Numbers, held over the step, or one for each of its stages; inputs not named are zero.
+
+        Raises
+        ------
+        FloatingPointError
+            If an input is not finite (the state is then as it was).
+        NonFiniteStateError
+            If the new state is not.
+        """
+        self._apply(inputs)
+        self._library.call("step", self._model, self._state, self._inputs)
+
+    def output(self) -> dict[str, float]:
+        """Return the outputs of the present state, by name."""
+        self._library.call("output", self._model, self._state, self._outputs)
+        return read(self._outputs, self._library.structs["outputs"])
+
+    # -- state --------------------------------------------------------------------------------
+
+    @property
+    def state(self) -> dict[str, Any]:
+        """Copy of the state: numbers and arrays by name, and the count of start-up steps if there are any."""
+        return read(self._state, self._library.structs["state"])
+
+    @state.setter
+    def state(self, values: Mapping[str, Value]) -> None:
+        write(self._state, self._library.structs["state"], values)
+
+    @property
+    def model(self) -> dict[str, Any]:
+        """Copy of the model."""
+        return read(self._model, self._library.structs["model"])
+
+    # -- many steps ---------------------------------------------------------------------------
+
+    def simulate(
+        self,
+        duration: float,
+        inputs: Mapping[str, Signal] | None = None,
+        params: Mapping[str, Value] | None = None,
+        step: float | None = None,
+        **given: Value,
+    ) -> tuple[Array, dict[str, Array]]:
+        """Simulate from time zero in whole steps.
+
+        Parameters
+        ----------
+        duration : float
+            Time to simulate (s); the last instant is the last whole step within it.
+        inputs : mapping from str
+            Constants or functions of time; inputs not named are zero.
+        params, step, **given
+            As for :meth:`prepare` and :meth:`initialise`.
+
+        Returns
+        -------
+        times : array, shape (steps + 1,)
+            Instants (s).
+        outputs : dict from str to array, shape (steps + 1,)
+            Outputs at these instants.
+
+        Raises
+        ------
+        FloatingPointError, ValueError, VanishingPivotError
+            As :meth:`prepare`, :meth:`initialise` and :meth:`step` do.
+        """
+        signals = dict(inputs or {})
+        if unknown := sorted(set(signals) - {v.name for v in self.program.inputs}):
+            known = ", ".join(v.name for v in self.program.inputs) or "none"
+            raise ValueError(f"no input is named {', '.join(unknown)}; there are: {known}")
+        if not 0.0 <= duration < np.inf:
+            raise ValueError(f"duration must be a time, not {duration!r}")
+        self.prepare(params, step)
+        self.initialise({name: _at(signal, 0.0) for name, signal in signals.items()}, **given)
+        steps = int(np.floor(duration / self._step * (1.0 + 1e-12)))
+        rows = [self.output()]
+        series, results = ((self._library.types[which] * steps)() for which in ("inputs", "outputs"))
+        for index in range(steps):
+            write(series[index], self._library.structs["inputs"], self._sampled(signals, index))
+        self._library.run(self._model, self._state, series, results)
+        rows += (read(result, self._library.structs["outputs"]) for result in results)
+        outputs = {v.name: np.array([row[v.name] for row in rows]) for v in self.program.outputs}
+        return np.arange(steps + 1, dtype=float) * self._step, outputs
+
+    def time_step(self, inputs: Mapping[str, Value] | None = None, repeats: int = 9) -> float:
+        """Measure how long a step takes, in a loop of compiled C from the scene's initial motion.
+
+        Parameters
+        ----------
+        inputs : mapping from str, optional
+            What acts, constantly.
+        repeats : int
+            Number of measurements; their median counts.
+
+        Returns
+        -------
+        float
+            Nanoseconds per step.
+
+        Raises
+        ------
+        NonFiniteStateError
+            If the motion grows beyond all bounds, so that a step cannot be repeated.
+        """
+        self.prepare()
+        steps = 1000
+        while (seconds := self._seconds(inputs, steps)) < _MEASURED_SECONDS:
+            steps = int(steps * max(2.0, min(10.0, 1.2 * _MEASURED_SECONDS / max(seconds, 1e-9))))
+        return 1e9 / steps * statistics.median(self._seconds(inputs, steps) for _ in range(repeats))
+
+    def _seconds(self, inputs: Mapping[str, Value] | None, steps: int) -> float:
+        self.initialise(inputs)
+        return self._library.seconds(self._model, self._state, self._inputs, steps)
+
+    def _sampled(self, signals: Mapping[str, Signal], index: int) -> dict[str, Value]:
+        """Return the inputs of a step at the instants of its stages."""
+        instants = self.program.stage_instants[min(index, len(self.program.startup))]
+        values: dict[str, Value] = {}
+        for variable in self.program.inputs:
+            if (signal := signals.get(variable.name)) is not None:
+                found = [_at(signal, self._step * (index + instant)) for instant in instants]
+                missing = (variable.length or 1) - len(found)  # a start-up step may have fewer stages
+                values[variable.name] = [*found, *found[-1:] * missing] if variable.length else found[0]
+        return values
+
+    def _apply(self, inputs: Mapping[str, Value] | None) -> None:
+        zero: dict[str, Value] = {v.name: 0.0 for v in self.program.inputs}
+        write(self._inputs, self._library.structs["inputs"], {**zero, **(inputs or {})})
+
+    @property
+    def _default_step(self) -> float:
+        assert isinstance(self.program.step.default, float)
+        return self.program.step.default
+
+
+def _at(signal: Signal, time: float) -> float:
+    return float(signal(time)) if callable(signal) else float(signal)

@@ -1,0 +1,68 @@
+"""The kernel's structs as ctypes sees them."""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.emit.c.real import Real
+from tmm_gen.emit.c.structs import COUNTER, Struct
+from tmm_gen.program.variables import Variable
+
+Value = float | Sequence[float] | NDArray[np.floating[Any]]
+"""A number, also one for all elements of an array, or an array."""
+
+
+def structure_of(struct: Struct, real: Real) -> type[ctypes.Structure]:
+    """Return the type of a struct, its members in order."""
+    number: Any = ctypes.c_double if real.size == 8 else ctypes.c_float
+    fields = [(f.name, number if not f.dimension else number * f.numbers) for f in struct.fields]
+    if not fields:
+        fields.append(("none", number))
+    if struct.counter:
+        fields.append((COUNTER, ctypes.c_int))
+    return type(struct.name.capitalize(), (ctypes.Structure,), {"_fields_": fields})
+
+
+def read(instance: ctypes.Structure, struct: Struct) -> dict[str, Any]:
+    """Return the members of a struct: floats, arrays, and the counter if it has one."""
+    members = {v.name: _python(getattr(instance, v.name)) for v in struct.variables}
+    return members | ({COUNTER: getattr(instance, COUNTER)} if struct.counter else {})
+
+
+def write(instance: ctypes.Structure, struct: Struct, values: Mapping[str, Value]) -> None:
+    """Set members of a struct.
+
+    Raises
+    ------
+    ValueError
+        If it has no member of a name, or an array has another length.
+    """
+    variables = {v.name: v for v in struct.variables}
+    for name, value in values.items():
+        if name == COUNTER and struct.counter:
+            setattr(instance, COUNTER, int(value))  # type: ignore[arg-type]
+        elif name in variables:
+            setattr(instance, name, element_values(variables[name], value, type(getattr(instance, name))))
+        else:
+            raise ValueError(f"{struct.name} has no {name!r}; it has: {', '.join(variables) or 'none'}")
+
+
+def element_values(variable: Variable, value: Value, kind: Any) -> Any:
+    """Return a value as a member of a struct or an argument takes it."""
+    array = np.asarray(value, dtype=float)
+    if variable.length is None:
+        if array.ndim:
+            raise ValueError(f"{variable.name} is one number, not an array of shape {array.shape}")
+        return float(array)
+    if array.shape not in ((), (variable.length,)):
+        raise ValueError(f"{variable.name} has {variable.length} numbers, not the shape {array.shape}")
+    return kind(*np.broadcast_to(array, variable.length).tolist())
+
+
+def _python(member: Any) -> Any:
+    return float(member) if isinstance(member, float) else np.array(member, dtype=float)

@@ -1,0 +1,118 @@
+"""A loaded library: its structs, its functions, and its statuses as exceptions."""
+
+from __future__ import annotations
+
+import ctypes
+from typing import Any
+
+from tmm_gen.emit.c.real import Real
+from tmm_gen.emit.c.structs import structs_of
+from tmm_gen.native.layout import structure_of
+from tmm_gen.program.evaluate import VanishingPivotError
+from tmm_gen.program.statements import Program
+
+
+class NonFiniteStateError(FloatingPointError):
+    """The motion has outgrown the number type."""
+
+
+class Library:
+    """Kernel and harness of one program.
+
+    Parameters
+    ----------
+    program : Program
+        What was emitted.
+    real : Real
+        Number type.
+    handle : ctypes.CDLL
+        The shared library.
+
+    Raises
+    ------
+    RuntimeError
+        If compiler and ctypes disagree on the layout of the structs.
+    """
+
+    def __init__(self, program: Program, real: Real, handle: ctypes.CDLL) -> None:
+        self.name = program.name
+        self.number: Any = ctypes.c_double if real.size == 8 else ctypes.c_float
+        self.structs = {struct.name: struct for struct in structs_of(program)}
+        self.types = {name: structure_of(struct, real) for name, struct in self.structs.items()}
+        self._handle = handle
+        self._check_sizes()
+        handle.harness_seconds.restype = ctypes.c_double
+        self._function("output").restype = None
+        self._function("default_params").restype = None
+
+    def number_array(self, length: int) -> Any:
+        """Return the type of an array of numbers."""
+        return self.number * length
+
+    def call(self, function: str, *arguments: Any) -> None:
+        """Call a function of the kernel.
+
+        Parameters
+        ----------
+        function : str
+            Name behind the kernel's.
+        *arguments
+            Structs and arrays, which are passed by reference, and floats.
+
+        Raises
+        ------
+        FloatingPointError, ValueError, VanishingPivotError
+            If it returns another status than success.
+        """
+        self._raise_for(self._function(function)(*map(self._passed, arguments)), function)
+
+    def run(self, model: Any, state: Any, inputs: Any, outputs: Any) -> None:
+        """Take as many steps as there are inputs, and keep the outputs after each.
+
+        Raises
+        ------
+        FloatingPointError
+            If a step fails.
+        """
+        done = ctypes.c_long()
+        passed = map(self._passed, (model, state, inputs, outputs))
+        status = self._handle.harness_run(*passed, ctypes.c_long(len(inputs)), ctypes.byref(done))
+        self._raise_for(status, f"step {done.value + 1}")
+
+    def seconds(self, model: Any, state: Any, inputs: Any, steps: int) -> float:
+        """Return how long a number of steps takes with constant inputs.
+
+        Raises
+        ------
+        NonFiniteStateError
+            If one of them fails.
+        """
+        passed = map(self._passed, (model, state, inputs))
+        seconds: float = self._handle.harness_seconds(*passed, ctypes.c_long(steps))
+        if seconds < 0:
+            raise NonFiniteStateError(f"{self.name}: the motion grows beyond all bounds")
+        return seconds
+
+    def _function(self, name: str) -> Any:
+        return getattr(self._handle, f"{self.name}_{name}")
+
+    def _passed(self, argument: Any) -> Any:
+        return self.number(argument) if isinstance(argument, float) else ctypes.byref(argument)
+
+    def _raise_for(self, status: int | None, where: str) -> None:
+        what = f"{self.name}, {where}"
+        if status == 1:
+            raise FloatingPointError(f"{what}: an argument is not finite")
+        if status == 2:
+            raise ValueError(f"{what}: the time step must be a positive number")
+        if status == 3:
+            raise VanishingPivotError(f"{what}: a pivot is not positive; check parameters and step")
+        if status == 4:
+            raise NonFiniteStateError(f"{what}: the motion has outgrown the number type")
+
+    def _check_sizes(self) -> None:
+        sizes = (ctypes.c_size_t * len(self.types))()
+        self._handle.harness_sizes(sizes)
+        expected = [ctypes.sizeof(kind) for kind in self.types.values()]
+        if list(sizes) != expected:
+            raise RuntimeError(f"{self.name}: structs have {list(sizes)} bytes in C, {expected} in ctypes")

@@ -1,0 +1,82 @@
+"""Variables that every kind of model shares: the history an integrator needs, parameters that may differ or not."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+import sympy as sp
+
+from tmm_gen.derive.integrators.declaration import STEP, Integrator, Kind, Past, Scheme, pasts_in
+from tmm_gen.derive.integrators.relations import Unknown, affine_motion
+from tmm_gen.program.passes.prune import prune
+from tmm_gen.program.statements import Routine
+from tmm_gen.program.variables import Role, Variable
+
+MOTION_NAMES: dict[Kind, tuple[str, str]] = {
+    "q": ("angle", "rad"),
+    "v": ("rate", "rad/s"),
+    "a": ("acceleration", "rad/s^2"),
+}
+_AGO = {1: "one step", 2: "two steps", 3: "three steps"}
+
+
+def history(schemes: Iterable[Scheme], unknown: Unknown) -> frozenset[Past]:
+    """Return the history that schemes read when solved for an unknown, closed under ageing."""
+    needed: set[Past] = set()
+    for scheme in schemes:
+        for index in range(1, len(scheme.stages) + 1):
+            for offset in affine_motion(scheme, index, unknown).offset.values():
+                needed |= pasts_in(offset)
+        for value in scheme.update.values():
+            needed |= pasts_in(value)
+    return frozenset(Past(p.kind, lag) for p in needed for lag in range(p.lag + 1))
+
+
+def parameter(name: str, doc: str, unit: str, values: Sequence[float]) -> Variable:
+    """Return a scalar where all values are alike, an array otherwise."""
+    if len(set(values)) == 1:
+        return Variable(
+            name,
+            Role.PARAMETER,
+            None,
+            doc + (", the same everywhere" if len(values) > 1 else ""),
+            unit,
+            values[0],
+        )
+    return Variable(name, Role.PARAMETER, len(values), doc + ", base to tip", unit, tuple(values))
+
+
+def state_variable(past: Past, prefix: str, length: int | None) -> Variable:
+    """Return the variable of one value of the history."""
+    name, unit = MOTION_NAMES[past.kind]
+    age = f"_{past.lag}_ago" if past.lag else ""
+    when = f", {_AGO.get(past.lag, f'{past.lag} steps')} ago" if past.lag else ""
+    what = f"hub {name}" if prefix else f"{name} of each link, base to tip"
+    return Variable(f"{prefix}{name}{age}", Role.STATE, length, what + when, unit)
+
+
+def gain_names(
+    integrator: Integrator, unknown: Unknown, step: Variable
+) -> dict[sp.Expr, tuple[str, str, str]]:
+    """Name the gains of the main scheme after what they do."""
+    words = {"q": "angle", "v": "rate", "a": "acceleration"}
+    names: dict[sp.Expr, tuple[str, str, str]] = {}
+    gains = affine_motion(integrator.main, 1, unknown).gain
+    for kind, word in words.items():
+        value = sp.factor(gains[kind].subs(STEP, step.ref))
+        doc = f"{word} per unit of {unknown}: {value}"
+        names.setdefault(value, (f"{word}_per_{unknown}", doc, "SI"))
+    return names
+
+
+def living_state(
+    state: tuple[Variable, ...], steps: tuple[Routine, ...], output: Routine
+) -> tuple[Variable, ...]:
+    """Return the state that outputs depend on, through any number of steps; the angle always stays."""
+    alive = {v for v in state if v in output.read() or v.name == "angle"}
+    while True:
+        wanted = frozenset(alive)
+        for routine in steps:
+            alive |= {v for v in prune(routine, wanted).read() if v.role is Role.STATE}
+        if alive == set(wanted):
+            return tuple(v for v in state if v in alive)

@@ -1,0 +1,180 @@
+"""Which statements may change places: what they read and write, and at which stations."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from tmm_gen.program.statements import Assign, Loop, Order, Require, Routine, Statement
+from tmm_gen.program.variables import Ref, Role, Variable, refs_in
+
+SCRATCH = frozenset({Role.WORK, Role.LOCAL})
+"""Roles of variables that no one reads after the routine."""
+
+
+@dataclass(frozen=True)
+class Access:
+    """One use of a variable by a top-level statement.
+
+    Parameters
+    ----------
+    ref : Ref
+        Scalar, fixed entry, or element relative to the loop's index.
+    writes : bool
+        Whether it is assigned.
+    first, last : int
+        Elements touched (0, 0 for a scalar).
+    """
+
+    ref: Ref
+    writes: bool
+    first: int
+    last: int
+
+    @property
+    def variable(self) -> Variable:
+        """What is used."""
+        return self.ref.variable
+
+    def meets(self, other: Access) -> bool:
+        """Whether both touch a common element and at least one writes."""
+        return (
+            (self.writes or other.writes)
+            and self.variable == other.variable
+            and self.first <= other.last
+            and other.first <= self.last
+        )
+
+
+def accesses(statement: Statement) -> tuple[Access, ...]:
+    """Return every use of a variable by a statement, in the order of execution."""
+    if isinstance(statement, Loop):
+        stations = (statement.start, statement.stop - 1)
+        return tuple(a for inner in statement.body for a in _of(inner, *stations))
+    return tuple(_of(statement, 0, 0))
+
+
+def independent(one: Statement, other: Statement) -> bool:
+    """Whether two statements may change places."""
+    mine, theirs = accesses(one), accesses(other)
+    return not any(a.meets(b) for a in mine for b in theirs)
+
+
+def carried_scalars(loop: Loop) -> frozenset[Variable]:
+    """Return scalars a loop assigns whose value one station hands to the next."""
+    return frozenset(v for v in written_scalars(loop) if not _set_before_use(loop, v))
+
+
+def written_scalars(loop: Loop) -> frozenset[Variable]:
+    """Return the scalars a loop assigns."""
+    return frozenset(
+        s.target.variable for s in loop.body if isinstance(s, Assign) and s.target.variable.length is None
+    )
+
+
+def reversible(loop: Loop) -> bool:
+    """Whether a loop gives the same arrays in either order; scalars it leaves behind may differ."""
+    if carried_scalars(loop):
+        return False
+    used = accesses(loop)
+    return all(
+        not a.meets(b) or (a.ref.offset is not None and a.ref.offset == b.ref.offset)
+        for a in used
+        for b in used
+        if a.variable.length is not None
+    )
+
+
+def dead_after(variable: Variable, later: tuple[Statement, ...]) -> bool:
+    """Whether nothing reads a scalar before it is assigned anew."""
+    for statement in later:
+        for access in accesses(statement):
+            if access.variable == variable:
+                return access.writes
+    return variable.role in SCRATCH
+
+
+def order_keeping_dependences(first: Loop, second: Loop, later: tuple[Statement, ...]) -> Order | None:
+    """Return an order in which one loop may do the work of two, or None.
+
+    Every element the first loop wrote must be written, and every element the second overwrites must have been
+    read, by the time a station is visited.
+
+    Parameters
+    ----------
+    first, second : Loop
+        Loops over the same stations, the second right behind the first.
+    later : tuple of Statement
+        What follows them: scalars it reads keep their value.
+    """
+    if (first.start, first.stop) != (second.start, second.stop) or not _scalars_apart(first, second):
+        return None
+    for order in dict.fromkeys((second.order, first.order)):
+        turned = [loop for loop in (first, second) if loop.order is not order]
+        if all(_turns(loop, later) for loop in turned) and _elements_in_time(first, second, order):
+            return order
+    return None
+
+
+def _of(statement: Assign | Require, low: int, high: int) -> list[Access]:
+    found = [_access(ref, False, low, high) for ref in sorted(refs_in(statement.value), key=lambda r: r.name)]
+    if isinstance(statement, Assign):
+        found.append(_access(statement.target, True, low, high))
+    return found
+
+
+def _access(ref: Ref, writes: bool, low: int, high: int) -> Access:
+    if ref.variable.length is None:
+        return Access(ref, writes, 0, 0)
+    if ref.offset is None:
+        return Access(ref, writes, ref.entry or 0, ref.entry or 0)
+    return Access(ref, writes, low + ref.offset, high + ref.offset)
+
+
+def _set_before_use(loop: Loop, scalar: Variable) -> bool:
+    first = next((a for a in accesses(loop) if a.variable == scalar), None)
+    return first is not None and first.writes
+
+
+def _scalars_apart(first: Loop, second: Loop) -> bool:
+    """Whether scalars that either loop writes are its own, set anew at every station before they are read."""
+    for a in accesses(first):
+        if a.variable.length is not None:
+            continue
+        if any(a.meets(b) for b in accesses(second)) and not (
+            _set_before_use(first, a.variable) and _set_before_use(second, a.variable)
+        ):
+            return False
+    return True
+
+
+def _turns(loop: Loop, later: tuple[Statement, ...]) -> bool:
+    return reversible(loop) and all(dead_after(v, later) for v in written_scalars(loop))
+
+
+def _elements_in_time(first: Loop, second: Loop, order: Order) -> bool:
+    for a in accesses(first):
+        for b in accesses(second):
+            if a.variable.length is None or not a.meets(b):
+                continue
+            if a.ref.offset is None or b.ref.offset is None:
+                return False
+            ahead = a.ref.offset - b.ref.offset  # stations between the first loop's visit and the second's
+            if ahead < 0 if order is Order.OUTWARD else ahead > 0:
+                return False
+    return True
+
+
+def read_before_written(routine: Routine) -> Variable | None:
+    """Return a variable of the routine's own making that it reads before it has written any of it, or None.
+
+    Such a routine reads what happens to be in memory: no backend can be right about it.
+    """
+    own = {v for v in routine.written() if v.role in SCRATCH or v.role in (Role.COEFFICIENT, Role.OUTPUT)}
+    own |= {v for v in routine.read() if v.role in SCRATCH}
+    for statement in routine.statements():
+        for access in accesses(statement):
+            if access.writes:
+                own.discard(access.variable)
+            elif access.variable in own:
+                return access.variable
+    return None

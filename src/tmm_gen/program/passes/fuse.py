@@ -1,0 +1,83 @@
+"""Fusion: adjacent loops over the same stations become one where dependences allow.
+
+Programs keep station-parallel and recursive loops apart so that array languages can do all stations at once;
+a language with cheap loops wants few of them, and values at hand instead of in memory. Statements keep their
+expressions, so operations and rounding stay what they were.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from tmm_gen.program.passes.dependence import independent, order_keeping_dependences
+from tmm_gen.program.statements import Loop, Routine, Section, Statement
+
+
+@dataclass(frozen=True)
+class _Item:
+    """A top-level statement and the titles it stands under."""
+
+    titles: tuple[str, ...]
+    statement: Statement
+
+
+def fuse(routine: Routine) -> Routine:
+    """Fuse the loops of a routine, from its end backward.
+
+    A loop whose stations are independent takes whatever order the other needs. Statements between two loops
+    move before or behind them where nothing depends on their place.
+    """
+    items = [_Item((section.title,), s) for section in routine.sections for s in section.statements]
+    last = len(items) - 1
+    while last > 0:
+        fused = _fuse_into(items, last)
+        if fused is None:
+            last -= 1
+        else:
+            items = fused
+            last = len(items) - 1
+    return replace(routine, sections=_sections(items))
+
+
+def _fuse_into(items: list[_Item], last: int) -> list[_Item] | None:
+    """Fuse the loop at ``last`` with the nearest earlier one it may be fused with."""
+    second = items[last].statement
+    if not isinstance(second, Loop):
+        return None
+    for first in range(last - 1, -1, -1):
+        if isinstance(items[first].statement, Loop) and (fused := _fuse_pair(items, first, last)) is not None:
+            return fused
+    return None
+
+
+def _fuse_pair(items: list[_Item], first: int, last: int) -> list[_Item] | None:
+    one, other = items[first], items[last]
+    assert isinstance(one.statement, Loop)
+    assert isinstance(other.statement, Loop)
+    before: list[_Item] = []
+    behind: list[_Item] = []
+    for item in items[first + 1 : last]:
+        waits_for = (one, *behind)
+        (before if all(independent(item.statement, w.statement) for w in waits_for) else behind).append(item)
+    if not all(independent(other.statement, item.statement) for item in behind):
+        return None
+    later = (*behind, *items[last + 1 :])
+    order = order_keeping_dependences(one.statement, other.statement, tuple(i.statement for i in later))
+    if order is None:
+        return None
+    loop = replace(other.statement, order=order, body=(*one.statement.body, *other.statement.body))
+    titles = tuple(dict.fromkeys((*one.titles, *other.titles)))
+    return [*items[:first], *before, _Item(titles, loop), *later]
+
+
+def _sections(items: list[_Item]) -> tuple[Section, ...]:
+    """Gather statements under their titles again, a preparation under those of the loop it prepares."""
+    groups: list[tuple[tuple[str, ...], list[Statement]]] = []
+    for item in items:
+        if groups and (set(groups[-1][0]) <= set(item.titles) or set(item.titles) <= set(groups[-1][0])):
+            titles, statements = groups.pop()
+            longer = titles if len(titles) >= len(item.titles) else item.titles
+            groups.append((longer, [*statements, item.statement]))
+        else:
+            groups.append((item.titles, [item.statement]))
+    return tuple(Section("; ".join(titles), tuple(statements)) for titles, statements in groups)

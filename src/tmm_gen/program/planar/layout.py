@@ -1,0 +1,167 @@
+"""Which variables a planar arm needs: only those its scene and its integrator ask for."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from tmm_gen.derive.integrators.declaration import KINDS, Integrator, Past
+from tmm_gen.program.fields import history, parameter, state_variable
+from tmm_gen.program.variables import Role, Variable
+from tmm_gen.scene import Input, Output, Scene, station_of
+
+_UNITS = {"torque": "N m", "force_x": "N", "force_y": "N", "angle": "rad"}
+_OUTPUT_UNITS = {
+    "position": "m",
+    "angle": "rad",
+    "velocity": "m/s",
+    "acceleration": "m/s^2",
+    "torque": "N m",
+    "force": "N",
+}
+VECTORS = frozenset({"position", "velocity", "acceleration", "force"})
+"""Outputs with an x and a y component."""
+
+
+@dataclass(frozen=True)
+class PlanarLayout:
+    """The variables of a planar arm; None where the scene does not model the thing.
+
+    Parameters
+    ----------
+    state, hub : dict from Past to Variable
+        History of the links' angles and of the hub's, newest first.
+    held : dict from str to Variable
+        Force inputs as they last acted, kept where a force is an output.
+    """
+
+    stations: int
+    step: Variable
+    length: Variable
+    mass: Variable
+    inertia: Variable
+    center: Variable
+    stiffness: Variable
+    damping: Variable | None
+    gravity: Variable | None
+    hub_inertia: Variable | None
+    hub_damping: Variable | None
+    tip_mass: Variable | None
+    tip_inertia: Variable | None
+    state: dict[Past, Variable]
+    hub: dict[Past, Variable]
+    held: dict[str, Variable]
+    inputs: tuple[Variable, ...]
+    outputs: tuple[Variable, ...]
+    given: tuple[Variable, ...]
+
+    @property
+    def parameters(self) -> tuple[Variable, ...]:
+        """Physical parameters that are modelled."""
+        every = (
+            self.length,
+            self.mass,
+            self.inertia,
+            self.center,
+            self.stiffness,
+            self.damping,
+            self.gravity,
+            self.hub_inertia,
+            self.hub_damping,
+            self.tip_mass,
+            self.tip_inertia,
+        )
+        return tuple(v for v in every if v is not None)
+
+    @property
+    def all_state(self) -> tuple[Variable, ...]:
+        """State variables, hub first."""
+        return (*self.hub.values(), *self.state.values(), *self.held.values())
+
+
+def planar_layout(scene: Scene, integrator: Integrator) -> PlanarLayout:
+    """Choose the variables for a scene."""
+    n = scene.stations
+    # the newest acceleration predicts the next one
+    kept = set(history(integrator.schemes, scene.model.unknown)) | {Past(kind, 0) for kind in KINDS}
+    ordered = sorted(kept, key=lambda p: (p.lag, KINDS.index(p.kind)))
+    moved = scene.base.kind == "motor"
+    hubbed = scene.base.kind != "clamp"
+    stages = max(len(scheme.stages) for scheme in integrator.schemes)
+    tip = scene.tip
+    links, joints = scene.links, scene.joints
+
+    def optional(name: str, doc: str, unit: str, value: float | None) -> Variable | None:
+        return parameter(name, doc, unit, [value]) if value else None
+
+    damped = any(j.damping for j in joints)
+    return PlanarLayout(
+        stations=n,
+        step=Variable("step", Role.STEP, doc="time step", unit="s", default=scene.integrator.step),
+        length=parameter("length", "link length", "m", [link.length for link in links]),
+        mass=parameter("mass", "link mass", "kg", [link.mass for link in links]),
+        inertia=parameter(
+            "inertia", "link inertia about its centre of mass", "kg m^2", [x.inertia for x in links]
+        ),
+        center=parameter(
+            "center", "centre of mass along the link, 0 to 1", "1", [link.center for link in links]
+        ),
+        stiffness=parameter("stiffness", "joint stiffness", "N m/rad", [j.stiffness for j in joints]),
+        damping=parameter("damping", "joint damping", "N m s/rad", [j.damping for j in joints])
+        if damped
+        else None,
+        gravity=optional("gravity", "gravity along -y", "m/s^2", scene.model.gravity),
+        hub_inertia=optional("hub_inertia", "hub inertia", "kg m^2", scene.base.inertia if moved else None),
+        hub_damping=optional(
+            "hub_damping",
+            "viscous damping of the hub to ground",
+            "N m s/rad",
+            scene.base.damping if moved else None,
+        ),
+        tip_mass=optional("tip_mass", "mass at the tip", "kg", tip.mass if tip else None),
+        tip_inertia=optional("tip_inertia", "inertia at the tip", "kg m^2", tip.inertia if tip else None),
+        state={p: state_variable(p, "", n) for p in ordered},
+        hub={p: state_variable(p, "hub_", None) for p in ordered} if hubbed else {},
+        held=_held(scene),
+        inputs=tuple(_input(i, stages) for i in scene.inputs),
+        outputs=tuple(v for o in scene.outputs for v in output_variables(o)),
+        given=(
+            Variable(
+                "initial_angle", Role.GIVEN, n, "angles to start from", "rad", tuple(scene.initial.angles)
+            ),
+            Variable(
+                "initial_rate", Role.GIVEN, n, "rates to start from", "rad/s", tuple(scene.initial.rates)
+            ),
+        ),
+    )
+
+
+def output_variables(output: Output) -> tuple[Variable, ...]:
+    """Return the variables of an output: two for a vector, one otherwise."""
+    place = f"station {output.at}" if isinstance(output.at, int) else f"the {output.at}"
+    unit = _OUTPUT_UNITS[output.of]
+    if output.of not in VECTORS:
+        return (Variable(output.name, Role.OUTPUT, doc=f"{output.of} at {place}", unit=unit),)
+    return tuple(
+        Variable(f"{output.name}_{axis}", Role.OUTPUT, doc=f"{output.of} at {place}, {axis}", unit=unit)
+        for axis in "xy"
+    )
+
+
+def _input(described: Input, stages: int) -> Variable:
+    place = f"station {described.at}" if isinstance(described.at, int) else f"the {described.at}"
+    doc = "prescribed base angle" if described.acts == "angle" else f"{described.acts} acting at {place}"
+    if stages > 1:
+        doc += ", at each stage of the step"
+    return Variable(described.name, Role.INPUT, stages if stages > 1 else None, doc, _UNITS[described.acts])
+
+
+def _held(scene: Scene) -> dict[str, Variable]:
+    """Return a variable for each force input beyond a joint whose force is an output."""
+    measured = [max(station_of(o.at, scene.stations), 1) for o in scene.outputs if o.of == "force"]
+    if not measured:
+        return {}
+    return {
+        i.name: Variable(f"held_{i.name}", Role.STATE, doc=f"{i.name} as it last acted", unit="N")
+        for i in scene.inputs
+        if i.acts in ("force_x", "force_y") and station_of(i.at, scene.stations) >= min(measured)
+    }

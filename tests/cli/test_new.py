@@ -1,0 +1,63 @@
+"""`tmm-gen new`."""
+
+from __future__ import annotations
+
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from tmm_gen.cli import main
+from tmm_gen.scene import load_scene
+
+Call = Callable[..., subprocess.CompletedProcess[str]]
+
+
+def test_writes_a_scene_that_loads(tmm_gen: Call, tmp_path: Path) -> None:
+    done = tmm_gen("new", "arm10")
+    assert (done.returncode, done.stderr) == (0, "")
+    path = tmp_path / "scenes" / "arm10.toml"
+    assert str(path.relative_to(tmp_path)) in done.stdout
+    assert load_scene(path).name == "arm10"
+
+
+@pytest.mark.parametrize("kind", ["chain", "planar"])
+def test_kind_and_folder(tmp_path: Path, kind: str) -> None:
+    assert main(["new", "arm", "--kind", kind, "--out", str(tmp_path / "a" / "b")]) == 0
+    assert load_scene(tmp_path / "a" / "b" / "arm.toml").model.kind == kind
+
+
+def test_does_not_overwrite_unless_forced(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "arm.toml"
+    path.write_text("mine")
+    assert main(["new", "arm", "--out", str(tmp_path)]) == 2
+    assert "--force" in capsys.readouterr().err
+    assert path.read_text() == "mine"
+    assert main(["new", "arm", "--out", str(tmp_path), "--force"]) == 0
+    assert load_scene(path).name == "arm"
+    assert [item.name for item in tmp_path.iterdir()] == ["arm.toml"]
+
+
+@pytest.mark.parametrize(
+    ("name", "remedy"),
+    [("my arm", "'my_arm'?"), ("arm.toml", "'arm'?"), ("step", "'my_step'"), ("math", "another")],
+)
+def test_bad_names(tmp_path: Path, capsys: pytest.CaptureFixture[str], name: str, remedy: str) -> None:
+    assert main(["new", name, "--out", str(tmp_path)]) == 2
+    assert remedy in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_folder_in_the_way(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "arm.toml").mkdir()
+    assert main(["new", "arm", "--out", str(tmp_path), "--force"]) == 2
+    assert "directory" in capsys.readouterr().err
+
+
+def test_a_file_where_the_folder_should_be(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "scenes").write_text("")
+    assert main(["new", "arm", "--out", str(tmp_path / "scenes")]) == 2
+    assert "scenes" in capsys.readouterr().err
+    assert main(["new", "arm", "--out", str(tmp_path / "scenes" / "below")]) == 2
+    assert "Traceback" not in capsys.readouterr().err

@@ -1,0 +1,188 @@
+"""`tmm-gen run`: figures, files, inputs, changed scenes; and what it refuses."""
+
+from __future__ import annotations
+
+import csv
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tmm_gen.cli import main
+from tmm_gen.measure.reference import exact_response
+from tmm_gen.measure.signals import Constant, Table
+from tmm_gen.scene import load_scene
+
+SCENES = Path(__file__).resolve().parents[2] / "scenes"
+THESIS2 = str(SCENES / "thesis2.toml")
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Run in an empty folder."""
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def succeed(*words: str, capsys: pytest.CaptureFixture[str]) -> str:
+    assert main(["run", *words]) == 0
+    shown = capsys.readouterr()
+    assert shown.err == ""
+    return shown.out
+
+
+def refuse(*words: str, capsys: pytest.CaptureFixture[str]) -> str:
+    assert main(["run", *words]) == 2
+    shown = capsys.readouterr()
+    assert shown.out == ""
+    assert "Traceback" not in shown.err
+    return shown.err
+
+
+def read_csv(path: Path) -> dict[str, np.ndarray]:
+    with path.open(newline="") as file:
+        header, *rows = csv.reader(file)
+    return dict(zip(header, np.array(rows, dtype=float).T, strict=True))
+
+
+def test_without_inputs_it_says_what_to_try(capsys: pytest.CaptureFixture[str]) -> None:
+    shown = succeed(THESIS2, capsys=capsys)
+    assert "30 s in 3000 steps of 0.01 s by newmark" in shown
+    assert "nothing moves, as all inputs are zero: try --input tip_torque=1" in shown
+    assert not list(Path().iterdir())
+
+
+def test_the_table_has_the_figures_of_the_thesis_sample(capsys: pytest.CaptureFixture[str]) -> None:
+    shown = succeed(THESIS2, "--until", "40", "--input", "tip_torque=1", "--json", capsys=capsys)
+    found = json.loads(shown)
+    assert found["steps"] == 4000
+    tip, base = found["rows"]
+    assert (tip["output"], tip["unit"], base["unit"]) == ("tip", "rad", "N m")
+    assert tip["rest"] == pytest.approx(0.1)
+    exact = exact_response(load_scene(THESIS2), {"tip_torque": Constant(1.0)}, np.linspace(0, 40, 4001))
+    assert tip["peak"] == pytest.approx(exact["tip"].max(), rel=1e-4)
+    assert tip["overshoot_percent"] == pytest.approx(1000 * (exact["tip"].max() - 0.1), rel=1e-3)
+    outside = np.flatnonzero(np.abs(exact["tip"] - 0.1) > 0.002)
+    assert tip["settling_time"] == pytest.approx(0.01 * (outside[-1] + 1), abs=0.011)
+
+
+@pytest.mark.parametrize("backend", ["numpy", "c"])
+def test_csv_has_17_digits_and_follows_the_exact_response(
+    backend: str, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (folder / "torque.csv").write_text("time,tip_torque\n0,0\n1,2\n1.5,-1\n")
+    words = ["--until", "3", "--step", "0.005", "--input", "torque.csv", "--csv", "deep/out.csv"]
+    shown = succeed(THESIS2, *words, "--backend", backend, capsys=capsys)
+    assert "wrote deep/out.csv" in shown
+    columns = read_csv(folder / "deep" / "out.csv")
+    assert list(columns) == ["time", "tip", "base_torque"]
+    np.testing.assert_array_equal(columns["time"], 0.005 * np.arange(601))
+    load = Table(np.array([0.0, 1.0, 1.5]), np.array([0.0, 2.0, -1.0]))
+    exact = exact_response(load_scene(THESIS2), {"tip_torque": load}, columns["time"])
+    for name, values in exact.items():
+        np.testing.assert_allclose(columns[name], values, rtol=0, atol=1e-4 * np.abs(values).max())
+    text = (folder / "deep" / "out.csv").read_text().splitlines()
+    assert all(f"{float(cell):.17g}" == cell for line in text[1:] for cell in line.split(","))
+
+
+def test_the_last_step_reaches_the_end(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    succeed(THESIS2, "--until", "0.025", "--csv", "out.csv", capsys=capsys)
+    np.testing.assert_allclose(read_csv(folder / "out.csv")["time"], [0, 0.01, 0.02, 0.03])
+
+
+@pytest.mark.parametrize(
+    ("words", "written"), [(["--plot"], "thesis2.png"), (["--plot", "p/a.svg"], "p/a.svg")]
+)
+def test_a_picture(words: list[str], written: str, folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    succeed(THESIS2, "--until", "1", "--input", "tip_torque=1", *words, capsys=capsys)
+    content = (folder / written).read_bytes()
+    assert content.startswith(b"\x89PNG" if written.endswith("png") else b"<?xml")
+    succeed(THESIS2, "--until", "1", "--input", "tip_torque=1", *words, capsys=capsys)
+    assert (folder / written).read_bytes() == content
+
+
+def test_keys_of_the_scene_can_be_set(capsys: pytest.CaptureFixture[str]) -> None:
+    changes = [
+        "--set",
+        "integrator.name=sdirk4",
+        "--set",
+        "joint.2.stiffness=40.0",
+        "--set",
+        'title="Stiffer"',
+    ]
+    shown = succeed(
+        THESIS2, *changes, "--step", "0.1", "--until", "60", "--input", "tip_torque=1", capsys=capsys
+    )
+    assert "Stiffer: 60 s in 600 steps of 0.1 s by sdirk4" in shown
+    assert "0.075" in shown
+
+
+@pytest.mark.parametrize("scene", ["thesis10", "drivetrain", "hundred"])
+def test_the_example_scenes_run(scene: str, capsys: pytest.CaptureFixture[str]) -> None:
+    loaded = load_scene(SCENES / f"{scene}.toml")
+    given = [f"--input={item.name}=1" for item in loaded.inputs]
+    found = json.loads(
+        succeed(str(SCENES / f"{scene}.toml"), "--until", "0.1", *given, "--json", capsys=capsys)
+    )
+    assert [row["output"] for row in found["rows"]] == [item.name for item in loaded.outputs]
+    assert any(row["peak"] != 0.0 for row in found["rows"])
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["--until", "0"], "must be a positive number of seconds"),
+        (["--until", "nan"], "must be a positive number of seconds"),
+        (["--step", "-1"], "must be a positive number of seconds"),
+        (["--step", "fast"], "is not a valid float"),
+        (["--input", "tip_torqe=1"], "Did you mean tip_torque?"),
+        (["--input", "none.csv"], "none.csv: no such file"),
+        (["--set", "integrator.step"], "is not KEY=VALUE"),
+        (["--set", "integrator.name=newmrk"], "'newmark'?"),
+        (["--set", "joint.7.stiffness=1"], "joint[7]"),
+        (["--set", "joint.1.stiffness=-1"], "must be greater than 0"),
+        (["--plot", "picture.gif"], "must end in .png, .svg, .pdf"),
+        (["--csv", "."], "is a directory"),
+        (["--backend", "rust"], "'rust' is not one of"),
+    ],
+)
+def test_bad_usage(words: list[str], said: str, folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert said in refuse(THESIS2, *words, capsys=capsys)
+    assert not list(folder.iterdir())
+
+
+def test_a_scene_that_is_not_there(capsys: pytest.CaptureFixture[str]) -> None:
+    assert "no such file" in refuse("thesis3.toml", capsys=capsys)
+
+
+@pytest.mark.parametrize("backend", ["numpy", "c"])
+def test_divergence_is_explained(backend: str, folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    words = [
+        "--set",
+        "integrator.name=zhai",
+        "--step",
+        "0.006",
+        "--input",
+        "tip_torque=1",
+        "--csv",
+        "out.csv",
+    ]
+    assert main(["run", str(SCENES / "hundred.toml"), *words, "--backend", backend]) == 1
+    shown = capsys.readouterr()
+    assert shown.out == ""
+    assert "has diverged: at t = 0.12 s the angle of station 96 has reached" in shown.err
+    assert "step x highest natural frequency of 400 rad/s = 2.4, beyond the limit 1.96 of zhai" in shown.err
+    assert "Use a step below 0.0049 s" in shown.err
+    assert not list(folder.iterdir())
+
+
+def test_the_remedy_against_divergence_works(capsys: pytest.CaptureFixture[str]) -> None:
+    words = ["--set", "integrator.name=zhai", "--step", "0.0048", "--input", "tip_torque=1", "--until", "3"]
+    succeed(str(SCENES / "hundred.toml"), *words, capsys=capsys)
+
+
+def test_the_unsafe_product_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    said = refuse(str(SCENES / "thesis10.toml"), "--set", "model.sweep=product", capsys=capsys)
+    assert "up to 5 stations at a step of 0.01 s" in said
+    assert 'sweep = "riccati"' in said

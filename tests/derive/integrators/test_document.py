@@ -1,0 +1,106 @@
+"""docs/integrators.md: its table is what is derived, and its example is one file and no other change."""
+
+from __future__ import annotations
+
+import ast
+import re
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+import sympy as sp
+
+import tmm_gen.derive.integrators as package
+from tmm_gen.cli import main
+from tmm_gen.derive.integrators.amplification import amplification
+from tmm_gen.derive.integrators.analysis import analyse
+from tmm_gen.derive.integrators.registry import all_integrators, integrator, names
+from tmm_gen.derive.integrators.relations import discrete_coefficients
+from tmm_gen.derive.integrators.stability import radius_at_infinity
+
+DOCUMENT = Path(__file__).resolve().parents[3] / "docs" / "integrators.md"
+
+
+def rounded(value: float | None, absent: str) -> str:
+    return absent if value is None else f"{value:.3g}"
+
+
+def test_the_table_is_what_is_derived(printed: dict) -> None:
+    rows = re.findall(r"^\| `(.*) \|$", DOCUMENT.read_text(), flags=re.M)
+    found = {cells[0]: cells[1:] for cells in (row.replace("`", "").split(" | ") for row in rows)}
+    assert list(found) == [row["name"] for row in printed["rows"]]
+    for row in printed["rows"]:
+        order, stages, startup, limit, damped, radius, period, damping = found[row["name"]]
+        assert (int(order), int(stages)) == (row["order"], row["stages"])
+        assert int(startup) == row["startup_steps"]
+        for shown, value in ((limit, row["stability_limit"]), (damped, row["stability_limit_damped"])):
+            assert (shown == "none") == (value is None)
+            assert value is None or float(shown) == pytest.approx(value, rel=1e-3)
+        assert radius == rounded(row["rho_infinity"], "grows")
+        for shown, value in ((period, row["period_error"]), (damping, row["numerical_damping"])):
+            assert sp.expand(sp.sympify(shown) - sp.sympify(value)) == 0
+
+
+def test_what_it_says_of_single_methods() -> None:
+    text = DOCUMENT.read_text()
+    assert "With `g2 = 1` the order stays 3" in text
+    found = analyse(integrator("zhou", g2=1))
+    assert (found.order, found.numerical_damping, found.stability_limit) == (3, 0, sp.sqrt(6))
+    assert "`theta = (1 + sqrt(3))/2`" in text
+    assert analyse(integrator("wilson", theta=(1 + sp.sqrt(3)) / 2)).stability_limit == sp.oo
+    assert analyse(integrator("wilson", theta=1.366)).stability_limit.is_finite
+
+
+@pytest.fixture
+def added(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
+    """Put the document's example where integrators are looked for; nothing else."""
+    (code,) = re.findall(r"^```python\n(.*?)^```$", DOCUMENT.read_text(), flags=re.M | re.S)
+    (function,) = (node for node in ast.parse(code).body if isinstance(node, ast.FunctionDef))
+    (tmp_path / f"{function.name}.py").write_text(code)
+    monkeypatch.setattr(package, "__path__", [*package.__path__, str(tmp_path)])
+    yield function.name
+    sys.modules.pop(f"{package.__name__}.{function.name}", None)
+    if hasattr(package, function.name):
+        delattr(package, function.name)
+
+
+def test_one_file_adds_an_integrator(
+    added: str,
+    simulate: Callable[..., np.ndarray],
+    oscillator: type,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    assert added in names()
+    method = integrator(added)
+    assert method.name in [other.name for other in all_integrators()]
+    with pytest.raises(ValueError, match="alpha = 1 must be between"):
+        integrator(added, alpha=1)
+
+    found = analyse(method, 0.05)
+    assert (found.order, found.stages, found.startup_steps, found.explicit) == (2, 1, 0, False)
+    assert found.stability_limit == found.stability_limit_damped == sp.oo
+    # (1 + alpha)/(1 - alpha), Chung & Hulbert (1993)
+    assert radius_at_infinity(amplification(integrator(added, alpha=-1 / 3).main)) == sp.S.Half
+    assert discrete_coefficients(integrator(added, alpha=0).main) == discrete_coefficients(
+        integrator("newmark").main
+    )
+
+    steps = [0.08 / 2**k for k in range(5)]
+    motion = oscillator(zeta=0.1, amplitude=0.8)
+    errors = []
+    for step in steps:
+        count = round(4 / step)
+        computed = simulate(method, motion, step, count)[:2]
+        errors.append(float(np.max(np.abs(computed - motion.exact(step * np.arange(count + 1))))))
+    assert abs(np.polyfit(np.log(steps), np.log(errors), 1)[0] - found.order) < 0.1
+
+    monkeypatch.setattr("tmm_gen.derive.integrators.registry.all_integrators", lambda: (method,))
+    assert main(["integrators"]) == 0
+    assert added in capsys.readouterr().out
+
+
+def test_the_example_is_gone_afterwards() -> None:
+    assert "hht" not in names()

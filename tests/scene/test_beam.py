@@ -1,0 +1,90 @@
+"""Rules that cut a beam into links and joints."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tmm_gen.scene.beam import Beam, Springs, beam_joints, beam_links, joint_stiffnesses
+
+RULES: tuple[Springs, ...] = ("half-clamp", "uniform", "thesis")
+
+
+def beam(links: int, springs: Springs = "half-clamp", damping_time: float = 0.0) -> Beam:
+    return Beam(
+        length=2.0,
+        bending_stiffness=3.0,
+        mass_per_length=0.5,
+        links=links,
+        springs=springs,
+        damping_time=damping_time,
+    )
+
+
+def tip_deflection(stiffnesses: tuple[float, ...], length: float) -> float:
+    """Static deflection of the tip under a unit force across it, small: each joint bends by moment over k."""
+    n = len(stiffnesses)
+    link = length / n
+    return sum((link * (n - i)) ** 2 / k for i, k in enumerate(stiffnesses))
+
+
+@pytest.mark.parametrize(
+    ("springs", "links", "expected"),
+    [
+        # In units of EI/l = 3 n/2; Gholampour (2018), eqs. 2-1, 2-2 at n = 10: (480 - 72)/(420 - 71).
+        ("thesis", 10, [Fraction(8, 9), Fraction(408, 349), *[1] * 8]),
+        ("thesis", 3, [Fraction(8, 9), Fraction(72, 55), 1]),
+        ("thesis", 2, [Fraction(8, 9), Fraction(24, 13)]),
+        ("thesis", 1, [Fraction(8, 9)]),
+        ("half-clamp", 4, [2, 1, 1, 1]),
+        ("half-clamp", 1, [2]),
+        ("uniform", 3, [1, 1, 1]),
+    ],
+)
+def test_stiffnesses(springs: Springs, links: int, expected: list[Fraction]) -> None:
+    unit = Fraction(3 * links, 2)
+    assert joint_stiffnesses(beam(links, springs)) == pytest.approx([float(unit * k) for k in expected])
+
+
+@given(links=st.integers(1, 200), springs=st.sampled_from(RULES))
+def test_every_rule_gives_positive_springs_that_tend_to_the_continuous_ones(
+    links: int, springs: Springs
+) -> None:
+    stiffnesses = joint_stiffnesses(beam(links, springs))
+    assert len(stiffnesses) == links
+    unit = 3.0 * links / 2.0
+    assert all(0.5 * unit < k <= 2.0 * unit for k in stiffnesses)
+
+
+@pytest.mark.parametrize("springs", RULES)
+def test_static_deflection_converges_to_the_continuous_beam(springs: Springs) -> None:
+    exact = 2.0**3 / (3.0 * 3.0)  # F L^3/(3 E I)
+    errors = [
+        abs(tip_deflection(joint_stiffnesses(beam(n, springs)), 2.0) / exact - 1.0) for n in (10, 20, 40, 80)
+    ]
+    order = math.log2(errors[-2] / errors[-1])
+    assert order == pytest.approx(2.0 if springs == "half-clamp" else 1.0, abs=0.1)
+    assert errors[-1] < (1e-4 if springs == "half-clamp" else 0.03)
+
+
+@given(links=st.integers(1, 100), springs=st.sampled_from(RULES))
+def test_mass_length_and_rotary_inertia_are_those_of_rods(links: int, springs: Springs) -> None:
+    pieces = beam_links(beam(links, springs))
+    assert len(pieces) == links
+    assert sum(link.mass for link in pieces) == pytest.approx(1.0)
+    assert sum(link.length for link in pieces) == pytest.approx(2.0)
+    # Moment of inertia about the clamp of the straight arm: m L^2/3, exactly, for any n.
+    about_base = sum(
+        link.inertia + link.mass * ((i + link.center) * link.length) ** 2 for i, link in enumerate(pieces)
+    )
+    assert about_base == pytest.approx(1.0 * 2.0**2 / 3.0)
+
+
+@pytest.mark.parametrize("springs", RULES)
+def test_damping_is_proportional_to_stiffness(springs: Springs) -> None:
+    for joint in beam_joints(beam(7, springs, damping_time=0.002)):
+        assert joint.damping == pytest.approx(0.002 * joint.stiffness)
