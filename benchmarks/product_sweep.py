@@ -2,9 +2,9 @@
 
     python benchmarks/product_sweep.py --out out/bench
 
-The chain is that of Gholampour (2018), table 4-1 (I = 1, k = 20, c = 5, torque 1 on the tip), with more or fewer
-stations. `loss` is the largest difference between both sweeps in any output over the run, relative to the output's
-largest value. docs/product-sweep.md shows this table.
+The chain is that of Gholampour (2018), table 4-1 (I = 1, k = 20, c = 5, torque 1 on the tip), with more
+or fewer stations. `loss` is the largest difference between both sweeps in any output over the run,
+relative to the output's largest value. docs/product-sweep.md shows this table.
 """
 
 from __future__ import annotations
@@ -14,9 +14,9 @@ import math
 from pathlib import Path
 
 from tmm_gen.cli.console import Column, progress, table
+from tmm_gen.files import write_whole
 from tmm_gen.measure.product_safety import ProductLoss, product_loss
 from tmm_gen.measure.rows import csv_text
-from tmm_gen.files import write_whole
 from tmm_gen.scene import load_scene
 
 STATIONS = (2, 3, 4, 5, 6, 8, 10, 12, 15, 20, 50)
@@ -50,13 +50,19 @@ def main() -> None:
             for step in STEPS:
                 loss = measure(stations, step)
                 key = f"{step:g}".replace(".", "_")
-                row |= {f"loss_{key}": loss.measured, f"predicted_{key}": loss.predicted, f"safe_{key}": loss.safe_stations}
+                row |= {
+                    f"loss_{key}": loss.measured,
+                    f"predicted_{key}": loss.predicted,
+                    f"safe_{key}": loss.safe_stations,
+                }
                 advance(doing=f"{stations} stations, step {step:g} s")
             rows.append(row)
     columns = [Column("stations")]
     for step in STEPS:
         key = f"{step:g}".replace(".", "_")
-        columns.append(Column(f"loss_{key}", f"loss at {step:g} s (safe: {rows[0][f'safe_{key}']})", shown, "right"))
+        columns.append(
+            Column(f"loss_{key}", f"loss at {step:g} s (safe: {rows[0][f'safe_{key}']})", shown, "right")
+        )
     table(rows, columns, title=f"plain product against Riccati, {INTEGRATOR}, {RUN} steps, double precision")
     write_whole(out / "product_sweep.csv", csv_text(rows))
     print(f"wrote {out / 'product_sweep.csv'}")

@@ -145,6 +145,12 @@ def test_the_example_scenes_run(scene: str, capsys: pytest.CaptureFixture[str]) 
         (["--plot", "picture.gif"], "must end in .png, .svg, .pdf"),
         (["--csv", "."], "is a directory"),
         (["--backend", "rust"], "'rust' is not one of"),
+        (["--until", "1e9"], "takes 100000000000 steps, more than 20000000"),
+        (["--step", "1e-320"], "more than 20000000. Simulate a shorter time"),
+        (
+            ["--step", "1e-200", "--until", "1e-199", "--set", "model.unknown=displacement"],
+            "scene 'thesis2' cannot be solved: pivot",
+        ),
     ],
 )
 def test_bad_usage(words: list[str], said: str, folder: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -45,7 +45,9 @@ class Generated:
     def casadi(self) -> ModuleType:
         return run(ast.parse(emit_casadi(self.program, self.scene)["casadi_model.py"]), "casadi_model")
 
-    def kernel_in(self, number: Callable[[float], Any], quotient: Callable[[float, float], Any]) -> ModuleType:
+    def kernel_in(
+        self, number: Callable[[float], Any], quotient: Callable[[float, float], Any]
+    ) -> ModuleType:
         """Return the NumPy kernel with all its literals, and thus all it computes, in another type of number."""
         return run(_Literals().visit(ast.parse(self.text)), "kernel", LITERAL=number, QUOTIENT=quotient)
 
@@ -56,7 +58,9 @@ class Generated:
     def random(self, rng: np.random.Generator, names: Sequence[str] = ("state", "inputs")) -> Values:
         """Return random values of variables; inputs for every stage where there are several."""
         variables = [v for name in names for v in getattr(self.program, name)]
-        return {v.name: rng.normal(size=v.length) if v.length is not None else rng.normal() for v in variables}
+        return {
+            v.name: rng.normal(size=v.length) if v.length is not None else rng.normal() for v in variables
+        }
 
     def state(self, kernel: ModuleType, values: Values, steps_taken: int) -> Any:
         """Return the kernel's state after some steps."""

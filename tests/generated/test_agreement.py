@@ -8,7 +8,7 @@ from typing import Any
 import mpmath
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
 from tmm_gen.scene import METHODS, Scene
@@ -38,9 +38,12 @@ def chains(draw: st.DrawFn) -> dict[str, Any]:
     inputs = [(f"torque_{at}", at, "torque") for at in places]
     if base != "clamp":
         inputs.append(("at_base", "base", "torque" if base == "motor" else "angle"))
-    quantities = ["angle", "velocity", "acceleration", "torque"]
-    measured = st.tuples(st.sampled_from(["base", *range(1, n + 1), "tip"]), st.sampled_from(quantities))
-    outputs = [(f"{of}_{at}", at, of) for at, of in draw(st.lists(measured, unique=True, max_size=4))]
+    moving = [*range(1, n + 1), "tip", *(["base"] if base != "clamp" else [])]
+    motion = st.tuples(st.sampled_from(moving), st.sampled_from(["angle", "velocity", "acceleration"]))
+    measured = motion | st.tuples(st.sampled_from(["base", *range(1, n + 1)]), st.just("torque"))
+    outputs = [
+        (f"{of}_of_{at}", at, of) for at, of in draw(st.lists(measured, unique=True, min_size=1, max_size=4))
+    ]
     return {
         "joints": many(st.tuples(positive, damping)),
         "links": many(positive),
@@ -59,7 +62,8 @@ def check(generated: Any, seed: int) -> None:
         new, outputs = numpy_step(generated, generated.kernel, values, place)
         compare_with_casadi(generated, values, place, new, outputs)
         compare_with_interpreter(generated, values, place)
-        if generated.scene.model.unknown != "displacement" and generated.scene.model.sweep == "riccati":
+        # Other unknowns cancel digits by themselves (like 1/h^2), the product too; 60 digits have told.
+        if (generated.scene.model.unknown, generated.scene.model.sweep) == ("acceleration", "riccati"):
             expected = generated.interpret(values, "prepare", "output", f"step{place}")
             assert close(new, [expected[v.name] for v in generated.program.state])
             assert close(outputs, [expected[v.name] for v in generated.program.outputs])
@@ -78,7 +82,7 @@ def numpy_step(generated: Any, kernel: Any, values: Any, place: int) -> tuple[li
 def compare_with_casadi(generated: Any, values: Any, place: int, new: list[Any], outputs: list[Any]) -> None:
     held = {"held": False} if generated.several_stages else {}
     functions = (*generated.casadi.start_functions(**held), generated.casadi.step_function(**held))
-    stages = len(generated.program.stage_instants[place])
+    stages = len(generated.program.stage_instants[place]) if generated.several_stages else 1
     given = [np.atleast_1d(values[v.name])[:stages] for v in generated.program.inputs]
     found = functions[place](
         x=flat([values[v.name] for v in generated.program.state]),
@@ -115,7 +119,7 @@ def close(found: list[Any], expected: list[Any], tolerance: Any = TOLERANCE) -> 
 
 @pytest.mark.parametrize(("integrator", "unknown"), EVERY)
 @given(shape=chains(), seed=st.integers(0, 2**32 - 1))
-@settings(max_examples=3, suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow])
+@settings(max_examples=2, phases=[Phase.generate], suppress_health_check=[HealthCheck.too_slow])
 def test_a_step_of_any_chain_by_any_integrator(
     integrator: str,
     unknown: str,
@@ -133,7 +137,9 @@ def test_a_step_by_the_product(
     integrator: str, base: str, chain: Callable[..., Scene], generate: Callable[[Scene], Any]
 ) -> None:
     inputs = [("push", 2, "torque"), ("drive", "base", "angle" if base == "prescribed" else "torque")]
-    scene = chain(base=base, integrator=integrator, sweep="product", inputs=inputs[: 1 if base == "clamp" else 2])
+    scene = chain(
+        base=base, integrator=integrator, sweep="product", inputs=inputs[: 1 if base == "clamp" else 2]
+    )
     check(generate(scene), 7)
 
 

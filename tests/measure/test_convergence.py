@@ -21,7 +21,12 @@ from tmm_gen.measure.signals import Constant, Signal, Sine
 from tmm_gen.scene import Scene
 
 DURATION = 2.0
-STEPS = {1: (100, 200, 400, 800, 1600), 2: (50, 100, 200, 400, 800), 3: (50, 100, 200, 400), 4: (20, 40, 80, 160)}
+STEPS = {
+    1: (100, 200, 400, 800, 1600),
+    2: (50, 100, 200, 400, 800),
+    3: (50, 100, 200, 400),
+    4: (20, 40, 80, 160),
+}
 LOADS: dict[str, Signal] = {"constant": Constant(1.5), "smooth": Sine(1.5, 5.0, 0.4)}
 
 BOUNDS = [

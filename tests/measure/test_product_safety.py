@@ -117,7 +117,9 @@ def test_refusal_names_the_number_and_the_remedy(uniform: Callable[..., Scene]) 
     newmark = integrator("newmark")
     require_safe_product(uniform(10, 0.01), newmark)
     require_safe_product(uniform(5, 0.01, **{"model.sweep": "product"}), newmark)
-    with pytest.raises(UserError, match=r'5 stations at a step of 0\.01 s.*has 6.*sweep = "riccati"') as caught:
+    with pytest.raises(
+        UserError, match=r'5 stations at a step of 0\.01 s.*has 6.*sweep = "riccati"'
+    ) as caught:
         require_safe_product(uniform(6, 0.01, **{"model.sweep": "product"}), newmark)
     assert caught.value.exit_code == 2
 
@@ -125,7 +127,11 @@ def test_refusal_names_the_number_and_the_remedy(uniform: Callable[..., Scene]) 
 def documented() -> dict[str, list[str]]:
     """Rows of the table in docs/product-sweep.md, by their first cell."""
     text = (Path(__file__).resolve().parents[2] / "docs" / "product-sweep.md").read_text(encoding="utf-8")
-    rows = [[cell.strip(" *") for cell in line.strip("|").split("|")] for line in text.splitlines() if line[:1] == "|"]
+    rows = [
+        [cell.strip(" *") for cell in line.strip("|").split("|")]
+        for line in text.splitlines()
+        if line[:1] == "|"
+    ]
     return {row[0]: row[1:] for row in rows}
 
 

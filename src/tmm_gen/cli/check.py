@@ -10,7 +10,7 @@ from tmm_gen.cli.console import Column, progress, table
 
 # NumPy, SymPy and CasADi are imported inside: `tmm-gen --help` has no use for them.
 
-_COLUMNS = [
+_COLUMNS: list[Column | str] = [
     Column("check", form=lambda value: str(value).replace("_", " ")),
     Column("value", form=".2g"),
     Column("bound", "at most", ".2g"),

@@ -23,7 +23,7 @@ _PICTURE = "picture"
 
 _PICTURES = (".png", ".svg", ".pdf")
 
-_COLUMNS = [
+_COLUMNS: list[Column | str] = [
     "output",
     Column("what", ""),
     "unit",
@@ -50,7 +50,9 @@ def _picture(_context: click.Context, parameter: click.Parameter, value: str | N
 
 @click.command("run")
 @click.argument("scene", metavar="SCENE", type=click.Path(path_type=Path))
-@click.option("--until", type=float, callback=_time, help="Time to simulate, s; by default five slow periods.")
+@click.option(
+    "--until", type=float, callback=_time, help="Time to simulate, s; by default five slow periods."
+)
 @click.option("--step", type=float, callback=_time, help="Time step, s; by default the scene's.")
 @click.option(
     "--input",
@@ -59,7 +61,9 @@ def _picture(_context: click.Context, parameter: click.Parameter, value: str | N
     multiple=True,
     help="An input: a constant, a column of a file, or all from one file. Repeatable; the rest is zero.",
 )
-@click.option("--set", "changes", metavar="KEY=VALUE", multiple=True, help="Change a key of the scene. Repeatable.")
+@click.option(
+    "--set", "changes", metavar="KEY=VALUE", multiple=True, help="Change a key of the scene. Repeatable."
+)
 @click.option("--backend", type=click.Choice(["numpy", "c"]), default="numpy", show_default=True)
 @click.option("--csv", "csv_file", type=click.Path(path_type=Path), help="Write the outputs over time.")
 @click.option(

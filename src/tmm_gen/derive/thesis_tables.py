@@ -64,6 +64,12 @@ TABLES: tuple[PrintedTable, ...] = (
             "D": 2 / h,
             "E": -(2 / h * _q + _v),
         },
+        notes={
+            "A": "eq. 3-45 agrees",
+            "B": "eq. 3-45 agrees",
+            "D": "eq. 3-49 agrees",
+            "E": "eq. 3-49 agrees",
+        },
     ),
     PrintedTable(
         number="3-3",
@@ -137,7 +143,12 @@ TABLES: tuple[PrintedTable, ...] = (
             "D": 11 / (6 * h),
             "E": -1 / (6 * h) * (18 * _q - 9 * past("q", 1) + 2 * past("q", 2)),
         },
-        notes={"A": "eq. 3-71 agrees", "B": "eq. 3-71 agrees"},
+        notes={
+            "A": "eq. 3-71 agrees",
+            "B": "eq. 3-71 agrees",
+            "D": "eq. 3-70 is not legible in the copy compared",
+            "E": "eq. 3-70 is not legible in the copy compared",
+        },
     ),
     PrintedTable(
         number="3-8",

@@ -1,4 +1,4 @@
-"""One step of every backend from the same random states: how far apart are the results?"""
+"""One step of every backend from the same random states, and how far apart the results are."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ def random_vectors(program: Any, count: int = VECTORS, seed: int = 0) -> Iterato
             yield Vector(taken, {name: np.asarray(value) for name, value in state.items()}, inputs)
 
 
-def largest_difference(program: Any, one: Step, other: Step, vectors: Iterable[Vector]) -> float:
+def largest_difference(one: Step, other: Step, vectors: Iterable[Vector]) -> float:
     """Return the largest difference in any variable, relative to that variable's largest value."""
     worst = 0.0
     for vector in vectors:

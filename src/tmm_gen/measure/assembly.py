@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from tmm_gen.errors import UserError
 from tmm_gen.scene import Output, Scene, station_of
 
 Array = NDArray[np.float64]
@@ -80,11 +81,14 @@ def assemble(scene: Scene) -> Assembly:
 
     Raises
     ------
-    ValueError
+    UserError
         If the scene is of another kind.
     """
     if scene.model.kind != "chain":
-        raise ValueError(f"scene '{scene.name}' is no chain but {scene.model.kind}")
+        raise UserError(
+            f'{scene.source.origin}: model.kind = "{scene.model.kind}" cannot be measured yet. '
+            'Use a scene with kind = "chain".'
+        )
     hub = scene.base.kind == "motor"
     n, first = scene.stations, int(hub)
     m = n + first

@@ -61,8 +61,8 @@ class Watch:
         value = angles[worst]
         reached = f"has reached {value:.1e} rad" if math.isfinite(value) else "is no longer a finite number"
         raise DivergedError(
-            f"scene '{self.scene.name}': the simulation has diverged: at t = {time:.6g} s the angle of station "
-            f"{worst + 1} {reached}.\n{_cause(self.scene, self.step)}"
+            f"scene '{self.scene.name}': the simulation has diverged: at t = {time:.6g} s the angle of "
+            f"station {worst + 1} {reached}.\n{_cause(self.scene, self.step)}"
         )
 
 
@@ -106,7 +106,7 @@ def _cause(scene: Scene, step: float) -> str:
     if turn > limit:
         return (
             f"Cause: step x {fast} = {turn:.3g}, beyond the limit {limit:.3g} of {scene.integrator.name}"
-            f"{damped}. Use a step below {limit / mode.frequency:.2g} s, or {unlimited}."
+            f"{damped}. Use a step below {_rounded_down(limit / mode.frequency):g} s, or {unlimited}."
         )
     if scene.model.sweep == "product":
         return "Cause: the plain product loses its digits. Use --set model.sweep=riccati."
@@ -114,3 +114,9 @@ def _cause(scene: Scene, step: float) -> str:
         f"Its integrator is not to blame: step x {fast} = {turn:.3g} is below the limit of "
         f"{scene.integrator.name}. Look for a number in the scene or an input of the wrong size."
     )
+
+
+def _rounded_down(value: float) -> float:
+    """Return two digits of a positive number, never more than it is."""
+    unit = 10.0 ** (math.floor(math.log10(value)) - 1)
+    return math.floor(value / unit) * unit

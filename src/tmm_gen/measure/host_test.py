@@ -53,7 +53,8 @@ def run_host_test(program: Any, scene: Scene, cc: str = "gcc") -> tuple[int, str
             built = _call([cc, *STRICT, *sources, "-o", "host_test", "-lm"], here)
         except FileNotFoundError:
             raise UserError(
-                f"the C compiler '{cc}' was not found; install one (Debian, Ubuntu: apt-get install gcc libc6-dev)"
+                f"the C compiler '{cc}' was not found; install one "
+                "(Debian, Ubuntu: apt-get install gcc libc6-dev)"
             ) from None
         done = _call([str(here / "host_test")], here) if built.returncode == 0 else built
     said = " ".join((done.stdout + done.stderr).split())

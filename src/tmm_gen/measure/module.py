@@ -25,7 +25,8 @@ def numpy_module(scene: Scene, program: Any = None) -> ModuleType:
     Returns
     -------
     module
-        With the generated functions ``prepare``, ``initialise``, ``step``, ``output``, ``simulate`` and what they take.
+        With the generated functions ``prepare``, ``initialise``, ``step``, ``output``, ``simulate`` and what
+        they take.
 
     Raises
     ------
@@ -71,7 +72,7 @@ def import_package(files: dict[str, str], name: str) -> ModuleType:
     Parameters
     ----------
     files : dict from str to str
-        Text by path inside the package, ``__init__.py`` among them. It must not read them once it is imported.
+        Text by path inside the package, ``__init__.py`` among them; gone once the package is imported.
     name : str
         What it is called in messages.
     """
@@ -81,7 +82,9 @@ def import_package(files: dict[str, str], name: str) -> ModuleType:
             target = Path(folder, path)
             target.parent.mkdir(parents=True, exist_ok=True)
             target.write_text(text, encoding="utf-8")
-        spec = spec_from_file_location(unique, Path(folder, "__init__.py"), submodule_search_locations=[folder])
+        spec = spec_from_file_location(
+            unique, Path(folder, "__init__.py"), submodule_search_locations=[folder]
+        )
         assert spec is not None
         assert spec.loader is not None
         module = module_from_spec(spec)

@@ -57,7 +57,7 @@ def _drawn(simulation: Simulation) -> Figure:
         _curves(panels[-1], simulation.time, {item.name: simulation.inputs[item.name] for item in acting})
         panels[-1].set_ylabel("input (rad)" if all(i.acts == "angle" for i in acting) else "input (N m)")
         panels[-1].update_datalim([(0.0, 0.0)])
-        panels[-1].margins(y=0.25)
+        panels[-1].margins(y=0.3)
         panels[-1].autoscale_view()
     step = f"{scene.integrator.name}, step {scene.integrator.step:g} s, {simulation.backend} kernel"
     subtitle(panels[0], scene.title, step)
@@ -69,5 +69,7 @@ def _drawn(simulation: Simulation) -> Figure:
 
 def _curves(panel: Axes, time: Array, values: Mapping[str, Array]) -> None:
     for k, (name, curve) in enumerate(values.items()):
-        panel.plot(time, curve, color=PALETTE[k % len(PALETTE)], linestyle=_LINES[k // len(PALETTE) % 4], label=name)
+        panel.plot(
+            time, curve, color=PALETTE[k % len(PALETTE)], linestyle=_LINES[k // len(PALETTE) % 4], label=name
+        )
     panel.legend(loc="lower right", ncols=min(len(values), 4), bbox_to_anchor=(1.0, 1.0), borderaxespad=0.2)

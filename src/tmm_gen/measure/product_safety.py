@@ -29,8 +29,8 @@ class ProductLoss:
     predicted : float
         Relative loss expected: rounding times growth.
     measured : float
-        Largest difference between both sweeps in any output, relative to its largest value; infinite where the
-        product leaves the range of numbers.
+        Largest difference between both sweeps in any output, relative to its largest value; infinite where
+        the product leaves the range of numbers.
     """
 
     stations: int

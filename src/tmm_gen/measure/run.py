@@ -10,6 +10,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from tmm_gen.errors import UserError
 from tmm_gen.measure.assembly import assemble
 from tmm_gen.measure.divergence import Watch, watch
 from tmm_gen.measure.module import numpy_module
@@ -24,9 +25,26 @@ _CHUNK = 1000
 """Steps between two looks at the motion and the progress bar."""
 
 
+_MOST = 20_000_000
+"""Steps whose outputs are sure to fit in memory."""
+
+
 def number_of_steps(until: float, step: float) -> int:
-    """Return how many steps it takes to reach a time; the last one may end behind it."""
-    return max(1, math.ceil(until / step * (1.0 - 1e-12)))
+    """Return how many steps it takes to reach a time; the last one may end behind it.
+
+    Raises
+    ------
+    UserError
+        If they are too many to keep.
+    """
+    ratio = until / step
+    if not ratio <= _MOST:
+        count = f"{ratio:.0f}" if ratio < 1e15 else "far too many"
+        raise UserError(
+            f"simulating {until:g} s at a step of {step:g} s takes {count} steps, more than {_MOST:.0f}. "
+            "Simulate a shorter time (--until) or take larger steps (--step)."
+        )
+    return max(1, math.ceil(ratio * (1.0 - 1e-12)))
 
 
 def simulate(
@@ -35,6 +53,7 @@ def simulate(
     until: float,
     backend: Backend = "numpy",
     advance: Callable[[float], None] | None = None,
+    kernel: Any = None,
 ) -> Simulation:
     """Simulate a scene at its own step.
 
@@ -50,13 +69,15 @@ def simulate(
         Which generated kernel.
     advance : callable, optional
         Called with the number of steps taken since the last call.
+    kernel : module or NativeKernel, optional
+        The scene's generated NumPy package, or its compiled C, if it is there already.
 
     Raises
     ------
     DivergedError
         If the motion leaves all bounds.
     UserError
-        If the kernel cannot be made.
+        If the kernel cannot be made, the steps are too many, or a pivot vanishes.
     """
     steps = number_of_steps(until, scene.integrator.step)
     inputs = {item.name: signals.get(item.name, Constant(0.0)) for item in scene.inputs}
@@ -64,12 +85,18 @@ def simulate(
     run = _numpy if backend == "numpy" else _native
     outputs = np.empty((steps + 1, len(scene.outputs)))
     row = 0
-    for block in run(scene, inputs, steps, guard):
-        outputs[row : row + len(block)] = block
-        row += len(block)
-        if advance is not None:
-            advance(len(block))
-    time = scene.integrator.step * np.arange(steps + 1)
+    try:
+        for block in run(scene, inputs, steps, guard, kernel):
+            outputs[row : row + len(block)] = block
+            row += len(block)
+            if advance is not None:
+                advance(len(block))
+    except ArithmeticError as error:  # what generated kernels raise
+        raise UserError(
+            f"scene '{scene.name}' cannot be solved: {error}. "
+            "Look for numbers that are far too large or small."
+        ) from error
+    time: Array = scene.integrator.step * np.arange(steps + 1, dtype=float)
     return Simulation(
         scene=scene,
         backend=backend,
@@ -90,9 +117,11 @@ def _rest(scene: Scene, signals: Mapping[str, Signal], until: float) -> dict[str
     return dict(zip(assembly.outputs, assembly.static(last).tolist(), strict=True))
 
 
-def _numpy(scene: Scene, signals: Mapping[str, Signal], steps: int, guard: Watch) -> Iterator[Array]:
+def _numpy(
+    scene: Scene, signals: Mapping[str, Signal], steps: int, guard: Watch, kernel: Any
+) -> Iterator[Array]:
     """Yield blocks of outputs, (rows, outputs), the first one with the start."""
-    module = numpy_module(scene)
+    module = kernel or numpy_module(scene)
     h = scene.integrator.step
 
     def read(time: float) -> Any:
@@ -102,13 +131,13 @@ def _numpy(scene: Scene, signals: Mapping[str, Signal], steps: int, guard: Watch
         found = module.output(model, state)
         return [float(getattr(found, item.name)) for item in scene.outputs]
 
-    model = module.prepare()
-    state = module.initialise(module.Params(), read(0.0))
     instants = module.STAGE_INSTANTS
     held = all(isinstance(signal, Constant) for signal in signals.values())
     constant = read(0.0)
-    rows = [row()]
-    with np.errstate(all="ignore"):  # the guard tells what becomes of it
+    with np.errstate(all="ignore"):  # kernel and guard tell what becomes of it
+        model = module.prepare()
+        state = module.initialise(module.Params(), constant)
+        rows = [row()]
         for index in range(steps):
             given = constant
             if not held:
@@ -123,12 +152,14 @@ def _numpy(scene: Scene, signals: Mapping[str, Signal], steps: int, guard: Watch
                 rows = []
 
 
-def _native(scene: Scene, signals: Mapping[str, Signal], steps: int, guard: Watch) -> Iterator[Array]:
+def _native(
+    scene: Scene, signals: Mapping[str, Signal], steps: int, guard: Watch, kernel: Any
+) -> Iterator[Array]:
     """Yield all outputs, (steps + 1, outputs)."""
     from tmm_gen.native import NonFiniteStateError, compile_kernel
     from tmm_gen.program.build import build_program
 
-    kernel = compile_kernel(build_program(scene), scene)
+    kernel = kernel or compile_kernel(build_program(scene), scene)
     h = scene.integrator.step
     given = {
         name: signal.value if isinstance(signal, Constant) else _number(signal)

@@ -55,7 +55,7 @@ def style() -> Iterator[None]:
     """Draw in this project's style inside the block."""
     import matplotlib as mpl
 
-    with mpl.rc_context(_STYLE):
+    with mpl.rc_context(_STYLE):  # type: ignore[arg-type, unused-ignore]
         yield
 
 

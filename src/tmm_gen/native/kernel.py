@@ -68,6 +68,7 @@ class NativeKernel:
 
     def __init__(self, program: Program, library: Library) -> None:
         self.program = program
+        self.real = library.real.name
         self._library = library
         self._params, self._model, self._state, self._inputs, self._outputs = (
             kind() for kind in library.types.values()

@@ -36,6 +36,7 @@ class Library:
 
     def __init__(self, program: Program, real: Real, handle: ctypes.CDLL) -> None:
         self.name = program.name
+        self.real = real
         self.number: Any = ctypes.c_double if real.size == 8 else ctypes.c_float
         self.structs = {struct.name: struct for struct in structs_of(program)}
         self.types = {name: structure_of(struct, real) for name, struct in self.structs.items()}

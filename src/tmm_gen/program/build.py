@@ -5,6 +5,7 @@ from __future__ import annotations
 from tmm_gen.derive.integrators.registry import integrator
 from tmm_gen.derive.integrators.relations import UnsuitableUnknownError
 from tmm_gen.errors import UserError
+from tmm_gen.program.planar import build_planar
 from tmm_gen.program.statements import Program
 from tmm_gen.program.torsion import build_chain
 from tmm_gen.scene import Scene
@@ -16,18 +17,30 @@ def build_program(scene: Scene) -> Program:
     Raises
     ------
     UserError
-        If the scene asks for something that does not exist: an unsupported kind, or an unknown (displacement,
+        If the scene asks for something that does not exist: a planar product sweep, or an unknown (displacement,
         increment) that an explicit integrator cannot be solved for.
     """
     chosen = integrator(scene.integrator.name, **scene.integrator.parameters)
-    if scene.model.kind != "chain":
-        raise UserError(
-            f"scene '{scene.name}': model.kind = '{scene.model.kind}' is not supported yet; use 'chain'"
-        )
     try:
-        return build_chain(scene, chosen)
+        if scene.model.kind == "chain":
+            return build_chain(scene, chosen)
+        _refuse_unsupported(scene)
+        return build_planar(scene, chosen)
     except UnsuitableUnknownError as error:
         raise UserError(
-            f"scene '{scene.name}': model.unknown = '{scene.model.unknown}' with model.sweep = '{scene.model.sweep}' "
-            f"and integrator '{scene.integrator.name}': {error}"
+            f"scene '{scene.name}': model.unknown = '{scene.model.unknown}' with model.sweep = "
+            f"'{scene.model.sweep}' and integrator '{scene.integrator.name}': {error}"
         ) from error
+
+
+def _refuse_unsupported(scene: Scene) -> None:
+    if scene.model.sweep != "riccati":
+        raise UserError(
+            f"scene '{scene.name}': model.sweep = '{scene.model.sweep}' multiplies transfer matrices, which loses "
+            "all digits in a planar arm; use sweep = 'riccati'"
+        )
+    if scene.model.linearisation != "newton":
+        raise UserError(
+            f"scene '{scene.name}': model.linearisation = '{scene.model.linearisation}' is not supported yet; "
+            "use 'newton'"
+        )

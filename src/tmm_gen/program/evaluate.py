@@ -49,8 +49,9 @@ def execute(
         Every variable by name; arrays are lists. Written in place, scratch is added.
     number : callable
         Makes a number of the wanted type from a float, for scratch arrays.
-    modules : str or module
-        As for :func:`sympy.lambdify`: where ``sin`` and ``cos`` come from.
+    modules : str or tuple
+        As for :func:`sympy.lambdify`: where ``sin`` and ``cos`` come from. A tuple must outlive the process's
+        last run with it (compiled expressions are kept).
 
     Raises
     ------
@@ -62,15 +63,7 @@ def execute(
             values[variable.name] = (
                 number(0.0) if variable.length is None else [number(0.0)] * variable.length
             )
-    compiled = {}
-    for value in routine.values():
-        refs = sorted(value.free_symbols, key=lambda s: s.name)
-        compiled[value] = (
-            refs,
-            sp.lambdify([sp.Dummy() for _ in refs], 0)
-            if not refs and value == 0
-            else _function(refs, value, modules),
-        )
+    compiled = {value: _function(value, modules) for value in routine.values()}
 
     def compute(value: sp.Expr, j: int | None) -> Any:
         refs, function = compiled[value]
@@ -94,9 +87,19 @@ def execute(
             run(statement, None)
 
 
-def _function(refs: list[sp.Symbol], value: sp.Expr, modules: Any) -> Callable[..., Any]:
-    dummies = [sp.Dummy() for _ in refs]
-    return sp.lambdify(dummies, value.xreplace(dict(zip(refs, dummies, strict=True))), modules=modules)  # type: ignore[no-any-return]
+_FUNCTIONS: dict[tuple[sp.Expr, int | str], tuple[list[sp.Symbol], Callable[..., Any]]] = {}
+
+
+def _function(value: sp.Expr, modules: Any) -> tuple[list[sp.Symbol], Callable[..., Any]]:
+    """Compile an expression once for all runs; returns its references and a function of them."""
+    key = (value, modules if isinstance(modules, str) else id(modules))
+    if key not in _FUNCTIONS:
+        refs = sorted(value.free_symbols, key=lambda s: s.name)
+        dummies = [sp.Dummy() for _ in refs]
+        plain = value.xreplace(dict(zip(refs, dummies, strict=True)))
+        handed = modules if isinstance(modules, str) else list(modules)
+        _FUNCTIONS[key] = refs, sp.lambdify(dummies, plain, modules=handed)
+    return _FUNCTIONS[key]
 
 
 def _read(values: Mapping[str, Any], ref: Ref, j: int | None) -> Any:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 
 import sympy as sp
 
-from tmm_gen.derive.integrators.declaration import STEP, Integrator, Kind, Past, Scheme, pasts_in
+from tmm_gen.derive.integrators.declaration import STEP, Integrator, Kind, Past
 from tmm_gen.derive.integrators.relations import Unknown, affine_motion
 from tmm_gen.program.passes.prune import prune
 from tmm_gen.program.statements import Routine
@@ -18,18 +18,6 @@ MOTION_NAMES: dict[Kind, tuple[str, str]] = {
     "a": ("acceleration", "rad/s^2"),
 }
 _AGO = {1: "one step", 2: "two steps", 3: "three steps"}
-
-
-def history(schemes: Iterable[Scheme], unknown: Unknown) -> frozenset[Past]:
-    """Return the history that schemes read when solved for an unknown, closed under ageing."""
-    needed: set[Past] = set()
-    for scheme in schemes:
-        for index in range(1, len(scheme.stages) + 1):
-            for offset in affine_motion(scheme, index, unknown).offset.values():
-                needed |= pasts_in(offset)
-        for value in scheme.update.values():
-            needed |= pasts_in(value)
-    return frozenset(Past(p.kind, lag) for p in needed for lag in range(p.lag + 1))
 
 
 def parameter(name: str, doc: str, unit: str, values: Sequence[float]) -> Variable:

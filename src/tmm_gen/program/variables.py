@@ -65,6 +65,10 @@ class Variable:
     unit: str = "1"
     default: float | tuple[float, ...] | None = None
 
+    def __hash__(self) -> int:
+        """Hash by name and length: long defaults would cost more than collisions."""
+        return hash((self.name, self.length))
+
     def at(self, offset: int = 0) -> Ref:
         """Return the element ``j + offset`` of the enclosing loop (the scalar itself if there is no length)."""
         return Ref(self, offset=offset if self.length is not None else None)
@@ -97,9 +101,13 @@ class Ref(sp.Symbol):
     variable: Variable
     offset: int | None
     entry: int | None
+    _content: tuple[object, ...]
 
     def __new__(cls, variable: Variable, offset: int | None = None, entry: int | None = None) -> Ref:
         """Make the symbol; equal references are equal symbols."""
+        known = _REFS.get((variable, offset, entry))
+        if known is not None:
+            return known
         name = variable.name
         if offset is not None:
             name += f"[j{offset:+d}]" if offset else "[j]"
@@ -107,17 +115,23 @@ class Ref(sp.Symbol):
             name += f"[{entry}]"
         symbol: Ref = sp.Symbol.__xnew__(cls, name, real=True)
         symbol.variable, symbol.offset, symbol.entry = variable, offset, entry
+        # SymPy caches expressions by equality: a namesake of another program must not be equal
+        default = variable.default
+        held = hash(default) if isinstance(default, tuple) else default
+        symbol._content = (name, f"{variable.role.value} {variable.length} {held} {variable.doc}")
+        _REFS[variable, offset, entry] = symbol
         return symbol
 
     def _hashable_content(self) -> tuple[object, ...]:
-        # SymPy caches expressions by equality: a namesake of another program must not be equal
-        default = self.variable.default
-        held = hash(default) if isinstance(default, tuple) else default
-        return (self.name, f"{self.variable.role} {self.variable.length} {held} {self.variable.doc}")
+        return self._content
 
     def __getnewargs_ex__(self) -> tuple[tuple[object, ...], dict[str, object]]:
         """Support pickling and copying."""
         return (self.variable, self.offset, self.entry), {}
+
+
+_REFS: dict[tuple[Variable, int | None, int | None], Ref] = {}
+"""Every reference made, so that equal ones are one object and compare at once."""
 
 
 def refs_in(expression: sp.Basic) -> frozenset[Ref]:

@@ -96,7 +96,7 @@ def test_numbers_against_a_simulation(
     )
 
 
-@settings(max_examples=15)
+@settings(max_examples=8)
 @given(rho=st.fractions(0, 1, max_denominator=20))
 def test_generalized_alpha_is_dissipative_except_at_one(rho: sp.Rational) -> None:
     _, damping = leading_terms(amplification(integrator("generalized_alpha", rho_inf=rho).main))

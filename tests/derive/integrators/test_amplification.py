@@ -73,7 +73,7 @@ def test_characteristic_polynomial_vanishes_at_eigenvalues(method: Integrator) -
 
 
 @pytest.mark.parametrize("name", ["newmark", "bathe", "park", "sdirk2", "sdirk4"])
-@settings(max_examples=15)
+@settings(max_examples=8)
 @given(omega=st.fractions("1/10", 5, max_denominator=20))
 def test_steady_response_solves_the_step(name: str, omega: float) -> None:
     """(LAMBDA - matrix) x = forcing for a load that grows by LAMBDA a step, stage by stage."""

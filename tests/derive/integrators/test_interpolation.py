@@ -19,6 +19,7 @@ from tmm_gen.derive.integrators.interpolation import (
 rationals = st.fractions(min_value=-9, max_value=9, max_denominator=9).map(sp.Rational)
 
 
+@settings(max_examples=30)
 @given(st.lists(rationals, min_size=4, max_size=4), st.permutations([0, -1, -2, 1]), st.integers(0, 2))
 def test_a_cubic_is_found_again(coefficients: list[sp.Rational], instants: list[int], order: int) -> None:
     """Through three values and one derivative."""
@@ -39,7 +40,7 @@ def test_data_that_determine_nothing_are_refused() -> None:
         interpolant([twice, twice])
 
 
-@settings(max_examples=15)
+@settings(max_examples=8)
 @given(st.lists(rationals, min_size=4, max_size=4))
 def test_motion_relations_hold_on_a_cubic(coefficients: list[sp.Rational]) -> None:
     time = sp.Symbol("t")

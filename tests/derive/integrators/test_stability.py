@@ -35,7 +35,7 @@ def test_unconditionally_stable(name: str, zeta: float) -> None:
 
 
 @pytest.mark.parametrize("name", UNCONDITIONAL)
-@settings(max_examples=50)
+@settings(max_examples=30)
 @given(power=st.floats(-2, 4), zeta=st.floats(0, 2))
 def test_unconditionally_stable_at_random_steps(name: str, power: float, zeta: float) -> None:
     assert spectral_radius(LINEAR[name], 10**power, zeta) <= 1 + 1e-12
@@ -158,13 +158,13 @@ def test_explicit_methods_have_no_radius_at_infinity() -> None:
     assert radius_at_infinity(linear("newmark", beta=0)) == sp.oo
 
 
-@settings(max_examples=40)
+@settings(max_examples=15)
 @given(rho=st.fractions(0, 1, max_denominator=50), omega=st.floats(0.01, 100))
 def test_generalized_alpha_never_grows(rho: float, omega: float) -> None:
     assert spectral_radius(linear("generalized_alpha", rho_inf=rho), omega) <= 1 + 1e-12
 
 
-@settings(max_examples=25)
+@settings(max_examples=10)
 @given(gamma=st.fractions(sp.Rational(1, 20), sp.Rational(19, 20), max_denominator=20))
 def test_bathe_is_unconditionally_stable_for_any_split(gamma: float) -> None:
     method = linear("bathe", gamma=gamma)

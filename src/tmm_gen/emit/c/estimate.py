@@ -77,6 +77,22 @@ class Estimate:
     __rmul__ = __mul__
 
 
+def sine(angle: Estimate) -> Estimate:
+    """Return the sine; libraries are right to one unit in the last place, two roundoffs."""
+    value = mpmath.sin(angle.value)
+    return Estimate(value, angle.error * _size(mpmath.cos(angle.value)) + 2.0 * _size(value))
+
+
+def cosine(angle: Estimate) -> Estimate:
+    """Return the cosine."""
+    value = mpmath.cos(angle.value)
+    return Estimate(value, angle.error * _size(mpmath.sin(angle.value)) + 2.0 * _size(value))
+
+
+FUNCTIONS = ({"sin": sine, "cos": cosine}, "mpmath")
+"""As modules of :func:`sympy.lambdify`."""
+
+
 def estimate_of(number: object) -> Estimate:
     """Return a constant of an expression, which a kernel holds to rounding."""
     if isinstance(number, Estimate):

@@ -31,14 +31,15 @@ def finite_checks(
         by_length.setdefault(dimension(variable, program), []).append(pointer + variable.name)
     for length, names in by_length.items():
         if not length:
-            yield from _check(names, failure, 1)
+            yield from check(names, failure, 1)
             continue
         yield f"{INDENT}for (int j = 0; j < {length[1:-1]}; ++j) {{"
-        yield from _check([f"{name}[j]" for name in names], failure, 2)
+        yield from check([f"{name}[j]" for name in names], failure, 2)
         yield f"{INDENT}}}"
 
 
-def _check(names: list[str], failure: str, depth: int) -> Iterator[str]:
+def check(names: list[str], failure: str, depth: int) -> Iterator[str]:
+    """Yield lines that return ``failure`` unless all names are finite."""
     condition = " || ".join(f"!isfinite({name})" for name in names)
     yield from statement(f"if ({condition}) {{", depth)
     yield f"{INDENT * (depth + 1)}return {failure};"

@@ -7,13 +7,13 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from tmm_gen.emit.c.body import Body
-from tmm_gen.emit.c.finite import finite_checks
+from tmm_gen.emit.c.finite import check, finite_checks
 from tmm_gen.emit.c.guard import telling_value
 from tmm_gen.emit.c.lower import lower
 from tmm_gen.emit.c.printer import element
 from tmm_gen.emit.c.real import REALS, Real
 from tmm_gen.emit.c.structs import COUNTER, Struct, described, dimension, structs_of
-from tmm_gen.emit.c.wrap import INDENT, WIDTH
+from tmm_gen.emit.c.wrap import INDENT, WIDTH, comment
 from tmm_gen.emit.header import header_lines
 from tmm_gen.program.statements import Program, Routine
 from tmm_gen.program.variables import Variable
@@ -53,12 +53,19 @@ class Kernel:
         lines = (*header_lines(program, scene), f"number type: {real.c}", f"bytes of the structs: {sizes}")
         return cls(program, lower(program), real, lines, structs)
 
-    def comment(self, lead: str) -> str:
-        """Return the head of a file, every line with a lead."""
+    def comment(self, lead: str, *paragraphs: str) -> str:
+        """Return the head of a file and paragraphs behind it, every line with a lead."""
+        width = WIDTH - len(lead) - 1
         wrapped: list[str] = []
         for line in self.header:
-            wrapped += textwrap.wrap(line, WIDTH - len(lead) - 1, subsequent_indent=INDENT) or [""]
+            wrapped += textwrap.wrap(line, width, subsequent_indent=INDENT) or [""]
+        for paragraph in paragraphs:
+            wrapped += ["", *textwrap.wrap(paragraph, width)]
         return "\n".join(f"{lead} {line}".rstrip() for line in wrapped)
+
+    def doxygen(self, text: str) -> str:
+        """Return a comment on lines of its own."""
+        return "\n".join(comment(text, 0, "/**"))
 
     # -- pieces of the header -----------------------------------------------------------------------
 
@@ -73,6 +80,11 @@ class Kernel:
         named = [_instant(x) for x in self.program.stage_instants[-1]]
         return named[0] if len(named) == 1 else f"{', '.join(named[:-1])} and {named[-1]}"
 
+    @property
+    def when(self) -> str:
+        """When the inputs of a step act, in words."""
+        return f"at {self.instants}" if self.stages == 1 else "at each stage of the step"
+
     def members(self, which: str) -> list[str]:
         """Return the members of a struct, documented beside, or above where that is too wide."""
         struct, number = self.structs[which], f"{self.program.name}_real"
@@ -86,7 +98,11 @@ class Kernel:
         beside = [f"{declaration} /**< {doc} */" for declaration, doc in members]
         if max(map(len, beside)) <= WIDTH - len(INDENT):
             return beside
-        return [line for declaration, doc in members for line in (f"/** {doc} */", declaration)]
+        return [
+            line.removeprefix(INDENT)
+            for declaration, doc in members
+            for line in (*comment(doc, 1, "/**"), declaration)
+        ]
 
     @property
     def given(self) -> list[tuple[str, str, str]]:
@@ -125,14 +141,20 @@ class Kernel:
         """The bodies of the start-up steps."""
         return [Body(self.program, routine, "step", self.real) for routine in self.program.startup]
 
-    def telling(self, routine: Routine) -> str | None:
-        """Return the number of the new state that is NaN whenever the step met one, or None."""
+    def verdict(self, routine: Routine) -> str:
+        """Return the check of the new state: of one number that tells of all, or of every one."""
+        failure = f"{self.program.name.upper()}_NON_FINITE_STATE"
         found = telling_value(routine, self.program.state)
         if found is None:
-            return None
-        if found.variable.length is not None and found.entry:
-            return f"state->{found.variable.name}[{self.program.name.upper()}_STATIONS - 1]"
-        return element(f"state->{found.variable.name}", found)
+            return self.checks("state->", self.program.state, failure)
+        name = element(f"state->{found.variable.name}", found)
+        if found.entry:
+            name = f"state->{found.variable.name}[{self.program.name.upper()}_STATIONS - 1]"
+        lines = (
+            *comment("Anything that is not a number has reached this one.", 1),
+            *check([name], failure, 1),
+        )
+        return "\n".join(lines)
 
     def checks(self, pointer: str, variables: tuple[Variable, ...], failure: str) -> str:
         """Return statements that leave a function with ``failure`` unless all variables are finite."""

@@ -9,7 +9,7 @@ from typing import Any
 
 import mpmath
 
-from tmm_gen.emit.c.estimate import Estimate, estimate_of
+from tmm_gen.emit.c.estimate import FUNCTIONS, Estimate, estimate_of
 from tmm_gen.emit.c.kernel import Kernel
 from tmm_gen.emit.c.real import Real
 from tmm_gen.program.evaluate import Values, allocate, execute
@@ -107,12 +107,12 @@ def _simulate(program: Program, real: Real, shown: list[Ref]) -> list[dict[Ref, 
             values[given.name] = [number(initial_value(j)) for j in range(given.length or 1)]
         _apply(program, values, 0, number)
         for routine in (program.prepare, program.initialise):
-            execute(routine, values, number, "mpmath")
+            execute(routine, values, number, FUNCTIONS)
         records = []
         for k in range(len(program.startup) + STEPS):
             _apply(program, values, k + 1, number)
             for routine in (program.steps[min(k, len(program.startup))], program.output):
-                execute(routine, values, number, "mpmath")
+                execute(routine, values, number, FUNCTIONS)
             records.append({ref: _value(values, ref) for ref in (*(v.ref for v in program.outputs), *shown)})
         return records
 

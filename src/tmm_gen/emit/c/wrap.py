@@ -20,11 +20,11 @@ def statement(text: str, depth: int) -> list[str]:
     return [*lines, head + text]
 
 
-def comment(text: str, depth: int) -> list[str]:
-    """Write a comment that stands on lines of its own."""
+def comment(text: str, depth: int, opening: str = "/*") -> list[str]:
+    """Write a comment that stands on lines of its own; ``/**`` opens one for doxygen."""
     head = INDENT * depth
     return textwrap.wrap(
-        f"/* {text} */",
+        f"{opening} {text} */",
         WIDTH,
         initial_indent=head,
         subsequent_indent=f"{head} * ",

@@ -31,6 +31,11 @@ def emit_casadi(program: Program, scene: Scene) -> dict[str, str]:
         }
         for routine, instants in zip(program.steps, program.stage_instants, strict=True)
     ]
+    several_stages = any(v.length is not None for v in program.inputs)
+    held = ", held" if several_stages else ""
+    starts = [
+        f'_function("{s["name"]}", _{s["name"]}, STAGE_INSTANTS[{k}]{held})' for k, s in enumerate(steps[:-1])
+    ]
     rendered = render(
         "casadi/model.py.jinja",
         header=text(comments(header_lines(program, scene))),
@@ -49,7 +54,8 @@ def emit_casadi(program: Program, scene: Scene) -> dict[str, str]:
         startup=steps[:-1],
         main=steps[-1],
         output=text(functions.output()),
-        several_stages=any(v.length is not None for v in program.inputs),
+        start_functions=text(listing("return ", starts, "    ")),
+        several_stages=several_stages,
     )
     return {"casadi_model.py": sealed(rendered)}
 

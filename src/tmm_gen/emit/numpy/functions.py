@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from tmm_gen.emit.numpy.statements import RoutineText
-from tmm_gen.emit.python.lines import assignment, call, listing
+from tmm_gen.emit.python.lines import call, listing
 from tmm_gen.emit.python.names import Names
 from tmm_gen.program.statements import Program, Routine
 from tmm_gen.program.variables import Role, Variable
@@ -131,18 +131,22 @@ class Functions:
         for variable in variables:
             source = sources.get(variable, f"{owner}{variable.name}")
             length = "None" if variable.length is None else self._count(variable)
-            lines += assignment(variable.name, f'_array({source}, {length}, "{variable.name}")', _INDENT)
+            lines += call(f"{variable.name} = _array", [source, length, f'"{variable.name}"'], _INDENT)
         return lines
 
     def _inputs(self, inputs: Sequence[Variable]) -> list[str]:
         lines: list[str] = []
         for variable in inputs:
-            what = f'None, "input {variable.name}"'
+            name, read, what = self.names[variable], variable.name, f'"input {variable.name}"'
             if variable.length is None:
-                lines += assignment(self.names[variable], f"_array(input.{variable.name}, {what})", _INDENT)
+                lines += call(f"{name} = _array", [f"input.{read}", "None", what], _INDENT)
             else:
-                each = f"_array(stage.{variable.name}, {what}) for stage in stages"
-                lines += call(f"{self.names[variable]} = tuple", [each], _INDENT)
+                lines += [
+                    f"{_INDENT}{name} = tuple(",
+                    *call("_array", [f"stage.{read}", "None", what], 2 * _INDENT),
+                    f"{2 * _INDENT}for stage in stages",
+                    f"{_INDENT})",
+                ]
         return lines
 
     def _taken(self, variables: Iterable[Variable], owner: str) -> list[str]:

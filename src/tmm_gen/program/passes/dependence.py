@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 from tmm_gen.program.statements import Assign, Loop, Order, Require, Routine, Statement
 from tmm_gen.program.variables import Ref, Role, Variable, refs_in
@@ -45,6 +46,7 @@ class Access:
         )
 
 
+@lru_cache(maxsize=1 << 14)
 def accesses(statement: Statement) -> tuple[Access, ...]:
     """Return every use of a variable by a statement, in the order of execution."""
     if isinstance(statement, Loop):
@@ -55,7 +57,10 @@ def accesses(statement: Statement) -> tuple[Access, ...]:
 
 def independent(one: Statement, other: Statement) -> bool:
     """Whether two statements may change places."""
-    mine, theirs = accesses(one), accesses(other)
+    shared = _used(one) & _used(other)
+    if not shared & (_written(one) | _written(other)):
+        return True
+    mine, theirs = ([a for a in accesses(s) if a.variable in shared] for s in (one, other))
     return not any(a.meets(b) for a in mine for b in theirs)
 
 
@@ -108,11 +113,22 @@ def order_keeping_dependences(first: Loop, second: Loop, later: tuple[Statement,
     """
     if (first.start, first.stop) != (second.start, second.stop) or not _scalars_apart(first, second):
         return None
-    for order in dict.fromkeys((second.order, first.order)):
+    orders: tuple[Order, ...] = (second.order, *Order)
+    for order in dict.fromkeys(orders):
         turned = [loop for loop in (first, second) if loop.order is not order]
         if all(_turns(loop, later) for loop in turned) and _elements_in_time(first, second, order):
             return order
     return None
+
+
+@lru_cache(maxsize=1 << 14)
+def _used(statement: Statement) -> frozenset[Variable]:
+    return frozenset(a.variable for a in accesses(statement))
+
+
+@lru_cache(maxsize=1 << 14)
+def _written(statement: Statement) -> frozenset[Variable]:
+    return frozenset(a.variable for a in accesses(statement) if a.writes)
 
 
 def _of(statement: Assign | Require, low: int, high: int) -> list[Access]:

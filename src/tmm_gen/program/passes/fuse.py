@@ -34,13 +34,12 @@ def fuse(routine: Routine) -> Routine:
         if fused is None:
             last -= 1
         else:
-            items = fused
-            last = len(items) - 1
+            items, last = fused
     return replace(routine, sections=_sections(items))
 
 
-def _fuse_into(items: list[_Item], last: int) -> list[_Item] | None:
-    """Fuse the loop at ``last`` with the nearest earlier one it may be fused with."""
+def _fuse_into(items: list[_Item], last: int) -> tuple[list[_Item], int] | None:
+    """Fuse the loop at ``last`` with the nearest earlier one it may be fused with; say where it then is."""
     second = items[last].statement
     if not isinstance(second, Loop):
         return None
@@ -50,7 +49,7 @@ def _fuse_into(items: list[_Item], last: int) -> list[_Item] | None:
     return None
 
 
-def _fuse_pair(items: list[_Item], first: int, last: int) -> list[_Item] | None:
+def _fuse_pair(items: list[_Item], first: int, last: int) -> tuple[list[_Item], int] | None:
     one, other = items[first], items[last]
     assert isinstance(one.statement, Loop)
     assert isinstance(other.statement, Loop)
@@ -67,7 +66,7 @@ def _fuse_pair(items: list[_Item], first: int, last: int) -> list[_Item] | None:
         return None
     loop = replace(other.statement, order=order, body=(*one.statement.body, *other.statement.body))
     titles = tuple(dict.fromkeys((*one.titles, *other.titles)))
-    return [*items[:first], *before, _Item(titles, loop), *later]
+    return [*items[:first], *before, _Item(titles, loop), *later], first + len(before)
 
 
 def _sections(items: list[_Item]) -> tuple[Section, ...]:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from tmm_gen.derive.integrators.declaration import KINDS, Integrator, Past
-from tmm_gen.program.fields import history, parameter, state_variable
+from tmm_gen.derive.integrators.history import history
+from tmm_gen.program.fields import parameter, state_variable
 from tmm_gen.program.variables import Role, Variable
 from tmm_gen.scene import Input, Output, Scene, station_of
 
@@ -82,7 +83,7 @@ def planar_layout(scene: Scene, integrator: Integrator) -> PlanarLayout:
     """Choose the variables for a scene."""
     n = scene.stations
     # the newest acceleration predicts the next one
-    kept = set(history(integrator.schemes, scene.model.unknown)) | {Past(kind, 0) for kind in KINDS}
+    kept = set(history(integrator, scene.model.unknown)) | {Past(kind, 0) for kind in KINDS}
     ordered = sorted(kept, key=lambda p: (p.lag, KINDS.index(p.kind)))
     moved = scene.base.kind == "motor"
     hubbed = scene.base.kind != "clamp"

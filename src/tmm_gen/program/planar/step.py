@@ -104,8 +104,8 @@ class PlanarStep:
         body, base = [], []
         for kind in KINDS:
             variable = predicted(kind, n)
-            body.append(Assign(variable.at(1), prediction[kind].subs(at_links)))
-            value = sp.Integer(0) if self.base == "clamp" else prediction[kind].subs(at_hub)
+            body.append(Assign(variable.at(1), prediction[kind].xreplace(at_links)))
+            value = sp.Integer(0) if self.base == "clamp" else prediction[kind].xreplace(at_hub)
             base.append(Assign(variable.entry(BASE), value))
         return [*base, Loop(Order.OUTWARD, 0, n, tuple(body))]
 
@@ -126,7 +126,7 @@ class PlanarStep:
         return {STEP: self.layout.step.ref, **(self.hub_sources if prefix else self.sources), **stages}
 
     def _gain(self, motion: AffineMotion, kind: Kind) -> sp.Expr:
-        return motion.gain[kind].subs(STEP, self.layout.step.ref)
+        return motion.gain[kind].xreplace({STEP: self.layout.step.ref})
 
     # -- sweep ---------------------------------------------------------------------------------------------
 
@@ -169,16 +169,16 @@ class PlanarStep:
         law, symbols = chain.link_law(), self._symbols()
         angle = predicted("q", n).at(1)
         levers = (
-            Assign(_lever("sine", n).at(), law.lever_sine.subs({**symbols, chain.SINE: sp.sin(angle)})),
-            Assign(_lever("cosine", n).at(), law.lever_cosine.subs({**symbols, chain.COSINE: sp.cos(angle)})),
+            Assign(_lever("sine", n).at(), law.lever_sine.xreplace({**symbols, chain.SINE: sp.sin(angle)})),
+            Assign(_lever("cosine", n).at(), law.lever_cosine.xreplace({**symbols, chain.COSINE: sp.cos(angle)})),
         )
         ax, ay = local("node_x", unit="m/s^2"), local("node_y", unit="m/s^2")
         carried = {**symbols, chain.A_X: ax, chain.A_Y: ay}
         square = local("square", "square of the rate", "1/s^2")
         body = (
             Assign(square, predicted("v", n).at(1) ** 2),
-            Assign(ax, law.outer_x.subs(carried).subs(predicted("v", n).at(1) ** 2, square)),
-            Assign(ay, law.outer_y.subs(carried).subs(predicted("v", n).at(1) ** 2, square)),
+            Assign(ax, law.outer_x.xreplace(carried).xreplace({predicted("v", n).at(1) ** 2: square})),
+            Assign(ay, law.outer_y.xreplace(carried).xreplace({predicted("v", n).at(1) ** 2: square})),
             Assign(_node("x", n).at(1), ax),
             Assign(_node("y", n).at(1), ay),
         )
@@ -210,11 +210,11 @@ class PlanarStep:
             chain.OUTER_RATE: predicted("v", n).at(1),
         }
         body = (
-            Assign(tangential, law.tangential.subs(symbols)),
-            Assign(turning, law.turning.subs(symbols)),
-            Assign(_swing("x", n).at(), law.gain_x.subs(swing)),
-            Assign(_swing("y", n).at(), law.gain_y.subs(swing)),
-            Assign(_joint_torque(n).at(), joint.known_torque.subs({**symbols, **ends})),
+            Assign(tangential, law.tangential.xreplace(symbols)),
+            Assign(turning, law.turning.xreplace(symbols)),
+            Assign(_swing("x", n).at(), law.gain_x.xreplace(swing)),
+            Assign(_swing("y", n).at(), law.gain_y.xreplace(swing)),
+            Assign(_joint_torque(n).at(), joint.known_torque.xreplace({**symbols, **ends})),
         )
         return Section(
             "how each link's outer end answers to its unknown, and the predicted joint torques",
@@ -236,13 +236,13 @@ class PlanarStep:
                 body.append(Assign(_E[i], _E[i] - loads.array(component).at()))
         at_bias = {chain.F_X: _E[0], chain.F_Y: _E[1], chain.TORQUE: _E[2]}
         laws = chain.link_law()
-        body += [Assign(column[i], law.outer[i].subs(named)) for i in range(3)]
+        body += [Assign(column[i], law.outer[i].xreplace(named)) for i in range(3)]
         body += [
-            Assign(load_x, laws.load_x.subs({**symbols, **at_bias})),
-            Assign(load_y, laws.load_y.subs({**symbols, **at_bias})),
+            Assign(load_x, laws.load_x.xreplace({**symbols, **at_bias})),
+            Assign(load_y, laws.load_y.xreplace({**symbols, **at_bias})),
         ]
-        body += [Assign(_INNER[i][k], law.impedance[i, k].subs(named)) for i in (2, 0, 1) for k in range(3)]
-        body += [Assign(_E[i], law.bias[i].subs(named)) for i in (2, 0, 1)]
+        body += [Assign(_INNER[i][k], law.impedance[i, k].xreplace(named)) for i in (2, 0, 1) for k in range(3)]
+        body += [Assign(_E[i], law.bias[i].xreplace(named)) for i in (2, 0, 1)]
         # the joint: one scalar pivot
         pivot, inverse = local("pivot"), local("inverse_pivot")
         turned = {
@@ -257,13 +257,13 @@ class PlanarStep:
             "y": -joint.unknown.coeff(chain.D_A_Y),
             "from_inner": joint.unknown.coeff(chain.INNER_UNKNOWN),
         }
-        own = joint.unknown.subs(dict.fromkeys((chain.D_A_X, chain.D_A_Y, chain.INNER_UNKNOWN), 0))
+        own = joint.unknown.xreplace(dict.fromkeys((chain.D_A_X, chain.D_A_Y, chain.INNER_UNKNOWN), sp.Integer(0)))
         body += [
-            Assign(pivot, joint.pivot.subs(turned)),
+            Assign(pivot, joint.pivot.xreplace(turned)),
             Require(pivot),
             Assign(inverse, 1 / pivot),
-            Assign(kept["own"], inverse * own.subs(turned)),
-            *(Assign(kept[name], inverse * value.subs(turned)) for name, value in answers.items()),
+            Assign(kept["own"], inverse * own.xreplace(turned)),
+            *(Assign(kept[name], inverse * value.xreplace(turned)) for name, value in answers.items()),
         ]
         # put the link's unknown back into its forces: M = K (u_inner - u) + w, F_i = S_i k + e_i
         for i in range(2):
@@ -296,7 +296,7 @@ class PlanarStep:
             chain.A_Y: _node("y", n).entry(n),
             chain.ACCELERATION: predicted("a", n).entry(n),
         }
-        forces = [f.subs(masses) for f in (law.force_x, law.force_y, law.torque)]
+        forces = [f.xreplace(masses) for f in (law.force_x, law.force_y, law.torque)]
         variables = (chain.A_X, chain.A_Y, chain.ACCELERATION)
         assigns = []
         for i, force in enumerate(forces):
@@ -304,7 +304,7 @@ class PlanarStep:
                 slope = sp.diff(force, variable) * (self._gain(motion, "a") if k == 2 else 1)
                 assigns.append(Assign(_S[i][k], slope))
         for i, (force, component) in enumerate(zip(forces, ("force_x", "force_y", "torque"), strict=True)):
-            assigns.append(Assign(_E[i], force.subs(at_tip) - loads.tip[component]))
+            assigns.append(Assign(_E[i], force.xreplace(at_tip) - loads.tip[component]))
         return assigns
 
     def _at_base(self, motion: AffineMotion, loads: PlanarLoads) -> Section:
@@ -330,9 +330,9 @@ class PlanarStep:
                 **{torsion_chain.INNER[k]: predicted(k, n).entry(BASE) for k in KINDS},
             }
             pivot = local("hub_pivot")
-            known = law.known.subs(hub)
+            known = law.known.xreplace(hub)
             statements += [
-                Assign(pivot, law.pivot.subs(hub)),
+                Assign(pivot, law.pivot.xreplace(hub)),
                 Require(pivot),
                 Assign(_UNKNOWN, (loads.base - _E[2] - known) / pivot),
             ]
@@ -387,7 +387,7 @@ class PlanarStep:
         self, index: int, values: Mapping[Kind, sp.Expr], at: Mapping[sp.Symbol, sp.Expr]
     ) -> dict[Kind, sp.Expr]:
         own = {stage(k, index): values[k] for k in KINDS}
-        return {k: sp.expand(sp.sympify(self.scheme.update[k]).subs({**own, **at})) for k in KINDS}
+        return {k: sp.expand(sp.sympify(self.scheme.update[k]).xreplace({**own, **at})) for k in KINDS}
 
 
 def predicted_motion(motion: AffineMotion, index: int) -> dict[Kind, sp.Expr]:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from tmm_gen.derive.integrators.declaration import KINDS, Integrator, Kind, Past
-from tmm_gen.program.fields import MOTION_NAMES, history, parameter, state_variable
+from tmm_gen.derive.integrators.history import history
+from tmm_gen.program.fields import MOTION_NAMES, parameter, state_variable
 from tmm_gen.program.variables import Role, Variable
 from tmm_gen.scene import Scene
 
@@ -56,7 +57,7 @@ class ChainLayout:
 def chain_layout(scene: Scene, integrator: Integrator) -> ChainLayout:
     """Choose the variables for a scene."""
     n = scene.stations
-    kept = set(history(integrator.schemes, scene.model.unknown)) | {Past("q", 0)}
+    kept = set(history(integrator, scene.model.unknown)) | {Past("q", 0)}
     for output in scene.outputs:
         kinds = ("q", "v") if output.of == "torque" else (OUTPUT_KINDS[output.of],)
         kept |= {Past(kind, 0) for kind in kinds}

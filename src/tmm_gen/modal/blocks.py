@@ -1,0 +1,143 @@
+"""The elements' Laplace-domain transfer matrices as numbers, from the same declarations as the generated kernels."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cache
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+Kind = Literal["chain", "planar"]
+
+
+@dataclass(frozen=True)
+class Blocks:
+    """``[k; f]_out = [[U11, U12], [U21, U22]] [k; f]_in`` at f frequencies, each block (f, m, m)."""
+
+    U11: Complex
+    U12: Complex
+    U21: Complex
+    U22: Complex
+
+
+@dataclass(frozen=True)
+class ElementFunctions:
+    """A type of element.
+
+    Parameters
+    ----------
+    width : int
+        m, motions of a station: 1 in a chain, 3 in a planar arm.
+    blocks : callable
+        From s (f,) and the values of the parameters to the blocks.
+    powers : callable
+        From the values of the parameters to the coefficients of ``s^0, s^1, s^2`` in ``U21``, (3, m, m), and to
+        the constants ``U11`` and ``U22``.
+    impedance : callable
+        From the values of the parameters to the coefficients of ``s^0, s^1`` in ``1/U12`` of the angle; joints only.
+    """
+
+    width: int
+    blocks: Callable[[Complex, Sequence[float]], Blocks]
+    powers: Callable[[Sequence[float]], tuple[Array, Array, Array]]
+    impedance: Callable[[Sequence[float]], Array]
+
+
+@cache
+def element_functions(kind: Kind, name: str) -> ElementFunctions:
+    """Return the functions of a type of element.
+
+    Parameters
+    ----------
+    kind : {"chain", "planar"}
+        Family.
+    name : str
+        "joint", "link", "load", "hub", "friction" (chain), "tip" (planar).
+    """
+    import sympy as sp
+
+    from tmm_gen.derive.transfer import LAPLACE, laplace_matrix
+
+    element = _elements(kind)[name]
+    matrix = laplace_matrix(element)
+    width = matrix.U11.rows
+    whole = sp.Matrix.vstack(sp.Matrix.hstack(matrix.U11, matrix.U12), sp.Matrix.hstack(matrix.U21, matrix.U22))
+    filled = _filler((LAPLACE, *element.parameters), whole)
+
+    def blocks(s: Complex, values: Sequence[float]) -> Blocks:
+        found = np.empty((len(s), 2 * width, 2 * width), complex)
+        filled(found, s, *values)
+        return Blocks(
+            found[:, :width, :width], found[:, :width, width:], found[:, width:, :width], found[:, width:, width:]
+        )
+
+    constants = [_filler(element.parameters, part) for part in (matrix.U11, matrix.U22)]
+    inertia = matrix.U21.applyfunc(sp.expand)
+    by_power = [_filler(element.parameters, inertia.applyfunc(_coefficient(p))) for p in range(3)]
+
+    def powers(values: Sequence[float]) -> tuple[Array, Array, Array]:
+        coefficients, fixed = np.empty((3, width, width)), np.empty((2, width, width))
+        for fill, target in zip(by_power, coefficients, strict=True):
+            fill(target, *values)
+        for fill, target in zip(constants, fixed, strict=True):
+            fill(target, *values)
+        return coefficients, fixed[0], fixed[1]
+
+    compliance = matrix.U12[width - 1, width - 1]
+    law = sp.zeros(1, 2) if compliance == 0 else _impedance(compliance)
+    of_impedance = _filler(element.parameters, law)
+
+    def impedance(values: Sequence[float]) -> Array:
+        found = np.empty((1, 2))
+        of_impedance(found, *values)
+        return found[0]
+
+    return ElementFunctions(width, blocks, powers, impedance)
+
+
+def _impedance(compliance: Any) -> Any:
+    import sympy as sp
+
+    law = sp.expand(sp.cancel(1 / compliance))
+    return sp.Matrix([[_coefficient(0)(law), _coefficient(1)(law)]])
+
+
+def _coefficient(power: int) -> Callable[[Any], Any]:
+    from tmm_gen.derive.transfer import LAPLACE
+
+    return lambda expression: expression.coeff(LAPLACE, power)
+
+
+def _filler(symbols: Sequence[Any], matrix: Any) -> Callable[..., None]:
+    """Return a function that writes a matrix of expressions into the last two axes of an array."""
+    import sympy as sp
+
+    entries = [(row, column, matrix[row, column]) for row in range(matrix.rows) for column in range(matrix.cols)]
+    constant = np.array(
+        [[float(entry) if entry.is_number else 0.0 for entry in matrix.row(r)] for r in range(matrix.rows)]
+    )
+    varying = [(row, column, entry) for row, column, entry in entries if not entry.is_number]
+    compute = sp.lambdify(symbols, [entry for *_, entry in varying], "numpy", cse=True)
+
+    def fill(target: NDArray[Any], *values: Any) -> None:
+        target[...] = constant
+        for (row, column, _), value in zip(varying, compute(*values), strict=True):
+            target[..., row, column] = value
+
+    return fill
+
+
+@cache
+def _elements(kind: Kind) -> dict[str, Any]:
+    if kind == "planar":
+        from tmm_gen.derive.laplace.planar import rest_elements
+
+        return rest_elements()
+    from tmm_gen.derive.elements.torsion import GROUND_DAMPER, JOINT, LINK, TORQUE
+
+    return {"joint": JOINT, "link": LINK, "hub": LINK, "friction": GROUND_DAMPER, "load": TORQUE}

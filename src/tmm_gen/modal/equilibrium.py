@@ -1,0 +1,136 @@
+"""Where a planar arm comes to rest, by following its descent to the bottom."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.errors import UserError
+from tmm_gen.modal.arm import linear_arm
+from tmm_gen.modal.matrices import Matrices, matrices
+from tmm_gen.modal.rest import Rest, rest_at, straight
+from tmm_gen.scene import Scene
+
+Array = NDArray[np.float64]
+Unbalanced = Callable[[Rest, Matrices], Array]
+"""Torque out of balance on each free angle of a configuration."""
+
+_STEPS = 500
+_LARGEST_TURN = 0.5
+_TOLERANCE = 1e-12
+_HALVINGS = 30
+_OVERSHOOT = 0.9
+_NEAR = 1e-6
+_CONVEX = 1e-12
+"""Least generalised eigenvalue of the stiffness, relative to the largest, that counts as convex."""
+
+
+def equilibrium(
+    scene: Scene, inputs: Mapping[str, float] | None = None, unbalanced: Unbalanced | None = None
+) -> Rest:
+    """Return the static equilibrium that the arm reaches from its initial angles under gravity and constant inputs.
+
+    Newton's iteration on the torque out of balance, turned into a descent of the potential energy: where the stiffness
+    has negative directions it is shifted along the mass matrix until it has none (Nocedal & Wright 2006, ch. 3.4), and
+    steps end before the energy rises. So it is a stable equilibrium, unless the arm starts on an unstable one.
+
+    Parameters
+    ----------
+    scene : Scene
+        Of kind "planar".
+    inputs : mapping from str to float, optional
+        Constant inputs by name; those not given are zero.
+    unbalanced : callable, optional
+        Where the torque comes from; by default the elements' equations. See :func:`kernel_unbalanced`.
+
+    Raises
+    ------
+    UserError
+        If there is none: a torque on a free hub turns the arm forever.
+    """
+    angles = straight(scene)
+    rest, linear, torque = _look(scene, angles, inputs, unbalanced)
+    for _ in range(_STEPS):
+        turn = _descent(linear, torque)
+        largest = float(np.max(np.abs(turn)))
+        if largest <= _TOLERANCE * max(1.0, float(np.max(np.abs(angles)))):
+            return rest
+        share = min(1.0, _LARGEST_TURN / largest)
+        slope = float(torque @ turn)  # of the energy, downward
+        for _ in range(_HALVINGS):
+            rest, linear, torque = _look(scene, angles + share * turn, inputs, unbalanced)
+            if float(torque @ turn) >= -_OVERSHOOT * slope or largest < _NEAR:
+                break
+            share *= 0.5
+        angles = angles + share * turn
+    raise UserError(
+        f"scene '{scene.name}': no static equilibrium found from its initial angles; "
+        "hold the base (base.kind = \"clamp\" or \"prescribed\"), or start nearer by [initial] angles"
+    )
+
+
+def _look(
+    scene: Scene, angles: Array, inputs: Mapping[str, float] | None, unbalanced: Unbalanced | None
+) -> tuple[Rest, Matrices, Array]:
+    rest = rest_at(scene, angles, inputs=inputs)
+    linear = matrices(linear_arm(scene, rest))
+    return rest, linear, rest.unbalanced if unbalanced is None else unbalanced(rest, linear)
+
+
+def _descent(linear: Matrices, torque: Array) -> Array:
+    """Return the turn to the minimum of the local energy, or of one made convex."""
+    from scipy.linalg import eigh
+
+    squares, shapes = eigh(linear.stiffness, linear.mass)
+    least = _CONVEX * float(np.max(np.abs(squares)))
+    shift = max(0.0, least - float(squares[0]))
+    if shift > 0.0:
+        shift += least - min(float(squares[0]), 0.0)
+    found: Array = shapes @ ((shapes.T @ torque) / (squares + shift))
+    return found
+
+
+def kernel_unbalanced(scene: Scene, inputs: Mapping[str, float] | None = None) -> Unbalanced:
+    """Return the torque out of balance that the scene's generated NumPy kernel sees.
+
+    Its ``initialise`` gives the accelerations of an arm let go at some angles; times the mass matrix they are the
+    torques. A hub always starts at angle zero there, so that it cannot be asked about a free hub.
+
+    Parameters
+    ----------
+    scene : Scene
+        Of kind "planar", its base a clamp or prescribed.
+    inputs : mapping from str to float, optional
+        Constant inputs by name; those not given are zero.
+
+    Raises
+    ------
+    ValueError
+        If the base is a motor.
+    """
+    accelerations = kernel_accelerations(scene, inputs)
+    return lambda rest, linear: linear.mass @ accelerations(rest.angles)
+
+
+def kernel_accelerations(scene: Scene, inputs: Mapping[str, float] | None = None) -> Callable[[Array], Array]:
+    """Return a function from the links' angles to their accelerations (rad/s^2) in the generated NumPy kernel.
+
+    Raises
+    ------
+    ValueError
+        If the base is a motor.
+    """
+    if scene.base.kind == "motor":
+        raise ValueError(f"scene '{scene.name}': the kernel starts a motor's hub at angle zero only")
+    from tmm_gen.measure.module import numpy_module
+
+    module = numpy_module(scene)
+    held = module.Input(**{item.name: (inputs or {}).get(item.name, 0.0) for item in scene.inputs})
+
+    def accelerations(angles: Array) -> Array:
+        state = module.initialise(module.Params(), held, initial_angle=angles)
+        return np.array(state.acceleration, float)
+
+    return accelerations

@@ -1,0 +1,81 @@
+"""Frequency response of a scene's outputs to its inputs, by the Riccati sweep at ``s = j omega``."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from tmm_gen.modal.arm import LinearArm
+from tmm_gen.modal.sweep import States, sweep
+from tmm_gen.scene import Output, station_of
+
+Complex = NDArray[np.complex128]
+
+_AT_ONCE = 4_000_000
+"""Numbers a sweep may hold at a time; more frequencies are taken in several."""
+
+
+def frequency_response(arm: LinearArm, s: ArrayLike) -> dict[str, Complex]:
+    """Return all outputs for a unit of each input.
+
+    Parameters
+    ----------
+    arm : LinearArm
+        Chain, or planar arm about rest.
+    s : array_like, (f,)
+        Laplace variable, 1/s, not zero and no pole; ``1j * omega`` for steady vibration.
+
+    Returns
+    -------
+    dict from str to array, (f, inputs)
+        By name of the output; those with two components get ``_x`` and ``_y``.
+    """
+    points = np.atleast_1d(np.asarray(s, complex))
+    numbers = (len(arm.elements) + 1) * (arm.width**2 + arm.width * max(1, len(arm.scene.inputs))) * 3
+    chunk = max(1, _AT_ONCE // numbers)
+    parts = []
+    for start in range(0, len(points), chunk):
+        some = points[start : start + chunk]
+        states = sweep(arm, some)
+        parts.append({name: value for item in arm.scene.outputs for name, value in _read(arm, states, some, item)})
+    return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+
+
+def component_names(arm: LinearArm) -> dict[str, tuple[str, ...]]:
+    """Return the names of each output's components."""
+    vectors = ("position", "velocity", "acceleration", "force") if arm.kind == "planar" else ()
+    return {
+        item.name: (f"{item.name}_x", f"{item.name}_y") if item.of in vectors else (item.name,)
+        for item in arm.scene.outputs
+    }
+
+
+def _read(arm: LinearArm, states: States, s: Complex, output: Output) -> list[tuple[str, Complex]]:
+    station = station_of(output.at, arm.scene.stations)
+    names = component_names(arm)[output.name]
+    if output.of in ("torque", "force"):
+        force = _force(arm, states, output, station)
+        if output.of == "force":
+            return [(name, force[:, i]) for i, name in enumerate(names)]
+        # positive where the joint is bent toward positive angles, whatever side the force is counted on
+        return [(names[0], arm.sign * force[:, -1])]
+    motion = states.motion[_behind(arm, station)]
+    factor = {"velocity": s, "acceleration": s**2}.get(output.of, np.ones(len(s)))[:, None]
+    rows = [arm.width - 1] if len(names) == 1 else [0, 1]
+    return [(name, factor * motion[:, row]) for name, row in zip(names, rows, strict=True)]
+
+
+def _behind(arm: LinearArm, station: int) -> int:
+    """Return the number of the state outboard of a station's link, or of the base."""
+    if station == 0:
+        return 0
+    return 1 + next(k for k, e in enumerate(arm.elements) if e.name == "link" and e.station == station)
+
+
+def _force(arm: LinearArm, states: States, output: Output, station: int) -> Complex:
+    """Return the forces in a joint, or between the last link and the body at the tip."""
+    if arm.kind == "planar" and output.at == "tip":
+        return states.before_load[_behind(arm, station)]
+    joint = max(station, 1)
+    at = next(k for k, e in enumerate(arm.elements) if e.name == "joint" and e.station == joint)
+    return states.force[at]

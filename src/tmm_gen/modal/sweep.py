@@ -1,0 +1,90 @@
+"""The Riccati sweep with numbers, over any row of elements, at many frequencies at once."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.modal.arm import LinearArm
+
+Complex = NDArray[np.complex128]
+
+
+@dataclass(frozen=True, eq=False)
+class States:
+    """Motions and forces along an arm for a unit of each input.
+
+    Parameters
+    ----------
+    motion, force : array, (elements + 1, f, width, inputs)
+        At the inboard side of each element, and at the tip. A load acts at the outboard side of its element, before
+        the inboard side of the next.
+    before_load : array, (elements + 1, f, width, inputs)
+        Forces at the outboard side of the element before, inboard of the load there.
+    """
+
+    motion: Complex
+    force: Complex
+    before_load: Complex
+
+
+def sweep(arm: LinearArm, s: Complex) -> States:
+    """Carry ``force = S motion + e`` from the tip to the base, then motions from the base to the tip.
+
+    See :mod:`tmm_gen.derive.sweep.riccati` for the recursion.
+
+    Parameters
+    ----------
+    arm : LinearArm
+        The elements.
+    s : array, (f,)
+        Laplace variable, 1/s; no pole of the arm.
+    """
+    count, width, inputs = len(arm.elements), arm.width, len(arm.scene.inputs)
+    impedance = np.zeros((len(s), width, width), complex)
+    bias = np.zeros((len(s), width, inputs), complex)
+    impedances, biases = [impedance], [bias]
+    gains, offsets = [], []
+    for placed in reversed(arm.elements):
+        blocks = arm.functions(placed).blocks(s, placed.values)
+        bias = bias.copy()
+        for number, load in placed.loads:
+            bias[:, :, number] -= np.array(load)
+        inward = np.linalg.solve(
+            blocks.U22 - impedance @ blocks.U12,
+            np.concatenate([impedance @ blocks.U11 - blocks.U21, bias], axis=2),
+        )
+        impedance, bias = inward[:, :, :width], inward[:, :, width:]
+        gains.append(blocks.U11 + blocks.U12 @ impedance)
+        offsets.append(blocks.U12 @ bias)
+        impedances.append(impedance)
+        biases.append(bias)
+    impedances.reverse()
+    biases.reverse()
+    gains.reverse()
+    offsets.reverse()
+
+    motion = np.zeros((count + 1, len(s), width, inputs), complex)
+    motion[0] = _base(arm, impedances[0], biases[0])
+    for k in range(count):
+        motion[k + 1] = gains[k] @ motion[k] + offsets[k]
+    force = np.stack(impedances) @ motion + np.stack(biases)
+    before = force.copy()
+    for k, placed in enumerate(arm.elements):
+        for number, load in placed.loads:
+            before[k + 1, :, :, number] -= np.array(load)
+    return States(motion, force, before)
+
+
+def _base(arm: LinearArm, impedance: Complex, bias: Complex) -> Complex:
+    """Return the motion of the inner end: free, held, or prescribed."""
+    motion = np.zeros_like(bias)
+    if arm.prescribed is not None:
+        motion[:, -1, arm.prescribed] = 1.0
+    free = np.flatnonzero(arm.free)
+    if len(free):
+        rest = (impedance @ motion + bias)[:, free]
+        motion[:, free] = -np.linalg.solve(impedance[:, free[:, None], free[None, :]], rest)
+    return motion

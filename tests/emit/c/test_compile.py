@@ -1,0 +1,105 @@
+"""Emitted C compiles without a warning, and its own test passes, for chains of every kind."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+import pytest
+
+from tmm_gen.derive.integrators.registry import names
+
+pytestmark = pytest.mark.compiler
+
+KINDS = [
+    *({"integrator": name, "alike": True} for name in names()),
+    *({"integrator": name, "base": "motor", "inner": True, "real": "float32"} for name in names()),
+    *({"integrator": name, "base": "prescribed"} for name in names()),
+    *(
+        {"integrator": name, "base": "free motor", "sweep": "product"}
+        for name in ("newmark", "houbolt", "sdirk2")
+    ),
+    {"sweep": "product", "inner": True, "real": "float32"},
+    {"sweep": "product", "base": "prescribed", "integrator": "bathe"},
+    {"unknown": "displacement", "base": "motor", "integrator": "park"},
+    {"unknown": "increment", "base": "prescribed", "integrator": "wilson", "real": "float32"},
+    {"integrator": "newmark", "parameters": "beta = 0.0", "damped": False},
+    {"stations": 1},
+    {"stations": 1, "base": "motor", "integrator": "sdirk4"},
+    {"stations": 2, "inner": True, "integrator": "zhou"},
+    {"driven": False},
+    {"driven": False, "integrator": "houbolt"},
+]
+
+
+@pytest.mark.parametrize("kind", KINDS, ids=lambda kind: "-".join(map(str, kind.values())))
+def test_silent_and_right(
+    kind: dict[str, Any], chain: Any, written: Any, command: Any, warnings: Any
+) -> None:
+    sources = written(chain(**kind).files)
+    for compiler in ("gcc", "clang"):
+        command(compiler, *warnings, "-O2", *sources, "-o", "test", "-lm")
+        assert re.fullmatch(r"\d+ checks passed\n", command("./test"))
+
+
+@pytest.mark.parametrize("compiler", ["gcc", "clang"])
+@pytest.mark.parametrize("optimisation", ["-O0", "-O1", "-O3", "-Os"])
+def test_every_optimisation(
+    optimisation: str, compiler: str, chain: Any, written: Any, command: Any, warnings: Any
+) -> None:
+    sources = written(chain(base="motor", inner=True, integrator="houbolt").files)
+    command(compiler, *warnings, optimisation, *sources, "-o", "test", "-lm")
+    assert command("./test").endswith("checks passed\n")
+
+
+@pytest.mark.parametrize("compiler", ["gcc", "clang"])
+@pytest.mark.parametrize(
+    "kind",
+    [
+        {"inner": True},
+        {"base": "motor", "inner": True, "integrator": "houbolt", "real": "float32"},
+        {"base": "prescribed", "integrator": "sdirk4"},
+        {"base": "free motor", "integrator": "bathe", "sweep": "product", "inner": True},
+        {"stations": 1, "base": "motor"},
+    ],
+    ids=lambda kind: "-".join(map(str, kind.values())),
+)
+def test_sanitizers(kind: dict[str, Any], compiler: str, chain: Any, written: Any, command: Any) -> None:
+    sanitize = "-fsanitize=address,undefined,float-divide-by-zero"
+    flags = ("-std=c99", "-g", "-O1", sanitize, "-fno-sanitize-recover=all")
+    command(compiler, *flags, *written(chain(**kind).files), "-o", "test", "-lm")
+    assert command("./test").endswith("checks passed\n")
+
+
+@pytest.mark.parametrize(
+    "kind", [{"base": "motor"}, {"integrator": "park", "base": "prescribed", "inner": True}]
+)
+def test_no_uninitialised_memory(kind: dict[str, Any], chain: Any, written: Any, command: Any) -> None:
+    flags = ("-std=c99", "-g", "-O1", "-fsanitize=memory", "-fno-sanitize-recover=all")
+    command("clang", *flags, *written(chain(**kind).files), "-o", "test", "-lm")
+    assert command("./test").endswith("checks passed\n")
+
+
+def test_cmake(chain: Any, written: Any, command: Any) -> None:
+    written(chain(base="motor").files)
+    command("cmake", "-S", ".", "-B", "build", "-DCMAKE_C_FLAGS=-Werror -Wall -Wextra")
+    command("cmake", "--build", "build")
+    assert "100% tests passed" in command("ctest", "--test-dir", "build")
+
+
+def test_header_serves_cpp(chain: Any, written: Any, command: Any, tmp_path: Any) -> None:
+    written(chain(integrator="sdirk2").files)
+    (tmp_path / "user.cpp").write_text(
+        '#include "arm.h"\nint main() { arm_params p; arm_default_params(&p); }\n'
+    )
+    command("g++", "-std=c++11", "-pedantic", "-Wall", "-Wextra", "-Werror", "-c", "user.cpp")
+
+
+def test_the_emitted_test_finds_a_wrong_sign(chain: Any, written: Any, command: Any) -> None:
+    files = dict(chain().files)
+    right = "state->rate[j] = known_rate[j + 1] + "
+    assert right in files["c/arm.c"]
+    files["c/arm.c"] = files["c/arm.c"].replace(right, right.replace("+ ", "- ").replace("j - 1", "j + 1"))
+    command("gcc", "-std=c99", *written(files), "-o", "test", "-lm")
+    with pytest.raises(AssertionError, match=r"\d+ of \d+ checks failed"):
+        command("./test")

@@ -1,0 +1,284 @@
+"""`tmm-gen build` as users meet it."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from tmm_gen.cli import main
+
+SCENE = """\
+name = "{name}"
+[model]
+kind = "chain"
+[integrator]
+name = "newmark"
+step = 0.01
+[base]
+kind = "clamp"
+[[joint]]
+stiffness = {stiffness}
+[[link]]
+inertia = 1.0
+[[input]]
+name = "push"
+at = "tip"
+acts = "torque"
+[[output]]
+name = "tip"
+at = "tip"
+of = "angle"
+"""
+
+
+def scene(name: str, stiffness: float = 2.0) -> str:
+    return SCENE.format(name=name, stiffness=stiffness)
+
+
+@pytest.fixture
+def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder with two scenes, and a cache of its own."""
+    (tmp_path / "scenes").mkdir()
+    for name in ("arm", "beam"):
+        (tmp_path / "scenes" / f"{name}.toml").write_text(scene(name))
+    monkeypatch.setenv("TMM_GEN_CACHE", str(tmp_path / "cache"))
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def rows(capsys: pytest.CaptureFixture[str]) -> dict[str, dict[str, object]]:
+    return {row["scene"]: row for row in json.loads(capsys.readouterr().out)["rows"]}
+
+
+def tree(folder: Path) -> dict[str, bytes]:
+    files = [path for path in folder.rglob("*") if path.is_file() and "__pycache__" not in path.parts]
+    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in files}
+
+
+def test_all_scenes_are_built_by_default(place: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["build", "--json"]) == 0
+    found = rows(capsys)
+    assert {name: row["state"] for name, row in found.items()} == {"arm": "built", "beam": "built"}
+    assert found["arm"]["folder"] == "generated/arm"
+    assert {"__init__.py", "kernel.py", "casadi_model.py", "c/arm.h", "c/arm.c"} <= set(
+        found["arm"]["written"]
+    )  # type: ignore[call-overload]
+    assert sorted(path.name for path in (place / "generated").iterdir()) == ["arm", "beam"]
+    assert main(["build", "--json"]) == 0
+    again = rows(capsys)
+    assert {row["state"] for row in again.values()} == {"up to date"}
+    assert sorted(again["arm"]["unchanged"]) == sorted(found["arm"]["written"])  # type: ignore[call-overload]
+
+
+@pytest.mark.parametrize("word", ["arm", "scenes/arm.toml"])
+def test_a_scene_is_named_by_name_or_file(place: Path, word: str) -> None:
+    assert main(["build", word, "--out", "here/below"]) == 0
+    assert sorted(path.name for path in (place / "here" / "below").iterdir()) == ["arm"]
+
+
+def test_the_package_runs(place: Path) -> None:
+    assert main(["build", "arm"]) == 0
+    program = "import arm; print(arm.simulate(1.0, {'push': 1.0}).outputs['tip'][-1], arm.__file__)"
+    done = subprocess.run(
+        [sys.executable, "-c", program], cwd=place / "generated", capture_output=True, text=True, check=True
+    )
+    assert 0.2 < float(done.stdout.split()[0]) < 0.5  # (1 - cos(sqrt(2))) / 2 is 0.42
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["armm"], "no scene 'armm' in scenes/. Did you mean 'arm'?"),
+        (["zzz"], "no scene 'zzz' in scenes/. Name a *.toml file, or one of: arm, beam."),
+        (["nowhere.toml"], "nowhere.toml: "),
+    ],
+)
+def test_an_unknown_scene_is_told(
+    place: Path, capsys: pytest.CaptureFixture[str], words: list[str], said: str
+) -> None:
+    assert main(["build", *words]) == 2
+    assert said in capsys.readouterr().err
+    assert not (place / "generated").exists()
+
+
+def test_no_scenes_at_all_is_told(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["build"]) == 2
+    assert "no scene: scenes/ holds no *.toml here. Name a file, or make one by" in capsys.readouterr().err
+
+
+def test_two_scenes_of_one_name_are_told(place: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (place / "scenes" / "zoo.toml").write_text(scene("arm", 3.0))
+    assert main(["build"]) == 2
+    assert "zoo.toml: has the name 'arm', as scenes/arm.toml has" in capsys.readouterr().err
+    assert not (place / "generated").exists()
+
+
+def test_a_bad_scene_stops_all_before_anything_is_written(
+    place: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (place / "scenes" / "beam.toml").write_text(scene("beam", -1.0))
+    assert main(["build"]) == 2
+    assert "beam.toml:10: joint[1].stiffness" in capsys.readouterr().err
+    assert not (place / "generated").exists()
+
+
+def test_check_shows_the_difference_and_writes_nothing(
+    place: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["build"]) == 0
+    assert main(["build", "--check"]) == 0
+    (place / "scenes" / "arm.toml").write_text(scene("arm", 4.0))
+    before = tree(place / "generated")
+    capsys.readouterr()
+    assert main(["build", "--check"]) == 1
+    shown = capsys.readouterr()
+    assert "-    stiffness: ArrayLike = 2.0" in shown.out.splitlines()
+    assert "+    stiffness: ArrayLike = 4.0" in shown.out.splitlines()
+    assert "error: generated/ is not what the scenes give: arm. Run `tmm-gen build`." in shown.err
+    assert tree(place / "generated") == before
+    assert main(["build", "--check", "--json", "arm"]) == 1
+    assert rows(capsys)["arm"]["state"] == "drift"
+    assert main(["build"]) == 0
+    assert main(["build", "--check"]) == 0
+
+
+def test_check_does_not_trust_the_cache(place: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["build", "arm"]) == 0
+    for entry in (place / "cache").rglob("*.json"):
+        kernel = place / "generated" / "arm" / "kernel.py"
+        kernel.write_text(kernel.read_text().replace("2.0", "7.0"))
+        import hashlib
+
+        known = json.loads(entry.read_text())
+        entry.write_text(json.dumps({**known, "kernel.py": hashlib.sha256(kernel.read_bytes()).hexdigest()}))
+    capsys.readouterr()
+    assert main(["build", "--check", "arm"]) == 1
+
+
+def test_check_of_what_was_never_built_is_all_difference(
+    place: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["build", "--check", "arm"]) == 1
+    shown = capsys.readouterr().out
+    assert "--- /dev/null" in shown
+    assert "+++ generated/arm/kernel.py" in shown
+    assert not (place / "generated").exists()
+
+
+def test_an_edit_by_hand_is_kept_unless_forced(place: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["build"]) == 0
+    kernel = place / "generated" / "arm" / "kernel.py"
+    edited = kernel.read_text() + "# mine\n"
+    kernel.write_text(edited)
+    capsys.readouterr()
+    assert main(["build"]) == 2
+    said = capsys.readouterr().err
+    assert "generated/arm/kernel.py: was edited by hand since tmm-gen wrote it" in said
+    assert "--force" in said
+    assert kernel.read_text() == edited
+    assert main(["build", "--force"]) == 0
+    assert not kernel.read_text().endswith("# mine\n")
+
+
+def test_files_no_longer_made_are_reported_and_removed(
+    place: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["build", "arm"]) == 0
+    (place / "scenes" / "arm.toml").write_text(scene("arm") + '[emit]\nbackends = ["numpy"]\n')
+    capsys.readouterr()
+    assert main(["build", "arm", "--check"]) == 1
+    assert "+++ /dev/null" in capsys.readouterr().out
+    assert main(["build", "arm", "--json"]) == 0
+    assert "casadi_model.py" in rows(capsys)["arm"]["removed"]  # type: ignore[operator]
+    assert set(tree(place / "generated" / "arm")) == {"__init__.py", "kernel.py"}
+
+
+def test_a_missing_file_is_written_again(place: Path) -> None:
+    assert main(["build", "arm"]) == 0
+    before = tree(place / "generated")
+    (place / "generated" / "arm" / "kernel.py").unlink()
+    assert main(["build", "arm"]) == 0
+    assert tree(place / "generated") == before
+
+
+HEAVY = ["sympy", "numpy", "casadi", "scipy", "jinja2", "matplotlib"]
+
+
+def imported(place: Path, words: list[str]) -> str:
+    program = (
+        "import sys\nfrom tmm_gen.cli import main\n"
+        f"assert main({words!r}) == 0\n"
+        f"print('imported:', *[name for name in {HEAVY!r} if name in sys.modules])"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", program], cwd=place, capture_output=True, text=True, check=True
+    )
+    return done.stdout.splitlines()[-1]
+
+
+def test_a_build_with_nothing_to_do_imports_nothing_heavy(place: Path) -> None:
+    assert "sympy" in imported(place, ["build"])
+    assert imported(place, ["build"]) == "imported:"
+
+
+@pytest.mark.parametrize("change", ["scene", "sources", "sympy", "cache"])
+def test_the_cache_forgets(place: Path, monkeypatch: pytest.MonkeyPatch, change: str) -> None:
+    from tmm_gen.emit import cache
+
+    assert main(["build", "arm"]) == 0
+    derived: list[str] = []
+    monkeypatch.setattr("tmm_gen.emit.package.emit_package", lambda scene: derived.append(scene.name) or {})
+    monkeypatch.setattr("tmm_gen.emit.write.write_package", lambda *_, **__: cache_free())
+    monkeypatch.setattr("tmm_gen.emit.cache.remember", lambda *_: None)
+    assert main(["build", "arm"]) == 0
+    assert derived == []
+    if change == "scene":
+        (place / "scenes" / "arm.toml").write_text(scene("arm", 2.5))
+    elif change == "cache":
+        for entry in (place / "cache").rglob("*.json"):
+            entry.write_text("{ spoiled")
+    else:
+        cache.generator_digest.cache_clear()
+        if change == "sympy":
+            monkeypatch.setattr(cache, "version", lambda name: "0.0")
+        else:
+            monkeypatch.setattr(cache, "templates_dir", lambda: place / "scenes")
+    assert main(["build", "arm"]) == 0
+    cache.generator_digest.cache_clear()
+    assert derived == ["arm"]
+
+
+def cache_free() -> object:
+    from tmm_gen.emit.write import Changes
+
+    return Changes({}, (), ())
+
+
+def test_a_cache_that_cannot_be_written_is_no_error(place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (place / "file").write_text("")
+    monkeypatch.setenv("TMM_GEN_CACHE", str(place / "file"))
+    assert main(["build", "arm"]) == 0
+    assert main(["build", "arm"]) == 0
+
+
+def test_text_does_not_depend_on_the_seed_of_hashes(
+    place: Path, tmm_gen: Callable[..., subprocess.CompletedProcess[str]]
+) -> None:
+    source = Path(__file__).resolve().parents[2] / "scenes" / "drivetrain.toml"
+    (place / "scenes" / "drivetrain.toml").write_text(source.read_text())
+    trees = []
+    for seed in ("0", "12345"):
+        done = tmm_gen("build", "--out", seed, env={"PYTHONHASHSEED": seed, "TMM_GEN_CACHE": os.devnull})
+        assert done.returncode == 0, done.stderr
+        trees.append(tree(place / seed))
+    assert trees[0] == trees[1]
+    assert len(trees[0]) >= 3 * 7
