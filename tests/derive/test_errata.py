@@ -168,6 +168,7 @@ def test_the_command(capsys: pytest.CaptureFixture[str]) -> None:
     rows = json.loads(capsys.readouterr().out)["rows"]
     wanted = {"table", "coefficient", "printed", "derived", "agrees", "effect"}
     assert all(wanted <= set(row) for row in rows)
+    rows = [row for row in rows if row["table"].startswith("3-")]
     assert {(row["table"], row["coefficient"]) for row in rows if not row["agrees"]} == WRONG
     assert rows[0]["derived"] == "2/h^2"
     assert rows[3]["printed"] == "-v[i-1] - 2*q[i-1]/h"

@@ -1,4 +1,4 @@
-"""One set of expressions, written by every printer of expressions and compared with SymPy's own evaluation."""
+"""One set of expressions, written by every printer and compared with SymPy's own evaluation."""
 
 from __future__ import annotations
 

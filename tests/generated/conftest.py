@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -46,10 +46,15 @@ class Generated:
         return run(ast.parse(emit_casadi(self.program, self.scene)["casadi_model.py"]), "casadi_model")
 
     def kernel_in(
-        self, number: Callable[[float], Any], quotient: Callable[[float, float], Any]
+        self,
+        number: Callable[[float], Any],
+        quotient: Callable[[float, float], Any],
+        functions: Mapping[str, Callable[[Any], Any]],
     ) -> ModuleType:
-        """Return the NumPy kernel with all its literals, and thus all it computes, in another type of number."""
-        return run(_Literals().visit(ast.parse(self.text)), "kernel", LITERAL=number, QUOTIENT=quotient)
+        """Return the NumPy kernel with its literals, thus all it computes, in another type of number."""
+        module = run(_Literals().visit(ast.parse(self.text)), "kernel", LITERAL=number, QUOTIENT=quotient)
+        module.__dict__["np"] = _Functions(functions)
+        return module
 
     @property
     def several_stages(self) -> bool:
@@ -58,9 +63,9 @@ class Generated:
     def random(self, rng: np.random.Generator, names: Sequence[str] = ("state", "inputs")) -> Values:
         """Return random values of variables; inputs for every stage where there are several."""
         variables = [v for name in names for v in getattr(self.program, name)]
-        return {
-            v.name: rng.normal(size=v.length) if v.length is not None else rng.normal() for v in variables
-        }
+        # An arm in a plane that turns wildly has no solution at a long step: its pivots vanish.
+        size = 1.0 if self.scene.model.kind == "chain" else 0.2 / self.program.stations
+        return {v.name: size * rng.normal(size=v.length if v.length is not None else ()) for v in variables}
 
     def state(self, kernel: ModuleType, values: Values, steps_taken: int) -> Any:
         """Return the kernel's state after some steps."""
@@ -88,6 +93,16 @@ class Generated:
         for name in routines:
             execute(steps[name] if name in steps else getattr(program, name), held, number, modules)
         return held
+
+
+class _Functions:
+    """NumPy with functions of another type of number."""
+
+    def __init__(self, functions: Mapping[str, Callable[[Any], Any]]) -> None:
+        self._functions = {name: np.vectorize(f, otypes=[object]) for name, f in functions.items()}
+
+    def __getattr__(self, name: str) -> Any:
+        return self._functions.get(name) or getattr(np, name)
 
 
 class _Literals(ast.NodeTransformer):

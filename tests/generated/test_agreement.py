@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import mpmath
@@ -20,6 +21,7 @@ UNKNOWNS = {
 }
 EVERY = [(name, unknown) for name in METHOD_NAMES for unknown in UNKNOWNS[name]]
 TOLERANCE = 1e-13
+SCENES = sorted(path.stem for path in (Path(__file__).resolve().parents[2] / "scenes").glob("*.toml"))
 
 positive = st.floats(0.05, 50.0).map(lambda x: float(f"{x:.3g}"))
 damping = st.just(0.0) | st.floats(0.01, 5.0).map(lambda x: float(f"{x:.3g}"))
@@ -96,7 +98,8 @@ def compare_with_casadi(generated: Any, values: Any, place: int, new: list[Any],
 def compare_with_interpreter(generated: Any, values: Any, place: int) -> None:
     """Run both in 60 digits: what is printed is what was built, however ill-conditioned the arithmetic."""
     with mpmath.workdps(60):
-        kernel = generated.kernel_in(mpmath.mpf, lambda above, below: mpmath.mpf(above) / mpmath.mpf(below))
+        functions = {name: getattr(mpmath, name) for name in ("sin", "cos", "sqrt")}
+        kernel = generated.kernel_in(mpmath.mpf, lambda a, b: mpmath.mpf(a) / mpmath.mpf(b), functions)
         exact = {name: np.vectorize(mpmath.mpf, otypes=[object])(value) for name, value in values.items()}
         new, outputs = numpy_step(generated, kernel, exact, place)
         routines = ("prepare", "output", f"step{place}")
@@ -143,7 +146,7 @@ def test_a_step_by_the_product(
     check(generate(scene), 7)
 
 
-@pytest.mark.parametrize("name", ["thesis2", "thesis10", "drivetrain", "hundred"])
+@pytest.mark.parametrize("name", SCENES)
 def test_a_step_of_the_committed_scenes(
     name: str, committed: dict[str, Scene], generate: Callable[[Scene], Any]
 ) -> None:
@@ -166,3 +169,10 @@ def test_the_start_is_the_same_in_all(
     u = [getattr(first, v.name) for v in program.inputs]
     x = generated.casadi.initial_function()(**given, u=u, p=generated.casadi.default_parameters())["x"]
     assert close([np.array(x).ravel()], [getattr(state, v.name) for v in program.state])
+
+
+@pytest.mark.parametrize("integrator", METHOD_NAMES)
+def test_a_step_of_a_planar_arm(
+    integrator: str, committed: dict[str, Scene], generate: Callable[[Scene], Any]
+) -> None:
+    check(generate(committed["arm2"].replace(**{"integrator.name": integrator})), 5)

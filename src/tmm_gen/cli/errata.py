@@ -19,15 +19,16 @@ if TYPE_CHECKING:
 @click.command("errata")
 @click.option("--json", "json_mode", is_flag=True, help="One JSON object instead of a table.")
 def errata(json_mode: bool) -> None:
-    """Compare every coefficient that Gholampour (2018) prints (tables 3-1, 3-3 to 3-8) with the derived one.
+    """Compare what Gholampour (2018) prints with the derived.
 
-    The effect is what that coefficient alone, as printed, does to the thesis's two-station sample at a
-    step of 0.1 s.
+    That is every coefficient of tables 3-1 and 3-3 to 3-8, and the transfer functions 2-90 to 2-100. The effect is
+    what that entry alone, as printed, does to the thesis's two-station sample (at a step of 0.1 s).
     """
     with progress("deriving"):
         from tmm_gen.derive.errata import STEP_OF_EFFECTS, errata_rows, headline
+        from tmm_gen.derive.errata_frequency import frequency_errata_rows
 
-        rows = [_row(row) for row in errata_rows()]
+        rows = [_row(row) for row in (*frequency_errata_rows(), *errata_rows())]
         whole = headline(STEP_OF_EFFECTS)
     finding = (
         f"All of table 3-8 as printed settles in {whole.printed.settling_time:.1f} s "

@@ -31,6 +31,8 @@ CARRIED_MASS, PIN_INERTIA = sp.symbols("m_o J", real=True)
 LOAD_X, LOAD_Y = sp.symbols("L_x L_y", real=True)
 TANGENTIAL, TURNING = sp.symbols("P_t P_r", real=True)
 GAIN_X, GAIN_Y = sp.symbols("X Y", real=True)
+OWN_X, OWN_Y = sp.symbols("X_own Y_own", real=True)
+"""Change of the carried mass's acceleration per unknown: that of the outer end, where its motion is exact."""
 S = sp.Matrix(3, 3, lambda i, k: sp.Symbol(f"S{i + 1}{k + 1}", real=True))
 E = sp.Matrix([sp.Symbol(f"e{i + 1}", real=True) for i in range(3)])
 JOINT_IMPEDANCE, JOINT_TORQUE, PIVOT_INVERSE = sp.symbols("K w D_inv", real=True)
@@ -154,7 +156,7 @@ def link_sweep() -> LinkSweep:
         else:
             change = dict(zip((F_X, F_Y, TORQUE), OUTER_COLUMN, strict=True))
             own = [sp.Integer(0), sp.Integer(0)]
-            outer_own, turned = [GAIN_X, GAIN_Y], slope_torque
+            outer_own, turned = [OWN_X, OWN_Y], slope_torque
         inner_x = _differential(law.force_x, change, own, outer_own)
         inner_y = _differential(law.force_y, change, own, outer_own)
         load_x = _differential(law.load_x, change, own, outer_own)

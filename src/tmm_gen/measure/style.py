@@ -99,10 +99,3 @@ def subtitle(axes: Axes, title: str, below: str) -> None:
     axes.annotate(
         below, (0.0, 1.0), (0.0, 8.0), "axes fraction", "offset points", color=FAINT, fontsize=9, va="bottom"
     )
-
-
-def logarithmic(axes: Axes) -> None:
-    """Give both axes of a plot of errors over steps their scale and finer grid."""
-    axes.set_xscale("log")
-    axes.set_yscale("log")
-    axes.grid(True, which="minor", linewidth=0.4)

@@ -1,4 +1,4 @@
-"""The elements' Laplace-domain transfer matrices as numbers, from the same declarations as the generated kernels."""
+"""The elements' Laplace-domain matrices as numbers, from the declarations the kernels are made of."""
 
 from __future__ import annotations
 
@@ -36,10 +36,11 @@ class ElementFunctions:
     blocks : callable
         From s (f,) and the values of the parameters to the blocks.
     powers : callable
-        From the values of the parameters to the coefficients of ``s^0, s^1, s^2`` in ``U21``, (3, m, m), and to
-        the constants ``U11`` and ``U22``.
+        From the values of the parameters to the coefficients of ``s^0, s^1, s^2`` in ``U21``, (3, m, m), and
+        to the constants ``U11`` and ``U22``.
     impedance : callable
-        From the values of the parameters to the coefficients of ``s^0, s^1`` in ``1/U12`` of the angle; joints only.
+        From the values of the parameters to the coefficients of ``s^0, s^1`` in ``1/U12`` of the angle;
+        joints only.
     """
 
     width: int
@@ -66,14 +67,19 @@ def element_functions(kind: Kind, name: str) -> ElementFunctions:
     element = _elements(kind)[name]
     matrix = laplace_matrix(element)
     width = matrix.U11.rows
-    whole = sp.Matrix.vstack(sp.Matrix.hstack(matrix.U11, matrix.U12), sp.Matrix.hstack(matrix.U21, matrix.U22))
+    whole = sp.Matrix.vstack(
+        sp.Matrix.hstack(matrix.U11, matrix.U12), sp.Matrix.hstack(matrix.U21, matrix.U22)
+    )
     filled = _filler((LAPLACE, *element.parameters), whole)
 
     def blocks(s: Complex, values: Sequence[float]) -> Blocks:
         found = np.empty((len(s), 2 * width, 2 * width), complex)
         filled(found, s, *values)
         return Blocks(
-            found[:, :width, :width], found[:, :width, width:], found[:, width:, :width], found[:, width:, width:]
+            found[:, :width, :width],
+            found[:, :width, width:],
+            found[:, width:, :width],
+            found[:, width:, width:],
         )
 
     constants = [_filler(element.parameters, part) for part in (matrix.U11, matrix.U22)]
@@ -95,7 +101,8 @@ def element_functions(kind: Kind, name: str) -> ElementFunctions:
     def impedance(values: Sequence[float]) -> Array:
         found = np.empty((1, 2))
         of_impedance(found, *values)
-        return found[0]
+        law_found: Array = found[0]
+        return law_found
 
     return ElementFunctions(width, blocks, powers, impedance)
 
@@ -117,7 +124,9 @@ def _filler(symbols: Sequence[Any], matrix: Any) -> Callable[..., None]:
     """Return a function that writes a matrix of expressions into the last two axes of an array."""
     import sympy as sp
 
-    entries = [(row, column, matrix[row, column]) for row in range(matrix.rows) for column in range(matrix.cols)]
+    entries = [
+        (row, column, matrix[row, column]) for row in range(matrix.rows) for column in range(matrix.cols)
+    ]
     constant = np.array(
         [[float(entry) if entry.is_number else 0.0 for entry in matrix.row(r)] for r in range(matrix.rows)]
     )

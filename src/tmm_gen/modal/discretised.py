@@ -1,4 +1,4 @@
-"""A scene's beam as a straight, weightless arm of some number of links: what the exact beam is compared with."""
+"""A scene's beam as a straight, weightless arm of links: what the exact beam is compared with."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ MOST_LINKS = 800
 
 
 def with_links(scene: Scene, links: int, springs: Springs | None = None) -> Scene:
-    """Return a scene whose beam is cut into some number of links, at rest along x, without inputs and outputs.
+    """Return a scene whose beam is cut into some links, at rest along x, without inputs and outputs.
 
     Parameters
     ----------
@@ -140,7 +140,7 @@ def links_needed(scene: Scene, error: float, band: float) -> LinksNeeded:
 
 
 def relative_errors(found: Array, exact: Array) -> Array:
-    """Return the error of each natural frequency; infinite where it is missing, zero for rigid-body motions."""
+    """Return each frequency's error: infinite where it is missing, zero for rigid-body motions."""
     errors = np.full(len(exact), np.inf)
     shared = min(len(found), len(exact))
     scale = np.where(exact[:shared] > 0.0, exact[:shared], 1.0)

@@ -30,11 +30,12 @@ _CONVEX = 1e-12
 def equilibrium(
     scene: Scene, inputs: Mapping[str, float] | None = None, unbalanced: Unbalanced | None = None
 ) -> Rest:
-    """Return the static equilibrium that the arm reaches from its initial angles under gravity and constant inputs.
+    """Return the static equilibrium an arm reaches from its initial angles under gravity and loads.
 
-    Newton's iteration on the torque out of balance, turned into a descent of the potential energy: where the stiffness
-    has negative directions it is shifted along the mass matrix until it has none (Nocedal & Wright 2006, ch. 3.4), and
-    steps end before the energy rises. So it is a stable equilibrium, unless the arm starts on an unstable one.
+    Newton's iteration on the torque out of balance, turned into a descent of the potential energy: where the
+    stiffness has negative directions it is shifted along the mass matrix until it has none (Nocedal & Wright
+    2006, ch. 3.4), and steps end before the energy rises. So it is a stable equilibrium, unless the arm
+    starts on an unstable one.
 
     Parameters
     ----------
@@ -67,7 +68,7 @@ def equilibrium(
         angles = angles + share * turn
     raise UserError(
         f"scene '{scene.name}': no static equilibrium found from its initial angles; "
-        "hold the base (base.kind = \"clamp\" or \"prescribed\"), or start nearer by [initial] angles"
+        'hold the base (base.kind = "clamp" or "prescribed"), or start nearer by [initial] angles'
     )
 
 
@@ -95,8 +96,8 @@ def _descent(linear: Matrices, torque: Array) -> Array:
 def kernel_unbalanced(scene: Scene, inputs: Mapping[str, float] | None = None) -> Unbalanced:
     """Return the torque out of balance that the scene's generated NumPy kernel sees.
 
-    Its ``initialise`` gives the accelerations of an arm let go at some angles; times the mass matrix they are the
-    torques. A hub always starts at angle zero there, so that it cannot be asked about a free hub.
+    Its ``initialise`` gives the accelerations of an arm let go at some angles; times the mass matrix they are
+    the torques. A hub always starts at angle zero there, so that it cannot be asked about a free hub.
 
     Parameters
     ----------
@@ -115,7 +116,7 @@ def kernel_unbalanced(scene: Scene, inputs: Mapping[str, float] | None = None) -
 
 
 def kernel_accelerations(scene: Scene, inputs: Mapping[str, float] | None = None) -> Callable[[Array], Array]:
-    """Return a function from the links' angles to their accelerations (rad/s^2) in the generated NumPy kernel.
+    """Return the generated NumPy kernel's map from angles of the links to their accelerations, rad/s^2.
 
     Raises
     ------

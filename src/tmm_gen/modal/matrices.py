@@ -36,7 +36,7 @@ def matrices(arm: LinearArm) -> Matrices:
     count = arm.scene.stations + first
     angle = arm.width - 1
     motions = _motions(arm, count)
-    force = np.zeros((3, arm.width, count))
+    force: Array = np.zeros((3, arm.width, count))
     # of all free angles: the torque of the joint inboard, less the torque needed there; by powers of s
     missing = np.zeros((count + 1, 3, count))
     for placed, motion in zip(reversed(arm.elements), reversed(motions), strict=True):

@@ -15,7 +15,7 @@ _PROPORTIONAL = 1e-10
 """Coupling of modes by damping below this, relative to their own, is none."""
 
 _RIGID = 1e-7
-"""Frequencies below this, relative to the highest, are zero: that of a rigid-body motion is lost in rounding."""
+"""Frequencies below this, relative to the highest, are zero: those of rigid-body motions are rounding."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,8 +25,8 @@ class Mode:
     Parameters
     ----------
     frequency : float
-        Natural angular frequency, the geometric mean of both poles' moduli, rad/s; zero for a rigid-body motion and
-        where the arm falls over (one pole is positive).
+        Natural angular frequency, the geometric mean of both poles' moduli, rad/s; zero for a rigid-body
+        motion and where the arm falls over (one pole is positive).
     damping_ratio : float or None
         Share of critical damping; None for a rigid-body or an unstable motion.
     poles : tuple of 2 complex
@@ -66,9 +66,9 @@ def natural_modes(linear: Matrices) -> tuple[Array, Array]:
 def find_modes(linear: Matrices, count: int | None = None) -> tuple[Mode, ...]:
     """Return the lowest modes.
 
-    Where damping does not couple the undamped modes (it is proportional to mass and stiffness), each has its own
-    quadratic equation; else the poles are the eigenvalues of the first-order system, and each undamped mode is given
-    the pair nearest to its own.
+    Where damping does not couple the undamped modes (it is proportional to mass and stiffness), each has its
+    own quadratic equation; else the poles are the eigenvalues of the first-order system, and each undamped
+    mode is given the pair nearest to its own.
 
     Parameters
     ----------

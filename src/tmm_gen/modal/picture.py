@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 _COLUMNS = 3
-_SWING = 0.18
+_SWING = 0.12
 """Largest deflection of a drawn mode, relative to the arm's length."""
 
 
@@ -102,7 +102,9 @@ def _nodes(arm: LinearArm, shape: Array) -> tuple[Array, Array]:
     )
 
 
-def _draw_straight(panel: Axes, arm: LinearArm, mode: Mode, beam: BeamArm | None, omega: float | None) -> None:
+def _draw_straight(
+    panel: Axes, arm: LinearArm, mode: Mode, beam: BeamArm | None, omega: float | None
+) -> None:
     place, moved = _nodes(arm, mode.shape)
     deflection = moved[1]
     tip = deflection[-1] if abs(deflection[-1]) > 1e-3 * np.max(np.abs(deflection)) else 1.0
@@ -113,7 +115,15 @@ def _draw_straight(panel: Axes, arm: LinearArm, mode: Mode, beam: BeamArm | None
         panel.plot(along, exact, color=PALETTE[1], linewidth=3.2, alpha=0.45, label="continuous beam")
     marker: Any = "o" if place.shape[1] <= 30 else None
     links = f"{arm.scene.stations} link{'s' * (arm.scene.stations > 1)}"
-    panel.plot(place[0], scale * deflection, marker=marker, markersize=3, linewidth=1.2, color=PALETTE[0], label=links)
+    panel.plot(
+        place[0],
+        scale * deflection,
+        marker=marker,
+        markersize=3,
+        linewidth=1.2,
+        color=PALETTE[0],
+        label=links,
+    )
     panel.set_ylim(-1.2, 1.2)
 
 

@@ -13,8 +13,9 @@ Complex = NDArray[np.complex128]
 def product_tip_response(arm: LinearArm, s: Complex, number: int) -> Complex:
     """Return the tip's angle of a clamped chain for a unit of one input, by multiplying all matrices.
 
-    As the thesis does (Gholampour 2018, eqs. 2-82 to 2-94): the torque at the base follows from that at the free tip,
-    the tip's angle from the torque at the base. Both are differences of numbers that grow along the chain.
+    As the thesis does (Gholampour 2018, eqs. 2-82 to 2-94): the torque at the base follows from that at the
+    free tip, the tip's angle from the torque at the base. Both are differences of numbers that grow along the
+    chain.
 
     Parameters
     ----------

@@ -37,7 +37,9 @@ def frequency_response(arm: LinearArm, s: ArrayLike) -> dict[str, Complex]:
     for start in range(0, len(points), chunk):
         some = points[start : start + chunk]
         states = sweep(arm, some)
-        parts.append({name: value for item in arm.scene.outputs for name, value in _read(arm, states, some, item)})
+        parts.append(
+            {name: value for item in arm.scene.outputs for name, value in _read(arm, states, some, item)}
+        )
     return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
 
 
@@ -75,7 +77,9 @@ def _behind(arm: LinearArm, station: int) -> int:
 def _force(arm: LinearArm, states: States, output: Output, station: int) -> Complex:
     """Return the forces in a joint, or between the last link and the body at the tip."""
     if arm.kind == "planar" and output.at == "tip":
-        return states.before_load[_behind(arm, station)]
+        beyond: Complex = states.before_load[_behind(arm, station)]
+        return beyond
     joint = max(station, 1)
     at = next(k for k, e in enumerate(arm.elements) if e.name == "joint" and e.station == joint)
-    return states.force[at]
+    found: Complex = states.force[at]
+    return found

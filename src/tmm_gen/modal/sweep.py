@@ -19,8 +19,8 @@ class States:
     Parameters
     ----------
     motion, force : array, (elements + 1, f, width, inputs)
-        At the inboard side of each element, and at the tip. A load acts at the outboard side of its element, before
-        the inboard side of the next.
+        At the inboard side of each element, and at the tip. A load acts at the outboard side of its element,
+        before the inboard side of the next.
     before_load : array, (elements + 1, f, width, inputs)
         Forces at the outboard side of the element before, inboard of the load there.
     """

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.emit.c import emit_c
+from tmm_gen.emit.c import emit_kernel
 from tmm_gen.emit.c.real import REALS
 from tmm_gen.emit.templates import render
 from tmm_gen.native.compiler import FLAGS, compile_library
@@ -48,8 +48,7 @@ def compile_kernel(
     UserError
         If there is no such compiler, or it refuses the sources.
     """
-    wanted = (f"c/{program.name}.h", f"c/{program.name}.c")
-    files = {path: text for path, text in emit_c(program, scene).items() if path in wanted}
+    files = emit_kernel(program, scene)
     files["c/harness.c"] = render("c/harness.c.jinja", name=program.name)
     handle = ctypes.CDLL(str(compile_library(files, cc, flags)))
     return NativeKernel(program, Library(program, REALS[scene.emit.real], handle))

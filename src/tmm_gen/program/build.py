@@ -8,6 +8,7 @@ from tmm_gen.errors import UserError
 from tmm_gen.program.planar import build_planar
 from tmm_gen.program.statements import Program
 from tmm_gen.program.torsion import build_chain
+from tmm_gen.program.torsion.safety import require_safe_product
 from tmm_gen.scene import Scene
 
 
@@ -17,12 +18,14 @@ def build_program(scene: Scene) -> Program:
     Raises
     ------
     UserError
-        If the scene asks for something that does not exist: a planar product sweep, or an unknown (displacement,
+        If the scene asks for something that does not exist: a planar product sweep, a
+        product over more stations than it is safe for, or an unknown (displacement,
         increment) that an explicit integrator cannot be solved for.
     """
     chosen = integrator(scene.integrator.name, **scene.integrator.parameters)
     try:
         if scene.model.kind == "chain":
+            require_safe_product(scene, chosen)
             return build_chain(scene, chosen)
         _refuse_unsupported(scene)
         return build_planar(scene, chosen)
@@ -38,9 +41,4 @@ def _refuse_unsupported(scene: Scene) -> None:
         raise UserError(
             f"scene '{scene.name}': model.sweep = '{scene.model.sweep}' multiplies transfer matrices, which loses "
             "all digits in a planar arm; use sweep = 'riccati'"
-        )
-    if scene.model.linearisation != "newton":
-        raise UserError(
-            f"scene '{scene.name}': model.linearisation = '{scene.model.linearisation}' is not supported yet; "
-            "use 'newton'"
         )

@@ -102,6 +102,9 @@ def test_outer_brackets_are_dropped() -> None:
 @pytest.mark.parametrize("words", [3, 40])
 def test_texts_are_filled(words: int) -> None:
     told = " ".join(["word"] * words)
-    assert all(line.startswith("# word") and len(line) <= WIDTH for line in comments([told]))
+    first, *others = comments([told, told])[: len(comments([told]))]
+    assert first.startswith("# word")
+    assert all(line.startswith("#     word") for line in others)
+    assert all(len(line) <= WIDTH for line in (first, *others))
     assert " ".join(line.strip() for line in prose(told, "    ")) == told
     assert comments(["", "a"]) == ["#", "# a"]

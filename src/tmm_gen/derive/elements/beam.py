@@ -1,13 +1,15 @@
 """The continuous beam as an element ``[w, psi | M, V]``, derived from its differential equations.
 
-Along a uniform beam, ``x`` from the inboard to the outboard end, ``M`` and ``V`` what the outer side exerts on the
-inner one (Timoshenko 1921, Phil. Mag. 41; Pestel & Leckie 1963, *Matrix Methods in Elastomechanics*, ch. 5):
+Along a uniform beam, ``x`` from the inboard to the outboard end, ``M`` and ``V`` what the outer side exerts
+on the inner one (Timoshenko 1921, Phil. Mag. 41; Pestel & Leckie 1963, *Matrix Methods in Elastomechanics*,
+ch. 5):
 
     w' = psi + V / (kappa G A)        psi' = M / (E I)
     V' = rho A w''_t                  M' = rho I psi''_t - V
 
-Without shear compliance and rotary inertia it is the beam of Euler and Bernoulli. Lengths are in units of the beam's
-length ``L``, torques in ``E I / L``, forces in ``E I / L^2``; time enters by ``p = rho A L^4 s^2 / (E I)`` alone.
+Without shear compliance and rotary inertia it is the beam of Euler and Bernoulli. Lengths are in units of the
+beam's length ``L``, torques in ``E I / L``, forces in ``E I / L^2``; time enters by ``p = rho A L^4 s^2 / (E
+I)`` alone.
 """
 
 from __future__ import annotations
@@ -19,7 +21,7 @@ import sympy as sp
 
 POSITION = sp.Symbol("xi", real=True)
 FREQUENCY = sp.Symbol("p")
-"""``rho A L^4 s^2 / (E I)``; ``-lambda^4`` on the imaginary axis, ``lambda = beta L`` of Euler and Bernoulli."""
+"""``rho A L^4 s^2 / (E I)``; at ``s = j omega`` it is ``-(beta L)^4`` of Euler and Bernoulli."""
 
 ROTARY = sp.Symbol("r2", nonnegative=True)
 """Rotary inertia ``I / (A L^2)``, the radius of gyration over the length, squared."""
@@ -93,11 +95,12 @@ def waves() -> Waves:
     shape = sp.Matrix(sp.symbols("one psi M V"))
     unknown = list(shape[1:])
     kept = (matrix - WAVE * sp.eye(4)) * shape
-    # three of the four rows; the fourth holds by the choice of kappa. That of psi' is left to M, that of V' to V.
+    # three of the four rows; the fourth holds by the choice of kappa. That of psi' is left to M, that of V'
+    # to V.
     solved = sp.solve([kept[0], kept[1], kept[3]], unknown, dict=True)[0]
     values = {shape[0]: sp.Integer(1)}
     return Waves(
-        squares=squares,  # type: ignore[arg-type]
+        squares=squares, 
         shape=sp.Matrix([1, *(sp.simplify(solved[name].subs(values)) for name in unknown)]),
         discriminant=discriminant,
     )

@@ -1,1 +1,1 @@
-"""The Laplace domain: system matrices and transfer functions of chains, and the planar elements linearised at rest."""
+"""The Laplace domain: transfer functions of chains, and the planar elements linearised at rest."""

@@ -1,8 +1,8 @@
 """Transfer functions of small torsional chains as rational functions of ``s``, from the elements' matrices.
 
-The system matrix is the product of the elements' matrices in the Laplace domain; the boundary conditions leave one
-linear equation for what is unknown at the base (Gholampour 2018, eqs. 2-82 to 2-94). With letters for numbers this is
-exact; with numbers and many stations it is not the way (see :mod:`tmm_gen.modal`).
+The system matrix is the product of the elements' matrices in the Laplace domain; the boundary conditions
+leave one linear equation for what is unknown at the base (Gholampour 2018, eqs. 2-82 to 2-94). With letters
+for numbers this is exact; with numbers and many stations it is not the way (see :mod:`tmm_gen.modal`).
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ class SymbolicChain:
     damping: Sequence[sp.Expr]
     inertia: Sequence[sp.Expr]
     hub_inertia: sp.Expr | None = None
-    hub_damping: sp.Expr = sp.Integer(0)
+    hub_damping: sp.Expr = sp.S.Zero
 
     @property
     def stations(self) -> int:
@@ -74,7 +74,7 @@ class TransferFunctions:
 
 
 def numbered_chain(stations: int, *, hub: bool = False) -> SymbolicChain:
-    """Return a chain with letters ``k_1, c_1, I_1, k_2, ...`` for numbers, and ``J, b`` for those of a hub."""
+    """Return a chain with letters ``k_1, c_1, I_1, k_2, ...`` for numbers, and ``J, b`` for a hub."""
     k, c, inertia = (
         [sp.Symbol(f"{name}_{i + 1}", positive=True) for i in range(stations)] for name in ("k", "c", "I")
     )
@@ -139,7 +139,8 @@ def transfer_functions(chain: SymbolicChain, loaded: int) -> TransferFunctions:
     if not (0 if hub else 1) <= loaded <= chain.stations:
         raise ValueError(f"a torque cannot act on station {loaded} of {chain.stations}")
     products = _products(station_matrices(chain, loaded))
-    # the tip is free: row 2 of the system matrix; at the base the torque is unknown (clamp) or the angle (hub)
+    # the tip is free: row 2 of the system matrix; at the base the torque is unknown (clamp) or the angle
+    # (hub)
     unknown = 0 if hub else 1
     whole = products[-1]
     base = -whole[1, 2].element / whole[1, unknown].element

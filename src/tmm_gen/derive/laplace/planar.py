@@ -1,7 +1,7 @@
-"""The planar elements linearised about rest, and their balance at rest, by differentiation of their equations.
+"""The planar elements linearised about rest, and their balance there, from their own equations.
 
-At rest nothing turns and, seen from a falling frame, every point accelerates upward by ``g``. What is left of an
-element's equations is linear in the deviations, with the angle and the forces at rest as parameters.
+At rest nothing turns and, seen from a falling frame, every point accelerates upward by ``g``. What is left of
+an element's equations is linear in the deviations, with the angle and the forces at rest as parameters.
 """
 
 from __future__ import annotations
@@ -98,7 +98,7 @@ def rest_balance(element: Element) -> RestBalance:
     unknown = REST_FORCES["in"]
     balance = [equation.subs(values) for equation in element.equations[3:]]
     solved = sp.solve(balance, unknown, dict=True)[0]
-    return RestBalance(tuple(sp.expand(solved[force]) for force in unknown))  # type: ignore[arg-type]
+    return RestBalance(tuple(sp.expand(solved[force]) for force in unknown))
 
 
 @cache

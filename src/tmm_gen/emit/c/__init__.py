@@ -9,7 +9,18 @@ from tmm_gen.emit.templates import render
 from tmm_gen.program.statements import Program
 from tmm_gen.scene import Scene
 
-__all__ = ["emit_c"]
+__all__ = ["emit_c", "emit_kernel"]
+
+
+def emit_kernel(program: Program, scene: Scene) -> dict[str, str]:
+    """Write a program's header and source only: its test takes a simulation in 30 digits to write.
+
+    Raises
+    ------
+    UserError
+        As :func:`emit_c` does.
+    """
+    return _kernel_files(Kernel.of(program, scene))
 
 
 def emit_c(program: Program, scene: Scene) -> dict[str, str]:
@@ -34,11 +45,26 @@ def emit_c(program: Program, scene: Scene) -> dict[str, str]:
         If a number of the scene is out of the range of its number type.
     """
     kernel = Kernel.of(program, scene)
-    name = program.name
-    context = {"kernel": kernel, "name": name, "NAME": name.upper()}
     return {
-        f"c/{name}.h": sealed(render("c/kernel.h.jinja", **context)),
-        f"c/{name}.c": sealed(render("c/kernel.c.jinja", **context)),
-        f"c/test_{name}.c": sealed(render("c/test.c.jinja", **context, vectors=vectors(kernel))),
-        "c/CMakeLists.txt": sealed(render("c/CMakeLists.txt.jinja", **context)),
+        **_kernel_files(kernel),
+        f"c/test_{program.name}.c": _filled("test.c", kernel, vectors=vectors(kernel)),
+        "c/CMakeLists.txt": _filled("CMakeLists.txt", kernel),
     }
+
+
+def emit_c_kernel(program: Program, scene: Scene) -> dict[str, str]:
+    """Write a program as C, header and source only: no test, whose reference values take time.
+
+    Parameters, results and errors are those of :func:`emit_c`.
+    """
+    return _kernel_files(Kernel.of(program, scene))
+
+
+def _kernel_files(kernel: Kernel) -> dict[str, str]:
+    name = kernel.program.name
+    return {f"c/{name}.h": _filled("kernel.h", kernel), f"c/{name}.c": _filled("kernel.c", kernel)}
+
+
+def _filled(template: str, kernel: Kernel, **more: object) -> str:
+    name = kernel.program.name
+    return sealed(render(f"c/{template}.jinja", kernel=kernel, name=name, NAME=name.upper(), **more))

@@ -28,7 +28,7 @@ RESERVED = frozenset(
         "np",
         "numbers",
     }
-    | {"params", "range", "reversed", "stage", "stages", "state", "tuple"}
+    | {"params", "range", "reversed", "stages", "state"}
 )
 """Names that generated functions use beside those of variables."""
 
@@ -137,16 +137,11 @@ class Functions:
     def _inputs(self, inputs: Sequence[Variable]) -> list[str]:
         lines: list[str] = []
         for variable in inputs:
-            name, read, what = self.names[variable], variable.name, f'"input {variable.name}"'
+            name, read = self.names[variable], variable.name
             if variable.length is None:
-                lines += call(f"{name} = _array", [f"input.{read}", "None", what], _INDENT)
+                lines += call(f"{name} = _array", [f"input.{read}", "None", f'"input {read}"'], _INDENT)
             else:
-                lines += [
-                    f"{_INDENT}{name} = tuple(",
-                    *call("_array", [f"stage.{read}", "None", what], 2 * _INDENT),
-                    f"{2 * _INDENT}for stage in stages",
-                    f"{_INDENT})",
-                ]
+                lines += call(f"{name} = _at_stages", ["stages", f'"{read}"'], _INDENT)
         return lines
 
     def _taken(self, variables: Iterable[Variable], owner: str) -> list[str]:

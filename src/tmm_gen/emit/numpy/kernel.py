@@ -81,6 +81,7 @@ def _kernel(program: Program, header: list[str]) -> str:
         several_stages=functions.several_stages,
         requires=_requires(program),
         initialise_requires=_has_require(program.initialise),
+        step_requires=any(_has_require(routine) for routine in program.steps),
     )
 
 

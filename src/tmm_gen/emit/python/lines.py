@@ -55,8 +55,8 @@ def comment(text: str, indent: str = "") -> list[str]:
 
 
 def comments(texts: Iterable[str]) -> list[str]:
-    """Write a block of comments, with empty lines where texts are empty."""
-    return [line for text in texts for line in (comment(text) or ["#"])]
+    """Write a block of comments, one for each text, further lines hanging in; empty where texts are empty."""
+    return [line for text in texts for line in (_filled(text, "# ", f"# {_INDENT}") or ["#"])]
 
 
 def prose(text: str, indent: str = "", hanging: str = "") -> list[str]:

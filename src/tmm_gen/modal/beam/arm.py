@@ -43,8 +43,8 @@ class Body:
     mass, inertia : float
         Rigid, kg and kg m^2.
     joint_stiffness, joint_damping : float or None, float
-        Torsion spring (N m/rad) and damper (N m s/rad) between this body and the next beam; None where they are
-        one piece.
+        Torsion spring (N m/rad) and damper (N m s/rad) between this body and the next beam; None where they
+        are one piece.
     """
 
     mass: float = 0.0
@@ -83,7 +83,9 @@ class BeamArm:
         if not self.bodies:
             object.__setattr__(self, "bodies", (Body(),) * len(self.members))
         if len(self.bodies) != len(self.members):
-            raise ValueError(f"{len(self.bodies)} bodies for {len(self.members)} beams: one at each outboard end")
+            raise ValueError(
+                f"{len(self.bodies)} bodies for {len(self.members)} beams: one at each outboard end"
+            )
 
     @property
     def ends(self) -> tuple[tuple[tuple[int, int], tuple[int, int]], ...]:

@@ -16,7 +16,7 @@ _DIFFERENCE = 1e-5
 
 
 def conditions(arm: BeamArm, s: ArrayLike) -> Complex:
-    """Return what the amplitudes of all beams' motions have to meet: ``conditions @ amplitudes = 0`` in a mode.
+    """Return what the amplitudes of all beams have to meet: ``conditions @ amplitudes = 0`` in a mode.
 
     Where the dynamic stiffness has poles next to its roots (a slender beam's free and clamped tip differ by
     ``exp(-beta L)``), this matrix has the roots alone.
@@ -71,8 +71,8 @@ def conditions(arm: BeamArm, s: ArrayLike) -> Complex:
 def refine(arm: BeamArm, s: complex) -> complex:
     """Return the root of the conditions next to a point.
 
-    Newton's iteration on ``u^H C(s) v`` with the singular vectors of the smallest singular value (Ruhe 1973, SIAM J.
-    Numer. Anal. 10, 674-689).
+    Newton's iteration on ``u^H C(s) v`` with the singular vectors of the smallest singular value (Ruhe 1973,
+    SIAM J. Numer. Anal. 10, 674-689).
 
     Parameters
     ----------

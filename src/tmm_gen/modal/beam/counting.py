@@ -1,4 +1,4 @@
-"""How many natural frequencies lie below a frequency: the count of Wittrick and Williams, which misses none."""
+"""How many natural frequencies lie below a frequency, after Wittrick and Williams: none is missed."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ _ZERO = 1e-9
 def modes_below(arm: BeamArm, omega: ArrayLike) -> Integers:
     """Return how many undamped natural frequencies lie below each frequency, rigid-body motions included.
 
-    The modes of the beams with all nodes held, plus the negative eigenvalues of the dynamic stiffness of the nodes
-    (Wittrick & Williams 1971, Q. J. Mech. Appl. Math. 24, 263-284).
+    The modes of the beams with all nodes held, plus the negative eigenvalues of the dynamic stiffness of the
+    nodes (Wittrick & Williams 1971, Q. J. Mech. Appl. Math. 24, 263-284).
 
     Parameters
     ----------
@@ -29,7 +29,9 @@ def modes_below(arm: BeamArm, omega: ArrayLike) -> Integers:
     """
     points = np.atleast_1d(np.asarray(omega, float))
     still = arm.undamped()
-    held = sum((clamped_count(member, points) for member in still.members), start=np.zeros(len(points), np.int64))
+    held = sum(
+        (clamped_count(member, points) for member in still.members), start=np.zeros(len(points), np.int64)
+    )
     stiffness = balanced(still.stiffness(1j * points).real)
     counted: Integers = held + np.sum(np.linalg.eigvalsh(stiffness) < 0.0, axis=-1)
     return counted

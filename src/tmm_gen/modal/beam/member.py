@@ -1,4 +1,4 @@
-"""A uniform beam between two nodes: its exact dynamic stiffness at any frequency, and its count of clamped modes."""
+"""A uniform beam between two nodes: its exact dynamic stiffness, and its count of clamped modes."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
 _SERIES_RADIUS = 1.0
-"""Largest ``|p|`` at which the transfer matrix is summed as a series; beyond, exponentials are well separated."""
+"""Largest ``|p|`` at which the transfer matrix is summed as a series; beyond, exponentials are far apart."""
 
 _SERIES_TERMS = 32
 
@@ -39,7 +39,8 @@ class Member:
     shear_compliance : float
         1 / (kappa G A), 1/N; zero for Euler and Bernoulli.
     damping_time : float
-        Stiffness-proportional (Kelvin-Voigt) damping, s: ``E I (1 + damping_time s)``, and the shear stiffness likewise.
+        Stiffness-proportional (Kelvin-Voigt) damping, s: ``E I (1 + damping_time s)``, and the shear
+        stiffness likewise.
     """
 
     length: float
@@ -72,15 +73,19 @@ class Member:
     def undamped(self) -> Member:
         """Return the same beam without damping."""
         return Member(
-            self.length, self.bending_stiffness, self.mass_per_length, self.rotary_inertia, self.shear_compliance
+            self.length,
+            self.bending_stiffness,
+            self.mass_per_length,
+            self.rotary_inertia,
+            self.shear_compliance,
         )
 
 
 def solutions(member: Member, s: ArrayLike) -> tuple[Complex, Complex]:
     """Return four independent motions of the beam: the state at both ends of each.
 
-    At high frequencies they are waves and edge deflections, each no larger than one of its own units; at low ones they
-    start from the unit states at the inboard end.
+    At high frequencies they are waves and edge deflections, each no larger than one of its own units; at low
+    ones they start from the unit states at the inboard end.
 
     Parameters
     ----------
@@ -119,7 +124,8 @@ def inside(member: Member, s: Complex, at: Array) -> Complex:
 def dynamic_stiffness(member: Member, s: ArrayLike) -> Complex:
     """Return the forces at both ends that move them harmonically by one.
 
-    Forces and motions are ordered ``(w, psi)`` of the inboard, then of the outboard end; forces are those on the beam.
+    Forces and motions are ordered ``(w, psi)`` of the inboard, then of the outboard end; forces are those on
+    the beam.
 
     Parameters
     ----------
@@ -145,10 +151,11 @@ def dynamic_stiffness(member: Member, s: ArrayLike) -> Complex:
 
 
 def clamped_count(member: Member, omega: ArrayLike) -> Integers:
-    """Return how many natural frequencies of the beam clamped at both ends lie below each frequency, undamped.
+    """Return how many natural frequencies the beam, clamped at both ends, has below each frequency.
 
-    A beam on two supports has modes ``sin(n pi x / L)``, counted by its wave numbers; holding its ends' angles adds the
-    negative eigenvalues of the stiffness against them (Wittrick & Williams 1971, Q. J. Mech. Appl. Math. 24, 263-284).
+    A beam on two supports has modes ``sin(n pi x / L)``, counted by its wave numbers; holding its ends'
+    angles adds the negative eigenvalues of the stiffness against them (Wittrick & Williams 1971, Q. J. Mech.
+    Appl. Math. 24, 263-284).
 
     Parameters
     ----------
@@ -168,8 +175,8 @@ def clamped_count(member: Member, omega: ArrayLike) -> Integers:
 def supported_count(member: Member, omega: ArrayLike) -> Integers:
     """Return how many natural frequencies of the beam on two supports lie below each frequency, undamped.
 
-    Of the two kinds of waves, the second one travels only above the cut-off frequency of shear; its mode of infinite
-    length, pure shear, is counted too.
+    Of the two kinds of waves, the second one travels only above the cut-off frequency of shear; its mode of
+    infinite length, pure shear, is counted too.
     """
     points = np.atleast_1d(np.asarray(omega, float))
     squares = _wave_squares(member, member.frequency_number(1j * points)).real
@@ -179,7 +186,7 @@ def supported_count(member: Member, omega: ArrayLike) -> Integers:
 
 
 def _waves(member: Member, p: Complex, at: float) -> Complex:
-    """Return the dimensionless states of the four exponentials at one place, (f, 4, 4), each at most one in ``w``."""
+    """Return the dimensionless states of the four exponentials at one place, (f, 4, 4)."""
     roots = np.sqrt(_wave_squares(member, p))
     # one choice of sign on both sides of the imaginary axis of s, so that the solutions are smooth there
     sign = np.where(np.abs(roots.imag) > np.abs(roots.real), roots.imag, roots.real)
@@ -234,7 +241,9 @@ def _shape_function() -> Any:
     import sympy as sp
 
     beam = _symbols()
-    return sp.lambdify((beam.WAVE, beam.FREQUENCY, beam.ROTARY, beam.SHEAR), list(beam.waves().shape), "numpy")
+    return sp.lambdify(
+        (beam.WAVE, beam.FREQUENCY, beam.ROTARY, beam.SHEAR), list(beam.waves().shape), "numpy"
+    )
 
 
 @cache

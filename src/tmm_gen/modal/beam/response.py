@@ -43,7 +43,9 @@ def beam_response(scene: Scene, s: Complex, given: Input, read: Output) -> Compl
         return None
     load = np.zeros(arm.coordinates)
     load[force] = 1.0
-    found: Complex = np.linalg.solve(arm.stiffness(s), np.broadcast_to(load[:, None], (len(s), len(load), 1)))[:, moved, 0]
+    found: Complex = np.linalg.solve(
+        arm.stiffness(s), np.broadcast_to(load[:, None], (len(s), len(load), 1))
+    )[:, moved, 0]
     return found * s ** _POWERS.get(read.of, 0)
 
 

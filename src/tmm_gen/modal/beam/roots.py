@@ -73,7 +73,9 @@ def _bisect(arm: BeamArm, count: int, low: float, high: float) -> Array:
         below = np.where(reached, below, middle)
         if np.all(above - below <= _WIDTH * above):
             break
-    return np.concatenate([np.zeros(rigid), [_refined(arm, 0.5 * float(w + v)) for w, v in zip(below, above, strict=True)]])
+    return np.concatenate(
+        [np.zeros(rigid), [_refined(arm, 0.5 * float(w + v)) for w, v in zip(below, above, strict=True)]]
+    )
 
 
 def _refined(arm: BeamArm, omega: float) -> float:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 import sympy as sp
 
@@ -19,6 +21,7 @@ from tmm_gen.derive.integrators.declaration import (
     past,
 )
 from tmm_gen.derive.integrators.relations import Unknown, affine_motion
+from tmm_gen.errors import UserError
 from tmm_gen.program.fields import gain_names, living_state
 from tmm_gen.program.passes.hoist import Hoister
 from tmm_gen.program.passes.prune import prune
@@ -26,6 +29,7 @@ from tmm_gen.program.planar.layout import PlanarLayout, planar_layout
 from tmm_gen.program.planar.loads import planar_loads
 from tmm_gen.program.planar.output import output_routine
 from tmm_gen.program.planar.step import PlanarStep, planar_history
+from tmm_gen.program.planar.thesis_step import ThesisStep, start_places
 from tmm_gen.program.statements import Assign, Loop, Order, Program, Routine, Section
 from tmm_gen.program.variables import Ref, Role, Variable, refs_in
 from tmm_gen.scene import Scene
@@ -39,18 +43,21 @@ def build_planar(scene: Scene, integrator: Integrator) -> Program:
     UnsuitableUnknownError
         If the integrator cannot be solved for the scene's unknown.
     """
+    if scene.model.linearisation != "newton":
+        _require_one_implicit_stage(scene, integrator)
     layout = planar_layout(scene, integrator)
     unknown: Unknown = scene.model.unknown
     combined = _Combinations(layout)
     hoister = Hoister(names=gain_names(integrator, unknown, layout.step))
     sources, hub_sources = planar_history(layout)
+    step_of = _STEPS[scene.model.linearisation]
     routines: dict[str, Routine] = {}
     # the main scheme first: its factors get the plain names
     for position, scheme in sorted(
         enumerate(integrator.schemes), key=lambda item: item[1] is not integrator.main
     ):
         name = "step" if scheme is integrator.main else f"step_start{position + 1}"
-        builder = PlanarStep(
+        builder = step_of(
             layout=layout,
             shared=combined.shared,
             impedances=tuple(combined.impedance(scheme, i, unknown) for i in range(len(scheme.stages))),
@@ -117,6 +124,26 @@ def build_planar(scene: Scene, integrator: Integrator) -> Program:
             "unknown": scene.model.unknown,
         },
     )
+
+
+def _require_one_implicit_stage(scene: Scene, integrator: Integrator) -> None:
+    """Refuse integrators that the thesis's step, which derives accelerations from places, has no form for."""
+    explicit = any(
+        affine_motion(scheme, 1, "acceleration").gain["q"] == 0 for scheme in integrator.schemes
+    )
+    if explicit or any(len(scheme.stages) > 1 for scheme in integrator.schemes):
+        raise UserError(
+            f"scene '{scene.name}': model.linearisation = '{scene.model.linearisation}' integrates places in one "
+            f"implicit stage, which '{integrator.name}' does not have; use linearisation = 'newton', or an "
+            "integrator such as 'newmark'"
+        )
+
+
+_STEPS: dict[str, Callable[..., PlanarStep]] = {
+    "newton": PlanarStep,
+    "taylor": partial(ThesisStep, follows=True),
+    "frozen": partial(ThesisStep, follows=False),
+}
 
 
 class _Combinations:
@@ -217,6 +244,7 @@ def _initialise(scene: Scene, layout: PlanarLayout) -> Routine:
         "Start from given angles and rates with the acceleration that satisfies the equations of motion.",
         (
             *builder.sections(),
+            *((start_places(layout),) if layout.places else ()),
             *((Section("older history of the hub", tuple(older)),) if older else ()),
             *_hold(layout, 1),
         ),

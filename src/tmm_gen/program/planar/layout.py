@@ -31,6 +31,8 @@ class PlanarLayout:
     ----------
     state, hub : dict from Past to Variable
         History of the links' angles and of the hub's, newest first.
+    places : dict from "x", "y" to dict from Past to Variable
+        History of the nodes' places, only where a linearisation integrates them.
     held : dict from str to Variable
         Force inputs as they last acted, kept where a force is an output.
     """
@@ -50,6 +52,7 @@ class PlanarLayout:
     tip_inertia: Variable | None
     state: dict[Past, Variable]
     hub: dict[Past, Variable]
+    places: dict[str, dict[Past, Variable]]
     held: dict[str, Variable]
     inputs: tuple[Variable, ...]
     outputs: tuple[Variable, ...]
@@ -76,7 +79,8 @@ class PlanarLayout:
     @property
     def all_state(self) -> tuple[Variable, ...]:
         """State variables, hub first."""
-        return (*self.hub.values(), *self.state.values(), *self.held.values())
+        places = (v for history in self.places.values() for v in history.values())
+        return (*self.hub.values(), *self.state.values(), *places, *self.held.values())
 
 
 def planar_layout(scene: Scene, integrator: Integrator) -> PlanarLayout:
@@ -122,6 +126,9 @@ def planar_layout(scene: Scene, integrator: Integrator) -> PlanarLayout:
         tip_inertia=optional("tip_inertia", "inertia at the tip", "kg m^2", tip.inertia if tip else None),
         state={p: state_variable(p, "", n) for p in ordered},
         hub={p: state_variable(p, "hub_", None) for p in ordered} if hubbed else {},
+        places={axis: {p: _place(axis, p, n) for p in ordered} for axis in "xy"}
+        if scene.model.linearisation != "newton"
+        else {},
         held=_held(scene),
         inputs=tuple(_input(i, stages) for i in scene.inputs),
         outputs=tuple(v for o in scene.outputs for v in output_variables(o)),
@@ -154,6 +161,15 @@ def _input(described: Input, stages: int) -> Variable:
     if stages > 1:
         doc += ", at each stage of the step"
     return Variable(described.name, Role.INPUT, stages if stages > 1 else None, doc, _UNITS[described.acts])
+
+
+def _place(axis: str, past: Past, length: int) -> Variable:
+    """Return the variable of one value of the history of the nodes' places."""
+    suffix = {"q": "", "v": "_rate", "a": "_acceleration"}[past.kind]
+    unit = {"q": "m", "v": "m/s", "a": "m/s^2"}[past.kind]
+    age = f"_{past.lag}_ago" if past.lag else ""
+    doc = f"place of each link's outer end along {axis}{suffix.replace('_', ', ')}"
+    return Variable(f"place_{axis}{suffix}{age}", Role.STATE, length, doc, unit)
 
 
 def _held(scene: Scene) -> dict[str, Variable]:

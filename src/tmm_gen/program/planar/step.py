@@ -150,16 +150,18 @@ class PlanarStep:
             element.MASS: self.layout.mass.at(),
             element.STIFFNESS: self.layout.stiffness.at(),
             element.DAMPING: self.layout.damping.at() if self.layout.damping else sp.Integer(0),
-            chain.LEVER_SINE: _lever("sine", n).at(),
-            chain.LEVER_COSINE: _lever("cosine", n).at(),
+            chain.LEVER_SINE: lever("sine", n).at(),
+            chain.LEVER_COSINE: lever("cosine", n).at(),
             chain.RATE: predicted("v", n).at(1),
             chain.ACCELERATION: predicted("a", n).at(1),
-            chain.A_X: _node("x", n).at(0),
-            chain.A_Y: _node("y", n).at(0),
-            chain.OUTER_A_X: _node("x", n).at(1),
-            chain.OUTER_A_Y: _node("y", n).at(1),
-            chain.GAIN_X: _swing("x", n).at(),
-            chain.GAIN_Y: _swing("y", n).at(),
+            chain.A_X: node("x", n).at(0),
+            chain.A_Y: node("y", n).at(0),
+            chain.OUTER_A_X: node("x", n).at(1),
+            chain.OUTER_A_Y: node("y", n).at(1),
+            chain.GAIN_X: swing("x", n).at(),
+            chain.GAIN_Y: swing("y", n).at(),
+            chain.OWN_X: swing("x", n).at(),
+            chain.OWN_Y: swing("y", n).at(),
             **{chain.S[i, k]: _S[i][k] for i in range(3) for k in range(3)},
             **{chain.E[i]: _E[i] for i in range(3)},
         }
@@ -169,8 +171,8 @@ class PlanarStep:
         law, symbols = chain.link_law(), self._symbols()
         angle = predicted("q", n).at(1)
         levers = (
-            Assign(_lever("sine", n).at(), law.lever_sine.xreplace({**symbols, chain.SINE: sp.sin(angle)})),
-            Assign(_lever("cosine", n).at(), law.lever_cosine.xreplace({**symbols, chain.COSINE: sp.cos(angle)})),
+            Assign(lever("sine", n).at(), law.lever_sine.xreplace({**symbols, chain.SINE: sp.sin(angle)})),
+            Assign(lever("cosine", n).at(), law.lever_cosine.xreplace({**symbols, chain.COSINE: sp.cos(angle)})),
         )
         ax, ay = local("node_x", unit="m/s^2"), local("node_y", unit="m/s^2")
         carried = {**symbols, chain.A_X: ax, chain.A_Y: ay}
@@ -179,8 +181,8 @@ class PlanarStep:
             Assign(square, predicted("v", n).at(1) ** 2),
             Assign(ax, law.outer_x.xreplace(carried).xreplace({predicted("v", n).at(1) ** 2: square})),
             Assign(ay, law.outer_y.xreplace(carried).xreplace({predicted("v", n).at(1) ** 2: square})),
-            Assign(_node("x", n).at(1), ax),
-            Assign(_node("y", n).at(1), ay),
+            Assign(node("x", n).at(1), ax),
+            Assign(node("y", n).at(1), ay),
         )
         falling = self.layout.gravity.ref if self.layout.gravity else sp.Integer(0)
         return Section(
@@ -190,8 +192,8 @@ class PlanarStep:
                 Loop(Order.OUTWARD, 0, n, levers),
                 Assign(ax, sp.Integer(0)),
                 Assign(ay, falling),
-                Assign(_node("x", n).entry(BASE), ax),
-                Assign(_node("y", n).entry(BASE), ay),
+                Assign(node("x", n).entry(BASE), ax),
+                Assign(node("y", n).entry(BASE), ay),
                 Loop(Order.OUTWARD, 0, n, body),
             ),
         )
@@ -202,7 +204,7 @@ class PlanarStep:
         gains = {torsion_chain.GAINS[k]: self._gain(motion, k) for k in KINDS}
         symbols = {**self._symbols(), **gains}
         tangential, turning = local("tangential"), local("turning")
-        swing = {**symbols, chain.TANGENTIAL: tangential, chain.TURNING: turning}
+        swung = {**symbols, chain.TANGENTIAL: tangential, chain.TURNING: turning}
         ends = {
             chain.INNER_ANGLE: predicted("q", n).at(0),
             chain.OUTER_ANGLE: predicted("q", n).at(1),
@@ -212,8 +214,8 @@ class PlanarStep:
         body = (
             Assign(tangential, law.tangential.xreplace(symbols)),
             Assign(turning, law.turning.xreplace(symbols)),
-            Assign(_swing("x", n).at(), law.gain_x.xreplace(swing)),
-            Assign(_swing("y", n).at(), law.gain_y.xreplace(swing)),
+            Assign(swing("x", n).at(), law.gain_x.xreplace(swung)),
+            Assign(swing("y", n).at(), law.gain_y.xreplace(swung)),
             Assign(_joint_torque(n).at(), joint.known_torque.xreplace({**symbols, **ends})),
         )
         return Section(
@@ -225,6 +227,7 @@ class PlanarStep:
         n = self.layout.stations
         law, joint = chain.link_sweep(), chain.joint_sweep()
         gains = {torsion_chain.GAINS[k]: self._gain(motion, k) for k in KINDS}
+        gains[torsion_chain.GAINS["q"]] = self._torque_gain(motion)
         symbols = {**self._symbols(), **gains}
         load_x, load_y = local("load_x", unit="N"), local("load_y", unit="N")
         column = [local(f"outer_{k}") for k in "xyu"]
@@ -236,6 +239,7 @@ class PlanarStep:
                 body.append(Assign(_E[i], _E[i] - loads.array(component).at()))
         at_bias = {chain.F_X: _E[0], chain.F_Y: _E[1], chain.TORQUE: _E[2]}
         laws = chain.link_law()
+        body += self._before_link(motion)
         body += [Assign(column[i], law.outer[i].xreplace(named)) for i in range(3)]
         body += [
             Assign(load_x, laws.load_x.xreplace({**symbols, **at_bias})),
@@ -292,8 +296,8 @@ class PlanarStep:
             element.TIP_INERTIA: self.layout.tip_inertia.ref if self.layout.tip_inertia else sp.Integer(0),
         }
         at_tip = {
-            chain.A_X: _node("x", n).entry(n),
-            chain.A_Y: _node("y", n).entry(n),
+            chain.A_X: node("x", n).entry(n),
+            chain.A_Y: node("y", n).entry(n),
             chain.ACCELERATION: predicted("a", n).entry(n),
         }
         forces = [f.xreplace(masses) for f in (law.force_x, law.force_y, law.torque)]
@@ -344,9 +348,10 @@ class PlanarStep:
         unknown = kept["from_inner"] * _UNKNOWN + kept["own"] - kept["x"] * _D_AX - kept["y"] * _D_AY
         body = (
             Assign(_UNKNOWN, unknown),
-            Assign(_D_AX, _D_AX + _swing("x", n).at() * _UNKNOWN),
-            Assign(_D_AY, _D_AY + _swing("y", n).at() * _UNKNOWN),
+            Assign(_D_AX, _D_AX + swing("x", n).at() * _UNKNOWN),
+            Assign(_D_AY, _D_AY + swing("y", n).at() * _UNKNOWN),
             Assign(solved(n).at(), _UNKNOWN),
+            *self._after_unknown({"x": _D_AX, "y": _D_AY}),
         )
         return Section(
             "sweep outward: the increment of each link's unknown",
@@ -356,6 +361,24 @@ class PlanarStep:
                 Loop(Order.OUTWARD, 0, n, body),
             ),
         )
+
+    # -- what other linearisations do otherwise ------------------------------------------------------------
+
+    def _before_link(self, motion: AffineMotion) -> list[Assign]:
+        """Return what a link's inward recursion needs besides geometry."""
+        return []
+
+    def _torque_gain(self, motion: AffineMotion) -> sp.Expr:
+        """Return how the lever arms' angle follows the unknown."""
+        return self._gain(motion, "q")
+
+    def _after_unknown(self, changes: dict[str, Ref]) -> list[Assign]:
+        """Return what else the outward sweep keeps of each node."""
+        return []
+
+    def _after_update(self, index: int, motion: AffineMotion) -> list[Statement]:
+        """Return updates of other states than angles; they read the history before it ages."""
+        return []
 
     # -- after the sweep -----------------------------------------------------------------------------------
 
@@ -380,8 +403,9 @@ class PlanarStep:
             statements += update_assignments(self.layout.hub, new, lambda v: v.ref, "")
         new = self._new_values(index, links, self._values("", n))
         body = tuple(update_assignments(self.layout.state, new, lambda v: v.at(), ""))
+        places = self._after_update(index, motion)
         statements.append(Loop(Order.OUTWARD, 0, n, body))
-        return Section(title + "motion at the end of the step", tuple(statements))
+        return Section(title + "motion at the end of the step", (*places, *statements))
 
     def _new_values(
         self, index: int, values: Mapping[Kind, sp.Expr], at: Mapping[sp.Symbol, sp.Expr]
@@ -416,17 +440,20 @@ def solved(n: int) -> Variable:
     return Variable("solved", Role.WORK, n, "increment of each link's unknown")
 
 
-def _lever(which: str, n: int) -> Variable:
+def lever(which: str, n: int) -> Variable:
+    """Return the scratch array of a link's length times the sine or cosine of its predicted angle."""
     return Variable(f"lever_{which}", Role.WORK, n, f"length times {which} of the predicted angle", "m")
 
 
-def _node(axis: str, n: int) -> Variable:
+def node(axis: str, n: int) -> Variable:
+    """Return the scratch array of the nodes' accelerations along an axis, base first."""
     return Variable(
         f"acceleration_{axis}", Role.WORK, n + 1, f"acceleration of the nodes along {axis}", "m/s^2"
     )
 
 
-def _swing(axis: str, n: int) -> Variable:
+def swing(axis: str, n: int) -> Variable:
+    """Return the scratch array of how a link's outer end answers to its unknown."""
     return Variable(
         f"swing_{axis}", Role.WORK, n, f"change of the outer end's acceleration along {axis} per unknown", "m"
     )

@@ -84,7 +84,7 @@ def build_chain(scene: Scene, integrator: Integrator) -> Program:
         Routine(
             "prepare",
             "Compute what depends on parameters and step alone.",
-            (hoister.section(), *factors.sections),
+            (*factors.sections, hoister.section()),
         ),
         used,
     )

@@ -1,0 +1,183 @@
+/**
+ * arm10: Ten-link arm swung by a hub motor
+ *
+ * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * scene digest: 525c1f48f30bec4efe0533edca417c45a4e26085c7c23db491d2c2e6aa2d5335
+ * sha256 of the rest of this file: 5f3b89f8be00e751834bf278b4597e094846ac5bff32ba9e248af67e3c4d7b14
+ *
+ * model: planar arm, large rotations, gravity, tip mass
+ * stations: 10
+ * base: motor
+ * integrator: Newmark 1959, beta = 0.25, gamma = 0.5
+ * linearisation: newton
+ * sweep: riccati
+ * unknown: acceleration
+ * operations of a step: 1351, 135.1 per station (621 additions, 699 multiplications, 11 divisions, 20
+ *     functions)
+ * operations of prepare: 77, 7.7 per station (13 additions, 64 multiplications)
+ * number type: double
+ * bytes of the structs: params 224, model 352, state 264, inputs 16, outputs 32
+ *
+ * Call arm10_default_params() and arm10_prepare() once, arm10_initialise() to put the arm somewhere, then
+ * arm10_step() at every tick of the clock and arm10_output() to know. All memory is the caller's; nothing is
+ * kept between calls, so any number of arms can be run side by side.
+ *
+ * @file arm10.h
+ */
+#ifndef ARM10_H
+#define ARM10_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Number of links. */
+#define ARM10_STATIONS 10
+
+/** The scene's time step [s]. */
+#define ARM10_STEP 0.001
+
+/** Type of all numbers. */
+typedef double arm10_real;
+
+/** What a function says about its success. */
+typedef enum {
+    /** Success. */
+    ARM10_OK = 0,
+    /** An argument is infinite or not a number; nothing was changed. */
+    ARM10_NON_FINITE_INPUT,
+    /** The time step is not a positive number; nothing was changed. */
+    ARM10_INVALID_STEP,
+    /** No passive arm has such parameters (a negative inertia, say); the model is of no use. */
+    ARM10_VANISHING_PIVOT,
+    /** The motion has outgrown the number type; initialise anew. */
+    ARM10_NON_FINITE_STATE
+} arm10_status;
+
+/** Physical parameters. */
+typedef struct {
+    arm10_real length; /**< link length, the same everywhere [m] */
+    arm10_real mass; /**< link mass, the same everywhere [kg] */
+    arm10_real inertia; /**< link inertia about its centre of mass, the same everywhere [kg m^2] */
+    arm10_real center; /**< centre of mass along the link, 0 to 1, the same everywhere */
+    arm10_real stiffness[ARM10_STATIONS]; /**< joint stiffness, base to tip [N m/rad] */
+    arm10_real damping[ARM10_STATIONS]; /**< joint damping, base to tip [N m s/rad] */
+    arm10_real gravity; /**< gravity along -y [m/s^2] */
+    arm10_real hub_inertia; /**< hub inertia [kg m^2] */
+    arm10_real hub_damping; /**< viscous damping of the hub to ground [N m s/rad] */
+    arm10_real tip_mass; /**< mass at the tip [kg] */
+} arm10_params;
+
+/** What prepare() derives from the parameters and the time step. */
+typedef struct {
+    arm10_real step; /**< time step [s] */
+    arm10_real length; /**< link length, the same everywhere [m] */
+    arm10_real mass; /**< link mass, the same everywhere [kg] */
+    arm10_real stiffness[ARM10_STATIONS]; /**< joint stiffness, base to tip [N m/rad] */
+    arm10_real damping[ARM10_STATIONS]; /**< joint damping, base to tip [N m s/rad] */
+    arm10_real gravity; /**< gravity along -y [m/s^2] */
+    arm10_real hub_inertia; /**< hub inertia [kg m^2] */
+    arm10_real hub_damping; /**< viscous damping of the hub to ground [N m s/rad] */
+    arm10_real tip_mass; /**< mass at the tip [kg] */
+    arm10_real step2_1_over_2; /**< step**2/2 [s^2] */
+    arm10_real angle_per_acceleration; /**< angle per unit of acceleration: step**2/4 [SI] */
+    arm10_real factor_3; /**< (hub_damping*step + 2*hub_inertia)/2 [SI] */
+    arm10_real rate_per_acceleration; /**< rate per unit of acceleration: step/2 [SI] */
+    arm10_real carried_mass; /**< mass acting at a link's outer end [kg] */
+    arm10_real inner_mass; /**< mass acting at a link's inner end [kg] */
+    arm10_real pin_inertia; /**< inertia of a link about its inner end [kg m^2] */
+    arm10_real joint_impedance[ARM10_STATIONS]; /**< torque of a joint per difference of unknowns [SI] */
+} arm10_model;
+
+/** Motion of the arm, and the history its integrator needs. */
+typedef struct {
+    arm10_real hub_angle; /**< hub angle [rad] */
+    arm10_real hub_rate; /**< hub rate [rad/s] */
+    arm10_real hub_acceleration; /**< hub acceleration [rad/s^2] */
+    arm10_real angle[ARM10_STATIONS]; /**< angle of each link, base to tip [rad] */
+    arm10_real rate[ARM10_STATIONS]; /**< rate of each link, base to tip [rad/s] */
+    arm10_real acceleration[ARM10_STATIONS]; /**< acceleration of each link, base to tip [rad/s^2] */
+} arm10_state;
+
+/** What acts on the arm. */
+typedef struct {
+    arm10_real hub_torque; /**< torque acting at the base [N m] */
+    arm10_real tip_force; /**< force_y acting at the tip [N] */
+} arm10_inputs;
+
+/** What the scene asks to know. */
+typedef struct {
+    arm10_real tip_x; /**< position at the tip, x [m] */
+    arm10_real tip_y; /**< position at the tip, y [m] */
+    arm10_real hub; /**< angle at the base [rad] */
+    arm10_real root; /**< torque at station 1 [N m] */
+} arm10_outputs;
+
+/**
+ * Write the scene's parameters.
+ *
+ * @param[out] params  parameters
+ */
+void arm10_default_params(arm10_params *params);
+
+/**
+ * Compute what depends on parameters and step alone.
+ *
+ * @param[out] model   what the other functions need
+ * @param[in]  params  parameters
+ * @param[in]  step    time step [s]
+ * @return OK, NON_FINITE_INPUT, INVALID_STEP or VANISHING_PIVOT
+ */
+arm10_status arm10_prepare(
+    arm10_model *model,
+    const arm10_params *params,
+    arm10_real step);
+
+/**
+ * Start from given angles and rates with the acceleration that satisfies the equations of motion.
+ *
+ * @param[out] state   motion at the initial instant
+ * @param[in]  params  parameters
+ * @param[in]  initial_angle  angles to start from [rad]
+ * @param[in]  initial_rate  rates to start from [rad/s]
+ * @param[in]  inputs  what acts at the initial instant
+ * @return OK, NON_FINITE_INPUT or NON_FINITE_STATE
+ */
+arm10_status arm10_initialise(
+    arm10_state *state,
+    const arm10_params *params,
+    const arm10_real initial_angle[ARM10_STATIONS],
+    const arm10_real initial_rate[ARM10_STATIONS],
+    const arm10_inputs *inputs)
+;
+
+/**
+ * Advance the state by one step.
+ *
+ * @param[in]     model   from arm10_prepare()
+ * @param[in,out] state   motion before the step, and after it
+ * @param[in]     inputs  what acts, at the end of the step
+ * @return OK, NON_FINITE_INPUT or NON_FINITE_STATE
+ */
+arm10_status arm10_step(
+    const arm10_model *model,
+    arm10_state *state,
+    const arm10_inputs *inputs);
+
+/**
+ * Read the outputs off the state.
+ *
+ * @param[in]  model    from arm10_prepare()
+ * @param[in]  state    motion
+ * @param[out] outputs  what the scene asks for
+ */
+void arm10_output(
+    const arm10_model *model,
+    const arm10_state *state,
+    arm10_outputs *outputs);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* ARM10_H */

@@ -1,0 +1,571 @@
+# arm10: Ten-link arm swung by a hub motor
+#
+# Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+# scene digest: 525c1f48f30bec4efe0533edca417c45a4e26085c7c23db491d2c2e6aa2d5335
+# sha256 of the rest of this file: 153f24efbe3f1cfe63698c68a5b8339b2005041c1e589ff72d7a120c946b04b0
+#
+# model: planar arm, large rotations, gravity, tip mass
+# stations: 10
+# base: motor
+# integrator: Newmark 1959, beta = 0.25, gamma = 0.5
+# linearisation: newton
+# sweep: riccati
+# unknown: acceleration
+# operations of a step: 1351, 135.1 per station (621 additions, 699 multiplications, 11 divisions, 20
+#     functions)
+# operations of prepare: 77, 7.7 per station (13 additions, 64 multiplications)
+"""arm10: Ten-link arm swung by a hub motor. Functions for optimisation and control.
+
+Columns: ``x`` the state (STATE_NAMES), ``u`` the inputs (INPUT_NAMES), ``p`` the step and the physical
+parameters (PARAMETER_NAMES), ``y`` the outputs (OUTPUT_NAMES). The same operations in the same order as in
+the NumPy kernel; pivots are not checked, since symbols have no sign.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from typing import Any
+
+import casadi as ca
+
+
+def _numbered(name: str, count: int) -> tuple[str, ...]:
+    """Return the names of an array's elements, base to tip."""
+    return tuple(f"{name}_{station}" for station in range(1, count + 1))
+
+
+STATIONS = 10
+"""Number of links."""
+STATE_NAMES: tuple[str, ...] = (
+    "hub_angle",
+    "hub_rate",
+    "hub_acceleration",
+    *_numbered("angle", 10),
+    *_numbered("rate", 10),
+    *_numbered("acceleration", 10),
+)
+INPUT_NAMES: tuple[str, ...] = ("hub_torque", "tip_force")
+OUTPUT_NAMES: tuple[str, ...] = ("tip_x", "tip_y", "hub", "root")
+PARAMETER_NAMES: tuple[str, ...] = (
+    "step",
+    "length",
+    "mass",
+    "inertia",
+    "center",
+    *_numbered("stiffness", 10),
+    *_numbered("damping", 10),
+    "gravity",
+    "hub_inertia",
+    "hub_damping",
+    "tip_mass",
+)
+STAGE_INSTANTS = ((1.0,),)
+"""When inputs are read, in steps from the start of the step."""
+
+
+def default_parameters() -> ca.DM:
+    """Return the scene's step and physical parameters, a column ``p``."""
+    values = (
+        0.001,
+        0.1,
+        0.05,
+        4.166666666666668e-05,
+        0.5,
+        64.0,
+        32.0,
+        32.0,
+        32.0,
+        32.0,
+        32.0,
+        32.0,
+        32.0,
+        32.0,
+        32.0,
+        0.128,
+        0.064,
+        0.064,
+        0.064,
+        0.064,
+        0.064,
+        0.064,
+        0.064,
+        0.064,
+        0.064,
+        9.81,
+        0.05,
+        0.01,
+        0.1,
+    )
+    return ca.DM(values)
+
+
+def step_function() -> ca.Function:
+    """Return the step ``(x, u, p) -> (x_next, y)``: the state one step later, and the outputs at ``x``."""
+    return _function("step", _step, STAGE_INSTANTS[-1])
+
+
+def start_functions() -> tuple[ca.Function, ...]:
+    """Return the functions of the first steps, to be used before that of :func:`step_function`, each once.
+
+    This integrator needs none.
+    """
+    return ()
+
+
+def initial_function() -> ca.Function:
+    """Return the start ``(initial_angle, initial_rate, u, p) -> x``.
+
+    Start from given angles and rates with the acceleration that satisfies the equations of motion.
+    """
+    given = {
+        "initial_angle": ca.SX.sym("initial_angle", 10),  # angles to start from (rad)
+        "initial_rate": ca.SX.sym("initial_rate", 10),  # rates to start from (rad/s)
+    }
+    u, p = _symbols(INPUT_NAMES), _symbols(PARAMETER_NAMES)
+    with _as_written():
+        x = _initialise(given, [u], p)
+    return ca.Function("initial", [*given.values(), u, p], [x], [*given, "u", "p"], ["x"])
+
+
+def _function(
+    name: str,
+    advance: Callable[[dict[str, Any], ca.SX, Sequence[ca.SX]], ca.SX],
+    instants: Sequence[float],
+) -> ca.Function:
+    """Build a step with its outputs."""
+    x, p = _symbols(STATE_NAMES), _symbols(PARAMETER_NAMES)
+    u = _symbols(INPUT_NAMES)
+    stages = [u] * len(instants)
+    with _as_written():
+        model = _prepare(p)
+        results = [advance(model, x, stages), _output(model, x, stages)]
+    return ca.Function(name, [x, u, p], results, ["x", "u", "p"], ["x_next", "y"])
+
+
+@contextmanager
+def _as_written() -> Iterator[None]:
+    """Keep CasADi from reordering operations: results are those of the other backends to the last bit."""
+    before = ca.GlobalOptions.getSimplificationOnTheFly()
+    ca.GlobalOptions.setSimplificationOnTheFly(False)
+    try:
+        yield
+    finally:
+        ca.GlobalOptions.setSimplificationOnTheFly(before)
+
+
+def _symbols(names: Sequence[str]) -> ca.SX:
+    """Return a column of named symbols."""
+    return _column(*(ca.SX.sym(name) for name in names))
+
+
+def _column(*items: Any) -> ca.SX:
+    """Put symbols and numbers in a column."""
+    return ca.SX(ca.vertcat(*items)) if items else ca.SX(0, 1)
+
+
+def _prepare(p: ca.SX) -> dict[str, Any]:
+    """Compute what depends on parameters and step alone."""
+    step = p[0]
+    length = p[1]
+    mass = p[2]
+    inertia = p[3]
+    center = p[4]
+    stiffness = ca.vertsplit(p[5:15])
+    damping = ca.vertsplit(p[15:25])
+    gravity = p[25]
+    hub_inertia = p[26]
+    hub_damping = p[27]
+    tip_mass = p[28]
+    joint_impedance: list[Any] = [0.0] * STATIONS
+
+    # Factors of the step that depend on the time step and parameters alone
+    step2_1_over_2 = 0.5 * (step * step)
+    angle_per_acceleration = 0.25 * (step * step)
+    factor_3 = 0.5 * (2.0 * hub_inertia + hub_damping * step)
+    rate_per_acceleration = 0.5 * step
+
+    # Masses by the ends they act at, and joint impedances
+    carried_mass = center * mass
+    inner_mass = mass - center * mass
+    pin_inertia = inertia + center * center * (length * length) * mass
+    for j in range(STATIONS):
+        joint_impedance[j] = 0.5 * damping[j] * step + 0.25 * (step * step) * stiffness[j]
+    return {
+        "step": step,
+        "length": length,
+        "mass": mass,
+        "stiffness": stiffness,
+        "damping": damping,
+        "gravity": gravity,
+        "hub_inertia": hub_inertia,
+        "hub_damping": hub_damping,
+        "tip_mass": tip_mass,
+        "step2_1_over_2": step2_1_over_2,
+        "angle_per_acceleration": angle_per_acceleration,
+        "factor_3": factor_3,
+        "rate_per_acceleration": rate_per_acceleration,
+        "carried_mass": carried_mass,
+        "inner_mass": inner_mass,
+        "pin_inertia": pin_inertia,
+        "joint_impedance": joint_impedance,
+    }
+
+
+def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> ca.SX:
+    """Start from given angles and rates with the acceleration that satisfies the equations of motion."""
+    length = p[1]
+    mass = p[2]
+    inertia = p[3]
+    center = p[4]
+    stiffness = ca.vertsplit(p[5:15])
+    damping = ca.vertsplit(p[15:25])
+    gravity = p[25]
+    hub_inertia = p[26]
+    hub_damping = p[27]
+    tip_mass = p[28]
+    initial_angle = ca.vertsplit(given["initial_angle"])
+    initial_rate = ca.vertsplit(given["initial_rate"])
+    hub_torque = stages[0][0]
+    tip_force = stages[0][1]
+    acceleration: list[Any] = [0.0] * STATIONS
+    acceleration_x: list[Any] = [0.0] * (STATIONS + 1)
+    acceleration_y: list[Any] = [0.0] * (STATIONS + 1)
+    angle: list[Any] = [0.0] * STATIONS
+    answer_from_inner: list[Any] = [0.0] * STATIONS
+    answer_own: list[Any] = [0.0] * STATIONS
+    answer_x: list[Any] = [0.0] * STATIONS
+    answer_y: list[Any] = [0.0] * STATIONS
+    joint_torque: list[Any] = [0.0] * STATIONS
+    lever_cosine: list[Any] = [0.0] * STATIONS
+    lever_sine: list[Any] = [0.0] * STATIONS
+    predicted_acceleration: list[Any] = [0.0] * (STATIONS + 1)
+    predicted_angle: list[Any] = [0.0] * (STATIONS + 1)
+    predicted_rate: list[Any] = [0.0] * (STATIONS + 1)
+    rate: list[Any] = [0.0] * STATIONS
+    solved: list[Any] = [0.0] * STATIONS
+    swing_x: list[Any] = [0.0] * STATIONS
+    swing_y: list[Any] = [0.0] * STATIONS
+
+    # predicted motion
+    predicted_angle[0] = 0.0
+    predicted_rate[0] = 0.0
+    predicted_acceleration[0] = 0.0
+    for j in range(STATIONS):
+        predicted_angle[j + 1] = initial_angle[j]
+        predicted_rate[j + 1] = initial_rate[j]
+        predicted_acceleration[j + 1] = 0.0
+
+    # accelerations of the nodes, seen from a falling frame: gravity is the base's own
+    for j in range(STATIONS):
+        lever_sine[j] = length * ca.sin(predicted_angle[j + 1])
+        lever_cosine[j] = length * ca.cos(predicted_angle[j + 1])
+    node_x: Any = 0.0
+    node_y = gravity
+    acceleration_x[0] = node_x
+    acceleration_y[0] = node_y
+    for j in range(STATIONS):
+        square = predicted_rate[j + 1] * predicted_rate[j + 1]
+        node_x = node_x - lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1]
+        node_y = node_y + lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square
+        acceleration_x[j + 1] = node_x
+        acceleration_y[j + 1] = node_y
+
+    # how each link's outer end answers to its unknown, and the predicted joint torques
+    for j in range(STATIONS):
+        tangential: Any = 1.0
+        turning: Any = 0.0
+        swing_x[j] = -lever_cosine[j] * turning - lever_sine[j] * tangential
+        swing_y[j] = lever_cosine[j] * tangential - lever_sine[j] * turning
+        joint_torque[j] = damping[j] * (predicted_rate[j] - predicted_rate[j + 1]) + stiffness[j] * (
+            predicted_angle[j] - predicted_angle[j + 1]
+        )
+
+    # sweep inward: force beyond each joint as an affine function of the motion at it
+    impedance_xx = tip_mass
+    impedance_xy: Any = 0.0
+    impedance_xu: Any = 0.0
+    impedance_yx: Any = 0.0
+    impedance_yy = tip_mass
+    impedance_yu: Any = 0.0
+    impedance_ux: Any = 0.0
+    impedance_uy: Any = 0.0
+    impedance_uu: Any = 0.0
+    force_x = acceleration_x[10] * tip_mass
+    force_y = acceleration_y[10] * tip_mass - tip_force
+    torque: Any = 0.0
+    for j in reversed(range(STATIONS)):
+        outer_x = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
+        outer_y = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
+        outer_u = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
+        load_x = force_x + acceleration_x[j] * center * mass
+        load_y = force_y + acceleration_y[j] * center * mass
+        link_ux = (
+            impedance_ux + impedance_yx * lever_cosine[j] - lever_sine[j] * (impedance_xx + center * mass)
+        )
+        link_uy = (
+            impedance_uy - impedance_xy * lever_sine[j] + lever_cosine[j] * (impedance_yy + center * mass)
+        )
+        link_uu = (
+            inertia
+            + outer_u
+            + lever_cosine[j] * outer_y
+            - lever_sine[j] * outer_x
+            + center * center * (length * length) * mass
+        )
+        link_xx = impedance_xx + mass
+        link_xy = impedance_xy
+        link_xu = outer_x + center * mass * swing_x[j]
+        link_yx = impedance_yx
+        link_yy = impedance_yy + mass
+        link_yu = outer_y + center * mass * swing_y[j]
+        torque = (
+            torque
+            + lever_cosine[j] * load_y
+            - lever_sine[j] * load_x
+            + predicted_acceleration[j + 1] * (inertia + center * center * (length * length) * mass)
+        )
+        force_x = force_x + acceleration_x[j] * (mass - center * mass) + acceleration_x[j + 1] * center * mass
+        force_y = force_y + acceleration_y[j] * (mass - center * mass) + acceleration_y[j + 1] * center * mass
+        pivot = link_uu
+        inverse_pivot = 1.0 / pivot
+        answer_own[j] = inverse_pivot * (joint_torque[j] - torque)
+        answer_x[j] = inverse_pivot * link_ux
+        answer_y[j] = inverse_pivot * link_uy
+        answer_from_inner[j] = 0.0
+        impedance_xx = link_xx - answer_x[j] * link_xu
+        impedance_xy = link_xy - answer_y[j] * link_xu
+        impedance_xu = answer_from_inner[j] * link_xu
+        force_x = force_x + answer_own[j] * link_xu
+        impedance_yx = link_yx - answer_x[j] * link_yu
+        impedance_yy = link_yy - answer_y[j] * link_yu
+        impedance_yu = answer_from_inner[j] * link_yu
+        force_y = force_y + answer_own[j] * link_yu
+        impedance_ux = 0.0
+        impedance_uy = 0.0
+        impedance_uu = answer_from_inner[j] * link_uu
+        torque = joint_torque[j]
+
+    # the hub
+    hub_pivot = hub_inertia + impedance_uu
+    unknown = (
+        hub_torque - torque - hub_damping * predicted_rate[0] - hub_inertia * predicted_acceleration[0]
+    ) / hub_pivot
+    hub_unknown = unknown
+
+    # sweep outward: the increment of each link's unknown
+    change_x: Any = 0.0
+    change_y: Any = 0.0
+    for j in range(STATIONS):
+        unknown = (
+            answer_own[j] + answer_from_inner[j] * unknown - answer_x[j] * change_x - answer_y[j] * change_y
+        )
+        change_x = change_x + swing_x[j] * unknown
+        change_y = change_y + swing_y[j] * unknown
+        solved[j] = unknown
+
+    # motion at the end of the step
+    hub_angle = predicted_angle[0]
+    hub_rate = predicted_rate[0]
+    hub_acceleration = hub_unknown + predicted_acceleration[0]
+    for j in range(STATIONS):
+        angle[j] = predicted_angle[j + 1]
+        rate[j] = predicted_rate[j + 1]
+        acceleration[j] = predicted_acceleration[j + 1] + solved[j]
+    return _column(hub_angle, hub_rate, hub_acceleration, *angle, *rate, *acceleration)
+
+
+def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
+    """Advance the state by one step."""
+    step = model["step"]
+    length = model["length"]
+    mass = model["mass"]
+    stiffness = model["stiffness"]
+    damping = model["damping"]
+    gravity = model["gravity"]
+    hub_inertia = model["hub_inertia"]
+    hub_damping = model["hub_damping"]
+    tip_mass = model["tip_mass"]
+    step2_1_over_2 = model["step2_1_over_2"]
+    angle_per_acceleration = model["angle_per_acceleration"]
+    factor_3 = model["factor_3"]
+    rate_per_acceleration = model["rate_per_acceleration"]
+    carried_mass = model["carried_mass"]
+    inner_mass = model["inner_mass"]
+    pin_inertia = model["pin_inertia"]
+    joint_impedance = model["joint_impedance"]
+    hub_angle = x[0]
+    hub_rate = x[1]
+    hub_acceleration = x[2]
+    angle = ca.vertsplit(x[3:13])
+    rate = ca.vertsplit(x[13:23])
+    acceleration = ca.vertsplit(x[23:33])
+    hub_torque = stages[0][0]
+    tip_force = stages[0][1]
+    acceleration_x: list[Any] = [0.0] * (STATIONS + 1)
+    acceleration_y: list[Any] = [0.0] * (STATIONS + 1)
+    answer_from_inner: list[Any] = [0.0] * STATIONS
+    answer_own: list[Any] = [0.0] * STATIONS
+    answer_x: list[Any] = [0.0] * STATIONS
+    answer_y: list[Any] = [0.0] * STATIONS
+    joint_torque: list[Any] = [0.0] * STATIONS
+    lever_cosine: list[Any] = [0.0] * STATIONS
+    lever_sine: list[Any] = [0.0] * STATIONS
+    predicted_acceleration: list[Any] = [0.0] * (STATIONS + 1)
+    predicted_angle: list[Any] = [0.0] * (STATIONS + 1)
+    predicted_rate: list[Any] = [0.0] * (STATIONS + 1)
+    solved: list[Any] = [0.0] * STATIONS
+    swing_x: list[Any] = [0.0] * STATIONS
+    swing_y: list[Any] = [0.0] * STATIONS
+
+    # predicted motion
+    predicted_angle[0] = hub_angle + hub_acceleration * step2_1_over_2 + hub_rate * step
+    predicted_rate[0] = hub_rate + hub_acceleration * step
+    predicted_acceleration[0] = hub_acceleration
+    for j in range(STATIONS):
+        predicted_angle[j + 1] = angle[j] + acceleration[j] * step2_1_over_2 + rate[j] * step
+        predicted_rate[j + 1] = rate[j] + acceleration[j] * step
+        predicted_acceleration[j + 1] = acceleration[j]
+
+    # accelerations of the nodes, seen from a falling frame: gravity is the base's own
+    for j in range(STATIONS):
+        lever_sine[j] = length * ca.sin(predicted_angle[j + 1])
+        lever_cosine[j] = length * ca.cos(predicted_angle[j + 1])
+    node_x: Any = 0.0
+    node_y = gravity
+    acceleration_x[0] = node_x
+    acceleration_y[0] = node_y
+    for j in range(STATIONS):
+        square = predicted_rate[j + 1] * predicted_rate[j + 1]
+        node_x = node_x - lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1]
+        node_y = node_y + lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square
+        acceleration_x[j + 1] = node_x
+        acceleration_y[j + 1] = node_y
+
+    # how each link's outer end answers to its unknown, and the predicted joint torques
+    for j in range(STATIONS):
+        tangential = 1.0 - angle_per_acceleration * (predicted_rate[j + 1] * predicted_rate[j + 1])
+        turning = angle_per_acceleration * predicted_acceleration[j + 1] + predicted_rate[j + 1] * step
+        swing_x[j] = -lever_cosine[j] * turning - lever_sine[j] * tangential
+        swing_y[j] = lever_cosine[j] * tangential - lever_sine[j] * turning
+        joint_torque[j] = damping[j] * (predicted_rate[j] - predicted_rate[j + 1]) + stiffness[j] * (
+            predicted_angle[j] - predicted_angle[j + 1]
+        )
+
+    # sweep inward: force beyond each joint as an affine function of the motion at it
+    impedance_xx = tip_mass
+    impedance_xy: Any = 0.0
+    impedance_xu: Any = 0.0
+    impedance_yx: Any = 0.0
+    impedance_yy = tip_mass
+    impedance_yu: Any = 0.0
+    impedance_ux: Any = 0.0
+    impedance_uy: Any = 0.0
+    impedance_uu: Any = 0.0
+    force_x = acceleration_x[10] * tip_mass
+    force_y = acceleration_y[10] * tip_mass - tip_force
+    torque: Any = 0.0
+    for j in reversed(range(STATIONS)):
+        outer_x = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
+        outer_y = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
+        outer_u = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
+        load_x = force_x + acceleration_x[j] * carried_mass
+        load_y = force_y + acceleration_y[j] * carried_mass
+        link_ux = (
+            impedance_ux + impedance_yx * lever_cosine[j] - lever_sine[j] * (carried_mass + impedance_xx)
+        )
+        link_uy = (
+            impedance_uy - impedance_xy * lever_sine[j] + lever_cosine[j] * (carried_mass + impedance_yy)
+        )
+        link_uu = (
+            outer_u
+            + pin_inertia
+            + angle_per_acceleration * (-lever_cosine[j] * load_x - lever_sine[j] * load_y)
+            + lever_cosine[j] * outer_y
+            - lever_sine[j] * outer_x
+        )
+        link_xx = impedance_xx + mass
+        link_xy = impedance_xy
+        link_xu = outer_x + carried_mass * swing_x[j]
+        link_yx = impedance_yx
+        link_yy = impedance_yy + mass
+        link_yu = outer_y + carried_mass * swing_y[j]
+        torque = (
+            torque
+            + lever_cosine[j] * load_y
+            - lever_sine[j] * load_x
+            + pin_inertia * predicted_acceleration[j + 1]
+        )
+        force_x = force_x + acceleration_x[j + 1] * carried_mass + acceleration_x[j] * inner_mass
+        force_y = force_y + acceleration_y[j + 1] * carried_mass + acceleration_y[j] * inner_mass
+        pivot = joint_impedance[j] + link_uu
+        inverse_pivot = 1.0 / pivot
+        answer_own[j] = inverse_pivot * (joint_torque[j] - torque)
+        answer_x[j] = inverse_pivot * link_ux
+        answer_y[j] = inverse_pivot * link_uy
+        answer_from_inner[j] = inverse_pivot * joint_impedance[j]
+        impedance_xx = link_xx - answer_x[j] * link_xu
+        impedance_xy = link_xy - answer_y[j] * link_xu
+        impedance_xu = answer_from_inner[j] * link_xu
+        force_x = force_x + answer_own[j] * link_xu
+        impedance_yx = link_yx - answer_x[j] * link_yu
+        impedance_yy = link_yy - answer_y[j] * link_yu
+        impedance_yu = answer_from_inner[j] * link_yu
+        force_y = force_y + answer_own[j] * link_yu
+        impedance_ux = answer_x[j] * joint_impedance[j]
+        impedance_uy = answer_y[j] * joint_impedance[j]
+        impedance_uu = answer_from_inner[j] * link_uu
+        torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
+
+    # the hub
+    hub_pivot = factor_3 + impedance_uu
+    unknown = (
+        hub_torque - torque - hub_damping * predicted_rate[0] - hub_inertia * predicted_acceleration[0]
+    ) / hub_pivot
+    hub_unknown = unknown
+
+    # sweep outward: the increment of each link's unknown
+    change_x: Any = 0.0
+    change_y: Any = 0.0
+    for j in range(STATIONS):
+        unknown = (
+            answer_own[j] + answer_from_inner[j] * unknown - answer_x[j] * change_x - answer_y[j] * change_y
+        )
+        change_x = change_x + swing_x[j] * unknown
+        change_y = change_y + swing_y[j] * unknown
+        solved[j] = unknown
+
+    # motion at the end of the step
+    hub_angle = predicted_angle[0] + angle_per_acceleration * hub_unknown
+    hub_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration
+    hub_acceleration = hub_unknown + predicted_acceleration[0]
+    for j in range(STATIONS):
+        angle[j] = predicted_angle[j + 1] + angle_per_acceleration * solved[j]
+        rate[j] = predicted_rate[j + 1] + rate_per_acceleration * solved[j]
+        acceleration[j] = predicted_acceleration[j + 1] + solved[j]
+    return _column(hub_angle, hub_rate, hub_acceleration, *angle, *rate, *acceleration)
+
+
+def _output(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
+    """Read the outputs off a state."""
+    length = model["length"]
+    stiffness = model["stiffness"]
+    damping = model["damping"]
+    hub_angle = x[0]
+    hub_rate = x[1]
+    angle = ca.vertsplit(x[3:13])
+    rate = ca.vertsplit(x[13:23])
+
+    # tip: position
+    tip_x: Any = 0.0
+    tip_y: Any = 0.0
+    for j in range(STATIONS):
+        tip_x = tip_x + length * ca.cos(angle[j])
+        tip_y = tip_y + length * ca.sin(angle[j])
+
+    # hub: angle
+    hub = hub_angle
+
+    # root: torque
+    root = damping[0] * (rate[0] - hub_rate) + stiffness[0] * (angle[0] - hub_angle)
+    return _column(tip_x, tip_y, hub, root)

@@ -1,0 +1,183 @@
+/**
+ * arm2: Two unlike links swung by a motor
+ *
+ * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * scene digest: ce631ab7b67541b39d008a903917f57db75c263fa5530caf3c1a93f3ab3ddcc0
+ * sha256 of the rest of this file: 827999543c2b364ad056ce3c41a92fc0918ecfd94f17dbe0d870cb3a100b00bc
+ *
+ * model: planar arm, large rotations, gravity, tip mass
+ * stations: 2
+ * base: motor
+ * integrator: Newmark 1959, beta = 0.25, gamma = 0.5
+ * linearisation: newton
+ * sweep: riccati
+ * unknown: acceleration
+ * operations of a step: 287, 143.5 per station (132 additions, 148 multiplications, 3 divisions, 4 functions)
+ * operations of prepare: 37, 18.5 per station (7 additions, 30 multiplications)
+ * number type: double
+ * bytes of the structs: params 136, model 208, state 72, inputs 8, outputs 32
+ *
+ * Call arm2_default_params() and arm2_prepare() once, arm2_initialise() to put the arm somewhere, then
+ * arm2_step() at every tick of the clock and arm2_output() to know. All memory is the caller's; nothing is
+ * kept between calls, so any number of arms can be run side by side.
+ *
+ * @file arm2.h
+ */
+#ifndef ARM2_H
+#define ARM2_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Number of links. */
+#define ARM2_STATIONS 2
+
+/** The scene's time step [s]. */
+#define ARM2_STEP 0.001
+
+/** Type of all numbers. */
+typedef double arm2_real;
+
+/** What a function says about its success. */
+typedef enum {
+    /** Success. */
+    ARM2_OK = 0,
+    /** An argument is infinite or not a number; nothing was changed. */
+    ARM2_NON_FINITE_INPUT,
+    /** The time step is not a positive number; nothing was changed. */
+    ARM2_INVALID_STEP,
+    /** No passive arm has such parameters (a negative inertia, say); the model is of no use. */
+    ARM2_VANISHING_PIVOT,
+    /** The motion has outgrown the number type; initialise anew. */
+    ARM2_NON_FINITE_STATE
+} arm2_status;
+
+/** Physical parameters. */
+typedef struct {
+    arm2_real length[ARM2_STATIONS]; /**< link length, base to tip [m] */
+    arm2_real mass[ARM2_STATIONS]; /**< link mass, base to tip [kg] */
+    arm2_real inertia[ARM2_STATIONS]; /**< link inertia about its centre of mass, base to tip [kg m^2] */
+    arm2_real center[ARM2_STATIONS]; /**< centre of mass along the link, 0 to 1, base to tip */
+    arm2_real stiffness[ARM2_STATIONS]; /**< joint stiffness, base to tip [N m/rad] */
+    arm2_real damping[ARM2_STATIONS]; /**< joint damping, base to tip [N m s/rad] */
+    arm2_real gravity; /**< gravity along -y [m/s^2] */
+    arm2_real hub_inertia; /**< hub inertia [kg m^2] */
+    arm2_real hub_damping; /**< viscous damping of the hub to ground [N m s/rad] */
+    arm2_real tip_mass; /**< mass at the tip [kg] */
+    arm2_real tip_inertia; /**< inertia at the tip [kg m^2] */
+} arm2_params;
+
+/** What prepare() derives from the parameters and the time step. */
+typedef struct {
+    arm2_real step; /**< time step [s] */
+    arm2_real length[ARM2_STATIONS]; /**< link length, base to tip [m] */
+    arm2_real mass[ARM2_STATIONS]; /**< link mass, base to tip [kg] */
+    arm2_real stiffness[ARM2_STATIONS]; /**< joint stiffness, base to tip [N m/rad] */
+    arm2_real damping[ARM2_STATIONS]; /**< joint damping, base to tip [N m s/rad] */
+    arm2_real gravity; /**< gravity along -y [m/s^2] */
+    arm2_real hub_inertia; /**< hub inertia [kg m^2] */
+    arm2_real hub_damping; /**< viscous damping of the hub to ground [N m s/rad] */
+    arm2_real tip_mass; /**< mass at the tip [kg] */
+    arm2_real tip_inertia; /**< inertia at the tip [kg m^2] */
+    arm2_real step2_1_over_2; /**< step**2/2 [s^2] */
+    arm2_real angle_per_acceleration; /**< angle per unit of acceleration: step**2/4 [SI] */
+    arm2_real factor_3; /**< (hub_damping*step + 2*hub_inertia)/2 [SI] */
+    arm2_real rate_per_acceleration; /**< rate per unit of acceleration: step/2 [SI] */
+    arm2_real carried_mass[ARM2_STATIONS]; /**< mass acting at a link's outer end [kg] */
+    arm2_real inner_mass[ARM2_STATIONS]; /**< mass acting at a link's inner end [kg] */
+    arm2_real pin_inertia[ARM2_STATIONS]; /**< inertia of a link about its inner end [kg m^2] */
+    arm2_real joint_impedance[ARM2_STATIONS]; /**< torque of a joint per difference of unknowns [SI] */
+} arm2_model;
+
+/** Motion of the arm, and the history its integrator needs. */
+typedef struct {
+    arm2_real hub_angle; /**< hub angle [rad] */
+    arm2_real hub_rate; /**< hub rate [rad/s] */
+    arm2_real hub_acceleration; /**< hub acceleration [rad/s^2] */
+    arm2_real angle[ARM2_STATIONS]; /**< angle of each link, base to tip [rad] */
+    arm2_real rate[ARM2_STATIONS]; /**< rate of each link, base to tip [rad/s] */
+    arm2_real acceleration[ARM2_STATIONS]; /**< acceleration of each link, base to tip [rad/s^2] */
+} arm2_state;
+
+/** What acts on the arm. */
+typedef struct {
+    arm2_real hub_torque; /**< torque acting at the base [N m] */
+} arm2_inputs;
+
+/** What the scene asks to know. */
+typedef struct {
+    arm2_real tip_x; /**< position at the tip, x [m] */
+    arm2_real tip_y; /**< position at the tip, y [m] */
+    arm2_real hub; /**< angle at the base [rad] */
+    arm2_real elbow; /**< torque at station 2 [N m] */
+} arm2_outputs;
+
+/**
+ * Write the scene's parameters.
+ *
+ * @param[out] params  parameters
+ */
+void arm2_default_params(arm2_params *params);
+
+/**
+ * Compute what depends on parameters and step alone.
+ *
+ * @param[out] model   what the other functions need
+ * @param[in]  params  parameters
+ * @param[in]  step    time step [s]
+ * @return OK, NON_FINITE_INPUT, INVALID_STEP or VANISHING_PIVOT
+ */
+arm2_status arm2_prepare(
+    arm2_model *model,
+    const arm2_params *params,
+    arm2_real step);
+
+/**
+ * Start from given angles and rates with the acceleration that satisfies the equations of motion.
+ *
+ * @param[out] state   motion at the initial instant
+ * @param[in]  params  parameters
+ * @param[in]  initial_angle  angles to start from [rad]
+ * @param[in]  initial_rate  rates to start from [rad/s]
+ * @param[in]  inputs  what acts at the initial instant
+ * @return OK, NON_FINITE_INPUT or NON_FINITE_STATE
+ */
+arm2_status arm2_initialise(
+    arm2_state *state,
+    const arm2_params *params,
+    const arm2_real initial_angle[ARM2_STATIONS],
+    const arm2_real initial_rate[ARM2_STATIONS],
+    const arm2_inputs *inputs)
+;
+
+/**
+ * Advance the state by one step.
+ *
+ * @param[in]     model   from arm2_prepare()
+ * @param[in,out] state   motion before the step, and after it
+ * @param[in]     inputs  what acts, at the end of the step
+ * @return OK, NON_FINITE_INPUT or NON_FINITE_STATE
+ */
+arm2_status arm2_step(
+    const arm2_model *model,
+    arm2_state *state,
+    const arm2_inputs *inputs);
+
+/**
+ * Read the outputs off the state.
+ *
+ * @param[in]  model    from arm2_prepare()
+ * @param[in]  state    motion
+ * @param[out] outputs  what the scene asks for
+ */
+void arm2_output(
+    const arm2_model *model,
+    const arm2_state *state,
+    arm2_outputs *outputs);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* ARM2_H */

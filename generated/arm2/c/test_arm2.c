@@ -1,0 +1,220 @@
+/**
+ * arm2: Two unlike links swung by a motor
+ *
+ * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * scene digest: ce631ab7b67541b39d008a903917f57db75c263fa5530caf3c1a93f3ab3ddcc0
+ * sha256 of the rest of this file: f8b44e1d9e005ac8c867e2b78126b55625c4ec0560be602644621b17ceff13c3
+ *
+ * model: planar arm, large rotations, gravity, tip mass
+ * stations: 2
+ * base: motor
+ * integrator: Newmark 1959, beta = 0.25, gamma = 0.5
+ * linearisation: newton
+ * sweep: riccati
+ * unknown: acceleration
+ * operations of a step: 287, 143.5 per station (132 additions, 148 multiplications, 3 divisions, 4 functions)
+ * operations of prepare: 37, 18.5 per station (7 additions, 30 multiplications)
+ * number type: double
+ * bytes of the structs: params 136, model 208, state 72, inputs 8, outputs 32
+ *
+ * A test for any machine: the kernel against 30 digits, within what rounding explains.
+ *
+ * @file test_arm2.c
+ */
+#include "arm2.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+typedef arm2_real real;
+
+typedef struct {
+    int checks;
+    int failures;
+} tally;
+
+static void expect(tally *count, const char *what, real value, real right, real tolerance)
+{
+    ++count->checks;
+    if (!(fabs(value - right) <= tolerance)) {
+        ++count->failures;
+        printf("%s is %.17g, not %.17g within %.2g\n", what, (double)value, (double)right, (double)tolerance);
+    }
+}
+
+static void expect_status(tally *count, const char *what, arm2_status value, arm2_status right)
+{
+    ++count->checks;
+    if (value != right) {
+        ++count->failures;
+        printf("%s: status is %d, not %d\n", what, (int)value, (int)right);
+    }
+}
+
+static void test_motion(tally *count)
+{
+    arm2_params params;
+    arm2_model model;
+    arm2_state state;
+    arm2_inputs inputs;
+    arm2_outputs outputs;
+    arm2_status status;
+    real initial_angle[ARM2_STATIONS];
+    real initial_rate[ARM2_STATIONS];
+
+    memset(&state, 0, sizeof state); /* padding too: it is compared below */
+    arm2_default_params(&params);
+    status = arm2_prepare(&model, &params, ARM2_STEP);
+    expect_status(count, "prepare", status, ARM2_OK);
+
+    for (int j = 0; j < ARM2_STATIONS; ++j) {
+        initial_angle[j] = (real)((7 * j + 3) % 16 - 8) / 64.0;
+    }
+    for (int j = 0; j < ARM2_STATIONS; ++j) {
+        initial_rate[j] = (real)((7 * j + 3) % 16 - 8) / 64.0;
+    }
+    inputs.hub_torque = -0.375;
+    status = arm2_initialise(&state, &params, initial_angle, initial_rate, &inputs);
+    expect_status(count, "initialise", status, ARM2_OK);
+
+    /* Step 1. */
+    inputs.hub_torque = 0.25;
+    status = arm2_step(&model, &state, &inputs);
+    expect_status(count, "step 1", status, ARM2_OK);
+    arm2_output(&model, &state, &outputs);
+    expect(count, "tip_x", outputs.tip_x, 0.7984602796950953, 1.1e-15);
+    expect(count, "tip_y", outputs.tip_y, -0.024253900210004155, 8.2e-16);
+    expect(count, "hub", outputs.hub, -9.34954459179551e-05, 1.5e-17);
+    expect(count, "elbow", outputs.elbow, 4.233359997848719, 6.5e-13);
+
+    /* Step 2. */
+    inputs.hub_torque = -0.25;
+    status = arm2_step(&model, &state, &inputs);
+    expect_status(count, "step 2", status, ARM2_OK);
+    arm2_output(&model, &state, &outputs);
+    expect(count, "tip_x", outputs.tip_x, 0.798477298072207, 1.1e-15);
+    expect(count, "tip_y", outputs.tip_y, -0.024411474125818337, 8.2e-16);
+    expect(count, "hub", outputs.hub, -0.0003704693802380693, 1.5e-17);
+    expect(count, "elbow", outputs.elbow, 4.04576223863709, 6.5e-13);
+
+    /* Step 3. */
+    inputs.hub_torque = 0.375;
+    status = arm2_step(&model, &state, &inputs);
+    expect_status(count, "step 3", status, ARM2_OK);
+    arm2_output(&model, &state, &outputs);
+    expect(count, "tip_x", outputs.tip_x, 0.7985065263338432, 1.1e-15);
+    expect(count, "tip_y", outputs.tip_y, -0.02465418925084082, 8.2e-16);
+    expect(count, "hub", outputs.hub, -0.0008235312257242458, 1.5e-17);
+    expect(count, "elbow", outputs.elbow, 3.836054914822808, 6.5e-13);
+
+    /* State after the last step. */
+    expect(count, "hub_angle", state.hub_angle, -0.0008235312257242458, 1.5e-17);
+    expect(count, "hub_rate", state.hub_rate, -0.5391667141680347, 1.7e-14);
+    expect(count, "hub_acceleration", state.hub_acceleration, -162.5315884624378, 2.2e-11);
+    expect(count, "angle[0]", state.angle[0], -0.07738491796846886, 1.4e-15);
+    expect(count, "angle[1]", state.angle[1], 0.028959128083493747, 1.4e-15);
+    expect(count, "rate[0]", state.rate[0], 0.5588810363304009, 2e-12);
+    expect(count, "rate[1]", state.rate[1], -1.5296535999480798, 2e-12);
+    expect(count, "acceleration[0]", state.acceleration[0], 197.39609021086613, 3e-09);
+    expect(count, "acceleration[1]", state.acceleration[1], -486.1842225519613, 3e-09);
+
+    /* Bad input is refused and leaves the state alone. */
+    arm2_state before;
+    memcpy(&before, &state, sizeof before);
+    const real bad[] = {(real)NAN, (real)INFINITY, -(real)INFINITY};
+    for (int k = 0; k < 3; ++k) {
+        const real hub_torque = inputs.hub_torque;
+        inputs.hub_torque = bad[k];
+        status = arm2_step(&model, &state, &inputs);
+        expect_status(count, "bad hub_torque", status, ARM2_NON_FINITE_INPUT);
+        inputs.hub_torque = hub_torque;
+    }
+    ++count->checks;
+    if (memcmp(&before, &state, sizeof state) != 0) {
+        ++count->failures;
+        printf("bad input has changed the state\n");
+    }
+}
+
+static void test_refusals(tally *count)
+{
+    arm2_params params;
+    arm2_model model;
+    arm2_status status;
+
+    arm2_default_params(&params);
+    status = arm2_prepare(&model, &params, 0.0);
+    expect_status(count, "no step", status, ARM2_INVALID_STEP);
+    status = arm2_prepare(&model, &params, (real)NAN);
+    expect_status(count, "bad step", status, ARM2_INVALID_STEP);
+
+    arm2_default_params(&params);
+    params.length[ARM2_STATIONS - 1] = (real)NAN;
+    status = arm2_prepare(&model, &params, ARM2_STEP);
+    expect_status(count, "bad length", status, ARM2_NON_FINITE_INPUT);
+
+    arm2_default_params(&params);
+    params.mass[ARM2_STATIONS - 1] = (real)NAN;
+    status = arm2_prepare(&model, &params, ARM2_STEP);
+    expect_status(count, "bad mass", status, ARM2_NON_FINITE_INPUT);
+
+    arm2_default_params(&params);
+    params.inertia[ARM2_STATIONS - 1] = (real)NAN;
+    status = arm2_prepare(&model, &params, ARM2_STEP);
+    expect_status(count, "bad inertia", status, ARM2_NON_FINITE_INPUT);
+
+    arm2_default_params(&params);
+    params.center[ARM2_STATIONS - 1] = (real)NAN;
+    status = arm2_prepare(&model, &params, ARM2_STEP);
+    expect_status(count, "bad center", status, ARM2_NON_FINITE_INPUT);
+
+    arm2_default_params(&params);
+    params.stiffness[ARM2_STATIONS - 1] = (real)NAN;
+    status = arm2_prepare(&model, &params, ARM2_STEP);
+    expect_status(count, "bad stiffness", status, ARM2_NON_FINITE_INPUT);
+
+    arm2_default_params(&params);
+    params.damping[ARM2_STATIONS - 1] = (real)NAN;
+    status = arm2_prepare(&model, &params, ARM2_STEP);
+    expect_status(count, "bad damping", status, ARM2_NON_FINITE_INPUT);
+
+    arm2_default_params(&params);
+    params.gravity = (real)NAN;
+    status = arm2_prepare(&model, &params, ARM2_STEP);
+    expect_status(count, "bad gravity", status, ARM2_NON_FINITE_INPUT);
+
+    arm2_default_params(&params);
+    params.hub_inertia = (real)NAN;
+    status = arm2_prepare(&model, &params, ARM2_STEP);
+    expect_status(count, "bad hub_inertia", status, ARM2_NON_FINITE_INPUT);
+
+    arm2_default_params(&params);
+    params.hub_damping = (real)NAN;
+    status = arm2_prepare(&model, &params, ARM2_STEP);
+    expect_status(count, "bad hub_damping", status, ARM2_NON_FINITE_INPUT);
+
+    arm2_default_params(&params);
+    params.tip_mass = (real)NAN;
+    status = arm2_prepare(&model, &params, ARM2_STEP);
+    expect_status(count, "bad tip_mass", status, ARM2_NON_FINITE_INPUT);
+
+    arm2_default_params(&params);
+    params.tip_inertia = (real)NAN;
+    status = arm2_prepare(&model, &params, ARM2_STEP);
+    expect_status(count, "bad tip_inertia", status, ARM2_NON_FINITE_INPUT);
+}
+
+int main(void)
+{
+    tally count = {0, 0};
+
+    test_motion(&count);
+    test_refusals(&count);
+    if (count.failures > 0) {
+        printf("%d of %d checks failed\n", count.failures, count.checks);
+        return 1;
+    }
+    printf("%d checks passed\n", count.checks);
+    return 0;
+}

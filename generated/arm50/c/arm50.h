@@ -1,0 +1,208 @@
+/**
+ * arm50: Stiff arm of fifty links on a servo
+ *
+ * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * scene digest: 9874dff5d90e21876dbd2271ff786b55b83dc2e6467819bdcfde7e890f954cb6
+ * sha256 of the rest of this file: 0835e9b3652ea3b8975a861b4133eda5b784c382da49ff661d8062a3e78815b5
+ *
+ * model: planar arm, large rotations, tip mass
+ * stations: 50
+ * base: prescribed
+ * integrator: SDIRK, order 4, 5 stages (Hairer & Wanner 1996)
+ * linearisation: newton
+ * sweep: riccati
+ * unknown: acceleration
+ * operations of a step: 35166, 703.3 per station (16203 additions, 18213 multiplications, 250 divisions, 500
+ *     functions)
+ * operations of prepare: 350, 7 per station (53 additions, 296 multiplications, 1 divisions)
+ * number type: double
+ * bytes of the structs: params 848, model 1488, state 1224, inputs 40, outputs 48
+ *
+ * Call arm50_default_params() and arm50_prepare() once, arm50_initialise() to put the arm somewhere, then
+ * arm50_step() at every tick of the clock and arm50_output() to know. All memory is the caller's; nothing is
+ * kept between calls, so any number of arms can be run side by side.
+ *
+ * @file arm50.h
+ */
+#ifndef ARM50_H
+#define ARM50_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Number of links. */
+#define ARM50_STATIONS 50
+
+/** The scene's time step [s]. */
+#define ARM50_STEP 0.002
+
+/** Stages of a step, at which inputs are read: 0.25 of the step, 0.75 of the step, 0.55 of the step, 0.5 of
+ * the step and the end of the step. */
+#define ARM50_STAGES 5
+
+/** Type of all numbers. */
+typedef double arm50_real;
+
+/** What a function says about its success. */
+typedef enum {
+    /** Success. */
+    ARM50_OK = 0,
+    /** An argument is infinite or not a number; nothing was changed. */
+    ARM50_NON_FINITE_INPUT,
+    /** The time step is not a positive number; nothing was changed. */
+    ARM50_INVALID_STEP,
+    /** No passive arm has such parameters (a negative inertia, say); the model is of no use. */
+    ARM50_VANISHING_PIVOT,
+    /** The motion has outgrown the number type; initialise anew. */
+    ARM50_NON_FINITE_STATE
+} arm50_status;
+
+/** Physical parameters. */
+typedef struct {
+    arm50_real length; /**< link length, the same everywhere [m] */
+    arm50_real mass; /**< link mass, the same everywhere [kg] */
+    arm50_real inertia; /**< link inertia about its centre of mass, the same everywhere [kg m^2] */
+    arm50_real center; /**< centre of mass along the link, 0 to 1, the same everywhere */
+    arm50_real stiffness[ARM50_STATIONS]; /**< joint stiffness, base to tip [N m/rad] */
+    arm50_real damping[ARM50_STATIONS]; /**< joint damping, base to tip [N m s/rad] */
+    arm50_real tip_mass; /**< mass at the tip [kg] */
+    arm50_real tip_inertia; /**< inertia at the tip [kg m^2] */
+} arm50_params;
+
+/** What prepare() derives from the parameters and the time step. */
+typedef struct {
+    arm50_real length; /**< link length, the same everywhere [m] */
+    arm50_real mass; /**< link mass, the same everywhere [kg] */
+    arm50_real stiffness[ARM50_STATIONS]; /**< joint stiffness, base to tip [N m/rad] */
+    arm50_real damping[ARM50_STATIONS]; /**< joint damping, base to tip [N m s/rad] */
+    arm50_real tip_mass; /**< mass at the tip [kg] */
+    arm50_real tip_inertia; /**< inertia at the tip [kg m^2] */
+    arm50_real angle_per_acceleration; /**< angle per unit of acceleration: step**2/16 [SI] */
+    arm50_real rate_per_acceleration; /**< rate per unit of acceleration: step/4 [SI] */
+    arm50_real step_1_over_2; /**< step/2 [s] */
+    arm50_real step2_inverse_16; /**< 16/step**2 [s^-2] */
+    arm50_real step2_3_over_16; /**< 3*step**2/16 [s^2] */
+    arm50_real step_3_over_4; /**< 3*step/4 [s] */
+    arm50_real step2_17_over_200; /**< 17*step**2/200 [s^2] */
+    arm50_real step_17_over_50; /**< 17*step/50 [s] */
+    arm50_real step2_21_over_400; /**< 21*step**2/400 [s^2] */
+    arm50_real step_1_over_25; /**< step/25 [s] */
+    arm50_real step_21_over_100; /**< 21*step/100 [s] */
+    arm50_real step2_371_over_5440; /**< 371*step**2/5440 [s^2] */
+    arm50_real step_371_over_1360; /**< 371*step/1360 [s] */
+    arm50_real step2_137_over_10880; /**< 137*step**2/10880 [s^2] */
+    arm50_real step_137_over_2720; /**< 137*step/2720 [s] */
+    arm50_real step2_151_over_2176; /**< 151*step**2/2176 [s^2] */
+    arm50_real step_15_over_544; /**< 15*step/544 [s] */
+    arm50_real step_151_over_544; /**< 151*step/544 [s] */
+    arm50_real step2_25_over_96; /**< 25*step**2/96 [s^2] */
+    arm50_real step_25_over_24; /**< 25*step/24 [s] */
+    arm50_real step2_49_over_192; /**< 49*step**2/192 [s^2] */
+    arm50_real step_49_over_48; /**< 49*step/48 [s] */
+    arm50_real step2_125_over_64; /**< 125*step**2/64 [s^2] */
+    arm50_real step_125_over_16; /**< 125*step/16 [s] */
+    arm50_real step2_41_over_24; /**< 41*step**2/24 [s^2] */
+    arm50_real step_85_over_12; /**< 85*step/12 [s] */
+    arm50_real step_41_over_6; /**< 41*step/6 [s] */
+    arm50_real factor_28; /**< mass*(center - 1) [SI] */
+    arm50_real factor_29; /**< center*mass [SI] */
+    arm50_real carried_mass; /**< mass acting at a link's outer end [kg] */
+    arm50_real inner_mass; /**< mass acting at a link's inner end [kg] */
+    arm50_real pin_inertia; /**< inertia of a link about its inner end [kg m^2] */
+    arm50_real joint_impedance[ARM50_STATIONS]; /**< torque of a joint per difference of unknowns [SI] */
+} arm50_model;
+
+/** Motion of the arm, and the history its integrator needs. */
+typedef struct {
+    arm50_real hub_angle; /**< hub angle [rad] */
+    arm50_real hub_rate; /**< hub rate [rad/s] */
+    arm50_real hub_acceleration; /**< hub acceleration [rad/s^2] */
+    arm50_real angle[ARM50_STATIONS]; /**< angle of each link, base to tip [rad] */
+    arm50_real rate[ARM50_STATIONS]; /**< rate of each link, base to tip [rad/s] */
+    arm50_real acceleration[ARM50_STATIONS]; /**< acceleration of each link, base to tip [rad/s^2] */
+} arm50_state;
+
+/** What acts on the arm. */
+typedef struct {
+    arm50_real base_angle[ARM50_STAGES]; /**< prescribed base angle, at each stage of the step [rad] */
+} arm50_inputs;
+
+/** What the scene asks to know. */
+typedef struct {
+    arm50_real tip_x; /**< position at the tip, x [m] */
+    arm50_real tip_y; /**< position at the tip, y [m] */
+    arm50_real tip_angle; /**< angle at the tip [rad] */
+    arm50_real reaction_x; /**< force at the base, x [N] */
+    arm50_real reaction_y; /**< force at the base, y [N] */
+    arm50_real drive; /**< torque at the base [N m] */
+} arm50_outputs;
+
+/**
+ * Write the scene's parameters.
+ *
+ * @param[out] params  parameters
+ */
+void arm50_default_params(arm50_params *params);
+
+/**
+ * Compute what depends on parameters and step alone.
+ *
+ * @param[out] model   what the other functions need
+ * @param[in]  params  parameters
+ * @param[in]  step    time step [s]
+ * @return OK, NON_FINITE_INPUT, INVALID_STEP or VANISHING_PIVOT
+ */
+arm50_status arm50_prepare(
+    arm50_model *model,
+    const arm50_params *params,
+    arm50_real step);
+
+/**
+ * Start from given angles and rates with the acceleration that satisfies the equations of motion.
+ *
+ * @param[out] state   motion at the initial instant
+ * @param[in]  params  parameters
+ * @param[in]  initial_angle  angles to start from [rad]
+ * @param[in]  initial_rate  rates to start from [rad/s]
+ * @param[in]  inputs  what acts at the initial instant; only the first stage's count
+ * @return OK, NON_FINITE_INPUT or NON_FINITE_STATE
+ */
+arm50_status arm50_initialise(
+    arm50_state *state,
+    const arm50_params *params,
+    const arm50_real initial_angle[ARM50_STATIONS],
+    const arm50_real initial_rate[ARM50_STATIONS],
+    const arm50_inputs *inputs)
+;
+
+/**
+ * Advance the state by one step.
+ *
+ * @param[in]     model   from arm50_prepare()
+ * @param[in,out] state   motion before the step, and after it
+ * @param[in]     inputs  what acts, at each stage of the step
+ * @return OK, NON_FINITE_INPUT or NON_FINITE_STATE
+ */
+arm50_status arm50_step(
+    const arm50_model *model,
+    arm50_state *state,
+    const arm50_inputs *inputs);
+
+/**
+ * Read the outputs off the state.
+ *
+ * @param[in]  model    from arm50_prepare()
+ * @param[in]  state    motion
+ * @param[out] outputs  what the scene asks for
+ */
+void arm50_output(
+    const arm50_model *model,
+    const arm50_state *state,
+    arm50_outputs *outputs);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* ARM50_H */

@@ -1,0 +1,252 @@
+/**
+ * arm50: Stiff arm of fifty links on a servo
+ *
+ * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * scene digest: 9874dff5d90e21876dbd2271ff786b55b83dc2e6467819bdcfde7e890f954cb6
+ * sha256 of the rest of this file: 01b2d6d7bc6c60832d0a3d0a16d9626ffd60e279b9a24d94a49ee19031ea364b
+ *
+ * model: planar arm, large rotations, tip mass
+ * stations: 50
+ * base: prescribed
+ * integrator: SDIRK, order 4, 5 stages (Hairer & Wanner 1996)
+ * linearisation: newton
+ * sweep: riccati
+ * unknown: acceleration
+ * operations of a step: 35166, 703.3 per station (16203 additions, 18213 multiplications, 250 divisions, 500
+ *     functions)
+ * operations of prepare: 350, 7 per station (53 additions, 296 multiplications, 1 divisions)
+ * number type: double
+ * bytes of the structs: params 848, model 1488, state 1224, inputs 40, outputs 48
+ *
+ * A test for any machine: the kernel against 30 digits, within what rounding explains.
+ *
+ * @file test_arm50.c
+ */
+#include "arm50.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+typedef arm50_real real;
+
+typedef struct {
+    int checks;
+    int failures;
+} tally;
+
+static void expect(tally *count, const char *what, real value, real right, real tolerance)
+{
+    ++count->checks;
+    if (!(fabs(value - right) <= tolerance)) {
+        ++count->failures;
+        printf("%s is %.17g, not %.17g within %.2g\n", what, (double)value, (double)right, (double)tolerance);
+    }
+}
+
+static void expect_status(tally *count, const char *what, arm50_status value, arm50_status right)
+{
+    ++count->checks;
+    if (value != right) {
+        ++count->failures;
+        printf("%s: status is %d, not %d\n", what, (int)value, (int)right);
+    }
+}
+
+static void test_motion(tally *count)
+{
+    arm50_params params;
+    arm50_model model;
+    arm50_state state;
+    arm50_inputs inputs;
+    arm50_outputs outputs;
+    arm50_status status;
+    real initial_angle[ARM50_STATIONS];
+    real initial_rate[ARM50_STATIONS];
+
+    memset(&state, 0, sizeof state); /* padding too: it is compared below */
+    arm50_default_params(&params);
+    status = arm50_prepare(&model, &params, ARM50_STEP);
+    expect_status(count, "prepare", status, ARM50_OK);
+
+    for (int j = 0; j < ARM50_STATIONS; ++j) {
+        initial_angle[j] = (real)((7 * j + 3) % 16 - 8) / 16777216.0;
+    }
+    for (int j = 0; j < ARM50_STATIONS; ++j) {
+        initial_rate[j] = (real)((7 * j + 3) % 16 - 8) / 16777216.0;
+    }
+    inputs.base_angle[0] = -1.430511474609375e-06;
+    inputs.base_angle[1] = -4.76837158203125e-07;
+    inputs.base_angle[2] = 4.76837158203125e-07;
+    inputs.base_angle[3] = 1.430511474609375e-06;
+    inputs.base_angle[4] = -1.9073486328125e-06;
+    status = arm50_initialise(&state, &params, initial_angle, initial_rate, &inputs);
+    expect_status(count, "initialise", status, ARM50_OK);
+
+    /* Step 1. */
+    inputs.base_angle[0] = 9.5367431640625e-07;
+    inputs.base_angle[1] = 1.9073486328125e-06;
+    inputs.base_angle[2] = -1.430511474609375e-06;
+    inputs.base_angle[3] = -4.76837158203125e-07;
+    inputs.base_angle[4] = 4.76837158203125e-07;
+    status = arm50_step(&model, &state, &inputs);
+    expect_status(count, "step 1", status, ARM50_OK);
+    arm50_output(&model, &state, &outputs);
+    expect(count, "tip_x", outputs.tip_x, 0.7999999999936437, 1.9e+118);
+    expect(count, "tip_y", outputs.tip_y, -2.9246799722947642e-08, 2.4e+123);
+    expect(count, "tip_angle", outputs.tip_angle, -3.133217657302007e-08, 2e+124);
+    expect(count, "reaction_x", outputs.reaction_x, -0.0003276465637738733, 1.1e+125);
+    expect(count, "reaction_y", outputs.reaction_y, 2.5796813386601256, 7.2e+129);
+    expect(count, "drive", outputs.drive, -0.1589352020161569, 1.3e+126);
+
+    /* Step 2. */
+    inputs.base_angle[0] = -9.5367431640625e-07;
+    inputs.base_angle[1] = 0.0;
+    inputs.base_angle[2] = 9.5367431640625e-07;
+    inputs.base_angle[3] = 1.9073486328125e-06;
+    inputs.base_angle[4] = -1.430511474609375e-06;
+    status = arm50_step(&model, &state, &inputs);
+    expect_status(count, "step 2", status, ARM50_OK);
+    arm50_output(&model, &state, &outputs);
+    expect(count, "tip_x", outputs.tip_x, 0.7999999999930091, 1.9e+118);
+    expect(count, "tip_y", outputs.tip_y, 1.4754792375597243e-08, 2.4e+123);
+    expect(count, "tip_angle", outputs.tip_angle, -3.974691784563144e-06, 2e+124);
+    expect(count, "reaction_x", outputs.reaction_x, -6.965293798188813e-06, 1.1e+125);
+    expect(count, "reaction_y", outputs.reaction_y, 0.4174345325587483, 7.2e+129);
+    expect(count, "drive", outputs.drive, -0.053923043942192495, 1.3e+126);
+
+    /* Step 3. */
+    inputs.base_angle[0] = 1.430511474609375e-06;
+    inputs.base_angle[1] = -1.9073486328125e-06;
+    inputs.base_angle[2] = -9.5367431640625e-07;
+    inputs.base_angle[3] = 0.0;
+    inputs.base_angle[4] = 9.5367431640625e-07;
+    status = arm50_step(&model, &state, &inputs);
+    expect_status(count, "step 3", status, ARM50_OK);
+    arm50_output(&model, &state, &outputs);
+    expect(count, "tip_x", outputs.tip_x, 0.7999999999907428, 1.9e+118);
+    expect(count, "tip_y", outputs.tip_y, 4.2879698427023643e-07, 2.4e+123);
+    expect(count, "tip_angle", outputs.tip_angle, 1.2390017072473374e-05, 2e+124);
+    expect(count, "reaction_x", outputs.reaction_x, -0.00015577557233715532, 1.1e+125);
+    expect(count, "reaction_y", outputs.reaction_y, 1.6692356643512634, 7.2e+129);
+    expect(count, "drive", outputs.drive, -0.10696685184478559, 1.3e+126);
+
+    /* State after the last step. */
+    expect(count, "hub_angle", state.hub_angle, 9.5367431640625e-07, 2.9e-08);
+    expect(count, "hub_rate", state.hub_rate, 0.06659825642903645, 4.3e-05);
+    expect(count, "hub_acceleration", state.hub_acceleration, 242.49818589952255, 0.058);
+    expect(count, "angle[0]", state.angle[0], -1.0715716706486423e-06, 2e+124);
+    expect(count, "angle[5]", state.angle[5], -5.596620999212178e-06, 2e+124);
+    expect(count, "angle[11]", state.angle[11], -1.1226625847505054e-07, 2e+124);
+    expect(count, "angle[16]", state.angle[16], -1.7223089690140633e-06, 2e+124);
+    expect(count, "angle[22]", state.angle[22], -3.597797178410893e-06, 2e+124);
+    expect(count, "angle[27]", state.angle[27], -1.4665219751599584e-06, 2e+124);
+    expect(count, "angle[33]", state.angle[33], 1.1586895291698052e-06, 2e+124);
+    expect(count, "angle[38]", state.angle[38], 3.3114150741598068e-06, 2e+124);
+    expect(count, "angle[44]", state.angle[44], 8.2295661034435e-06, 2e+124);
+    expect(count, "angle[49]", state.angle[49], 1.2390017072473374e-05, 2e+124);
+    expect(count, "rate[0]", state.rate[0], 0.05262132370925399, 4e+127);
+    expect(count, "rate[5]", state.rate[5], -0.019272102720093526, 4e+127);
+    expect(count, "rate[11]", state.rate[11], -0.0036431037420894216, 4e+127);
+    expect(count, "rate[16]", state.rate[16], 0.0112070608739416, 4e+127);
+    expect(count, "rate[22]", state.rate[22], -0.0038503317122658928, 4e+127);
+    expect(count, "rate[27]", state.rate[27], -0.009442823308854532, 4e+127);
+    expect(count, "rate[33]", state.rate[33], -2.57822062195467e-05, 4e+127);
+    expect(count, "rate[38]", state.rate[38], 0.00425563200198166, 4e+127);
+    expect(count, "rate[44]", state.rate[44], 0.0026872350313206367, 4e+127);
+    expect(count, "rate[49]", state.rate[49], 0.002471919458275861, 4e+127);
+    expect(count, "acceleration[0]", state.acceleration[0], 203.42734809856154, 8e+130);
+    expect(count, "acceleration[5]", state.acceleration[5], -7.374863719365523, 8e+130);
+    expect(count, "acceleration[11]", state.acceleration[11], -97.27579413583985, 8e+130);
+    expect(count, "acceleration[16]", state.acceleration[16], -3.2824580946006523, 8e+130);
+    expect(count, "acceleration[22]", state.acceleration[22], 38.29813233681261, 8e+130);
+    expect(count, "acceleration[27]", state.acceleration[27], -9.751238233099807, 8e+130);
+    expect(count, "acceleration[33]", state.acceleration[33], -12.188916728360537, 8e+130);
+    expect(count, "acceleration[38]", state.acceleration[38], 12.978056275350609, 8e+130);
+    expect(count, "acceleration[44]", state.acceleration[44], 3.649853966054123, 8e+130);
+    expect(count, "acceleration[49]", state.acceleration[49], -23.66535405132707, 8e+130);
+
+    /* Bad input is refused and leaves the state alone. */
+    arm50_state before;
+    memcpy(&before, &state, sizeof before);
+    const real bad[] = {(real)NAN, (real)INFINITY, -(real)INFINITY};
+    for (int k = 0; k < 3; ++k) {
+        const real base_angle = inputs.base_angle[ARM50_STAGES - 1];
+        inputs.base_angle[ARM50_STAGES - 1] = bad[k];
+        status = arm50_step(&model, &state, &inputs);
+        expect_status(count, "bad base_angle", status, ARM50_NON_FINITE_INPUT);
+        inputs.base_angle[ARM50_STAGES - 1] = base_angle;
+    }
+    ++count->checks;
+    if (memcmp(&before, &state, sizeof state) != 0) {
+        ++count->failures;
+        printf("bad input has changed the state\n");
+    }
+}
+
+static void test_refusals(tally *count)
+{
+    arm50_params params;
+    arm50_model model;
+    arm50_status status;
+
+    arm50_default_params(&params);
+    status = arm50_prepare(&model, &params, 0.0);
+    expect_status(count, "no step", status, ARM50_INVALID_STEP);
+    status = arm50_prepare(&model, &params, (real)NAN);
+    expect_status(count, "bad step", status, ARM50_INVALID_STEP);
+
+    arm50_default_params(&params);
+    params.length = (real)NAN;
+    status = arm50_prepare(&model, &params, ARM50_STEP);
+    expect_status(count, "bad length", status, ARM50_NON_FINITE_INPUT);
+
+    arm50_default_params(&params);
+    params.mass = (real)NAN;
+    status = arm50_prepare(&model, &params, ARM50_STEP);
+    expect_status(count, "bad mass", status, ARM50_NON_FINITE_INPUT);
+
+    arm50_default_params(&params);
+    params.inertia = (real)NAN;
+    status = arm50_prepare(&model, &params, ARM50_STEP);
+    expect_status(count, "bad inertia", status, ARM50_NON_FINITE_INPUT);
+
+    arm50_default_params(&params);
+    params.center = (real)NAN;
+    status = arm50_prepare(&model, &params, ARM50_STEP);
+    expect_status(count, "bad center", status, ARM50_NON_FINITE_INPUT);
+
+    arm50_default_params(&params);
+    params.stiffness[ARM50_STATIONS - 1] = (real)NAN;
+    status = arm50_prepare(&model, &params, ARM50_STEP);
+    expect_status(count, "bad stiffness", status, ARM50_NON_FINITE_INPUT);
+
+    arm50_default_params(&params);
+    params.damping[ARM50_STATIONS - 1] = (real)NAN;
+    status = arm50_prepare(&model, &params, ARM50_STEP);
+    expect_status(count, "bad damping", status, ARM50_NON_FINITE_INPUT);
+
+    arm50_default_params(&params);
+    params.tip_mass = (real)NAN;
+    status = arm50_prepare(&model, &params, ARM50_STEP);
+    expect_status(count, "bad tip_mass", status, ARM50_NON_FINITE_INPUT);
+
+    arm50_default_params(&params);
+    params.tip_inertia = (real)NAN;
+    status = arm50_prepare(&model, &params, ARM50_STEP);
+    expect_status(count, "bad tip_inertia", status, ARM50_NON_FINITE_INPUT);
+}
+
+int main(void)
+{
+    tally count = {0, 0};
+
+    test_motion(&count);
+    test_refusals(&count);
+    if (count.failures > 0) {
+        printf("%d of %d checks failed\n", count.failures, count.checks);
+        return 1;
+    }
+    printf("%d checks passed\n", count.checks);
+    return 0;
+}

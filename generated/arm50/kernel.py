@@ -1,0 +1,1745 @@
+# arm50: Stiff arm of fifty links on a servo
+#
+# Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+# scene digest: 9874dff5d90e21876dbd2271ff786b55b83dc2e6467819bdcfde7e890f954cb6
+# sha256 of the rest of this file: de778aa4d6b2d191a9282f354b8cb0c66b8ffb452ddea610cfaff4096bd8e5b4
+#
+# model: planar arm, large rotations, tip mass
+# stations: 50
+# base: prescribed
+# integrator: SDIRK, order 4, 5 stages (Hairer & Wanner 1996)
+# linearisation: newton
+# sweep: riccati
+# unknown: acceleration
+# operations of a step: 35166, 703.3 per station (16203 additions, 18213 multiplications, 250 divisions, 500
+#     functions)
+# operations of prepare: 350, 7 per station (53 additions, 296 multiplications, 1 divisions)
+"""arm50: Stiff arm of fifty links on a servo.
+
+A state goes in, a new one comes out: ``model = prepare(params, step)``, ``state = initialise(params,
+input)``, ``state = step(model, state, input)``, ``y = output(model, state)``; or ``simulate(duration,
+inputs)`` for all of them. Arrays are never written in place.
+
+All arrays may have further axes behind, those of a batch: many arms at once, each with its own parameters,
+inputs and state. What is one number for an arm then has the batch's shape; what differs between stations has
+the stations first, base to tip.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Array = NDArray[Any]
+
+STATIONS = 50
+"""Number of links."""
+STEP = 0.002
+"""Time step of the scene (s)."""
+INPUT_NAMES: tuple[str, ...] = ("base_angle",)
+OUTPUT_NAMES: tuple[str, ...] = ("tip_x", "tip_y", "tip_angle", "reaction_x", "reaction_y", "drive")
+STAGE_INSTANTS = ((0.25, 0.75, 0.55, 0.5, 1.0),)
+"""When inputs are read, in steps from the start of the step."""
+INITIAL_ANGLE: ArrayLike = 0.0
+INITIAL_RATE: ArrayLike = 0.0
+
+
+class VanishingPivotError(ArithmeticError):
+    """A pivot that is positive for every passive arm is not: the model cannot be solved."""
+
+
+@dataclass(frozen=True, eq=False)
+class Params:
+    """Physical parameters, by default the scene's.
+
+    Attributes
+    ----------
+    length : array_like, shape (*batch)
+        Link length, the same everywhere (m).
+    mass : array_like, shape (*batch)
+        Link mass, the same everywhere (kg).
+    inertia : array_like, shape (*batch)
+        Link inertia about its centre of mass, the same everywhere (kg m^2).
+    center : array_like, shape (*batch)
+        Centre of mass along the link, 0 to 1, the same everywhere.
+    stiffness : array_like, shape (50, *batch)
+        Joint stiffness, base to tip (N m/rad).
+    damping : array_like, shape (50, *batch)
+        Joint damping, base to tip (N m s/rad).
+    tip_mass : array_like, shape (*batch)
+        Mass at the tip (kg).
+    tip_inertia : array_like, shape (*batch)
+        Inertia at the tip (kg m^2).
+    """
+
+    length: ArrayLike = 0.016
+    mass: ArrayLike = 0.0304
+    inertia: ArrayLike = 6.485333333333333e-07
+    center: ArrayLike = 0.5
+    stiffness: ArrayLike = (
+        31250.0,
+        15625.0,
+        15625.0,
+        15625.0,
+        15625.0,
+        15625.0,
+        15625.0,
+        15625.0,
+        15625.0,
+        15625.0,
+        15625.0,
+        15625.0,
+        15625.0,
+        15625.0,
+        15625.0,
+        15625.0,
+        15625.0,
+        15625.0,
+        15625.0,
+        15625.0,
+        15625.0,
+        15625.0,
+        15625.0,
+        15625.0,
+        15625.0,
+        15625.0,
+        15625.0,
+        15625.0,
+        15625.0,
+        15625.0,
+        15625.0,
+        15625.0,
+        15625.0,
+        15625.0,
+        15625.0,
+        15625.0,
+        15625.0,
+        15625.0,
+        15625.0,
+        15625.0,
+        15625.0,
+        15625.0,
+        15625.0,
+        15625.0,
+        15625.0,
+        15625.0,
+        15625.0,
+        15625.0,
+        15625.0,
+        15625.0,
+    )
+    damping: ArrayLike = (
+        3.125,
+        1.5625,
+        1.5625,
+        1.5625,
+        1.5625,
+        1.5625,
+        1.5625,
+        1.5625,
+        1.5625,
+        1.5625,
+        1.5625,
+        1.5625,
+        1.5625,
+        1.5625,
+        1.5625,
+        1.5625,
+        1.5625,
+        1.5625,
+        1.5625,
+        1.5625,
+        1.5625,
+        1.5625,
+        1.5625,
+        1.5625,
+        1.5625,
+        1.5625,
+        1.5625,
+        1.5625,
+        1.5625,
+        1.5625,
+        1.5625,
+        1.5625,
+        1.5625,
+        1.5625,
+        1.5625,
+        1.5625,
+        1.5625,
+        1.5625,
+        1.5625,
+        1.5625,
+        1.5625,
+        1.5625,
+        1.5625,
+        1.5625,
+        1.5625,
+        1.5625,
+        1.5625,
+        1.5625,
+        1.5625,
+        1.5625,
+    )
+    tip_mass: ArrayLike = 0.5
+    tip_inertia: ArrayLike = 0.0004
+
+
+@dataclass(frozen=True, eq=False)
+class Model:
+    """What depends on parameters and step alone.
+
+    Attributes
+    ----------
+    length : array, shape (*batch)
+        Link length, the same everywhere (m).
+    mass : array, shape (*batch)
+        Link mass, the same everywhere (kg).
+    stiffness : array, shape (50, *batch)
+        Joint stiffness, base to tip (N m/rad).
+    damping : array, shape (50, *batch)
+        Joint damping, base to tip (N m s/rad).
+    tip_mass : array, shape (*batch)
+        Mass at the tip (kg).
+    tip_inertia : array, shape (*batch)
+        Inertia at the tip (kg m^2).
+    angle_per_acceleration : array, shape (*batch)
+        Angle per unit of acceleration: step**2/16 (SI).
+    rate_per_acceleration : array, shape (*batch)
+        Rate per unit of acceleration: step/4 (SI).
+    step_1_over_2 : array, shape (*batch)
+        Step/2 (s).
+    step2_inverse_16 : array, shape (*batch)
+        16/step**2 (s^-2).
+    step2_3_over_16 : array, shape (*batch)
+        3*step**2/16 (s^2).
+    step_3_over_4 : array, shape (*batch)
+        3*step/4 (s).
+    step2_17_over_200 : array, shape (*batch)
+        17*step**2/200 (s^2).
+    step_17_over_50 : array, shape (*batch)
+        17*step/50 (s).
+    step2_21_over_400 : array, shape (*batch)
+        21*step**2/400 (s^2).
+    step_1_over_25 : array, shape (*batch)
+        Step/25 (s).
+    step_21_over_100 : array, shape (*batch)
+        21*step/100 (s).
+    step2_371_over_5440 : array, shape (*batch)
+        371*step**2/5440 (s^2).
+    step_371_over_1360 : array, shape (*batch)
+        371*step/1360 (s).
+    step2_137_over_10880 : array, shape (*batch)
+        137*step**2/10880 (s^2).
+    step_137_over_2720 : array, shape (*batch)
+        137*step/2720 (s).
+    step2_151_over_2176 : array, shape (*batch)
+        151*step**2/2176 (s^2).
+    step_15_over_544 : array, shape (*batch)
+        15*step/544 (s).
+    step_151_over_544 : array, shape (*batch)
+        151*step/544 (s).
+    step2_25_over_96 : array, shape (*batch)
+        25*step**2/96 (s^2).
+    step_25_over_24 : array, shape (*batch)
+        25*step/24 (s).
+    step2_49_over_192 : array, shape (*batch)
+        49*step**2/192 (s^2).
+    step_49_over_48 : array, shape (*batch)
+        49*step/48 (s).
+    step2_125_over_64 : array, shape (*batch)
+        125*step**2/64 (s^2).
+    step_125_over_16 : array, shape (*batch)
+        125*step/16 (s).
+    step2_41_over_24 : array, shape (*batch)
+        41*step**2/24 (s^2).
+    step_85_over_12 : array, shape (*batch)
+        85*step/12 (s).
+    step_41_over_6 : array, shape (*batch)
+        41*step/6 (s).
+    factor_28 : array, shape (*batch)
+        Mass*(center - 1) (SI).
+    factor_29 : array, shape (*batch)
+        Center*mass (SI).
+    carried_mass : array, shape (*batch)
+        Mass acting at a link's outer end (kg).
+    inner_mass : array, shape (*batch)
+        Mass acting at a link's inner end (kg).
+    pin_inertia : array, shape (*batch)
+        Inertia of a link about its inner end (kg m^2).
+    joint_impedance : array, shape (50, *batch)
+        Torque of a joint per difference of unknowns (SI).
+    """
+
+    length: Array
+    mass: Array
+    stiffness: Array
+    damping: Array
+    tip_mass: Array
+    tip_inertia: Array
+    angle_per_acceleration: Array
+    rate_per_acceleration: Array
+    step_1_over_2: Array
+    step2_inverse_16: Array
+    step2_3_over_16: Array
+    step_3_over_4: Array
+    step2_17_over_200: Array
+    step_17_over_50: Array
+    step2_21_over_400: Array
+    step_1_over_25: Array
+    step_21_over_100: Array
+    step2_371_over_5440: Array
+    step_371_over_1360: Array
+    step2_137_over_10880: Array
+    step_137_over_2720: Array
+    step2_151_over_2176: Array
+    step_15_over_544: Array
+    step_151_over_544: Array
+    step2_25_over_96: Array
+    step_25_over_24: Array
+    step2_49_over_192: Array
+    step_49_over_48: Array
+    step2_125_over_64: Array
+    step_125_over_16: Array
+    step2_41_over_24: Array
+    step_85_over_12: Array
+    step_41_over_6: Array
+    factor_28: Array
+    factor_29: Array
+    carried_mass: Array
+    inner_mass: Array
+    pin_inertia: Array
+    joint_impedance: Array
+
+
+@dataclass(frozen=True, eq=False)
+class State:
+    """Motion at one instant.
+
+    Attributes
+    ----------
+    hub_angle : array, shape (*batch)
+        Hub angle (rad).
+    hub_rate : array, shape (*batch)
+        Hub rate (rad/s).
+    hub_acceleration : array, shape (*batch)
+        Hub acceleration (rad/s^2).
+    angle : array, shape (50, *batch)
+        Angle of each link, base to tip (rad).
+    rate : array, shape (50, *batch)
+        Rate of each link, base to tip (rad/s).
+    acceleration : array, shape (50, *batch)
+        Acceleration of each link, base to tip (rad/s^2).
+    """
+
+    hub_angle: Array
+    hub_rate: Array
+    hub_acceleration: Array
+    angle: Array
+    rate: Array
+    acceleration: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Input:
+    """What acts on the arm at one stage of a step.
+
+    Attributes
+    ----------
+    base_angle : array_like, shape (*batch)
+        Prescribed base angle, at each stage of the step (rad).
+    """
+
+    base_angle: ArrayLike = 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class Output:
+    """What the scene reports.
+
+    Attributes
+    ----------
+    tip_x : array, shape (*batch)
+        Position at the tip, x (m).
+    tip_y : array, shape (*batch)
+        Position at the tip, y (m).
+    tip_angle : array, shape (*batch)
+        Angle at the tip (rad).
+    reaction_x : array, shape (*batch)
+        Force at the base, x (N).
+    reaction_y : array, shape (*batch)
+        Force at the base, y (N).
+    drive : array, shape (*batch)
+        Torque at the base (N m).
+    """
+
+    tip_x: Array
+    tip_y: Array
+    tip_angle: Array
+    reaction_x: Array
+    reaction_y: Array
+    drive: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Result:
+    """A simulation.
+
+    Attributes
+    ----------
+    times : array, shape (steps + 1,)
+        Instants (s).
+    outputs : dict from str to array, shape (steps + 1, *batch)
+        Outputs at these instants, by name.
+    state : State
+        Motion at the end.
+    """
+
+    times: Array
+    outputs: dict[str, Array]
+    state: State
+
+
+def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
+    """Compute what depends on parameters and step alone.
+
+    Parameters
+    ----------
+    params : Params
+        Physical parameters.
+    step : array_like, shape (*batch)
+        Time step (s).
+
+    Raises
+    ------
+    FloatingPointError
+        If a parameter or the step is not finite.
+    ValueError
+        If shapes do not fit.
+    VanishingPivotError
+        If parameters or step leave a pivot that is not positive.
+    """
+    step = _array(step, None, "step")
+    length = _array(params.length, None, "length")
+    mass = _array(params.mass, None, "mass")
+    inertia = _array(params.inertia, None, "inertia")
+    center = _array(params.center, None, "center")
+    stiffness = _array(params.stiffness, STATIONS, "stiffness")
+    damping = _array(params.damping, STATIONS, "damping")
+    tip_mass = _array(params.tip_mass, None, "tip_mass")
+    tip_inertia = _array(params.tip_inertia, None, "tip_inertia")
+    numbers = (step, length, mass, inertia, center, tip_mass, tip_inertia)
+    arrays = (stiffness, damping)
+    batch, _ = _common(numbers, arrays)
+    stiffness = _align(stiffness, batch)
+    damping = _align(damping, batch)
+
+    # Factors of the step that depend on the time step and parameters alone
+    angle_per_acceleration = 0.0625 * (step * step)
+    rate_per_acceleration = 0.25 * step
+    step_1_over_2 = 0.5 * step
+    step2_inverse_16 = 16.0 / (step * step)
+    step2_3_over_16 = 0.1875 * (step * step)
+    step_3_over_4 = 0.75 * step
+    step2_17_over_200 = (17.0 / 200.0) * (step * step)
+    step_17_over_50 = (17.0 / 50.0) * step
+    step2_21_over_400 = (21.0 / 400.0) * (step * step)
+    step_1_over_25 = (1.0 / 25.0) * step
+    step_21_over_100 = (21.0 / 100.0) * step
+    step2_371_over_5440 = (371.0 / 5440.0) * (step * step)
+    step_371_over_1360 = (371.0 / 1360.0) * step
+    step2_137_over_10880 = (137.0 / 10880.0) * (step * step)
+    step_137_over_2720 = (137.0 / 2720.0) * step
+    step2_151_over_2176 = (151.0 / 2176.0) * (step * step)
+    step_15_over_544 = (15.0 / 544.0) * step
+    step_151_over_544 = (151.0 / 544.0) * step
+    step2_25_over_96 = (25.0 / 96.0) * (step * step)
+    step_25_over_24 = (25.0 / 24.0) * step
+    step2_49_over_192 = (49.0 / 192.0) * (step * step)
+    step_49_over_48 = (49.0 / 48.0) * step
+    step2_125_over_64 = 1.953125 * (step * step)
+    step_125_over_16 = 7.8125 * step
+    step2_41_over_24 = (41.0 / 24.0) * (step * step)
+    step_85_over_12 = (85.0 / 12.0) * step
+    step_41_over_6 = (41.0 / 6.0) * step
+    factor_28 = mass * (center - 1.0)
+    factor_29 = center * mass
+
+    # Masses by the ends they act at, and joint impedances
+    carried_mass = center * mass
+    inner_mass = mass - center * mass
+    pin_inertia = inertia + center * center * (length * length) * mass
+    joint_impedance = 0.25 * damping * step + 0.0625 * (step * step) * stiffness
+    return Model(
+        length=length,
+        mass=mass,
+        stiffness=stiffness,
+        damping=damping,
+        tip_mass=tip_mass,
+        tip_inertia=tip_inertia,
+        angle_per_acceleration=angle_per_acceleration,
+        rate_per_acceleration=rate_per_acceleration,
+        step_1_over_2=step_1_over_2,
+        step2_inverse_16=step2_inverse_16,
+        step2_3_over_16=step2_3_over_16,
+        step_3_over_4=step_3_over_4,
+        step2_17_over_200=step2_17_over_200,
+        step_17_over_50=step_17_over_50,
+        step2_21_over_400=step2_21_over_400,
+        step_1_over_25=step_1_over_25,
+        step_21_over_100=step_21_over_100,
+        step2_371_over_5440=step2_371_over_5440,
+        step_371_over_1360=step_371_over_1360,
+        step2_137_over_10880=step2_137_over_10880,
+        step_137_over_2720=step_137_over_2720,
+        step2_151_over_2176=step2_151_over_2176,
+        step_15_over_544=step_15_over_544,
+        step_151_over_544=step_151_over_544,
+        step2_25_over_96=step2_25_over_96,
+        step_25_over_24=step_25_over_24,
+        step2_49_over_192=step2_49_over_192,
+        step_49_over_48=step_49_over_48,
+        step2_125_over_64=step2_125_over_64,
+        step_125_over_16=step_125_over_16,
+        step2_41_over_24=step2_41_over_24,
+        step_85_over_12=step_85_over_12,
+        step_41_over_6=step_41_over_6,
+        factor_28=factor_28,
+        factor_29=factor_29,
+        carried_mass=carried_mass,
+        inner_mass=inner_mass,
+        pin_inertia=pin_inertia,
+        joint_impedance=joint_impedance,
+    )
+
+
+def initialise(
+    params: Params = Params(),
+    input: Input = Input(),
+    *,
+    initial_angle: ArrayLike = INITIAL_ANGLE,
+    initial_rate: ArrayLike = INITIAL_RATE,
+) -> State:
+    """Start from given angles and rates with the acceleration that satisfies the equations of motion.
+
+    Parameters
+    ----------
+    params : Params
+        Physical parameters.
+    input : Input
+        What acts at the initial instant.
+    initial_angle : number, or array_like, shape (50, *batch)
+        Angles to start from (rad).
+    initial_rate : number, or array_like, shape (50, *batch)
+        Rates to start from (rad/s).
+
+    Raises
+    ------
+    FloatingPointError
+        If an argument is not finite.
+    ValueError
+        If shapes do not fit.
+    VanishingPivotError
+        If parameters leave a pivot that is not positive.
+    """
+    stages = (input,)
+    base_angle = _at_stages(stages, "base_angle")
+    length = _array(params.length, None, "length")
+    mass = _array(params.mass, None, "mass")
+    inertia = _array(params.inertia, None, "inertia")
+    center = _array(params.center, None, "center")
+    stiffness = _array(params.stiffness, STATIONS, "stiffness")
+    damping = _array(params.damping, STATIONS, "damping")
+    tip_mass = _array(params.tip_mass, None, "tip_mass")
+    tip_inertia = _array(params.tip_inertia, None, "tip_inertia")
+    initial_angle = _array(initial_angle, STATIONS, "initial_angle")
+    initial_rate = _array(initial_rate, STATIONS, "initial_rate")
+    numbers = (*base_angle, length, mass, inertia, center, tip_mass, tip_inertia)
+    arrays = (stiffness, damping, initial_angle, initial_rate)
+    batch, dtype = _common(numbers, arrays)
+    stiffness = _align(stiffness, batch)
+    damping = _align(damping, batch)
+    initial_angle = _align(initial_angle, batch)
+    initial_rate = _align(initial_rate, batch)
+    acceleration_x = np.zeros((STATIONS + 1, *batch), dtype)
+    acceleration_y = np.zeros((STATIONS + 1, *batch), dtype)
+    answer_from_inner = np.zeros((STATIONS, *batch), dtype)
+    answer_own = np.zeros((STATIONS, *batch), dtype)
+    answer_x = np.zeros((STATIONS, *batch), dtype)
+    answer_y = np.zeros((STATIONS, *batch), dtype)
+    predicted_acceleration = np.zeros((STATIONS + 1, *batch), dtype)
+    predicted_angle = np.zeros((STATIONS + 1, *batch), dtype)
+    predicted_rate = np.zeros((STATIONS + 1, *batch), dtype)
+    solved = np.zeros((STATIONS, *batch), dtype)
+
+    # predicted motion
+    predicted_angle[0] = base_angle[0]
+    predicted_rate[0] = 0.0
+    predicted_acceleration[0] = 0.0
+    predicted_angle[1:] = initial_angle
+    predicted_rate[1:] = initial_rate
+    predicted_acceleration[1:] = 0.0
+
+    # accelerations of the nodes
+    lever_sine = length * np.sin(predicted_angle[1:])
+    lever_cosine = length * np.cos(predicted_angle[1:])
+    node_x: Any = 0.0
+    node_y: Any = 0.0
+    acceleration_x[0] = node_x
+    acceleration_y[0] = node_y
+    for j in range(STATIONS):
+        square = predicted_rate[j + 1] * predicted_rate[j + 1]
+        node_x = node_x - lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1]
+        node_y = node_y + lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square
+        acceleration_x[j + 1] = node_x
+        acceleration_y[j + 1] = node_y
+
+    # how each link's outer end answers to its unknown, and the predicted joint torques
+    tangential: Any = 1.0
+    turning: Any = 0.0
+    swing_x = -lever_cosine * turning - lever_sine * tangential
+    swing_y = lever_cosine * tangential - lever_sine * turning
+    joint_torque = damping * (predicted_rate[:50] - predicted_rate[1:]) + stiffness * (
+        predicted_angle[:50] - predicted_angle[1:]
+    )
+
+    # sweep inward: force beyond each joint as an affine function of the motion at it
+    impedance_xx = tip_mass
+    impedance_xy: Any = 0.0
+    impedance_xu: Any = 0.0
+    impedance_yx: Any = 0.0
+    impedance_yy = tip_mass
+    impedance_yu: Any = 0.0
+    impedance_ux: Any = 0.0
+    impedance_uy: Any = 0.0
+    impedance_uu = tip_inertia
+    force_x = acceleration_x[50] * tip_mass
+    force_y = acceleration_y[50] * tip_mass
+    torque = predicted_acceleration[50] * tip_inertia
+    for j in reversed(range(STATIONS)):
+        outer_x = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
+        outer_y = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
+        outer_u = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
+        load_x = force_x + acceleration_x[j] * center * mass
+        load_y = force_y + acceleration_y[j] * center * mass
+        link_ux = (
+            impedance_ux + impedance_yx * lever_cosine[j] - lever_sine[j] * (impedance_xx + center * mass)
+        )
+        link_uy = (
+            impedance_uy - impedance_xy * lever_sine[j] + lever_cosine[j] * (impedance_yy + center * mass)
+        )
+        link_uu = (
+            inertia
+            + outer_u
+            + lever_cosine[j] * outer_y
+            - lever_sine[j] * outer_x
+            + center * center * (length * length) * mass
+        )
+        link_xx = impedance_xx + mass
+        link_xy = impedance_xy
+        link_xu = outer_x + center * mass * swing_x[j]
+        link_yx = impedance_yx
+        link_yy = impedance_yy + mass
+        link_yu = outer_y + center * mass * swing_y[j]
+        torque = (
+            torque
+            + lever_cosine[j] * load_y
+            - lever_sine[j] * load_x
+            + predicted_acceleration[j + 1] * (inertia + center * center * (length * length) * mass)
+        )
+        force_x = force_x + acceleration_x[j] * (mass - center * mass) + acceleration_x[j + 1] * center * mass
+        force_y = force_y + acceleration_y[j] * (mass - center * mass) + acceleration_y[j + 1] * center * mass
+        pivot = link_uu
+        _require_positive(pivot, "pivot", j)
+        inverse_pivot = 1.0 / pivot
+        answer_own[j] = inverse_pivot * (joint_torque[j] - torque)
+        answer_x[j] = inverse_pivot * link_ux
+        answer_y[j] = inverse_pivot * link_uy
+        answer_from_inner[j] = 0.0
+        impedance_xx = link_xx - answer_x[j] * link_xu
+        impedance_xy = link_xy - answer_y[j] * link_xu
+        impedance_xu = answer_from_inner[j] * link_xu
+        force_x = force_x + answer_own[j] * link_xu
+        impedance_yx = link_yx - answer_x[j] * link_yu
+        impedance_yy = link_yy - answer_y[j] * link_yu
+        impedance_yu = answer_from_inner[j] * link_yu
+        force_y = force_y + answer_own[j] * link_yu
+        impedance_ux = 0.0
+        impedance_uy = 0.0
+        impedance_uu = answer_from_inner[j] * link_uu
+        torque = joint_torque[j]
+
+    # the hub
+    unknown: Any = 0.0
+    hub_unknown = unknown
+
+    # sweep outward: the increment of each link's unknown
+    change_x: Any = 0.0
+    change_y: Any = 0.0
+    for j in range(STATIONS):
+        unknown = (
+            answer_own[j] + answer_from_inner[j] * unknown - answer_x[j] * change_x - answer_y[j] * change_y
+        )
+        change_x = change_x + swing_x[j] * unknown
+        change_y = change_y + swing_y[j] * unknown
+        solved[j] = unknown
+
+    # motion at the end of the step
+    hub_angle = predicted_angle[0]
+    hub_rate = predicted_rate[0]
+    hub_acceleration = hub_unknown + predicted_acceleration[0]
+    angle = predicted_angle[1:]
+    rate = predicted_rate[1:]
+    acceleration = predicted_acceleration[1:] + solved
+    return State(
+        hub_angle=_spread(hub_angle, batch, False),
+        hub_rate=_spread(hub_rate, batch, False),
+        hub_acceleration=_spread(hub_acceleration, batch, False),
+        angle=_spread(angle, batch, True),
+        rate=_spread(rate, batch, True),
+        acceleration=_spread(acceleration, batch, True),
+    )
+
+
+def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -> State:
+    """Advance the state by one step.
+
+    Parameters
+    ----------
+    model : Model
+        From :func:`prepare`.
+    state : State
+        At the start of the step; left as it is.
+    input : Input or sequence of Input
+        What acts during the step: held over it, or one for each stage, read at its instant in STAGE_INSTANTS.
+
+    Returns
+    -------
+    State
+        At the end of the step.
+
+    Raises
+    ------
+    FloatingPointError
+        If an input is not finite.
+    ValueError
+        If shapes do not fit.
+    VanishingPivotError
+        If the motion, parameters or step leave a pivot that is not positive.
+    """
+    stages = _stages(input, 5)
+    base_angle = _at_stages(stages, "base_angle")
+    length = model.length
+    mass = model.mass
+    stiffness = np.asarray(model.stiffness)
+    damping = np.asarray(model.damping)
+    tip_mass = model.tip_mass
+    tip_inertia = model.tip_inertia
+    angle_per_acceleration = model.angle_per_acceleration
+    rate_per_acceleration = model.rate_per_acceleration
+    step_1_over_2 = model.step_1_over_2
+    step2_inverse_16 = model.step2_inverse_16
+    step2_3_over_16 = model.step2_3_over_16
+    step_3_over_4 = model.step_3_over_4
+    step2_17_over_200 = model.step2_17_over_200
+    step_17_over_50 = model.step_17_over_50
+    step2_21_over_400 = model.step2_21_over_400
+    step_1_over_25 = model.step_1_over_25
+    step_21_over_100 = model.step_21_over_100
+    step2_371_over_5440 = model.step2_371_over_5440
+    step_371_over_1360 = model.step_371_over_1360
+    step2_137_over_10880 = model.step2_137_over_10880
+    step_137_over_2720 = model.step_137_over_2720
+    step2_151_over_2176 = model.step2_151_over_2176
+    step_15_over_544 = model.step_15_over_544
+    step_151_over_544 = model.step_151_over_544
+    step2_25_over_96 = model.step2_25_over_96
+    step_25_over_24 = model.step_25_over_24
+    step2_49_over_192 = model.step2_49_over_192
+    step_49_over_48 = model.step_49_over_48
+    step2_125_over_64 = model.step2_125_over_64
+    step_125_over_16 = model.step_125_over_16
+    step2_41_over_24 = model.step2_41_over_24
+    step_85_over_12 = model.step_85_over_12
+    step_41_over_6 = model.step_41_over_6
+    carried_mass = model.carried_mass
+    inner_mass = model.inner_mass
+    pin_inertia = model.pin_inertia
+    joint_impedance = np.asarray(model.joint_impedance)
+    hub_angle = state.hub_angle
+    hub_rate = state.hub_rate
+    hub_acceleration = state.hub_acceleration
+    angle = np.asarray(state.angle)
+    rate = np.asarray(state.rate)
+    acceleration = np.asarray(state.acceleration)
+    numbers = (
+        *base_angle,
+        length,
+        mass,
+        tip_mass,
+        tip_inertia,
+        angle_per_acceleration,
+        rate_per_acceleration,
+        step_1_over_2,
+        step2_inverse_16,
+        step2_3_over_16,
+        step_3_over_4,
+        step2_17_over_200,
+        step_17_over_50,
+        step2_21_over_400,
+        step_1_over_25,
+        step_21_over_100,
+        step2_371_over_5440,
+        step_371_over_1360,
+        step2_137_over_10880,
+        step_137_over_2720,
+        step2_151_over_2176,
+        step_15_over_544,
+        step_151_over_544,
+        step2_25_over_96,
+        step_25_over_24,
+        step2_49_over_192,
+        step_49_over_48,
+        step2_125_over_64,
+        step_125_over_16,
+        step2_41_over_24,
+        step_85_over_12,
+        step_41_over_6,
+        carried_mass,
+        inner_mass,
+        pin_inertia,
+        hub_angle,
+        hub_rate,
+        hub_acceleration,
+    )
+    arrays = (stiffness, damping, joint_impedance, angle, rate, acceleration)
+    batch, dtype = _common(numbers, arrays)
+    stiffness = _align(stiffness, batch)
+    damping = _align(damping, batch)
+    joint_impedance = _align(joint_impedance, batch)
+    hub_angle = _spread(hub_angle, batch, False)
+    hub_rate = _spread(hub_rate, batch, False)
+    hub_acceleration = _spread(hub_acceleration, batch, False)
+    angle = _spread(angle, batch, True)
+    rate = _spread(rate, batch, True)
+    acceleration = _spread(acceleration, batch, True)
+    acceleration_x = np.zeros((STATIONS + 1, *batch), dtype)
+    acceleration_y = np.zeros((STATIONS + 1, *batch), dtype)
+    answer_from_inner = np.zeros((STATIONS, *batch), dtype)
+    answer_own = np.zeros((STATIONS, *batch), dtype)
+    answer_x = np.zeros((STATIONS, *batch), dtype)
+    answer_y = np.zeros((STATIONS, *batch), dtype)
+    predicted_acceleration = np.zeros((STATIONS + 1, *batch), dtype)
+    predicted_angle = np.zeros((STATIONS + 1, *batch), dtype)
+    predicted_rate = np.zeros((STATIONS + 1, *batch), dtype)
+    solved = np.zeros((STATIONS, *batch), dtype)
+
+    # Stage 1 of 5: predicted motion
+    predicted_angle[0] = (
+        hub_angle + angle_per_acceleration * hub_acceleration + hub_rate * rate_per_acceleration
+    )
+    predicted_rate[0] = hub_rate + hub_acceleration * rate_per_acceleration
+    predicted_acceleration[0] = hub_acceleration
+    predicted_angle[1:] = angle + acceleration * angle_per_acceleration + rate * rate_per_acceleration
+    predicted_rate[1:] = rate + acceleration * rate_per_acceleration
+    predicted_acceleration[1:] = acceleration
+
+    # Stage 1 of 5: accelerations of the nodes
+    lever_sine = length * np.sin(predicted_angle[1:])
+    lever_cosine = length * np.cos(predicted_angle[1:])
+    node_x: Any = 0.0
+    node_y: Any = 0.0
+    acceleration_x[0] = node_x
+    acceleration_y[0] = node_y
+    for j in range(STATIONS):
+        square = predicted_rate[j + 1] * predicted_rate[j + 1]
+        node_x = node_x - lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1]
+        node_y = node_y + lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square
+        acceleration_x[j + 1] = node_x
+        acceleration_y[j + 1] = node_y
+
+    # Stage 1 of 5: how each link's outer end answers to its unknown, and the predicted joint torques
+    tangential = 1.0 - angle_per_acceleration * (predicted_rate[1:] * predicted_rate[1:])
+    turning = angle_per_acceleration * predicted_acceleration[1:] + predicted_rate[1:] * step_1_over_2
+    swing_x = -lever_cosine * turning - lever_sine * tangential
+    swing_y = lever_cosine * tangential - lever_sine * turning
+    joint_torque = damping * (predicted_rate[:50] - predicted_rate[1:]) + stiffness * (
+        predicted_angle[:50] - predicted_angle[1:]
+    )
+
+    # Stage 1 of 5: sweep inward: force beyond each joint as an affine function of the motion at it
+    impedance_xx = tip_mass
+    impedance_xy: Any = 0.0
+    impedance_xu: Any = 0.0
+    impedance_yx: Any = 0.0
+    impedance_yy = tip_mass
+    impedance_yu: Any = 0.0
+    impedance_ux: Any = 0.0
+    impedance_uy: Any = 0.0
+    impedance_uu = tip_inertia
+    force_x = acceleration_x[50] * tip_mass
+    force_y = acceleration_y[50] * tip_mass
+    torque = predicted_acceleration[50] * tip_inertia
+    for j in reversed(range(STATIONS)):
+        outer_x = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
+        outer_y = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
+        outer_u = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
+        load_x = force_x + acceleration_x[j] * carried_mass
+        load_y = force_y + acceleration_y[j] * carried_mass
+        link_ux = (
+            impedance_ux + impedance_yx * lever_cosine[j] - lever_sine[j] * (carried_mass + impedance_xx)
+        )
+        link_uy = (
+            impedance_uy - impedance_xy * lever_sine[j] + lever_cosine[j] * (carried_mass + impedance_yy)
+        )
+        link_uu = (
+            outer_u
+            + pin_inertia
+            + angle_per_acceleration * (-lever_cosine[j] * load_x - lever_sine[j] * load_y)
+            + lever_cosine[j] * outer_y
+            - lever_sine[j] * outer_x
+        )
+        link_xx = impedance_xx + mass
+        link_xy = impedance_xy
+        link_xu = outer_x + carried_mass * swing_x[j]
+        link_yx = impedance_yx
+        link_yy = impedance_yy + mass
+        link_yu = outer_y + carried_mass * swing_y[j]
+        torque = (
+            torque
+            + lever_cosine[j] * load_y
+            - lever_sine[j] * load_x
+            + pin_inertia * predicted_acceleration[j + 1]
+        )
+        force_x = force_x + acceleration_x[j + 1] * carried_mass + acceleration_x[j] * inner_mass
+        force_y = force_y + acceleration_y[j + 1] * carried_mass + acceleration_y[j] * inner_mass
+        pivot = joint_impedance[j] + link_uu
+        _require_positive(pivot, "pivot", j)
+        inverse_pivot = 1.0 / pivot
+        answer_own[j] = inverse_pivot * (joint_torque[j] - torque)
+        answer_x[j] = inverse_pivot * link_ux
+        answer_y[j] = inverse_pivot * link_uy
+        answer_from_inner[j] = inverse_pivot * joint_impedance[j]
+        impedance_xx = link_xx - answer_x[j] * link_xu
+        impedance_xy = link_xy - answer_y[j] * link_xu
+        impedance_xu = answer_from_inner[j] * link_xu
+        force_x = force_x + answer_own[j] * link_xu
+        impedance_yx = link_yx - answer_x[j] * link_yu
+        impedance_yy = link_yy - answer_y[j] * link_yu
+        impedance_yu = answer_from_inner[j] * link_yu
+        force_y = force_y + answer_own[j] * link_yu
+        impedance_ux = answer_x[j] * joint_impedance[j]
+        impedance_uy = answer_y[j] * joint_impedance[j]
+        impedance_uu = answer_from_inner[j] * link_uu
+        torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
+
+    # Stage 1 of 5: the hub
+    unknown = step2_inverse_16 * (base_angle[0] - predicted_angle[0])
+    hub_unknown = unknown
+
+    # Stage 1 of 5: sweep outward: the increment of each link's unknown
+    change_x: Any = 0.0
+    change_y: Any = 0.0
+    for j in range(STATIONS):
+        unknown = (
+            answer_own[j] + answer_from_inner[j] * unknown - answer_x[j] * change_x - answer_y[j] * change_y
+        )
+        change_x = change_x + swing_x[j] * unknown
+        change_y = change_y + swing_y[j] * unknown
+        solved[j] = unknown
+
+    # Stage 1 of 5: motion at this stage
+    hub_stage1_acceleration = hub_unknown + predicted_acceleration[0]
+    hub_stage1_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration
+    stage1_acceleration = predicted_acceleration[1:] + solved
+    stage1_rate = predicted_rate[1:] + rate_per_acceleration * solved
+
+    # Stage 2 of 5: predicted motion
+    predicted_angle[0] = (
+        hub_angle
+        + hub_rate * rate_per_acceleration
+        + hub_stage1_acceleration * step2_3_over_16
+        + hub_stage1_rate * step_1_over_2
+    )
+    predicted_rate[0] = hub_rate + hub_stage1_acceleration * step_3_over_4
+    predicted_acceleration[0] = hub_stage1_acceleration
+    predicted_angle[1:] = (
+        angle
+        + rate * rate_per_acceleration
+        + stage1_acceleration * step2_3_over_16
+        + stage1_rate * step_1_over_2
+    )
+    predicted_rate[1:] = rate + stage1_acceleration * step_3_over_4
+    predicted_acceleration[1:] = stage1_acceleration
+
+    # Stage 2 of 5: accelerations of the nodes
+    lever_sine = length * np.sin(predicted_angle[1:])
+    lever_cosine = length * np.cos(predicted_angle[1:])
+    node_x = 0.0
+    node_y = 0.0
+    acceleration_x[0] = node_x
+    acceleration_y[0] = node_y
+    for j in range(STATIONS):
+        square = predicted_rate[j + 1] * predicted_rate[j + 1]
+        node_x = node_x - lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1]
+        node_y = node_y + lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square
+        acceleration_x[j + 1] = node_x
+        acceleration_y[j + 1] = node_y
+
+    # Stage 2 of 5: how each link's outer end answers to its unknown, and the predicted joint torques
+    tangential = 1.0 - angle_per_acceleration * (predicted_rate[1:] * predicted_rate[1:])
+    turning = angle_per_acceleration * predicted_acceleration[1:] + predicted_rate[1:] * step_1_over_2
+    swing_x = -lever_cosine * turning - lever_sine * tangential
+    swing_y = lever_cosine * tangential - lever_sine * turning
+    joint_torque = damping * (predicted_rate[:50] - predicted_rate[1:]) + stiffness * (
+        predicted_angle[:50] - predicted_angle[1:]
+    )
+
+    # Stage 2 of 5: sweep inward: force beyond each joint as an affine function of the motion at it
+    impedance_xx = tip_mass
+    impedance_xy = 0.0
+    impedance_xu = 0.0
+    impedance_yx = 0.0
+    impedance_yy = tip_mass
+    impedance_yu = 0.0
+    impedance_ux = 0.0
+    impedance_uy = 0.0
+    impedance_uu = tip_inertia
+    force_x = acceleration_x[50] * tip_mass
+    force_y = acceleration_y[50] * tip_mass
+    torque = predicted_acceleration[50] * tip_inertia
+    for j in reversed(range(STATIONS)):
+        outer_x = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
+        outer_y = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
+        outer_u = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
+        load_x = force_x + acceleration_x[j] * carried_mass
+        load_y = force_y + acceleration_y[j] * carried_mass
+        link_ux = (
+            impedance_ux + impedance_yx * lever_cosine[j] - lever_sine[j] * (carried_mass + impedance_xx)
+        )
+        link_uy = (
+            impedance_uy - impedance_xy * lever_sine[j] + lever_cosine[j] * (carried_mass + impedance_yy)
+        )
+        link_uu = (
+            outer_u
+            + pin_inertia
+            + angle_per_acceleration * (-lever_cosine[j] * load_x - lever_sine[j] * load_y)
+            + lever_cosine[j] * outer_y
+            - lever_sine[j] * outer_x
+        )
+        link_xx = impedance_xx + mass
+        link_xy = impedance_xy
+        link_xu = outer_x + carried_mass * swing_x[j]
+        link_yx = impedance_yx
+        link_yy = impedance_yy + mass
+        link_yu = outer_y + carried_mass * swing_y[j]
+        torque = (
+            torque
+            + lever_cosine[j] * load_y
+            - lever_sine[j] * load_x
+            + pin_inertia * predicted_acceleration[j + 1]
+        )
+        force_x = force_x + acceleration_x[j + 1] * carried_mass + acceleration_x[j] * inner_mass
+        force_y = force_y + acceleration_y[j + 1] * carried_mass + acceleration_y[j] * inner_mass
+        pivot = joint_impedance[j] + link_uu
+        _require_positive(pivot, "pivot", j)
+        inverse_pivot = 1.0 / pivot
+        answer_own[j] = inverse_pivot * (joint_torque[j] - torque)
+        answer_x[j] = inverse_pivot * link_ux
+        answer_y[j] = inverse_pivot * link_uy
+        answer_from_inner[j] = inverse_pivot * joint_impedance[j]
+        impedance_xx = link_xx - answer_x[j] * link_xu
+        impedance_xy = link_xy - answer_y[j] * link_xu
+        impedance_xu = answer_from_inner[j] * link_xu
+        force_x = force_x + answer_own[j] * link_xu
+        impedance_yx = link_yx - answer_x[j] * link_yu
+        impedance_yy = link_yy - answer_y[j] * link_yu
+        impedance_yu = answer_from_inner[j] * link_yu
+        force_y = force_y + answer_own[j] * link_yu
+        impedance_ux = answer_x[j] * joint_impedance[j]
+        impedance_uy = answer_y[j] * joint_impedance[j]
+        impedance_uu = answer_from_inner[j] * link_uu
+        torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
+
+    # Stage 2 of 5: the hub
+    unknown = step2_inverse_16 * (base_angle[1] - predicted_angle[0])
+    hub_unknown = unknown
+
+    # Stage 2 of 5: sweep outward: the increment of each link's unknown
+    change_x = 0.0
+    change_y = 0.0
+    for j in range(STATIONS):
+        unknown = (
+            answer_own[j] + answer_from_inner[j] * unknown - answer_x[j] * change_x - answer_y[j] * change_y
+        )
+        change_x = change_x + swing_x[j] * unknown
+        change_y = change_y + swing_y[j] * unknown
+        solved[j] = unknown
+
+    # Stage 2 of 5: motion at this stage
+    hub_stage2_acceleration = hub_unknown + predicted_acceleration[0]
+    hub_stage2_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration
+    stage2_acceleration = predicted_acceleration[1:] + solved
+    stage2_rate = predicted_rate[1:] + rate_per_acceleration * solved
+
+    # Stage 3 of 5: predicted motion
+    predicted_angle[0] = (
+        hub_angle
+        + hub_rate * rate_per_acceleration
+        + hub_stage1_acceleration * step2_17_over_200
+        + hub_stage1_rate * step_17_over_50
+        + hub_stage2_acceleration * step2_21_over_400
+        - hub_stage2_rate * step_1_over_25
+    )
+    predicted_rate[0] = (
+        hub_rate + hub_stage1_acceleration * step_17_over_50 + hub_stage2_acceleration * step_21_over_100
+    )
+    predicted_acceleration[0] = hub_stage2_acceleration
+    predicted_angle[1:] = (
+        angle
+        + rate * rate_per_acceleration
+        + stage1_acceleration * step2_17_over_200
+        + stage1_rate * step_17_over_50
+        + stage2_acceleration * step2_21_over_400
+        - stage2_rate * step_1_over_25
+    )
+    predicted_rate[1:] = rate + stage1_acceleration * step_17_over_50 + stage2_acceleration * step_21_over_100
+    predicted_acceleration[1:] = stage2_acceleration
+
+    # Stage 3 of 5: accelerations of the nodes
+    lever_sine = length * np.sin(predicted_angle[1:])
+    lever_cosine = length * np.cos(predicted_angle[1:])
+    node_x = 0.0
+    node_y = 0.0
+    acceleration_x[0] = node_x
+    acceleration_y[0] = node_y
+    for j in range(STATIONS):
+        square = predicted_rate[j + 1] * predicted_rate[j + 1]
+        node_x = node_x - lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1]
+        node_y = node_y + lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square
+        acceleration_x[j + 1] = node_x
+        acceleration_y[j + 1] = node_y
+
+    # Stage 3 of 5: how each link's outer end answers to its unknown, and the predicted joint torques
+    tangential = 1.0 - angle_per_acceleration * (predicted_rate[1:] * predicted_rate[1:])
+    turning = angle_per_acceleration * predicted_acceleration[1:] + predicted_rate[1:] * step_1_over_2
+    swing_x = -lever_cosine * turning - lever_sine * tangential
+    swing_y = lever_cosine * tangential - lever_sine * turning
+    joint_torque = damping * (predicted_rate[:50] - predicted_rate[1:]) + stiffness * (
+        predicted_angle[:50] - predicted_angle[1:]
+    )
+
+    # Stage 3 of 5: sweep inward: force beyond each joint as an affine function of the motion at it
+    impedance_xx = tip_mass
+    impedance_xy = 0.0
+    impedance_xu = 0.0
+    impedance_yx = 0.0
+    impedance_yy = tip_mass
+    impedance_yu = 0.0
+    impedance_ux = 0.0
+    impedance_uy = 0.0
+    impedance_uu = tip_inertia
+    force_x = acceleration_x[50] * tip_mass
+    force_y = acceleration_y[50] * tip_mass
+    torque = predicted_acceleration[50] * tip_inertia
+    for j in reversed(range(STATIONS)):
+        outer_x = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
+        outer_y = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
+        outer_u = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
+        load_x = force_x + acceleration_x[j] * carried_mass
+        load_y = force_y + acceleration_y[j] * carried_mass
+        link_ux = (
+            impedance_ux + impedance_yx * lever_cosine[j] - lever_sine[j] * (carried_mass + impedance_xx)
+        )
+        link_uy = (
+            impedance_uy - impedance_xy * lever_sine[j] + lever_cosine[j] * (carried_mass + impedance_yy)
+        )
+        link_uu = (
+            outer_u
+            + pin_inertia
+            + angle_per_acceleration * (-lever_cosine[j] * load_x - lever_sine[j] * load_y)
+            + lever_cosine[j] * outer_y
+            - lever_sine[j] * outer_x
+        )
+        link_xx = impedance_xx + mass
+        link_xy = impedance_xy
+        link_xu = outer_x + carried_mass * swing_x[j]
+        link_yx = impedance_yx
+        link_yy = impedance_yy + mass
+        link_yu = outer_y + carried_mass * swing_y[j]
+        torque = (
+            torque
+            + lever_cosine[j] * load_y
+            - lever_sine[j] * load_x
+            + pin_inertia * predicted_acceleration[j + 1]
+        )
+        force_x = force_x + acceleration_x[j + 1] * carried_mass + acceleration_x[j] * inner_mass
+        force_y = force_y + acceleration_y[j + 1] * carried_mass + acceleration_y[j] * inner_mass
+        pivot = joint_impedance[j] + link_uu
+        _require_positive(pivot, "pivot", j)
+        inverse_pivot = 1.0 / pivot
+        answer_own[j] = inverse_pivot * (joint_torque[j] - torque)
+        answer_x[j] = inverse_pivot * link_ux
+        answer_y[j] = inverse_pivot * link_uy
+        answer_from_inner[j] = inverse_pivot * joint_impedance[j]
+        impedance_xx = link_xx - answer_x[j] * link_xu
+        impedance_xy = link_xy - answer_y[j] * link_xu
+        impedance_xu = answer_from_inner[j] * link_xu
+        force_x = force_x + answer_own[j] * link_xu
+        impedance_yx = link_yx - answer_x[j] * link_yu
+        impedance_yy = link_yy - answer_y[j] * link_yu
+        impedance_yu = answer_from_inner[j] * link_yu
+        force_y = force_y + answer_own[j] * link_yu
+        impedance_ux = answer_x[j] * joint_impedance[j]
+        impedance_uy = answer_y[j] * joint_impedance[j]
+        impedance_uu = answer_from_inner[j] * link_uu
+        torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
+
+    # Stage 3 of 5: the hub
+    unknown = step2_inverse_16 * (base_angle[2] - predicted_angle[0])
+    hub_unknown = unknown
+
+    # Stage 3 of 5: sweep outward: the increment of each link's unknown
+    change_x = 0.0
+    change_y = 0.0
+    for j in range(STATIONS):
+        unknown = (
+            answer_own[j] + answer_from_inner[j] * unknown - answer_x[j] * change_x - answer_y[j] * change_y
+        )
+        change_x = change_x + swing_x[j] * unknown
+        change_y = change_y + swing_y[j] * unknown
+        solved[j] = unknown
+
+    # Stage 3 of 5: motion at this stage
+    hub_stage3_acceleration = hub_unknown + predicted_acceleration[0]
+    hub_stage3_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration
+    stage3_acceleration = predicted_acceleration[1:] + solved
+    stage3_rate = predicted_rate[1:] + rate_per_acceleration * solved
+
+    # Stage 4 of 5: predicted motion
+    predicted_angle[0] = (
+        hub_angle
+        + hub_rate * rate_per_acceleration
+        + hub_stage1_acceleration * step2_371_over_5440
+        + hub_stage1_rate * step_371_over_1360
+        - hub_stage2_acceleration * step2_137_over_10880
+        - hub_stage2_rate * step_137_over_2720
+        + hub_stage3_acceleration * step2_151_over_2176
+        + hub_stage3_rate * step_15_over_544
+    )
+    predicted_rate[0] = (
+        hub_rate
+        + hub_stage1_acceleration * step_371_over_1360
+        - hub_stage2_acceleration * step_137_over_2720
+        + hub_stage3_acceleration * step_151_over_544
+    )
+    predicted_acceleration[0] = hub_stage3_acceleration
+    predicted_angle[1:] = (
+        angle
+        + rate * rate_per_acceleration
+        + stage1_acceleration * step2_371_over_5440
+        + stage1_rate * step_371_over_1360
+        - stage2_acceleration * step2_137_over_10880
+        - stage2_rate * step_137_over_2720
+        + stage3_acceleration * step2_151_over_2176
+        + stage3_rate * step_15_over_544
+    )
+    predicted_rate[1:] = (
+        rate
+        + stage1_acceleration * step_371_over_1360
+        - stage2_acceleration * step_137_over_2720
+        + stage3_acceleration * step_151_over_544
+    )
+    predicted_acceleration[1:] = stage3_acceleration
+
+    # Stage 4 of 5: accelerations of the nodes
+    lever_sine = length * np.sin(predicted_angle[1:])
+    lever_cosine = length * np.cos(predicted_angle[1:])
+    node_x = 0.0
+    node_y = 0.0
+    acceleration_x[0] = node_x
+    acceleration_y[0] = node_y
+    for j in range(STATIONS):
+        square = predicted_rate[j + 1] * predicted_rate[j + 1]
+        node_x = node_x - lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1]
+        node_y = node_y + lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square
+        acceleration_x[j + 1] = node_x
+        acceleration_y[j + 1] = node_y
+
+    # Stage 4 of 5: how each link's outer end answers to its unknown, and the predicted joint torques
+    tangential = 1.0 - angle_per_acceleration * (predicted_rate[1:] * predicted_rate[1:])
+    turning = angle_per_acceleration * predicted_acceleration[1:] + predicted_rate[1:] * step_1_over_2
+    swing_x = -lever_cosine * turning - lever_sine * tangential
+    swing_y = lever_cosine * tangential - lever_sine * turning
+    joint_torque = damping * (predicted_rate[:50] - predicted_rate[1:]) + stiffness * (
+        predicted_angle[:50] - predicted_angle[1:]
+    )
+
+    # Stage 4 of 5: sweep inward: force beyond each joint as an affine function of the motion at it
+    impedance_xx = tip_mass
+    impedance_xy = 0.0
+    impedance_xu = 0.0
+    impedance_yx = 0.0
+    impedance_yy = tip_mass
+    impedance_yu = 0.0
+    impedance_ux = 0.0
+    impedance_uy = 0.0
+    impedance_uu = tip_inertia
+    force_x = acceleration_x[50] * tip_mass
+    force_y = acceleration_y[50] * tip_mass
+    torque = predicted_acceleration[50] * tip_inertia
+    for j in reversed(range(STATIONS)):
+        outer_x = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
+        outer_y = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
+        outer_u = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
+        load_x = force_x + acceleration_x[j] * carried_mass
+        load_y = force_y + acceleration_y[j] * carried_mass
+        link_ux = (
+            impedance_ux + impedance_yx * lever_cosine[j] - lever_sine[j] * (carried_mass + impedance_xx)
+        )
+        link_uy = (
+            impedance_uy - impedance_xy * lever_sine[j] + lever_cosine[j] * (carried_mass + impedance_yy)
+        )
+        link_uu = (
+            outer_u
+            + pin_inertia
+            + angle_per_acceleration * (-lever_cosine[j] * load_x - lever_sine[j] * load_y)
+            + lever_cosine[j] * outer_y
+            - lever_sine[j] * outer_x
+        )
+        link_xx = impedance_xx + mass
+        link_xy = impedance_xy
+        link_xu = outer_x + carried_mass * swing_x[j]
+        link_yx = impedance_yx
+        link_yy = impedance_yy + mass
+        link_yu = outer_y + carried_mass * swing_y[j]
+        torque = (
+            torque
+            + lever_cosine[j] * load_y
+            - lever_sine[j] * load_x
+            + pin_inertia * predicted_acceleration[j + 1]
+        )
+        force_x = force_x + acceleration_x[j + 1] * carried_mass + acceleration_x[j] * inner_mass
+        force_y = force_y + acceleration_y[j + 1] * carried_mass + acceleration_y[j] * inner_mass
+        pivot = joint_impedance[j] + link_uu
+        _require_positive(pivot, "pivot", j)
+        inverse_pivot = 1.0 / pivot
+        answer_own[j] = inverse_pivot * (joint_torque[j] - torque)
+        answer_x[j] = inverse_pivot * link_ux
+        answer_y[j] = inverse_pivot * link_uy
+        answer_from_inner[j] = inverse_pivot * joint_impedance[j]
+        impedance_xx = link_xx - answer_x[j] * link_xu
+        impedance_xy = link_xy - answer_y[j] * link_xu
+        impedance_xu = answer_from_inner[j] * link_xu
+        force_x = force_x + answer_own[j] * link_xu
+        impedance_yx = link_yx - answer_x[j] * link_yu
+        impedance_yy = link_yy - answer_y[j] * link_yu
+        impedance_yu = answer_from_inner[j] * link_yu
+        force_y = force_y + answer_own[j] * link_yu
+        impedance_ux = answer_x[j] * joint_impedance[j]
+        impedance_uy = answer_y[j] * joint_impedance[j]
+        impedance_uu = answer_from_inner[j] * link_uu
+        torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
+
+    # Stage 4 of 5: the hub
+    unknown = step2_inverse_16 * (base_angle[3] - predicted_angle[0])
+    hub_unknown = unknown
+
+    # Stage 4 of 5: sweep outward: the increment of each link's unknown
+    change_x = 0.0
+    change_y = 0.0
+    for j in range(STATIONS):
+        unknown = (
+            answer_own[j] + answer_from_inner[j] * unknown - answer_x[j] * change_x - answer_y[j] * change_y
+        )
+        change_x = change_x + swing_x[j] * unknown
+        change_y = change_y + swing_y[j] * unknown
+        solved[j] = unknown
+
+    # Stage 4 of 5: motion at this stage
+    hub_stage4_acceleration = hub_unknown + predicted_acceleration[0]
+    hub_stage4_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration
+    stage4_acceleration = predicted_acceleration[1:] + solved
+    stage4_rate = predicted_rate[1:] + rate_per_acceleration * solved
+
+    # Stage 5 of 5: predicted motion
+    predicted_angle[0] = (
+        hub_angle
+        + hub_rate * rate_per_acceleration
+        + hub_stage1_acceleration * step2_25_over_96
+        + hub_stage1_rate * step_25_over_24
+        - hub_stage2_acceleration * step2_49_over_192
+        - hub_stage2_rate * step_49_over_48
+        + hub_stage3_acceleration * step2_125_over_64
+        + hub_stage3_rate * step_125_over_16
+        - hub_stage4_acceleration * step2_41_over_24
+        - hub_stage4_rate * step_85_over_12
+    )
+    predicted_rate[0] = (
+        hub_rate
+        + hub_stage1_acceleration * step_25_over_24
+        - hub_stage2_acceleration * step_49_over_48
+        + hub_stage3_acceleration * step_125_over_16
+        - hub_stage4_acceleration * step_41_over_6
+    )
+    predicted_acceleration[0] = hub_stage4_acceleration
+    predicted_angle[1:] = (
+        angle
+        + rate * rate_per_acceleration
+        + stage1_acceleration * step2_25_over_96
+        + stage1_rate * step_25_over_24
+        - stage2_acceleration * step2_49_over_192
+        - stage2_rate * step_49_over_48
+        + stage3_acceleration * step2_125_over_64
+        + stage3_rate * step_125_over_16
+        - stage4_acceleration * step2_41_over_24
+        - stage4_rate * step_85_over_12
+    )
+    predicted_rate[1:] = (
+        rate
+        + stage1_acceleration * step_25_over_24
+        - stage2_acceleration * step_49_over_48
+        + stage3_acceleration * step_125_over_16
+        - stage4_acceleration * step_41_over_6
+    )
+    predicted_acceleration[1:] = stage4_acceleration
+
+    # Stage 5 of 5: accelerations of the nodes
+    lever_sine = length * np.sin(predicted_angle[1:])
+    lever_cosine = length * np.cos(predicted_angle[1:])
+    node_x = 0.0
+    node_y = 0.0
+    acceleration_x[0] = node_x
+    acceleration_y[0] = node_y
+    for j in range(STATIONS):
+        square = predicted_rate[j + 1] * predicted_rate[j + 1]
+        node_x = node_x - lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1]
+        node_y = node_y + lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square
+        acceleration_x[j + 1] = node_x
+        acceleration_y[j + 1] = node_y
+
+    # Stage 5 of 5: how each link's outer end answers to its unknown, and the predicted joint torques
+    tangential = 1.0 - angle_per_acceleration * (predicted_rate[1:] * predicted_rate[1:])
+    turning = angle_per_acceleration * predicted_acceleration[1:] + predicted_rate[1:] * step_1_over_2
+    swing_x = -lever_cosine * turning - lever_sine * tangential
+    swing_y = lever_cosine * tangential - lever_sine * turning
+    joint_torque = damping * (predicted_rate[:50] - predicted_rate[1:]) + stiffness * (
+        predicted_angle[:50] - predicted_angle[1:]
+    )
+
+    # Stage 5 of 5: sweep inward: force beyond each joint as an affine function of the motion at it
+    impedance_xx = tip_mass
+    impedance_xy = 0.0
+    impedance_xu = 0.0
+    impedance_yx = 0.0
+    impedance_yy = tip_mass
+    impedance_yu = 0.0
+    impedance_ux = 0.0
+    impedance_uy = 0.0
+    impedance_uu = tip_inertia
+    force_x = acceleration_x[50] * tip_mass
+    force_y = acceleration_y[50] * tip_mass
+    torque = predicted_acceleration[50] * tip_inertia
+    for j in reversed(range(STATIONS)):
+        outer_x = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
+        outer_y = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
+        outer_u = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
+        load_x = force_x + acceleration_x[j] * carried_mass
+        load_y = force_y + acceleration_y[j] * carried_mass
+        link_ux = (
+            impedance_ux + impedance_yx * lever_cosine[j] - lever_sine[j] * (carried_mass + impedance_xx)
+        )
+        link_uy = (
+            impedance_uy - impedance_xy * lever_sine[j] + lever_cosine[j] * (carried_mass + impedance_yy)
+        )
+        link_uu = (
+            outer_u
+            + pin_inertia
+            + angle_per_acceleration * (-lever_cosine[j] * load_x - lever_sine[j] * load_y)
+            + lever_cosine[j] * outer_y
+            - lever_sine[j] * outer_x
+        )
+        link_xx = impedance_xx + mass
+        link_xy = impedance_xy
+        link_xu = outer_x + carried_mass * swing_x[j]
+        link_yx = impedance_yx
+        link_yy = impedance_yy + mass
+        link_yu = outer_y + carried_mass * swing_y[j]
+        torque = (
+            torque
+            + lever_cosine[j] * load_y
+            - lever_sine[j] * load_x
+            + pin_inertia * predicted_acceleration[j + 1]
+        )
+        force_x = force_x + acceleration_x[j + 1] * carried_mass + acceleration_x[j] * inner_mass
+        force_y = force_y + acceleration_y[j + 1] * carried_mass + acceleration_y[j] * inner_mass
+        pivot = joint_impedance[j] + link_uu
+        _require_positive(pivot, "pivot", j)
+        inverse_pivot = 1.0 / pivot
+        answer_own[j] = inverse_pivot * (joint_torque[j] - torque)
+        answer_x[j] = inverse_pivot * link_ux
+        answer_y[j] = inverse_pivot * link_uy
+        answer_from_inner[j] = inverse_pivot * joint_impedance[j]
+        impedance_xx = link_xx - answer_x[j] * link_xu
+        impedance_xy = link_xy - answer_y[j] * link_xu
+        impedance_xu = answer_from_inner[j] * link_xu
+        force_x = force_x + answer_own[j] * link_xu
+        impedance_yx = link_yx - answer_x[j] * link_yu
+        impedance_yy = link_yy - answer_y[j] * link_yu
+        impedance_yu = answer_from_inner[j] * link_yu
+        force_y = force_y + answer_own[j] * link_yu
+        impedance_ux = answer_x[j] * joint_impedance[j]
+        impedance_uy = answer_y[j] * joint_impedance[j]
+        impedance_uu = answer_from_inner[j] * link_uu
+        torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
+
+    # Stage 5 of 5: the hub
+    unknown = step2_inverse_16 * (base_angle[4] - predicted_angle[0])
+    hub_unknown = unknown
+
+    # Stage 5 of 5: sweep outward: the increment of each link's unknown
+    change_x = 0.0
+    change_y = 0.0
+    for j in range(STATIONS):
+        unknown = (
+            answer_own[j] + answer_from_inner[j] * unknown - answer_x[j] * change_x - answer_y[j] * change_y
+        )
+        change_x = change_x + swing_x[j] * unknown
+        change_y = change_y + swing_y[j] * unknown
+        solved[j] = unknown
+
+    # Stage 5 of 5: motion at the end of the step
+    hub_angle = predicted_angle[0] + angle_per_acceleration * hub_unknown
+    hub_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration
+    hub_acceleration = hub_unknown + predicted_acceleration[0]
+    angle = predicted_angle[1:] + angle_per_acceleration * solved
+    rate = predicted_rate[1:] + rate_per_acceleration * solved
+    acceleration = predicted_acceleration[1:] + solved
+    return State(
+        hub_angle=_spread(hub_angle, batch, False),
+        hub_rate=_spread(hub_rate, batch, False),
+        hub_acceleration=_spread(hub_acceleration, batch, False),
+        angle=_spread(angle, batch, True),
+        rate=_spread(rate, batch, True),
+        acceleration=_spread(acceleration, batch, True),
+    )
+
+
+def output(model: Model, state: State) -> Output:
+    """Read the outputs off a state.
+
+    Parameters
+    ----------
+    model : Model
+        From :func:`prepare`.
+    state : State
+        At the instant of the outputs.
+    """
+    length = model.length
+    stiffness = np.asarray(model.stiffness)
+    damping = np.asarray(model.damping)
+    tip_mass = model.tip_mass
+    factor_28 = model.factor_28
+    factor_29 = model.factor_29
+    hub_angle = state.hub_angle
+    hub_rate = state.hub_rate
+    hub_acceleration = state.hub_acceleration
+    angle = np.asarray(state.angle)
+    rate = np.asarray(state.rate)
+    acceleration = np.asarray(state.acceleration)
+    numbers = (length, tip_mass, factor_28, factor_29, hub_angle, hub_rate, hub_acceleration)
+    arrays = (stiffness, damping, angle, rate, acceleration)
+    batch, _ = _common(numbers, arrays)
+    stiffness = _align(stiffness, batch)
+    damping = _align(damping, batch)
+    hub_angle = _spread(hub_angle, batch, False)
+    hub_rate = _spread(hub_rate, batch, False)
+    hub_acceleration = _spread(hub_acceleration, batch, False)
+    angle = _spread(angle, batch, True)
+    rate = _spread(rate, batch, True)
+    acceleration = _spread(acceleration, batch, True)
+
+    # tip: position
+    tip_x: Any = 0.0
+    tip_y: Any = 0.0
+    for j in range(STATIONS):
+        tip_x = tip_x + length * np.cos(angle[j])
+        tip_y = tip_y + length * np.sin(angle[j])
+
+    # tip_angle: angle
+    tip_angle = angle[49]
+
+    # reaction: force
+    node_x: Any = 0.0
+    node_y: Any = 0.0
+    reaction_x: Any = 0.0
+    reaction_y: Any = 0.0
+    for j in range(STATIONS):
+        inner_x = node_x
+        inner_y = node_y
+        node_x = (
+            node_x
+            - acceleration[j] * length * np.sin(angle[j])
+            - length * (rate[j] * rate[j]) * np.cos(angle[j])
+        )
+        node_y = (
+            node_y
+            + acceleration[j] * length * np.cos(angle[j])
+            - length * (rate[j] * rate[j]) * np.sin(angle[j])
+        )
+        reaction_x = reaction_x - factor_28 * inner_x + factor_29 * node_x
+        reaction_y = reaction_y - factor_28 * inner_y + factor_29 * node_y
+    reaction_x = reaction_x + node_x * tip_mass
+    reaction_y = reaction_y + node_y * tip_mass
+
+    # drive: torque
+    drive = damping[0] * (rate[0] - hub_rate) + stiffness[0] * (angle[0] - hub_angle)
+    return Output(
+        tip_x=_spread(tip_x, batch, False),
+        tip_y=_spread(tip_y, batch, False),
+        tip_angle=_spread(tip_angle, batch, False),
+        reaction_x=_spread(reaction_x, batch, False),
+        reaction_y=_spread(reaction_y, batch, False),
+        drive=_spread(drive, batch, False),
+    )
+
+
+_advance = step  # an argument of simulate has the name
+
+
+def simulate(
+    duration: float,
+    inputs: Mapping[str, ArrayLike | Callable[[float], ArrayLike]] | None = None,
+    params: Params = Params(),
+    step: float = STEP,
+    *,
+    initial_angle: ArrayLike = INITIAL_ANGLE,
+    initial_rate: ArrayLike = INITIAL_RATE,
+) -> Result:
+    """Simulate from time zero in whole steps.
+
+    Parameters
+    ----------
+    duration : float
+        Time to simulate (s); the last instant is the last whole step within it.
+    inputs : mapping from str
+        Constants of shape ``(*batch)``, or functions of time (s) that return them; inputs not named are zero.
+    params : Params
+        Physical parameters.
+    step : float
+        Time step (s).
+    initial_angle : number, or array_like, shape (50, *batch)
+        Angles to start from (rad).
+    initial_rate : number, or array_like, shape (50, *batch)
+        Rates to start from (rad/s).
+
+    Raises
+    ------
+    FloatingPointError
+        If an argument or an input is not finite.
+    ValueError
+        If shapes do not fit, an input has no such name, or there is no time to simulate.
+    VanishingPivotError
+        If parameters or step leave a pivot that is not positive.
+    """
+    if np.ndim(step) != 0 or not step > 0.0:
+        raise ValueError(f"step must be one positive number, not {step!r}")
+    if not 0.0 <= duration < np.inf:
+        raise ValueError(f"duration must be a time, not {duration!r}")
+    given = dict(inputs or {})
+    if unknown := sorted(set(given) - set(INPUT_NAMES)):
+        known = ", ".join(INPUT_NAMES) or "none"
+        raise ValueError(f"no input is named {', '.join(unknown)}; there are: {known}")
+
+    def read(time: float) -> Input:
+        return Input(**{name: value(time) if callable(value) else value for name, value in given.items()})
+
+    model = prepare(params, step)
+    state = initialise(params, read(0.0), initial_angle=initial_angle, initial_rate=initial_rate)
+    rows = [output(model, state)]
+    times = step * np.arange(int(np.floor(duration / step * (1.0 + 1e-12))) + 1)
+    for index, time in enumerate(times[:-1].tolist()):
+        instants = STAGE_INSTANTS[min(index, len(STAGE_INSTANTS) - 1)]
+        state = _advance(model, state, [read(time + instant * step) for instant in instants])
+        rows.append(output(model, state))
+    outputs = {name: _series([getattr(row, name) for row in rows]) for name in OUTPUT_NAMES}
+    return Result(times, outputs, state)
+
+
+def _array(value: ArrayLike, length: int | None, what: str) -> Array:
+    """Check what a user gives: a number for each arm if length is None, else an array over stations."""
+    array = np.asarray(value)
+    if array.dtype.kind in "biu":
+        array = array.astype(float)
+    if array.dtype.kind not in "fcO":
+        raise TypeError(f"{what} must be numeric, not {value!r}")
+    if array.dtype.kind != "O" and not np.isfinite(array).all():
+        raise FloatingPointError(f"{what} must be finite, not {value!r}")
+    if length is None:
+        return array
+    if array.ndim == 0:
+        return np.full(length, array)
+    if array.shape[0] != length:
+        expected = f"shape ({length}, *batch), or be one number"
+        raise ValueError(f"{what} must have {expected}; it has shape {array.shape}")
+    return array
+
+
+def _common(numbers: tuple[Any, ...], arrays: tuple[Array, ...]) -> tuple[tuple[int, ...], np.dtype[Any]]:
+    """Return the shape of the batch and the number type of everything together."""
+    single = [np.asarray(number) for number in numbers]
+    shapes = {number.shape for number in single} | {array.shape[1:] for array in arrays}
+    types = {array.dtype for array in (*single, *arrays)}
+    try:
+        batch = shapes.pop() if len(shapes) == 1 else np.broadcast_shapes(*shapes)
+    except ValueError:
+        raise ValueError(f"batch shapes do not fit together: {sorted(shapes)}") from None
+    return batch, types.pop() if len(types) == 1 else np.result_type(*types)
+
+
+def _align(array: Array, batch: tuple[int, ...]) -> Array:
+    """Give an array over stations as many axes behind the first as the batch has."""
+    missing = len(batch) + 1 - array.ndim
+    return array.reshape(array.shape[0], *(1,) * missing, *array.shape[1:]) if missing else array
+
+
+def _spread(value: Any, batch: tuple[int, ...], stations: bool) -> Array:
+    """Return a number for every arm of the batch, or an array over stations for every arm."""
+    array = np.asarray(value)
+    if array.shape[stations:] == batch:
+        return array
+    if stations:
+        return np.broadcast_to(_align(array, batch), (array.shape[0], *batch))
+    return np.broadcast_to(array, batch)
+
+
+def _stages(input: Input | Sequence[Input], count: int) -> Sequence[Input]:
+    """Return the inputs at each stage: one input is held over the step."""
+    if isinstance(input, Input):
+        return (input,) * count
+    if len(input) != count:
+        raise ValueError(f"a step takes one input, or one for each of {count} stages; there are {len(input)}")
+    return input
+
+
+def _at_stages(stages: Sequence[Input], name: str) -> tuple[Array, ...]:
+    """Return an input at each stage."""
+    return tuple(_array(getattr(stage, name), None, f"input {name}") for stage in stages)
+
+
+def _require_positive(pivot: Any, name: str, station: int | None) -> None:
+    """Leave where a pivot is not positive and finite."""
+    if not np.all((pivot > 0.0) & (pivot < np.inf)):
+        where = "" if station is None else f" of station {station + 1}"
+        raise VanishingPivotError(
+            f"{name}{where} must be positive and finite, not {pivot}; check parameters and step"
+        )
+
+
+def _series(values: list[Array]) -> Array:
+    """Put values at all instants together; a batch that came with an input counts from the start."""
+    shape = values[-1].shape
+    return np.stack([np.broadcast_to(value, shape) for value in values])

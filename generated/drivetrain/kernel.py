@@ -1,0 +1,685 @@
+# drivetrain: Servo drive with gearbox, roller, brake and encoder
+#
+# Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+# scene digest: 4ef6e83f7b983f9b3916fd8784109ad0b9257c6846d06f8cdd99f62ef9379a40
+# sha256 of the rest of this file: 04ec4b11b702826903e8e3a8ecbf28c6fefbd6741098de873af9ae71990955d0
+#
+# model: torsional chain (linear)
+# stations: 6
+# base: motor
+# integrator: Generalised alpha (Chung & Hulbert 1993), rho_inf = 0.8
+# sweep: riccati
+# unknown: acceleration
+# operations of a step: 215, 35.83 per station (107 additions, 108 multiplications)
+# operations of prepare: 88, 14.67 per station (20 additions, 61 multiplications, 7 divisions)
+"""drivetrain: Servo drive with gearbox, roller, brake and encoder.
+
+A state goes in, a new one comes out: ``model = prepare(params, step)``, ``state = initialise(params,
+input)``, ``state = step(model, state, input)``, ``y = output(model, state)``; or ``simulate(duration,
+inputs)`` for all of them. Arrays are never written in place.
+
+All arrays may have further axes behind, those of a batch: many arms at once, each with its own parameters,
+inputs and state. What is one number for an arm then has the batch's shape; what differs between stations has
+the stations first, base to tip.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Array = NDArray[Any]
+
+STATIONS = 6
+"""Number of links."""
+STEP = 0.0001
+"""Time step of the scene (s)."""
+INPUT_NAMES: tuple[str, ...] = ("motor_torque", "load_torque")
+OUTPUT_NAMES: tuple[str, ...] = ("motor_speed", "roller_speed", "shaft_torque", "encoder")
+STAGE_INSTANTS = ((0.5555555555555556,),)
+"""When inputs are read, in steps from the start of the step."""
+INITIAL_ANGLE: ArrayLike = 0.0
+INITIAL_RATE: ArrayLike = 0.0
+
+
+class VanishingPivotError(ArithmeticError):
+    """A pivot that is positive for every passive arm is not: the model cannot be solved."""
+
+
+@dataclass(frozen=True, eq=False)
+class Params:
+    """Physical parameters, by default the scene's.
+
+    Attributes
+    ----------
+    stiffness : array_like, shape (6, *batch)
+        Joint stiffness, base to tip (N m/rad).
+    damping : array_like, shape (6, *batch)
+        Joint damping, base to tip (N m s/rad).
+    inertia : array_like, shape (6, *batch)
+        Link inertia, base to tip (kg m^2).
+    hub_inertia : array_like, shape (*batch)
+        Hub inertia (kg m^2).
+    hub_damping : array_like, shape (*batch)
+        Viscous damping of the hub to ground (N m s/rad).
+    """
+
+    stiffness: ArrayLike = (24000.0, 2600.0, 60000.0, 2000.0, 1600.0, 150.0)
+    damping: ArrayLike = (0.05, 1.5, 0.4, 0.1, 0.08, 0.002)
+    inertia: ArrayLike = (0.0004, 0.0011, 0.0028, 0.019, 0.0024, 2e-05)
+    hub_inertia: ArrayLike = 0.0027
+    hub_damping: ArrayLike = 0.001
+
+
+@dataclass(frozen=True, eq=False)
+class Model:
+    """What depends on parameters and step alone.
+
+    Attributes
+    ----------
+    step : array, shape (*batch)
+        Time step (s).
+    stiffness : array, shape (6, *batch)
+        Joint stiffness, base to tip (N m/rad).
+    damping : array, shape (6, *batch)
+        Joint damping, base to tip (N m s/rad).
+    step_5_over_108 : array, shape (*batch)
+        5*step/108 (s).
+    step2_5_over_243 : array, shape (*batch)
+        5*step**2/243 (s^2).
+    step_5_over_9 : array, shape (*batch)
+        5*step/9 (s).
+    factor_4 : array, shape (*batch)
+        Hub_admittance*hub_damping (SI).
+    step2_1_over_27 : array, shape (*batch)
+        Step**2/27 (s^2).
+    step2_25_over_54 : array, shape (*batch)
+        25*step**2/54 (s^2).
+    step_1_over_12 : array, shape (*batch)
+        Step/12 (s).
+    step_11_over_12 : array, shape (*batch)
+        11*step/12 (s).
+    admittance : array, shape (6, *batch)
+        Inverse pivot of each joint.
+    transmission : array, shape (6, *batch)
+        Share of torque and motion each joint passes on.
+    reflection : array, shape (6, *batch)
+        Share of its own known torque each joint passes on.
+    hub_admittance : array, shape (*batch)
+        Inverse pivot of the hub.
+    """
+
+    step: Array
+    stiffness: Array
+    damping: Array
+    step_5_over_108: Array
+    step2_5_over_243: Array
+    step_5_over_9: Array
+    factor_4: Array
+    step2_1_over_27: Array
+    step2_25_over_54: Array
+    step_1_over_12: Array
+    step_11_over_12: Array
+    admittance: Array
+    transmission: Array
+    reflection: Array
+    hub_admittance: Array
+
+
+@dataclass(frozen=True, eq=False)
+class State:
+    """Motion at one instant.
+
+    Attributes
+    ----------
+    hub_angle : array, shape (*batch)
+        Hub angle (rad).
+    hub_rate : array, shape (*batch)
+        Hub rate (rad/s).
+    hub_acceleration : array, shape (*batch)
+        Hub acceleration (rad/s^2).
+    angle : array, shape (6, *batch)
+        Angle of each link, base to tip (rad).
+    rate : array, shape (6, *batch)
+        Rate of each link, base to tip (rad/s).
+    acceleration : array, shape (6, *batch)
+        Acceleration of each link, base to tip (rad/s^2).
+    """
+
+    hub_angle: Array
+    hub_rate: Array
+    hub_acceleration: Array
+    angle: Array
+    rate: Array
+    acceleration: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Input:
+    """What acts on the arm during a step.
+
+    Attributes
+    ----------
+    motor_torque : array_like, shape (*batch)
+        Torque acting at the base (N m).
+    load_torque : array_like, shape (*batch)
+        Torque acting at station 4 (N m).
+    """
+
+    motor_torque: ArrayLike = 0.0
+    load_torque: ArrayLike = 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class Output:
+    """What the scene reports.
+
+    Attributes
+    ----------
+    motor_speed : array, shape (*batch)
+        Velocity at the base (rad/s).
+    roller_speed : array, shape (*batch)
+        Velocity at station 4 (rad/s).
+    shaft_torque : array, shape (*batch)
+        Torque at station 4 (N m).
+    encoder : array, shape (*batch)
+        Angle at the tip (rad).
+    """
+
+    motor_speed: Array
+    roller_speed: Array
+    shaft_torque: Array
+    encoder: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Result:
+    """A simulation.
+
+    Attributes
+    ----------
+    times : array, shape (steps + 1,)
+        Instants (s).
+    outputs : dict from str to array, shape (steps + 1, *batch)
+        Outputs at these instants, by name.
+    state : State
+        Motion at the end.
+    """
+
+    times: Array
+    outputs: dict[str, Array]
+    state: State
+
+
+def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
+    """Compute what depends on parameters and step alone.
+
+    Parameters
+    ----------
+    params : Params
+        Physical parameters.
+    step : array_like, shape (*batch)
+        Time step (s).
+
+    Raises
+    ------
+    FloatingPointError
+        If a parameter or the step is not finite.
+    ValueError
+        If shapes do not fit.
+    VanishingPivotError
+        If parameters or step leave a pivot that is not positive.
+    """
+    step = _array(step, None, "step")
+    stiffness = _array(params.stiffness, STATIONS, "stiffness")
+    damping = _array(params.damping, STATIONS, "damping")
+    inertia = _array(params.inertia, STATIONS, "inertia")
+    hub_inertia = _array(params.hub_inertia, None, "hub_inertia")
+    hub_damping = _array(params.hub_damping, None, "hub_damping")
+    numbers = (step, hub_inertia, hub_damping)
+    arrays = (stiffness, damping, inertia)
+    batch, dtype = _common(numbers, arrays)
+    stiffness = _align(stiffness, batch)
+    damping = _align(damping, batch)
+    inertia = _align(inertia, batch)
+    admittance = np.zeros((STATIONS, *batch), dtype)
+    reflection = np.zeros((STATIONS, *batch), dtype)
+    transmission = np.zeros((STATIONS, *batch), dtype)
+
+    # Riccati factors, swept from tip to base
+    impedance: Any = 0.0
+    for j in reversed(range(STATIONS)):
+        joint_impedance = (55.0 / 108.0) * damping[j] * step + (125.0 / 486.0) * (step * step) * stiffness[j]
+        impedance = impedance - inertia[j]
+        pivot = joint_impedance - impedance
+        _require_positive(pivot, "pivot", j)
+        admittance[j] = 1.0 / pivot
+        transmission[j] = admittance[j] * joint_impedance
+        reflection[j] = -admittance[j] * impedance
+        impedance = impedance * transmission[j]
+    hub_pivot = hub_inertia - impedance + (55.0 / 108.0) * hub_damping * step
+    _require_positive(hub_pivot, "hub_pivot", None)
+    hub_admittance = 1.0 / hub_pivot
+
+    # Factors of the step that depend on the time step and parameters alone
+    step_5_over_108 = (5.0 / 108.0) * step
+    step2_5_over_243 = (5.0 / 243.0) * (step * step)
+    step_5_over_9 = (5.0 / 9.0) * step
+    factor_4 = hub_admittance * hub_damping
+    step2_1_over_27 = (1.0 / 27.0) * (step * step)
+    step2_25_over_54 = (25.0 / 54.0) * (step * step)
+    step_1_over_12 = (1.0 / 12.0) * step
+    step_11_over_12 = (11.0 / 12.0) * step
+    return Model(
+        step=step,
+        stiffness=stiffness,
+        damping=damping,
+        step_5_over_108=step_5_over_108,
+        step2_5_over_243=step2_5_over_243,
+        step_5_over_9=step_5_over_9,
+        factor_4=factor_4,
+        step2_1_over_27=step2_1_over_27,
+        step2_25_over_54=step2_25_over_54,
+        step_1_over_12=step_1_over_12,
+        step_11_over_12=step_11_over_12,
+        admittance=admittance,
+        transmission=transmission,
+        reflection=reflection,
+        hub_admittance=hub_admittance,
+    )
+
+
+def initialise(
+    params: Params = Params(),
+    input: Input = Input(),
+    *,
+    initial_angle: ArrayLike = INITIAL_ANGLE,
+    initial_rate: ArrayLike = INITIAL_RATE,
+) -> State:
+    """Start from given angles and rates with the acceleration that satisfies the equations of motion.
+
+    Parameters
+    ----------
+    params : Params
+        Physical parameters.
+    input : Input
+        What acts at the initial instant.
+    initial_angle : number, or array_like, shape (6, *batch)
+        Angles to start from (rad).
+    initial_rate : number, or array_like, shape (6, *batch)
+        Rates to start from (rad/s).
+
+    Raises
+    ------
+    FloatingPointError
+        If an argument is not finite.
+    ValueError
+        If shapes do not fit.
+    """
+    motor_torque = _array(input.motor_torque, None, "input motor_torque")
+    load_torque = _array(input.load_torque, None, "input load_torque")
+    stiffness = _array(params.stiffness, STATIONS, "stiffness")
+    damping = _array(params.damping, STATIONS, "damping")
+    inertia = _array(params.inertia, STATIONS, "inertia")
+    hub_inertia = _array(params.hub_inertia, None, "hub_inertia")
+    hub_damping = _array(params.hub_damping, None, "hub_damping")
+    initial_angle = _array(initial_angle, STATIONS, "initial_angle")
+    initial_rate = _array(initial_rate, STATIONS, "initial_rate")
+    numbers = (motor_torque, load_torque, hub_inertia, hub_damping)
+    arrays = (stiffness, damping, inertia, initial_angle, initial_rate)
+    batch, dtype = _common(numbers, arrays)
+    stiffness = _align(stiffness, batch)
+    damping = _align(damping, batch)
+    inertia = _align(inertia, batch)
+    initial_angle = _align(initial_angle, batch)
+    initial_rate = _align(initial_rate, batch)
+    correction = np.zeros((STATIONS, *batch), dtype)
+    known_angle = np.zeros((STATIONS + 1, *batch), dtype)
+    known_rate = np.zeros((STATIONS + 1, *batch), dtype)
+    load = np.zeros((STATIONS, *batch), dtype)
+
+    # motion known before the sweep
+    known_rate[0] = 0.0
+    known_angle[0] = 0.0
+    known_rate[1:] = initial_rate
+    known_angle[1:] = initial_angle
+
+    # torque of each joint at the known motion
+    joint_torque = damping * (known_rate[1:] - known_rate[:6]) + stiffness * (
+        known_angle[1:] - known_angle[:6]
+    )
+
+    # sweep inward: torque beyond each joint as if its inner side did not move
+    load[:] = 0.0
+    load[3] = load_torque
+    bias: Any = 0.0
+    for j in reversed(range(STATIONS)):
+        bias = bias + load[j]
+        correction[j] = (bias - joint_torque[j]) / inertia[j]
+        bias = joint_torque[j]
+
+    # the base
+    unknown = (bias + motor_torque - hub_damping * known_rate[0]) / hub_inertia
+    hub_unknown = unknown
+
+    # sweep outward: the unknown of each station
+    unknown = correction
+    solved = unknown
+
+    # motion at the end of the step
+    hub_angle = known_angle[0]
+    hub_rate = known_rate[0]
+    hub_acceleration = hub_unknown
+    angle = known_angle[1:]
+    rate = known_rate[1:]
+    acceleration = solved
+    return State(
+        hub_angle=_spread(hub_angle, batch, False),
+        hub_rate=_spread(hub_rate, batch, False),
+        hub_acceleration=_spread(hub_acceleration, batch, False),
+        angle=_spread(angle, batch, True),
+        rate=_spread(rate, batch, True),
+        acceleration=_spread(acceleration, batch, True),
+    )
+
+
+def step(model: Model, state: State, input: Input = Input()) -> State:
+    """Advance the state by one step.
+
+    Parameters
+    ----------
+    model : Model
+        From :func:`prepare`.
+    state : State
+        At the start of the step; left as it is.
+    input : Input
+        What acts at the instant in STAGE_INSTANTS.
+
+    Returns
+    -------
+    State
+        At the end of the step.
+
+    Raises
+    ------
+    FloatingPointError
+        If an input is not finite.
+    ValueError
+        If shapes do not fit.
+    """
+    motor_torque = _array(input.motor_torque, None, "input motor_torque")
+    load_torque = _array(input.load_torque, None, "input load_torque")
+    step = model.step
+    stiffness = np.asarray(model.stiffness)
+    damping = np.asarray(model.damping)
+    step_5_over_108 = model.step_5_over_108
+    step2_5_over_243 = model.step2_5_over_243
+    step_5_over_9 = model.step_5_over_9
+    factor_4 = model.factor_4
+    step2_1_over_27 = model.step2_1_over_27
+    step2_25_over_54 = model.step2_25_over_54
+    step_1_over_12 = model.step_1_over_12
+    step_11_over_12 = model.step_11_over_12
+    admittance = np.asarray(model.admittance)
+    transmission = np.asarray(model.transmission)
+    reflection = np.asarray(model.reflection)
+    hub_admittance = model.hub_admittance
+    hub_angle = state.hub_angle
+    hub_rate = state.hub_rate
+    hub_acceleration = state.hub_acceleration
+    angle = np.asarray(state.angle)
+    rate = np.asarray(state.rate)
+    acceleration = np.asarray(state.acceleration)
+    numbers = (
+        motor_torque,
+        load_torque,
+        step,
+        step_5_over_108,
+        step2_5_over_243,
+        step_5_over_9,
+        factor_4,
+        step2_1_over_27,
+        step2_25_over_54,
+        step_1_over_12,
+        step_11_over_12,
+        hub_admittance,
+        hub_angle,
+        hub_rate,
+        hub_acceleration,
+    )
+    arrays = (stiffness, damping, admittance, transmission, reflection, angle, rate, acceleration)
+    batch, dtype = _common(numbers, arrays)
+    stiffness = _align(stiffness, batch)
+    damping = _align(damping, batch)
+    admittance = _align(admittance, batch)
+    transmission = _align(transmission, batch)
+    reflection = _align(reflection, batch)
+    hub_angle = _spread(hub_angle, batch, False)
+    hub_rate = _spread(hub_rate, batch, False)
+    hub_acceleration = _spread(hub_acceleration, batch, False)
+    angle = _spread(angle, batch, True)
+    rate = _spread(rate, batch, True)
+    acceleration = _spread(acceleration, batch, True)
+    correction = np.zeros((STATIONS, *batch), dtype)
+    known_angle = np.zeros((STATIONS + 1, *batch), dtype)
+    known_rate = np.zeros((STATIONS + 1, *batch), dtype)
+    load = np.zeros((STATIONS, *batch), dtype)
+    solved = np.zeros((STATIONS, *batch), dtype)
+
+    # motion known before the sweep
+    known_rate[0] = hub_rate + hub_acceleration * step_5_over_108
+    known_angle[0] = hub_angle + hub_acceleration * step2_5_over_243 + hub_rate * step_5_over_9
+    known_rate[1:] = rate + acceleration * step_5_over_108
+    known_angle[1:] = angle + acceleration * step2_5_over_243 + rate * step_5_over_9
+
+    # torque of each joint at the known motion
+    joint_torque = damping * (known_rate[1:] - known_rate[:6]) + stiffness * (
+        known_angle[1:] - known_angle[:6]
+    )
+
+    # sweep inward: torque beyond each joint as if its inner side did not move
+    load[:] = 0.0
+    load[3] = load_torque
+    bias: Any = 0.0
+    for j in reversed(range(STATIONS)):
+        bias = bias + load[j]
+        correction[j] = admittance[j] * (bias - joint_torque[j])
+        bias = bias * transmission[j] + joint_torque[j] * reflection[j]
+
+    # the base
+    unknown = hub_admittance * (bias + motor_torque) - factor_4 * known_rate[0]
+    hub_unknown = unknown
+
+    # sweep outward: the unknown of each station
+    for j in range(STATIONS):
+        unknown = correction[j] + transmission[j] * unknown
+        solved[j] = unknown
+
+    # motion at the end of the step
+    hub_angle = (
+        hub_angle + hub_acceleration * step2_1_over_27 + hub_rate * step + hub_unknown * step2_25_over_54
+    )
+    hub_rate = hub_rate + hub_acceleration * step_1_over_12 + hub_unknown * step_11_over_12
+    hub_acceleration = 1.5 * hub_unknown - 0.5 * hub_acceleration
+    angle = angle + acceleration * step2_1_over_27 + rate * step + solved * step2_25_over_54
+    rate = rate + acceleration * step_1_over_12 + solved * step_11_over_12
+    acceleration = 1.5 * solved - 0.5 * acceleration
+    return State(
+        hub_angle=_spread(hub_angle, batch, False),
+        hub_rate=_spread(hub_rate, batch, False),
+        hub_acceleration=_spread(hub_acceleration, batch, False),
+        angle=_spread(angle, batch, True),
+        rate=_spread(rate, batch, True),
+        acceleration=_spread(acceleration, batch, True),
+    )
+
+
+def output(model: Model, state: State) -> Output:
+    """Read the outputs off a state.
+
+    Parameters
+    ----------
+    model : Model
+        From :func:`prepare`.
+    state : State
+        At the instant of the outputs.
+    """
+    stiffness = np.asarray(model.stiffness)
+    damping = np.asarray(model.damping)
+    hub_angle = state.hub_angle
+    hub_rate = state.hub_rate
+    hub_acceleration = state.hub_acceleration
+    angle = np.asarray(state.angle)
+    rate = np.asarray(state.rate)
+    acceleration = np.asarray(state.acceleration)
+    numbers = (hub_angle, hub_rate, hub_acceleration)
+    arrays = (stiffness, damping, angle, rate, acceleration)
+    batch, _ = _common(numbers, arrays)
+    stiffness = _align(stiffness, batch)
+    damping = _align(damping, batch)
+    hub_angle = _spread(hub_angle, batch, False)
+    hub_rate = _spread(hub_rate, batch, False)
+    hub_acceleration = _spread(hub_acceleration, batch, False)
+    angle = _spread(angle, batch, True)
+    rate = _spread(rate, batch, True)
+    acceleration = _spread(acceleration, batch, True)
+
+    # outputs
+    motor_speed = hub_rate
+    roller_speed = rate[3]
+    shaft_torque = damping[3] * (rate[3] - rate[2]) + stiffness[3] * (angle[3] - angle[2])
+    encoder = angle[5]
+    return Output(
+        motor_speed=_spread(motor_speed, batch, False),
+        roller_speed=_spread(roller_speed, batch, False),
+        shaft_torque=_spread(shaft_torque, batch, False),
+        encoder=_spread(encoder, batch, False),
+    )
+
+
+_advance = step  # an argument of simulate has the name
+
+
+def simulate(
+    duration: float,
+    inputs: Mapping[str, ArrayLike | Callable[[float], ArrayLike]] | None = None,
+    params: Params = Params(),
+    step: float = STEP,
+    *,
+    initial_angle: ArrayLike = INITIAL_ANGLE,
+    initial_rate: ArrayLike = INITIAL_RATE,
+) -> Result:
+    """Simulate from time zero in whole steps.
+
+    Parameters
+    ----------
+    duration : float
+        Time to simulate (s); the last instant is the last whole step within it.
+    inputs : mapping from str
+        Constants of shape ``(*batch)``, or functions of time (s) that return them; inputs not named are zero.
+    params : Params
+        Physical parameters.
+    step : float
+        Time step (s).
+    initial_angle : number, or array_like, shape (6, *batch)
+        Angles to start from (rad).
+    initial_rate : number, or array_like, shape (6, *batch)
+        Rates to start from (rad/s).
+
+    Raises
+    ------
+    FloatingPointError
+        If an argument or an input is not finite.
+    ValueError
+        If shapes do not fit, an input has no such name, or there is no time to simulate.
+    VanishingPivotError
+        If parameters or step leave a pivot that is not positive.
+    """
+    if np.ndim(step) != 0 or not step > 0.0:
+        raise ValueError(f"step must be one positive number, not {step!r}")
+    if not 0.0 <= duration < np.inf:
+        raise ValueError(f"duration must be a time, not {duration!r}")
+    given = dict(inputs or {})
+    if unknown := sorted(set(given) - set(INPUT_NAMES)):
+        known = ", ".join(INPUT_NAMES) or "none"
+        raise ValueError(f"no input is named {', '.join(unknown)}; there are: {known}")
+
+    def read(time: float) -> Input:
+        return Input(**{name: value(time) if callable(value) else value for name, value in given.items()})
+
+    model = prepare(params, step)
+    state = initialise(params, read(0.0), initial_angle=initial_angle, initial_rate=initial_rate)
+    rows = [output(model, state)]
+    times = step * np.arange(int(np.floor(duration / step * (1.0 + 1e-12))) + 1)
+    for index, time in enumerate(times[:-1].tolist()):
+        instants = STAGE_INSTANTS[min(index, len(STAGE_INSTANTS) - 1)]
+        state = _advance(model, state, read(time + instants[0] * step))
+        rows.append(output(model, state))
+    outputs = {name: _series([getattr(row, name) for row in rows]) for name in OUTPUT_NAMES}
+    return Result(times, outputs, state)
+
+
+def _array(value: ArrayLike, length: int | None, what: str) -> Array:
+    """Check what a user gives: a number for each arm if length is None, else an array over stations."""
+    array = np.asarray(value)
+    if array.dtype.kind in "biu":
+        array = array.astype(float)
+    if array.dtype.kind not in "fcO":
+        raise TypeError(f"{what} must be numeric, not {value!r}")
+    if array.dtype.kind != "O" and not np.isfinite(array).all():
+        raise FloatingPointError(f"{what} must be finite, not {value!r}")
+    if length is None:
+        return array
+    if array.ndim == 0:
+        return np.full(length, array)
+    if array.shape[0] != length:
+        expected = f"shape ({length}, *batch), or be one number"
+        raise ValueError(f"{what} must have {expected}; it has shape {array.shape}")
+    return array
+
+
+def _common(numbers: tuple[Any, ...], arrays: tuple[Array, ...]) -> tuple[tuple[int, ...], np.dtype[Any]]:
+    """Return the shape of the batch and the number type of everything together."""
+    single = [np.asarray(number) for number in numbers]
+    shapes = {number.shape for number in single} | {array.shape[1:] for array in arrays}
+    types = {array.dtype for array in (*single, *arrays)}
+    try:
+        batch = shapes.pop() if len(shapes) == 1 else np.broadcast_shapes(*shapes)
+    except ValueError:
+        raise ValueError(f"batch shapes do not fit together: {sorted(shapes)}") from None
+    return batch, types.pop() if len(types) == 1 else np.result_type(*types)
+
+
+def _align(array: Array, batch: tuple[int, ...]) -> Array:
+    """Give an array over stations as many axes behind the first as the batch has."""
+    missing = len(batch) + 1 - array.ndim
+    return array.reshape(array.shape[0], *(1,) * missing, *array.shape[1:]) if missing else array
+
+
+def _spread(value: Any, batch: tuple[int, ...], stations: bool) -> Array:
+    """Return a number for every arm of the batch, or an array over stations for every arm."""
+    array = np.asarray(value)
+    if array.shape[stations:] == batch:
+        return array
+    if stations:
+        return np.broadcast_to(_align(array, batch), (array.shape[0], *batch))
+    return np.broadcast_to(array, batch)
+
+
+def _require_positive(pivot: Any, name: str, station: int | None) -> None:
+    """Leave where a pivot is not positive and finite."""
+    if not np.all((pivot > 0.0) & (pivot < np.inf)):
+        where = "" if station is None else f" of station {station + 1}"
+        raise VanishingPivotError(
+            f"{name}{where} must be positive and finite, not {pivot}; check parameters and step"
+        )
+
+
+def _series(values: list[Array]) -> Array:
+    """Put values at all instants together; a batch that came with an input counts from the start."""
+    shape = values[-1].shape
+    return np.stack([np.broadcast_to(value, shape) for value in values])

@@ -1,0 +1,204 @@
+/**
+ * hundred: Uniform shaft of a hundred stations
+ *
+ * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * scene digest: a3152934ac8258c52e8531bb1642e0caae149dd22132cb6047579d2ea37d2d4f
+ * sha256 of the rest of this file: 19432782ef2113c2be549f8c16ad5e2b792a21c62c1e0236aab8cc0ccdd602dc
+ *
+ * model: torsional chain (linear)
+ * stations: 100
+ * base: clamp
+ * integrator: Newmark 1959, beta = 0.25, gamma = 0.5
+ * sweep: riccati
+ * unknown: acceleration
+ * operations of a step: 2200, 22 per station (1100 additions, 1100 multiplications)
+ * operations of prepare: 609, 6.09 per station (201 additions, 308 multiplications, 100 divisions)
+ * number type: double
+ * bytes of the structs: params 24, model 2440, state 2400, inputs 8, outputs 24
+ *
+ * @file hundred.c
+ */
+#include "hundred.h"
+
+#include <math.h>
+
+typedef hundred_real real;
+
+static int inputs_are_finite(const hundred_inputs *inputs)
+{
+    if (!isfinite(inputs->tip_torque)) {
+        return 0;
+    }
+    return 1;
+}
+
+void hundred_default_params(hundred_params *params)
+{
+    params->stiffness = 400.0;
+    params->damping = 0.02;
+    params->inertia = 0.01;
+}
+
+hundred_status hundred_prepare(
+    hundred_model *restrict model,
+    const hundred_params *restrict params,
+    hundred_real step)
+{
+    if (!isfinite(step) || !(step > 0.0)) {
+        return HUNDRED_INVALID_STEP;
+    }
+    if (!isfinite(params->stiffness) || !isfinite(params->damping) || !isfinite(params->inertia)) {
+        return HUNDRED_NON_FINITE_INPUT;
+    }
+
+    const real inertia = params->inertia;
+
+    /* Riccati factors, swept from tip to base. */
+    real impedance = 0.0;
+    const real joint_impedance = 0.5 * params->damping * step + 0.25 * (step * step) * params->stiffness;
+    for (int j = HUNDRED_STATIONS - 1; j >= 0; --j) {
+        impedance = impedance - inertia;
+        const real pivot = joint_impedance - impedance;
+        if (!(pivot > 0.0) || !isfinite(pivot)) {
+            return HUNDRED_VANISHING_PIVOT;
+        }
+        model->admittance[j] = 1.0 / pivot;
+        model->transmission[j] = model->admittance[j] * joint_impedance;
+        model->reflection[j] = -model->admittance[j] * impedance;
+        impedance = impedance * model->transmission[j];
+    }
+
+    /* Factors of the step that depend on the time step and parameters alone. */
+    model->rate_per_acceleration = 0.5 * step;
+    model->angle_per_acceleration = 0.25 * (step * step);
+
+    /* What the step needs as it is. */
+    model->step = step;
+    model->stiffness = params->stiffness;
+    model->damping = params->damping;
+    return HUNDRED_OK;
+}
+
+hundred_status hundred_initialise(
+    hundred_state *restrict state,
+    const hundred_params *restrict params,
+    const hundred_real initial_angle[HUNDRED_STATIONS],
+    const hundred_real initial_rate[HUNDRED_STATIONS],
+    const hundred_inputs *restrict inputs)
+
+{
+    if (!inputs_are_finite(inputs)) {
+        return HUNDRED_NON_FINITE_INPUT;
+    }
+    for (int j = 0; j < HUNDRED_STATIONS; ++j) {
+        if (!isfinite(initial_angle[j]) || !isfinite(initial_rate[j])) {
+            return HUNDRED_NON_FINITE_INPUT;
+        }
+    }
+
+    const real stiffness = params->stiffness;
+    const real damping = params->damping;
+    const real inertia = params->inertia;
+    /* angle of each node without the unknown's share, base first [rad] */
+    real known_angle[HUNDRED_STATIONS + 1];
+    /* rate of each node without the unknown's share, base first [rad/s] */
+    real known_rate[HUNDRED_STATIONS + 1];
+
+    /* Motion known before the sweep. */
+    known_rate[0] = 0.0;
+    known_angle[0] = 0.0;
+    for (int j = 0; j < HUNDRED_STATIONS; ++j) {
+        known_rate[j + 1] = initial_rate[j];
+        known_angle[j + 1] = initial_angle[j];
+    }
+
+    /* Sweep inward: torque beyond each joint as if its inner side did not move. */
+    real bias = inputs->tip_torque;
+
+    /* Torque of each joint at the known motion; sweep inward: torque beyond each joint as if its inner side
+     * did not move; sweep outward: the unknown of each station; motion at the end of the step. */
+    for (int j = HUNDRED_STATIONS - 1; j >= 0; --j) {
+        const real joint_torque = damping * (known_rate[j + 1] - known_rate[j])
+            + stiffness * (known_angle[j + 1] - known_angle[j]);
+        const real correction = (bias - joint_torque) / inertia;
+        bias = joint_torque;
+        state->angle[j] = known_angle[j + 1];
+        state->rate[j] = known_rate[j + 1];
+        state->acceleration[j] = correction;
+    }
+
+    for (int j = 0; j < HUNDRED_STATIONS; ++j) {
+        if (!isfinite(state->angle[j]) || !isfinite(state->rate[j]) || !isfinite(state->acceleration[j])) {
+            return HUNDRED_NON_FINITE_STATE;
+        }
+    }
+    return HUNDRED_OK;
+}
+
+hundred_status hundred_step(
+    const hundred_model *restrict model,
+    hundred_state *restrict state,
+    const hundred_inputs *restrict inputs)
+{
+    if (!inputs_are_finite(inputs)) {
+        return HUNDRED_NON_FINITE_INPUT;
+    }
+
+    const real step = model->step;
+    const real stiffness = model->stiffness;
+    const real damping = model->damping;
+    const real rate_per_acceleration = model->rate_per_acceleration;
+    const real angle_per_acceleration = model->angle_per_acceleration;
+    real correction[HUNDRED_STATIONS]; /* unknown of each station if its inner neighbour's were zero */
+    /* angle of each node without the unknown's share, base first [rad] */
+    real known_angle[HUNDRED_STATIONS + 1];
+    /* rate of each node without the unknown's share, base first [rad/s] */
+    real known_rate[HUNDRED_STATIONS + 1];
+
+    /* Motion known before the sweep. */
+    known_rate[0] = 0.0;
+    known_angle[0] = 0.0;
+    for (int j = 0; j < HUNDRED_STATIONS; ++j) {
+        known_rate[j + 1] = state->rate[j] + state->acceleration[j] * rate_per_acceleration;
+        known_angle[j + 1] = state->angle[j] + state->acceleration[j] * angle_per_acceleration
+            + state->rate[j] * step;
+    }
+
+    /* Torque of each joint at the known motion; sweep inward: torque beyond each joint as if its inner side
+     * did not move. */
+    real bias = inputs->tip_torque;
+    for (int j = HUNDRED_STATIONS - 1; j >= 0; --j) {
+        const real joint_torque = damping * (known_rate[j + 1] - known_rate[j])
+            + stiffness * (known_angle[j + 1] - known_angle[j]);
+        correction[j] = model->admittance[j] * (bias - joint_torque);
+        bias = bias * model->transmission[j] + joint_torque * model->reflection[j];
+    }
+
+    /* The base. */
+    real unknown = 0.0;
+
+    /* Sweep outward: the unknown of each station; motion at the end of the step. */
+    for (int j = 0; j < HUNDRED_STATIONS; ++j) {
+        unknown = correction[j] + model->transmission[j] * unknown;
+        state->angle[j] = known_angle[j + 1] + angle_per_acceleration * unknown;
+        state->rate[j] = known_rate[j + 1] + rate_per_acceleration * unknown;
+        state->acceleration[j] = unknown;
+    }
+
+    /* Anything that is not a number has reached this one. */
+    if (!isfinite(state->acceleration[HUNDRED_STATIONS - 1])) {
+        return HUNDRED_NON_FINITE_STATE;
+    }
+    return HUNDRED_OK;
+}
+
+void hundred_output(
+    const hundred_model *restrict model,
+    const hundred_state *restrict state,
+    hundred_outputs *restrict outputs)
+{
+    /* Outputs. */
+    outputs->tip = state->angle[99];
+    outputs->middle = state->angle[49];
+    outputs->base_torque = state->angle[0] * model->stiffness + model->damping * state->rate[0];
+}

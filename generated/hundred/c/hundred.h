@@ -1,0 +1,160 @@
+/**
+ * hundred: Uniform shaft of a hundred stations
+ *
+ * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * scene digest: a3152934ac8258c52e8531bb1642e0caae149dd22132cb6047579d2ea37d2d4f
+ * sha256 of the rest of this file: 22a8320ecdda34ec584c1b8b601c9b36cd35e15bef3a2a8cda253616944ddb53
+ *
+ * model: torsional chain (linear)
+ * stations: 100
+ * base: clamp
+ * integrator: Newmark 1959, beta = 0.25, gamma = 0.5
+ * sweep: riccati
+ * unknown: acceleration
+ * operations of a step: 2200, 22 per station (1100 additions, 1100 multiplications)
+ * operations of prepare: 609, 6.09 per station (201 additions, 308 multiplications, 100 divisions)
+ * number type: double
+ * bytes of the structs: params 24, model 2440, state 2400, inputs 8, outputs 24
+ *
+ * Call hundred_default_params() and hundred_prepare() once, hundred_initialise() to put the arm somewhere,
+ * then hundred_step() at every tick of the clock and hundred_output() to know. All memory is the caller's;
+ * nothing is kept between calls, so any number of arms can be run side by side.
+ *
+ * @file hundred.h
+ */
+#ifndef HUNDRED_H
+#define HUNDRED_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Number of links. */
+#define HUNDRED_STATIONS 100
+
+/** The scene's time step [s]. */
+#define HUNDRED_STEP 0.001
+
+/** Type of all numbers. */
+typedef double hundred_real;
+
+/** What a function says about its success. */
+typedef enum {
+    /** Success. */
+    HUNDRED_OK = 0,
+    /** An argument is infinite or not a number; nothing was changed. */
+    HUNDRED_NON_FINITE_INPUT,
+    /** The time step is not a positive number; nothing was changed. */
+    HUNDRED_INVALID_STEP,
+    /** No passive arm has such parameters (a negative inertia, say); the model is of no use. */
+    HUNDRED_VANISHING_PIVOT,
+    /** The motion has outgrown the number type; initialise anew. */
+    HUNDRED_NON_FINITE_STATE
+} hundred_status;
+
+/** Physical parameters. */
+typedef struct {
+    hundred_real stiffness; /**< joint stiffness, the same everywhere [N m/rad] */
+    hundred_real damping; /**< joint damping, the same everywhere [N m s/rad] */
+    hundred_real inertia; /**< link inertia, the same everywhere [kg m^2] */
+} hundred_params;
+
+/** What prepare() derives from the parameters and the time step. */
+typedef struct {
+    hundred_real step; /**< time step [s] */
+    hundred_real stiffness; /**< joint stiffness, the same everywhere [N m/rad] */
+    hundred_real damping; /**< joint damping, the same everywhere [N m s/rad] */
+    hundred_real rate_per_acceleration; /**< rate per unit of acceleration: step/2 [SI] */
+    hundred_real angle_per_acceleration; /**< angle per unit of acceleration: step**2/4 [SI] */
+    hundred_real admittance[HUNDRED_STATIONS]; /**< inverse pivot of each joint */
+    hundred_real transmission[HUNDRED_STATIONS]; /**< share of torque and motion each joint passes on */
+    hundred_real reflection[HUNDRED_STATIONS]; /**< share of its own known torque each joint passes on */
+} hundred_model;
+
+/** Motion of the arm, and the history its integrator needs. */
+typedef struct {
+    hundred_real angle[HUNDRED_STATIONS]; /**< angle of each link, base to tip [rad] */
+    hundred_real rate[HUNDRED_STATIONS]; /**< rate of each link, base to tip [rad/s] */
+    hundred_real acceleration[HUNDRED_STATIONS]; /**< acceleration of each link, base to tip [rad/s^2] */
+} hundred_state;
+
+/** What acts on the arm. */
+typedef struct {
+    hundred_real tip_torque; /**< torque acting at the tip [N m] */
+} hundred_inputs;
+
+/** What the scene asks to know. */
+typedef struct {
+    hundred_real tip; /**< angle at the tip [rad] */
+    hundred_real middle; /**< angle at station 50 [rad] */
+    hundred_real base_torque; /**< torque at the base [N m] */
+} hundred_outputs;
+
+/**
+ * Write the scene's parameters.
+ *
+ * @param[out] params  parameters
+ */
+void hundred_default_params(hundred_params *params);
+
+/**
+ * Compute what depends on parameters and step alone.
+ *
+ * @param[out] model   what the other functions need
+ * @param[in]  params  parameters
+ * @param[in]  step    time step [s]
+ * @return OK, NON_FINITE_INPUT, INVALID_STEP or VANISHING_PIVOT
+ */
+hundred_status hundred_prepare(
+    hundred_model *model,
+    const hundred_params *params,
+    hundred_real step);
+
+/**
+ * Start from given angles and rates with the acceleration that satisfies the equations of motion.
+ *
+ * @param[out] state   motion at the initial instant
+ * @param[in]  params  parameters
+ * @param[in]  initial_angle  angles to start from [rad]
+ * @param[in]  initial_rate  rates to start from [rad/s]
+ * @param[in]  inputs  what acts at the initial instant
+ * @return OK, NON_FINITE_INPUT or NON_FINITE_STATE
+ */
+hundred_status hundred_initialise(
+    hundred_state *state,
+    const hundred_params *params,
+    const hundred_real initial_angle[HUNDRED_STATIONS],
+    const hundred_real initial_rate[HUNDRED_STATIONS],
+    const hundred_inputs *inputs)
+;
+
+/**
+ * Advance the state by one step.
+ *
+ * @param[in]     model   from hundred_prepare()
+ * @param[in,out] state   motion before the step, and after it
+ * @param[in]     inputs  what acts, at the end of the step
+ * @return OK, NON_FINITE_INPUT or NON_FINITE_STATE
+ */
+hundred_status hundred_step(
+    const hundred_model *model,
+    hundred_state *state,
+    const hundred_inputs *inputs);
+
+/**
+ * Read the outputs off the state.
+ *
+ * @param[in]  model    from hundred_prepare()
+ * @param[in]  state    motion
+ * @param[out] outputs  what the scene asks for
+ */
+void hundred_output(
+    const hundred_model *model,
+    const hundred_state *state,
+    hundred_outputs *outputs);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* HUNDRED_H */

@@ -1,0 +1,274 @@
+# hundred: Uniform shaft of a hundred stations
+#
+# Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+# scene digest: a3152934ac8258c52e8531bb1642e0caae149dd22132cb6047579d2ea37d2d4f
+# sha256 of the rest of this file: d2c33a6ca988ab94e7355388996a8031382c57a3e2756761ae05d3fe7c3e4ba3
+#
+# model: torsional chain (linear)
+# stations: 100
+# base: clamp
+# integrator: Newmark 1959, beta = 0.25, gamma = 0.5
+# sweep: riccati
+# unknown: acceleration
+# operations of a step: 2200, 22 per station (1100 additions, 1100 multiplications)
+# operations of prepare: 609, 6.09 per station (201 additions, 308 multiplications, 100 divisions)
+"""hundred: Uniform shaft of a hundred stations. Functions for optimisation and control.
+
+Columns: ``x`` the state (STATE_NAMES), ``u`` the inputs (INPUT_NAMES), ``p`` the step and the physical
+parameters (PARAMETER_NAMES), ``y`` the outputs (OUTPUT_NAMES). The same operations in the same order as in
+the NumPy kernel; pivots are not checked, since symbols have no sign.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from typing import Any
+
+import casadi as ca
+
+
+def _numbered(name: str, count: int) -> tuple[str, ...]:
+    """Return the names of an array's elements, base to tip."""
+    return tuple(f"{name}_{station}" for station in range(1, count + 1))
+
+
+STATIONS = 100
+"""Number of links."""
+STATE_NAMES: tuple[str, ...] = (
+    *_numbered("angle", 100),
+    *_numbered("rate", 100),
+    *_numbered("acceleration", 100),
+)
+INPUT_NAMES: tuple[str, ...] = ("tip_torque",)
+OUTPUT_NAMES: tuple[str, ...] = ("tip", "middle", "base_torque")
+PARAMETER_NAMES: tuple[str, ...] = ("step", "stiffness", "damping", "inertia")
+STAGE_INSTANTS = ((1.0,),)
+"""When inputs are read, in steps from the start of the step."""
+
+
+def default_parameters() -> ca.DM:
+    """Return the scene's step and physical parameters, a column ``p``."""
+    values = (0.001, 400.0, 0.02, 0.01)
+    return ca.DM(values)
+
+
+def step_function() -> ca.Function:
+    """Return the step ``(x, u, p) -> (x_next, y)``: the state one step later, and the outputs at ``x``."""
+    return _function("step", _step, STAGE_INSTANTS[-1])
+
+
+def start_functions() -> tuple[ca.Function, ...]:
+    """Return the functions of the first steps, to be used before that of :func:`step_function`, each once.
+
+    This integrator needs none.
+    """
+    return ()
+
+
+def initial_function() -> ca.Function:
+    """Return the start ``(initial_angle, initial_rate, u, p) -> x``.
+
+    Start from given angles and rates with the acceleration that satisfies the equations of motion.
+    """
+    given = {
+        "initial_angle": ca.SX.sym("initial_angle", 100),  # angles to start from (rad)
+        "initial_rate": ca.SX.sym("initial_rate", 100),  # rates to start from (rad/s)
+    }
+    u, p = _symbols(INPUT_NAMES), _symbols(PARAMETER_NAMES)
+    with _as_written():
+        x = _initialise(given, [u], p)
+    return ca.Function("initial", [*given.values(), u, p], [x], [*given, "u", "p"], ["x"])
+
+
+def _function(
+    name: str,
+    advance: Callable[[dict[str, Any], ca.SX, Sequence[ca.SX]], ca.SX],
+    instants: Sequence[float],
+) -> ca.Function:
+    """Build a step with its outputs."""
+    x, p = _symbols(STATE_NAMES), _symbols(PARAMETER_NAMES)
+    u = _symbols(INPUT_NAMES)
+    stages = [u] * len(instants)
+    with _as_written():
+        model = _prepare(p)
+        results = [advance(model, x, stages), _output(model, x, stages)]
+    return ca.Function(name, [x, u, p], results, ["x", "u", "p"], ["x_next", "y"])
+
+
+@contextmanager
+def _as_written() -> Iterator[None]:
+    """Keep CasADi from reordering operations: results are those of the other backends to the last bit."""
+    before = ca.GlobalOptions.getSimplificationOnTheFly()
+    ca.GlobalOptions.setSimplificationOnTheFly(False)
+    try:
+        yield
+    finally:
+        ca.GlobalOptions.setSimplificationOnTheFly(before)
+
+
+def _symbols(names: Sequence[str]) -> ca.SX:
+    """Return a column of named symbols."""
+    return _column(*(ca.SX.sym(name) for name in names))
+
+
+def _column(*items: Any) -> ca.SX:
+    """Put symbols and numbers in a column."""
+    return ca.SX(ca.vertcat(*items)) if items else ca.SX(0, 1)
+
+
+def _prepare(p: ca.SX) -> dict[str, Any]:
+    """Compute what depends on parameters and step alone."""
+    step = p[0]
+    stiffness = p[1]
+    damping = p[2]
+    inertia = p[3]
+    admittance: list[Any] = [0.0] * STATIONS
+    reflection: list[Any] = [0.0] * STATIONS
+    transmission: list[Any] = [0.0] * STATIONS
+
+    # Riccati factors, swept from tip to base
+    impedance: Any = 0.0
+    joint_impedance = 0.5 * damping * step + 0.25 * (step * step) * stiffness
+    for j in reversed(range(STATIONS)):
+        impedance = impedance - inertia
+        pivot = joint_impedance - impedance
+        admittance[j] = 1.0 / pivot
+        transmission[j] = admittance[j] * joint_impedance
+        reflection[j] = -admittance[j] * impedance
+        impedance = impedance * transmission[j]
+
+    # Factors of the step that depend on the time step and parameters alone
+    rate_per_acceleration = 0.5 * step
+    angle_per_acceleration = 0.25 * (step * step)
+    return {
+        "step": step,
+        "stiffness": stiffness,
+        "damping": damping,
+        "rate_per_acceleration": rate_per_acceleration,
+        "angle_per_acceleration": angle_per_acceleration,
+        "admittance": admittance,
+        "transmission": transmission,
+        "reflection": reflection,
+    }
+
+
+def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> ca.SX:
+    """Start from given angles and rates with the acceleration that satisfies the equations of motion."""
+    stiffness = p[1]
+    damping = p[2]
+    inertia = p[3]
+    initial_angle = ca.vertsplit(given["initial_angle"])
+    initial_rate = ca.vertsplit(given["initial_rate"])
+    tip_torque = stages[0][0]
+    acceleration: list[Any] = [0.0] * STATIONS
+    angle: list[Any] = [0.0] * STATIONS
+    correction: list[Any] = [0.0] * STATIONS
+    joint_torque: list[Any] = [0.0] * STATIONS
+    known_angle: list[Any] = [0.0] * (STATIONS + 1)
+    known_rate: list[Any] = [0.0] * (STATIONS + 1)
+    rate: list[Any] = [0.0] * STATIONS
+    solved: list[Any] = [0.0] * STATIONS
+
+    # motion known before the sweep
+    known_rate[0] = 0.0
+    known_angle[0] = 0.0
+    for j in range(STATIONS):
+        known_rate[j + 1] = initial_rate[j]
+        known_angle[j + 1] = initial_angle[j]
+
+    # torque of each joint at the known motion
+    for j in range(STATIONS):
+        joint_torque[j] = damping * (known_rate[j + 1] - known_rate[j]) + stiffness * (
+            known_angle[j + 1] - known_angle[j]
+        )
+
+    # sweep inward: torque beyond each joint as if its inner side did not move
+    bias = tip_torque
+    for j in reversed(range(STATIONS)):
+        correction[j] = (bias - joint_torque[j]) / inertia
+        bias = joint_torque[j]
+
+    # the base
+    unknown: Any = 0.0
+
+    # sweep outward: the unknown of each station
+    for j in range(STATIONS):
+        unknown = correction[j]
+        solved[j] = unknown
+
+    # motion at the end of the step
+    for j in range(STATIONS):
+        angle[j] = known_angle[j + 1]
+        rate[j] = known_rate[j + 1]
+        acceleration[j] = solved[j]
+    return _column(*angle, *rate, *acceleration)
+
+
+def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
+    """Advance the state by one step."""
+    step = model["step"]
+    stiffness = model["stiffness"]
+    damping = model["damping"]
+    rate_per_acceleration = model["rate_per_acceleration"]
+    angle_per_acceleration = model["angle_per_acceleration"]
+    admittance = model["admittance"]
+    transmission = model["transmission"]
+    reflection = model["reflection"]
+    angle = ca.vertsplit(x[0:100])
+    rate = ca.vertsplit(x[100:200])
+    acceleration = ca.vertsplit(x[200:300])
+    tip_torque = stages[0][0]
+    correction: list[Any] = [0.0] * STATIONS
+    joint_torque: list[Any] = [0.0] * STATIONS
+    known_angle: list[Any] = [0.0] * (STATIONS + 1)
+    known_rate: list[Any] = [0.0] * (STATIONS + 1)
+    solved: list[Any] = [0.0] * STATIONS
+
+    # motion known before the sweep
+    known_rate[0] = 0.0
+    known_angle[0] = 0.0
+    for j in range(STATIONS):
+        known_rate[j + 1] = rate[j] + acceleration[j] * rate_per_acceleration
+        known_angle[j + 1] = angle[j] + acceleration[j] * angle_per_acceleration + rate[j] * step
+
+    # torque of each joint at the known motion
+    for j in range(STATIONS):
+        joint_torque[j] = damping * (known_rate[j + 1] - known_rate[j]) + stiffness * (
+            known_angle[j + 1] - known_angle[j]
+        )
+
+    # sweep inward: torque beyond each joint as if its inner side did not move
+    bias = tip_torque
+    for j in reversed(range(STATIONS)):
+        correction[j] = admittance[j] * (bias - joint_torque[j])
+        bias = bias * transmission[j] + joint_torque[j] * reflection[j]
+
+    # the base
+    unknown: Any = 0.0
+
+    # sweep outward: the unknown of each station
+    for j in range(STATIONS):
+        unknown = correction[j] + transmission[j] * unknown
+        solved[j] = unknown
+
+    # motion at the end of the step
+    for j in range(STATIONS):
+        angle[j] = known_angle[j + 1] + angle_per_acceleration * solved[j]
+        rate[j] = known_rate[j + 1] + rate_per_acceleration * solved[j]
+        acceleration[j] = solved[j]
+    return _column(*angle, *rate, *acceleration)
+
+
+def _output(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
+    """Read the outputs off a state."""
+    stiffness = model["stiffness"]
+    damping = model["damping"]
+    angle = ca.vertsplit(x[0:100])
+    rate = ca.vertsplit(x[100:200])
+
+    # outputs
+    tip = angle[99]
+    middle = angle[49]
+    base_torque = angle[0] * stiffness + damping * rate[0]
+    return _column(tip, middle, base_torque)

@@ -1,0 +1,203 @@
+/**
+ * thesis10: Ten-station torsional chain, Gholampour (2018), table 4-1
+ *
+ * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * scene digest: 5710bb166e10f184e97b3afa485de4cad13e83bb6918e415c8a1050afcb47e12
+ * sha256 of the rest of this file: 27c4ed90413b65447db232f8545cf05b74279519b326ffb5b7666cea16726ad9
+ *
+ * model: torsional chain (linear)
+ * stations: 10
+ * base: clamp
+ * integrator: Newmark 1959, beta = 0.25, gamma = 0.5
+ * sweep: riccati
+ * unknown: acceleration
+ * operations of a step: 220, 22 per station (110 additions, 110 multiplications)
+ * operations of prepare: 69, 6.9 per station (21 additions, 38 multiplications, 10 divisions)
+ * number type: double
+ * bytes of the structs: params 24, model 280, state 240, inputs 8, outputs 16
+ *
+ * @file thesis10.c
+ */
+#include "thesis10.h"
+
+#include <math.h>
+
+typedef thesis10_real real;
+
+static int inputs_are_finite(const thesis10_inputs *inputs)
+{
+    if (!isfinite(inputs->tip_torque)) {
+        return 0;
+    }
+    return 1;
+}
+
+void thesis10_default_params(thesis10_params *params)
+{
+    params->stiffness = 20.0;
+    params->damping = 5.0;
+    params->inertia = 1.0;
+}
+
+thesis10_status thesis10_prepare(
+    thesis10_model *restrict model,
+    const thesis10_params *restrict params,
+    thesis10_real step)
+{
+    if (!isfinite(step) || !(step > 0.0)) {
+        return THESIS10_INVALID_STEP;
+    }
+    if (!isfinite(params->stiffness) || !isfinite(params->damping) || !isfinite(params->inertia)) {
+        return THESIS10_NON_FINITE_INPUT;
+    }
+
+    const real inertia = params->inertia;
+
+    /* Riccati factors, swept from tip to base. */
+    real impedance = 0.0;
+    const real joint_impedance = 0.5 * params->damping * step + 0.25 * (step * step) * params->stiffness;
+    for (int j = THESIS10_STATIONS - 1; j >= 0; --j) {
+        impedance = impedance - inertia;
+        const real pivot = joint_impedance - impedance;
+        if (!(pivot > 0.0) || !isfinite(pivot)) {
+            return THESIS10_VANISHING_PIVOT;
+        }
+        model->admittance[j] = 1.0 / pivot;
+        model->transmission[j] = model->admittance[j] * joint_impedance;
+        model->reflection[j] = -model->admittance[j] * impedance;
+        impedance = impedance * model->transmission[j];
+    }
+
+    /* Factors of the step that depend on the time step and parameters alone. */
+    model->rate_per_acceleration = 0.5 * step;
+    model->angle_per_acceleration = 0.25 * (step * step);
+
+    /* What the step needs as it is. */
+    model->step = step;
+    model->stiffness = params->stiffness;
+    model->damping = params->damping;
+    return THESIS10_OK;
+}
+
+thesis10_status thesis10_initialise(
+    thesis10_state *restrict state,
+    const thesis10_params *restrict params,
+    const thesis10_real initial_angle[THESIS10_STATIONS],
+    const thesis10_real initial_rate[THESIS10_STATIONS],
+    const thesis10_inputs *restrict inputs)
+
+{
+    if (!inputs_are_finite(inputs)) {
+        return THESIS10_NON_FINITE_INPUT;
+    }
+    for (int j = 0; j < THESIS10_STATIONS; ++j) {
+        if (!isfinite(initial_angle[j]) || !isfinite(initial_rate[j])) {
+            return THESIS10_NON_FINITE_INPUT;
+        }
+    }
+
+    const real stiffness = params->stiffness;
+    const real damping = params->damping;
+    const real inertia = params->inertia;
+    /* angle of each node without the unknown's share, base first [rad] */
+    real known_angle[THESIS10_STATIONS + 1];
+    /* rate of each node without the unknown's share, base first [rad/s] */
+    real known_rate[THESIS10_STATIONS + 1];
+
+    /* Motion known before the sweep. */
+    known_rate[0] = 0.0;
+    known_angle[0] = 0.0;
+    for (int j = 0; j < THESIS10_STATIONS; ++j) {
+        known_rate[j + 1] = initial_rate[j];
+        known_angle[j + 1] = initial_angle[j];
+    }
+
+    /* Sweep inward: torque beyond each joint as if its inner side did not move. */
+    real bias = inputs->tip_torque;
+
+    /* Torque of each joint at the known motion; sweep inward: torque beyond each joint as if its inner side
+     * did not move; sweep outward: the unknown of each station; motion at the end of the step. */
+    for (int j = THESIS10_STATIONS - 1; j >= 0; --j) {
+        const real joint_torque = damping * (known_rate[j + 1] - known_rate[j])
+            + stiffness * (known_angle[j + 1] - known_angle[j]);
+        const real correction = (bias - joint_torque) / inertia;
+        bias = joint_torque;
+        state->angle[j] = known_angle[j + 1];
+        state->rate[j] = known_rate[j + 1];
+        state->acceleration[j] = correction;
+    }
+
+    for (int j = 0; j < THESIS10_STATIONS; ++j) {
+        if (!isfinite(state->angle[j]) || !isfinite(state->rate[j]) || !isfinite(state->acceleration[j])) {
+            return THESIS10_NON_FINITE_STATE;
+        }
+    }
+    return THESIS10_OK;
+}
+
+thesis10_status thesis10_step(
+    const thesis10_model *restrict model,
+    thesis10_state *restrict state,
+    const thesis10_inputs *restrict inputs)
+{
+    if (!inputs_are_finite(inputs)) {
+        return THESIS10_NON_FINITE_INPUT;
+    }
+
+    const real step = model->step;
+    const real stiffness = model->stiffness;
+    const real damping = model->damping;
+    const real rate_per_acceleration = model->rate_per_acceleration;
+    const real angle_per_acceleration = model->angle_per_acceleration;
+    real correction[THESIS10_STATIONS]; /* unknown of each station if its inner neighbour's were zero */
+    /* angle of each node without the unknown's share, base first [rad] */
+    real known_angle[THESIS10_STATIONS + 1];
+    /* rate of each node without the unknown's share, base first [rad/s] */
+    real known_rate[THESIS10_STATIONS + 1];
+
+    /* Motion known before the sweep. */
+    known_rate[0] = 0.0;
+    known_angle[0] = 0.0;
+    for (int j = 0; j < THESIS10_STATIONS; ++j) {
+        known_rate[j + 1] = state->rate[j] + state->acceleration[j] * rate_per_acceleration;
+        known_angle[j + 1] = state->angle[j] + state->acceleration[j] * angle_per_acceleration
+            + state->rate[j] * step;
+    }
+
+    /* Torque of each joint at the known motion; sweep inward: torque beyond each joint as if its inner side
+     * did not move. */
+    real bias = inputs->tip_torque;
+    for (int j = THESIS10_STATIONS - 1; j >= 0; --j) {
+        const real joint_torque = damping * (known_rate[j + 1] - known_rate[j])
+            + stiffness * (known_angle[j + 1] - known_angle[j]);
+        correction[j] = model->admittance[j] * (bias - joint_torque);
+        bias = bias * model->transmission[j] + joint_torque * model->reflection[j];
+    }
+
+    /* The base. */
+    real unknown = 0.0;
+
+    /* Sweep outward: the unknown of each station; motion at the end of the step. */
+    for (int j = 0; j < THESIS10_STATIONS; ++j) {
+        unknown = correction[j] + model->transmission[j] * unknown;
+        state->angle[j] = known_angle[j + 1] + angle_per_acceleration * unknown;
+        state->rate[j] = known_rate[j + 1] + rate_per_acceleration * unknown;
+        state->acceleration[j] = unknown;
+    }
+
+    /* Anything that is not a number has reached this one. */
+    if (!isfinite(state->acceleration[THESIS10_STATIONS - 1])) {
+        return THESIS10_NON_FINITE_STATE;
+    }
+    return THESIS10_OK;
+}
+
+void thesis10_output(
+    const thesis10_model *restrict model,
+    const thesis10_state *restrict state,
+    thesis10_outputs *restrict outputs)
+{
+    /* Outputs. */
+    outputs->tip = state->angle[9];
+    outputs->base_torque = state->angle[0] * model->stiffness + model->damping * state->rate[0];
+}

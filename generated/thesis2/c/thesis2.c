@@ -1,0 +1,203 @@
+/**
+ * thesis2: Two-station torsional chain, Gholampour (2018), table 3-2
+ *
+ * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * scene digest: 4fdbd97419e7ff02c8d9faf01a8b79522b9a5dd593d6163ae5c751891e6cf0b2
+ * sha256 of the rest of this file: e1472b6a428089e59000c3551d76f938a34a4e95eb81b7223d43ea315919fd97
+ *
+ * model: torsional chain (linear)
+ * stations: 2
+ * base: clamp
+ * integrator: Newmark 1959, beta = 0.25, gamma = 0.5
+ * sweep: riccati
+ * unknown: acceleration
+ * operations of a step: 44, 22 per station (22 additions, 22 multiplications)
+ * operations of prepare: 21, 10.5 per station (5 additions, 14 multiplications, 2 divisions)
+ * number type: double
+ * bytes of the structs: params 24, model 88, state 48, inputs 8, outputs 16
+ *
+ * @file thesis2.c
+ */
+#include "thesis2.h"
+
+#include <math.h>
+
+typedef thesis2_real real;
+
+static int inputs_are_finite(const thesis2_inputs *inputs)
+{
+    if (!isfinite(inputs->tip_torque)) {
+        return 0;
+    }
+    return 1;
+}
+
+void thesis2_default_params(thesis2_params *params)
+{
+    params->stiffness = 20.0;
+    params->damping = 5.0;
+    params->inertia = 5.0;
+}
+
+thesis2_status thesis2_prepare(
+    thesis2_model *restrict model,
+    const thesis2_params *restrict params,
+    thesis2_real step)
+{
+    if (!isfinite(step) || !(step > 0.0)) {
+        return THESIS2_INVALID_STEP;
+    }
+    if (!isfinite(params->stiffness) || !isfinite(params->damping) || !isfinite(params->inertia)) {
+        return THESIS2_NON_FINITE_INPUT;
+    }
+
+    const real inertia = params->inertia;
+
+    /* Riccati factors, swept from tip to base. */
+    real impedance = 0.0;
+    const real joint_impedance = 0.5 * params->damping * step + 0.25 * (step * step) * params->stiffness;
+    for (int j = THESIS2_STATIONS - 1; j >= 0; --j) {
+        impedance = impedance - inertia;
+        const real pivot = joint_impedance - impedance;
+        if (!(pivot > 0.0) || !isfinite(pivot)) {
+            return THESIS2_VANISHING_PIVOT;
+        }
+        model->admittance[j] = 1.0 / pivot;
+        model->transmission[j] = model->admittance[j] * joint_impedance;
+        model->reflection[j] = -model->admittance[j] * impedance;
+        impedance = impedance * model->transmission[j];
+    }
+
+    /* Factors of the step that depend on the time step and parameters alone. */
+    model->rate_per_acceleration = 0.5 * step;
+    model->angle_per_acceleration = 0.25 * (step * step);
+
+    /* What the step needs as it is. */
+    model->step = step;
+    model->stiffness = params->stiffness;
+    model->damping = params->damping;
+    return THESIS2_OK;
+}
+
+thesis2_status thesis2_initialise(
+    thesis2_state *restrict state,
+    const thesis2_params *restrict params,
+    const thesis2_real initial_angle[THESIS2_STATIONS],
+    const thesis2_real initial_rate[THESIS2_STATIONS],
+    const thesis2_inputs *restrict inputs)
+
+{
+    if (!inputs_are_finite(inputs)) {
+        return THESIS2_NON_FINITE_INPUT;
+    }
+    for (int j = 0; j < THESIS2_STATIONS; ++j) {
+        if (!isfinite(initial_angle[j]) || !isfinite(initial_rate[j])) {
+            return THESIS2_NON_FINITE_INPUT;
+        }
+    }
+
+    const real stiffness = params->stiffness;
+    const real damping = params->damping;
+    const real inertia = params->inertia;
+    /* angle of each node without the unknown's share, base first [rad] */
+    real known_angle[THESIS2_STATIONS + 1];
+    /* rate of each node without the unknown's share, base first [rad/s] */
+    real known_rate[THESIS2_STATIONS + 1];
+
+    /* Motion known before the sweep. */
+    known_rate[0] = 0.0;
+    known_angle[0] = 0.0;
+    for (int j = 0; j < THESIS2_STATIONS; ++j) {
+        known_rate[j + 1] = initial_rate[j];
+        known_angle[j + 1] = initial_angle[j];
+    }
+
+    /* Sweep inward: torque beyond each joint as if its inner side did not move. */
+    real bias = inputs->tip_torque;
+
+    /* Torque of each joint at the known motion; sweep inward: torque beyond each joint as if its inner side
+     * did not move; sweep outward: the unknown of each station; motion at the end of the step. */
+    for (int j = THESIS2_STATIONS - 1; j >= 0; --j) {
+        const real joint_torque = damping * (known_rate[j + 1] - known_rate[j])
+            + stiffness * (known_angle[j + 1] - known_angle[j]);
+        const real correction = (bias - joint_torque) / inertia;
+        bias = joint_torque;
+        state->angle[j] = known_angle[j + 1];
+        state->rate[j] = known_rate[j + 1];
+        state->acceleration[j] = correction;
+    }
+
+    for (int j = 0; j < THESIS2_STATIONS; ++j) {
+        if (!isfinite(state->angle[j]) || !isfinite(state->rate[j]) || !isfinite(state->acceleration[j])) {
+            return THESIS2_NON_FINITE_STATE;
+        }
+    }
+    return THESIS2_OK;
+}
+
+thesis2_status thesis2_step(
+    const thesis2_model *restrict model,
+    thesis2_state *restrict state,
+    const thesis2_inputs *restrict inputs)
+{
+    if (!inputs_are_finite(inputs)) {
+        return THESIS2_NON_FINITE_INPUT;
+    }
+
+    const real step = model->step;
+    const real stiffness = model->stiffness;
+    const real damping = model->damping;
+    const real rate_per_acceleration = model->rate_per_acceleration;
+    const real angle_per_acceleration = model->angle_per_acceleration;
+    real correction[THESIS2_STATIONS]; /* unknown of each station if its inner neighbour's were zero */
+    /* angle of each node without the unknown's share, base first [rad] */
+    real known_angle[THESIS2_STATIONS + 1];
+    /* rate of each node without the unknown's share, base first [rad/s] */
+    real known_rate[THESIS2_STATIONS + 1];
+
+    /* Motion known before the sweep. */
+    known_rate[0] = 0.0;
+    known_angle[0] = 0.0;
+    for (int j = 0; j < THESIS2_STATIONS; ++j) {
+        known_rate[j + 1] = state->rate[j] + state->acceleration[j] * rate_per_acceleration;
+        known_angle[j + 1] = state->angle[j] + state->acceleration[j] * angle_per_acceleration
+            + state->rate[j] * step;
+    }
+
+    /* Torque of each joint at the known motion; sweep inward: torque beyond each joint as if its inner side
+     * did not move. */
+    real bias = inputs->tip_torque;
+    for (int j = THESIS2_STATIONS - 1; j >= 0; --j) {
+        const real joint_torque = damping * (known_rate[j + 1] - known_rate[j])
+            + stiffness * (known_angle[j + 1] - known_angle[j]);
+        correction[j] = model->admittance[j] * (bias - joint_torque);
+        bias = bias * model->transmission[j] + joint_torque * model->reflection[j];
+    }
+
+    /* The base. */
+    real unknown = 0.0;
+
+    /* Sweep outward: the unknown of each station; motion at the end of the step. */
+    for (int j = 0; j < THESIS2_STATIONS; ++j) {
+        unknown = correction[j] + model->transmission[j] * unknown;
+        state->angle[j] = known_angle[j + 1] + angle_per_acceleration * unknown;
+        state->rate[j] = known_rate[j + 1] + rate_per_acceleration * unknown;
+        state->acceleration[j] = unknown;
+    }
+
+    /* Anything that is not a number has reached this one. */
+    if (!isfinite(state->acceleration[THESIS2_STATIONS - 1])) {
+        return THESIS2_NON_FINITE_STATE;
+    }
+    return THESIS2_OK;
+}
+
+void thesis2_output(
+    const thesis2_model *restrict model,
+    const thesis2_state *restrict state,
+    thesis2_outputs *restrict outputs)
+{
+    /* Outputs. */
+    outputs->tip = state->angle[1];
+    outputs->base_torque = state->angle[0] * model->stiffness + model->damping * state->rate[0];
+}

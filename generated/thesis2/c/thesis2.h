@@ -1,0 +1,159 @@
+/**
+ * thesis2: Two-station torsional chain, Gholampour (2018), table 3-2
+ *
+ * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * scene digest: 4fdbd97419e7ff02c8d9faf01a8b79522b9a5dd593d6163ae5c751891e6cf0b2
+ * sha256 of the rest of this file: 34bb46e2f14cfeb232f153cbda1355691b0a970a5c4ebe659d5b37ff7626c870
+ *
+ * model: torsional chain (linear)
+ * stations: 2
+ * base: clamp
+ * integrator: Newmark 1959, beta = 0.25, gamma = 0.5
+ * sweep: riccati
+ * unknown: acceleration
+ * operations of a step: 44, 22 per station (22 additions, 22 multiplications)
+ * operations of prepare: 21, 10.5 per station (5 additions, 14 multiplications, 2 divisions)
+ * number type: double
+ * bytes of the structs: params 24, model 88, state 48, inputs 8, outputs 16
+ *
+ * Call thesis2_default_params() and thesis2_prepare() once, thesis2_initialise() to put the arm somewhere,
+ * then thesis2_step() at every tick of the clock and thesis2_output() to know. All memory is the caller's;
+ * nothing is kept between calls, so any number of arms can be run side by side.
+ *
+ * @file thesis2.h
+ */
+#ifndef THESIS2_H
+#define THESIS2_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Number of links. */
+#define THESIS2_STATIONS 2
+
+/** The scene's time step [s]. */
+#define THESIS2_STEP 0.01
+
+/** Type of all numbers. */
+typedef double thesis2_real;
+
+/** What a function says about its success. */
+typedef enum {
+    /** Success. */
+    THESIS2_OK = 0,
+    /** An argument is infinite or not a number; nothing was changed. */
+    THESIS2_NON_FINITE_INPUT,
+    /** The time step is not a positive number; nothing was changed. */
+    THESIS2_INVALID_STEP,
+    /** No passive arm has such parameters (a negative inertia, say); the model is of no use. */
+    THESIS2_VANISHING_PIVOT,
+    /** The motion has outgrown the number type; initialise anew. */
+    THESIS2_NON_FINITE_STATE
+} thesis2_status;
+
+/** Physical parameters. */
+typedef struct {
+    thesis2_real stiffness; /**< joint stiffness, the same everywhere [N m/rad] */
+    thesis2_real damping; /**< joint damping, the same everywhere [N m s/rad] */
+    thesis2_real inertia; /**< link inertia, the same everywhere [kg m^2] */
+} thesis2_params;
+
+/** What prepare() derives from the parameters and the time step. */
+typedef struct {
+    thesis2_real step; /**< time step [s] */
+    thesis2_real stiffness; /**< joint stiffness, the same everywhere [N m/rad] */
+    thesis2_real damping; /**< joint damping, the same everywhere [N m s/rad] */
+    thesis2_real rate_per_acceleration; /**< rate per unit of acceleration: step/2 [SI] */
+    thesis2_real angle_per_acceleration; /**< angle per unit of acceleration: step**2/4 [SI] */
+    thesis2_real admittance[THESIS2_STATIONS]; /**< inverse pivot of each joint */
+    thesis2_real transmission[THESIS2_STATIONS]; /**< share of torque and motion each joint passes on */
+    thesis2_real reflection[THESIS2_STATIONS]; /**< share of its own known torque each joint passes on */
+} thesis2_model;
+
+/** Motion of the arm, and the history its integrator needs. */
+typedef struct {
+    thesis2_real angle[THESIS2_STATIONS]; /**< angle of each link, base to tip [rad] */
+    thesis2_real rate[THESIS2_STATIONS]; /**< rate of each link, base to tip [rad/s] */
+    thesis2_real acceleration[THESIS2_STATIONS]; /**< acceleration of each link, base to tip [rad/s^2] */
+} thesis2_state;
+
+/** What acts on the arm. */
+typedef struct {
+    thesis2_real tip_torque; /**< torque acting at the tip [N m] */
+} thesis2_inputs;
+
+/** What the scene asks to know. */
+typedef struct {
+    thesis2_real tip; /**< angle at the tip [rad] */
+    thesis2_real base_torque; /**< torque at the base [N m] */
+} thesis2_outputs;
+
+/**
+ * Write the scene's parameters.
+ *
+ * @param[out] params  parameters
+ */
+void thesis2_default_params(thesis2_params *params);
+
+/**
+ * Compute what depends on parameters and step alone.
+ *
+ * @param[out] model   what the other functions need
+ * @param[in]  params  parameters
+ * @param[in]  step    time step [s]
+ * @return OK, NON_FINITE_INPUT, INVALID_STEP or VANISHING_PIVOT
+ */
+thesis2_status thesis2_prepare(
+    thesis2_model *model,
+    const thesis2_params *params,
+    thesis2_real step);
+
+/**
+ * Start from given angles and rates with the acceleration that satisfies the equations of motion.
+ *
+ * @param[out] state   motion at the initial instant
+ * @param[in]  params  parameters
+ * @param[in]  initial_angle  angles to start from [rad]
+ * @param[in]  initial_rate  rates to start from [rad/s]
+ * @param[in]  inputs  what acts at the initial instant
+ * @return OK, NON_FINITE_INPUT or NON_FINITE_STATE
+ */
+thesis2_status thesis2_initialise(
+    thesis2_state *state,
+    const thesis2_params *params,
+    const thesis2_real initial_angle[THESIS2_STATIONS],
+    const thesis2_real initial_rate[THESIS2_STATIONS],
+    const thesis2_inputs *inputs)
+;
+
+/**
+ * Advance the state by one step.
+ *
+ * @param[in]     model   from thesis2_prepare()
+ * @param[in,out] state   motion before the step, and after it
+ * @param[in]     inputs  what acts, at the end of the step
+ * @return OK, NON_FINITE_INPUT or NON_FINITE_STATE
+ */
+thesis2_status thesis2_step(
+    const thesis2_model *model,
+    thesis2_state *state,
+    const thesis2_inputs *inputs);
+
+/**
+ * Read the outputs off the state.
+ *
+ * @param[in]  model    from thesis2_prepare()
+ * @param[in]  state    motion
+ * @param[out] outputs  what the scene asks for
+ */
+void thesis2_output(
+    const thesis2_model *model,
+    const thesis2_state *state,
+    thesis2_outputs *outputs);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* THESIS2_H */

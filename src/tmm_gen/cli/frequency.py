@@ -1,0 +1,323 @@
+"""`tmm-gen frequency`: frequency response, and how few links a scene requires."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from tmm_gen.cli.console import Column, progress, table
+from tmm_gen.cli.given import PICTURE, constant_inputs, picture_option, positive, refuse_folders
+from tmm_gen.errors import UserError
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from tmm_gen.modal.arm import LinearArm
+    from tmm_gen.scene import Input, Output, Scene
+
+# NumPy, SymPy and Matplotlib are imported inside: `tmm-gen --help` has no use for them.
+
+_IN = {"torque": "N m", "force_x": "N", "force_y": "N", "angle": "rad"}
+_ANGULAR = {"angle": "rad", "velocity": "rad/s", "acceleration": "rad/s²", "torque": "N m"}
+_PLANAR = {**_ANGULAR, "position": "m", "velocity": "m/s", "acceleration": "m/s²", "force": "N"}
+
+
+@click.command("frequency")
+@click.argument("scene", metavar="SCENE", type=click.Path(path_type=Path))
+@click.option("--from", "source", metavar="INPUT", help="Input; by default the scene's first.")
+@click.option("--to", "target", metavar="OUTPUT", help="Output; by default the scene's first.")
+@click.option("--low", type=float, metavar="HZ", callback=positive, help="Lowest frequency.")
+@click.option("--high", type=float, metavar="HZ", callback=positive, help="Highest frequency.")
+@click.option(
+    "--points",
+    type=click.IntRange(min=2),
+    default=1000,
+    show_default=True,
+    help="Frequencies, evenly in log.",
+)
+@click.option(
+    "--input",
+    "given",
+    metavar="NAME=VALUE",
+    multiple=True,
+    help="A constant input that a planar arm rests under. Repeatable; the rest is zero.",
+)
+@click.option("--csv", "csv_file", type=click.Path(path_type=Path), help="Write the response.")
+@click.option(
+    "--plot",
+    "picture",
+    metavar="[FILE.png]",
+    is_flag=False,
+    flag_value=PICTURE,
+    callback=picture_option,
+    help="Draw magnitude and phase; by default into NAME-frequency.png.",
+)
+@click.option(
+    "--links-for",
+    "error",
+    type=float,
+    metavar="ERROR",
+    callback=positive,
+    help="Instead: how few links keep natural frequencies within this relative error (0.01 for 1 %)?",
+)
+@click.option(
+    "--band", type=float, metavar="HZ", callback=positive, help="Up to which frequency, with --links-for."
+)
+@click.option("--json", "json_mode", is_flag=True, help="One JSON object instead of a table.")
+def frequency(
+    scene: Path,
+    source: str | None,
+    target: str | None,
+    low: float | None,
+    high: float | None,
+    points: int,
+    given: tuple[str, ...],
+    csv_file: Path | None,
+    picture: Path | None,
+    error: float | None,
+    band: float | None,
+    json_mode: bool,
+) -> None:
+    """Show how an output of SCENE answers an input at each frequency.
+
+    With --links-for ERROR --band HZ: how few links does this scene require?
+    """
+    from tmm_gen.scene import load_scene
+
+    if (error is None) != (band is None):
+        raise click.UsageError("--links-for ERROR and --band HZ belong together.")
+    if low is not None and high is not None and low >= high:
+        raise click.UsageError(f"--low {low:g} must be less than --high {high:g}.")
+    loaded = load_scene(scene)
+    if error is not None and band is not None:
+        _links_for(loaded, error, band, json_mode)
+        return
+    refuse_folders(csv_file, picture)
+    inputs = constant_inputs(loaded, given)
+    chosen = _chosen(loaded.inputs, source, "--from", "[[input]]")
+    read = _chosen(loaded.outputs, target, "--to", "[[output]]")
+    with progress(f"frequency response of {loaded.name}"):
+        answer = _respond(loaded, inputs, chosen, read, (low, high), points)
+        written = _write(answer, csv_file, picture)
+    _show(answer, written, json_mode)
+
+
+def _chosen(items: tuple[Any, ...], name: str | None, option: str, table_name: str) -> Any:
+    """Return the item of a name, or the first."""
+    if not items:
+        raise UserError(f"the scene has no {table_name}: a frequency response needs one. Add {table_name}.")
+    if name is None:
+        return items[0]
+    names = [item.name for item in items]
+    if name not in names:
+        raise UserError(f"{option} {name}: no such name; choose from {', '.join(names)}.")
+    return items[names.index(name)]
+
+
+@dataclass(frozen=True, eq=False)
+class _Answer:
+    """One output for one input."""
+
+    arm: LinearArm
+    given: Input
+    read: Output
+    hertz: NDArray[np.float64]
+    parts: dict[str, NDArray[np.complex128]]
+    beam: NDArray[np.complex128] | None
+    rows: list[dict[str, object]]
+
+    @property
+    def unit(self) -> str:
+        """Of the magnitude."""
+        units = _PLANAR if self.arm.kind == "planar" else _ANGULAR
+        numerator, denominator = units[self.read.of], _IN[self.given.acts]
+        return f"{numerator} per {denominator}"
+
+
+def _respond(
+    scene: Scene,
+    inputs: dict[str, float],
+    given: Input,
+    read: Output,
+    limits: tuple[float | None, float | None],
+    points: int,
+) -> _Answer:
+    import numpy as np
+
+    from tmm_gen.modal.beam.response import beam_response
+    from tmm_gen.modal.matrices import matrices
+    from tmm_gen.modal.modes import find_modes
+    from tmm_gen.modal.response import component_names, frequency_response
+    from tmm_gen.modal.situation import resting_arm
+
+    arm = resting_arm(scene, inputs)
+    modes = find_modes(matrices(arm))
+    swinging = [mode.hertz for mode in modes if mode.frequency > 0.0]
+    low = limits[0] or (0.1 * swinging[0] if swinging else 0.01)
+    high = limits[1] or (2.0 * swinging[min(7, len(swinging) - 1)] if swinging else 100.0 * low)
+    if low >= high:
+        raise click.UsageError(f"the band from {low:g} to {high:g} Hz is empty; give both --low and --high.")
+    hertz = np.geomspace(low, high, points)
+    number = [item.name for item in scene.inputs].index(given.name)
+    names = component_names(arm)[read.name]
+    inside = [(k, mode) for k, mode in enumerate(modes) if low <= mode.hertz <= high]
+    at_modes = np.array([mode.hertz for _, mode in inside])
+    with np.errstate(all="ignore"):  # without damping a resonance has no bound
+        found = frequency_response(arm, 2j * np.pi * np.concatenate([hertz, at_modes]))
+        parts = {name: found[name][:, number] for name in names}
+    beam = None
+    straight = arm.rest is not None and float(np.max(np.abs(arm.rest.angles))) < 1e-9
+    if scene.beam is not None and straight:
+        beam = beam_response(scene, 2j * np.pi * hertz, given, read)
+    rows: list[dict[str, object]] = []
+    for place, (k, mode) in enumerate(inside, start=points):
+        row: dict[str, object] = {
+            "mode": k + 1,
+            "frequency_hz": mode.hertz,
+            "damping_ratio": mode.damping_ratio,
+        }
+        for name, values in parts.items():
+            row[f"magnitude{name.removeprefix(read.name)}"] = (
+                float(abs(values[place])) if mode.damping_ratio else math.inf
+            )
+            row[f"phase{name.removeprefix(read.name)}_deg"] = float(np.degrees(np.angle(values[place])))
+        rows.append(row)
+    return _Answer(
+        arm, given, read, hertz, {name: values[:points] for name, values in parts.items()}, beam, rows
+    )
+
+
+def _write(answer: _Answer, csv_file: Path | None, picture: Path | None) -> list[Path]:
+    """Write the files asked for, all or none; return them."""
+    import numpy as np
+
+    from tmm_gen.files import write_tree_whole
+
+    files: dict[Path, str | bytes] = {}
+    if csv_file is not None:
+        header, columns = ["frequency_hz"], [answer.hertz]
+        for name, values in answer.parts.items():
+            header += [f"{name}_magnitude", f"{name}_phase_deg", f"{name}_real", f"{name}_imaginary"]
+            columns += [np.abs(values), np.degrees(np.angle(values)), values.real, values.imag]
+        lines = [",".join(header)]
+        lines += [",".join(f"{value:.17g}" for value in row) for row in zip(*columns, strict=True)]
+        files[csv_file] = "\n".join(lines) + "\n"
+    if picture is not None:
+        from tmm_gen.modal.picture import bode_picture
+
+        target = Path(f"{answer.arm.scene.name}-frequency.png") if picture == Path(PICTURE) else picture
+        name = _shown(answer)
+        texts = (answer.arm.scene.title, f"{name} for a unit of {answer.given.name}")
+        drawn = (answer.hertz, answer.parts[name], answer.beam)
+        files[target] = bode_picture(answer.arm, *drawn, texts, answer.unit, target.suffix[1:].lower())
+    write_tree_whole(files)
+    return list(files)
+
+
+def _shown(answer: _Answer) -> str:
+    """Return the component that is drawn: the larger one."""
+    import numpy as np
+
+    return max(answer.parts, key=lambda name: float(np.max(np.abs(answer.parts[name]))))
+
+
+def _show(answer: _Answer, written: list[Path], json_mode: bool) -> None:
+    import numpy as np
+
+    columns = [
+        Column("mode"),
+        Column("frequency_hz", "resonance (Hz)", ".6g"),
+        Column("damping_ratio", form=".4g"),
+    ]
+    for name in answer.parts:
+        suffix = name.removeprefix(answer.read.name)
+        text = f" {suffix[1:]}" if suffix else ""
+        columns.append(Column(f"magnitude{suffix}", f"magnitude{text} ({answer.unit})", ".5g"))
+        columns.append(Column(f"phase{suffix}_deg", f"phase{text} (°)", ".1f"))
+    scene = answer.arm.scene
+    facts: dict[str, object] = {
+        "scene": scene.name,
+        "input": answer.given.name,
+        "output": answer.read.name,
+        "unit": answer.unit,
+        "low_hz": answer.hertz[0],
+        "high_hz": answer.hertz[-1],
+        "files": written,
+    }
+    if json_mode:
+        facts["frequency_hz"] = answer.hertz
+        facts["response"] = [
+            {"component": name, "magnitude": np.abs(values), "phase_deg": np.degrees(np.angle(values))}
+            for name, values in answer.parts.items()
+        ]
+    band = f"{answer.hertz[0]:.4g} to {answer.hertz[-1]:.4g} Hz"
+    title = f"{scene.title}: {answer.read.name} for {answer.given.name}, {band}"
+    table(answer.rows, columns, json_mode, title=title, more=facts)
+    if json_mode:
+        return
+    for path in written:
+        click.echo(f"wrote {path}")
+    if not written:
+        click.echo(
+            "more: --plot draws it, --csv FILE writes it, --from and --to choose, --low and --high zoom"
+        )
+
+
+def _links_for(scene: Scene, error: float, band: float, json_mode: bool) -> None:
+    if scene.beam is None:
+        raise UserError(
+            f"scene '{scene.name}' has no [beam]: only a beam can be cut into more or fewer links. "
+            "Use a planar scene with [beam]."
+        )
+    with progress(f"cutting the beam of {scene.name}"):
+        from tmm_gen.modal.discretised import links_needed
+
+        try:
+            found = links_needed(scene, error, 2.0 * math.pi * band)
+        except ValueError as reason:
+            raise UserError(f"--links-for {error:g} --band {band:g}: {reason}. Ask for less.") from reason
+    rows = [
+        {
+            "mode": k + 1,
+            "exact_hz": float(exact) / (2.0 * math.pi),
+            "links_hz": float(own) / (2.0 * math.pi),
+            "error": float(off),
+            "error_percent": 100.0 * float(off),
+            "one_less_percent": None if found.errors_below is None else 100.0 * float(found.errors_below[k]),
+        }
+        for k, (exact, own, off) in enumerate(zip(found.exact, found.discretised, found.errors, strict=True))
+    ]
+    facts = {
+        "scene": scene.name,
+        "springs": scene.beam.springs,
+        "error": error,
+        "band_hz": band,
+        "links": found.links,
+        "links_now": scene.stations,
+        "worst_error": found.worst,
+    }
+    plural = "s" * (found.links > 1)
+    table(
+        rows,
+        [
+            Column("mode"),
+            Column("exact_hz", "continuous beam (Hz)", ".6g"),
+            Column("links_hz", f"{found.links} link{plural} (Hz)", ".6g"),
+            Column("error_percent", "error (%)", ".3f"),
+            Column("one_less_percent", "with one link less (%)", ".3f"),
+        ],
+        json_mode,
+        title=f"{scene.title}: natural frequencies up to {band:g} Hz",
+        more=facts,
+    )
+    if not json_mode:
+        click.echo(
+            f"{found.links} link{plural} keep{'' if plural else 's'} every natural frequency up to {band:g} Hz "
+            f"within {100.0 * error:g} % of the continuous beam ({scene.beam.springs} springs); "
+            f"the scene has {scene.stations}"
+        )

@@ -1,0 +1,165 @@
+"""`tmm-gen modes`: natural frequencies, damping ratios and mode shapes."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from tmm_gen.cli.console import Column, progress, table
+from tmm_gen.cli.given import PICTURE, constant_inputs, picture_option, refuse_folders
+
+if TYPE_CHECKING:
+    from tmm_gen.modal.arm import LinearArm
+    from tmm_gen.modal.modes import Mode
+    from tmm_gen.scene import Scene
+
+# NumPy, SymPy and Matplotlib are imported inside: `tmm-gen --help` has no use for them.
+
+
+@click.command("modes")
+@click.argument("scene", metavar="SCENE", type=click.Path(path_type=Path))
+@click.option("--count", type=click.IntRange(min=1), default=6, show_default=True, help="How many modes.")
+@click.option(
+    "--input",
+    "given",
+    metavar="NAME=VALUE",
+    multiple=True,
+    help="A constant input that a planar arm rests under. Repeatable; the rest is zero.",
+)
+@click.option(
+    "--plot",
+    "picture",
+    metavar="[FILE.png]",
+    is_flag=False,
+    flag_value=PICTURE,
+    callback=picture_option,
+    help="Draw the mode shapes; by default into NAME-modes.png.",
+)
+@click.option("--json", "json_mode", is_flag=True, help="One JSON object instead of a table.")
+def modes(scene: Path, count: int, given: tuple[str, ...], picture: Path | None, json_mode: bool) -> None:
+    """Show natural frequencies, damping ratios and mode shapes of SCENE.
+
+    A planar arm swings about its static equilibrium. An arm made from a [beam] is shown beside the exact
+    continuous beam, straight and weightless.
+    """
+    from tmm_gen.scene import load_scene
+
+    loaded = load_scene(scene)
+    inputs = constant_inputs(loaded, given)
+    refuse_folders(picture)
+    with progress(f"finding modes of {loaded.name}"):
+        from tmm_gen.modal.matrices import matrices
+        from tmm_gen.modal.modes import find_modes
+        from tmm_gen.modal.situation import resting_arm
+
+        arm = resting_arm(loaded, inputs)
+        found = find_modes(matrices(arm), count)
+        beside = _Beside(loaded, arm, len(found))
+        rows = [_row(number, mode) | beside.row(number) for number, mode in enumerate(found)]
+        files = _draw(picture, arm, found, beside)
+    _show(loaded, arm, rows, beside, files, json_mode)
+
+
+class _Beside:
+    """The continuous beam beside the arm, if there is one."""
+
+    def __init__(self, scene: Scene, arm: LinearArm, count: int) -> None:
+        from tmm_gen.modal.beam import natural_frequencies
+        from tmm_gen.modal.discretised import continuous, relative_errors, straight_frequencies
+
+        self.beam = continuous(scene)
+        self.straight = arm.rest is None or not any(abs(angle) > 1e-9 for angle in arm.rest.angles.tolist())
+        if self.beam is not None:
+            self.exact = natural_frequencies(self.beam, count)
+            self.discretised = straight_frequencies(scene)[:count]
+            self.errors = relative_errors(self.discretised, self.exact)
+
+    def row(self, number: int) -> dict[str, object]:
+        """Return what is known of a mode of the continuous beam."""
+        if self.beam is None:
+            return {}
+        from tmm_gen.modal.beam import damped_pole
+
+        exact, straight = float(self.exact[number]), float(self.discretised[number])
+        pole = damped_pole(self.beam, exact) if exact > 0.0 else None
+        signed = straight / exact - 1.0 if exact > 0.0 else None
+        return {
+            "straight_hz": straight / (2.0 * math.pi),
+            "exact_hz": exact / (2.0 * math.pi),
+            "exact_angular_frequency": exact,
+            "exact_damping_ratio": None if pole is None else -pole.real / abs(pole),
+            "error": signed,
+            "error_percent": None if signed is None else 100.0 * signed,
+        }
+
+
+def _row(number: int, mode: Mode) -> dict[str, object]:
+    return {
+        "mode": number + 1,
+        "frequency_hz": mode.hertz,
+        "angular_frequency": mode.frequency,
+        "damping_ratio": mode.damping_ratio,
+        "poles": [{"real": pole.real, "imaginary": pole.imag} for pole in mode.poles],
+        "motion": "falls over" if mode.unstable else ("swings" if mode.frequency else "turns freely"),
+        "shape": mode.shape,
+    }
+
+
+def _draw(picture: Path | None, arm: LinearArm, found: tuple[Mode, ...], beside: _Beside) -> list[Path]:
+    if picture is None:
+        return []
+    from tmm_gen.files import write_whole
+    from tmm_gen.modal.picture import mode_picture
+
+    target = Path(f"{arm.scene.name}-modes.png") if picture == Path(PICTURE) else picture
+    exact = None if beside.beam is None else (beside.beam, beside.exact)
+    write_whole(target, mode_picture(arm, found, exact, target.suffix[1:].lower()))
+    return [target]
+
+
+def _show(
+    scene: Scene,
+    arm: LinearArm,
+    rows: list[dict[str, Any]],
+    beside: _Beside,
+    files: list[Path],
+    json_mode: bool,
+) -> None:
+    columns = [
+        Column("mode"),
+        Column("frequency_hz", "frequency (Hz)", ".6g"),
+        Column("damping_ratio", "damping ratio", ".4g"),
+    ]
+    if beside.beam is not None:
+        if not beside.straight:
+            columns.append(Column("straight_hz", "straight, weightless (Hz)", ".6g"))
+        columns += [
+            Column("exact_hz", "continuous beam (Hz)", ".6g"),
+            Column("exact_damping_ratio", "its damping ratio", ".4g"),
+            Column("error_percent", "error (%)", "+.3f"),
+        ]
+    if any(row["motion"] != "swings" for row in rows):
+        columns.append(Column("motion"))
+    facts: dict[str, object] = {
+        "scene": scene.name,
+        "kind": scene.model.kind,
+        "stations": scene.stations,
+        "stable": not any(row["motion"] == "falls over" for row in rows),
+        "rest_angles": None if arm.rest is None else arm.rest.angles,
+        "hub_angle": arm.rest.hub if arm.rest is not None and arm.hub else None,
+        "files": files,
+    }
+    title = f"{scene.title}: {scene.stations} station{'s' * (scene.stations > 1)}"
+    table(rows, columns, json_mode, title=title, more=facts)
+    if json_mode:
+        return
+    if arm.rest is not None and not beside.straight:
+        tip = math.degrees(float(arm.rest.angles[-1]))
+        click.echo(f"about the static equilibrium: the last link rests at {tip:.3f} degrees")
+    for path in files:
+        click.echo(f"wrote {path}")
+    if not files:
+        click.echo("more: --plot draws the mode shapes, --count N shows more or fewer")
