@@ -173,7 +173,7 @@ def _respond(
     beam = None
     straight = arm.rest is not None and float(np.max(np.abs(arm.rest.angles))) < 1e-9
     if scene.beam is not None and straight:
-        beam = beam_response(scene, 2j * np.pi * hertz, given, read)
+        beam = beam_response(scene, np.asarray(2j * np.pi * hertz, complex), given, read)
     rows: list[dict[str, object]] = []
     for place, (k, mode) in enumerate(inside, start=points):
         row: dict[str, object] = {

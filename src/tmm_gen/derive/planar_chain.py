@@ -170,7 +170,7 @@ def link_sweep() -> LinkSweep:
         turning=turning,
         gain_x=-LEVER_SINE * TANGENTIAL - LEVER_COSINE * TURNING,
         gain_y=LEVER_COSINE * TANGENTIAL - LEVER_SINE * TURNING,
-        outer=tuple(S[i, 0] * GAIN_X + S[i, 1] * GAIN_Y + S[i, 2] for i in range(3)),  # type: ignore[arg-type]
+        outer=tuple(S[i, 0] * GAIN_X + S[i, 1] * GAIN_Y + S[i, 2] for i in range(3)),
         impedance=sp.Matrix(columns).T,
         bias=(law.force_x.subs(at_bias), law.force_y.subs(at_bias), law.torque.subs(at_bias)),
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from types import ModuleType
@@ -13,6 +14,11 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 Values = dict[str, Array]
 """Numbers and arrays over stations, by the names of a program's variables."""
+
+_BEND = 1e-3
+"""rad; joints of a random start are bent by about this share of the number of joints."""
+_STEPS = 3
+"""Steps from a random start to a state with a history of its own."""
 
 VECTORS = 20
 """Random states for each routine of a step."""
@@ -66,6 +72,43 @@ def random_vectors(program: Any, count: int = VECTORS, seed: int = 0) -> Iterato
             state = {v.name: random.normal(size=v.length or ()) for v in program.state}
             inputs = {v.name: float(random.normal()) for v in program.inputs}
             yield Vector(taken, {name: np.asarray(value) for name, value in state.items()}, inputs)
+
+
+def reached_vectors(module: ModuleType, program: Any, count: int = VECTORS, seed: int = 0) -> Iterator[Vector]:
+    """Yield states that a planar arm reaches within some steps from random, gently bent and moving starts.
+
+    A state at random is none of an arm: stiff joints bent at will ask for forces under which no step can be solved.
+
+    Parameters
+    ----------
+    module : module
+        Generated NumPy package.
+    program : Program
+        What it was generated from.
+    count : int
+        Vectors for each routine.
+    seed : int
+        Of the random numbers.
+    """
+    random = np.random.default_rng(seed)
+    model, n = module.prepare(), program.stations
+    takes_step = "step" in inspect.signature(module.initialise).parameters
+    for taken in range(len(program.steps)):
+        for _ in range(count):
+            inputs = {v.name: float(random.normal()) for v in program.inputs if v.unit != "rad"}
+            # a prescribed base stands where the arm points to
+            points = float(random.uniform(-np.pi, np.pi)) if len(inputs) < len(program.inputs) else 0.0
+            inputs |= {v.name: points for v in program.inputs if v.unit == "rad"}
+            bend, turn = random.normal(size=(2, n)) * _BEND / n
+            start = {"initial_angle": points + np.cumsum(bend), "initial_rate": np.cumsum(turn)}
+            if takes_step:
+                start["step"] = program.step.default
+            given = module.Input(**inputs)
+            state = module.initialise(module.Params(), given, **start)
+            for _ in range(taken if taken < len(program.startup) else taken + _STEPS):
+                state = module.step(model, state, given)
+            values = {v.name: np.asarray(getattr(state, v.name)) for v in program.state}
+            yield Vector(taken, values, inputs)
 
 
 def largest_difference(one: Step, other: Step, vectors: Iterable[Vector]) -> float:

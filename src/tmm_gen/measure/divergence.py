@@ -84,7 +84,18 @@ def watch(scene: Scene, signals: Mapping[str, Signal], until: float, step: float
 
 
 def _cause(scene: Scene, step: float) -> str:
-    """Say why, as far as the integrator's limit of stability tells, and what to do."""
+    """Say why and what to do."""
+    told = integrator_cause(scene, step)
+    if told is None and scene.model.sweep == "product":
+        told = "Cause: the plain product loses its digits. Use --set model.sweep=riccati."
+    return told or (
+        f"Its integrator is not to blame: a step of {step:g} s is below the limit of {scene.integrator.name}. "
+        "Look for a number in the scene or an input of the wrong size."
+    )
+
+
+def integrator_cause(scene: Scene, step: float) -> str | None:
+    """Say why, and what to do, if the step is beyond the integrator's limit of stability."""
     from tmm_gen.derive.integrators.amplification import amplification
     from tmm_gen.derive.integrators.registry import integrator
     from tmm_gen.derive.integrators.stability import stability_limit
@@ -108,12 +119,7 @@ def _cause(scene: Scene, step: float) -> str:
             f"Cause: step x {fast} = {turn:.3g}, beyond the limit {limit:.3g} of {scene.integrator.name}"
             f"{damped}. Use a step below {_rounded_down(limit / mode.frequency):g} s, or {unlimited}."
         )
-    if scene.model.sweep == "product":
-        return "Cause: the plain product loses its digits. Use --set model.sweep=riccati."
-    return (
-        f"Its integrator is not to blame: step x {fast} = {turn:.3g} is below the limit of "
-        f"{scene.integrator.name}. Look for a number in the scene or an input of the wrong size."
-    )
+    return None
 
 
 def _rounded_down(value: float) -> float:

@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from tmm_gen.measure.assembly import assemble
+from tmm_gen.measure.planar_linear import vibration
 from tmm_gen.scene import Scene
 
 _PERIODS = 5
@@ -20,6 +21,9 @@ def default_duration(scene: Scene) -> float:
     """Return a round number of seconds that covers some periods of the lowest natural frequency."""
     from scipy.linalg import eigh_tridiagonal  # slow to import
 
+    if scene.model.kind == "planar":
+        frequencies = vibration(scene).frequencies
+        return _round_up(_PERIODS * 2.0 * math.pi / float(frequencies[frequencies > 0.0][0]))
     assembly = assemble(scene)
     root = np.sqrt(np.diag(assembly.mass))
     scaled = assembly.stiffness / np.outer(root, root)

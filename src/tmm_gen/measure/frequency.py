@@ -1,4 +1,4 @@
-"""The highest natural frequency of a chain: what a time step is measured by."""
+"""The highest natural frequency of a scene: what a time step is measured by."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tmm_gen.measure.assembly import assemble
+from tmm_gen.measure.planar_linear import vibration
 from tmm_gen.scene import Scene
 
 
@@ -27,9 +28,15 @@ class FastestMode:
 
 
 def fastest_mode(scene: Scene) -> FastestMode:
-    """Return the mode of the highest natural frequency, from the assembled matrices."""
+    """Return the mode of the highest natural frequency, from the assembled matrices.
+
+    A planar arm is taken as straight and without weight.
+    """
     from scipy.linalg import eigh_tridiagonal  # slow to import
 
+    if scene.model.kind == "planar":
+        found = vibration(scene)
+        return FastestMode(float(found.frequencies[-1]), float(found.damping_ratios[-1]))
     assembly = assemble(scene)
     root = np.sqrt(np.diag(assembly.mass))
     scaled = assembly.stiffness / np.outer(root, root)

@@ -247,7 +247,7 @@ class Arm:
                 (
                     np.broadcast_to(self.signal(i.name).at(times), times.shape)
                     for i in self.scene.inputs
-                    if i.acts == "torque" and i.at == "tip"
+                    if i.acts == "torque" and station_of(i.at, self.scene.stations) == self.scene.stations
                 ),
                 np.zeros(len(times)),
             )

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.measure.simulation import UNITS, Simulation
+from tmm_gen.measure.columns import QUANTITIES, output_columns
+from tmm_gen.measure.simulation import Simulation
 from tmm_gen.measure.style import PALETTE, figure, picture, style, subtitle
 
 if TYPE_CHECKING:
@@ -18,7 +19,6 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 _LINES = ("-", "--", ":", "-.")
-_QUANTITIES = {"rad": "angle", "rad/s": "rate", "rad/s^2": "acceleration", "N m": "torque"}
 
 
 def response_picture(simulation: Simulation, form: str = "png") -> bytes:
@@ -37,7 +37,8 @@ def response_picture(simulation: Simulation, form: str = "png") -> bytes:
 
 def _drawn(simulation: Simulation) -> Figure:
     scene = simulation.scene
-    units = list(dict.fromkeys(UNITS[output.of] for output in scene.outputs))
+    columns = output_columns(scene)
+    units = list(dict.fromkeys(column.unit for column in columns))
     acting = [item for item in scene.inputs if np.any(simulation.inputs[item.name])]
     ratios = [3.0] * len(units) + [1.2] * bool(acting)
     made, axes = figure(
@@ -50,9 +51,9 @@ def _drawn(simulation: Simulation) -> Figure:
     )
     panels = axes[:, 0]
     for panel, unit in zip(panels, units, strict=False):
-        shown = [output.name for output in scene.outputs if UNITS[output.of] == unit]
+        shown = [column.name for column in columns if column.unit == unit]
         _curves(panel, simulation.time, {name: simulation.outputs[name] for name in shown})
-        panel.set_ylabel(f"{_QUANTITIES[unit]} ({unit.replace('^2', '²')})")
+        panel.set_ylabel(f"{QUANTITIES[unit]} ({unit.replace('^2', '²')})")
     if acting:
         _curves(panels[-1], simulation.time, {item.name: simulation.inputs[item.name] for item in acting})
         panels[-1].set_ylabel("input (rad)" if all(i.acts == "angle" for i in acting) else "input (N m)")

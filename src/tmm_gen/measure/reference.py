@@ -1,4 +1,4 @@
-"""The exact response of a chain: the matrix exponential of its assembled matrices.
+"""The exact response of a scene: of a chain, the matrix exponential of its assembled matrices.
 
 With the inputs and their rates as further states (``u'' = -w^2 u`` on each piece), the response at the
 next instant is a matrix times the state at the last: right to rounding at any sampling, for inputs that
@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.measure.assembly import Assembly, assemble
+from tmm_gen.measure.planar_reference import planar_response
 from tmm_gen.measure.signals import Constant, Signal
 from tmm_gen.scene import Scene
 
@@ -24,12 +25,12 @@ _SAME_STEP = 1e-9
 
 
 def exact_response(scene: Scene, signals: Mapping[str, Signal], times: Array) -> dict[str, Array]:
-    """Return the exact outputs of a scene.
+    """Return the exact outputs of a scene; those of a planar arm to about ten digits, by Lagrange's equations.
 
     Parameters
     ----------
     scene : Scene
-        Of kind "chain".
+        Of either kind.
     signals : mapping from str to Signal
         Inputs by name; those not given are zero. Where a prescribed angle is a table, its rate jumps at the
         knots and its acceleration is reported as zero.
@@ -39,8 +40,15 @@ def exact_response(scene: Scene, signals: Mapping[str, Signal], times: Array) ->
     Returns
     -------
     dict from str to array, (k,)
-        Outputs by name.
+        Outputs by name, vectors as ``NAME_x`` and ``NAME_y``.
+
+    Raises
+    ------
+    ReferenceError
+        If the equations of a planar arm cannot be integrated.
     """
+    if scene.model.kind == "planar":
+        return planar_response(scene, signals, times)
     assembly = assemble(scene)
     ordered = [signals.get(name, Constant(0.0)) for name in assembly.inputs]
     return dict(zip(assembly.outputs, _outputs(assembly, ordered, np.asarray(times, float)), strict=True))

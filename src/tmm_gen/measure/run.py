@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
@@ -12,8 +13,10 @@ from numpy.typing import NDArray
 
 from tmm_gen.errors import UserError
 from tmm_gen.measure.assembly import assemble
+from tmm_gen.measure.columns import output_columns
 from tmm_gen.measure.divergence import Watch, watch
 from tmm_gen.measure.module import numpy_module
+from tmm_gen.measure.planar_divergence import PlanarWatch, planar_watch
 from tmm_gen.measure.signals import Constant, Signal
 from tmm_gen.measure.simulation import Simulation
 from tmm_gen.scene import Scene
@@ -54,6 +57,8 @@ def simulate(
     backend: Backend = "numpy",
     advance: Callable[[float], None] | None = None,
     kernel: Any = None,
+    *,
+    shape: bool = False,
 ) -> Simulation:
     """Simulate a scene at its own step.
 
@@ -71,6 +76,8 @@ def simulate(
         Called with the number of steps taken since the last call.
     kernel : module or NativeKernel, optional
         The scene's generated NumPy package, or its compiled C, if it is there already.
+    shape : bool
+        Keep the angles of all links of a planar arm too; without `kernel` only.
 
     Raises
     ------
@@ -81,12 +88,16 @@ def simulate(
     """
     steps = number_of_steps(until, scene.integrator.step)
     inputs = {item.name: signals.get(item.name, Constant(0.0)) for item in scene.inputs}
-    guard = watch(scene, inputs, until, scene.integrator.step)
+    step = scene.integrator.step
+    planar = scene.model.kind == "planar"
+    guard = planar_watch(scene, until, step) if planar else watch(scene, inputs, until, step)
     run = _numpy if backend == "numpy" else _native
-    outputs = np.empty((steps + 1, len(scene.outputs)))
+    traced = _with_shape(scene, steps) if shape else scene
+    names = [column.name for column in output_columns(traced)]
+    outputs = np.empty((steps + 1, len(names)))
     row = 0
     try:
-        for block in run(scene, inputs, steps, guard, kernel):
+        for block in run(traced, inputs, steps, guard, kernel):
             outputs[row : row + len(block)] = block
             row += len(block)
             if advance is not None:
@@ -97,18 +108,40 @@ def simulate(
             "Look for numbers that are far too large or small."
         ) from error
     time: Array = scene.integrator.step * np.arange(steps + 1, dtype=float)
+    reported = len(output_columns(scene))
     return Simulation(
         scene=scene,
         backend=backend,
         time=time,
-        outputs={item.name: outputs[:, k] for k, item in enumerate(scene.outputs)},
+        outputs={name: outputs[:, k] for k, name in enumerate(names[:reported])},
         inputs={name: signal.at(time) for name, signal in inputs.items()},
         rest=_rest(scene, inputs, float(time[-1])),
+        shape=outputs[:, reported:] if shape else None,
     )
+
+
+def _with_shape(scene: Scene, steps: int) -> Scene:
+    """Return a scene that reports the angle of each link too."""
+    if steps * scene.stations > _MOST:
+        raise UserError(
+            f"the shapes of {scene.stations} links over {steps} steps are too many to keep. "
+            "Simulate a shorter time (--until) or take larger steps (--step)."
+        )
+    named = [{"name": o.name, "at": o.at, "of": o.of} for o in scene.outputs]
+    taken = {item.name for item in (*scene.inputs, *scene.outputs)}
+    prefix = next(p for k in itertools.count() if (p := f"shape{k or ''}_") and not any(map(_starts(p), taken)))
+    shape = [{"name": f"{prefix}{i}", "at": i, "of": "angle"} for i in range(1, scene.stations + 1)]
+    return scene.replace(output=[*named, *shape])
+
+
+def _starts(prefix: str) -> Callable[[str], bool]:
+    return lambda name: name.startswith(prefix)
 
 
 def _rest(scene: Scene, signals: Mapping[str, Signal], until: float) -> dict[str, float] | None:
     """Return the outputs at rest under the last values of the inputs; None where there is no such thing."""
+    if scene.model.kind == "planar":
+        return None
     assembly = assemble(scene)
     moving = any(signal.frequency or np.any(signal.knots > until) for signal in signals.values())
     if moving or assembly.free:
@@ -118,7 +151,7 @@ def _rest(scene: Scene, signals: Mapping[str, Signal], until: float) -> dict[str
 
 
 def _numpy(
-    scene: Scene, signals: Mapping[str, Signal], steps: int, guard: Watch, kernel: Any
+    scene: Scene, signals: Mapping[str, Signal], steps: int, guard: Watch | PlanarWatch, kernel: Any
 ) -> Iterator[Array]:
     """Yield blocks of outputs, (rows, outputs), the first one with the start."""
     module = kernel or numpy_module(scene)
@@ -127,9 +160,11 @@ def _numpy(
     def read(time: float) -> Any:
         return module.Input(**{name: float(signal.at(time)) for name, signal in signals.items()})
 
+    names = [column.name for column in output_columns(scene)]
+
     def row() -> list[float]:
         found = module.output(model, state)
-        return [float(getattr(found, item.name)) for item in scene.outputs]
+        return [float(getattr(found, name)) for name in names]
 
     instants = module.STAGE_INSTANTS
     held = all(isinstance(signal, Constant) for signal in signals.values())
@@ -153,7 +188,7 @@ def _numpy(
 
 
 def _native(
-    scene: Scene, signals: Mapping[str, Signal], steps: int, guard: Watch, kernel: Any
+    scene: Scene, signals: Mapping[str, Signal], steps: int, guard: Watch | PlanarWatch, kernel: Any
 ) -> Iterator[Array]:
     """Yield all outputs, (steps + 1, outputs)."""
     from tmm_gen.native import NonFiniteStateError, compile_kernel
@@ -172,10 +207,10 @@ def _native(
         kept = False
     if not kept:
         _find_divergence(kernel, given, h, steps, guard)
-    yield np.column_stack([outputs[item.name] for item in scene.outputs])
+    yield np.column_stack([outputs[column.name] for column in output_columns(scene)])
 
 
-def _find_divergence(kernel: Any, given: Mapping[str, Any], h: float, steps: int, guard: Watch) -> None:
+def _find_divergence(kernel: Any, given: Mapping[str, Any], h: float, steps: int, guard: Watch | PlanarWatch) -> None:
     """Run once more, looking at each step, until the guard raises."""
     from tmm_gen.native import NonFiniteStateError
 

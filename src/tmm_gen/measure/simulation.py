@@ -8,13 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from tmm_gen.measure.columns import OutputColumn, output_columns
 from tmm_gen.measure.metrics import step_figures
-from tmm_gen.scene import Output, Scene
+from tmm_gen.scene import Scene
 
 Array = NDArray[np.float64]
-
-UNITS = {"angle": "rad", "velocity": "rad/s", "acceleration": "rad/s^2", "torque": "N m"}
-"""Unit of each quantity of a chain."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,11 +28,13 @@ class Simulation:
     time : array, (k + 1,)
         Instants, s, from 0 on.
     outputs : dict from str to array, (k + 1,)
-        By name, in the order of the scene.
+        By name, in the order of the scene; vectors as ``NAME_x`` and ``NAME_y``.
     inputs : dict from str to array, (k + 1,)
         The inputs at the same instants.
     rest : dict from str to float, optional
-        The outputs once all motion has died out; None where it need not come to rest.
+        The outputs once all motion has died out; None where it need not come to rest, or is not known.
+    shape : array, (k + 1, n), optional
+        Angles of all links of a planar arm, where they were asked for.
     """
 
     scene: Scene
@@ -43,6 +43,7 @@ class Simulation:
     outputs: dict[str, Array]
     inputs: dict[str, Array]
     rest: dict[str, float] | None
+    shape: Array | None = None
 
     @property
     def steps(self) -> int:
@@ -62,17 +63,17 @@ class Simulation:
         return "\n".join(lines) + "\n"
 
     def rows(self) -> Iterator[dict[str, object]]:
-        """Yield one row of figures for each output."""
-        for output in self.scene.outputs:
-            yield self._row(output)
+        """Yield one row of figures for each column of the outputs."""
+        for column in output_columns(self.scene):
+            yield self._row(column)
 
-    def _row(self, output: Output) -> dict[str, object]:
-        values = self.outputs[output.name]
+    def _row(self, column: OutputColumn) -> dict[str, object]:
+        values = self.outputs[column.name]
         largest = int(np.argmax(np.abs(values)))
         row: dict[str, object] = {
-            "output": output.name,
-            "what": f"{output.of} at {_place(output.at)}",
-            "unit": UNITS[output.of],
+            "output": column.name,
+            "what": column.what,
+            "unit": column.unit,
             "final": float(values[-1]),
             "rest": None,
             "peak": float(values[largest]),
@@ -81,13 +82,9 @@ class Simulation:
             "settling_time": None,
         }
         if self.rest is not None:
-            figures = step_figures(self.time, values, self.rest[output.name])
+            figures = step_figures(self.time, values, self.rest[column.name])
             row["rest"] = figures.final
             row["settling_time"] = figures.settling_time
             if figures.start != figures.final:
                 row["overshoot_percent"] = 100.0 * figures.overshoot
         return row
-
-
-def _place(at: str | int) -> str:
-    return f"station {at}" if isinstance(at, int) else f"the {at}"

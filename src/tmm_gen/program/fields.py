@@ -47,10 +47,9 @@ def gain_names(
     integrator: Integrator, unknown: Unknown, step: Variable
 ) -> dict[sp.Expr, tuple[str, str, str]]:
     """Name the gains of the main scheme after what they do."""
-    words = {"q": "angle", "v": "rate", "a": "acceleration"}
     names: dict[sp.Expr, tuple[str, str, str]] = {}
     gains = affine_motion(integrator.main, 1, unknown).gain
-    for kind, word in words.items():
+    for kind, (word, _) in MOTION_NAMES.items():
         value = sp.factor(gains[kind].subs(STEP, step.ref))
         doc = f"{word} per unit of {unknown}: {value}"
         names.setdefault(value, (f"{word}_per_{unknown}", doc, "SI"))

@@ -85,7 +85,7 @@ class Variable:
         return Ref(self)
 
 
-class Ref(sp.Symbol):
+class Ref(sp.Symbol):  # type: ignore[misc]  # SymPy has no types
     """A symbol standing for a scalar variable or one element of an array.
 
     Attributes

@@ -15,7 +15,9 @@ import pytest
 
 from tmm_gen.emit.c import emit_c
 from tmm_gen.emit.expressions import ExpressionPrinter
+from tmm_gen.native import NativeKernel, compile_kernel
 from tmm_gen.program.build import build_program
+from tmm_gen.program.passes.dependence import SCRATCH
 from tmm_gen.program.statements import Loop, Order, Program, Require, Routine
 from tmm_gen.program.variables import Ref
 from tmm_gen.scene import Scene, parse_scene
@@ -72,6 +74,13 @@ class Chain:
         return _program(self)
 
     @property
+    def kernel(self) -> NativeKernel:
+        """Its compiled kernel, prepared; shared by all who ask."""
+        made = _kernel(self)
+        made.prepare()
+        return made
+
+    @property
     def files(self) -> dict[str, str]:
         """What is emitted for it."""
         return _files(self)
@@ -120,6 +129,11 @@ real = "{chain.real}"
 @cache
 def _program(chain: Chain) -> Program:
     return build_program(chain.scene)
+
+
+@cache
+def _kernel(chain: Chain) -> NativeKernel:
+    return compile_kernel(chain.program, chain.scene)
 
 
 @cache
@@ -245,7 +259,7 @@ class WrittenOrder:
     def run(self, routine: Routine) -> None:
         """Run a routine."""
         for v in routine.written():
-            if v.name not in self.values:
+            if v.name not in self.values or v.role in SCRATCH:
                 self.values[v.name] = self.real(0) if v.length is None else [self.real(0)] * v.length
         exec(compiled(routine), {"np": np, "real": self.real}, {"v": self.values})
 

@@ -31,7 +31,7 @@ OTHER_KINDS = [
         for name in ("houbolt", "sdirk4", "bathe")
     ),
     *({"sweep": "product", "base": base, "inner": True} for base in ("clamp", "motor", "prescribed")),
-    {"sweep": "product", "base": "motor", "integrator": "sdirk2", "real": "float32"},
+    {"sweep": "product", "integrator": "sdirk2", "real": "float32", "stations": 2, "step": 0.3},
     {"integrator": "newmark", "parameters": "beta = 0.0", "damped": False},
     {"stations": 1, "base": "free motor"},
 ]
@@ -67,21 +67,20 @@ def test_one_step_equals_the_interpreter(data: st.DataObject, kind: dict[str, An
     of = chain(**kind)
     program = of.program
     state, inputs = draw(data, program)
-    kernel = compile_kernel(program, of.scene)
-    kernel.prepare()
+    kernel = of.kernel
     kernel.initialise()
     taken = data.draw(st.integers(0, len(program.startup)))
     kernel.state = {**state, **({"start_steps_taken": taken} if program.startup else {})}
     kernel.step(inputs)
-    found = kernel.state | kernel.output()
+    found = kernel.state
 
     with mpmath.workdps(30):
-        values = allocate((program.step, *program.parameters, *program.outputs), mpmath.mpf)
+        values = allocate((program.step, *program.parameters), mpmath.mpf)
         for name, value in {**state, **inputs}.items():
             values[name] = [mpmath.mpf(x) for x in value] if np.ndim(value) else mpmath.mpf(value)
-        for routine in (program.prepare, program.steps[taken], program.output):
+        for routine in (program.prepare, program.steps[taken]):
             execute(routine, values, mpmath.mpf, "mpmath")
-        for variable in (*program.state, *program.outputs):
+        for variable in program.state:
             exact = np.array([float(x) for x in np.atleast_1d(np.array(values[variable.name], dtype=object))])
             error = np.abs(np.atleast_1d(found[variable.name]) - exact)
             assert error.max() <= 1e-13 * max(np.abs(exact).max(), 1e-300), variable.name
@@ -97,8 +96,7 @@ def test_steps_are_the_same_bits(
     of = chain(**kind)
     program = of.program
     state, inputs = draw(data, program)
-    kernel = compile_kernel(program, of.scene)
-    kernel.prepare()
+    kernel = of.kernel
     kernel.initialise(inputs)
     kernel.state = state
     expected = written_order(program, of.real)

@@ -19,7 +19,7 @@ KINDS = [
         {"integrator": name, "base": "free motor", "sweep": "product"}
         for name in ("newmark", "houbolt", "sdirk2")
     ),
-    {"sweep": "product", "inner": True, "real": "float32"},
+    {"sweep": "product", "real": "float32", "stations": 2, "step": 0.3},
     {"sweep": "product", "base": "prescribed", "integrator": "bathe"},
     {"unknown": "displacement", "base": "motor", "integrator": "park"},
     {"unknown": "increment", "base": "prescribed", "integrator": "wilson", "real": "float32"},

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tmm_gen.native import NonFiniteStateError, compile_kernel
+from tmm_gen.native import NonFiniteStateError
 from tmm_gen.program.evaluate import VanishingPivotError
 
 pytestmark = pytest.mark.compiler
@@ -18,8 +18,7 @@ BAD = [math.nan, math.inf, -math.inf]
 @pytest.fixture(scope="module", params=["float64", "float32"])
 def kernel(request: Any, chain: Any) -> Any:
     of = chain(base="motor", inner=True, real=request.param, integrator="sdirk2")
-    made = compile_kernel(of.program, of.scene)
-    made.prepare()
+    made = of.kernel
     made.initialise()
     return made
 
@@ -112,8 +111,7 @@ def test_overflow_is_noticed(kernel: Any) -> None:
 def test_no_bad_number_hides_in_the_state(kind: dict[str, Any], bad: float, chain: Any) -> None:
     """Wherever one is put, the step that computes with it says so; what no step reads is overwritten."""
     of = chain(**kind)
-    kernel = compile_kernel(of.program, of.scene)
-    kernel.prepare()
+    kernel = of.kernel
     noticed = 0
     for variable in of.program.state:
         for place in range(variable.length or 1):

@@ -100,7 +100,7 @@ def waves() -> Waves:
     solved = sp.solve([kept[0], kept[1], kept[3]], unknown, dict=True)[0]
     values = {shape[0]: sp.Integer(1)}
     return Waves(
-        squares=squares, 
+        squares=squares,
         shape=sp.Matrix([1, *(sp.simplify(solved[name].subs(values)) for name in unknown)]),
         discriminant=discriminant,
     )

@@ -52,14 +52,6 @@ def emit_c(program: Program, scene: Scene) -> dict[str, str]:
     }
 
 
-def emit_c_kernel(program: Program, scene: Scene) -> dict[str, str]:
-    """Write a program as C, header and source only: no test, whose reference values take time.
-
-    Parameters, results and errors are those of :func:`emit_c`.
-    """
-    return _kernel_files(Kernel.of(program, scene))
-
-
 def _kernel_files(kernel: Kernel) -> dict[str, str]:
     name = kernel.program.name
     return {f"c/{name}.h": _filled("kernel.h", kernel), f"c/{name}.c": _filled("kernel.c", kernel)}

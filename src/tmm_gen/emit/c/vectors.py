@@ -142,7 +142,9 @@ def _simulate(program: Program, real: Real, shown: list[Ref], spread: int) -> li
         return records
 
 
-def _apply(program: Program, values: Values, k: int, spread: int, number: Callable[[float], Estimate]) -> None:
+def _apply(
+    program: Program, values: Values, k: int, spread: int, number: Callable[[float], Estimate]
+) -> None:
     for which, variable in enumerate(program.inputs):
         numbers = [number(_input(which, k, stage, spread)) for stage in range(variable.length or 1)]
         values[variable.name] = numbers[0] if variable.length is None else numbers

@@ -145,7 +145,7 @@ def dynamic_stiffness(member: Member, s: ArrayLike) -> Complex:
     # every motion is scaled to its own size: the solver sees numbers alike
     size = np.max(np.abs(motions), axis=1, keepdims=True)
     motions, forces = motions / size, forces / size
-    found = np.linalg.solve(motions.transpose(0, 2, 1), forces.transpose(0, 2, 1)).transpose(0, 2, 1)
+    found: Complex = np.linalg.solve(motions.transpose(0, 2, 1), forces.transpose(0, 2, 1)).transpose(0, 2, 1)
     symmetric: Complex = 0.5 * (found + found.transpose(0, 2, 1))  # but for rounding
     return symmetric
 

@@ -10,6 +10,8 @@ from tmm_gen.scene import Input, Output, Scene, station_of
 
 Complex = NDArray[np.complex128]
 
+_POWERS = {"position": 0, "velocity": 1, "acceleration": 2}
+
 
 def beam_response(scene: Scene, s: Complex, given: Input, read: Output) -> Complex | None:
     """Return an output of the continuous beam for a unit of an input, straight and weightless.
@@ -43,10 +45,7 @@ def beam_response(scene: Scene, s: Complex, given: Input, read: Output) -> Compl
         return None
     load = np.zeros(arm.coordinates)
     load[force] = 1.0
-    found: Complex = np.linalg.solve(
-        arm.stiffness(s), np.broadcast_to(load[:, None], (len(s), len(load), 1))
-    )[:, moved, 0]
-    return found * s ** _POWERS.get(read.of, 0)
-
-
-_POWERS = {"position": 0, "velocity": 1, "acceleration": 2}
+    loads = np.broadcast_to(load[:, None], (len(s), len(load), 1))
+    moved_by: Complex = np.asarray(np.linalg.solve(arm.stiffness(s), loads)[:, moved, 0], complex)
+    answer: Complex = moved_by * s ** _POWERS.get(read.of, 0)
+    return answer

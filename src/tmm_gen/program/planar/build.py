@@ -128,9 +128,7 @@ def build_planar(scene: Scene, integrator: Integrator) -> Program:
 
 def _require_one_implicit_stage(scene: Scene, integrator: Integrator) -> None:
     """Refuse integrators that the thesis's step, which derives accelerations from places, has no form for."""
-    explicit = any(
-        affine_motion(scheme, 1, "acceleration").gain["q"] == 0 for scheme in integrator.schemes
-    )
+    explicit = any(affine_motion(scheme, 1, "acceleration").gain["q"] == 0 for scheme in integrator.schemes)
     if explicit or any(len(scheme.stages) > 1 for scheme in integrator.schemes):
         raise UserError(
             f"scene '{scene.name}': model.linearisation = '{scene.model.linearisation}' integrates places in one "

@@ -173,12 +173,13 @@ def _place(axis: str, past: Past, length: int) -> Variable:
 
 
 def _held(scene: Scene) -> dict[str, Variable]:
-    """Return a variable for each force input beyond a joint whose force is an output."""
-    measured = [max(station_of(o.at, scene.stations), 1) for o in scene.outputs if o.of == "force"]
-    if not measured:
-        return {}
+    """Return a variable for each load beyond a joint, or on the tip's body, whose force or torque is an output."""
+    n = scene.stations
+    inmost = min((max(station_of(o.at, n), 1) for o in scene.outputs if o.of == "force"), default=n + 1)
+    held = [i for i in scene.inputs if i.acts in ("force_x", "force_y") and station_of(i.at, n) >= inmost]
+    if any(o.of == "torque" and o.at == "tip" for o in scene.outputs):
+        held += [i for i in scene.inputs if i.acts == "torque" and station_of(i.at, n) == n]
     return {
-        i.name: Variable(f"held_{i.name}", Role.STATE, doc=f"{i.name} as it last acted", unit="N")
-        for i in scene.inputs
-        if i.acts in ("force_x", "force_y") and station_of(i.at, scene.stations) >= min(measured)
+        i.name: Variable(f"held_{i.name}", Role.STATE, doc=f"{i.name} as it last acted", unit=_UNITS[i.acts])
+        for i in held
     }

@@ -20,7 +20,9 @@ def output_routine(scene: Scene, layout: PlanarLayout) -> Routine:
     for described in scene.outputs:
         link = station_of(described.at, scene.stations)
         if described.of in ("angle", "torque"):
-            value = _angle(layout, link) if described.of == "angle" else joint_torque(layout, max(link, 1))
+            value = (
+                _angle(layout, link) if described.of == "angle" else _torque(scene, layout, described, link)
+            )
             statements: list[Statement] = [Assign(remaining.pop(0).ref, value)]
         else:
             x, y = remaining.pop(0), remaining.pop(0)
@@ -43,6 +45,18 @@ def joint_torque(layout: PlanarLayout, joint: int) -> sp.Expr:
         element.DAMPING: layout.damping.entry(joint - 1) if layout.damping else sp.Integer(0),
     }
     return -law.subs(values)
+
+
+def _torque(scene: Scene, layout: PlanarLayout, described: Output, link: int) -> sp.Expr:
+    """Return a joint's torque; at the tip, that between the last link and the body at the tip, counted alike."""
+    if described.at != "tip":
+        return joint_torque(layout, max(link, 1))
+    values = {
+        chain.ACCELERATION: _motion(layout, link, Past("a", 0)),
+        element.TIP_INERTIA: layout.tip_inertia.ref if layout.tip_inertia else sp.Integer(0),
+    }
+    outside = (layout.held[i.name].ref for i in scene.inputs if i.acts == "torque" and i.name in layout.held)
+    return sp.Add(*outside) - chain.tip_law().torque.subs(values)
 
 
 def _angle(layout: PlanarLayout, link: int) -> sp.Expr:

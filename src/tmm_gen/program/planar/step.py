@@ -137,7 +137,7 @@ class PlanarStep:
             self._geometry(motion),
             self._inward(motion, impedance, loads),
             self._at_base(motion, loads),
-            self._outward(),
+            self._outward(impedance),
         ]
 
     def _symbols(self) -> dict[sp.Symbol, sp.Expr]:
@@ -172,7 +172,9 @@ class PlanarStep:
         angle = predicted("q", n).at(1)
         levers = (
             Assign(lever("sine", n).at(), law.lever_sine.xreplace({**symbols, chain.SINE: sp.sin(angle)})),
-            Assign(lever("cosine", n).at(), law.lever_cosine.xreplace({**symbols, chain.COSINE: sp.cos(angle)})),
+            Assign(
+                lever("cosine", n).at(), law.lever_cosine.xreplace({**symbols, chain.COSINE: sp.cos(angle)})
+            ),
         )
         ax, ay = local("node_x", unit="m/s^2"), local("node_y", unit="m/s^2")
         carried = {**symbols, chain.A_X: ax, chain.A_Y: ay}
@@ -203,7 +205,9 @@ class PlanarStep:
         law, joint = chain.link_sweep(), chain.joint_sweep()
         gains = {torsion_chain.GAINS[k]: self._gain(motion, k) for k in KINDS}
         symbols = {**self._symbols(), **gains}
-        tangential, turning = local("tangential"), local("turning")
+        across, along = law.tangential.xreplace(symbols), law.turning.xreplace(symbols)
+        tangential = across if across.is_number else local("tangential")
+        turning = along if along.is_number else local("turning")
         swung = {**symbols, chain.TANGENTIAL: tangential, chain.TURNING: turning}
         ends = {
             chain.INNER_ANGLE: predicted("q", n).at(0),
@@ -212,8 +216,11 @@ class PlanarStep:
             chain.OUTER_RATE: predicted("v", n).at(1),
         }
         body = (
-            Assign(tangential, law.tangential.xreplace(symbols)),
-            Assign(turning, law.turning.xreplace(symbols)),
+            *(
+                Assign(name, value)
+                for name, value in ((tangential, across), (turning, along))
+                if name != value
+            ),
             Assign(swing("x", n).at(), law.gain_x.xreplace(swung)),
             Assign(swing("y", n).at(), law.gain_y.xreplace(swung)),
             Assign(_joint_torque(n).at(), joint.known_torque.xreplace({**symbols, **ends})),
@@ -245,7 +252,9 @@ class PlanarStep:
             Assign(load_x, laws.load_x.xreplace({**symbols, **at_bias})),
             Assign(load_y, laws.load_y.xreplace({**symbols, **at_bias})),
         ]
-        body += [Assign(_INNER[i][k], law.impedance[i, k].xreplace(named)) for i in (2, 0, 1) for k in range(3)]
+        body += [
+            Assign(_INNER[i][k], law.impedance[i, k].xreplace(named)) for i in (2, 0, 1) for k in range(3)
+        ]
         body += [Assign(_E[i], law.bias[i].xreplace(named)) for i in (2, 0, 1)]
         # the joint: one scalar pivot
         pivot, inverse = local("pivot"), local("inverse_pivot")
@@ -255,19 +264,25 @@ class PlanarStep:
             **{chain.S[i, k]: _INNER[i][k] for i in range(3) for k in range(3)},
             **{chain.E[i]: _E[i] for i in range(3)},
         }
-        kept = {name: _kept(name, n).at() for name in ("own", "x", "y", "from_inner")}
+        kept = self._kept_answers(impedance)
         answers = {
             "x": -joint.unknown.coeff(chain.D_A_X),
             "y": -joint.unknown.coeff(chain.D_A_Y),
             "from_inner": joint.unknown.coeff(chain.INNER_UNKNOWN),
         }
-        own = joint.unknown.xreplace(dict.fromkeys((chain.D_A_X, chain.D_A_Y, chain.INNER_UNKNOWN), sp.Integer(0)))
+        own = joint.unknown.xreplace(
+            dict.fromkeys((chain.D_A_X, chain.D_A_Y, chain.INNER_UNKNOWN), sp.Integer(0))
+        )
         body += [
             Assign(pivot, joint.pivot.xreplace(turned)),
             Require(pivot),
             Assign(inverse, 1 / pivot),
             Assign(kept["own"], inverse * own.xreplace(turned)),
-            *(Assign(kept[name], inverse * value.xreplace(turned)) for name, value in answers.items()),
+            *(
+                Assign(kept[name], inverse * value.xreplace(turned))
+                for name, value in answers.items()
+                if kept[name]
+            ),
         ]
         # put the link's unknown back into its forces: M = K (u_inner - u) + w, F_i = S_i k + e_i
         for i in range(2):
@@ -287,6 +302,12 @@ class PlanarStep:
             "sweep inward: force beyond each joint as an affine function of the motion at it",
             (*loads.statements(), *self._tip(motion, loads), Loop(Order.INWARD, 0, n, tuple(body))),
         )
+
+    def _kept_answers(self, impedance: sp.Expr) -> dict[str, sp.Expr]:
+        """Return what the inward sweep keeps for the outward one; a joint without impedance hands on nothing."""
+        n = self.layout.stations
+        kept: dict[str, sp.Expr] = {name: _kept(name, n).at() for name in ("own", "x", "y", "from_inner")}
+        return kept if impedance != 0 else {**kept, "from_inner": sp.Integer(0)}
 
     def _tip(self, motion: AffineMotion, loads: PlanarLoads) -> list[Assign]:
         n = self.layout.stations
@@ -342,9 +363,9 @@ class PlanarStep:
             ]
         return Section("the hub", (*statements, Assign(_HUB_UNKNOWN, _UNKNOWN)))
 
-    def _outward(self) -> Section:
+    def _outward(self, impedance: sp.Expr) -> Section:
         n = self.layout.stations
-        kept = {name: _kept(name, n).at() for name in ("own", "x", "y", "from_inner")}
+        kept = self._kept_answers(impedance)
         unknown = kept["from_inner"] * _UNKNOWN + kept["own"] - kept["x"] * _D_AX - kept["y"] * _D_AY
         body = (
             Assign(_UNKNOWN, unknown),

@@ -103,7 +103,9 @@ class ThesisStep(PlanarStep):
             Assign(swing_of("y", n).at(), follow * lever_cosine),
             Assign(_joint_torque(n).at(), joint.known_torque.xreplace({**super()._symbols(), **ends})),
         )
-        return Section("answers of places, and the predicted joint torques", (Loop(Order.OUTWARD, 0, n, body),))
+        return Section(
+            "answers of places, and the predicted joint torques", (Loop(Order.OUTWARD, 0, n, body),)
+        )
 
     def _symbols(self) -> dict[sp.Symbol, sp.Expr]:
         symbols = super()._symbols()
@@ -161,7 +163,8 @@ class ThesisStep(PlanarStep):
             unknown = local(f"unknown_{axis}", f"unknown of the node's place along {axis}")
             value = (acceleration - self._offset(motion, axis, "a")) / self._gain(motion, "a")
             stages = {
-                stage(k, index): self._gain(motion, k) * unknown + self._offset(motion, axis, k) for k in KINDS
+                stage(k, index): self._gain(motion, k) * unknown + self._offset(motion, axis, k)
+                for k in KINDS
             }
             at = {STEP: self.layout.step.ref, **history_values(state, lambda v: v.at()), **stages}
             new = {k: sp.expand(sp.sympify(self.scheme.update[k]).subs(at)) for k in KINDS}
@@ -209,7 +212,9 @@ def _moved(axis: str, n: int) -> Variable:
 
 
 def _joint_torque(n: int) -> Variable:
-    return Variable("joint_torque", Role.WORK, n, "torque of each joint on its outer link as predicted", "N m")
+    return Variable(
+        "joint_torque", Role.WORK, n, "torque of each joint on its outer link as predicted", "N m"
+    )
 
 
 __all__ = ["ThesisStep", "element", "solved", "start_places", "torsion_chain"]

@@ -29,7 +29,7 @@ from tmm_gen.program.torsion.layout import OUTPUT_KINDS, ChainLayout, chain_layo
 from tmm_gen.program.torsion.loads import Loads, loads_of
 from tmm_gen.program.torsion.step import StepBuilder
 from tmm_gen.program.variables import Variable
-from tmm_gen.scene import Scene
+from tmm_gen.scene import Scene, station_of
 
 
 def build_chain(scene: Scene, integrator: Integrator) -> Program:
@@ -194,11 +194,11 @@ def _output(scene: Scene, layout: ChainLayout) -> Routine:
     """Build the outputs from the state."""
     assignments = []
     for described, variable in zip(scene.outputs, layout.outputs, strict=True):
-        link = {"base": 0, "tip": scene.stations}.get(described.at, described.at)  # type: ignore[call-overload]
+        link = station_of(described.at, scene.stations)
         if described.of == "torque":
-            value = _joint_torque(layout, max(int(link), 1))
+            value = _joint_torque(layout, max(link, 1))
         else:
-            value = _motion(layout, int(link), Past(OUTPUT_KINDS[described.of], 0))
+            value = _motion(layout, link, Past(OUTPUT_KINDS[described.of], 0))
         assignments.append(Assign(variable.ref, value))
     sections = (Section("outputs", tuple(assignments)),) if assignments else ()
     return Routine("output", "Read the outputs off the state.", sections)

@@ -14,6 +14,8 @@ from tmm_gen.program.statements import Assign, Loop, Order, Require, Section
 from tmm_gen.program.torsion.layout import ChainLayout
 from tmm_gen.program.variables import Ref, Role, Variable, local
 
+ZERO, ONE = sp.Integer(0), sp.Integer(1)
+
 Gains = tuple[sp.Expr, sp.Expr, sp.Expr]
 
 
@@ -37,10 +39,10 @@ class Factors:
 
     section: Section
     coefficients: tuple[Variable, ...]
-    transmission: sp.Expr = sp.Integer(0)
-    reflection: sp.Expr = sp.Integer(1)
-    admittance: sp.Expr = sp.Integer(0)
-    joint_compliance: sp.Expr = sp.Integer(0)
+    transmission: sp.Expr = ZERO
+    reflection: sp.Expr = ONE
+    admittance: sp.Expr = ZERO
+    joint_compliance: sp.Expr = ZERO
     unknown_gain: Variable | None = None
     hub_admittance: sp.Expr | None = None
     tip_compliance: sp.Expr | None = None

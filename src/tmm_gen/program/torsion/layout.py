@@ -59,7 +59,7 @@ def chain_layout(scene: Scene, integrator: Integrator) -> ChainLayout:
     n = scene.stations
     kept = set(history(integrator, scene.model.unknown)) | {Past("q", 0)}
     for output in scene.outputs:
-        kinds = ("q", "v") if output.of == "torque" else (OUTPUT_KINDS[output.of],)
+        kinds: tuple[Kind, ...] = ("q", "v") if output.of == "torque" else (OUTPUT_KINDS[output.of],)
         kept |= {Past(kind, 0) for kind in kinds}
     ordered = sorted(kept, key=lambda p: (p.lag, KINDS.index(p.kind)))
     damped = any(joint.damping for joint in scene.joints)

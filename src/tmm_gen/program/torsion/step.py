@@ -195,7 +195,8 @@ class StepBuilder:
     def _product(self, motion: AffineMotion, factors: Factors, loads: Loads) -> list[Section]:
         n = self.layout.stations
         law = chain.product_station()
-        assert factors.unknown_gain is not None and factors.tip_compliance is not None
+        assert factors.unknown_gain is not None
+        assert factors.tip_compliance is not None
         known, torque, base = local("known_unknown"), local("known_torque"), local("unknown")
         partial, solved = _correction(n), _unknown(n)
         outer = self._known_at(motion, None, 1)

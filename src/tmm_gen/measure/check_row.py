@@ -1,0 +1,30 @@
+"""One comparison of a check."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class CheckRow:
+    """One comparison.
+
+    Parameters
+    ----------
+    check : str
+        Key.
+    value, bound : float
+        What was found, and what it may be at most.
+    meaning : str
+        In a sentence.
+    """
+
+    check: str
+    value: float
+    bound: float
+    meaning: str
+
+    @property
+    def passed(self) -> bool:
+        """Whether the value is within its bound; what is no number is not."""
+        return self.value <= self.bound

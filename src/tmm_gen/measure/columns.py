@@ -1,0 +1,65 @@
+"""Outputs as columns: one for each number a scene reports, vectors taken apart."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from tmm_gen.scene import Output, Scene
+
+CHAIN_UNITS = {"angle": "rad", "velocity": "rad/s", "acceleration": "rad/s^2", "torque": "N m"}
+PLANAR_UNITS = {
+    "position": "m",
+    "angle": "rad",
+    "velocity": "m/s",
+    "acceleration": "m/s^2",
+    "torque": "N m",
+    "force": "N",
+}
+VECTORS = frozenset({"position", "velocity", "acceleration", "force"})
+"""Quantities with an x and a y component in a planar scene."""
+
+QUANTITIES = {
+    "rad": "angle",
+    "rad/s": "rate",
+    "rad/s^2": "acceleration",
+    "N m": "torque",
+    "m": "position",
+    "m/s": "velocity",
+    "m/s^2": "acceleration",
+    "N": "force",
+}
+
+
+@dataclass(frozen=True)
+class OutputColumn:
+    """One number of an output.
+
+    Parameters
+    ----------
+    name : str
+        That of the output, with ``_x`` or ``_y`` for a vector: as in CSV files and generated kernels.
+    unit : str
+        SI.
+    what : str
+        In words.
+    """
+
+    name: str
+    unit: str
+    what: str
+
+
+def output_columns(scene: Scene) -> tuple[OutputColumn, ...]:
+    """Return the columns of a scene's outputs, in its order."""
+    return tuple(column for output in scene.outputs for column in _columns(output, scene.model.kind))
+
+
+def _columns(output: Output, kind: str) -> tuple[OutputColumn, ...]:
+    place = f"station {output.at}" if isinstance(output.at, int) else f"the {output.at}"
+    what = f"{output.of} at {place}"
+    if kind == "chain":
+        return (OutputColumn(output.name, CHAIN_UNITS[output.of], what),)
+    unit = PLANAR_UNITS[output.of]
+    if output.of not in VECTORS:
+        return (OutputColumn(output.name, unit, what),)
+    return tuple(OutputColumn(f"{output.name}_{axis}", unit, f"{what}, {axis}") for axis in "xy")

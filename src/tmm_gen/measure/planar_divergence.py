@@ -1,0 +1,100 @@
+"""Telling that the simulation of a planar arm has lost the motion, and why."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.errors import UserError
+from tmm_gen.measure.divergence import DivergedError, integrator_cause
+from tmm_gen.scene import Scene
+
+Array = NDArray[np.float64]
+
+TURN = math.pi
+"""rad; a link that turns farther within one step is no motion a step can follow."""
+
+START_TURN = 1.0
+"""rad; a scene that starts faster than this per step is refused."""
+
+
+@dataclass(eq=False)
+class PlanarWatch:
+    """Looks at each step how far the links turn.
+
+    Parameters
+    ----------
+    scene : Scene
+        What is simulated.
+    step : float
+        s.
+    bound : float
+        rad; no angle can be larger after the whole run.
+    """
+
+    scene: Scene
+    step: float
+    bound: float
+    _before: Array | None = field(default=None, repr=False)
+
+    def look(self, time: float, angles: Array) -> None:
+        """Raise if a link has turned by more than `TURN` since the last look, a step ago.
+
+        Raises
+        ------
+        DivergedError
+            With time, link, cause and remedy.
+        """
+        before = np.array(self.scene.initial.angles) if self._before is None else self._before
+        turned = np.abs(angles - before)
+        self._before = np.array(angles)
+        if turned.max() <= TURN:  # false for what is no number
+            return
+        worst = int(np.argmax(np.where(np.isnan(turned), np.inf, turned)))
+        value = float(turned[worst])
+        how = f"turns by {value:.1e} rad in one step" if math.isfinite(value) else "is no longer finite"
+        raise DivergedError(
+            f"scene '{self.scene.name}': the simulation has diverged: at t = {time:.6g} s link {worst + 1} of "
+            f"{self.scene.stations} {how}.\n{self._cause()}"
+        )
+
+    def _cause(self) -> str:
+        linearisation = self.scene.model.linearisation
+        if linearisation == "frozen":
+            return (
+                "Cause: linearisation = 'frozen' takes the direction of each link from the prediction, so that the "
+                "inertia of the links beyond it acts a step late, which no step is small enough for. "
+                "Use --set model.linearisation=newton."
+            )
+        if linearisation == "taylor":
+            return (
+                "Cause: linearisation = 'taylor' integrates places apart from angles; at small steps they drift "
+                "from each other. Take larger steps, or use --set model.linearisation=newton."
+            )
+        told = integrator_cause(self.scene, self.step)
+        return told or (
+            f"The integrator is within its limits: a step of {self.step:g} s is too long for the speed of the "
+            f"arm or for a sudden load. Try --step {self.step / 4:g}, or --set model.iterations=2."
+        )
+
+
+def planar_watch(scene: Scene, until: float, step: float) -> PlanarWatch:
+    """Watch a planar scene.
+
+    Raises
+    ------
+    UserError
+        If it starts too fast for its step.
+    """
+    fastest = max((abs(rate) for rate in scene.initial.rates), default=0.0)
+    if fastest * step > START_TURN:
+        raise UserError(
+            f"scene '{scene.name}': a link starts at {fastest:g} rad/s and would turn by {fastest * step:.3g} rad in "
+            f"one step of {step:g} s, more than a step can follow. Use a step below "
+            f"{START_TURN / fastest:.1g} s."
+        )
+    steps = math.ceil(until / step) + 1
+    return PlanarWatch(scene, step, max(map(abs, scene.initial.angles)) + steps * TURN)

@@ -1,0 +1,134 @@
+"""Frequency responses against SciPy's state space, rational functions, and the continuous beam."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import mpmath
+import numpy as np
+import pytest
+from scipy.signal import StateSpace, freqresp
+
+from tmm_gen.measure.assembly import Assembly, assemble
+from tmm_gen.modal.arm import linear_arm
+from tmm_gen.modal.beam.response import beam_response
+from tmm_gen.modal.equilibrium import equilibrium
+from tmm_gen.modal.matrices import matrices
+from tmm_gen.modal.modes import find_modes
+from tmm_gen.modal.product import product_tip_response
+from tmm_gen.modal.response import frequency_response
+from tmm_gen.scene import Scene
+
+
+def state_space(assembly: Assembly, row: int, column: int) -> StateSpace:
+    """Return ``q'' = -M^-1 (C q' + K q) + M^-1 F u`` as a first-order system; outputs without input rates."""
+    m = len(assembly.mass)
+    inverse = np.linalg.inv(assembly.mass)
+    acceleration = np.hstack([-inverse @ assembly.stiffness, -inverse @ assembly.damping])
+    system = np.vstack([np.hstack([np.zeros((m, m)), np.eye(m)]), acceleration])
+    force = np.concatenate([np.zeros(m), inverse @ assembly.load[:, column]])
+    read = np.concatenate([assembly.from_angle[row], assembly.from_rate[row]])
+    read = read + assembly.from_acceleration[row] @ acceleration
+    direct = assembly.from_acceleration[row] @ inverse @ assembly.load[:, column]
+    return StateSpace(system, force[:, None], read[None, :], np.array([[direct]]))
+
+
+def exact_tip(scene: Scene, omega: float) -> complex:
+    """Tip angle of a clamped chain for a torque at the tip, by a continued fraction at 60 digits."""
+    with mpmath.workdps(60):
+        s = mpmath.mpc(0, omega)
+        angle, torque = mpmath.mpc(0), mpmath.mpc(1)
+        for joint, link in zip(scene.joints, scene.links, strict=True):
+            angle += torque / (mpmath.mpf(joint.stiffness) + mpmath.mpf(joint.damping) * s)
+            torque += mpmath.mpf(link.inertia) * s**2 * angle
+        return complex(angle / torque)
+
+
+def test_hundred_links_up_to_the_50th_mode(scene_named: Callable[[str], Scene]) -> None:
+    scene = scene_named("hundred")
+    arm = linear_arm(scene)
+    modes = find_modes(matrices(arm))
+    at_modes = [mode.frequency for mode in modes[:50]]
+    omega = np.sort(np.concatenate([np.geomspace(0.1 * at_modes[0], at_modes[49], 60), at_modes]))
+    found = frequency_response(arm, 1j * omega)
+    assembly = assemble(scene)
+    for row, name in enumerate(assembly.outputs):
+        _, expected = freqresp(state_space(assembly, row, 0), omega)
+        np.testing.assert_allclose(found[name][:, 0], expected, rtol=1e-8)
+    exact = np.array([exact_tip(scene, float(w)) for w in omega])
+    np.testing.assert_allclose(found["tip"][:, 0], exact, rtol=1e-8)
+
+
+def test_the_plain_product_loses_what_the_sweep_keeps(scene_named: Callable[[str], Scene]) -> None:
+    """Beyond the highest mode waves no longer travel: they grow along the product, and digits go."""
+    scene = scene_named("hundred")
+    arm = linear_arm(scene)
+    middle = [item.name for item in scene.outputs].index("middle")
+    assert scene.outputs[middle].at == 50
+    omega = np.array([100.0, 420.0, 500.0])
+    s = 1j * omega
+    number = [item.name for item in scene.inputs].index("tip_torque")
+    lossy = product_tip_response(arm, s, number)
+    kept = frequency_response(arm, s)["tip"][:, number]
+    exact = np.array([exact_tip(scene, float(w)) for w in omega])
+    np.testing.assert_allclose(kept, exact, rtol=1e-10)
+    lost = np.abs(lossy / exact - 1.0)
+    assert lost[0] < 1e-8
+    assert lost[1] > 1.0
+    assert lost[2] > 1e6
+
+
+@pytest.mark.parametrize("output", ["motor_speed", "shaft_torque", "encoder"])
+@pytest.mark.parametrize("given", [0, 1])
+def test_a_drive_against_its_state_space(
+    output: str, given: int, scene_named: Callable[[str], Scene]
+) -> None:
+    scene = scene_named("drivetrain")
+    assembly = assemble(scene)
+    omega = np.geomspace(1.0, 3e4, 50)
+    found = frequency_response(linear_arm(scene), 1j * omega)[output][:, given]
+    _, expected = freqresp(state_space(assembly, assembly.outputs.index(output), given), omega)
+    np.testing.assert_allclose(found, expected, rtol=1e-7)
+
+
+def test_a_drooping_arm_against_its_matrices(beam_scene: Callable[..., Scene]) -> None:
+    """Planar sweep about a bent equilibrium; positions, forces and torques by kinematics of M, C, K."""
+    scene = beam_scene(links=6, gravity=9.81, bending=1.0, damping=1e-3, tip="[tip]\nmass = 0.1")
+    rest = equilibrium(scene)
+    arm = linear_arm(scene, rest)
+    linear = matrices(arm)
+    length = 0.8 / 6
+    to_x, to_y = -length * np.sin(rest.angles), length * np.cos(rest.angles)
+    for omega in (2.0, 37.0, 410.0):
+        s = 1j * omega
+        turned = np.linalg.solve(linear.mass * s**2 + linear.damping * s + linear.stiffness, to_y)
+        found = {name: value[0, 0] for name, value in frequency_response(arm, np.array([s])).items()}
+        assert found["tip_x"] == pytest.approx(to_x @ turned, rel=1e-9)
+        assert found["tip_y"] == pytest.approx(to_y @ turned, rel=1e-9)
+        joint = scene.joints[0]
+        assert found["base_torque"] == pytest.approx((joint.stiffness + joint.damping * s) * turned[0], rel=1e-9)
+        shares = np.tri(6, 6, -1) + 0.5 * np.eye(6)  # centre of each link
+        masses = np.array([link.mass for link in scene.links])
+        inertia = s**2 * (masses @ (shares @ (to_y * turned)) + 0.1 * (to_y @ turned))
+        assert found["base_force_y"] == pytest.approx(inertia - 1.0, rel=1e-8)
+
+
+def test_a_prescribed_base(beam_scene: Callable[..., Scene]) -> None:
+    """At low frequencies the arm follows its base; at a clamped frequency it resonates."""
+    inputs = '[[input]]\nname = "turn"\nat = "base"\nacts = "angle"'
+    scene = beam_scene(links=10, base='kind = "prescribed"', inputs=inputs, damping=1e-4)
+    arm = linear_arm(scene)
+    clamped = find_modes(matrices(arm), 1)[0].frequency
+    found = frequency_response(arm, 1j * np.array([1e-2 * clamped, clamped]))["tip_y"][:, 0]
+    assert found[0] == pytest.approx(0.8, rel=1e-3)
+    assert abs(found[1]) > 100
+
+
+def test_two_hundred_links_answer_like_the_continuous_beam(beam_scene: Callable[..., Scene]) -> None:
+    scene = beam_scene(links=200, damping=2e-3, tip="[tip]\nmass = 0.2\ninertia = 0.001")
+    omega = np.geomspace(1.0, 300.0, 40)
+    found = frequency_response(linear_arm(scene), 1j * omega)["tip_y"][:, 0]
+    exact = beam_response(scene, 1j * omega, scene.inputs[0], scene.outputs[0])
+    assert exact is not None
+    np.testing.assert_allclose(found, exact, rtol=2e-3)
+    assert beam_response(scene, 1j * omega, scene.inputs[0], scene.outputs[1]) is None
