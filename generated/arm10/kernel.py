@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 525c1f48f30bec4efe0533edca417c45a4e26085c7c23db491d2c2e6aa2d5335
-# sha256 of the rest of this file: 10be653dac85f12d0109891959e68102351ce07a16f18989ecdce80e7d011b69
+# sha256 of the rest of this file: 468e85067b1a14e04066d5b2a01b559dbf3d676297beb3d58fca6ae17cf52ef8
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 10
@@ -369,7 +369,6 @@ def initialise(
     initial_rate = _align(initial_rate, batch)
     acceleration_x = np.zeros((STATIONS + 1, *batch), dtype)
     acceleration_y = np.zeros((STATIONS + 1, *batch), dtype)
-    answer_from_inner = np.zeros((STATIONS, *batch), dtype)
     answer_own = np.zeros((STATIONS, *batch), dtype)
     answer_x = np.zeros((STATIONS, *batch), dtype)
     answer_y = np.zeros((STATIONS, *batch), dtype)
@@ -401,10 +400,8 @@ def initialise(
         acceleration_y[j + 1] = node_y
 
     # how each link's outer end answers to its unknown, and the predicted joint torques
-    tangential: Any = 1.0
-    turning: Any = 0.0
-    swing_x = -lever_cosine * turning - lever_sine * tangential
-    swing_y = lever_cosine * tangential - lever_sine * turning
+    swing_x = -lever_sine
+    swing_y = lever_cosine
     joint_torque = damping * (predicted_rate[:10] - predicted_rate[1:]) + stiffness * (
         predicted_angle[:10] - predicted_angle[1:]
     )
@@ -461,18 +458,17 @@ def initialise(
         answer_own[j] = inverse_pivot * (joint_torque[j] - torque)
         answer_x[j] = inverse_pivot * link_ux
         answer_y[j] = inverse_pivot * link_uy
-        answer_from_inner[j] = 0.0
         impedance_xx = link_xx - answer_x[j] * link_xu
         impedance_xy = link_xy - answer_y[j] * link_xu
-        impedance_xu = answer_from_inner[j] * link_xu
+        impedance_xu = 0.0
         force_x = force_x + answer_own[j] * link_xu
         impedance_yx = link_yx - answer_x[j] * link_yu
         impedance_yy = link_yy - answer_y[j] * link_yu
-        impedance_yu = answer_from_inner[j] * link_yu
+        impedance_yu = 0.0
         force_y = force_y + answer_own[j] * link_yu
         impedance_ux = 0.0
         impedance_uy = 0.0
-        impedance_uu = answer_from_inner[j] * link_uu
+        impedance_uu = 0.0
         torque = joint_torque[j]
 
     # the hub
@@ -487,9 +483,7 @@ def initialise(
     change_x: Any = 0.0
     change_y: Any = 0.0
     for j in range(STATIONS):
-        unknown = (
-            answer_own[j] + answer_from_inner[j] * unknown - answer_x[j] * change_x - answer_y[j] * change_y
-        )
+        unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y
         change_x = change_x + swing_x[j] * unknown
         change_y = change_y + swing_y[j] * unknown
         solved[j] = unknown

@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: ce631ab7b67541b39d008a903917f57db75c263fa5530caf3c1a93f3ab3ddcc0
-# sha256 of the rest of this file: cbf75f64f8e137132ace42dc13b3cfcc1b306339eed5fe43f5572bd978b1c2d5
+# sha256 of the rest of this file: f964e796a799110b8628b86c12897e753338781d974ca3d0ec9a0a9930c1f562
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 2
@@ -226,7 +226,6 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
     acceleration_x: list[Any] = [0.0] * (STATIONS + 1)
     acceleration_y: list[Any] = [0.0] * (STATIONS + 1)
     angle: list[Any] = [0.0] * STATIONS
-    answer_from_inner: list[Any] = [0.0] * STATIONS
     answer_own: list[Any] = [0.0] * STATIONS
     answer_x: list[Any] = [0.0] * STATIONS
     answer_y: list[Any] = [0.0] * STATIONS
@@ -267,10 +266,8 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
 
     # how each link's outer end answers to its unknown, and the predicted joint torques
     for j in range(STATIONS):
-        tangential: Any = 1.0
-        turning: Any = 0.0
-        swing_x[j] = -lever_cosine[j] * turning - lever_sine[j] * tangential
-        swing_y[j] = lever_cosine[j] * tangential - lever_sine[j] * turning
+        swing_x[j] = -lever_sine[j]
+        swing_y[j] = lever_cosine[j]
         joint_torque[j] = damping[j] * (predicted_rate[j] - predicted_rate[j + 1]) + stiffness[j] * (
             predicted_angle[j] - predicted_angle[j + 1]
         )
@@ -339,18 +336,17 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
         answer_own[j] = inverse_pivot * (joint_torque[j] - torque)
         answer_x[j] = inverse_pivot * link_ux
         answer_y[j] = inverse_pivot * link_uy
-        answer_from_inner[j] = 0.0
         impedance_xx = link_xx - answer_x[j] * link_xu
         impedance_xy = link_xy - answer_y[j] * link_xu
-        impedance_xu = answer_from_inner[j] * link_xu
+        impedance_xu = 0.0
         force_x = force_x + answer_own[j] * link_xu
         impedance_yx = link_yx - answer_x[j] * link_yu
         impedance_yy = link_yy - answer_y[j] * link_yu
-        impedance_yu = answer_from_inner[j] * link_yu
+        impedance_yu = 0.0
         force_y = force_y + answer_own[j] * link_yu
         impedance_ux = 0.0
         impedance_uy = 0.0
-        impedance_uu = answer_from_inner[j] * link_uu
+        impedance_uu = 0.0
         torque = joint_torque[j]
 
     # the hub
@@ -364,9 +360,7 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
     change_x: Any = 0.0
     change_y: Any = 0.0
     for j in range(STATIONS):
-        unknown = (
-            answer_own[j] + answer_from_inner[j] * unknown - answer_x[j] * change_x - answer_y[j] * change_y
-        )
+        unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y
         change_x = change_x + swing_x[j] * unknown
         change_y = change_y + swing_y[j] * unknown
         solved[j] = unknown

@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: ce631ab7b67541b39d008a903917f57db75c263fa5530caf3c1a93f3ab3ddcc0
-# sha256 of the rest of this file: 0dda6651dd527ad01ca36c8d052c5b39727327082eb6c6c38e1f5e58d28168b0
+# sha256 of the rest of this file: 48a7b28371320b1c119bea3a4fcda36690d9abf83632a107be23c17746338938
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 2
@@ -370,7 +370,6 @@ def initialise(
     initial_rate = _align(initial_rate, batch)
     acceleration_x = np.zeros((STATIONS + 1, *batch), dtype)
     acceleration_y = np.zeros((STATIONS + 1, *batch), dtype)
-    answer_from_inner = np.zeros((STATIONS, *batch), dtype)
     answer_own = np.zeros((STATIONS, *batch), dtype)
     answer_x = np.zeros((STATIONS, *batch), dtype)
     answer_y = np.zeros((STATIONS, *batch), dtype)
@@ -402,10 +401,8 @@ def initialise(
         acceleration_y[j + 1] = node_y
 
     # how each link's outer end answers to its unknown, and the predicted joint torques
-    tangential: Any = 1.0
-    turning: Any = 0.0
-    swing_x = -lever_cosine * turning - lever_sine * tangential
-    swing_y = lever_cosine * tangential - lever_sine * turning
+    swing_x = -lever_sine
+    swing_y = lever_cosine
     joint_torque = damping * (predicted_rate[:2] - predicted_rate[1:]) + stiffness * (
         predicted_angle[:2] - predicted_angle[1:]
     )
@@ -475,18 +472,17 @@ def initialise(
         answer_own[j] = inverse_pivot * (joint_torque[j] - torque)
         answer_x[j] = inverse_pivot * link_ux
         answer_y[j] = inverse_pivot * link_uy
-        answer_from_inner[j] = 0.0
         impedance_xx = link_xx - answer_x[j] * link_xu
         impedance_xy = link_xy - answer_y[j] * link_xu
-        impedance_xu = answer_from_inner[j] * link_xu
+        impedance_xu = 0.0
         force_x = force_x + answer_own[j] * link_xu
         impedance_yx = link_yx - answer_x[j] * link_yu
         impedance_yy = link_yy - answer_y[j] * link_yu
-        impedance_yu = answer_from_inner[j] * link_yu
+        impedance_yu = 0.0
         force_y = force_y + answer_own[j] * link_yu
         impedance_ux = 0.0
         impedance_uy = 0.0
-        impedance_uu = answer_from_inner[j] * link_uu
+        impedance_uu = 0.0
         torque = joint_torque[j]
 
     # the hub
@@ -501,9 +497,7 @@ def initialise(
     change_x: Any = 0.0
     change_y: Any = 0.0
     for j in range(STATIONS):
-        unknown = (
-            answer_own[j] + answer_from_inner[j] * unknown - answer_x[j] * change_x - answer_y[j] * change_y
-        )
+        unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y
         change_x = change_x + swing_x[j] * unknown
         change_y = change_y + swing_y[j] * unknown
         solved[j] = unknown

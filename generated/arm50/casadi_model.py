@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 9874dff5d90e21876dbd2271ff786b55b83dc2e6467819bdcfde7e890f954cb6
-# sha256 of the rest of this file: 4ffc82efc719bb0ece923b18d50fb95aa07cbdd4a79cd212abcb749c198cd8c2
+# sha256 of the rest of this file: 81fa22ee572677c29168794afbb04e355b72164eac1891f48d0187b7482fb5f4
 #
 # model: planar arm, large rotations, tip mass
 # stations: 50
@@ -358,7 +358,6 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
     acceleration_x: list[Any] = [0.0] * (STATIONS + 1)
     acceleration_y: list[Any] = [0.0] * (STATIONS + 1)
     angle: list[Any] = [0.0] * STATIONS
-    answer_from_inner: list[Any] = [0.0] * STATIONS
     answer_own: list[Any] = [0.0] * STATIONS
     answer_x: list[Any] = [0.0] * STATIONS
     answer_y: list[Any] = [0.0] * STATIONS
@@ -399,10 +398,8 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
 
     # how each link's outer end answers to its unknown, and the predicted joint torques
     for j in range(STATIONS):
-        tangential: Any = 1.0
-        turning: Any = 0.0
-        swing_x[j] = -lever_cosine[j] * turning - lever_sine[j] * tangential
-        swing_y[j] = lever_cosine[j] * tangential - lever_sine[j] * turning
+        swing_x[j] = -lever_sine[j]
+        swing_y[j] = lever_cosine[j]
         joint_torque[j] = damping[j] * (predicted_rate[j] - predicted_rate[j + 1]) + stiffness[j] * (
             predicted_angle[j] - predicted_angle[j + 1]
         )
@@ -458,18 +455,17 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
         answer_own[j] = inverse_pivot * (joint_torque[j] - torque)
         answer_x[j] = inverse_pivot * link_ux
         answer_y[j] = inverse_pivot * link_uy
-        answer_from_inner[j] = 0.0
         impedance_xx = link_xx - answer_x[j] * link_xu
         impedance_xy = link_xy - answer_y[j] * link_xu
-        impedance_xu = answer_from_inner[j] * link_xu
+        impedance_xu = 0.0
         force_x = force_x + answer_own[j] * link_xu
         impedance_yx = link_yx - answer_x[j] * link_yu
         impedance_yy = link_yy - answer_y[j] * link_yu
-        impedance_yu = answer_from_inner[j] * link_yu
+        impedance_yu = 0.0
         force_y = force_y + answer_own[j] * link_yu
         impedance_ux = 0.0
         impedance_uy = 0.0
-        impedance_uu = answer_from_inner[j] * link_uu
+        impedance_uu = 0.0
         torque = joint_torque[j]
 
     # the hub
@@ -480,9 +476,7 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
     change_x: Any = 0.0
     change_y: Any = 0.0
     for j in range(STATIONS):
-        unknown = (
-            answer_own[j] + answer_from_inner[j] * unknown - answer_x[j] * change_x - answer_y[j] * change_y
-        )
+        unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y
         change_x = change_x + swing_x[j] * unknown
         change_y = change_y + swing_y[j] * unknown
         solved[j] = unknown

@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 7fb53ee7611dfaa9a6a8f9157801d68007a3a764d7f41a8fa8cf16397006e130
-# sha256 of the rest of this file: b1bb12b1b7a8dd49b19e1905af3739df3f32865dda1248f770e497f0ab5b00ef
+# sha256 of the rest of this file: ac7934a32c3b32fe4ed7a869c1f69a47ae8e570201f8bee60611163baa44321b
 #
 # model: planar arm, large rotations, gravity
 # stations: 10
@@ -209,7 +209,6 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
     acceleration_x: list[Any] = [0.0] * (STATIONS + 1)
     acceleration_y: list[Any] = [0.0] * (STATIONS + 1)
     angle: list[Any] = [0.0] * STATIONS
-    answer_from_inner: list[Any] = [0.0] * STATIONS
     answer_own: list[Any] = [0.0] * STATIONS
     answer_x: list[Any] = [0.0] * STATIONS
     answer_y: list[Any] = [0.0] * STATIONS
@@ -250,10 +249,8 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
 
     # how each link's outer end answers to its unknown, and the predicted joint torques
     for j in range(STATIONS):
-        tangential: Any = 1.0
-        turning: Any = 0.0
-        swing_x[j] = -lever_cosine[j] * turning - lever_sine[j] * tangential
-        swing_y[j] = lever_cosine[j] * tangential - lever_sine[j] * turning
+        swing_x[j] = -lever_sine[j]
+        swing_y[j] = lever_cosine[j]
         joint_torque[j] = damping[j] * (predicted_rate[j] - predicted_rate[j + 1]) + stiffness[j] * (
             predicted_angle[j] - predicted_angle[j + 1]
         )
@@ -309,18 +306,17 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
         answer_own[j] = inverse_pivot * (joint_torque[j] - torque)
         answer_x[j] = inverse_pivot * link_ux
         answer_y[j] = inverse_pivot * link_uy
-        answer_from_inner[j] = 0.0
         impedance_xx = link_xx - answer_x[j] * link_xu
         impedance_xy = link_xy - answer_y[j] * link_xu
-        impedance_xu = answer_from_inner[j] * link_xu
+        impedance_xu = 0.0
         force_x = force_x + answer_own[j] * link_xu
         impedance_yx = link_yx - answer_x[j] * link_yu
         impedance_yy = link_yy - answer_y[j] * link_yu
-        impedance_yu = answer_from_inner[j] * link_yu
+        impedance_yu = 0.0
         force_y = force_y + answer_own[j] * link_yu
         impedance_ux = 0.0
         impedance_uy = 0.0
-        impedance_uu = answer_from_inner[j] * link_uu
+        impedance_uu = 0.0
         torque = joint_torque[j]
 
     # the base does not move
@@ -330,9 +326,7 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
     change_x: Any = 0.0
     change_y: Any = 0.0
     for j in range(STATIONS):
-        unknown = (
-            answer_own[j] + answer_from_inner[j] * unknown - answer_x[j] * change_x - answer_y[j] * change_y
-        )
+        unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y
         change_x = change_x + swing_x[j] * unknown
         change_y = change_y + swing_y[j] * unknown
         solved[j] = unknown

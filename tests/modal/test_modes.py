@@ -86,7 +86,7 @@ def test_an_arm_held_upside_down_falls_over(beam_scene: Callable[..., Scene]) ->
     ("base", "tip"),
     [
         ('kind = "clamp"', ""),
-        ('kind = "clamp"', "[tip]\nmass = 0.4\ninertia = 0.01"),
+        ('kind = "clamp"', "[tip]\nmass = 0.4"),
         ('kind = "motor"\ninertia = 0.05\ndamping = 0.02', "[tip]\nmass = 0.1"),
     ],
 )
@@ -98,11 +98,19 @@ def test_an_arm_of_many_links_is_the_continuous_beam(
     exact = natural_frequencies(beam_arm(scene), 5)
     coarse, fine = (straight_frequencies(scene, n)[:5] for n in (100, 200))
     np.testing.assert_allclose((4 * fine - coarse) / 3, exact, rtol=2e-6, atol=1e-9)
-    modes = find_modes(matrices(straight_arm(scene, 200)), 4)
+    modes = find_modes(matrices(straight_arm(scene, 100)), 4)
     for mode, omega in zip(modes, exact, strict=False):
         if omega > 0.0:
             pole = damped_pole(beam_arm(scene), omega)
-            assert pole == pytest.approx(mode.poles[0], rel=2e-4)
+            assert pole == pytest.approx(mode.poles[0], rel=1e-3)
+
+
+def test_inertia_at_the_tip_costs_an_order(beam_scene: Callable[..., Scene]) -> None:
+    """The last link is as stiff as a rod: the half of it beyond its middle does not bend under the body."""
+    scene = beam_scene(tip="[tip]\nmass = 0.4\ninertia = 0.01")
+    exact = natural_frequencies(beam_arm(scene), 3)
+    errors = [straight_frequencies(scene, n)[:3] / exact - 1 for n in (100, 200)]
+    np.testing.assert_allclose(np.log2(errors[0][1:] / errors[1][1:]), 1, atol=0.05)
 
 
 @pytest.mark.parametrize(("rule", "order"), [("thesis", 1), ("uniform", 1), ("half-clamp", 2)])

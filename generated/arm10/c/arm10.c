@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 525c1f48f30bec4efe0533edca417c45a4e26085c7c23db491d2c2e6aa2d5335
- * sha256 of the rest of this file: 157570362d106025ae2e9759693f4f1d9bf65ac19fdd9af27117b17c49d9c6cb
+ * sha256 of the rest of this file: dfed46466f4bf411dd2605e984c537e4104ead8284d688041b1ffb2cb7dd562f
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 10
@@ -133,7 +133,6 @@ arm10_status arm10_initialise(
     const real center = params->center;
     real acceleration_x[ARM10_STATIONS + 1]; /* acceleration of the nodes along x [m/s^2] */
     real acceleration_y[ARM10_STATIONS + 1]; /* acceleration of the nodes along y [m/s^2] */
-    real answer_from_inner[ARM10_STATIONS]; /* answer to the inner link's unknown */
     real answer_own[ARM10_STATIONS]; /* increment of the unknown if the inner side kept its motion */
     real answer_x[ARM10_STATIONS]; /* answer to the joint's acceleration along x */
     real answer_y[ARM10_STATIONS]; /* answer to the joint's acceleration along y */
@@ -184,10 +183,8 @@ arm10_status arm10_initialise(
     real force_y = acceleration_y[10] * params->tip_mass - inputs->tip_force;
     real torque = 0.0;
     for (int j = ARM10_STATIONS - 1; j >= 0; --j) {
-        const real tangential = 1.0;
-        const real turning = 0.0;
-        swing_x[j] = -lever_cosine[j] * turning - lever_sine[j] * tangential;
-        swing_y[j] = lever_cosine[j] * tangential - lever_sine[j] * turning;
+        swing_x[j] = -lever_sine[j];
+        swing_y[j] = lever_cosine[j];
         const real joint_torque = params->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + params->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
         const real outer_x = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j];
@@ -218,18 +215,17 @@ arm10_status arm10_initialise(
         answer_own[j] = inverse_pivot * (joint_torque - torque);
         answer_x[j] = inverse_pivot * link_ux;
         answer_y[j] = inverse_pivot * link_uy;
-        answer_from_inner[j] = 0.0;
         impedance_xx = link_xx - answer_x[j] * link_xu;
         impedance_xy = impedance_xy - answer_y[j] * link_xu;
-        impedance_xu = answer_from_inner[j] * link_xu;
+        impedance_xu = 0.0;
         force_x = force_x + answer_own[j] * link_xu;
         impedance_yx = impedance_yx - answer_x[j] * link_yu;
         impedance_yy = link_yy - answer_y[j] * link_yu;
-        impedance_yu = answer_from_inner[j] * link_yu;
+        impedance_yu = 0.0;
         force_y = force_y + answer_own[j] * link_yu;
         impedance_ux = 0.0;
         impedance_uy = 0.0;
-        impedance_uu = answer_from_inner[j] * link_uu;
+        impedance_uu = 0.0;
         torque = joint_torque;
     }
 
@@ -251,8 +247,7 @@ arm10_status arm10_initialise(
     state->hub_rate = predicted_rate[0];
     state->hub_acceleration = hub_unknown + predicted_acceleration[0];
     for (int j = 0; j < ARM10_STATIONS; ++j) {
-        unknown = answer_own[j] + answer_from_inner[j] * unknown - answer_x[j] * change_x
-            - answer_y[j] * change_y;
+        unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y;
         change_x = change_x + swing_x[j] * unknown;
         change_y = change_y + swing_y[j] * unknown;
         state->angle[j] = predicted_angle[j + 1];

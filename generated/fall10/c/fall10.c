@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 7fb53ee7611dfaa9a6a8f9157801d68007a3a764d7f41a8fa8cf16397006e130
- * sha256 of the rest of this file: bd94293c662047656cb74076ffb8f51346ee6de7cfbf67c093811cb148485f76
+ * sha256 of the rest of this file: c3da5e751999846b1a34b69c4a521cffe37bc1dc4f6a6780495cb1bf8828af55
  *
  * model: planar arm, large rotations, gravity
  * stations: 10
@@ -115,7 +115,6 @@ fall10_status fall10_initialise(
     const real center = params->center;
     real acceleration_x[FALL10_STATIONS + 1]; /* acceleration of the nodes along x [m/s^2] */
     real acceleration_y[FALL10_STATIONS + 1]; /* acceleration of the nodes along y [m/s^2] */
-    real answer_from_inner[FALL10_STATIONS]; /* answer to the inner link's unknown */
     real answer_own[FALL10_STATIONS]; /* increment of the unknown if the inner side kept its motion */
     real answer_x[FALL10_STATIONS]; /* answer to the joint's acceleration along x */
     real answer_y[FALL10_STATIONS]; /* answer to the joint's acceleration along y */
@@ -166,10 +165,8 @@ fall10_status fall10_initialise(
     real force_y = 0.0;
     real torque = 0.0;
     for (int j = FALL10_STATIONS - 1; j >= 0; --j) {
-        const real tangential = 1.0;
-        const real turning = 0.0;
-        swing_x[j] = -lever_cosine[j] * turning - lever_sine[j] * tangential;
-        swing_y[j] = lever_cosine[j] * tangential - lever_sine[j] * turning;
+        swing_x[j] = -lever_sine[j];
+        swing_y[j] = lever_cosine[j];
         const real joint_torque = params->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + params->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
         const real outer_x = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j];
@@ -200,18 +197,17 @@ fall10_status fall10_initialise(
         answer_own[j] = inverse_pivot * (joint_torque - torque);
         answer_x[j] = inverse_pivot * link_ux;
         answer_y[j] = inverse_pivot * link_uy;
-        answer_from_inner[j] = 0.0;
         impedance_xx = link_xx - answer_x[j] * link_xu;
         impedance_xy = impedance_xy - answer_y[j] * link_xu;
-        impedance_xu = answer_from_inner[j] * link_xu;
+        impedance_xu = 0.0;
         force_x = force_x + answer_own[j] * link_xu;
         impedance_yx = impedance_yx - answer_x[j] * link_yu;
         impedance_yy = link_yy - answer_y[j] * link_yu;
-        impedance_yu = answer_from_inner[j] * link_yu;
+        impedance_yu = 0.0;
         force_y = force_y + answer_own[j] * link_yu;
         impedance_ux = 0.0;
         impedance_uy = 0.0;
-        impedance_uu = answer_from_inner[j] * link_uu;
+        impedance_uu = 0.0;
         torque = joint_torque;
     }
 
@@ -222,8 +218,7 @@ fall10_status fall10_initialise(
     real change_x = 0.0;
     real change_y = 0.0;
     for (int j = 0; j < FALL10_STATIONS; ++j) {
-        unknown = answer_own[j] + answer_from_inner[j] * unknown - answer_x[j] * change_x
-            - answer_y[j] * change_y;
+        unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y;
         change_x = change_x + swing_x[j] * unknown;
         change_y = change_y + swing_y[j] * unknown;
         state->angle[j] = predicted_angle[j + 1];

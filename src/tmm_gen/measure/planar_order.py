@@ -24,13 +24,13 @@ Array = NDArray[np.float64]
 
 RATE = 1.0
 """rad/s at which all links turn at first."""
-_FASTEST = 20.0
+_FASTEST = 40.0
 """rad/s of the fastest vibration of the softened arm, and of its decay."""
-_COARSEST = 0.01
+_COARSEST = 0.004
 """s."""
 _STEPS = (64, 128, 256, 512)
-BELOW, ABOVE = 0.5, 0.5
-"""How far the fitted order may be from the derived one: a single sweep per stage leaves part of the error."""
+SLOPE = 0.1
+"""How far the fitted order may be from the derived one."""
 
 
 def planar_slope(scene: Scene, module: ModuleType, facts: dict[str, object]) -> CheckRow:
@@ -66,7 +66,7 @@ def planar_slope(scene: Scene, module: ModuleType, facts: dict[str, object]) -> 
     return CheckRow(
         "order_against_derived",
         abs(fitted - derived),
-        BELOW,
+        SLOPE,
         f"error goes with step^{fitted:.3f}, fitted on {len(_STEPS)} steps from {_COARSEST:g} s down on the arm "
         f"with softened joints; derived: step^{derived}",
     )

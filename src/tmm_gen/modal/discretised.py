@@ -16,7 +16,7 @@ from tmm_gen.scene.beam import Springs, beam_joints, beam_links
 
 Array = NDArray[np.float64]
 
-MOST_LINKS = 800
+MOST_LINKS = 500
 """Links beyond which :func:`links_needed` gives up."""
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.modal.arm import LinearArm
+from tmm_gen.modal.arm import LinearArm, Placed
 
 Array = NDArray[np.float64]
 
@@ -35,7 +35,8 @@ def matrices(arm: LinearArm) -> Matrices:
     first = int(arm.hub)
     count = arm.scene.stations + first
     angle = arm.width - 1
-    motions = _motions(arm, count)
+    powers = _Powers(arm)
+    motions = _motions(arm, powers, count)
     force: Array = np.zeros((3, arm.width, count))
     # of all free angles: the torque of the joint inboard, less the torque needed there; by powers of s
     missing = np.zeros((count + 1, 3, count))
@@ -48,7 +49,7 @@ def matrices(arm: LinearArm) -> Matrices:
             missing[own] = -force[:, angle]
             missing[own, :2] += law[:, None] * twist
             continue
-        by_power, _, passing = arm.functions(placed).powers(placed.values)
+        by_power, _, passing = powers.of(placed)
         force = np.linalg.solve(passing, force - by_power @ motion)
     if arm.hub:
         missing[0] = -force[:, angle]
@@ -57,7 +58,22 @@ def matrices(arm: LinearArm) -> Matrices:
     return Matrices(*(0.5 * (each + each.T) for each in (mass, damping, stiffness)))
 
 
-def _motions(arm: LinearArm, count: int) -> list[Array]:
+class _Powers:
+    """The elements' coefficients, computed once for identical elements."""
+
+    def __init__(self, arm: LinearArm) -> None:
+        self._arm = arm
+        self._known: dict[tuple[str, tuple[float, ...]], tuple[Array, Array, Array]] = {}
+
+    def of(self, placed: Placed) -> tuple[Array, Array, Array]:
+        """Return an element's coefficients of powers of ``s``."""
+        key = (placed.name, placed.values)
+        if key not in self._known:
+            self._known[key] = self._arm.functions(placed).powers(placed.values)
+        return self._known[key]
+
+
+def _motions(arm: LinearArm, powers: _Powers, count: int) -> list[Array]:
     """Return the motion at the inboard side of each element for a unit of each free angle, (width, count)."""
     first = int(arm.hub)
     motion = np.zeros((arm.width, count))
@@ -71,6 +87,6 @@ def _motions(arm: LinearArm, count: int) -> list[Array]:
             motion[-1] = 0.0
             motion[-1, placed.station - 1 + first] = 1.0
         else:
-            _, carrying, _ = arm.functions(placed).powers(placed.values)
+            _, carrying, _ = powers.of(placed)
             motion = carrying @ motion
     return found

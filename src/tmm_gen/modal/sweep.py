@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.modal.arm import LinearArm
+from tmm_gen.modal.blocks import Blocks
 
 Complex = NDArray[np.complex128]
 
@@ -47,8 +48,12 @@ def sweep(arm: LinearArm, s: Complex) -> States:
     bias = np.zeros((len(s), width, inputs), complex)
     impedances, biases = [impedance], [bias]
     gains, offsets = [], []
+    known: dict[tuple[str, tuple[float, ...]], Blocks] = {}  # identical elements are computed once
     for placed in reversed(arm.elements):
-        blocks = arm.functions(placed).blocks(s, placed.values)
+        key = (placed.name, placed.values)
+        if key not in known:
+            known[key] = arm.functions(placed).blocks(s, placed.values)
+        blocks = known[key]
         bias = bias.copy()
         for number, load in placed.loads:
             bias[:, :, number] -= np.array(load)

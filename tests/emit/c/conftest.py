@@ -13,12 +13,13 @@ from typing import Any
 import numpy as np
 import pytest
 
+from tmm_gen.derive.integrators.registry import integrator
 from tmm_gen.emit.c import emit_c
 from tmm_gen.emit.expressions import ExpressionPrinter
 from tmm_gen.native import NativeKernel, compile_kernel
-from tmm_gen.program.build import build_program
 from tmm_gen.program.passes.dependence import SCRATCH
 from tmm_gen.program.statements import Loop, Order, Program, Require, Routine
+from tmm_gen.program.torsion import build_chain
 from tmm_gen.program.variables import Ref
 from tmm_gen.scene import Scene, parse_scene
 
@@ -128,7 +129,9 @@ real = "{chain.real}"
 
 @cache
 def _program(chain: Chain) -> Program:
-    return build_program(chain.scene)
+    # not by build_program, which refuses products of matrices that lose too many digits to be of use
+    chosen = chain.scene.integrator
+    return build_chain(chain.scene, integrator(chosen.name, **chosen.parameters))
 
 
 @cache

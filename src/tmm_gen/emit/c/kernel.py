@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import textwrap
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -15,7 +16,7 @@ from tmm_gen.emit.c.real import REALS, Real
 from tmm_gen.emit.c.structs import COUNTER, Struct, described, dimension, structs_of
 from tmm_gen.emit.c.wrap import INDENT, WIDTH, comment
 from tmm_gen.emit.header import header_lines
-from tmm_gen.program.statements import Program, Routine
+from tmm_gen.program.statements import Assign, Loop, Program, Require, Routine
 from tmm_gen.program.variables import Variable
 from tmm_gen.scene import Scene
 
@@ -84,6 +85,16 @@ class Kernel:
     def when(self) -> str:
         """When the inputs of a step act, in words."""
         return f"at {self.instants}" if self.stages == 1 else "at each stage of the step"
+
+    @property
+    def statuses_of_step(self) -> str:
+        """What a step may return, in words."""
+        return _statuses(*self.program.steps)
+
+    @property
+    def statuses_of_start(self) -> str:
+        """What initialise may return, in words."""
+        return _statuses(self.program.initialise)
 
     def members(self, which: str) -> list[str]:
         """Return the members of a struct, documented beside, or above where that is too wide."""
@@ -183,6 +194,17 @@ class Kernel:
         values = variable.default if isinstance(variable.default, tuple) else (variable.default,)
         numbers = [self.real.literal(value) for value in values if value is not None]
         return textwrap.wrap(", ".join(numbers), WIDTH - 2 * len(INDENT))
+
+
+def _flat(routine: Routine) -> Iterator[Assign | Require]:
+    for statement in routine.statements():
+        yield from statement.body if isinstance(statement, Loop) else (statement,)
+
+
+def _statuses(*routines: Routine) -> str:
+    required = any(isinstance(s, Require) for r in routines for s in _flat(r))
+    names = ["OK", "NON_FINITE_INPUT", *(["VANISHING_PIVOT"] if required else []), "NON_FINITE_STATE"]
+    return f"{', '.join(names[:-1])} or {names[-1]}"
 
 
 def _instant(at: float) -> str:
