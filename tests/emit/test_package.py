@@ -68,9 +68,11 @@ def printed(tmp_path_factory: pytest.TempPathFactory) -> Path:
         method.name: drivetrain.replace(**{"integrator.name": method.name, "integrator.step": 1e-4})
         for method in METHODS
     }
-    for sweep, unknown in (("product", "increment"), ("riccati", "displacement")):
-        changes = {"integrator.name": "sdirk2", "model.sweep": sweep, "model.unknown": unknown}
-        scenes[f"sdirk2_{sweep}"] = drivetrain.replace(**changes)
+    changes = {"integrator.name": "sdirk2", "model.unknown": "displacement"}
+    scenes["displacement"] = drivetrain.replace(**changes)
+    scenes["product"] = drivetrain.replace(**changes, **{"model.sweep": "product", "integrator.step": 0.5})
+    scenes["planar"] = load_scene(SCENES / "arm10.toml")
+    scenes["planar_stages"] = scenes["planar"].replace(**{"integrator.name": "sdirk4"})
     long = "a_name_that_has_as_many_characters_as_they_allow"
     odd = {"input.1.name": long, "output.1.name": "model", "title": f'"Quotes" {"and words " * 20}'}
     scenes["odd"] = drivetrain.replace(**odd)
@@ -114,7 +116,7 @@ def test_a_linter_finds_nothing(printed: Path) -> None:
     assert done.returncode == 0, done.stdout[:3000]
 
 
-@pytest.mark.parametrize("name", ["houbolt", "bathe", "odd"])
+@pytest.mark.parametrize("name", ["houbolt", "bathe", "odd", "planar_stages"])
 def test_a_checker_of_types_finds_nothing(printed: Path, name: str, tmp_path: Path) -> None:
     settings = tmp_path / "mypy.ini"
     settings.write_text("[mypy]\nstrict = True\n[mypy-casadi.*]\nignore_missing_imports = True\n")

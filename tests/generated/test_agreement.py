@@ -140,9 +140,8 @@ def test_a_step_by_the_product(
     integrator: str, base: str, chain: Callable[..., Scene], generate: Callable[[Scene], Any]
 ) -> None:
     inputs = [("push", 2, "torque"), ("drive", "base", "angle" if base == "prescribed" else "torque")]
-    scene = chain(
-        base=base, integrator=integrator, sweep="product", inputs=inputs[: 1 if base == "clamp" else 2]
-    )
+    used = inputs[: 1 if base == "clamp" else 2]
+    scene = chain(base=base, integrator=integrator, sweep="product", inputs=used, step=0.5)
     check(generate(scene), 7)
 
 

@@ -20,17 +20,18 @@ from tmm_gen.modal.response import frequency_response
 from tmm_gen.scene import Scene
 
 
-def state_space_response(assembly: Assembly, row: int, column: int, omega: np.ndarray) -> np.ndarray:
-    """Return ``c (j w - A)^-1 b + d`` of the first-order system; outputs without input rates."""
-    m = len(assembly.mass)
-    inverse = np.diag(1.0 / np.diag(assembly.mass))
-    acceleration = np.hstack([-inverse @ assembly.stiffness, -inverse @ assembly.damping])
-    system = np.vstack([np.hstack([np.zeros((m, m)), np.eye(m)]), acceleration])
-    force = np.concatenate([np.zeros(m), inverse @ assembly.load[:, column]])
-    read = np.concatenate([assembly.from_angle[row], assembly.from_rate[row]])
-    read = read + assembly.from_acceleration[row] @ acceleration
-    direct = assembly.from_acceleration[row] @ inverse @ assembly.load[:, column]
-    return np.array([read @ solve(1j * w * np.eye(2 * m) - system, force) + direct for w in omega])
+def state_space_response(
+    mass: np.ndarray, damping: np.ndarray, stiffness: np.ndarray, load: np.ndarray, omega: float
+) -> np.ndarray:
+    """Return the state ``[q, q'] = (j w E - A)^-1 B`` of the first-order system ``E z' = A z + B u``, by SciPy.
+
+    The mass matrix stays in ``E``: to invert it would cost the digits of the lowest modes.
+    """
+    size = len(mass)
+    zero, unit = np.zeros((size, size)), np.eye(size)
+    left = np.block([[unit, zero], [zero, mass]])
+    right = np.block([[zero, unit], [-stiffness, -damping]])
+    return solve(1j * omega * left - right, np.concatenate([np.zeros(size), load]))
 
 
 def exact_tip(scene: Scene, omega: float) -> complex:
@@ -51,10 +52,13 @@ def test_hundred_links_up_to_the_50th_mode(scene_named: Callable[[str], Scene]) 
     at_modes = [mode.frequency for mode in modes[:50]]
     omega = np.sort(np.concatenate([np.geomspace(0.1 * at_modes[0], at_modes[49], 40), at_modes[::3]]))
     found = frequency_response(arm, 1j * omega)
-    assembly = assemble(scene)
-    for row, name in enumerate(assembly.outputs):
-        expected = state_space_response(assembly, row, 0, omega)
-        np.testing.assert_allclose(found[name][:, 0], expected, rtol=1e-8)
+    known = assemble(scene)
+    read = np.hstack([known.from_angle, known.from_rate])
+    assert not np.any(known.from_acceleration)
+    for number, w in enumerate(omega):
+        state = state_space_response(known.mass, known.damping, known.stiffness, known.load[:, 0], float(w))
+        values = [found[name][number, 0] for name in known.outputs]
+        np.testing.assert_allclose(values, read @ state, rtol=1e-8)
     exact = np.array([exact_tip(scene, float(w)) for w in omega])
     np.testing.assert_allclose(found["tip"][:, 0], exact, rtol=1e-8)
 
@@ -79,18 +83,14 @@ def test_a_hundred_links_of_a_beam_where_the_plain_product_fails(beam_scene: Cal
     modes = find_modes(linear)
     omega = np.array([1.01 * modes[k].frequency for k in (0, 4, 9, 19, 34, 49)])
     to_y = np.full(100, 0.8 / 100)
-    size = len(to_y)
-    # SciPy's state space, first order
-    accelerate = -solve(linear.mass, np.hstack([linear.stiffness, linear.damping]), assume_a="pos")
-    system = np.vstack([np.hstack([np.zeros((size, size)), np.eye(size)]), accelerate])
-    force = np.concatenate([np.zeros(size), solve(linear.mass, to_y, assume_a="pos")])
-    expected = [to_y @ solve(1j * w * np.eye(2 * size) - system, force)[:size] for w in omega]
+    parts = (linear.mass, linear.damping, linear.stiffness, to_y)
+    expected = np.array([to_y @ state_space_response(*parts, float(w))[:100] for w in omega])
     kept = frequency_response(arm, 1j * omega)["tip_y"][:, 0]
     np.testing.assert_allclose(kept, expected, rtol=1e-8)
     lossy = product_tip_motion(arm, 1j * omega, 0)[:, 1]
     lost = np.nan_to_num(np.abs(lossy / expected - 1.0), nan=np.inf)
     assert lost[0] < 1e-8
-    assert np.all(lost[3:] > 1.0)
+    assert np.all(lost[3:] > 0.1)  # no digit left from the 20th mode on
 
 
 def test_the_product_keeps_digits_in_a_short_chain(scene_named: Callable[[str], Scene]) -> None:
@@ -103,9 +103,7 @@ def test_the_product_keeps_digits_in_a_short_chain(scene_named: Callable[[str], 
 
 @pytest.mark.parametrize("output", ["motor_speed", "shaft_torque", "encoder"])
 @pytest.mark.parametrize("given", [0, 1])
-def test_a_drive_against_its_matrices(
-    output: str, given: int, scene_named: Callable[[str], Scene]
-) -> None:
+def test_a_drive_against_its_matrices(output: str, given: int, scene_named: Callable[[str], Scene]) -> None:
     scene = scene_named("drivetrain")
     assembly = assemble(scene)
     omega = np.geomspace(1.0, 3e4, 30)
@@ -133,7 +131,9 @@ def test_a_drooping_arm_against_its_matrices(beam_scene: Callable[..., Scene]) -
         assert found["tip_x"] == pytest.approx(to_x @ turned, rel=1e-9)
         assert found["tip_y"] == pytest.approx(to_y @ turned, rel=1e-9)
         joint = scene.joints[0]
-        assert found["base_torque"] == pytest.approx((joint.stiffness + joint.damping * s) * turned[0], rel=1e-9)
+        assert found["base_torque"] == pytest.approx(
+            (joint.stiffness + joint.damping * s) * turned[0], rel=1e-9
+        )
         shares = np.tri(6, 6, -1) + 0.5 * np.eye(6)  # centre of each link
         masses = np.array([link.mass for link in scene.links])
         inertia = s**2 * (masses @ (shares @ (to_y * turned)) + 0.1 * (to_y @ turned))

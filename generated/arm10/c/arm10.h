@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 525c1f48f30bec4efe0533edca417c45a4e26085c7c23db491d2c2e6aa2d5335
- * sha256 of the rest of this file: 5f3b89f8be00e751834bf278b4597e094846ac5bff32ba9e248af67e3c4d7b14
+ * sha256 of the rest of this file: fa1a8a9a48b5f42fe3e4afde285921eaf3f1e2de1eddab9a87404e62bc7d6ed7
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 10
@@ -141,7 +141,7 @@ arm10_status arm10_prepare(
  * @param[in]  initial_angle  angles to start from [rad]
  * @param[in]  initial_rate  rates to start from [rad/s]
  * @param[in]  inputs  what acts at the initial instant
- * @return OK, NON_FINITE_INPUT or NON_FINITE_STATE
+ * @return OK, NON_FINITE_INPUT, VANISHING_PIVOT or NON_FINITE_STATE
  */
 arm10_status arm10_initialise(
     arm10_state *state,
@@ -157,7 +157,7 @@ arm10_status arm10_initialise(
  * @param[in]     model   from arm10_prepare()
  * @param[in,out] state   motion before the step, and after it
  * @param[in]     inputs  what acts, at the end of the step
- * @return OK, NON_FINITE_INPUT or NON_FINITE_STATE
+ * @return OK, NON_FINITE_INPUT, VANISHING_PIVOT or NON_FINITE_STATE
  */
 arm10_status arm10_step(
     const arm10_model *model,

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: ce631ab7b67541b39d008a903917f57db75c263fa5530caf3c1a93f3ab3ddcc0
- * sha256 of the rest of this file: 827999543c2b364ad056ce3c41a92fc0918ecfd94f17dbe0d870cb3a100b00bc
+ * sha256 of the rest of this file: bdbf0c86f47690a136e7d985fb642a53e5b542e4e8906072fb003af2fc202097
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 2
@@ -141,7 +141,7 @@ arm2_status arm2_prepare(
  * @param[in]  initial_angle  angles to start from [rad]
  * @param[in]  initial_rate  rates to start from [rad/s]
  * @param[in]  inputs  what acts at the initial instant
- * @return OK, NON_FINITE_INPUT or NON_FINITE_STATE
+ * @return OK, NON_FINITE_INPUT, VANISHING_PIVOT or NON_FINITE_STATE
  */
 arm2_status arm2_initialise(
     arm2_state *state,
@@ -157,7 +157,7 @@ arm2_status arm2_initialise(
  * @param[in]     model   from arm2_prepare()
  * @param[in,out] state   motion before the step, and after it
  * @param[in]     inputs  what acts, at the end of the step
- * @return OK, NON_FINITE_INPUT or NON_FINITE_STATE
+ * @return OK, NON_FINITE_INPUT, VANISHING_PIVOT or NON_FINITE_STATE
  */
 arm2_status arm2_step(
     const arm2_model *model,

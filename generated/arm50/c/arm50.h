@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 9874dff5d90e21876dbd2271ff786b55b83dc2e6467819bdcfde7e890f954cb6
- * sha256 of the rest of this file: 0835e9b3652ea3b8975a861b4133eda5b784c382da49ff661d8062a3e78815b5
+ * sha256 of the rest of this file: 196ffb204a11f80fef7fbc0afaefc84f2ada8c7c4aab506299d734b8b25da308
  *
  * model: planar arm, large rotations, tip mass
  * stations: 50
@@ -166,7 +166,7 @@ arm50_status arm50_prepare(
  * @param[in]  initial_angle  angles to start from [rad]
  * @param[in]  initial_rate  rates to start from [rad/s]
  * @param[in]  inputs  what acts at the initial instant; only the first stage's count
- * @return OK, NON_FINITE_INPUT or NON_FINITE_STATE
+ * @return OK, NON_FINITE_INPUT, VANISHING_PIVOT or NON_FINITE_STATE
  */
 arm50_status arm50_initialise(
     arm50_state *state,
@@ -182,7 +182,7 @@ arm50_status arm50_initialise(
  * @param[in]     model   from arm50_prepare()
  * @param[in,out] state   motion before the step, and after it
  * @param[in]     inputs  what acts, at each stage of the step
- * @return OK, NON_FINITE_INPUT or NON_FINITE_STATE
+ * @return OK, NON_FINITE_INPUT, VANISHING_PIVOT or NON_FINITE_STATE
  */
 arm50_status arm50_step(
     const arm50_model *model,

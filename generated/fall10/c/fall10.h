@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 7fb53ee7611dfaa9a6a8f9157801d68007a3a764d7f41a8fa8cf16397006e130
- * sha256 of the rest of this file: 1b2221252e2980653f09cd8f49d121e903781d1d63905d9ae7ae7cf512b9dd0a
+ * sha256 of the rest of this file: 416a009ab69c110ad50f37d6421fb87e77e1ef11e86789bf6bf4397fda69c702
  *
  * model: planar arm, large rotations, gravity
  * stations: 10
@@ -131,7 +131,7 @@ fall10_status fall10_prepare(
  * @param[in]  initial_angle  angles to start from [rad]
  * @param[in]  initial_rate  rates to start from [rad/s]
  * @param[in]  inputs  what acts at the initial instant
- * @return OK, NON_FINITE_INPUT or NON_FINITE_STATE
+ * @return OK, NON_FINITE_INPUT, VANISHING_PIVOT or NON_FINITE_STATE
  */
 fall10_status fall10_initialise(
     fall10_state *state,
@@ -147,7 +147,7 @@ fall10_status fall10_initialise(
  * @param[in]     model   from fall10_prepare()
  * @param[in,out] state   motion before the step, and after it
  * @param[in]     inputs  what acts, at the end of the step
- * @return OK, NON_FINITE_INPUT or NON_FINITE_STATE
+ * @return OK, NON_FINITE_INPUT, VANISHING_PIVOT or NON_FINITE_STATE
  */
 fall10_status fall10_step(
     const fall10_model *model,

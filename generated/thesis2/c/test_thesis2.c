@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 4fdbd97419e7ff02c8d9faf01a8b79522b9a5dd593d6163ae5c751891e6cf0b2
- * sha256 of the rest of this file: fc79c6b4add8eec942f8a6d6d3a17318d89f8ea68684b9bf1bee40629b962e20
+ * sha256 of the rest of this file: 47df272ffde629f3c502a101b061f07e302917df68326ef75520589d69898b96
  *
  * model: torsional chain (linear)
  * stations: 2
@@ -42,7 +42,11 @@ static void expect(tally *count, const char *what, real value, real right, real 
     }
 }
 
-static void expect_status(tally *count, const char *what, thesis2_status value, thesis2_status right)
+static void expect_status(
+    tally *count,
+    const char *what,
+    thesis2_status value,
+    thesis2_status right)
 {
     ++count->checks;
     if (value != right) {
@@ -82,32 +86,32 @@ static void test_motion(tally *count)
     status = thesis2_step(&model, &state, &inputs);
     expect_status(count, "step 1", status, THESIS2_OK);
     thesis2_output(&model, &state, &outputs);
-    expect(count, "tip", outputs.tip, 0.03153480002693913, 5.1e-17);
-    expect(count, "base_torque", outputs.base_torque, -1.9213735846959639, 4.4e-15);
+    expect(count, "tip", outputs.tip, 0.03153480002693913, 1.5e-16);
+    expect(count, "base_torque", outputs.base_torque, -1.9213735846959639, 7.6e-15);
 
     /* Step 2. */
     inputs.tip_torque = -0.25;
     status = thesis2_step(&model, &state, &inputs);
     expect_status(count, "step 2", status, THESIS2_OK);
     thesis2_output(&model, &state, &outputs);
-    expect(count, "tip", outputs.tip, 0.03176536713077275, 5.1e-17);
-    expect(count, "base_torque", outputs.base_torque, -1.8886459772451525, 4.4e-15);
+    expect(count, "tip", outputs.tip, 0.03176536713077275, 1.5e-16);
+    expect(count, "base_torque", outputs.base_torque, -1.8886459772451525, 7.6e-15);
 
     /* Step 3. */
     inputs.tip_torque = 0.375;
     status = thesis2_step(&model, &state, &inputs);
     expect_status(count, "step 3", status, THESIS2_OK);
     thesis2_output(&model, &state, &outputs);
-    expect(count, "tip", outputs.tip, 0.03194404375542388, 5.1e-17);
-    expect(count, "base_torque", outputs.base_torque, -1.8549950079465363, 4.4e-15);
+    expect(count, "tip", outputs.tip, 0.03194404375542388, 1.5e-16);
+    expect(count, "base_torque", outputs.base_torque, -1.8549950079465363, 7.6e-15);
 
     /* State after the last step. */
-    expect(count, "angle[0]", state.angle[0], -0.0800550627924514, 1.3e-16);
-    expect(count, "angle[1]", state.angle[1], 0.03194404375542388, 1.3e-16);
-    expect(count, "rate[0]", state.rate[0], -0.050778750419501625, 2e-16);
-    expect(count, "rate[1]", state.rate[1], 0.015331909551330394, 2e-16);
-    expect(count, "acceleration[0]", state.acceleration[0], 0.8851060877516405, 4.1e-15);
-    expect(count, "acceleration[1]", state.acceleration[1], -0.4391070861623332, 4.1e-15);
+    expect(count, "angle[0]", state.angle[0], -0.0800550627924514, 3.5e-16);
+    expect(count, "angle[1]", state.angle[1], 0.03194404375542388, 3.5e-16);
+    expect(count, "rate[0]", state.rate[0], -0.050778750419501625, 4.8e-16);
+    expect(count, "rate[1]", state.rate[1], 0.015331909551330394, 4.8e-16);
+    expect(count, "acceleration[0]", state.acceleration[0], 0.8851060877516405, 6.9e-15);
+    expect(count, "acceleration[1]", state.acceleration[1], -0.4391070861623332, 6.9e-15);
 
     /* Bad input is refused and leaves the state alone. */
     thesis2_state before;

@@ -11,6 +11,7 @@ import click
 
 from tmm_gen.cli.console import Column, progress, table
 from tmm_gen.cli.given import PICTURE, constant_inputs, picture_option, positive, refuse_folders
+from tmm_gen.cli.links import show_links
 from tmm_gen.errors import UserError
 
 if TYPE_CHECKING:
@@ -95,22 +96,24 @@ def frequency(
         raise click.UsageError(f"--low {low:g} must be less than --high {high:g}.")
     loaded = load_scene(scene)
     if error is not None and band is not None:
-        _links_for(loaded, error, band, json_mode)
+        show_links(loaded, error, band, json_mode)
         return
     refuse_folders(csv_file, picture)
     inputs = constant_inputs(loaded, given)
-    chosen = _chosen(loaded.inputs, source, "--from", "[[input]]")
-    read = _chosen(loaded.outputs, target, "--to", "[[output]]")
+    chosen = _chosen(scene, loaded.inputs, source, "--from", "[[input]]")
+    read = _chosen(scene, loaded.outputs, target, "--to", "[[output]]")
     with progress(f"frequency response of {loaded.name}"):
         answer = _respond(loaded, inputs, chosen, read, (low, high), points)
         written = _write(answer, csv_file, picture)
     _show(answer, written, json_mode)
 
 
-def _chosen(items: tuple[Any, ...], name: str | None, option: str, table_name: str) -> Any:
+def _chosen(scene: Path, items: tuple[Any, ...], name: str | None, option: str, table_name: str) -> Any:
     """Return the item of a name, or the first."""
     if not items:
-        raise UserError(f"the scene has no {table_name}: a frequency response needs one. Add {table_name}.")
+        raise UserError(
+            f"{scene}: has no {table_name}, and a frequency response needs one. Add {table_name}."
+        )
     if name is None:
         return items[0]
     names = [item.name for item in items]
@@ -265,59 +268,4 @@ def _show(answer: _Answer, written: list[Path], json_mode: bool) -> None:
     if not written:
         click.echo(
             "more: --plot draws it, --csv FILE writes it, --from and --to choose, --low and --high zoom"
-        )
-
-
-def _links_for(scene: Scene, error: float, band: float, json_mode: bool) -> None:
-    if scene.beam is None:
-        raise UserError(
-            f"scene '{scene.name}' has no [beam]: only a beam can be cut into more or fewer links. "
-            "Use a planar scene with [beam]."
-        )
-    with progress(f"cutting the beam of {scene.name}"):
-        from tmm_gen.modal.discretised import links_needed
-
-        try:
-            found = links_needed(scene, error, 2.0 * math.pi * band)
-        except ValueError as reason:
-            raise UserError(f"--links-for {error:g} --band {band:g}: {reason}. Ask for less.") from reason
-    rows = [
-        {
-            "mode": k + 1,
-            "exact_hz": float(exact) / (2.0 * math.pi),
-            "links_hz": float(own) / (2.0 * math.pi),
-            "error": float(off),
-            "error_percent": 100.0 * float(off),
-            "one_less_percent": None if found.errors_below is None else 100.0 * float(found.errors_below[k]),
-        }
-        for k, (exact, own, off) in enumerate(zip(found.exact, found.discretised, found.errors, strict=True))
-    ]
-    facts = {
-        "scene": scene.name,
-        "springs": scene.beam.springs,
-        "error": error,
-        "band_hz": band,
-        "links": found.links,
-        "links_now": scene.stations,
-        "worst_error": found.worst,
-    }
-    plural = "s" * (found.links > 1)
-    table(
-        rows,
-        [
-            Column("mode"),
-            Column("exact_hz", "continuous beam (Hz)", ".6g"),
-            Column("links_hz", f"{found.links} link{plural} (Hz)", ".6g"),
-            Column("error_percent", "error (%)", ".3f"),
-            Column("one_less_percent", "with one link less (%)", ".3f"),
-        ],
-        json_mode,
-        title=f"{scene.title}: natural frequencies up to {band:g} Hz",
-        more=facts,
-    )
-    if not json_mode:
-        click.echo(
-            f"{found.links} link{plural} keep{'' if plural else 's'} every natural frequency up to {band:g} Hz "
-            f"within {100.0 * error:g} % of the continuous beam ({scene.beam.springs} springs); "
-            f"the scene has {scene.stations}"
         )

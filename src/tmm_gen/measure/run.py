@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
@@ -19,10 +18,13 @@ from tmm_gen.measure.module import numpy_module
 from tmm_gen.measure.planar_divergence import PlanarWatch, planar_watch
 from tmm_gen.measure.signals import Constant, Signal
 from tmm_gen.measure.simulation import Simulation
+from tmm_gen.measure.trace import Trace
 from tmm_gen.scene import Scene
 
 Array = NDArray[np.float64]
 Backend = Literal["numpy", "c"]
+
+Guard = Watch | PlanarWatch
 
 _CHUNK = 1000
 """Steps between two looks at the motion and the progress bar."""
@@ -58,7 +60,7 @@ def simulate(
     advance: Callable[[float], None] | None = None,
     kernel: Any = None,
     *,
-    shape: bool = False,
+    trace: bool = False,
 ) -> Simulation:
     """Simulate a scene at its own step.
 
@@ -76,8 +78,8 @@ def simulate(
         Called with the number of steps taken since the last call.
     kernel : module or NativeKernel, optional
         The scene's generated NumPy package, or its compiled C, if it is there already.
-    shape : bool
-        Keep the angles of all links of a planar arm too; without `kernel` only.
+    trace : bool
+        Keep angles and rates of all links too.
 
     Raises
     ------
@@ -92,12 +94,12 @@ def simulate(
     planar = scene.model.kind == "planar"
     guard = planar_watch(scene, until, step) if planar else watch(scene, inputs, until, step)
     run = _numpy if backend == "numpy" else _native
-    traced = _with_shape(scene, steps) if shape else scene
-    names = [column.name for column in output_columns(traced)]
+    kept = _trace(scene, steps) if trace else None
+    names = [column.name for column in output_columns(scene)]
     outputs = np.empty((steps + 1, len(names)))
     row = 0
     try:
-        for block in run(traced, inputs, steps, guard, kernel):
+        for block in run(scene, inputs, steps, guard, kernel, kept):
             outputs[row : row + len(block)] = block
             row += len(block)
             if advance is not None:
@@ -108,34 +110,25 @@ def simulate(
             "Look for numbers that are far too large or small."
         ) from error
     time: Array = scene.integrator.step * np.arange(steps + 1, dtype=float)
-    reported = len(output_columns(scene))
     return Simulation(
         scene=scene,
         backend=backend,
         time=time,
-        outputs={name: outputs[:, k] for k, name in enumerate(names[:reported])},
+        outputs={name: outputs[:, k] for k, name in enumerate(names)},
         inputs={name: signal.at(time) for name, signal in inputs.items()},
         rest=_rest(scene, inputs, float(time[-1])),
-        shape=outputs[:, reported:] if shape else None,
+        trace=kept,
     )
 
 
-def _with_shape(scene: Scene, steps: int) -> Scene:
-    """Return a scene that reports the angle of each link too."""
+def _trace(scene: Scene, steps: int) -> Trace:
+    """Return room for the motion of all links."""
     if steps * scene.stations > _MOST:
         raise UserError(
-            f"the shapes of {scene.stations} links over {steps} steps are too many to keep. "
+            f"the motion of {scene.stations} links over {steps} steps is too much to keep. "
             "Simulate a shorter time (--until) or take larger steps (--step)."
         )
-    named = [{"name": o.name, "at": o.at, "of": o.of} for o in scene.outputs]
-    taken = {item.name for item in (*scene.inputs, *scene.outputs)}
-    prefix = next(p for k in itertools.count() if (p := f"shape{k or ''}_") and not any(map(_starts(p), taken)))
-    shape = [{"name": f"{prefix}{i}", "at": i, "of": "angle"} for i in range(1, scene.stations + 1)]
-    return scene.replace(output=[*named, *shape])
-
-
-def _starts(prefix: str) -> Callable[[str], bool]:
-    return lambda name: name.startswith(prefix)
+    return Trace.empty(scene, steps + 1)
 
 
 def _rest(scene: Scene, signals: Mapping[str, Signal], until: float) -> dict[str, float] | None:
@@ -151,7 +144,7 @@ def _rest(scene: Scene, signals: Mapping[str, Signal], until: float) -> dict[str
 
 
 def _numpy(
-    scene: Scene, signals: Mapping[str, Signal], steps: int, guard: Watch | PlanarWatch, kernel: Any
+    scene: Scene, signals: Mapping[str, Signal], steps: int, guard: Guard, kernel: Any, trace: Trace | None
 ) -> Iterator[Array]:
     """Yield blocks of outputs, (rows, outputs), the first one with the start."""
     module = kernel or numpy_module(scene)
@@ -163,6 +156,8 @@ def _numpy(
     names = [column.name for column in output_columns(scene)]
 
     def row() -> list[float]:
+        if trace is not None:
+            trace.add(state)
         found = module.output(model, state)
         return [float(getattr(found, name)) for name in names]
 
@@ -188,7 +183,7 @@ def _numpy(
 
 
 def _native(
-    scene: Scene, signals: Mapping[str, Signal], steps: int, guard: Watch | PlanarWatch, kernel: Any
+    scene: Scene, signals: Mapping[str, Signal], steps: int, guard: Guard, kernel: Any, trace: Trace | None
 ) -> Iterator[Array]:
     """Yield all outputs, (steps + 1, outputs)."""
     from tmm_gen.native import NonFiniteStateError, compile_kernel
@@ -200,6 +195,9 @@ def _native(
         name: signal.value if isinstance(signal, Constant) else _number(signal)
         for name, signal in signals.items()
     }
+    if trace is not None:
+        yield _step_by_step(kernel, given, h, steps, guard, trace, [c.name for c in output_columns(scene)])
+        return
     try:
         _, outputs = kernel.simulate(h * steps, given)
         kept = np.max(np.abs(kernel.state["angle"])) <= guard.bound
@@ -210,17 +208,37 @@ def _native(
     yield np.column_stack([outputs[column.name] for column in output_columns(scene)])
 
 
-def _find_divergence(kernel: Any, given: Mapping[str, Any], h: float, steps: int, guard: Watch | PlanarWatch) -> None:
+def _find_divergence(kernel: Any, given: Mapping[str, Any], h: float, steps: int, guard: Guard) -> None:
     """Run once more, looking at each step, until the guard raises."""
+    _step_by_step(kernel, given, h, steps, guard, None, [])
+
+
+def _step_by_step(
+    kernel: Any,
+    given: Mapping[str, Any],
+    h: float,
+    steps: int,
+    guard: Guard,
+    trace: Trace | None,
+    names: list[str],
+) -> Array:
+    """Run compiled C, looking at each step; returns some of its outputs, (steps + 1, names)."""
     from tmm_gen.native import NonFiniteStateError
 
     def read(time: float) -> dict[str, float]:
         return {name: value(time) if callable(value) else value for name, value in given.items()}
 
+    def row() -> list[float]:
+        if trace is not None:
+            trace.add(kernel.state)
+        found = kernel.output() if names else {}
+        return [found[name] for name in names]
+
     kernel.prepare()
     kernel.initialise(read(0.0))
     instants = kernel.program.stage_instants
     longest = max(len(each) for each in instants)
+    rows = [row()]
     for index in range(steps):
         stages = [read((index + at) * h) for at in instants[min(index, len(instants) - 1)]]
         stages += stages[-1:] * (longest - len(stages))
@@ -230,6 +248,8 @@ def _find_divergence(kernel: Any, given: Mapping[str, Any], h: float, steps: int
         with suppress(NonFiniteStateError):  # its state tells where
             kernel.step(values)
         guard.look((index + 1) * h, kernel.state["angle"])
+        rows.append(row())
+    return np.array(rows)
 
 
 def _number(signal: Signal) -> Callable[[float], float]:

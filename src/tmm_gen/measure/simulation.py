@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from tmm_gen.measure.columns import OutputColumn, output_columns
 from tmm_gen.measure.metrics import step_figures
+from tmm_gen.measure.trace import Trace
 from tmm_gen.scene import Scene
 
 Array = NDArray[np.float64]
@@ -33,8 +34,8 @@ class Simulation:
         The inputs at the same instants.
     rest : dict from str to float, optional
         The outputs once all motion has died out; None where it need not come to rest, or is not known.
-    shape : array, (k + 1, n), optional
-        Angles of all links of a planar arm, where they were asked for.
+    trace : Trace, optional
+        The motion of all links, where it was asked for.
     """
 
     scene: Scene
@@ -43,7 +44,7 @@ class Simulation:
     outputs: dict[str, Array]
     inputs: dict[str, Array]
     rest: dict[str, float] | None
-    shape: Array | None = None
+    trace: Trace | None = None
 
     @property
     def steps(self) -> int:

@@ -50,7 +50,7 @@ def matrices(arm: LinearArm) -> Matrices:
             missing[own, :2] += law[:, None] * twist
             continue
         by_power, _, passing = powers.of(placed)
-        force = np.linalg.solve(passing, force - by_power @ motion)
+        force = np.asarray(np.linalg.solve(passing, force - by_power @ motion), float)
     if arm.hub:
         missing[0] = -force[:, angle]
     found = arm.sign * (missing[:-1] - missing[1:])

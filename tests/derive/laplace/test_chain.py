@@ -10,13 +10,14 @@ import pytest
 import sympy as sp
 
 from tmm_gen.derive.laplace.chain import SymbolicChain, numbered_chain, system_matrix, transfer_functions
-from tmm_gen.derive.transfer import LAPLACE as s
+from tmm_gen.derive.transfer import LAPLACE
 from tmm_gen.modal.arm import linear_arm
 from tmm_gen.modal.matrices import matrices
 from tmm_gen.modal.modes import find_modes
 from tmm_gen.modal.response import frequency_response
 from tmm_gen.scene import load_scene
 
+s = LAPLACE
 SCENES = Path(__file__).resolve().parents[3] / "scenes"
 
 

@@ -11,10 +11,14 @@ from tmm_gen.derive.integrators.registry import names
 
 pytestmark = pytest.mark.compiler
 
+CHAINS: list[dict[str, Any]] = [
+    {"alike": True},
+    {"base": "motor", "inner": True, "real": "float32"},
+    {"base": "prescribed"},
+]
 KINDS = [
-    *({"integrator": name, "alike": True} for name in names()),
-    *({"integrator": name, "base": "motor", "inner": True, "real": "float32"} for name in names()),
-    *({"integrator": name, "base": "prescribed"} for name in names()),
+    *({"integrator": name, **CHAINS[k % 3]} for k, name in enumerate(names())),
+    *({"integrator": name, **CHAINS[(k + 1) % 3]} for k, name in enumerate(names())),
     *(
         {"integrator": name, "base": "free motor", "sweep": "product"}
         for name in ("newmark", "houbolt", "sdirk2")

@@ -114,7 +114,9 @@ def test_joints_between_beams() -> None:
     assert found[0] == 0.0
     assert modes_below(hinged, 1e-3)[0] == 1
     stiff = BeamArm(halves, bodies=(Body(joint_stiffness=1e9), Body()))
-    np.testing.assert_allclose(natural_frequencies(stiff, 4), natural_frequencies(BeamArm((UNIT,)), 4), rtol=1e-7)
+    np.testing.assert_allclose(
+        natural_frequencies(stiff, 4), natural_frequencies(BeamArm((UNIT,)), 4), rtol=1e-7
+    )
     k = 2.5
     sprung = np.sqrt(natural_frequencies(BeamArm(halves, bodies=(Body(joint_stiffness=k), Body())), 3))
     for value in sprung:
@@ -144,7 +146,8 @@ def _jointed(x: mpmath.mpf, k: float) -> mpmath.mpf:
             end[2] + [-v for v in start[2]],
             end[3] + [-v for v in start[3]],
             # E I w'' = k (w' outer - w' inner)
-            [x**2 * m + k * x * t for m, t in zip(end[2], end[1], strict=True)] + [-k * x * t for t in start[1]],
+            [x**2 * m + k * x * t for m, t in zip(end[2], end[1], strict=True)]
+            + [-k * x * t for t in start[1]],
         ]
         return mpmath.det(mpmath.matrix(matrix))
 
@@ -173,9 +176,7 @@ def _timoshenko(omega: mpmath.mpf, rotary: float, shear: float) -> mpmath.mpf:
     with mpmath.workdps(40):
         square = mpmath.mpf(omega) ** 2
         whole = mpmath.expm(
-            mpmath.matrix(
-                [[0, 1, 0, shear], [0, 0, 1, 0], [0, -rotary * square, 0, -1], [-square, 0, 0, 0]]
-            )
+            mpmath.matrix([[0, 1, 0, shear], [0, 0, 1, 0], [0, -rotary * square, 0, -1], [-square, 0, 0, 0]])
         )
         return whole[2, 2] * whole[3, 3] - whole[2, 3] * whole[3, 2]
 

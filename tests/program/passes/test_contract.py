@@ -34,7 +34,7 @@ def loop(*body: Assign) -> Loop:
     return Loop(Order.OUTWARD, 1, N + 1, body)
 
 
-@settings(max_examples=400, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=200, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(data=st.data())
 def test_values_stay(data: st.DataObject, random_routines: Any, run: Any) -> None:
     before = data.draw(random_routines)

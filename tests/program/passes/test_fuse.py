@@ -34,7 +34,7 @@ def loops(given_routine: Routine) -> list[Loop]:
     return [s for s in given_routine.statements() if isinstance(s, Loop)]
 
 
-@settings(max_examples=400, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=200, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(data=st.data())
 def test_values_and_operations_stay(data: st.DataObject, random_routines: Any, run: Any) -> None:
     before = data.draw(random_routines)

@@ -22,8 +22,8 @@ STEPS = 3
 """Steps after the start-up."""
 SHOWN = 10
 """Stations whose state is compared, spread from base to tip."""
-_SAFETY = 2.0
-"""On the first-order bound of rounding errors, for the higher orders."""
+_SAFETY = 8.0
+"""By how much rounding errors may exceed the largest of their samples."""
 
 
 @dataclass(frozen=True)
@@ -182,11 +182,9 @@ def _tolerances(records: list[dict[Ref, Estimate]], real: Real) -> dict[Variable
     error: dict[Variable, float] = {}
     for record in records:
         for ref, estimate in record.items():
-            # one rounding more, that of the literal it is compared with
-            bound = estimate.error + abs(float(estimate.value))
-            error[ref.variable] = max(error.get(ref.variable, 0.0), bound)
+            error[ref.variable] = max(error.get(ref.variable, 0.0), estimate.error)
     unit = real.epsilon / 2
-    return {v: _two_digits_up(_SAFETY * unit * (bound or 1.0)) for v, bound in error.items()}
+    return {v: _two_digits_up(_SAFETY * unit * (largest or 1.0)) for v, largest in error.items()}
 
 
 def _two_digits_up(value: float) -> float:
