@@ -64,7 +64,9 @@ def test_law_is_newton_and_euler() -> None:
         angle, rate, acceleration = RNG.normal(size=3)
         a, f = RNG.normal(size=2), RNG.normal(size=3)
         np.testing.assert_allclose(
-            law_forces(angle, rate, acceleration, a, f), inner_forces(angle, rate, acceleration, a, f), rtol=1e-12
+            law_forces(angle, rate, acceleration, a, f),
+            inner_forces(angle, rate, acceleration, a, f),
+            rtol=1e-12,
         )
 
 
@@ -131,5 +133,10 @@ def test_predicted_sines_are_of_second_order() -> None:
 
 def test_square_of_rate_is_that_of_the_thesis() -> None:
     """Eq. 2-17, from the product rule 2-16."""
-    old, acceleration, span, new = expansions.RATE, expansions.ACCELERATION, expansions.SPAN, expansions.NEW_RATE
+    old, acceleration, span, new = (
+        expansions.RATE,
+        expansions.ACCELERATION,
+        expansions.SPAN,
+        expansions.NEW_RATE,
+    )
     assert sp.expand(expansions.square_of_rate() - (2 * old * new - old**2 + acceleration**2 * span**2)) == 0

@@ -20,9 +20,9 @@ def displacement(b: sp.Symbol, e: sp.Symbol) -> DiscreteMotion:
 
 def test_laplace_matrices_are_those_of_the_thesis() -> None:
     s, k, c, inertia = LAPLACE, STIFFNESS, DAMPING, INERTIA
-    assert sp.simplify(laplace_matrix(JOINT).full() - sp.Matrix([[1, 1 / (k + c * s), 0], [0, 1, 0], [0, 0, 1]])) == (
-        sp.zeros(3)
-    )  # 2-74
+    assert sp.simplify(
+        laplace_matrix(JOINT).full() - sp.Matrix([[1, 1 / (k + c * s), 0], [0, 1, 0], [0, 0, 1]])
+    ) == (sp.zeros(3))  # 2-74
     assert laplace_matrix(LINK).full() == sp.Matrix([[1, 0, 0], [inertia * s**2, 1, 0], [0, 0, 1]])  # 2-73
     assert laplace_matrix(TORQUE).full() == sp.Matrix([[1, 0, 0], [0, 1, -LOAD], [0, 0, 1]])  # 2-75
 
@@ -30,7 +30,9 @@ def test_laplace_matrices_are_those_of_the_thesis() -> None:
 def test_discrete_matrices_are_those_of_the_thesis() -> None:
     k, c, inertia = STIFFNESS, DAMPING, INERTIA
     joint = transfer_matrix(JOINT, [displacement(B0, E0)], [displacement(B1, E1)]).full()
-    printed = sp.Matrix([[1, 1 / (c * D + k), c * (E0 - E1) / (c * D + k)], [0, 1, 0], [0, 0, 1]])  # 3-13, D_0 = D_1
+    printed = sp.Matrix(
+        [[1, 1 / (c * D + k), c * (E0 - E1) / (c * D + k)], [0, 1, 0], [0, 0, 1]]
+    )  # 3-13, D_0 = D_1
     assert sp.simplify(joint - printed) == sp.zeros(3)
     link = transfer_matrix(LINK, [displacement(B1, E1)], [displacement(B1, E1)]).full()
     assert link == sp.Matrix([[1, 0, 0], [inertia * A, 1, inertia * B1], [0, 0, 1]])  # 3-17

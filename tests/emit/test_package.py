@@ -15,6 +15,8 @@ from tmm_gen.scene import METHODS, Scene, load_scene
 from tmm_gen.scene.emit import BACKENDS
 from tmm_gen.version import __version__
 
+pytestmark = pytest.mark.xdist_group("packages")  # the printed packages are made once
+
 ROOT = Path(__file__).resolve().parents[2]
 SCENES = ROOT / "scenes"
 PYTHON = {

@@ -16,7 +16,7 @@ import pytest
 from tmm_gen.emit.casadi import emit_casadi
 from tmm_gen.emit.numpy import emit_numpy
 from tmm_gen.program.build import build_program
-from tmm_gen.program.evaluate import Values, allocate, execute
+from tmm_gen.program.evaluate import Values, allocate, execute, key
 from tmm_gen.program.statements import Program
 from tmm_gen.scene import Scene, load_scene, parse_scene
 
@@ -87,8 +87,9 @@ class Generated:
         program = self.program
         declared = (program.step, *program.parameters, *program.state, *program.inputs, *program.given)
         held = allocate((*declared, *program.outputs), number)
+        signals = {v.name: key(v) for v in program.inputs}
         for name, value in values.items():
-            held[name] = [number(x) for x in value] if np.ndim(value) else number(value)
+            held[signals.get(name, name)] = [number(x) for x in value] if np.ndim(value) else number(value)
         steps = {f"step{k}": routine for k, routine in enumerate(program.steps)}
         for name in routines:
             execute(steps[name] if name in steps else getattr(program, name), held, number, modules)
@@ -185,8 +186,8 @@ def chain_scene(
     for (stiffness, damping), inertia in zip(joints, links, strict=True):
         lines += ["[[joint]]", f"stiffness = {stiffness!r}", f"damping = {damping!r}"]
         lines += ["[[link]]", f"inertia = {inertia!r}"]
-    for table, key, signals in (("input", "acts", inputs), ("output", "of", outputs)):
+    for table, verb, signals in (("input", "acts", inputs), ("output", "of", outputs)):
         for name, at, what in signals:
             place = f'"{at}"' if isinstance(at, str) else at
-            lines += [f"[[{table}]]", f'name = "{name}"', f"at = {place}", f'{key} = "{what}"']
+            lines += [f"[[{table}]]", f'name = "{name}"', f"at = {place}", f'{verb} = "{what}"']
     return parse_scene("\n".join(lines) + "\n")

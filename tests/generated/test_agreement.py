@@ -12,6 +12,7 @@ import pytest
 from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
+from tmm_gen.program.evaluate import key
 from tmm_gen.scene import METHODS, Scene
 
 METHOD_NAMES = [method.name for method in METHODS]
@@ -68,7 +69,7 @@ def check(generated: Any, seed: int) -> None:
         if (generated.scene.model.unknown, generated.scene.model.sweep) == ("acceleration", "riccati"):
             expected = generated.interpret(values, "prepare", "output", f"step{place}")
             assert close(new, [expected[v.name] for v in generated.program.state])
-            assert close(outputs, [expected[v.name] for v in generated.program.outputs])
+            assert close(outputs, [expected[key(v)] for v in generated.program.outputs])
 
 
 def numpy_step(generated: Any, kernel: Any, values: Any, place: int) -> tuple[list[Any], list[Any]]:
@@ -105,7 +106,7 @@ def compare_with_interpreter(generated: Any, values: Any, place: int) -> None:
         routines = ("prepare", "output", f"step{place}")
         expected = generated.interpret(values, *routines, number=mpmath.mpf, modules="mpmath")
         assert close(new, [expected[v.name] for v in generated.program.state], mpmath.mpf("1e-40"))
-        assert close(outputs, [expected[v.name] for v in generated.program.outputs], mpmath.mpf("1e-40"))
+        assert close(outputs, [expected[key(v)] for v in generated.program.outputs], mpmath.mpf("1e-40"))
 
 
 def flat(values: list[Any]) -> Any:

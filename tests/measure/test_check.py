@@ -12,7 +12,7 @@ from tmm_gen.measure.check import CheckReport, check_scene
 from tmm_gen.measure.host_test import run_host_test
 from tmm_gen.measure.module import casadi_module
 from tmm_gen.program.build import build_program
-from tmm_gen.scene import Scene
+from tmm_gen.scene import Scene, parse_scene
 
 pytestmark = pytest.mark.compiler
 
@@ -115,3 +115,37 @@ def test_a_missing_compiler_is_told(monkeypatch: pytest.MonkeyPatch, example: Ca
     program = build_program(scene)
     with pytest.raises(UserError, match="the C compiler 'no-such-cc' was not found; install one"):
         run_host_test(program, scene, "no-such-cc")
+
+
+def test_signals_may_be_called_like_the_kernel_s_own_variables() -> None:
+    """Everyday names: an output ``angle``, an input ``load``, another called like a local of the sweep."""
+    scene = parse_scene("""
+        name = "namesakes"
+        [model]
+        kind = "chain"
+        [integrator]
+        name = "newmark"
+        step = 0.01
+        [base]
+        kind = "clamp"
+        [[joint]]
+        stiffness = 20.0
+        damping = 5.0
+        repeat = 3
+        [[link]]
+        inertia = 1.0
+        repeat = 3
+        [[input]]
+        name = "load"
+        at = 2
+        acts = "torque"
+        [[input]]
+        name = "bias"
+        at = "tip"
+        acts = "torque"
+        [[output]]
+        name = "angle"
+        at = "tip"
+        of = "angle"
+    """)
+    assert failed(check(scene)) == []

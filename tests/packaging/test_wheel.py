@@ -127,7 +127,7 @@ def test_the_installed_command_is_the_wheels(installed: Path, tmp_path: Path, re
 
 
 def test_the_installed_command_writes_a_scene_and_a_kernel_that_runs(installed: Path, tmp_path: Path) -> None:
-    _run([installed / "tmm-gen", "new", "foo"], tmp_path)
+    _run([installed / "tmm-gen", "new", "foo", "--out", "."], tmp_path)
     assert (tmp_path / "foo.toml").is_file()
     _run([installed / "tmm-gen", "build", "foo.toml", "--out", "generated_here"], tmp_path)
     kernel = Path(_run([installed / "python", "-c", USE_THE_RESULT], tmp_path).strip())

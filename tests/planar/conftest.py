@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from tmm_gen.measure.signals import Sine
+from tmm_gen.measure.trace import Trace
 from tmm_gen.native import NativeKernel, compile_kernel
 from tmm_gen.program.build import build_program
 from tmm_gen.scene import Scene, parse_scene
@@ -132,7 +133,28 @@ def compiled() -> Callable[[Scene], NativeKernel]:
 
     def of(scene: Scene) -> NativeKernel:
         if scene not in known:
-            known[scene] = compile_kernel(build_program(scene), scene)
+            known[scene] = compile_kernel(build_program(scene), scene, flags=("-O1",))
         return known[scene]
 
     return of
+
+
+@pytest.fixture(scope="session")
+def traced() -> Callable[..., tuple[np.ndarray, Trace]]:
+    """Step a kernel at any step and keep the motion of all links: instants and trace."""
+
+    def run(kernel: NativeKernel, scene: Scene, signals: Any, until: float, step: float) -> tuple[np.ndarray, Trace]:
+        kernel.prepare(step=step)
+        kernel.initialise({name: float(signal.at(0.0)) for name, signal in signals.items()})
+        steps = round(until / step)
+        trace = Trace.empty(scene, steps + 1)
+        trace.add(kernel.state)
+        (instants,) = kernel.program.stage_instants
+        for index in range(steps):
+            times = step * (index + np.array(instants))
+            values = {name: signal.at(times) for name, signal in signals.items()}
+            kernel.step(values if len(instants) > 1 else {name: float(v[0]) for name, v in values.items()})
+            trace.add(kernel.state)
+        return step * np.arange(steps + 1), trace
+
+    return run

@@ -19,20 +19,15 @@ ORDERS = [("newmark", 2), ("sdirk4", 4)]
 STEPS = (4e-3, 2e-3, 1e-3, 5e-4)
 
 
-def runs(scene: Scene, signals: Any, compiled: Any, until: float) -> Any:
-    for h in STEPS:
-        stepped = scene.replace(**{"integrator.step": h})
-        yield simulate(stepped, signals, until, "c", kernel=compiled(stepped), trace=True)
-
-
 @pytest.mark.parametrize(("name", "order"), ORDERS)
 def test_momentum_about_a_free_hub_stays(
-    name: str, order: int, unlike: Callable[..., Scene], compiled: Any
+    name: str, order: int, unlike: Callable[..., Scene], compiled: Any, traced: Any
 ) -> None:
     scene = unlike("motor", gravity=None, loads=False, damped=False, integrator=name)
     errors = []
-    for run in runs(scene, {}, compiled, 0.4):
-        momentum = angular_momentum(scene, run.trace.angle, run.trace.rate)
+    for h in STEPS:
+        _, motion = traced(compiled(scene), scene, {}, 0.4, h)
+        momentum = angular_momentum(scene, motion.angle, motion.rate)
         errors.append(np.max(np.abs(momentum / momentum[0] - 1.0)))
     assert convergence_slope(STEPS, errors).order > order - 0.2
     assert errors[-1] < 1e-3
@@ -41,13 +36,14 @@ def test_momentum_about_a_free_hub_stays(
 @pytest.mark.parametrize(("name", "order"), ORDERS)
 @pytest.mark.parametrize("base", ["clamp", "motor", "prescribed"])
 def test_work_done_is_energy_gained_and_dissipated(
-    base: str, name: str, order: int, unlike: Callable[..., Scene], compiled: Any, swinging: Any
+    base: str, name: str, order: int, unlike: Callable[..., Scene], compiled: Any, swinging: Any, traced: Any
 ) -> None:
     scene = unlike(base, integrator=name)
     signals = swinging(scene)
     errors = []
-    for run in runs(scene, signals, compiled, 0.4):
-        found = energy(scene, signals, run.time, run.trace.angle, run.trace.rate)
+    for h in STEPS:
+        time, motion = traced(compiled(scene), scene, signals, 0.4, h)
+        found = energy(scene, signals, time, motion.angle, motion.rate)
         errors.append(np.max(np.abs(found.unbalanced)) / np.ptp(found.total))
     # the rate of a prescribed hub is of stage order only, so the last halving gains less there
     least = order - 0.2 if base != "prescribed" or name != "sdirk4" else 1.5
@@ -57,12 +53,13 @@ def test_work_done_is_energy_gained_and_dissipated(
 
 @pytest.mark.parametrize(("name", "order"), ORDERS)
 def test_energy_without_damping_stays(
-    name: str, order: int, unlike: Callable[..., Scene], compiled: Any
+    name: str, order: int, unlike: Callable[..., Scene], compiled: Any, traced: Any
 ) -> None:
     scene = unlike("clamp", loads=False, damped=False, integrator=name)
     errors = []
-    for run in runs(scene, {}, compiled, 0.4):
-        total = energy(scene, {}, run.time, run.trace.angle, run.trace.rate).total
+    for h in STEPS:
+        time, motion = traced(compiled(scene), scene, {}, 0.4, h)
+        total = energy(scene, {}, time, motion.angle, motion.rate).total
         errors.append(np.max(np.abs(total - total[0])))
     assert convergence_slope(STEPS, errors).order > order - 0.3
 

@@ -26,7 +26,10 @@ def test_affine_expressions_keep_one_factor_each() -> None:
     hoister = Hoister()
     (hoisted,) = hoister.hoist(routine(value)).values()
     assert all(v.role is Role.COEFFICIENT for v in hoister.coefficients)
-    back = {v.ref: assign.value for v, assign in zip(hoister.coefficients, hoister.section().statements, strict=True)}
+    back = {
+        v.ref: assign.value
+        for v, assign in zip(hoister.coefficients, hoister.section().statements, strict=True)
+    }
     assert sp.expand(hoisted.subs(back) - value) == 0
     assert not hoisted.has(h)
     assert count_expression(hoisted).total == 3

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 _PICTURE = "picture"
 """What ``--plot`` without a file stands for."""
 
+_MOVING = (".gif", ".html")
 _PICTURES = (".png", ".svg", ".pdf")
 
 _COLUMNS: list[Column | str] = [
@@ -46,6 +47,12 @@ def _picture(_context: click.Context, parameter: click.Parameter, value: str | N
     if value not in (None, _PICTURE) and Path(value).suffix.lower() not in _PICTURES:
         raise click.BadParameter(f"'{value}' must end in {', '.join(_PICTURES)}", param=parameter)
     return None if value is None else Path(value)
+
+
+def _animated(_context: click.Context, parameter: click.Parameter, value: Path | None) -> Path | None:
+    if value is not None and value.suffix.lower() not in _MOVING:
+        raise click.BadParameter(f"'{value}' must end in {' or '.join(_MOVING)}", param=parameter)
+    return value
 
 
 @click.command("run")
@@ -75,6 +82,14 @@ def _picture(_context: click.Context, parameter: click.Parameter, value: str | N
     callback=_picture,
     help="Draw inputs and outputs; by default into NAME.png.",
 )
+@click.option(
+    "--animate",
+    "animated",
+    metavar="FILE.gif|FILE.html",
+    type=click.Path(path_type=Path),
+    callback=_animated,
+    help="Show a planar arm in motion.",
+)
 @click.option("--json", "json_mode", is_flag=True, help="One JSON object instead of a table.")
 def run(
     scene: Path,
@@ -85,6 +100,7 @@ def run(
     backend: str,
     csv_file: Path | None,
     picture: Path | None,
+    animated: Path | None,
     json_mode: bool,
 ) -> None:
     """Simulate SCENE with its generated kernel.
@@ -98,14 +114,18 @@ def run(
 
     chosen = _scene(scene, step, changes)
     signals = read_inputs(given, tuple(item.name for item in chosen.inputs))
-    for target in (csv_file, picture):
+    planar = chosen.model.kind == "planar"
+    if animated is not None and not planar:
+        raise UserError(f"--animate {animated}: a chain has no shape to show. Use --plot.")
+    for target in (csv_file, picture, animated):
         if target is not None and target.is_dir():
             raise UserError(f"{target}: is a directory. Name a file in it.")
     duration = until or default_duration(chosen)
     steps = number_of_steps(duration, chosen.integrator.step)
     with progress(f"simulating {chosen.name}", total=steps) as advance:
-        simulation = simulate(chosen, signals, duration, backend, advance)  # type: ignore[arg-type]
-    written = _write(simulation, csv_file, picture)
+        trace = planar and (picture is not None or animated is not None)
+        simulation = simulate(chosen, signals, duration, backend, advance, trace=trace)  # type: ignore[arg-type]
+    written = _write(simulation, csv_file, picture, animated)
     _show(simulation, written, json_mode)
 
 
@@ -134,7 +154,9 @@ def _value(text: str) -> object:
     return read["value"] if set(read) == {"value"} else text
 
 
-def _write(simulation: Simulation, csv_file: Path | None, picture: Path | None) -> list[Path]:
+def _write(
+    simulation: Simulation, csv_file: Path | None, picture: Path | None, animated: Path | None
+) -> list[Path]:
     """Write the files asked for, all or none; return them."""
     from tmm_gen.files import write_tree_whole
 
@@ -146,6 +168,10 @@ def _write(simulation: Simulation, csv_file: Path | None, picture: Path | None) 
 
         target = Path(f"{simulation.scene.name}.png") if picture == Path(_PICTURE) else picture
         files[target] = response_picture(simulation, target.suffix[1:].lower())
+    if animated is not None:
+        from tmm_gen.measure.animate import animation
+
+        files[animated] = animation(simulation, animated.suffix[1:].lower())
     write_tree_whole(files)
     return list(files)
 

@@ -1,4 +1,4 @@
-"""A simulation as a picture: a panel for each unit of the outputs, the inputs below."""
+"""A simulation as a picture: the arm if it lies in a plane, a panel for each unit of the outputs, the inputs below."""
 
 from __future__ import annotations
 
@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from tmm_gen.measure.animate import draw_shapes
 from tmm_gen.measure.columns import QUANTITIES, output_columns
 from tmm_gen.measure.simulation import Simulation
-from tmm_gen.measure.style import PALETTE, figure, picture, style, subtitle
+from tmm_gen.measure.style import PALETTE, panelled, picture, style, subtitle
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
+_INPUT_UNITS = {"torque": "N m", "force_x": "N", "force_y": "N", "angle": "rad"}
 _LINES = ("-", "--", ":", "-.")
 
 
@@ -41,22 +43,20 @@ def _drawn(simulation: Simulation) -> Figure:
     units = list(dict.fromkeys(column.unit for column in columns))
     acting = [item for item in scene.inputs if np.any(simulation.inputs[item.name])]
     ratios = [3.0] * len(units) + [1.2] * bool(acting)
-    made, axes = figure(
-        8.0,
-        1.1 + 0.78 * sum(ratios),
-        nrows=len(ratios),
-        sharex=True,
-        squeeze=False,
-        gridspec_kw={"height_ratios": ratios},
-    )
-    panels = axes[:, 0]
+    shaped = simulation.trace is not None and scene.model.kind == "planar"
+    size = (12.0, max(5.0, 1.1 + 0.78 * sum(ratios))) if shaped else (8.0, 1.1 + 0.78 * sum(ratios))
+    made, panels, arm = panelled(*size, ratios, beside=shaped)
+    if shaped:
+        draw_shapes(arm, simulation)
+        subtitle(arm, "the arm over time", "the later the darker")
     for panel, unit in zip(panels, units, strict=False):
         shown = [column.name for column in columns if column.unit == unit]
         _curves(panel, simulation.time, {name: simulation.outputs[name] for name in shown})
         panel.set_ylabel(f"{QUANTITIES[unit]} ({unit.replace('^2', '²')})")
     if acting:
         _curves(panels[-1], simulation.time, {item.name: simulation.inputs[item.name] for item in acting})
-        panels[-1].set_ylabel("input (rad)" if all(i.acts == "angle" for i in acting) else "input (N m)")
+        acts = dict.fromkeys(_INPUT_UNITS[item.acts] for item in acting)
+        panels[-1].set_ylabel(f"input ({', '.join(acts)})")
         panels[-1].update_datalim([(0.0, 0.0)])
         panels[-1].margins(y=0.3)
         panels[-1].autoscale_view()

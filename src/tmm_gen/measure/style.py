@@ -77,6 +77,36 @@ def figure(width: float, height: float, **layout: Any) -> tuple[Figure, Any]:
     return made, made.subplots(**layout)
 
 
+def panelled(width: float, height: float, ratios: list[float], *, beside: bool = False) -> tuple[Figure, Any, Any]:
+    """Return a figure of panels below each other with one axis of time, and a field beside them if wanted.
+
+    Parameters
+    ----------
+    width, height : float
+        Inches.
+    ratios : list of float
+        Heights of the panels.
+    beside : bool
+        Whether to leave half of the width to a field.
+
+    Returns
+    -------
+    figure, panels, field
+        The last is None where there is none.
+    """
+    from matplotlib.figure import Figure
+
+    made = Figure(figsize=(width, height), layout="constrained")
+    grid = made.add_gridspec(len(ratios), 1 + beside, height_ratios=ratios)
+    field = made.add_subplot(grid[:, 0]) if beside else None
+    panels: list[Any] = []
+    for row in range(len(ratios)):
+        panels.append(made.add_subplot(grid[row, int(beside)], sharex=panels[0] if panels else None))
+    for panel in panels[:-1]:
+        panel.tick_params(labelbottom=False)
+    return made, panels, field
+
+
 def picture(made: Figure, form: str) -> bytes:
     """Return a figure as bytes of a picture.
 

@@ -12,10 +12,17 @@ from typing import Any
 import sympy as sp
 
 from tmm_gen.program.statements import Assign, Loop, Order, Require, Routine
-from tmm_gen.program.variables import Ref, Variable
+from tmm_gen.program.variables import Ref, Role, Variable
 
 Values = dict[str, Any]
-"""Scalars and lists by variable name."""
+"""Scalars and lists by :func:`key`."""
+
+
+def key(variable: Variable) -> str:
+    """Return under which name values hold a variable: signals and scratch may be called like anything else."""
+    if variable.role in (Role.INPUT, Role.OUTPUT):
+        return f"{variable.role.value} {variable.name}"
+    return f"scratch {variable.name}" if variable.role in (Role.WORK, Role.LOCAL) else variable.name
 
 
 class VanishingPivotError(ArithmeticError):
@@ -28,11 +35,11 @@ def allocate(variables: tuple[Variable, ...], number: Callable[[float], Any]) ->
     for variable in variables:
         default = variable.default if variable.default is not None else 0.0
         if variable.length is None:
-            values[variable.name] = number(default)  # type: ignore[arg-type]
+            values[key(variable)] = number(default)  # type: ignore[arg-type]
         elif isinstance(default, tuple):
-            values[variable.name] = [number(x) for x in default]
+            values[key(variable)] = [number(x) for x in default]
         else:
-            values[variable.name] = [number(default)] * variable.length
+            values[key(variable)] = [number(default)] * variable.length
     return values
 
 
@@ -46,7 +53,7 @@ def execute(
     routine : Routine
         What to run.
     values : dict
-        Every variable by name; arrays are lists. Written in place, scratch is added.
+        Every variable by :func:`key`; arrays are lists. Written in place, scratch is added.
     number : callable
         Makes a number of the wanted type from a float, for scratch arrays.
     modules : str or tuple
@@ -59,8 +66,8 @@ def execute(
         If a required pivot is not positive and finite.
     """
     for variable in routine.written():
-        if variable.name not in values:
-            values[variable.name] = (
+        if key(variable) not in values:
+            values[key(variable)] = (
                 number(0.0) if variable.length is None else [number(0.0)] * variable.length
             )
     compiled = {value: _function(value, modules) for value in routine.values()}
@@ -103,15 +110,15 @@ def _function(value: sp.Expr, modules: Any) -> tuple[list[sp.Symbol], Callable[.
 
 
 def _read(values: Mapping[str, Any], ref: Ref, j: int | None) -> Any:
-    held = values[ref.variable.name]
+    held = values[key(ref.variable)]
     return held if ref.variable.length is None else held[_index(ref, j)]
 
 
 def _write(values: Values, ref: Ref, j: int | None, result: Any) -> None:
     if ref.variable.length is None:
-        values[ref.variable.name] = result
+        values[key(ref.variable)] = result
     else:
-        values[ref.variable.name][_index(ref, j)] = result
+        values[key(ref.variable)][_index(ref, j)] = result
 
 
 def _index(ref: Ref, j: int | None) -> int:

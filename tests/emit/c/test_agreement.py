@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from tmm_gen.derive.integrators.registry import names
 from tmm_gen.emit.c.lower import lower
 from tmm_gen.native import compile_kernel
-from tmm_gen.program.evaluate import allocate, execute
+from tmm_gen.program.evaluate import allocate, execute, key
 from tmm_gen.program.statements import Program
 from tmm_gen.program.variables import Role
 
@@ -77,8 +77,9 @@ def test_one_step_equals_the_interpreter(data: st.DataObject, kind: dict[str, An
 
     with mpmath.workdps(30):
         values = allocate((program.step, *program.parameters), mpmath.mpf)
+        keys = {v.name: key(v) for v in program.inputs}
         for name, value in {**state, **inputs}.items():
-            values[name] = [mpmath.mpf(x) for x in value] if np.ndim(value) else mpmath.mpf(value)
+            values[keys.get(name, name)] = [mpmath.mpf(x) for x in value] if np.ndim(value) else mpmath.mpf(value)
         for routine in (program.prepare, program.steps[taken]):
             execute(routine, values, mpmath.mpf, "mpmath")
         for unit in {v.unit for v in program.state}:

@@ -81,7 +81,9 @@ def test_frozen_works_for_one_link(fine: dict[int, np.ndarray]) -> None:
 
 
 def test_taylor_works_at_large_steps_and_fails_at_small_ones(fine: dict[int, np.ndarray]) -> None:
-    errors = {h: tip_after_one_second(falling_arm(5, "taylor", h)) - fine[5] for h in (0.02, 0.01, 0.005, 0.001)}
+    errors = {
+        h: tip_after_one_second(falling_arm(5, "taylor", h)) - fine[5] for h in (0.02, 0.01, 0.005, 0.001)
+    }
     assert np.linalg.norm(errors[0.02]) < 2e-3
     assert np.linalg.norm(errors[0.01]) < 5e-4
     assert np.linalg.norm(errors[0.005]) < 1.5e-4

@@ -13,7 +13,7 @@ import mpmath
 from tmm_gen.emit.c.estimate import FUNCTIONS, Estimate, estimate_of
 from tmm_gen.emit.c.kernel import Kernel
 from tmm_gen.emit.c.real import Real
-from tmm_gen.program.evaluate import Values, VanishingPivotError, allocate, execute
+from tmm_gen.program.evaluate import Values, VanishingPivotError, allocate, execute, key
 from tmm_gen.program.statements import Program
 from tmm_gen.program.variables import Ref, Variable
 
@@ -147,7 +147,7 @@ def _apply(
 ) -> None:
     for which, variable in enumerate(program.inputs):
         numbers = [number(_input(which, k, stage, spread)) for stage in range(variable.length or 1)]
-        values[variable.name] = numbers[0] if variable.length is None else numbers
+        values[key(variable)] = numbers[0] if variable.length is None else numbers
 
 
 def _input(which: int, k: int, stage: int, spread: int) -> float:
@@ -173,7 +173,7 @@ def _shown(variable: Variable) -> list[Ref]:
 
 
 def _value(values: Values, ref: Ref) -> Estimate:
-    held = values[ref.variable.name]
+    held = values[key(ref.variable)]
     return estimate_of(held if ref.variable.length is None else held[ref.entry])
 
 
