@@ -1,0 +1,46 @@
+"""Arms far from the usual: each motion is right or refused. `benchmarks/extremes_planar.py` tries many more."""
+
+from __future__ import annotations
+
+import pytest
+
+from tmm_gen.measure.planar_extremes import Extreme, judge
+
+pytestmark = pytest.mark.compiler
+
+RIGHT = [
+    Extreme(),
+    Extreme(links=1),
+    Extreme(links=30),
+    Extreme(links=1000),
+    Extreme(stiffness=1e-5),
+    Extreme(stiffness=1e5),
+    Extreme(slenderness=1e-3),
+    Extreme(slenderness=100.0),
+    Extreme(tip_ratio=1e4),
+    Extreme(tip_ratio=1e4, links=1000, slenderness=0.01),
+    Extreme(step=1e-6),
+    Extreme(step=0.1),
+    Extreme(step=0.1, integrator="sdirk4"),
+    Extreme(revolutions=0.1),
+    Extreme(revolutions=100.0, step=1e-4),
+    Extreme(revolutions=100.0, stiffness=1e5, tip_ratio=100.0, step=1e-3),
+]
+REFUSED = [
+    Extreme(revolutions=100.0, step=0.01),
+    Extreme(revolutions=100.0, step=0.1, links=50),
+    Extreme(links=100_001),
+]
+
+
+@pytest.mark.parametrize("extreme", RIGHT, ids=str)
+def test_the_motion_is_right(extreme: Extreme) -> None:
+    verdict = judge(extreme)
+    assert verdict.status == "right", verdict
+
+
+@pytest.mark.parametrize("extreme", REFUSED, ids=str)
+def test_what_a_step_cannot_follow_is_refused(extreme: Extreme) -> None:
+    verdict = judge(extreme)
+    assert verdict.status == "refused", verdict
+    assert "Use a step below" in verdict.said or "must be at most" in verdict.said
