@@ -1,0 +1,75 @@
+"""Try planar arms over the whole range of the usual and the unusual: right, refused or wrong?
+
+Links 1 to 1000, EI over ten decades, links of point mass to stubby, tip masses to 1e4 times the arm's, steps of 1e-6 to
+0.1 of the first period, rotation up to 100 revolutions per second: each alone, and combinations at random (always the
+same ones). Exits with 1 if any is wrong.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import asdict
+from pathlib import Path
+
+import numpy as np
+
+from tmm_gen.cli.console import Column, progress, table
+from tmm_gen.files import write_whole
+from tmm_gen.measure.planar_extremes import Extreme, judge
+from tmm_gen.measure.rows import csv_text
+
+ALONE: dict[str, tuple[float, ...]] = {
+    "links": (1, 2, 3, 5, 10, 20, 50, 60, 100, 200, 500, 1000),
+    "stiffness": tuple(10.0**k for k in range(-5, 6)),
+    "slenderness": (1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0),
+    "tip_ratio": (0.0, 1e-2, 1.0, 1e2, 1e4),
+    "step": (1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1),
+    "revolutions": (0.1, 1.0, 10.0, 100.0),
+}
+
+
+def extremes(at_random: int) -> Iterator[Extreme]:
+    """Yield the extremes to try."""
+    for name, values in ALONE.items():
+        for value in values:
+            yield Extreme(**{name: value})  # type: ignore[arg-type]
+    random = np.random.default_rng(0)
+    few = {**ALONE, "links": (1, 2, 5, 20, 50), "revolutions": (0.0, 0.0, 0.1, 1.0, 10.0, 100.0)}
+    for _ in range(at_random):
+        drawn = {name: values[random.integers(len(values))] for name, values in few.items()}
+        yield Extreme(**drawn)  # type: ignore[arg-type]
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("--out", type=Path, default=Path("out/bench"))
+    parser.add_argument("--random", type=int, default=60, help="how many combinations at random")
+    given = parser.parse_args()
+    tried = list(extremes(given.random))
+    rows = []
+    with progress("trying extremes", total=len(tried)) as advance:
+        for extreme in tried:
+            verdict = judge(extreme)
+            rows.append({**asdict(extreme), **asdict(verdict)})
+            advance(1)
+    columns = [
+        *("links", Column("stiffness", "EI", ".0e"), Column("slenderness", form=".0e")),
+        *(Column("tip_ratio", "tip / arm", ".0e"), Column("step", "step / period", ".0e")),
+        *(Column("revolutions", "rev/s", "g"), Column("status"), Column("error", form=".1e")),
+        *(
+            Column("bound", "at most", ".1e"),
+            Column("said", form=lambda text: str(text).partition("\n")[0][:60]),
+        ),
+    ]
+    counts = Counter(row["status"] for row in rows)
+    table(rows, columns, title=", ".join(f"{count} {status}" for status, count in sorted(counts.items())))
+    write_whole(given.out / "extremes_planar.csv", csv_text(rows))
+    print(f"wrote {given.out / 'extremes_planar.csv'}")
+    return 1 if counts["wrong"] else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
