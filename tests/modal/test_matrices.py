@@ -63,6 +63,27 @@ def test_a_free_hub_lets_the_arm_hang(beam_scene: Callable[..., Scene]) -> None:
     np.testing.assert_allclose([rest.hub, *rest.angles], -np.pi / 2, atol=1e-9)
 
 
+@pytest.mark.parametrize("integrator", ["newmark", "houbolt", "sdirk4"])
+def test_the_generated_kernel_finds_where_a_free_hub_rests(
+    integrator: str, beam_scene: Callable[..., Scene]
+) -> None:
+    """Pushed at the tip, it hangs askew; the slope of the kernel's accelerations there is -M^-1 K."""
+    scene = beam_scene(links=3, base='kind = "motor"\ninertia = 0.03', gravity=9.81, bending=1.0)
+    scene = scene.replace(**{"integrator.name": integrator})
+    own = equilibrium(scene, {"push": 0.5})
+    kernels = equilibrium(scene, {"push": 0.5}, kernel_unbalanced(scene, {"push": 0.5}))
+    np.testing.assert_allclose([own.hub, *own.angles], [kernels.hub, *kernels.angles], atol=1e-9)
+    accelerations = kernel_accelerations(scene, {"push": 0.5})
+    angles, step = np.array([own.hub, *own.angles]), 1e-5
+    linear = matrices(linear_arm(scene, own))
+    slopes = [
+        (accelerations(angles + step * unit) - accelerations(angles - step * unit)) / (2 * step)
+        for unit in np.eye(4)
+    ]
+    error = linear.mass @ np.array(slopes).T + linear.stiffness
+    assert np.max(np.abs(error)) < 1e-6 * np.max(np.abs(linear.stiffness))
+
+
 def test_a_torque_on_a_free_hub_has_no_equilibrium(beam_scene: Callable[..., Scene]) -> None:
     from tmm_gen.errors import UserError
 

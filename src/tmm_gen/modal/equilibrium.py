@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +24,8 @@ _TOLERANCE = 1e-12
 _HALVINGS = 30
 _OVERSHOOT = 0.9
 _NEAR = 1e-6
+_SHORT = 1e-8
+"""Step in which nothing moves, s: angles change by its square."""
 _CONVEX = 1e-12
 """Least generalised eigenvalue of the stiffness, relative to the largest, that counts as convex."""
 
@@ -96,42 +99,45 @@ def _descent(linear: Matrices, torque: Array) -> Array:
 def kernel_unbalanced(scene: Scene, inputs: Mapping[str, float] | None = None) -> Unbalanced:
     """Return the torque out of balance that the scene's generated NumPy kernel sees.
 
-    Its ``initialise`` gives the accelerations of an arm let go at some angles; times the mass matrix they are
-    the torques. A hub always starts at angle zero there, so that it cannot be asked about a free hub.
+    The kernel gives the accelerations of an arm let go at some angles; times the mass matrix they are the torques.
 
     Parameters
     ----------
     scene : Scene
-        Of kind "planar", its base a clamp or prescribed.
+        Of kind "planar".
     inputs : mapping from str to float, optional
         Constant inputs by name; those not given are zero.
-
-    Raises
-    ------
-    ValueError
-        If the base is a motor.
     """
     accelerations = kernel_accelerations(scene, inputs)
-    return lambda rest, linear: linear.mass @ accelerations(rest.angles)
+    return lambda rest, linear: linear.mass @ accelerations(rest.free_angles)
 
 
 def kernel_accelerations(scene: Scene, inputs: Mapping[str, float] | None = None) -> Callable[[Array], Array]:
-    """Return the generated NumPy kernel's map from angles of the links to their accelerations, rad/s^2.
+    """Return the generated NumPy kernel's map from the free angles to their accelerations, rad/s^2.
 
-    Raises
-    ------
-    ValueError
-        If the base is a motor.
+    ``initialise`` answers for a base that is held. It starts a free hub at angle zero, so a motor's arm, hub
+    first, is let go for one step too short to move.
     """
-    if scene.base.kind == "motor":
-        raise ValueError(f"scene '{scene.name}': the kernel starts a motor's hub at angle zero only")
     from tmm_gen.measure.module import numpy_module
 
+    if scene.base.kind == "motor":
+        scene = scene.replace(**{"integrator.name": "newmark", "model.linearisation": "newton"})
     module = numpy_module(scene)
     held = module.Input(**{item.name: (inputs or {}).get(item.name, 0.0) for item in scene.inputs})
 
-    def accelerations(angles: Array) -> Array:
+    def held_base(angles: Array) -> Array:
         state = module.initialise(module.Params(), held, initial_angle=angles)
         return np.array(state.acceleration, float)
 
-    return accelerations
+    if scene.base.kind != "motor":
+        return held_base
+    short = module.prepare(step=_SHORT)
+    rest = module.initialise(module.Params(), held)
+
+    def free_hub(angles: Array) -> Array:
+        still = {"rate": np.zeros(angles.size - 1), "acceleration": np.zeros(angles.size - 1)}
+        hub = {"hub_angle": angles[0], "hub_rate": 0.0, "hub_acceleration": 0.0}
+        after = module.step(short, replace(rest, angle=angles[1:], **still, **hub), held)
+        return np.array([after.hub_acceleration, *after.acceleration], float)
+
+    return free_hub

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from tmm_gen.modal.arm import LinearArm, linear_arm
-from tmm_gen.modal.equilibrium import Unbalanced, equilibrium, kernel_unbalanced
+from tmm_gen.modal.equilibrium import equilibrium, kernel_unbalanced
 from tmm_gen.modal.rest import rest_at, straight
 from tmm_gen.scene import Scene
 
@@ -16,8 +16,7 @@ def resting_arm(scene: Scene, inputs: Mapping[str, float] | None = None) -> Line
     """Return a scene's linear arm: a chain, or a planar arm about its static equilibrium.
 
     Under gravity or constant inputs the equilibrium is where the generated NumPy kernel says that nothing
-    accelerates; with a free hub, which that kernel cannot place, where the elements' equations say so.
-    Without either the arm lies straight along x.
+    accelerates. Without either the arm lies straight along x.
 
     Parameters
     ----------
@@ -36,5 +35,4 @@ def resting_arm(scene: Scene, inputs: Mapping[str, float] | None = None) -> Line
     held = {name: value for name, value in (inputs or {}).items() if value != 0.0}
     if not scene.model.gravity and not held:
         return linear_arm(scene, rest_at(scene, np.zeros_like(straight(scene))))
-    source: Unbalanced | None = None if scene.base.kind == "motor" else kernel_unbalanced(scene, held)
-    return linear_arm(scene, equilibrium(scene, held, source))
+    return linear_arm(scene, equilibrium(scene, held, kernel_unbalanced(scene, held)))
