@@ -1,7 +1,7 @@
 """How well undamped planar arms keep their energy over 100 s: Newmark 1/4 and sdirk4, beside the step.
 
-The arm of ``scenes/fall10.toml`` without its dampers. Drift is the largest departure of the total energy from its first value,
-relative to the largest kinetic energy.
+The arm of ``scenes/fall10.toml`` without its dampers. Drift is the largest departure of the total energy from its
+first value, relative to the largest kinetic energy.
 """
 
 from __future__ import annotations

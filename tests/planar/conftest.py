@@ -143,7 +143,9 @@ def compiled() -> Callable[[Scene], NativeKernel]:
 def traced() -> Callable[..., tuple[np.ndarray, Trace]]:
     """Step a kernel at any step and keep the motion of all links: instants and trace."""
 
-    def run(kernel: NativeKernel, scene: Scene, signals: Any, until: float, step: float) -> tuple[np.ndarray, Trace]:
+    def run(
+        kernel: NativeKernel, scene: Scene, signals: Any, until: float, step: float
+    ) -> tuple[np.ndarray, Trace]:
         kernel.prepare(step=step)
         kernel.initialise({name: float(signal.at(0.0)) for name, signal in signals.items()})
         steps = round(until / step)

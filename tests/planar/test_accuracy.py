@@ -21,7 +21,9 @@ CHECKPOINTS = np.linspace(0.0, 1.0, 101)
 _known: dict[int, dict[str, np.ndarray]] = {}
 
 
-def tip_errors(scene: Scene, compiled: Callable[[Scene], NativeKernel], step: float | None = None) -> np.ndarray:
+def tip_errors(
+    scene: Scene, compiled: Callable[[Scene], NativeKernel], step: float | None = None
+) -> np.ndarray:
     """Return the distance of the tip from where it should be, at the checkpoints."""
     h = step or scene.integrator.step
     exact = _known.setdefault(scene.stations, planar_response(scene, {}, CHECKPOINTS))
@@ -72,7 +74,9 @@ def test_errors_shrink_with_the_derived_order(
     assert fitted == pytest.approx(order(integrator(name)), abs=0.15)
 
 
-@pytest.mark.parametrize(("name", "least"), [("newmark", 1.9), ("bathe", 1.9), ("zhou", 2.9), ("sdirk4", 3.5)])
+@pytest.mark.parametrize(
+    ("name", "least"), [("newmark", 1.9), ("bathe", 1.9), ("zhou", 2.9), ("sdirk4", 3.5)]
+)
 def test_one_sweep_per_step_keeps_the_order_where_joints_are_stiff_and_damped(
     name: str, least: float, falling: Callable[..., Scene], compiled: Any
 ) -> None:

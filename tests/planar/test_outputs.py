@@ -47,7 +47,12 @@ def test_a_fallen_arm_hangs_by_its_weight(unlike: Callable[..., Scene], compiled
     kernel = compiled(scene)
     kernel.prepare()
     kernel.initialise()
-    kernel.state = {**kernel.state, "hub_angle": -np.pi / 2, "acceleration": np.zeros(3), "hub_acceleration": 0.0}
+    kernel.state = {
+        **kernel.state,
+        "hub_angle": -np.pi / 2,
+        "acceleration": np.zeros(3),
+        "hub_acceleration": 0.0,
+    }
     for _ in range(10):
         kernel.step()
     weight = 9.81 * (sum(link.mass for link in scene.links) + scene.tip.mass)

@@ -74,7 +74,9 @@ def random_vectors(program: Any, count: int = VECTORS, seed: int = 0) -> Iterato
             yield Vector(taken, {name: np.asarray(value) for name, value in state.items()}, inputs)
 
 
-def reached_vectors(module: ModuleType, program: Any, count: int = VECTORS, seed: int = 0) -> Iterator[Vector]:
+def reached_vectors(
+    module: ModuleType, program: Any, count: int = VECTORS, seed: int = 0
+) -> Iterator[Vector]:
     """Yield states that a planar arm reaches within some steps from random, gently bent and moving starts.
 
     A state at random is none of an arm: stiff joints bent at will ask for forces under which no step can be solved.

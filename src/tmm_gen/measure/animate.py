@@ -81,7 +81,13 @@ def animation(simulation: Simulation, form: str) -> bytes:
         axes.set_title(scene.title)
         (path,) = axes.plot([], [], color=PALETTE[5], linewidth=1.2, zorder=1)
         (arm,) = axes.plot(
-            [], [], color=PALETTE[0], linewidth=3.0, solid_capstyle="round", marker="o", markersize=_dots(scene)
+            [],
+            [],
+            color=PALETTE[0],
+            linewidth=3.0,
+            solid_capstyle="round",
+            marker="o",
+            markersize=_dots(scene),
         )
         (tip,) = axes.plot([], [], "o", color=PALETTE[1], markersize=9.0 if scene.tip else 5.0, zorder=4)
         faster = "" if abs(speed - 1.0) < 0.05 else f", shown {speed:.2g} times as fast"
@@ -89,10 +95,9 @@ def animation(simulation: Simulation, form: str) -> bytes:
 
         def draw(index: int) -> tuple[Any, ...]:
             k = shown[index]
-            past = shown[: index + 1]
             arm.set_data(x[k], y[k])
             tip.set_data(x[k, -1:], y[k, -1:])
-            path.set_data(x[past, -1], y[past, -1])
+            path.set_data(x[: k + 1, -1], y[: k + 1, -1])
             clock.set_text(f"{simulation.time[k]:.2f} s{faster}")
             return arm, tip, path, clock
 
@@ -121,7 +126,11 @@ def draw_shapes(axes: Axes, simulation: Simulation) -> None:
         axes.plot(x[k, -1], y[k, -1], "o", color=colour, markersize=6.0 if scene.tip else 3.5)
     for k, colour in ((shown[0], colours[0]), (shown[-1], colours[-1])):
         axes.annotate(
-            f"{simulation.time[k]:.3g} s", (x[k, -1], y[k, -1]), (6, 4), textcoords="offset points", color=colour
+            f"{simulation.time[k]:.3g} s",
+            (x[k, -1], y[k, -1]),
+            (6, 4),
+            textcoords="offset points",
+            color=colour,
         )
 
 
@@ -139,7 +148,9 @@ def _ground(axes: Axes, scene: Scene, x: Array, y: Array) -> None:
     if scene.base.kind == "clamp":
         axes.plot([0.0, 0.0], [-0.07 * reach, 0.07 * reach], color=INK, linewidth=5.0, zorder=3)
     else:
-        axes.plot(0.0, 0.0, "o", color="white", markeredgecolor=INK, markeredgewidth=2.0, markersize=13, zorder=3)
+        axes.plot(
+            0.0, 0.0, "o", color="white", markeredgecolor=INK, markeredgewidth=2.0, markersize=13, zorder=3
+        )
     if scene.model.gravity:
         axes.annotate(
             "", (0.96, 0.86), (0.96, 0.97), "axes fraction", arrowprops={"arrowstyle": "->", "color": FAINT}

@@ -105,7 +105,7 @@ def integrate(
         while now < goal:
             left = goal - now
             last = h >= left * (1.0 - 1e-9)
-            size = left if last else min(h, 0.5 * left if h > 0.5 * left else h)
+            size = left if last else min(h, 0.5 * left)
             if size < _SMALLEST * span:
                 raise ReferenceError(f"the reference cannot pass t = {now:g} s")
             solved = _step(residual, slopes, now, size, q, v, guess)
@@ -134,7 +134,7 @@ def _step(
     residual: Residual, slopes: Slopes, t: float, h: float, q: Array, v: Array, guess: Array | None
 ) -> tuple[Array, float] | None:
     """Return the coefficients of the accelerations over a step and the size of the last ones; None if lost."""
-    x, values, inverse, once, twice = _nodes()
+    x, _, inverse, once, twice = _nodes()
     s, n = len(x), len(q)
     instants = t + 0.5 * h * (x + 1.0)
     a = np.zeros((s, n)) if guess is None else np.tile(guess, (s, 1))
@@ -151,7 +151,6 @@ def _step(
         whole = np.einsum("ij,inm->injm", to_q, by_q) + np.einsum("ij,inm->injm", to_v, by_v)
         for i in range(s):
             whole[i, :, i, :] += by_a[i]
-        # each equation by the size of its own row: stiff joints and light links side by side
         flat = whole.reshape(s * n, s * n)
         change = np.linalg.solve(flat, -r.reshape(-1)).reshape(s, n)
         a = a + change

@@ -56,7 +56,8 @@ class Energy:
     @property
     def unbalanced(self) -> Array:
         """Work done less energy gained and dissipated, J: zero but for the errors of integration."""
-        return self.supplied - self.dissipated - (self.total - self.total[0])
+        left: Array = self.supplied - self.dissipated - (self.total - self.total[0])
+        return left
 
 
 def energy(scene: Scene, signals: Mapping[str, Signal], time: Array, angle: Array, rate: Array) -> Energy:

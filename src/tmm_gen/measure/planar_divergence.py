@@ -17,8 +17,8 @@ Array = NDArray[np.float64]
 TURN = math.pi
 """rad; a link that turns farther within one step is no motion a step can follow."""
 
-START_TURN = 1.0
-"""rad; a scene that starts faster than this per step is refused."""
+START_TURN = (0.5, 1.0)
+"""rad; a scene that starts faster than this per step is refused, with one sweep per stage and with more."""
 
 
 @dataclass(eq=False)
@@ -90,11 +90,11 @@ def planar_watch(scene: Scene, until: float, step: float) -> PlanarWatch:
         If it starts too fast for its step.
     """
     fastest = max((abs(rate) for rate in scene.initial.rates), default=0.0)
-    if fastest * step > START_TURN:
+    most = START_TURN[scene.model.iterations > 1]
+    if fastest * step > most:
         raise UserError(
             f"scene '{scene.name}': a link starts at {fastest:g} rad/s and would turn by {fastest * step:.3g} rad in "
-            f"one step of {step:g} s, more than a step can follow. Use a step below "
-            f"{START_TURN / fastest:.1g} s."
+            f"one step of {step:g} s, more than a step can follow. Use a step below {most / fastest:.1g} s."
         )
     steps = math.ceil(until / step) + 1
     return PlanarWatch(scene, step, max(map(abs, scene.initial.angles)) + steps * TURN)

@@ -218,7 +218,7 @@ class Arm:
         """Solve Lagrange's equations for the accelerations, (k, n)."""
         rest = self.residual(times, q, v, np.zeros_like(q))
         _, _, mass = self.slopes(times, q, v, np.zeros_like(q))
-        found: Array = np.linalg.solve(mass, -rest[:, :, None])[:, :, 0]
+        found: Array = np.asarray(np.linalg.solve(mass, -rest[:, :, None])[:, :, 0], np.float64)
         return found
 
     # -- outputs ------------------------------------------------------------------------------------------------

@@ -105,9 +105,13 @@ def simulate(
             if advance is not None:
                 advance(len(block))
     except ArithmeticError as error:  # what generated kernels raise
+        smaller = "Look"
+        if planar:
+            again = ", or --set model.iterations=2" if scene.model.iterations == 1 else ""
+            smaller = f"Try a smaller step, --step {step / 10:g}{again}; or look"
         raise UserError(
             f"scene '{scene.name}' cannot be solved: {error}. "
-            "Look for numbers that are far too large or small."
+            f"{smaller} for numbers that are far too large or small."
         ) from error
     time: Array = scene.integrator.step * np.arange(steps + 1, dtype=float)
     return Simulation(

@@ -77,7 +77,9 @@ def figure(width: float, height: float, **layout: Any) -> tuple[Figure, Any]:
     return made, made.subplots(**layout)
 
 
-def panelled(width: float, height: float, ratios: list[float], *, beside: bool = False) -> tuple[Figure, Any, Any]:
+def panelled(
+    width: float, height: float, ratios: list[float], *, beside: bool = False
+) -> tuple[Figure, Any, Any]:
     """Return a figure of panels below each other with one axis of time, and a field beside them if wanted.
 
     Parameters

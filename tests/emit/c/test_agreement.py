@@ -79,7 +79,9 @@ def test_one_step_equals_the_interpreter(data: st.DataObject, kind: dict[str, An
         values = allocate((program.step, *program.parameters), mpmath.mpf)
         keys = {v.name: key(v) for v in program.inputs}
         for name, value in {**state, **inputs}.items():
-            values[keys.get(name, name)] = [mpmath.mpf(x) for x in value] if np.ndim(value) else mpmath.mpf(value)
+            values[keys.get(name, name)] = (
+                [mpmath.mpf(x) for x in value] if np.ndim(value) else mpmath.mpf(value)
+            )
         for routine in (program.prepare, program.steps[taken]):
             execute(routine, values, mpmath.mpf, "mpmath")
         for unit in {v.unit for v in program.state}:

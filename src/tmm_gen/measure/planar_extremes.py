@@ -1,0 +1,211 @@
+"""Planar arms far from the usual: each motion is right, or it is refused.
+
+An arm of 1 m and 0.5 kg is let go from the horizontal under a weight that bends it by about a third of its length at
+most, or spun on a free hub. Right means: the tip follows Lagrange's equations to the error that the integrator's own
+order explains; beyond the reach of that reference (many links), the energies balance to the same.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from tmm_gen.errors import UserError
+from tmm_gen.measure.energy import energy
+from tmm_gen.measure.planar_reference import planar_response
+from tmm_gen.measure.run import simulate
+from tmm_gen.scene import Scene, SceneError, parse_scene
+
+MOST_LINKS = 60
+"""Of the reference, whose cost goes with the cube."""
+
+_MASS, _LENGTH = 0.5, 1.0
+_HUB = 1e-4
+"""Inertia of the hub as a share of the arm's: it starts at rest, and is to follow the spinning arm at once."""
+
+_SHARE = 10.0
+"""What faster modes add to the error of the first."""
+
+_CHECKPOINTS = 20
+_SAG = 0.3
+"""Largest static sag by a linear beam's formula, as a share of the length."""
+
+_SCENE = """
+name = "extreme"
+[model]
+kind = "planar"
+iterations = {iterations}
+{gravity}
+[integrator]
+name = "{integrator}"
+step = {step!r}
+[base]
+kind = "{base}"
+{inertia}
+[[joint]]
+stiffness = {first!r}
+damping = {first_damping!r}
+{joints}
+[[link]]
+mass = {mass!r}
+length = {length!r}
+inertia = {link_inertia!r}
+repeat = {links}
+[tip]
+mass = {tip!r}
+[[output]]
+name = "tip"
+at = "tip"
+of = "position"
+[initial]
+rates = {rate!r}
+"""
+_MORE = """[[joint]]
+stiffness = {k!r}
+damping = {c!r}
+repeat = {more}"""
+
+
+@dataclass(frozen=True)
+class Extreme:
+    """An arm and a step.
+
+    Parameters
+    ----------
+    links : int
+        Number of links.
+    stiffness : float
+        EI, N m^2.
+    slenderness : float
+        Inertia of a link about its centre over that of a thin rod: 0.001 for a mass at a point, 100 for a stubby block.
+    tip_ratio : float
+        Tip mass over that of the arm.
+    step : float
+        As a share of the first period.
+    revolutions : float
+        Per second; spins on a free hub without weight if not zero.
+    damping : float
+        Joint damping over stiffness, as a share of the first period.
+    integrator : str
+        Name.
+    iterations : int
+        Sweeps per stage.
+    """
+
+    links: int = 5
+    stiffness: float = 1.0
+    slenderness: float = 1.0
+    tip_ratio: float = 0.0
+    step: float = 1e-3
+    revolutions: float = 0.0
+    damping: float = 2e-3
+    integrator: str = "newmark"
+    iterations: int = 1
+
+    @property
+    def period(self) -> float:
+        """First period of the clamped beam with its tip mass, about, s."""
+        tip = self.tip_ratio * _MASS
+        return 2.0 * math.pi * math.sqrt((tip + 0.243 * _MASS) * _LENGTH**3 / (3.0 * self.stiffness))
+
+    @property
+    def steps(self) -> int:
+        """How many: half a period, where that is neither a handful nor more than patience."""
+        return min(max(round(0.5 / self.step), 20), 5000 if self.links <= MOST_LINKS else 500)
+
+    def scene(self) -> Scene:
+        """Return it as a scene."""
+        tip, length, mass = self.tip_ratio * _MASS, _LENGTH / self.links, _MASS / self.links
+        # w L^4 / 8 EI and P L^3 / 3 EI, for weights of arm and tip
+        sag = (_MASS / 8.0 + tip / 3.0) * _LENGTH**3 / self.stiffness
+        k = self.stiffness / length
+        c = self.damping * self.period * k
+        more = _MORE.format(k=k, c=c, more=self.links - 1) if self.links > 1 else ""
+        spun = self.revolutions > 0.0
+        return parse_scene(
+            _SCENE.format(
+                gravity="" if spun else f"gravity = {_SAG * _LENGTH / sag!r}",
+                integrator=self.integrator,
+                iterations=self.iterations,
+                step=self.step * self.period,
+                base="motor" if spun else "clamp",
+                inertia=f"inertia = {_HUB * _MASS * _LENGTH**2!r}" if spun else "",
+                first=2.0 * k,
+                first_damping=2.0 * c,
+                joints=more,
+                mass=mass,
+                length=length,
+                link_inertia=self.slenderness * mass * length**2 / 12.0,
+                links=self.links,
+                tip=tip,
+                rate=2.0 * math.pi * self.revolutions,
+            )
+        )
+
+    @property
+    def bound(self) -> float:
+        """Largest error of a second-order step, as a share of the largest motion.
+
+        Newmark's method is late by ``w^2 h^2 / 12`` of the way; beside the first mode and the rotation, faster modes
+        have a share in it.
+        """
+        turn = 2.0 * math.pi * self.step * max(1.0, self.revolutions * self.period)
+        passed = max(1.0, self.steps * turn)
+        return min(0.5, _SHARE * turn**2 / 12.0 * passed + 1e-6)
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What became of an extreme.
+
+    Parameters
+    ----------
+    status : str
+        "right", "refused", "two sweeps" (right with one more sweep per stage only) or "wrong".
+    error, bound : float
+        Share of the largest motion, or of the energy that moves; zero where refused.
+    said : str
+        The refusal, or what was compared.
+    """
+
+    status: str
+    error: float
+    bound: float
+    said: str
+
+
+def judge(extreme: Extreme) -> Verdict:
+    """Simulate an extreme in compiled C and compare; where it is wrong, once more with a second sweep per stage.
+
+    The figures are those of the extreme as given.
+    """
+    verdict = _judged(extreme)
+    if verdict.status == "wrong" and extreme.iterations == 1:
+        again = _judged(replace(extreme, iterations=2))
+        if again.status == "right":
+            return replace(verdict, status="two sweeps", said=f"{again.error:.1e} with two sweeps per stage")
+    return verdict
+
+
+def _judged(extreme: Extreme) -> Verdict:
+    try:
+        scene = extreme.scene()
+        run = simulate(scene, {}, extreme.steps * scene.integrator.step, "c", trace=True)
+    except (UserError, SceneError) as refusal:
+        return Verdict("refused", 0.0, 0.0, str(refusal))
+    assert run.trace is not None
+    if extreme.links > MOST_LINKS:
+        found = energy(scene, {}, run.time, run.trace.angle, run.trace.rate)
+        scale = float(np.max(found.kinetic) + np.ptp(found.elastic) + np.ptp(found.gravitational))
+        error, said = float(np.max(np.abs(found.unbalanced))) / scale, "energies balance"
+    else:
+        shown = np.unique(np.round(np.linspace(0, run.steps, _CHECKPOINTS + 1)).astype(int))
+        exact = planar_response(scene, {}, run.time[shown], 1e-10)
+        off = np.hypot(*(run.outputs[name][shown] - exact[name] for name in exact))
+        moved = np.hypot(*(values - values[0] for values in exact.values()))
+        # motion below rounding of the length is none
+        error, said = float(np.max(off) / max(np.max(moved), 1e-7)), "follows Lagrange's equations"
+    status = "right" if error <= extreme.bound else "wrong"
+    return Verdict(status, error, extreme.bound, said)
