@@ -7,14 +7,13 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from tmm_gen.errors import UserError
 from tmm_gen.measure.divergence import DivergedError, watch
 from tmm_gen.measure.duration import default_duration
 from tmm_gen.measure.frequency import fastest_mode
 from tmm_gen.measure.reference import exact_response
 from tmm_gen.measure.run import number_of_steps, simulate
 from tmm_gen.measure.signals import Constant, Signal, Sine, Table
-from tmm_gen.scene import Scene, parse_scene
+from tmm_gen.scene import Scene
 
 LOADS: dict[str, Signal] = {
     "outer": Sine(1.5, 5.0, 0.4),
@@ -149,17 +148,3 @@ def test_a_resonance_is_no_divergence(example: Callable[[str], Scene]) -> None:
     lowest = 4.0 * np.sin(np.pi / 10)
     found = simulate(scene, {"tip_torque": Sine(1.0, lowest)}, 500.0)
     assert np.abs(found.outputs["tip"]).max() > 10.0
-
-
-def test_a_planar_scene_is_refused_with_a_reason() -> None:
-    text = """
-    name = "arm"
-    model = {kind = "planar"}
-    integrator = {name = "newmark", step = 0.001}
-    base = {kind = "clamp"}
-    joint = [{stiffness = 1.0}]
-    link = [{inertia = 1.0, mass = 1.0, length = 1.0}]
-    output = [{name = "tip", at = "tip", of = "angle"}]
-    """
-    with pytest.raises(UserError, match="cannot be measured yet"):
-        simulate(parse_scene(text), {}, 1.0)

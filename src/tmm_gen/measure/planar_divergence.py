@@ -58,10 +58,11 @@ class PlanarWatch:
         how = f"turns by {value:.1e} rad in one step" if math.isfinite(value) else "is no longer finite"
         raise DivergedError(
             f"scene '{self.scene.name}': the simulation has diverged: at t = {time:.6g} s link {worst + 1} of "
-            f"{self.scene.stations} {how}.\n{self._cause()}"
+            f"{self.scene.stations} {how}.\n{self.cause()}"
         )
 
-    def _cause(self) -> str:
+    def cause(self) -> str:
+        """Say why, as far as linearisation and integrator tell, and what to do."""
         linearisation = self.scene.model.linearisation
         if linearisation == "frozen":
             return (

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from typing import Any, Literal
 
 import numpy as np
@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from tmm_gen.errors import UserError
 from tmm_gen.measure.assembly import assemble
 from tmm_gen.measure.columns import output_columns
-from tmm_gen.measure.divergence import Watch, watch
+from tmm_gen.measure.divergence import DivergedError, Watch, watch
 from tmm_gen.measure.module import numpy_module
 from tmm_gen.measure.planar_divergence import PlanarWatch, planar_watch
 from tmm_gen.measure.signals import Constant, Signal
@@ -105,6 +105,10 @@ def simulate(
             if advance is not None:
                 advance(len(block))
     except ArithmeticError as error:  # what generated kernels raise
+        if isinstance(guard, PlanarWatch) and scene.model.linearisation != "newton":
+            raise DivergedError(
+                f"scene '{scene.name}': the simulation has diverged: {error}.\n{guard.cause()}"
+            ) from error
         smaller = "Look"
         if planar:
             again = ", or --set model.iterations=2" if scene.model.iterations == 1 else ""
@@ -178,7 +182,8 @@ def _numpy(
                 now = index * h
                 stages = [read(now + at * h) for at in instants[min(index, len(instants) - 1)]]
                 given = stages if len(stages) > 1 else stages[0]
-            state = module.step(model, state, given)
+            with _located((index + 1) * h):
+                state = module.step(model, state, given)
             guard.look((index + 1) * h, state.angle)
             rows.append(row())
             if len(rows) >= _CHUNK or index + 1 == steps:
@@ -192,6 +197,7 @@ def _native(
     """Yield all outputs, (steps + 1, outputs)."""
     from tmm_gen.native import NonFiniteStateError, compile_kernel
     from tmm_gen.program.build import build_program
+    from tmm_gen.program.evaluate import VanishingPivotError
 
     kernel = kernel or compile_kernel(build_program(scene), scene)
     h = scene.integrator.step
@@ -205,7 +211,7 @@ def _native(
     try:
         _, outputs = kernel.simulate(h * steps, given)
         kept = np.max(np.abs(kernel.state["angle"])) <= guard.bound
-    except NonFiniteStateError:
+    except (NonFiniteStateError, VanishingPivotError):
         kept = False
     if not kept:
         _find_divergence(kernel, given, h, steps, guard)
@@ -249,11 +255,20 @@ def _step_by_step(
         values = {
             name: [stage[name] for stage in stages] if longest > 1 else stages[0][name] for name in given
         }
-        with suppress(NonFiniteStateError):  # its state tells where
+        with _located((index + 1) * h), suppress(NonFiniteStateError):  # its state tells where
             kernel.step(values)
         guard.look((index + 1) * h, kernel.state["angle"])
         rows.append(row())
     return np.array(rows)
+
+
+@contextmanager
+def _located(time: float) -> Iterator[None]:
+    """Say when the arithmetic of a step broke down."""
+    try:
+        yield
+    except ArithmeticError as error:
+        raise ArithmeticError(f"at t = {time:.6g} s {error}") from error
 
 
 def _number(signal: Signal) -> Callable[[float], float]:
