@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 import subprocess
 import sys
 import sysconfig
@@ -71,3 +72,23 @@ def borrow_environment() -> Callable[[Path], Path]:
         return bin_folder
 
     return make
+
+
+@pytest.fixture(scope="session")
+def need_tool() -> Callable[[str, str], str]:
+    """Return the path of a program; without it, fail where ``CI`` is set and skip elsewhere.
+
+    The function given takes the program, as called on a command line, and the package of Debian and Ubuntu that holds
+    it, which the message names.
+    """
+
+    def find(program: str, package: str) -> str:
+        found = shutil.which(program)
+        if found is not None:
+            return found
+        message = f"{program} not found: apt-get install {package}"
+        if os.environ.get("CI"):
+            pytest.fail(message)
+        pytest.skip(message)
+
+    return find

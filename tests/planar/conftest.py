@@ -99,12 +99,14 @@ def unlike_arm(
             tables.append(("[input]", {"name": "hub", "at": "base", "acts": "torque"}))
     if base == "prescribed":
         tables.append(("[input]", {"name": "hub", "at": "base", "acts": "angle"}))
-    motions = ("position", "angle", "velocity", "acceleration", "torque", "force")
+    motions = ("position", "angle", "rate", "velocity", "acceleration", "torque", "force")
     for at in (1, inner, "tip") if inner > 1 else (1, "tip"):
-        for of in motions if at != "tip" or tip else motions[:4]:
+        for of in motions if at != "tip" or tip else motions[:5]:
             tables.append(("[output]", {"name": f"{of}_of_{at}", "at": at, "of": of}))
-    for of in ("torque", "force", *(["angle"] if base != "clamp" else [])):
+    for of in ("torque", "force", *(["angle", "rate"] if base != "clamp" else [])):
         tables.append(("[output]", {"name": f"{of}_of_base", "at": "base", "of": of}))
+    for energy in ("kinetic", "elastic", "gravitational", "dissipated"):
+        tables.append(("[output]", {"name": energy, "at": "arm", "of": f"{energy}_energy"}))
     start = {name: random.uniform(-0.5, 0.5, links).tolist() for name in ("angles", "rates")}
     tables.append(("initial", start))
     lines = ['name = "unlike"']

@@ -248,28 +248,6 @@ EMISSION = [
     Case(
         "box of steps", "[base]", "[emit.box]\nstep = [0, 1]\n[base]", 14, "emit.box.step", (0.0, 1.0), "1e-4"
     ),
-    Case(
-        "control horizon",
-        "[base]",
-        "[control]\nhorizon = 0\n[base]",
-        14,
-        "control.horizon",
-        0,
-        "`horizon = 30`",
-    ),
-    Case(
-        "control value",
-        "[base]",
-        "[control]\nw = [1, nan]\n[base]",
-        14,
-        "control.w[2]",
-        None,
-        "plain",
-        "finite",
-    ),
-    Case(
-        "control time", "[base]", "[control]\nsample_time = -1\n[base]", 14, "control.sample_time", -1, "0.02"
-    ),
 ]
 
 SYNTAX = [
@@ -391,6 +369,35 @@ PLANAR = [
         "tip_x",
         "another",
         "component",
+    ),
+    Case(
+        "energy of a place",
+        'of = "position"',
+        'of = "kinetic_energy"',
+        32,
+        "output[1].at",
+        "tip",
+        '`at = "arm"`',
+    ),
+    Case(
+        "position of the arm",
+        'at = "tip"\nof',
+        'at = "arm"\nof',
+        32,
+        "output[1].at",
+        "arm",
+        "dissipated_energy",
+        "belongs to a place",
+    ),
+    Case(
+        "load on the arm",
+        'at = "base"\nacts',
+        'at = "arm"\nacts',
+        27,
+        "input[1].at",
+        "arm",
+        "link number",
+        "one place",
     ),
     Case("tip below zero", "mass = 0.1", "mass = -0.1", 23, "tip.mass", -0.1, "kg", "at least 0"),
 ]

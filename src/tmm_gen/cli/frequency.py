@@ -24,8 +24,6 @@ if TYPE_CHECKING:
 # NumPy, SymPy and Matplotlib are imported inside: `tmm-gen --help` has no use for them.
 
 _IN = {"torque": "N m", "force_x": "N", "force_y": "N", "angle": "rad"}
-_ANGULAR = {"angle": "rad", "velocity": "rad/s", "acceleration": "rad/s²", "torque": "N m"}
-_PLANAR = {**_ANGULAR, "position": "m", "velocity": "m/s", "acceleration": "m/s²", "force": "N"}
 
 
 @click.command("frequency")
@@ -89,6 +87,7 @@ def frequency(
     With --links-for ERROR --band HZ: how few links does this scene require?
     """
     from tmm_gen.scene import load_scene
+    from tmm_gen.scene.quantity import quantities
 
     if (error is None) != (band is None):
         raise click.UsageError("--links-for ERROR and --band HZ belong together.")
@@ -101,7 +100,9 @@ def frequency(
     refuse_folders(csv_file, picture)
     inputs = constant_inputs(loaded, given)
     chosen = _chosen(scene, loaded.inputs, source, "--from", "[[input]]")
-    read = _chosen(scene, loaded.outputs, target, "--to", "[[output]]")
+    # energies go with the square of the motion
+    readable = tuple(item for item in loaded.outputs if not quantities(loaded.model.kind)[item.of].of_arm)
+    read = _chosen(scene, readable, target, "--to", "[[output]] of a place")
     with progress(f"frequency response of {loaded.name}"):
         answer = _respond(loaded, inputs, chosen, read, (low, high), points)
         written = _write(answer, csv_file, picture)
@@ -137,8 +138,10 @@ class _Answer:
     @property
     def unit(self) -> str:
         """Of the magnitude."""
-        units = _PLANAR if self.arm.kind == "planar" else _ANGULAR
-        numerator, denominator = units[self.read.of], _IN[self.given.acts]
+        from tmm_gen.scene.quantity import quantities
+
+        numerator = quantities(self.arm.kind)[self.read.of].unit.replace("^2", "²")
+        denominator = _IN[self.given.acts]
         return f"{numerator} per {denominator}"
 
 

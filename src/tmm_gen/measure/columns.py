@@ -5,18 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from tmm_gen.scene import Output, Scene
-
-CHAIN_UNITS = {"angle": "rad", "velocity": "rad/s", "acceleration": "rad/s^2", "torque": "N m"}
-PLANAR_UNITS = {
-    "position": "m",
-    "angle": "rad",
-    "velocity": "m/s",
-    "acceleration": "m/s^2",
-    "torque": "N m",
-    "force": "N",
-}
-VECTORS = frozenset({"position", "velocity", "acceleration", "force"})
-"""Quantities with an x and a y component in a planar scene."""
+from tmm_gen.scene.quantity import quantities
 
 QUANTITIES = {
     "rad": "angle",
@@ -27,6 +16,7 @@ QUANTITIES = {
     "m/s": "velocity",
     "m/s^2": "acceleration",
     "N": "force",
+    "J": "energy",
 }
 
 
@@ -56,10 +46,8 @@ def output_columns(scene: Scene) -> tuple[OutputColumn, ...]:
 
 def _columns(output: Output, kind: str) -> tuple[OutputColumn, ...]:
     place = f"station {output.at}" if isinstance(output.at, int) else f"the {output.at}"
-    what = f"{output.of} at {place}"
-    if kind == "chain":
-        return (OutputColumn(output.name, CHAIN_UNITS[output.of], what),)
-    unit = PLANAR_UNITS[output.of]
-    if output.of not in VECTORS:
-        return (OutputColumn(output.name, unit, what),)
-    return tuple(OutputColumn(f"{output.name}_{axis}", unit, f"{what}, {axis}") for axis in "xy")
+    what = f"{output.of.replace('_', ' ')} {'of' if output.at == 'arm' else 'at'} {place}"
+    quantity = quantities(kind)[output.of]
+    if not quantity.vector:
+        return (OutputColumn(output.name, quantity.unit, what),)
+    return tuple(OutputColumn(f"{output.name}_{axis}", quantity.unit, f"{what}, {axis}") for axis in "xy")

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.measure.planar_reference import Arm
+from tmm_gen.measure.planar_arm import Arm
 from tmm_gen.measure.signals import Signal
 from tmm_gen.scene import Scene
 
@@ -75,24 +75,55 @@ def energy(scene: Scene, signals: Mapping[str, Signal], time: Array, angle: Arra
         Of the links, and of the hub first where the base is a motor (see :class:`tmm_gen.measure.trace.Trace`).
     """
     arm = Arm(scene, signals)
-    stiffness, damping = arm.springs
     s, c = np.sin(angle), np.cos(angle)
-    along_x, along_y = (s * rate) @ arm.levers.T, (c * rate) @ arm.levers.T  # of each centre of mass
-    kinetic = 0.5 * (along_x**2 + along_y**2) @ arm.masses + 0.5 * rate**2 @ arm.inertias
-    elastic = 0.5 * np.einsum("kj,ji,ki->k", angle, stiffness, angle)
-    dissipation = np.einsum("kj,ji,ki->k", rate, damping, rate)
     torque, force_x, force_y = arm.loads(time)
     beyond_x, beyond_y = (np.cumsum(f[:, ::-1], axis=1)[:, ::-1] for f in (force_x, force_y))
     supply = np.sum(rate * (torque + arm.lengths * (c * beyond_y - s * beyond_x)), axis=1)
-    if scene.base.kind == "prescribed":  # joint 1 stands between the base and link 1
+    if scene.base.kind == "prescribed":
         joint = scene.joints[0]
         base_angle, base_rate = arm.base_motion(time)
-        elastic += joint.stiffness * (0.5 * base_angle**2 - base_angle * angle[:, 0])
-        dissipation += joint.damping * (base_rate**2 - 2.0 * base_rate * rate[:, 0])
         spring = joint.stiffness * (base_angle - angle[:, 0]) + joint.damping * (base_rate - rate[:, 0])
         # of the load on link 1 as Lagrange's equations have it, only what the base itself does is work put in
         supply += base_rate * spring - rate[:, 0] * (joint.stiffness * base_angle + joint.damping * base_rate)
-    return Energy(time, kinetic, elastic, arm.gravity * (s @ arm.moments), dissipation, supply)
+    return Energy(
+        time,
+        kinetic_energy(arm, angle, rate),
+        elastic_energy(arm, time, angle),
+        gravitational_energy(arm, angle),
+        dissipation(arm, time, rate),
+        supply,
+    )
+
+
+def kinetic_energy(arm: Arm, angle: Array, rate: Array) -> Array:
+    """Return the kinetic energy of hub, links and tip, (k,), J."""
+    along_x, along_y = (np.sin(angle) * rate) @ arm.levers.T, (np.cos(angle) * rate) @ arm.levers.T
+    found: Array = 0.5 * (along_x**2 + along_y**2) @ arm.masses + 0.5 * rate**2 @ arm.inertias
+    return found
+
+
+def elastic_energy(arm: Arm, time: Array, angle: Array) -> Array:
+    """Return the energy of the bent joints, (k,), J."""
+    found: Array = 0.5 * np.einsum("kj,ji,ki->k", angle, arm.springs[0], angle)
+    if arm.scene.base.kind == "prescribed":  # joint 1 stands between the base and link 1
+        base_angle, _ = arm.base_motion(time)
+        found += arm.scene.joints[0].stiffness * (0.5 * base_angle**2 - base_angle * angle[:, 0])
+    return found
+
+
+def gravitational_energy(arm: Arm, angle: Array) -> Array:
+    """Return the energy of height above the base, (k,), J."""
+    found: Array = arm.gravity * (np.sin(angle) @ arm.moments)
+    return found
+
+
+def dissipation(arm: Arm, time: Array, rate: Array) -> Array:
+    """Return what dampers of joints and hub turn to heat, (k,), W."""
+    found: Array = np.einsum("kj,ji,ki->k", rate, arm.springs[1], rate)
+    if arm.scene.base.kind == "prescribed":
+        _, base_rate = arm.base_motion(time)
+        found += arm.scene.joints[0].damping * (base_rate**2 - 2.0 * base_rate * rate[:, 0])
+    return found
 
 
 def angular_momentum(scene: Scene, angle: Array, rate: Array) -> Array:

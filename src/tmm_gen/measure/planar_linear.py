@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.measure.planar_reference import Arm
+from tmm_gen.measure.planar_arm import Arm
 from tmm_gen.scene import Scene
 
 Array = NDArray[np.float64]

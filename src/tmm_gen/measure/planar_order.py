@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from tmm_gen.measure.check_row import CheckRow
 from tmm_gen.measure.frequency import fastest_mode
 from tmm_gen.measure.metrics import convergence_slope
-from tmm_gen.measure.planar_reference import Arm
+from tmm_gen.measure.planar_arm import Arm
 from tmm_gen.scene import Joint, Scene
 
 Array = NDArray[np.float64]

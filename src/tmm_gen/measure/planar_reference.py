@@ -1,31 +1,25 @@
-"""The response of a planar arm by Lagrange's equations, to many digits.
+"""The response of a planar arm by Lagrange's equations, to many digits; see :mod:`tmm_gen.measure.planar_arm`.
 
-Nothing here comes from `derive` or `program`. The coordinates are the absolute angles of hub and links; with the place
-of each mass a sum of ``l_j (cos q_j, sin q_j)``, Lagrange's equations are
-
-    sum_k B_jk (cos(q_j - q_k) q_k'' + sin(q_j - q_k) q_k'^2) + J_j q_j'' + g b_j cos q_j + springs + dampers = loads
-
-with ``B_jk`` the masses times the lever arms they have in ``j`` and in ``k``, and ``b_j`` the first moments. No
-forces between links occur; where one is an output it is the balance of momentum of everything beyond it.
+Where a force is an output it is the balance of momentum of everything beyond it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.measure.collocation import Trajectory, integrate
-from tmm_gen.measure.signals import Constant, Signal
+from tmm_gen.measure.collocation import Trajectory
+from tmm_gen.measure.energy import dissipation, elastic_energy, gravitational_energy, kinetic_energy
+from tmm_gen.measure.planar_arm import Arm
+from tmm_gen.measure.signals import Signal
 from tmm_gen.scene import Output, Scene, station_of
 
 Array = NDArray[np.float64]
 
-VECTORS = frozenset({"position", "velocity", "acceleration", "force"})
-"""Outputs with an x and a y component."""
+_NODES = 20
+"""Gauss points per step of the reference for the energy turned to heat."""
 
 
 def planar_response(
@@ -56,226 +50,84 @@ def planar_response(
     """
     arm = Arm(scene, signals)
     times = np.asarray(times, float)
-    motion = arm.trajectory(max(float(times[-1]), 1e-9), tolerance).at(times)
+    trajectory = arm.trajectory(max(float(times[-1]), 1e-9), tolerance)
+    motion = trajectory.at(times)
     found: dict[str, Array] = {}
     for output in scene.outputs:
-        found |= arm.read(output, times, *motion)
+        if output.of == "dissipated_energy":
+            found[output.name] = dissipated(arm, trajectory, times)
+        else:
+            found |= read(arm, output, times, *motion)
     return found
 
 
-@dataclass(frozen=True, eq=False)
-class Arm:
-    """Lagrange's equations of a scene; index 0 is the hub where the base is a motor.
+def read(arm: Arm, output: Output, times: Array, q: Array, v: Array, a: Array) -> dict[str, Array]:
+    """Return an output's columns by name from the motion at some instants, (k, n) each."""
+    station = station_of(output.at, arm.scene.stations)
+    if output.of == "angle":
+        place = station - 1 + arm.first
+        return {output.name: q[:, place] if place >= 0 else arm.base_motion(times)[0]}
+    if output.of == "rate":
+        place = station - 1 + arm.first
+        return {output.name: v[:, place] if place >= 0 else arm.base_motion(times)[1]}
+    if output.of == "kinetic_energy":
+        return {output.name: kinetic_energy(arm, q, v)}
+    if output.of == "elastic_energy":
+        return {output.name: elastic_energy(arm, times, q)}
+    if output.of == "gravitational_energy":
+        return {output.name: gravitational_energy(arm, q)}
+    if output.of == "torque":
+        return {output.name: _torque(arm, output, times, q, v, a)}
+    if output.of == "force":
+        joint = arm.scene.stations + 1 if output.at == "tip" else max(station, 1)
+        x, y = _force(arm, joint, times, q, v, a)
+    else:
+        lever = np.where(np.arange(len(arm.lengths)) < station + arm.first, arm.lengths, 0.0)
+        x, y = arm.point(output.of, lever, q, v, a)
+    return {f"{output.name}_x": x, f"{output.name}_y": y}
 
-    Parameters
-    ----------
-    scene : Scene
-        Of kind "planar".
-    signals : mapping from str to Signal
-        Inputs by name; those not given are zero.
-    """
 
-    scene: Scene
-    signals: Mapping[str, Signal]
+def _torque(arm: Arm, output: Output, times: Array, q: Array, v: Array, a: Array) -> Array:
+    """Return a joint's torque, positive when bent upward; at the tip, that the tip's inertia exerts."""
+    if output.at == "tip":
+        assert arm.scene.tip is not None
+        outside = sum(
+            (
+                np.broadcast_to(arm.signal(i.name).at(times), times.shape)
+                for i in arm.scene.inputs
+                if i.acts == "torque" and station_of(i.at, arm.scene.stations) == arm.scene.stations
+            ),
+            np.zeros(len(times)),
+        )
+        return np.asarray(outside - arm.scene.tip.inertia * a[:, -1])
+    number = max(station_of(output.at, arm.scene.stations), 1)
+    joint, outer = arm.scene.joints[number - 1], number - 1 + arm.first
+    angle, rate = q[:, outer], v[:, outer]
+    if outer:
+        return joint.stiffness * (angle - q[:, outer - 1]) + joint.damping * (rate - v[:, outer - 1])
+    base_angle, base_rate = arm.base_motion(times)
+    return joint.stiffness * (angle - base_angle) + joint.damping * (rate - base_rate)
 
-    @property
-    def first(self) -> int:
-        """Place of link 1 among the coordinates."""
-        return int(self.scene.base.kind == "motor")
 
-    @cached_property
-    def lengths(self) -> Array:
-        """Lengths by coordinate, (n,); the hub's is zero."""
-        return np.array([0.0] * self.first + [link.length for link in self.scene.links])
+def _force(arm: Arm, joint: int, times: Array, q: Array, v: Array, a: Array) -> tuple[Array, Array]:
+    """Return the force on everything beyond a joint: its change of momentum, less weight and loads."""
+    _, load_x, load_y = arm.loads(times)
+    x, y = np.zeros((2, len(times)))
+    for body in range(joint - 1, arm.scene.stations + 1):
+        ax, ay = arm.point("acceleration", arm.levers[body], q, v, a)
+        x, y = x + arm.masses[body] * ax, y + arm.masses[body] * (ay + arm.gravity)
+    beyond = min(joint, arm.scene.stations) - 1 + arm.first
+    return x - load_x[:, beyond:].sum(axis=1), y - load_y[:, beyond:].sum(axis=1)
 
-    @cached_property
-    def levers(self) -> Array:
-        """Lever arms, (bodies, n): how far each centre of mass stands off along each link; the tip mass last."""
-        n, first = self.scene.stations, self.first
-        arms = np.zeros((n + 1, n + first))
-        for i, link in enumerate(self.scene.links):
-            arms[i, first : first + i] = self.lengths[first : first + i]
-            arms[i, first + i] = link.center * link.length
-        arms[n] = self.lengths
-        return arms
 
-    @cached_property
-    def masses(self) -> Array:
-        """Masses of the links and of the body at the tip, (bodies,), kg."""
-        tip = self.scene.tip
-        return np.array([link.mass for link in self.scene.links] + [tip.mass if tip else 0.0])
-
-    @cached_property
-    def coupling(self) -> Array:
-        """``B``, (n, n), kg m^2."""
-        return (self.levers.T * self.masses) @ self.levers
-
-    @cached_property
-    def moments(self) -> Array:
-        """First moments ``b``, (n,), kg m."""
-        return self.levers.T @ self.masses
-
-    @cached_property
-    def inertias(self) -> Array:
-        """Inertias about the own centres, (n,), kg m^2; the tip's turns with the last link."""
-        tip = self.scene.tip
-        own = [self.scene.base.inertia] * self.first + [link.inertia for link in self.scene.links]
-        own[-1] += tip.inertia if tip else 0.0
-        return np.array(own)
-
-    @cached_property
-    def springs(self) -> tuple[Array, Array]:
-        """Stiffness and damping matrices of joints and hub bearing, (n, n)."""
-        n = len(self.lengths)
-        found = np.zeros((2, n, n))
-        for i, joint in enumerate(self.scene.joints):
-            difference = np.zeros(n)
-            difference[self.first + i] = 1.0
-            if self.first + i:
-                difference[self.first + i - 1] = -1.0
-            found[0] += joint.stiffness * np.outer(difference, difference)
-            found[1] += joint.damping * np.outer(difference, difference)
-        if self.first:
-            found[1, 0, 0] += self.scene.base.damping
-        return found[0], found[1]
-
-    @property
-    def gravity(self) -> float:
-        """Along -y, m/s^2."""
-        return self.scene.model.gravity or 0.0
-
-    # -- loads --------------------------------------------------------------------------------------------------
-
-    def signal(self, name: str) -> Signal:
-        """Return an input over time."""
-        return self.signals.get(name, Constant(0.0))
-
-    def loads(self, times: Array) -> tuple[Array, Array, Array]:
-        """Return torques on the coordinates and forces along x and y at the outer ends, (k, n) each."""
-        torque, along_x, along_y = np.zeros((3, len(times), len(self.lengths)))
-        for item in self.scene.inputs:
-            values = np.broadcast_to(self.signal(item.name).at(times), times.shape)
-            place = station_of(item.at, self.scene.stations) - 1 + self.first
-            if item.acts == "angle":  # through the spring and the damper of joint 1
-                joint = self.scene.joints[0]
-                rate = np.array([self.signal(item.name).slope(float(t)) for t in times])
-                torque[:, 0] += joint.stiffness * values + joint.damping * rate
-            else:
-                {"torque": torque, "force_x": along_x, "force_y": along_y}[item.acts][:, place] += values
-        return torque, along_x, along_y
-
-    def base_motion(self, times: Array) -> tuple[Array, Array]:
-        """Return angle and rate of a prescribed base, zero for a clamp, (k,) each."""
-        angle, rate = np.zeros((2, len(times)))
-        for item in self.scene.inputs:
-            if item.acts == "angle":
-                angle += self.signal(item.name).at(times)
-                rate += [self.signal(item.name).slope(float(t)) for t in times]
-        return angle, rate
-
-    # -- equations ----------------------------------------------------------------------------------------------
-
-    def residual(self, times: Array, q: Array, v: Array, a: Array) -> Array:
-        """Return what is left of Lagrange's equations, (k, n), N m."""
-        stiffness, damping = self.springs
-        torque, force_x, force_y = self.loads(times)
-        s, c = np.sin(q), np.cos(q)
-        # cos(qj - qk) ak + sin(qj - qk) vk^2, summed over k with B, from the sums over each end alone
-        along = (c * a - s * v**2) @ self.coupling
-        across = (s * a + c * v**2) @ self.coupling
-        inertial = c * along + s * across + self.inertias * a
-        weight = self.gravity * self.moments * c
-        beyond_x, beyond_y = (np.cumsum(f[:, ::-1], axis=1)[:, ::-1] for f in (force_x, force_y))
-        pushed = self.lengths * (c * beyond_y - s * beyond_x)
-        return inertial + weight + q @ stiffness + v @ damping - torque - pushed
-
-    def slopes(self, times: Array, q: Array, v: Array, a: Array) -> tuple[Array, Array, Array]:
-        """Return the derivatives of the residual by angles, rates and accelerations, (k, n, n) each."""
-        stiffness, damping = self.springs
-        _, force_x, force_y = self.loads(times)
-        apart = q[:, :, None] - q[:, None, :]
-        cosine, sine = self.coupling * np.cos(apart), self.coupling * np.sin(apart)
-        pull = sine * a[:, None, :] - cosine * v[:, None, :] ** 2
-        diagonal = np.arange(len(self.lengths))
-        by_q = pull + stiffness
-        by_q[:, diagonal, diagonal] -= pull.sum(axis=2)
-        by_q[:, diagonal, diagonal] -= self.gravity * self.moments * np.sin(q)
-        beyond_x, beyond_y = (np.cumsum(f[:, ::-1], axis=1)[:, ::-1] for f in (force_x, force_y))
-        by_q[:, diagonal, diagonal] += self.lengths * (np.sin(q) * beyond_y + np.cos(q) * beyond_x)
-        by_v = 2.0 * sine * v[:, None, :] + damping
-        by_a = cosine + np.diag(self.inertias)
-        return by_q, by_v, by_a
-
-    def trajectory(self, until: float, tolerance: float = 1e-11) -> Trajectory:
-        """Integrate from the scene's initial motion."""
-        knots = np.concatenate([[0.0, until], *(self.signal(i.name).knots for i in self.scene.inputs)])
-        breaks = np.unique(knots[(knots >= 0.0) & (knots <= until)])
-        initial = self.scene.initial
-        start = [np.array([0.0] * self.first + list(x)) for x in (initial.angles, initial.rates)]
-        return integrate(self.residual, self.slopes, start[0], start[1], breaks, tolerance)
-
-    def accelerations(self, times: Array, q: Array, v: Array) -> Array:
-        """Solve Lagrange's equations for the accelerations, (k, n)."""
-        rest = self.residual(times, q, v, np.zeros_like(q))
-        _, _, mass = self.slopes(times, q, v, np.zeros_like(q))
-        found: Array = np.asarray(np.linalg.solve(mass, -rest[:, :, None])[:, :, 0], np.float64)
-        return found
-
-    # -- outputs ------------------------------------------------------------------------------------------------
-
-    def read(self, output: Output, times: Array, q: Array, v: Array, a: Array) -> dict[str, Array]:
-        """Return an output's columns by name from the motion at some instants, (k, n) each."""
-        station = station_of(output.at, self.scene.stations)
-        if output.of == "angle":
-            place = station - 1 + self.first
-            return {output.name: q[:, place] if place >= 0 else self.base_motion(times)[0]}
-        if output.of == "torque":
-            return {output.name: self.torque(output, times, q, v, a)}
-        if output.of == "force":
-            joint = self.scene.stations + 1 if output.at == "tip" else max(station, 1)
-            x, y = self.force(joint, times, q, v, a)
-        else:
-            lever = np.where(np.arange(len(self.lengths)) < station + self.first, self.lengths, 0.0)
-            x, y = self.point(output.of, lever, q, v, a)
-        return {f"{output.name}_x": x, f"{output.name}_y": y}
-
-    def torque(self, output: Output, times: Array, q: Array, v: Array, a: Array) -> Array:
-        """Return a joint's torque, positive when bent upward; at the tip, that the tip's inertia exerts."""
-        if output.at == "tip":
-            assert self.scene.tip is not None
-            outside = sum(
-                (
-                    np.broadcast_to(self.signal(i.name).at(times), times.shape)
-                    for i in self.scene.inputs
-                    if i.acts == "torque" and station_of(i.at, self.scene.stations) == self.scene.stations
-                ),
-                np.zeros(len(times)),
-            )
-            return np.asarray(outside - self.scene.tip.inertia * a[:, -1])
-        number = max(station_of(output.at, self.scene.stations), 1)
-        joint, outer = self.scene.joints[number - 1], number - 1 + self.first
-        angle, rate = q[:, outer], v[:, outer]
-        if outer:
-            return joint.stiffness * (angle - q[:, outer - 1]) + joint.damping * (rate - v[:, outer - 1])
-        base_angle, base_rate = self.base_motion(times)
-        return joint.stiffness * (angle - base_angle) + joint.damping * (rate - base_rate)
-
-    def force(self, joint: int, times: Array, q: Array, v: Array, a: Array) -> tuple[Array, Array]:
-        """Return the force on everything beyond a joint: its change of momentum, less weight and loads."""
-        _, load_x, load_y = self.loads(times)
-        x, y = np.zeros((2, len(times)))
-        for body in range(joint - 1, self.scene.stations + 1):
-            ax, ay = self.point("acceleration", self.levers[body], q, v, a)
-            x, y = x + self.masses[body] * ax, y + self.masses[body] * (ay + self.gravity)
-        beyond = min(joint, self.scene.stations) - 1 + self.first
-        return x - load_x[:, beyond:].sum(axis=1), y - load_y[:, beyond:].sum(axis=1)
-
-    @staticmethod
-    def point(of: str, lever: Array, q: Array, v: Array, a: Array) -> tuple[Array, Array]:
-        """Return position, velocity or acceleration of a point with given lever arms, (k,) along x and y."""
-        s, c = np.sin(q), np.cos(q)
-        if of == "position":
-            return c @ lever, s @ lever
-        if of == "velocity":
-            return -(s * v) @ lever, (c * v) @ lever
-        return -(s * a + c * v**2) @ lever, (c * a - s * v**2) @ lever
+def dissipated(arm: Arm, trajectory: Trajectory, times: Array) -> Array:
+    """Return the energy turned to heat since the start, (k,), J, by Gauss quadrature between steps and instants."""
+    inside = trajectory.ends[trajectory.ends < times[-1]]
+    ends = np.unique(np.concatenate([[0.0], inside, times]))
+    nodes, weights = np.polynomial.legendre.leggauss(_NODES)
+    half = 0.5 * np.diff(ends)
+    instants = (ends[:-1] + half)[:, None] + half[:, None] * nodes
+    _, rate, _ = trajectory.at(instants.ravel())
+    power = dissipation(arm, instants.ravel(), rate).reshape(instants.shape)
+    heat = np.concatenate([[0.0], np.cumsum(half * (power @ weights))])
+    return np.asarray(heat[np.searchsorted(ends, times)], np.float64)

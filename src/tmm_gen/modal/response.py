@@ -7,7 +7,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from tmm_gen.modal.arm import LinearArm
 from tmm_gen.modal.sweep import States, sweep
-from tmm_gen.scene import Output, station_of
+from tmm_gen.scene import Output, Scene, station_of
+from tmm_gen.scene.quantity import quantities
 
 Complex = NDArray[np.complex128]
 
@@ -38,18 +39,23 @@ def frequency_response(arm: LinearArm, s: ArrayLike) -> dict[str, Complex]:
         some = points[start : start + chunk]
         states = sweep(arm, some)
         parts.append(
-            {name: value for item in arm.scene.outputs for name, value in _read(arm, states, some, item)}
+            {name: value for item in linear_outputs(arm.scene) for name, value in _read(arm, states, some, item)}
         )
     return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
 
 
 def component_names(arm: LinearArm) -> dict[str, tuple[str, ...]]:
     """Return the names of each output's components."""
-    vectors = ("position", "velocity", "acceleration", "force") if arm.kind == "planar" else ()
+    known = quantities(arm.kind)
     return {
-        item.name: (f"{item.name}_x", f"{item.name}_y") if item.of in vectors else (item.name,)
-        for item in arm.scene.outputs
+        item.name: (f"{item.name}_x", f"{item.name}_y") if known[item.of].vector else (item.name,)
+        for item in linear_outputs(arm.scene)
     }
+
+
+def linear_outputs(scene: Scene) -> tuple[Output, ...]:
+    """Return the outputs that answer small motion in proportion: all but energies."""
+    return tuple(item for item in scene.outputs if not quantities(scene.model.kind)[item.of].of_arm)
 
 
 def _read(arm: LinearArm, states: States, s: Complex, output: Output) -> list[tuple[str, Complex]]:
@@ -62,7 +68,7 @@ def _read(arm: LinearArm, states: States, s: Complex, output: Output) -> list[tu
         # positive where the joint is bent toward positive angles, whatever side the force is counted on
         return [(names[0], arm.sign * force[:, -1])]
     motion = states.motion[_behind(arm, station)]
-    factor = {"velocity": s, "acceleration": s**2}.get(output.of, np.ones(len(s)))[:, None]
+    factor = {"rate": s, "velocity": s, "acceleration": s**2}.get(output.of, np.ones(len(s)))[:, None]
     rows = [arm.width - 1] if len(names) == 1 else [0, 1]
     return [(name, factor * motion[:, row]) for name, row in zip(names, rows, strict=True)]
 

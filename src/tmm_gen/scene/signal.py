@@ -10,24 +10,36 @@ from tmm_gen.scene.identifier import Name
 from tmm_gen.scene.table import Table, fault
 
 Acts = Literal["torque", "force_x", "force_y", "angle"]
-Of = Literal["position", "angle", "velocity", "acceleration", "torque", "force"]
+Of = Literal[
+    "position",
+    "angle",
+    "rate",
+    "velocity",
+    "acceleration",
+    "torque",
+    "force",
+    "kinetic_energy",
+    "elastic_energy",
+    "gravitational_energy",
+    "dissipated_energy",
+]
 
 
 def _place(value: object) -> str | int:
-    if value in ("base", "tip") or (isinstance(value, int) and not isinstance(value, bool)):
+    if value in ("base", "tip", "arm") or (isinstance(value, int) and not isinstance(value, bool)):
         return value
     raise fault(
         'must be "base", "tip" or the number of a link',
-        'Write for example `at = "tip"`, or a whole number from 1 without quotes.',
+        'Write for example `at = "tip"`, or a whole number from 1 without quotes; energies are `at = "arm"`.',
     )
 
 
-Place = Annotated[Literal["base", "tip"] | int, PlainValidator(_place)]
-"""Where a signal acts or is measured: the base, the tip (outer end of the last link), or a link from 1."""
+Place = Annotated[Literal["base", "tip", "arm"] | int, PlainValidator(_place)]
+"""Where a signal acts or is measured: the base, the tip (outer end of the last link), a link from 1, or all of it."""
 
 
 def station_of(at: str | int, stations: int) -> int:
-    """Return the number of a place: 0 for the base, i for link i, n for the tip."""
+    """Return the number of a place: 0 for the base, i for link i, n for the tip and for the arm as a whole."""
     if isinstance(at, int):
         return at
     return 0 if at == "base" else stations
@@ -58,12 +70,13 @@ class Output(Table):
     ----------
     name : str
         Identifier, unique among inputs and outputs.
-    at : {"base", "tip"} or int
-        Where it is measured. ``torque`` and ``force`` at link i are those in joint i, inboard of the link; at
-        the base they are those in joint 1; at a planar tip, those between the last link and the tip mass.
-    of : {"position", "angle", "velocity", "acceleration", "torque", "force"}
-        In a chain velocity and acceleration are those of the angle, in a planar scene those of the outer end
-        of the link.
+    at : {"base", "tip", "arm"} or int
+        Where it is measured; energies are those of the whole arm. ``torque`` and ``force`` at link i are those in
+        joint i, inboard of the link; at the base they are those in joint 1; at a planar tip, those between the last
+        link and the tip mass.
+    of : str
+        A quantity of :mod:`tmm_gen.scene.quantity`. In a chain velocity and acceleration are those of the angle,
+        in a planar scene those of the outer end of the link.
     """
 
     name: Name = Field(description="identifier", examples=['"tip_angle"'])

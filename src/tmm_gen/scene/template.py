@@ -90,7 +90,7 @@ acts = "torque"                # N m; or "force_x", "force_y" at a link or the t
 [[output]]
 name = "tip"
 at = "tip"
-of = "position"                # or "angle", "velocity", "acceleration", "torque", "force"
+of = "position"                # or "angle", "rate", "velocity", "acceleration", "torque", "force"
 
 [[output]]
 name = "hub"

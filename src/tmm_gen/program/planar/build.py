@@ -16,7 +16,6 @@ from tmm_gen.derive.integrators.declaration import (
     KINDS,
     STEP,
     Integrator,
-    Past,
     Scheme,
     past,
 )
@@ -25,6 +24,7 @@ from tmm_gen.errors import UserError
 from tmm_gen.program.fields import gain_names, living_state
 from tmm_gen.program.passes.hoist import Hoister
 from tmm_gen.program.passes.prune import prune
+from tmm_gen.program.planar.energy import heat_after, heat_before
 from tmm_gen.program.planar.layout import PlanarLayout, planar_layout
 from tmm_gen.program.planar.loads import planar_loads
 from tmm_gen.program.planar.output import output_routine
@@ -70,7 +70,12 @@ def build_planar(scene: Scene, integrator: Integrator) -> Program:
             iterations=scene.model.iterations,
         )
         doc = "Advance the state by one step." if name == "step" else f"Start-up: take step {position + 1}."
-        sections = (*builder.sections(), *_hold(layout, len(scheme.stages)))
+        sections = (
+            *heat_before(layout),
+            *builder.sections(),
+            *_hold(layout, len(scheme.stages)),
+            *heat_after(layout),
+        )
         routines[name] = hoister.hoist(Routine(name, doc, sections))
     main = routines.pop("step")
     startup = tuple(routines[f"step_start{k + 1}"] for k in range(len(integrator.startup)))
@@ -236,6 +241,7 @@ def _initialise(scene: Scene, layout: PlanarLayout) -> Routine:
         hub_sources={past("q"): loads.angle, past("v"): sp.Integer(0), past("a"): sp.Integer(0)},
         iterations=1,  # exact: at given angles and rates the equations are linear in accelerations
     )
+    cold = Assign(layout.dissipated.ref, sp.Integer(0)) if layout.dissipated else None
     older = [Assign(v.ref, sp.Integer(0)) for p, v in layout.hub.items() if p.lag]
     return Routine(
         "initialise",
@@ -245,8 +251,6 @@ def _initialise(scene: Scene, layout: PlanarLayout) -> Routine:
             *((start_places(layout),) if layout.places else ()),
             *((Section("older history of the hub", tuple(older)),) if older else ()),
             *_hold(layout, 1),
+            *((Section("nothing has turned to heat yet", (cold,)),) if cold else ()),
         ),
     )
-
-
-__all__ = ["Past", "build_planar"]

@@ -9,18 +9,9 @@ from tmm_gen.derive.integrators.history import history
 from tmm_gen.program.fields import parameter, state_variable
 from tmm_gen.program.variables import Role, Variable
 from tmm_gen.scene import Input, Output, Scene, station_of
+from tmm_gen.scene.quantity import PLANAR
 
 _UNITS = {"torque": "N m", "force_x": "N", "force_y": "N", "angle": "rad"}
-_OUTPUT_UNITS = {
-    "position": "m",
-    "angle": "rad",
-    "velocity": "m/s",
-    "acceleration": "m/s^2",
-    "torque": "N m",
-    "force": "N",
-}
-VECTORS = frozenset({"position", "velocity", "acceleration", "force"})
-"""Outputs with an x and a y component."""
 
 
 @dataclass(frozen=True)
@@ -35,6 +26,8 @@ class PlanarLayout:
         History of the nodes' places, only where a linearisation integrates them.
     held : dict from str to Variable
         Force inputs as they last acted, kept where a force is an output.
+    dissipated : Variable or None
+        Energy turned to heat, counted where it is an output and something turns energy to heat.
     """
 
     stations: int
@@ -54,6 +47,7 @@ class PlanarLayout:
     hub: dict[Past, Variable]
     places: dict[str, dict[Past, Variable]]
     held: dict[str, Variable]
+    dissipated: Variable | None
     inputs: tuple[Variable, ...]
     outputs: tuple[Variable, ...]
     given: tuple[Variable, ...]
@@ -80,7 +74,8 @@ class PlanarLayout:
     def all_state(self) -> tuple[Variable, ...]:
         """State variables, hub first."""
         places = (v for history in self.places.values() for v in history.values())
-        return (*self.hub.values(), *self.state.values(), *places, *self.held.values())
+        counted = (self.dissipated,) if self.dissipated else ()
+        return (*self.hub.values(), *self.state.values(), *places, *self.held.values(), *counted)
 
 
 def planar_layout(scene: Scene, integrator: Integrator) -> PlanarLayout:
@@ -130,6 +125,7 @@ def planar_layout(scene: Scene, integrator: Integrator) -> PlanarLayout:
         if scene.model.linearisation != "newton"
         else {},
         held=_held(scene),
+        dissipated=_dissipated(scene),
         inputs=tuple(_input(i, stages) for i in scene.inputs),
         outputs=tuple(v for o in scene.outputs for v in output_variables(o)),
         given=(
@@ -146,11 +142,12 @@ def planar_layout(scene: Scene, integrator: Integrator) -> PlanarLayout:
 def output_variables(output: Output) -> tuple[Variable, ...]:
     """Return the variables of an output: two for a vector, one otherwise."""
     place = f"station {output.at}" if isinstance(output.at, int) else f"the {output.at}"
-    unit = _OUTPUT_UNITS[output.of]
-    if output.of not in VECTORS:
-        return (Variable(output.name, Role.OUTPUT, doc=f"{output.of} at {place}", unit=unit),)
+    quantity = PLANAR[output.of]
+    what = f"{output.of.replace('_', ' ')} {'of' if quantity.of_arm else 'at'} {place}"
+    if not quantity.vector:
+        return (Variable(output.name, Role.OUTPUT, doc=what, unit=quantity.unit),)
     return tuple(
-        Variable(f"{output.name}_{axis}", Role.OUTPUT, doc=f"{output.of} at {place}, {axis}", unit=unit)
+        Variable(f"{output.name}_{axis}", Role.OUTPUT, doc=f"{what}, {axis}", unit=quantity.unit)
         for axis in "xy"
     )
 
@@ -183,3 +180,11 @@ def _held(scene: Scene) -> dict[str, Variable]:
         i.name: Variable(f"held_{i.name}", Role.STATE, doc=f"{i.name} as it last acted", unit=_UNITS[i.acts])
         for i in held
     }
+
+
+def _dissipated(scene: Scene) -> Variable | None:
+    """Return the variable that counts energy turned to heat, if an output asks for it and anything does."""
+    damped = any(j.damping for j in scene.joints) or (scene.base.kind == "motor" and scene.base.damping > 0.0)
+    if not damped or all(o.of != "dissipated_energy" for o in scene.outputs):
+        return None
+    return Variable("dissipated", Role.STATE, doc="energy turned to heat since the start", unit="J")

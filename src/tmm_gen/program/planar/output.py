@@ -6,11 +6,13 @@ import sympy as sp
 
 from tmm_gen.derive import planar_chain as chain
 from tmm_gen.derive.elements import planar as element
-from tmm_gen.derive.integrators.declaration import Past
+from tmm_gen.derive.integrators.declaration import Kind, Past
+from tmm_gen.program.planar.energy import energy_statements
 from tmm_gen.program.planar.layout import PlanarLayout
 from tmm_gen.program.statements import Assign, Loop, Order, Routine, Section, Statement
 from tmm_gen.program.variables import Ref, local
 from tmm_gen.scene import Output, Scene, station_of
+from tmm_gen.scene.quantity import PLANAR
 
 
 def output_routine(scene: Scene, layout: PlanarLayout) -> Routine:
@@ -19,16 +21,19 @@ def output_routine(scene: Scene, layout: PlanarLayout) -> Routine:
     sections = []
     for described in scene.outputs:
         link = station_of(described.at, scene.stations)
-        if described.of in ("angle", "torque"):
-            value = (
-                _angle(layout, link) if described.of == "angle" else _torque(scene, layout, described, link)
-            )
-            statements: list[Statement] = [Assign(remaining.pop(0).ref, value)]
+        statements: list[Statement]
+        if described.of in ("angle", "rate"):
+            kind: Kind = "q" if described.of == "angle" else "v"
+            statements = [Assign(remaining.pop(0).ref, _motion(layout, link, Past(kind, 0)))]
+        elif described.of == "torque":
+            statements = [Assign(remaining.pop(0).ref, _torque(scene, layout, described, link))]
+        elif PLANAR[described.of].of_arm:
+            statements = energy_statements(layout, described.of, remaining.pop(0).ref)
         else:
             x, y = remaining.pop(0), remaining.pop(0)
             build = _force if described.of == "force" else _along_links
             statements = build(scene, layout, described, link, (x.ref, y.ref))
-        sections.append(Section(f"{described.name}: {described.of}", tuple(statements)))
+        sections.append(Section(f"{described.name}: {described.of.replace('_', ' ')}", tuple(statements)))
     return Routine("output", "Read the outputs off the state.", tuple(sections))
 
 

@@ -15,6 +15,13 @@ def inputs_possible(document: Document) -> Iterator[Finding]:
         path = ("input", index)
         if isinstance(item.at, int) and not 1 <= item.at <= document.stations:
             yield place_outside((*path, "at"), item.at, document.stations)
+        elif item.at == "arm":
+            yield Finding(
+                (*path, "at"),
+                'cannot be "arm": an input acts at one place',
+                'Write "base", "tip" or a link number.',
+                item.at,
+            )
         elif item.acts == "angle":
             yield from _angle(document, item, index)
         elif item.acts.startswith("force"):

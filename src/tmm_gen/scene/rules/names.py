@@ -6,10 +6,8 @@ from collections.abc import Iterator
 
 from tmm_gen.scene.document import Document
 from tmm_gen.scene.problem import Finding
+from tmm_gen.scene.quantity import PLANAR
 from tmm_gen.scene.signal import Output
-
-VECTORS = ("position", "velocity", "acceleration", "force")
-"""Quantities with two components in a planar scene."""
 
 
 def distinct_names(document: Document) -> Iterator[Finding]:
@@ -34,7 +32,7 @@ def _distinct_columns(outputs: tuple[Output, ...]) -> Iterator[Finding]:
     columns = {
         f"{output.name}_{axis}": output.name
         for output in outputs
-        if output.of in VECTORS
+        if PLANAR[output.of].vector
         for axis in ("x", "y")
     }
     for index, output in enumerate(outputs):

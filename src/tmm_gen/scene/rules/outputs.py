@@ -6,10 +6,9 @@ from collections.abc import Iterator
 
 from tmm_gen.scene.document import Document
 from tmm_gen.scene.problem import Finding
+from tmm_gen.scene.quantity import CHAIN, PLANAR
 from tmm_gen.scene.rules.inputs import place_outside
 from tmm_gen.scene.signal import Output
-
-CHAIN_QUANTITIES = ("angle", "velocity", "acceleration", "torque")
 
 
 def outputs_possible(document: Document) -> Iterator[Finding]:
@@ -23,13 +22,15 @@ def outputs_possible(document: Document) -> Iterator[Finding]:
     for index, item in enumerate(document.output):
         if isinstance(item.at, int) and not 1 <= item.at <= document.stations:
             yield place_outside(("output", index, "at"), item.at, document.stations)
-        elif document.model.kind == "chain" and item.of not in CHAIN_QUANTITIES:
+        elif document.model.kind == "chain" and item.of not in CHAIN:
             yield Finding(
                 ("output", index, "of"),
-                f"cannot be {item.of} in a chain, which turns only",
-                f'Choose one of {", ".join(CHAIN_QUANTITIES)}, or set model.kind = "planar".',
+                f"cannot be {item.of} in a chain, whose stations only turn",
+                f'Choose one of {", ".join(CHAIN)}, or set model.kind = "planar".',
                 item.of,
             )
+        elif (item.at == "arm") != PLANAR[item.of].of_arm:
+            yield _whole_arm(item, index)
         elif item.at == "base":
             yield from _at_base(document, item, index)
         elif item.at == "tip" and item.of in ("torque", "force") and not document.tip:
@@ -39,6 +40,23 @@ def outputs_possible(document: Document) -> Iterator[Finding]:
                 f"Write `at = {document.stations}` for the last joint.",
                 item.at,
             )
+
+
+def _whole_arm(item: Output, index: int) -> Finding:
+    if item.at == "arm":
+        whole = ", ".join(name for name, quantity in PLANAR.items() if quantity.of_arm)
+        return Finding(
+            ("output", index, "at"),
+            f'cannot be "arm" for {item.of}, which belongs to a place',
+            f'Write "base", "tip" or a link number; the arm as a whole has {whole}.',
+            item.at,
+        )
+    return Finding(
+        ("output", index, "at"),
+        f'must be "arm" for {item.of}, which belongs to the arm as a whole',
+        'Write `at = "arm"`.',
+        item.at,
+    )
 
 
 def _at_base(document: Document, item: Output, index: int) -> Iterator[Finding]:
@@ -51,10 +69,10 @@ def _at_base(document: Document, item: Output, index: int) -> Iterator[Finding]:
             'Write `of = "torque"`, or measure at a link or the tip.',
             item.of,
         )
-    elif document.model.kind == "planar" and item.of != "angle":
+    elif document.model.kind == "planar" and item.of not in ("angle", "rate"):
         yield Finding(
             ("output", index, "of"),
             f"cannot be {item.of} at the base: the base point of a planar arm never moves",
-            'Write `of = "angle"`, `"torque"` or `"force"`, or measure at a link or the tip.',
+            'Write `of = "angle"`, `"rate"`, `"torque"` or `"force"`, or measure at a link or the tip.',
             item.of,
         )
