@@ -192,3 +192,43 @@ def test_the_unsafe_product_is_refused(capsys: pytest.CaptureFixture[str]) -> No
     said = refuse(str(SCENES / "thesis10.toml"), "--set", "model.sweep=product", capsys=capsys)
     assert "up to 5 stations at a step of 0.01 s" in said
     assert 'sweep = "riccati"' in said
+
+
+FALLING = """
+name = "falling"
+[model]
+kind = "planar"
+gravity = 9.81
+[integrator]
+name = "newmark"
+step = {step}
+[base]
+kind = "clamp"
+[beam]
+length = 1.0
+bending_stiffness = 1.0
+mass_per_length = 0.5
+links = 3
+[[output]]
+name = "tip"
+at = "tip"
+of = "position"
+[[output]]
+name = "motion"
+at = "arm"
+of = "kinetic_energy"
+"""
+
+
+@pytest.mark.parametrize(("step", "warned"), [("5e-3", False), ("0.1", True)])
+def test_a_planar_run_says_how_energies_balance(
+    step: str, warned: bool, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    scene = folder / "falling.toml"
+    scene.write_text(FALLING.format(step=step))
+    said = succeed(str(scene), "--until", "1", capsys=capsys)
+    assert "energies balance to" in said
+    assert ("warning" in said) == warned
+    assert ("--step 0.01" in said) == warned
+    found = json.loads(succeed(str(scene), "--until", "1", "--json", capsys=capsys))
+    assert (found["energy_imbalance"] > 1e-3) == warned

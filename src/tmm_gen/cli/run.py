@@ -110,7 +110,7 @@ def run(
     """
     from tmm_gen.measure.duration import default_duration
     from tmm_gen.measure.given import read_inputs
-    from tmm_gen.measure.run import number_of_steps, simulate
+    from tmm_gen.measure.run import number_of_steps, simulate, traceable
 
     chosen = _scene(scene, step, changes)
     signals = read_inputs(given, tuple(item.name for item in chosen.inputs))
@@ -123,7 +123,9 @@ def run(
     duration = until or default_duration(chosen)
     steps = number_of_steps(duration, chosen.integrator.step)
     with progress(f"simulating {chosen.name}", total=steps) as advance:
-        trace = planar and (picture is not None or animated is not None)
+        drawn = planar and (picture is not None or animated is not None)
+        # in NumPy the motion of all links is at hand; compiled C would have to stop at every step
+        trace = drawn or (backend == "numpy" and traceable(chosen, steps))
         simulation = simulate(chosen, signals, duration, backend, advance, trace=trace)  # type: ignore[arg-type]
     written = _write(simulation, csv_file, picture, animated)
     _show(simulation, written, json_mode)
@@ -186,15 +188,32 @@ def _show(simulation: Simulation, written: list[Path], json_mode: bool) -> None:
         "step": scene.integrator.step,
         "steps": simulation.steps,
         "until": last,
+        "energy_imbalance": simulation.imbalance,
         "files": written,
     }
     done = f"{last:g} s in {simulation.steps} steps of {scene.integrator.step:g} s by {scene.integrator.name}"
     table(list(simulation.rows()), _COLUMNS, json_mode, title=f"{scene.title}: {done}", more=facts)
     if json_mode:
         return
+    if simulation.imbalance:
+        click.echo(_balance(simulation.imbalance, scene))
     for path in written:
         click.echo(f"wrote {path}")
     if simulation.still and scene.inputs:
         click.echo(f"nothing moves, as all inputs are zero: try --input {scene.inputs[0].name}=1")
     elif not written:
         click.echo("more: --plot draws it, --csv FILE writes it, --until and --step change it")
+
+
+def _balance(imbalance: float, scene: Scene) -> str:
+    """Say how well energies balance, and what may help where they do not."""
+    from tmm_gen.measure.energy import BALANCED
+
+    said = f"energies balance to {imbalance:.1e} of the energy that moves"
+    if imbalance <= BALANCED:
+        return said
+    again = " or --set model.iterations=2" if scene.model.iterations == 1 else ""
+    return (
+        f"warning: {said}: the step is long for this arm, the integrator damps it, or one sweep per step is not "
+        f"enough; try --step {scene.integrator.step / 10:g}{again}"
+    )

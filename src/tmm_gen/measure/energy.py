@@ -14,6 +14,9 @@ from tmm_gen.scene import Scene
 
 Array = NDArray[np.float64]
 
+BALANCED = 1e-3
+"""Imbalance, as a share of the energy that moves, beyond which a run is worth a second look."""
+
 
 @dataclass(frozen=True, eq=False)
 class Energy:
@@ -52,6 +55,12 @@ class Energy:
     def supplied(self) -> Array:
         """Work done on the arm so far, J."""
         return _integral(self.time, self.supply)
+
+    @property
+    def imbalance(self) -> float:
+        """Largest imbalance as a share of the energy that moves; zero where nothing does."""
+        moved = float(np.max(self.kinetic) + np.ptp(self.elastic) + np.ptp(self.gravitational))
+        return float(np.max(np.abs(self.unbalanced))) / moved if moved > 0.0 else 0.0
 
     @property
     def unbalanced(self) -> Array:

@@ -14,6 +14,7 @@ from tmm_gen.errors import UserError
 from tmm_gen.measure.assembly import assemble
 from tmm_gen.measure.columns import output_columns
 from tmm_gen.measure.divergence import DivergedError, Watch, watch
+from tmm_gen.measure.energy import energy
 from tmm_gen.measure.module import numpy_module
 from tmm_gen.measure.planar_divergence import PlanarWatch, planar_watch
 from tmm_gen.measure.signals import Constant, Signal
@@ -32,6 +33,9 @@ _CHUNK = 1000
 
 _MOST = 20_000_000
 """Steps whose outputs are sure to fit in memory."""
+
+_FEW = 5
+"""Steps over which a load must spread for its work to be known from its values at them."""
 
 
 def number_of_steps(until: float, step: float) -> int:
@@ -126,12 +130,32 @@ def simulate(
         inputs={name: signal.at(time) for name, signal in inputs.items()},
         rest=_rest(scene, inputs, float(time[-1])),
         trace=kept,
+        imbalance=_imbalance(scene, inputs, time, kept),
     )
+
+
+def traceable(scene: Scene, steps: int) -> bool:
+    """Return whether the motion of all links of a planar arm is little enough to keep."""
+    return scene.model.kind == "planar" and steps * scene.stations <= _MOST
+
+
+def _imbalance(scene: Scene, signals: Mapping[str, Signal], time: Array, trace: Trace | None) -> float | None:
+    """Return how well a planar arm's energies balance; None where a load is too abrupt to know its work."""
+    abrupt = any(_abrupt(signals[item.name], item.acts, scene.integrator.step) for item in scene.inputs)
+    if trace is None or len(time) < 3 or abrupt:
+        return None
+    return energy(scene, signals, time, trace.angle, trace.rate).imbalance
+
+
+def _abrupt(signal: Signal, acts: str, step: float) -> bool:
+    """Whether a load changes within a few steps, or a prescribed base jerks."""
+    knots = signal.knots
+    return len(knots) > 0 and (acts == "angle" or bool(np.min(np.diff(knots), initial=np.inf) < _FEW * step))
 
 
 def _trace(scene: Scene, steps: int) -> Trace:
     """Return room for the motion of all links."""
-    if steps * scene.stations > _MOST:
+    if not traceable(scene, steps):
         raise UserError(
             f"the motion of {scene.stations} links over {steps} steps is too much to keep. "
             "Simulate a shorter time (--until) or take larger steps (--step)."

@@ -36,6 +36,9 @@ class Simulation:
         The outputs once all motion has died out; None where it need not come to rest, or is not known.
     trace : Trace, optional
         The motion of all links, where it was asked for.
+    imbalance : float, optional
+        Where the motion of all links is known: largest difference between work done and energy gained and
+        dissipated, as a share of the energy that moved.
     """
 
     scene: Scene
@@ -45,6 +48,7 @@ class Simulation:
     inputs: dict[str, Array]
     rest: dict[str, float] | None
     trace: Trace | None = None
+    imbalance: float | None = None
 
     @property
     def steps(self) -> int:

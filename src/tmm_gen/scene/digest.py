@@ -10,7 +10,7 @@ from dataclasses import asdict, is_dataclass
 from pydantic import BaseModel
 
 FORMAT = "tmm-gen scene 1"
-"""Changes whenever the same content must no longer have the same digest."""
+"""Changes whenever the same content must no longer have the same digest: a default that becomes another, say."""
 
 
 def content_digest(content: Mapping[str, object]) -> str:
@@ -39,7 +39,11 @@ def content_digest(content: Mapping[str, object]) -> str:
 def _plain(value: object) -> object:
     """Reduce a value to what JSON has."""
     if isinstance(value, BaseModel):
-        return _plain(dict(value))
+        # what is written as its default says no more than what is absent; so a key added to the format, optional
+        # as they all are, leaves the digests of older scenes alone
+        fields = type(value).model_fields
+        said = {k: item for k, item in value if fields[k].is_required() or item != fields[k].get_default()}
+        return _plain(said)
     if is_dataclass(value) and not isinstance(value, type):
         return _plain(asdict(value))
     if isinstance(value, Mapping):

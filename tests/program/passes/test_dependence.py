@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tmm_gen.program.passes.dependence import independent, read_before_written, reversible
+from tmm_gen.program.passes.dependence import Footprint, read_before_written, reversible
 from tmm_gen.program.statements import Assign, Loop, Order, Routine, Section
 from tmm_gen.program.variables import Role, Variable
 
@@ -15,6 +15,10 @@ C = Variable("c", Role.COEFFICIENT)
 
 def loop(*body: Assign) -> Loop:
     return Loop(Order.OUTWARD, 1, N + 1, body)
+
+
+def independent(one: Assign | Loop, other: Assign | Loop) -> bool:
+    return Footprint.of(one).independent(Footprint.of(other))
 
 
 def routine(*statements: Assign | Loop) -> Routine:

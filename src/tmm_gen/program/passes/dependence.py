@@ -55,13 +55,46 @@ def accesses(statement: Statement) -> tuple[Access, ...]:
     return tuple(_of(statement, 0, 0))
 
 
-def independent(one: Statement, other: Statement) -> bool:
-    """Whether two statements may change places."""
-    shared = _used(one) & _used(other)
-    if not shared & (_written(one) | _written(other)):
-        return True
-    mine, theirs = ([a for a in accesses(s) if a.variable in shared] for s in (one, other))
-    return not any(a.meets(b) for a in mine for b in theirs)
+@dataclass(frozen=True, eq=False)
+class Footprint:
+    """What a statement reads and writes, gathered once for the many comparisons of a pass.
+
+    Parameters
+    ----------
+    reads, writes : dict from Variable to frozenset of (int, int)
+        First and last elements touched, by variable.
+    """
+
+    reads: dict[Variable, frozenset[tuple[int, int]]]
+    writes: dict[Variable, frozenset[tuple[int, int]]]
+
+    @classmethod
+    def of(cls, statement: Statement) -> Footprint:
+        """Gather the accesses of a statement."""
+        found: tuple[dict[Variable, set[tuple[int, int]]], dict[Variable, set[tuple[int, int]]]] = ({}, {})
+        for access in accesses(statement):
+            found[access.writes].setdefault(access.variable, set()).add((access.first, access.last))
+        reads, writes = ({v: frozenset(spans) for v, spans in each.items()} for each in found)
+        return cls(reads, writes)
+
+    def independent(self, other: Footprint) -> bool:
+        """Whether the two statements may change places."""
+        return not (
+            _overlap(self.writes, other.writes)
+            or _overlap(self.writes, other.reads)
+            or _overlap(self.reads, other.writes)
+        )
+
+
+def _overlap(
+    one: dict[Variable, frozenset[tuple[int, int]]], other: dict[Variable, frozenset[tuple[int, int]]]
+) -> bool:
+    return any(
+        first <= end and start <= last
+        for variable in one.keys() & other.keys()
+        for first, last in one[variable]
+        for start, end in other[variable]
+    )
 
 
 def carried_scalars(loop: Loop) -> frozenset[Variable]:
@@ -119,16 +152,6 @@ def order_keeping_dependences(first: Loop, second: Loop, later: tuple[Statement,
         if all(_turns(loop, later) for loop in turned) and _elements_in_time(first, second, order):
             return order
     return None
-
-
-@lru_cache(maxsize=1 << 14)
-def _used(statement: Statement) -> frozenset[Variable]:
-    return frozenset(a.variable for a in accesses(statement))
-
-
-@lru_cache(maxsize=1 << 14)
-def _written(statement: Statement) -> frozenset[Variable]:
-    return frozenset(a.variable for a in accesses(statement) if a.writes)
 
 
 def _of(statement: Assign | Require, low: int, high: int) -> list[Access]:

@@ -9,16 +9,24 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from tmm_gen.program.passes.dependence import independent, order_keeping_dependences
+from tmm_gen.program.passes.dependence import Footprint, order_keeping_dependences
 from tmm_gen.program.statements import Loop, Routine, Section, Statement
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class _Item:
-    """A top-level statement and the titles it stands under."""
+    """A top-level statement, the titles it stands under, and what it touches."""
 
     titles: tuple[str, ...]
     statement: Statement
+    footprint: Footprint
+
+    @classmethod
+    def of(cls, titles: tuple[str, ...], statement: Statement) -> _Item:
+        return cls(titles, statement, Footprint.of(statement))
+
+    def independent(self, other: _Item) -> bool:
+        return self.footprint.independent(other.footprint)
 
 
 def fuse(routine: Routine) -> Routine:
@@ -27,7 +35,7 @@ def fuse(routine: Routine) -> Routine:
     A loop whose stations are independent takes whatever order the other needs. Statements between two loops
     move before or behind them where nothing depends on their place.
     """
-    items = [_Item((section.title,), s) for section in routine.sections for s in section.statements]
+    items = [_Item.of((section.title,), s) for section in routine.sections for s in section.statements]
     last = len(items) - 1
     while last > 0:
         fused = _fuse_into(items, last)
@@ -44,7 +52,10 @@ def _fuse_into(items: list[_Item], last: int) -> tuple[list[_Item], int] | None:
     if not isinstance(second, Loop):
         return None
     for first in range(last - 1, -1, -1):
-        if isinstance(items[first].statement, Loop) and (fused := _fuse_pair(items, first, last)) is not None:
+        one = items[first].statement
+        if not isinstance(one, Loop) or (one.start, one.stop) != (second.start, second.stop):
+            continue
+        if (fused := _fuse_pair(items, first, last)) is not None:
             return fused
     return None
 
@@ -57,8 +68,8 @@ def _fuse_pair(items: list[_Item], first: int, last: int) -> tuple[list[_Item], 
     behind: list[_Item] = []
     for item in items[first + 1 : last]:
         waits_for = (one, *behind)
-        (before if all(independent(item.statement, w.statement) for w in waits_for) else behind).append(item)
-    if not all(independent(other.statement, item.statement) for item in behind):
+        (before if all(item.independent(w) for w in waits_for) else behind).append(item)
+    if not all(other.independent(item) for item in behind):
         return None
     later = (*behind, *items[last + 1 :])
     order = order_keeping_dependences(one.statement, other.statement, tuple(i.statement for i in later))
@@ -66,7 +77,7 @@ def _fuse_pair(items: list[_Item], first: int, last: int) -> tuple[list[_Item], 
         return None
     loop = replace(other.statement, order=order, body=(*one.statement.body, *other.statement.body))
     titles = tuple(dict.fromkeys((*one.titles, *other.titles)))
-    return [*items[:first], *before, _Item(titles, loop), *later], first + len(before)
+    return [*items[:first], *before, _Item.of(titles, loop), *later], first + len(before)
 
 
 def _sections(items: list[_Item]) -> tuple[Section, ...]:
