@@ -14,7 +14,7 @@ from tmm_gen.scene import Scene
 
 Array = NDArray[np.float64]
 
-BALANCED = 1e-3
+BALANCED = 1e-4
 """Imbalance, as a share of the energy that moves, beyond which a run is worth a second look."""
 
 
