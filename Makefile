@@ -40,9 +40,11 @@ format: $(TEST)  ## rewrite sources in the project's style
 
 build: $(CORE)  ## regenerate generated/ from scenes/
 	$(TMM) build
+	$(TMM) build examples/firmware/beam5.toml --out examples/firmware/generated
 
 check: $(CORE)  ## fail where generated/ differs from what scenes/ give
 	$(TMM) build --check
+	$(TMM) build examples/firmware/beam5.toml --out examples/firmware/generated --check
 
 bench: $(CORE) compiler  ## run every script of benchmarks/, results in out/bench
 	@mkdir -p out/bench

@@ -80,7 +80,7 @@ def printed(tmp_path_factory: pytest.TempPathFactory) -> Path:
     scenes["odd"] = drivetrain.replace(**odd)
     scenes["hundred"] = load_scene(SCENES / "hundred.toml")
     for name, scene in scenes.items():
-        for path, text in emit_package(scene.replace(**{"emit.backends": ["numpy", "casadi"]})).items():
+        for path, text in emit_package(scene.replace(emit={"backends": ["numpy", "casadi"]})).items():
             (folder / name).mkdir(exist_ok=True)
             (folder / name / path).write_text(text, encoding="utf-8")
     return folder

@@ -75,7 +75,6 @@ def test_spelling_does_not_matter(chain: str, old: str, new: str) -> None:
         ("[base]", "[initial]\nrates = 1\n[base]"),
         ("[base]", "[emit]\nreal = 'float32'\n[base]"),
         ("[base]", "[emit.box]\nrates = [0, 1]\n[base]"),
-        ("[base]", "[control]\nhorizon = 3\n[base]"),
     ],
 )
 def test_content_matters(chain: str, old: str, new: str) -> None:

@@ -65,7 +65,7 @@ def test_stations_are_counted_from_one(chain: str) -> None:
 def test_none_removes_a_key(chain: str, planar: str) -> None:
     assert parse_scene(chain).replace(**{"integrator.beta": None}).integrator.parameters == {}
     assert parse_scene(planar).replace(tip=None).tip is None
-    assert parse_scene(chain).replace(control=None) == parse_scene(chain)
+    assert parse_scene(planar).replace(control=None) == parse_scene(planar)
 
 
 def test_beam_is_expanded_anew(planar: str) -> None:

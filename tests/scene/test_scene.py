@@ -92,15 +92,17 @@ def test_emission(chain: str) -> None:
     assert emit.box == {"tip_torque": (-1.0, 1.0), "angles": (-3.0, 3.0), "step": (1e-4, 1e-2)}
 
 
-def test_control_is_kept_as_written(planar: str) -> None:
-    table = "[control]\nhorizon = 30\nsample_time = 0.02\nsoft = true\n"
-    table += '[control.weights]\ntip = [1, 2.5]\nkind = "l2"\n'
-    assert parse_scene(planar + table).control == {
-        "horizon": 30,
-        "sample_time": 0.02,
-        "soft": True,
-        "weights": {"tip": [1, 2.5], "kind": "l2"},
-    }
+def test_control_has_defaults(planar: str) -> None:
+    table = "[control]\nreference = 1\n[control.bounds]\ntorque = 3\nhub = [-0.1, 1.02]\n"
+    control = parse_scene(planar + table).control
+    assert control is not None
+    assert (control.reference, control.horizon, control.sample_time) == (1.0, 30, 0.02)
+    assert (control.bounds.torque, control.bounds.hub, control.bounds.overshoot) == (
+        (-3.0, 3.0),
+        (-0.1, 1.02),
+        None,
+    )
+    assert control.sensors.accelerometer is None
 
 
 @pytest.mark.parametrize(

@@ -6,6 +6,9 @@ from pathlib import Path
 
 import click
 
+from tmm_gen.cli.check_lint import check_lint
+from tmm_gen.cli.check_proof import check_proof
+from tmm_gen.cli.check_target import TARGETS, check_target
 from tmm_gen.cli.console import Column, progress, table
 
 # NumPy, SymPy and CasADi are imported inside: `tmm-gen --help` has no use for them.
@@ -21,16 +24,47 @@ _COLUMNS: list[Column | str] = [
 
 @click.command("check")
 @click.argument("scene", metavar="SCENE", type=click.Path(path_type=Path))
+@click.option(
+    "--target", type=click.Choice(TARGETS), help="Run the C on an emulated microcontroller instead."
+)
+@click.option(
+    "--prove", "prove_mode", is_flag=True, help="Prove the C free of faults within [emit.box] instead."
+)
+@click.option("--lint", "lint_mode", is_flag=True, help="Show the C to compilers and analysers instead.")
+@click.option(
+    "--real", type=click.Choice(["float64", "float32"]), help="Number type of the C, not the scene's."
+)
 @click.option("--json", "json_mode", is_flag=True, help="One JSON object instead of a table.")
-def check(scene: Path, json_mode: bool) -> int:
+def check(
+    scene: Path, target: str | None, prove_mode: bool, lint_mode: bool, real: str | None, json_mode: bool
+) -> int:
     """Compile SCENE's C and compare every backend with the others and with the exact response.
 
     The exact response is the matrix exponential of the assembled matrices of the chain, written
     independently of the derivation. Exits with 1 if a comparison exceeds its bound.
+
+    With --target the C is compiled for a microcontroller and run in an emulator: bits are compared with
+    this machine's, instructions, code, memory and stack with [emit.budget].
+
+    With --prove Frama-C shows that for all states and inputs within [emit.box] no index leaves its array,
+    nothing is read before it is written, nothing is divided by zero, and no number becomes infinite.
+
+    With --lint gcc and clang compile the C with all warnings, gcc's analyser and cppcheck with its MISRA
+    addon look at it, and its own test is run under sanitizers.
     """
     from tmm_gen.scene import load_scene
 
     loaded = load_scene(scene)
+    if real is not None:
+        loaded = loaded.replace(**{"emit.real": real})
+    if (target is not None) + prove_mode + lint_mode > 1:
+        raise click.UsageError("--target, --prove and --lint are checks of their own: name one")
+    if lint_mode:
+        return check_lint(loaded, json_mode)
+    if prove_mode:
+        return check_proof(loaded, json_mode)
+    if target is not None:
+        return check_target(loaded, target, json_mode)
     with progress(f"checking {loaded.name}", total=1.0) as advance:
         from tmm_gen.measure.check import check_scene
 

@@ -36,6 +36,10 @@ class ExpressionPrinter(ABC):
         """Write the name of ``sin``, ``cos`` or ``sqrt``."""
         return name
 
+    def call(self, e: sp.Function) -> str:
+        """Write a call of ``sin`` or ``cos``."""
+        return f"{self.function(type(e).__name__)}({', '.join(self.text(a) for a in e.args)})"
+
     def text(self, expression: sp.Expr) -> str:
         """Write an expression."""
         return self._print(sp.sympify(expression))[0]
@@ -54,7 +58,7 @@ class ExpressionPrinter(ABC):
         if e.is_Pow:
             return self._power(e)
         if isinstance(e, sp.Function):
-            return f"{self.function(type(e).__name__)}({', '.join(self.text(a) for a in e.args)})", _ATOM
+            return self.call(e), _ATOM
         raise TypeError(f"no way to write {sp.srepr(e)}")
 
     def _number(self, e: sp.Expr) -> tuple[str, int]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pydantic import Field
 
 from tmm_gen.scene.beam import Beam, Tip, beam_joints, beam_links
+from tmm_gen.scene.control import Control
 from tmm_gen.scene.emit import Emit
 from tmm_gen.scene.identifier import SceneName, Title
 from tmm_gen.scene.initial import InitialTable
@@ -33,7 +34,7 @@ class Document(Table):
     output: tuple[Output, ...] = Field(default=(), description="outputs")
     initial: InitialTable = Field(default_factory=InitialTable, description="motion at time zero")
     emit: Emit = Field(default_factory=Emit, description="what is generated")
-    control: dict[str, object] | None = Field(default=None, description="controller, open vocabulary")
+    control: Control | None = Field(default=None, description="controller")
 
     @property
     def stations(self) -> int:

@@ -60,6 +60,12 @@ class Emit(Table):
         In this order, each at most once; all three by default.
     real : {"float64", "float32"}
         Number type of the C code.
+    sensitivities : bool
+        Whether to emit the step's exact first derivatives too.
+    trigonometry : {"libm", "own"}
+        Whose sine and cosine the C code calls: the C library's, or its own, with the same bits everywhere.
+    parameters : {"free", "bound"}
+        Whether the C code takes parameters and step when it runs, or has them built in as constants.
     budget : Budget, optional
         Bounds on the cost of the C code.
     box : dict from str to (low, high), optional
@@ -72,6 +78,15 @@ class Emit(Table):
     )
     real: Literal["float64", "float32"] = Field(
         default="float64", description="number type of the C code", examples=['"float64"']
+    )
+    sensitivities: bool = Field(
+        default=False, description="emit exact first derivatives of the step", examples=["true"]
+    )
+    trigonometry: Literal["libm", "own"] = Field(
+        default="libm", description="sine and cosine of the C code", examples=['"own"']
+    )
+    parameters: Literal["free", "bound"] = Field(
+        default="free", description="whether the C code's parameters are constants", examples=['"bound"']
     )
     budget: Budget | None = Field(default=None, description="bounds on the cost of the C code")
     box: dict[str, Interval] | None = Field(default=None, description="bounds of inputs and state")

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 
 from tmm_gen.scene.beam import Beam, Tip
+from tmm_gen.scene.control import Control
 from tmm_gen.scene.digest import content_digest
 from tmm_gen.scene.document import Document
 from tmm_gen.scene.emit import Emit
@@ -68,8 +69,8 @@ class Scene:
         Motion at time zero.
     emit : Emit
         What is generated.
-    control : mapping or None
-        Controller, as written.
+    control : Control or None
+        Controller of the arm.
     """
 
     name: str
@@ -85,7 +86,7 @@ class Scene:
     outputs: tuple[Output, ...]
     initial: Initial
     emit: Emit
-    control: Mapping[str, object] | None
+    control: Control | None
     source: Source = field(repr=False)
     digest: str = field(init=False, repr=False)
 

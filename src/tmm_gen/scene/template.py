@@ -108,8 +108,50 @@ backends = ["numpy", "c", "casadi"]
 real = "float64"               # of the C code; "float32" for small controllers
 """
 
+_CONTROL = """
+# What `tmm-gen mpc` has the motor do.
+[control]
+reference = 1.0                # angle of the tip to reach, rad
+horizon = 30                   # samples looked ahead
+sample_time = 0.02             # s
+substeps = 4                   # steps of the kernel per sample
+modes = 3                      # where prediction is by modes; the turning of the whole arm is one of them
+delay = 0.0                    # from a measurement to the torque that answers it, s
+
+[control.weights]              # of squares, per sample
+tip = 1.0                      # 1/rad^2
+hub = 2.03                     # 1/rad^2
+tip_rate = 0.038               # s^2/rad^2
+hub_rate = 0.0247              # s^2/rad^2
+torque = 0.00748               # 1/(N m)^2, beyond what holds the target
+torque_step = 3.37e-05         # 1/(N m)^2, of its change
+terminal = 6.03                # factor at the end of the horizon
+overshoot = 1080.0             # 1/rad^2, of passing the soft bounds below
+hub_bound = 6.82               # 1/rad^2
+
+[control.bounds]
+torque = 3.0                   # N m, always kept
+hub = [-0.1, 1.02]             # rad; passed where there is no other way
+overshoot = 0.005              # of the tip, relative to its way; likewise
+
+[control.sensors]
+encoder = 16384                # counts per revolution of the hub
+accelerometer = 0.005          # noise at the tip, m/s^2; leave out what is not there
+# strain = 0.01                # noise of the bending moment at the root, N m
+
+[control.estimator]            # standard deviations the Kalman filter assumes, model errors included
+encoder = 0.009                # rad
+accelerometer = 0.05           # m/s^2
+torque = 0.06                  # unknown torque, N m
+disturbance = 0.06             # change of the constant part per sample, N m
+"""
+
 _CHAIN_MODEL = """\
 kind = "chain"                 # torsional stations in a row: linear, one angle each
+"""
+_FLAT_MODEL = """\
+kind = "planar"                # an arm in a plane, however far it turns
+# gravity = 9.81               # along -y, m/s^2; without it the plane is horizontal
 """
 _PLANAR_MODEL = """\
 kind = "planar"                # an arm in a plane, however far it turns
@@ -117,7 +159,7 @@ gravity = 9.81                 # along -y, m/s^2; remove the line for a horizont
 """
 
 
-def template(name: str, kind: Kind = "chain") -> str:
+def template(name: str, kind: Kind = "chain", control: bool = False) -> str:
     """Return the text of a commented scene.
 
     Parameters
@@ -126,6 +168,8 @@ def template(name: str, kind: Kind = "chain") -> str:
         A valid name of a scene, see :func:`tmm_gen.scene.identifier.scene_name_fault`.
     kind : {"chain", "planar"}
         Family of models.
+    control : bool
+        Whether a planar arm, then in a horizontal plane, gets a ``[control]``.
 
     Returns
     -------
@@ -138,7 +182,8 @@ def template(name: str, kind: Kind = "chain") -> str:
         title="Three torsional stations behind a clamp"
         if chain
         else "Flexible arm with a payload, swung by a hub motor",
-        model=_CHAIN_MODEL if chain else _PLANAR_MODEL,
+        model=_CHAIN_MODEL if chain else _FLAT_MODEL if control else _PLANAR_MODEL,
         step="0.01" if chain else "1e-3",
     )
-    return head.replace("@name@", name) + (_CHAIN if chain else _PLANAR) + _TAIL
+    body = _CHAIN if chain else _PLANAR
+    return head.replace("@name@", name) + body + (_CONTROL if control and not chain else "") + _TAIL

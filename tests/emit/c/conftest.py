@@ -19,7 +19,7 @@ from tmm_gen.emit.expressions import ExpressionPrinter
 from tmm_gen.native import NativeKernel, compile_kernel
 from tmm_gen.program.passes.dependence import SCRATCH
 from tmm_gen.program.statements import Loop, Order, Program, Require, Routine
-from tmm_gen.program.torsion import build_chain
+from tmm_gen.program.torsion.build import build_chain
 from tmm_gen.program.variables import Ref
 from tmm_gen.scene import Scene, parse_scene
 

@@ -100,7 +100,7 @@ def test_overflow_is_noticed(kernel: Any) -> None:
     [
         {"base": "motor", "inner": True},
         {"integrator": "newmark", "parameters": "beta = 0.0", "damped": False},
-        {"integrator": "zhai", "base": "prescribed", "damped": False},
+        {"integrator": "zhai", "base": "motor", "damped": False},
         {"integrator": "houbolt", "base": "prescribed"},
         {"integrator": "sdirk4"},
         {"sweep": "product", "base": "motor"},

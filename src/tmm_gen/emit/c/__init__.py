@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from tmm_gen.emit.c.kernel import Kernel
+from tmm_gen.emit.c.sensitivities import emit_sensitivities
 from tmm_gen.emit.c.vectors import vectors
 from tmm_gen.emit.seal import sealed
 from tmm_gen.emit.templates import render
 from tmm_gen.program.statements import Program
 from tmm_gen.scene import Scene
 
-__all__ = ["emit_c", "emit_kernel"]
+__all__ = ["emit_c", "emit_kernel", "free_scene"]
 
 
 def emit_kernel(program: Program, scene: Scene) -> dict[str, str]:
@@ -52,9 +53,18 @@ def emit_c(program: Program, scene: Scene) -> dict[str, str]:
     }
 
 
+def free_scene(scene: Scene) -> Scene:
+    """Return a scene whose C takes parameters and step when it runs, whatever it asks for itself."""
+    return scene if scene.emit.parameters == "free" else scene.replace(**{"emit.parameters": "free"})
+
+
 def _kernel_files(kernel: Kernel) -> dict[str, str]:
     name = kernel.program.name
-    return {f"c/{name}.h": _filled("kernel.h", kernel), f"c/{name}.c": _filled("kernel.c", kernel)}
+    return {
+        f"c/{name}.h": _filled("kernel.h", kernel),
+        f"c/{name}.c": _filled("kernel.c", kernel),
+        **emit_sensitivities(kernel),
+    }
 
 
 def _filled(template: str, kernel: Kernel, **more: object) -> str:

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from itertools import count
 
+from tmm_gen.emit.c.circle import Turns
+from tmm_gen.emit.c.fence import Fence
 from tmm_gen.emit.c.printer import CPrinter, element
 from tmm_gen.emit.c.real import Real
 from tmm_gen.emit.c.scalars import place_scalars
@@ -33,6 +36,18 @@ SOURCES: dict[str, dict[Role, str]] = {
         Role.STATE: "state->",
         Role.OUTPUT: "outputs->",
     },
+    "linearise": {
+        **dict.fromkeys((Role.STEP, Role.PARAMETER, Role.COEFFICIENT), "model->"),
+        Role.INPUT: "inputs->",
+        Role.STATE: "state->",
+        Role.POINT: "point->",
+    },
+    "tangent": {
+        **dict.fromkeys((Role.STEP, Role.PARAMETER, Role.COEFFICIENT), "model->"),
+        Role.POINT: "point->",
+        Role.INPUT_TANGENT: "causes->",
+        Role.TANGENT: "changes->",
+    },
 }
 """For each kind of function, where variables of a role are found."""
 
@@ -51,12 +66,21 @@ class Body:
         Key of :data:`SOURCES`.
     real : Real
         Number type.
+    own_circle : bool
+        Whether sine and cosine are the kernel's own instead of the C library's.
+    fence : Fence
+        What must stay within bounds.
+    bound : bool
+        Whether parameters and all that follows from them are constants of the file.
     """
 
     program: Program
     routine: Routine
     kind: str
     real: Real
+    own_circle: bool = False
+    fence: Fence = field(default_factory=Fence)
+    bound: bool = False
 
     def reads(self, name: str) -> bool:
         """Whether the function uses one of its pointers."""
@@ -73,6 +97,8 @@ class Body:
             return ""
         if variable.role is Role.COEFFICIENT and variable not in self.program.model:
             return ""  # an intermediate result of prepare
+        if self.bound and variable.role.bound_at_prepare:
+            return ""
         try:
             return SOURCES[self.kind][variable.role]
         except KeyError:
@@ -111,13 +137,25 @@ class Body:
         for variable in (*self._intermediate(), *self.routine.variables(Role.WORK), *placement.at_top):
             yield from self._declaration(variable)
         positions = iter(range(len(tuple(self.routine.assignments()))))
+        names = (f"turn_{number}" for number in count(1))
 
-        def simple(inner: Assign | Require, depth: int) -> list[str]:
+        def simple(inner: Assign | Require, depth: int, turns: Turns) -> Iterator[str]:
+            if self.own_circle:
+                for angle, name in turns.new_in(inner.value):
+                    yield from self._turned(printer.text(angle), name, depth)
+                printer.turns = dict(turns.known)
             if isinstance(inner, Require):
-                return self._required(printer.text(inner.value), depth)
+                yield from self._required(inner, printer.text(inner.value), depth)
+                return
             constant = placement.constant.get(next(positions))
             head = "" if constant is None else "const real " if constant else "real "
-            return statement(f"{head}{printer.text(inner.target)} = {printer.text(inner.value)};", depth)
+            target = printer.text(inner.target)
+            yield from statement(f"{head}{target} = {printer.text(inner.value)};", depth)
+            if inner.target.variable.name in self.fence.largest:
+                yield from self._fenced(target, self.fence.largest[inner.target.variable.name], depth)
+            turns.forget(inner.target)
+
+        straight = Turns(names)
 
         for section in self.routine.sections:
             yield ""
@@ -125,17 +163,21 @@ class Body:
             for top in section.statements:
                 if isinstance(top, Loop):
                     yield f"{INDENT}{self._loop_head(top)} {{"
+                    turns = Turns(names)
                     for inner in top.body:
-                        yield from simple(inner, 2)
+                        yield from simple(inner, 2, turns)
+                        straight.forget(inner.target) if isinstance(inner, Assign) else None
                     yield f"{INDENT}}}"
                 else:
-                    yield from simple(top, 1)
+                    yield from simple(top, 1, straight)
 
     def _refer(self, ref: Ref, local: frozenset[Variable]) -> str:
         source = "" if ref.variable in local else self._source(ref.variable)
         return element(source + ref.variable.name, ref)
 
     def _intermediate(self) -> tuple[Variable, ...]:
+        if self.bound:
+            return ()
         return tuple(v for v in self.routine.variables(Role.COEFFICIENT) if not self._source(v))
 
     def _declaration(self, variable: Variable) -> list[str]:
@@ -153,11 +195,30 @@ class Body:
             return f"for (int j = {loop.start}; j < {stop}; ++j)"
         return f"for (int j = {stop} - 1; j >= {loop.start}; --j)"
 
-    def _required(self, value: str, depth: int) -> list[str]:
+    # -- leaving the function -----------------------------------------------------------------------
+
+    def _required(self, required: Require, value: str, depth: int) -> list[str]:
+        least = self.real.literal(self.fence.least_of(required))
+        return self._unless(f"({value} > {least})", f"isfinite({value})", "VANISHING_PIVOT", depth)
+
+    def _fenced(self, value: str, largest: float, depth: int) -> list[str]:
+        bound = self.real.literal(largest)
+        return self._unless(f"({value} > -{bound})", f"({value} < {bound})", "OUT_OF_RANGE", depth)
+
+    def _turned(self, angle: str, name: str, depth: int) -> Iterator[str]:
+        """Yield sine and cosine of an angle; before them, where the function can refuse, a check of its range."""
+        if self.kind != "output":
+            largest = f"{self.program.name.upper()}_LARGEST_ANGLE"
+            yield from self._unless(
+                f"({angle} >= -{largest})", f"({angle} <= {largest})", "OUT_OF_RANGE", depth
+            )
+        yield from statement(f"const circle {name} = circle_of({angle});", depth)
+
+    def _unless(self, one: str, other: str, status: str, depth: int) -> list[str]:
         pad = INDENT * depth
         return [
-            *statement(f"if (!({value} > {self.real.literal(0.0)}) || !isfinite({value})) {{", depth),
-            f"{pad}{INDENT}return {self.program.name.upper()}_VANISHING_PIVOT;",
+            *statement(f"if (!{one} || !{other}) {{", depth),
+            f"{pad}{INDENT}return {self.program.name.upper()}_{status};",
             f"{pad}}}",
         ]
 

@@ -7,7 +7,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
+from tmm_gen.emit.c.bind import bind
 from tmm_gen.emit.c.body import Body
+from tmm_gen.emit.c.box import complete_box
+from tmm_gen.emit.c.circle import Circle, has_angles, uses_circle
+from tmm_gen.emit.c.fence import Fence, fence_of
 from tmm_gen.emit.c.finite import check, finite_checks
 from tmm_gen.emit.c.guard import telling_value
 from tmm_gen.emit.c.lower import lower
@@ -37,6 +41,8 @@ class Kernel:
         Lines for the head of every file.
     structs : dict from str to Struct
         By name: params, model, state, inputs, outputs.
+    scene : Scene
+        What is emitted.
     """
 
     source: Program
@@ -44,15 +50,18 @@ class Kernel:
     real: Real
     header: tuple[str, ...]
     structs: dict[str, Struct]
+    scene: Scene
 
     @classmethod
     def of(cls, program: Program, scene: Scene) -> Kernel:
         """Prepare a program for a scene's number type."""
         real = REALS[scene.emit.real]
         structs = {struct.name: struct for struct in structs_of(program)}
+        if scene.emit.parameters == "bound":
+            structs = {name: struct for name, struct in structs.items() if name not in ("params", "model")}
         sizes = ", ".join(f"{name} {struct.size(real)}" for name, struct in structs.items())
         lines = (*header_lines(program, scene), f"number type: {real.c}", f"bytes of the structs: {sizes}")
-        return cls(program, lower(program), real, lines, structs)
+        return cls(program, lower(program), real, lines, structs, scene)
 
     def comment(self, lead: str, *paragraphs: str) -> str:
         """Return the head of a file and paragraphs behind it, every line with a lead."""
@@ -67,6 +76,22 @@ class Kernel:
     def doxygen(self, text: str) -> str:
         """Return a comment on lines of its own."""
         return "\n".join(comment(text, 0, "/**"))
+
+    @property
+    def bound(self) -> bool:
+        """Whether parameters and step are bound at generation, so that there are neither params nor model."""
+        return self.scene.emit.parameters == "bound"
+
+    @property
+    def functions(self) -> tuple[str, ...]:
+        """What the kernel offers, without its name in front."""
+        phases = ("initialise", "step", "output")
+        return phases if self.bound else ("default_params", "prepare", *phases)
+
+    def pointers(self, *names: str | None) -> tuple[str, ...]:
+        """Return those of some arguments that the kernel's functions have."""
+        absent = ("params", "model") if self.bound else ()
+        return tuple(name for name in names if name and name not in absent)
 
     # -- pieces of the header -----------------------------------------------------------------------
 
@@ -89,12 +114,16 @@ class Kernel:
     @property
     def statuses_of_step(self) -> str:
         """What a step may return, in words."""
-        return _statuses(*self.program.steps)
+        fenced = any(self.fences.get(r.name) for r in self.program.steps)
+        fenced = fenced or (self.circle is not None and any(map(has_angles, self.program.steps)))
+        return _statuses(*self.program.steps, ranged=fenced)
 
     @property
     def statuses_of_start(self) -> str:
         """What initialise may return, in words."""
-        return _statuses(self.program.initialise)
+        start = self.program.initialise
+        fenced = bool(self.fences.get(start.name)) or (self.circle is not None and has_angles(start))
+        return _statuses(start, ranged=fenced)
 
     def members(self, which: str) -> list[str]:
         """Return the members of a struct, documented beside, or above where that is too wide."""
@@ -122,35 +151,84 @@ class Kernel:
 
     @property
     def starts_from_step(self) -> bool:
-        """Whether initialise needs the time step."""
-        return self.program.step in self.program.initialise.read()
+        """Whether initialise takes the time step."""
+        return not self.bound and self.program.step in self.program.initialise.read()
+
+    # -- own functions and bounds -------------------------------------------------------------------
+
+    @cached_property
+    def circle(self) -> Circle | None:
+        """Own sine and cosine, where the scene asks for them and its arm needs them."""
+        own = self.scene.emit.trigonometry == "own" and uses_circle(self.program)
+        return Circle(self.real) if own else None
+
+    @cached_property
+    def fences(self) -> dict[str, Fence]:
+        """Bounds of intermediate results by routine, where the scene states a box."""
+        box = complete_box(self.scene, self.program)
+        if box is None:
+            return {}
+        return {
+            routine.name: fence_of(self.program, box, routine)
+            for routine in (self.program.initialise, *self.program.steps)
+        }
+
+    @property
+    def fenced(self) -> bool:
+        """Whether some intermediate result has bounds."""
+        return any(self.fences.values())
+
+    @property
+    def range_doc(self) -> str:
+        """The comment on the status OUT_OF_RANGE."""
+        what = []
+        if self.circle is not None:
+            what.append(f"an angle is beyond {self.program.name.upper()}_LARGEST_ANGLE")
+        if self.fenced:
+            what.append("an intermediate result is beyond what the box of the scene can lead to")
+        text = f"{', or '.join(what)}; nothing was changed."
+        return "\n".join(comment(text[:1].upper() + text[1:], 1, "/**"))
 
     # -- bodies of functions ------------------------------------------------------------------------
+
+    def body(self, routine: Routine, kind: str) -> Body:
+        """Return the body of a function.
+
+        Parameters
+        ----------
+        routine : Routine
+            Lowered.
+        kind : str
+            Key of :data:`tmm_gen.emit.c.body.SOURCES`.
+        """
+        of = self.program.main.name if kind == "linearise" else routine.name
+        fence = self.fences.get(of, Fence())
+        return Body(self.program, routine, kind, self.real, self.circle is not None, fence, self.bound)
 
     @cached_property
     def prepare(self) -> Body:
         """The body of prepare."""
-        return Body(self.program, self.program.prepare, "prepare", self.real)
+        return self.body(self.program.prepare, "prepare")
 
     @cached_property
     def initialise(self) -> Body:
         """The body of initialise."""
-        return Body(self.program, self.program.initialise, "initialise", self.real)
+        return self.body(self.program.initialise, "initialise")
 
     @cached_property
     def output(self) -> Body:
         """The body of output."""
-        return Body(self.program, self.program.output, "output", self.real)
+        return self.body(self.program.output, "output")
 
     @cached_property
     def main(self) -> Body:
         """The body of the step."""
-        return Body(self.program, self.program.main, "step", self.real)
+        return self.body(self.program.main, "step")
 
     @cached_property
     def startup(self) -> list[Body]:
         """The bodies of the start-up steps."""
-        return [Body(self.program, routine, "step", self.real) for routine in self.program.startup]
+        return [self.body(routine, "step") for routine in self.program.startup]
 
     def verdict(self, routine: Routine) -> str:
         """Return the check of the new state: of one number that tells of all, or of every one."""
@@ -177,6 +255,26 @@ class Kernel:
         kept = [v for v in (self.program.step, *self.program.parameters) if v in self.program.model]
         return [(v.name, self._argument(v), dimension(v, self.program)) for v in kept]
 
+    def constants(self) -> list[str]:
+        """Return declarations of what is bound at generation and read when the kernel runs."""
+        routines = (self.program.initialise, *self.program.steps, self.program.output)
+        read = frozenset().union(*(routine.read() for routine in routines))
+        lines = []
+        for variable, values in bind(self.program, self.real).items():
+            if variable in read:
+                lines += self._constant(variable, values)
+        return lines
+
+    def _constant(self, variable: Variable, values: tuple[float, ...]) -> list[str]:
+        remark = comment(described(variable), 0)
+        head = f"static const real {variable.name}{dimension(variable, self.program)} ="
+        if variable.length is None:
+            line = f"{head} {self.real.shortest(values[0])};"
+            beside = f"{line} {remark[0]}"
+            return [beside] if len(remark) == 1 and len(beside) <= WIDTH else [*remark, line]
+        numbers = textwrap.wrap(", ".join(map(self.real.shortest, values)), WIDTH - len(INDENT))
+        return [*remark, f"{head} {{", *(INDENT + line for line in numbers), "};"]
+
     def defaults(self) -> list[tuple[Variable, list[str]]]:
         """Return the scene's parameters as literals, those of arrays in lines that fit."""
         return [(v, self._literals(v)) for v in self.program.parameters]
@@ -201,9 +299,10 @@ def _flat(routine: Routine) -> Iterator[Assign | Require]:
         yield from statement.body if isinstance(statement, Loop) else (statement,)
 
 
-def _statuses(*routines: Routine) -> str:
+def _statuses(*routines: Routine, ranged: bool) -> str:
     required = any(isinstance(s, Require) for r in routines for s in _flat(r))
     names = ["OK", "NON_FINITE_INPUT", *(["VANISHING_PIVOT"] if required else []), "NON_FINITE_STATE"]
+    names += ["OUT_OF_RANGE"] if ranged else []
     return f"{', '.join(names[:-1])} or {names[-1]}"
 
 

@@ -10,7 +10,16 @@ import sympy as sp
 from tmm_gen.program.passes.contract import contract
 from tmm_gen.program.passes.dependence import read_before_written
 from tmm_gen.program.passes.fuse import fuse
-from tmm_gen.program.statements import Assign, Loop, Order, Program, Routine, Section, Statement
+from tmm_gen.program.statements import (
+    Assign,
+    Loop,
+    Order,
+    Program,
+    Routine,
+    Section,
+    Sensitivities,
+    Statement,
+)
 from tmm_gen.program.variables import Variable
 
 
@@ -29,7 +38,14 @@ def lower(program: Program) -> Program:
         startup=tuple(_lowered(routine) for routine in program.startup),
         main=_lowered(program.main),
         output=_lowered(program.output),
+        sensitivities=_lowered_sensitivities(program.sensitivities),
     )
+
+
+def _lowered_sensitivities(found: Sensitivities | None) -> Sensitivities | None:
+    if found is None:
+        return None
+    return replace(found, linearise=_lowered(found.linearise), tangent=_lowered(found.tangent))
 
 
 def _lowered(routine: Routine) -> Routine:

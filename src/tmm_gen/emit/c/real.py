@@ -5,6 +5,8 @@ from __future__ import annotations
 import struct
 from dataclasses import dataclass
 
+import numpy as np
+
 from tmm_gen.errors import UserError
 
 
@@ -42,6 +44,10 @@ class Real:
         """
         self.round(value)
         return repr(float(value)) + self.suffix
+
+    def shortest(self, value: float) -> str:
+        """Write a number of the type: the shortest decimal that reads back as the same."""
+        return self.literal(float(str(np.float32(value)))) if self.size == 4 else self.literal(value)
 
     def function(self, name: str) -> str:
         """Return the name of a function of ``<math.h>`` for this type."""

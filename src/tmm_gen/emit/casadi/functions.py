@@ -8,12 +8,28 @@ from dataclasses import dataclass
 from tmm_gen.emit.casadi.statements import RoutineText
 from tmm_gen.emit.python.lines import call
 from tmm_gen.emit.python.names import Names
-from tmm_gen.program.statements import Program, Routine
+from tmm_gen.program.statements import Program, Routine, Sensitivities
 from tmm_gen.program.variables import Role, Variable
 
 _INDENT = "    "
 
-RESERVED = frozenset({"STATIONS", "ca", "given", "j", "model", "p", "range", "reversed", "stages", "u", "x"})
+RESERVED = frozenset(
+    {
+        "STATIONS",
+        "ca",
+        "causes",
+        "changes",
+        "given",
+        "j",
+        "model",
+        "p",
+        "point",
+        "range",
+        "reversed",
+        "stages",
+    }
+    | {"u", "x"}
+)
 """Names that generated functions use beside those of variables."""
 
 
@@ -78,6 +94,45 @@ class Functions:
             *self._column(self.program.outputs),
         ]
 
+    def linearise(self, found: Sensitivities) -> list[str]:
+        """Return the body of ``_linearise(model, x, stages)``."""
+        routine = found.linearise
+        point = [f'"{v.name}": {self.names[v]}' for v in found.point]
+        return [
+            *self._model(routine),
+            *self._split("x", self.program.state, set(self.program.state)),
+            *self._inputs(routine),
+            *self._body(routine),
+            *call("return", [_column_text(self.program.state), f"{{{', '.join(point)}}}"], _INDENT),
+        ]
+
+    def tangent(self, found: Sensitivities) -> list[str]:
+        """Return the body of ``_tangent(model, point, changes, causes)``: a row of directions for each number."""
+        routine = found.tangent
+        read = routine.read()
+        lines, start = [], 0
+        for variable in found.state:
+            stop = start + (variable.length or 1)
+            part = f"changes[{start}:{stop}, :]"
+            lines.append(
+                f"{_INDENT}{variable.name} = "
+                + (part if variable.length is None else f"ca.vertsplit({part})")
+            )
+            start = stop
+        for place, variable in enumerate(found.inputs):
+            if variable in read:
+                every = f"[cause[{place}, :] for cause in causes]"
+                part = f"causes[0][{place}, :]" if variable.length is None else every
+                lines.append(f"{_INDENT}{self.names[variable]} = {part}")
+        items = [f"*{v.name}" if v.length is not None else v.name for v in found.state]
+        return [
+            *self._model(routine),
+            *(f'{_INDENT}{self.names[v]} = point["{v.name}"]' for v in found.point if v in read),
+            *lines,
+            *self._body(routine),
+            *call("return _rows", ["changes.shape[1]", *items], _INDENT),
+        ]
+
     def _body(self, routine: Routine, absent: tuple[Variable, ...] = ()) -> list[str]:
         return RoutineText(routine, self.names, self.program.stations).lines(absent)
 
@@ -113,6 +168,11 @@ class Functions:
     def _column(self, variables: Sequence[Variable]) -> list[str]:
         items = [f"*{self.names[v]}" if v.length is not None else self.names[v] for v in variables]
         return call("return _column", items, _INDENT)
+
+
+def _column_text(variables: Sequence[Variable]) -> str:
+    """Return a call that puts numbers in a column."""
+    return f"_column({', '.join(f'*{v.name}' if v.length is not None else v.name for v in variables)})"
 
 
 def flat_names(variables: Sequence[Variable]) -> list[str]:

@@ -56,6 +56,12 @@ def emit_casadi(program: Program, scene: Scene) -> dict[str, str]:
         output=text(functions.output()),
         start_functions=text(listing("return ", starts, "    ")),
         several_stages=several_stages,
+        sensitivities=None
+        if program.sensitivities is None
+        else {
+            "linearise": text(functions.linearise(program.sensitivities)),
+            "tangent": text(functions.tangent(program.sensitivities)),
+        },
     )
     return {"casadi_model.py": sealed(rendered)}
 

@@ -10,6 +10,8 @@ from tmm_gen.program.statements import Assign, Loop, Order, Require, Routine
 from tmm_gen.program.variables import Role, Variable
 
 _INDENT = "    "
+_GIVEN = frozenset({Role.STATE, Role.TANGENT})
+"""Arrays of these roles are there before the function begins."""
 
 
 class RoutineText:
@@ -34,7 +36,7 @@ class RoutineText:
 
     def lines(self, absent: tuple[Variable, ...] = ()) -> list[str]:
         """Return the statements, indented once, after lists for arrays they fill and what is absent."""
-        filled = {v for v in self._routine.written() if v.length is not None and v.role is not Role.STATE}
+        filled = {v for v in self._routine.written() if v.length is not None and v.role not in _GIVEN}
         lines = [self._zeros(variable) for variable in sorted(filled | set(absent), key=lambda v: v.name)]
         for section in self._routine.sections:
             lines += ["", *comment(section.title, _INDENT)]

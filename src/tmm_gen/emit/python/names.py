@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from tmm_gen.program.statements import Program
 from tmm_gen.program.variables import Role, Variable
 
-_CHOSEN_BY_USERS = frozenset({Role.INPUT, Role.OUTPUT})
+_CHOSEN_BY_USERS = frozenset({Role.INPUT, Role.OUTPUT, Role.INPUT_TANGENT})
 
 
 class Names:
@@ -33,6 +33,11 @@ class Names:
                 name += "_"
             taken.add(name)
             self._names[variable] = name
+        if program.sensitivities is not None:
+            for variable, change in zip(program.inputs, program.sensitivities.inputs, strict=True):
+                self._names[change] = self._names[variable]
+            for variable in program.sensitivities.point:  # called like the scratch they are copies of
+                self._names[variable] = f"kept_{variable.name}"
 
     def __getitem__(self, variable: Variable) -> str:
         """Return the name of a variable."""
@@ -40,6 +45,8 @@ class Names:
 
 
 def _variables(program: Program) -> set[Variable]:
-    routines = (program.prepare, program.initialise, *program.steps, program.output)
+    routines = [program.prepare, program.initialise, *program.steps, program.output]
+    if program.sensitivities is not None:
+        routines += [program.sensitivities.linearise, program.sensitivities.tangent]
     declared = {program.step, *program.parameters, *program.coefficients, *program.state, *program.given}
     return declared.union(*(routine.read() | routine.written() for routine in routines))

@@ -6,10 +6,19 @@ from collections.abc import Callable, Iterator
 
 from tmm_gen.scene.document import Document
 from tmm_gen.scene.problem import Finding
-from tmm_gen.scene.rules.control import control_values
-from tmm_gen.scene.rules.emission import box_names, budget_not_empty, real_is_used
+from tmm_gen.scene.rules.control import control_possible
+from tmm_gen.scene.rules.emission import (
+    bound_without_sensitivities,
+    box_names,
+    budget_not_empty,
+    real_is_used,
+)
 from tmm_gen.scene.rules.inputs import inputs_possible, prescribed_motion
-from tmm_gen.scene.rules.integration import explicit_needs_acceleration, integrator_parameters
+from tmm_gen.scene.rules.integration import (
+    explicit_needs_a_free_base,
+    explicit_needs_acceleration,
+    integrator_parameters,
+)
 from tmm_gen.scene.rules.kinds import base_hub, kind_keys, newton_keys
 from tmm_gen.scene.rules.names import distinct_names
 from tmm_gen.scene.rules.outputs import outputs_possible
@@ -25,14 +34,16 @@ RULES: tuple[Rule, ...] = (
     initial_lengths,
     integrator_parameters,
     explicit_needs_acceleration,
+    explicit_needs_a_free_base,
     distinct_names,
     inputs_possible,
     prescribed_motion,
     outputs_possible,
     real_is_used,
+    bound_without_sensitivities,
     budget_not_empty,
     box_names,
-    control_values,
+    control_possible,
 )
 
 

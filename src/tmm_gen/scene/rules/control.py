@@ -1,47 +1,47 @@
-"""``[control]`` has an open vocabulary, but what is in it must be usable."""
+"""What ``[control]`` asks for can be had of this arm."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
 from tmm_gen.scene.document import Document
-from tmm_gen.scene.problem import Finding, Path
-from tmm_gen.scene.table import is_finite_number
+from tmm_gen.scene.problem import Finding
 
-TIME_GRID = (("control", "horizon"), ("control", "sample_time"))
-"""Keys with a rule, and so a remedy, of their own."""
+MOST_DELAY = 10
+"""Samples; a longer delay than this is a slip of the unit."""
 
 
-def control_values(document: Document) -> Iterator[Finding]:
-    """Find values a controller cannot use, and a time grid that makes no sense."""
+def control_possible(document: Document) -> Iterator[Finding]:
+    """Find a controller of an arm that no hub torque turns, and bounds that exclude the reference."""
     control = document.control
     if control is None:
         return
-    yield from _unusable(("control",), control)
-    horizon = control.get("horizon", 1)
-    if not isinstance(horizon, int) or isinstance(horizon, bool) or horizon < 1:
+    if document.model.kind != "planar":
+        yield Finding(("control",), "is for planar arms", 'Set model.kind = "planar", or remove the table.')
+    if document.base.kind != "motor":
         yield Finding(
-            ("control", "horizon"),
-            "must be a whole number of samples from 1",
-            "Write for example `horizon = 30`.",
-            horizon,
+            ("control",),
+            "turns the arm by a torque at its hub, which does not turn",
+            'Set base.kind = "motor", or remove the table.',
         )
-    sample = control.get("sample_time", 1.0)
-    if not is_finite_number(sample) or sample <= 0:
+    elif not any(item.at == "base" and item.acts == "torque" for item in document.input):
         yield Finding(
-            ("control", "sample_time"),
-            "must be greater than 0",
-            "Write for example `sample_time = 0.02` (s).",
-            sample,
+            ("control",),
+            "turns the arm by a torque at its hub, which is not among the inputs",
+            'Add [[input]] with `name = "hub_torque"`, `at = "base"`, `acts = "torque"`.',
         )
-
-
-def _unusable(path: Path, value: object) -> Iterator[Finding]:
-    if isinstance(value, dict):
-        for key, item in value.items():
-            yield from _unusable((*path, key), item)
-    elif isinstance(value, list | tuple):
-        for index, item in enumerate(value):
-            yield from _unusable((*path, index), item)
-    elif path not in TIME_GRID and not isinstance(value, str | bool) and not is_finite_number(value):
-        yield Finding(path, "must be a finite number, text or boolean", "Write a plain TOML value.", value)
+    hub = control.bounds.hub
+    if hub is not None and not hub[0] <= control.reference <= hub[1]:
+        yield Finding(
+            ("control", "bounds", "hub"),
+            f"excludes the reference, {control.reference:g} rad",
+            "Widen the bounds, or set another reference.",
+            list(hub),
+        )
+    if control.delay > MOST_DELAY * control.sample_time:
+        yield Finding(
+            ("control", "delay"),
+            f"must be at most {MOST_DELAY} samples",
+            f"Write seconds: one sample is {control.sample_time:g} s.",
+            control.delay,
+        )

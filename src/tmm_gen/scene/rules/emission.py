@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from tmm_gen.scene.complaints import closest
 from tmm_gen.scene.document import Document
-from tmm_gen.scene.emit import Budget
+from tmm_gen.scene.emit import Budget, Emit
 from tmm_gen.scene.problem import Finding
 
 BOX_STATES = ("angles", "rates", "accelerations", "step")
@@ -17,18 +17,30 @@ def real_is_used(document: Document) -> Iterator[Finding]:
     emit = document.emit
     if "c" in emit.backends:
         return
-    if emit.real == "float32":
-        yield Finding(
-            ("emit", "real"),
-            "is for the C code, which is not emitted",
-            'Add "c" to backends, or remove it.',
-            emit.real,
-        )
+    for key in ("real", "trigonometry", "parameters"):
+        if (value := getattr(emit, key)) != Emit.model_fields[key].default:
+            yield Finding(
+                ("emit", key),
+                "is for the C code, which is not emitted",
+                'Add "c" to backends, or remove it.',
+                value,
+            )
     for key in ("budget", "box"):
         if getattr(emit, key) is not None:
             yield Finding(
                 ("emit", key), "is for the C code, which is not emitted", 'Add "c" to backends, or remove it.'
             )
+
+
+def bound_without_sensitivities(document: Document) -> Iterator[Finding]:
+    """Find derivatives asked of a kernel whose parameters are constants: theirs are functions of a model."""
+    if document.emit.parameters == "bound" and document.emit.sensitivities:
+        yield Finding(
+            ("emit", "parameters"),
+            "and emit.sensitivities exclude each other",
+            'Write parameters = "free", or remove sensitivities.',
+            document.emit.parameters,
+        )
 
 
 def budget_not_empty(document: Document) -> Iterator[Finding]:
@@ -51,6 +63,13 @@ def box_names(document: Document) -> Iterator[Finding]:
                 ("emit", "box", key),
                 "is neither a state nor an input of this scene",
                 closest(key, known),
+                bounds,
+            )
+        elif key == "step" and document.emit.parameters == "bound":
+            yield Finding(
+                ("emit", "box", key),
+                "bounds a step that is a constant of the code",
+                'Remove it, or write parameters = "free".',
                 bounds,
             )
         elif key == "step" and bounds[0] <= 0.0:

@@ -41,22 +41,48 @@ def integrator_parameters(document: Document) -> Iterator[Finding]:
 def explicit_needs_acceleration(document: Document) -> Iterator[Finding]:
     """Find an explicit method asked to solve for displacements, which do not depend on the new forces."""
     unknown = document.model.unknown
-    method = method_named(document.integrator.name)
+    method = _explicit_method(document)
     if method is None or unknown == "acceleration":
         return
+    yield Finding(
+        ("model", "unknown"),
+        f"cannot be solved for: {_explicit_words(method)}",
+        'Write `unknown = "acceleration"`.',
+        unknown,
+    )
+
+
+def explicit_needs_a_free_base(document: Document) -> Iterator[Finding]:
+    """Find an explicit method and a base whose angle is prescribed.
+
+    The base's acceleration follows from its new angle by the method's own formulas; in an explicit method the new
+    angle does not depend on it, and the base would stay where it is.
+    """
+    method = _explicit_method(document)
+    if method is None or document.base.kind != "prescribed":
+        return
+    yield Finding(
+        ("integrator", "name"),
+        f"cannot follow a prescribed base: {_explicit_words(method)}",
+        'Choose an implicit method, such as "newmark", or another base.kind.',
+        document.integrator.name,
+    )
+
+
+def _explicit_method(document: Document) -> Method | None:
+    """Return the method if it is explicit with the parameters given."""
+    method = method_named(document.integrator.name)
     given = {
         key: float(value)
         for key, value in (document.integrator.model_extra or {}).items()
         if is_finite_number(value)
     }
-    if method.explicit(given):
-        yield Finding(
-            ("model", "unknown"),
-            f"cannot be solved for: {method.name} is explicit"
-            + "".join(f" at {key} = {value:g}" for key, value in (method.explicit_at or {}).items()),
-            'Write `unknown = "acceleration"`.',
-            unknown,
-        )
+    return method if method is not None and method.explicit(given) else None
+
+
+def _explicit_words(method: Method) -> str:
+    parameters = "".join(f" at {key} = {value:g}" for key, value in (method.explicit_at or {}).items())
+    return f"{method.name} is explicit{parameters}"
 
 
 def _did_you_mean(name: str) -> str:

@@ -1,0 +1,151 @@
+"""What a step costs on microcontrollers: instructions, code, memory and stack, in emulators, beside committed budgets.
+
+``--update`` commits what is measured: it rewrites benchmarks/embedded.json, the table in docs/embedded.md, and a
+shorter one in README.md if it has a place for it.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import json
+from dataclasses import dataclass
+from pathlib import Path
+
+from tmm_gen.files import write_tree_whole
+from tmm_gen.scene import load_scene
+from tmm_gen.target import BOARDS, Measurement, measure
+
+ROOT = Path(__file__).resolve().parents[1]
+BUDGETS = ROOT / "benchmarks" / "embedded.json"
+PAGE = ROOT / "docs" / "embedded.md"
+README = ROOT / "README.md"
+BEGIN, END = "<!-- written by benchmarks/embedded.py --update -->", "<!-- end -->"
+FIGURES = ("instructions_per_step", "step_bytes", "code_bytes", "ram_bytes", "stack_bytes")
+TOLERANCE = 1.02
+"""Counts are exact: what grows by more than this is a change of the code."""
+
+
+@dataclass(frozen=True)
+class Case:
+    """A kernel and where it runs."""
+
+    scene: str
+    real: str
+    parameters: str
+    target: str
+
+    def __str__(self) -> str:
+        """Key in the file of budgets."""
+        return f"{self.scene} {self.real} {self.parameters} {self.target}"
+
+    def measure(self) -> Measurement:
+        """Measure it."""
+        scene = load_scene(ROOT / "scenes" / f"{self.scene}.toml")
+        return measure(
+            scene.replace(**{"emit.real": self.real, "emit.parameters": self.parameters}), self.target
+        )
+
+
+CASES = (
+    Case("thesis10", "float32", "free", "cortex-m4f"),
+    Case("thesis10", "float32", "bound", "cortex-m4f"),
+    Case("thesis10", "float64", "free", "cortex-m7"),
+    Case("thesis10", "float64", "free", "rv32imafdc"),
+    Case("arm10", "float32", "free", "cortex-m4f"),
+    Case("arm10", "float32", "bound", "cortex-m4f"),
+    Case("arm10", "float64", "free", "cortex-m7"),
+    Case("arm10", "float64", "free", "rv32imafdc"),
+)
+
+
+SHORT = tuple(
+    case
+    for case in CASES
+    if case.target != "rv32imafdc" and (case.scene, case.real) != ("thesis10", "float64")
+)
+"""Rows of the README."""
+
+
+def figures(found: Measurement) -> dict[str, int | bool]:
+    """Return what is committed of a measurement."""
+    return {**{name: getattr(found, name) for name in FIGURES}, "bits_equal": found.bits_equal}
+
+
+def committed() -> dict[str, dict[str, int]]:
+    """Return the committed budgets by case."""
+    budgets: dict[str, dict[str, int]] = json.loads(BUDGETS.read_text())
+    return budgets
+
+
+def table(rows: dict[str, dict[str, int]]) -> str:
+    """Write the table of the page."""
+    lines = [
+        "| scene | number type | parameters | processor | instructions per step | code of the step | all code "
+        "| memory | stack | bits as on the host |",
+        "|---|---|---|---|---|---|---|---|---|---|",
+    ]
+    for case in CASES:
+        row = rows[str(case)]
+        cells = (f"{row[name]} B" if name.endswith("bytes") else str(row[name]) for name in FIGURES)
+        bits = "equal" if row["bits_equal"] else "differ"
+        title = BOARDS[case.target].title
+        lines.append(
+            f"| `{case.scene}` | {case.real} | {case.parameters} | {title} | {' | '.join(cells)} | {bits} |"
+        )
+    return "\n".join(lines)
+
+
+def short_table(rows: dict[str, dict[str, int]]) -> str:
+    """Write the table of the README."""
+    lines = ["| one step, in an emulator | instructions | code | memory | stack |", "|---|---|---|---|---|"]
+    for case in SHORT:
+        row = rows[str(case)]
+        fixed = ", parameters built in" if case.parameters == "bound" else ""
+        bytes_of = (f"{row[name]} B" for name in ("code_bytes", "ram_bytes", "stack_bytes"))
+        title = f"`{case.scene}`, {case.real}, {BOARDS[case.target].title}{fixed}"
+        lines.append(f"| {title} | {row['instructions_per_step']} | {' | '.join(bytes_of)} |")
+    return "\n".join(lines)
+
+
+def page_with(text: str, written: str) -> str:
+    """Return a page with a table in its place, and as it is where it has no place for one."""
+    if BEGIN not in text:
+        return text
+    before, _, rest = text.partition(BEGIN)
+    _, _, after = rest.partition(END)
+    return f"{before}{BEGIN}\n{written}\n{END}{after}"
+
+
+def pages(rows: dict[str, dict[str, int]]) -> dict[Path, str]:
+    """Return all pages with tables, with these figures."""
+    return {
+        PAGE: page_with(PAGE.read_text(), table(rows)),
+        README: page_with(README.read_text(), short_table(rows)),
+    }
+
+
+def main() -> None:
+    """Measure all cases, print them beside the budgets, write a CSV; or commit them."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--out", type=Path, default=Path("out/bench"))
+    parser.add_argument("--update", action="store_true", help="commit what is measured")
+    options = parser.parse_args()
+    rows = {}
+    for case in CASES:
+        rows[str(case)] = figures(case.measure())
+        print(
+            f"{case}: " + ", ".join(f"{name} {value}" for name, value in rows[str(case)].items()), flush=True
+        )
+    if options.update:
+        write_tree_whole({BUDGETS: json.dumps(rows, indent=1) + "\n", **pages(rows)})
+        return
+    options.out.mkdir(parents=True, exist_ok=True)
+    with (options.out / "embedded.csv").open("w", newline="") as file:
+        writer = csv.DictWriter(file, ["case", *FIGURES, "bits_equal"])
+        writer.writeheader()
+        writer.writerows({"case": name, **row} for name, row in rows.items())
+
+
+if __name__ == "__main__":
+    main()

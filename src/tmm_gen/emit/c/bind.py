@@ -1,0 +1,99 @@
+"""Parameters bound at generation: what prepare would compute, as numbers of the kernel's type.
+
+Every operation is done in that type and in the order in which C does it, so that a bound kernel gives the bits of
+one that prepares itself.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from tmm_gen.emit.c.real import Real
+from tmm_gen.emit.expressions import ExpressionPrinter
+from tmm_gen.errors import UserError
+from tmm_gen.program.statements import Assign, Loop, Order, Program, Require, Routine
+from tmm_gen.program.variables import Ref, Variable
+
+Bound = dict[Variable, tuple[float, ...]]
+"""Numbers of each variable; one for a scalar."""
+
+
+class _PythonPrinter(ExpressionPrinter):
+    """Writes expressions in Python, every number of one type, held in lists by the variable's name."""
+
+    def reference(self, ref: Ref) -> str:
+        index = f"j + {ref.offset}" if ref.offset is not None else ref.entry or 0
+        return f"held[{ref.variable.name!r}][{index}]"
+
+    def literal(self, value: float) -> str:
+        return f"real({value!r})"
+
+    def function(self, name: str) -> str:
+        return f"np.{name}"
+
+
+def bind(program: Program, real: Real) -> Bound:
+    """Return the parameters, the step and all that prepare derives from them.
+
+    Parameters
+    ----------
+    program : Program
+        Lowered; its defaults are bound.
+    real : Real
+        Number type.
+
+    Raises
+    ------
+    UserError
+        If a pivot is not positive, or a number is beyond the range of the type.
+    """
+    number: Any = np.float32 if real.size == 4 else np.float64
+    held: dict[str, list[Any]] = {}
+    for variable in (program.step, *program.parameters):
+        default = variable.default
+        values = default if isinstance(default, tuple) else (default or 0.0,) * (variable.length or 1)
+        held[variable.name] = [number(real.round(value)) for value in values]
+    for variable in program.prepare.written():
+        held[variable.name] = [number(0.0)] * (variable.length or 1)
+    with np.errstate(all="ignore"):  # looked at below
+        exec(
+            compile(_python(program.prepare), "prepare", "exec"),
+            {"np": np, "real": number, "held": held, "need": _need},
+        )
+    kept = (program.step, *program.parameters, *program.coefficients)
+    bound = {v: tuple(float(x) for x in held[v.name]) for v in kept if v.name in held}
+    for variable, values in bound.items():
+        if not all(map(np.isfinite, values)):
+            raise UserError(
+                f"{program.name}: {variable.name} is beyond the range of emit.real = '{real.name}'"
+            )
+    return bound
+
+
+def _need(value: Any, what: str) -> None:
+    if not (value > 0 and np.isfinite(value)):
+        raise UserError(
+            f"no passive arm has these parameters: {what} is {value}, not positive; they cannot be bound"
+        )
+
+
+def _python(routine: Routine) -> str:
+    printer = _PythonPrinter()
+
+    def line(statement: Assign | Require) -> str:
+        value = printer.text(statement.value)
+        if isinstance(statement, Require):
+            return f"need({value}, {str(statement.value)!r})"
+        return f"{printer.text(statement.target)} = {value}"
+
+    lines = []
+    for statement in routine.statements():
+        if isinstance(statement, Loop):
+            stations = f"range({statement.start}, {statement.stop})"
+            order = f"reversed({stations})" if statement.order is Order.INWARD else stations
+            lines += [f"for j in {order}:", *(f"    {line(inner)}" for inner in statement.body)]
+        else:
+            lines.append(line(statement))
+    return "\n".join(lines) or "pass"

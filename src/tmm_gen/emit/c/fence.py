@@ -1,0 +1,152 @@
+"""Bounds on what a step computes on its way, without which no analyser can show that nothing overflows.
+
+In a planar arm each link's answer to its neighbour enters the next link's, so that bounds of intervals square from
+link to link and exceed any number type, though the numbers themselves never do: an analyser that looks at intervals
+does not know that the arm is passive. Where a scene states a box (``[emit.box]``), its kernel therefore checks the
+pivots and the answers that a sweep keeps, and returns a status where they leave their bounds. Those lie far beyond what
+random states of the box lead to.
+"""
+
+from __future__ import annotations
+
+import math
+import random
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from tmm_gen.emit.c.box import Box
+from tmm_gen.program.evaluate import Values, VanishingPivotError, allocate, execute, key
+from tmm_gen.program.statements import Assign, Loop, Order, Program, Require, Routine, Section, Statement
+from tmm_gen.program.variables import Role, Variable, refs_in
+
+SAMPLES = 24
+MARGIN = 64.0
+"""By how much bounds exceed what random states lead to."""
+
+
+@dataclass(frozen=True)
+class Fence:
+    """Bounds of a routine.
+
+    Parameters
+    ----------
+    largest : mapping from str to float
+        By name of a scratch array: what the absolute value of its elements must stay below.
+    least : mapping from str to float
+        By the expression of a pivot: what it must exceed.
+    """
+
+    largest: Mapping[str, float] = field(default_factory=dict)
+    least: Mapping[str, float] = field(default_factory=dict)
+
+    def least_of(self, required: Require) -> float:
+        """Return what a pivot must exceed."""
+        return self.least.get(str(required.value), 0.0)
+
+    def __bool__(self) -> bool:
+        """Whether there are bounds besides those of pivots."""
+        return bool(self.largest)
+
+
+def fence_of(program: Program, box: Box, routine: Routine) -> Fence:
+    """Return bounds for a step of a program or its start, found by taking it from random states of a box.
+
+    Parameters
+    ----------
+    program : Program
+        Lowered.
+    box : Box
+        Bounds of state and inputs.
+    routine : Routine
+        Its step, one of the first, or its start.
+
+    Returns
+    -------
+    Fence
+        Powers of two, so that they are exact in every number type; empty where the step has no pivots.
+    """
+    kept = kept_answers(routine)
+    if not kept:
+        return Fence()
+    watched, pivots = _watched(routine)
+    largest = dict.fromkeys((v.name for v in kept), 0.0)
+    least = dict.fromkeys(pivots, math.inf)
+    for values in _steps(program, box, watched):
+        for variable in kept:
+            largest[variable.name] = max(largest[variable.name], *map(abs, values[key(variable)]))
+        for required, recorded in pivots.items():
+            held = values[key(recorded)]
+            least[required] = min(least[required], *(held if isinstance(held, list) else [held]))
+    return Fence(
+        {name: 2.0 ** math.ceil(math.log2(MARGIN * value)) for name, value in largest.items() if value > 0.0},
+        {
+            name: 2.0 ** math.floor(math.log2(value / MARGIN))
+            for name, value in least.items()
+            if math.isfinite(value)
+        },
+    )
+
+
+def kept_answers(routine: Routine) -> tuple[Variable, ...]:
+    """Return the arrays an inward sweep writes behind its pivot, from more than the pivot and the model."""
+    found: dict[Variable, None] = {}
+    for loop in routine.statements():
+        if not isinstance(loop, Loop) or loop.order is not Order.INWARD:
+            continue
+        places = [place for place, inner in enumerate(loop.body) if isinstance(inner, Require)]
+        for inner in loop.body[places[0] + 1 :] if places else ():
+            if not isinstance(inner, Assign) or inner.target.variable.role is not Role.WORK:
+                continue
+            varying = {ref for ref in refs_in(inner.value) if not ref.variable.role.bound_at_prepare}
+            if len(varying) > 1:
+                found[inner.target.variable] = None
+    return tuple(found)
+
+
+def _watched(routine: Routine) -> tuple[Routine, dict[str, Variable]]:
+    """Return the routine with every pivot recorded, and the records by expression."""
+    records: dict[str, Variable] = {}
+
+    def record(required: Require, length: int | None) -> list[Assign | Require]:
+        role = Role.LOCAL if length is None else Role.WORK
+        variable = records.setdefault(
+            str(required.value), Variable(f"recorded_{len(records)}", role, length, "a pivot")
+        )
+        return [Assign(variable.at(), required.value), required]
+
+    def expanded(statement: Statement) -> list[Statement]:
+        if isinstance(statement, Require):
+            return list(record(statement, None))
+        if isinstance(statement, Loop):
+            body: list[Assign | Require] = []
+            for inner in statement.body:
+                body += record(inner, statement.stop) if isinstance(inner, Require) else [inner]
+            return [Loop(statement.order, statement.start, statement.stop, tuple(body))]
+        return [statement]
+
+    sections = tuple(
+        Section(s.title, tuple(new for old in s.statements for new in expanded(old)))
+        for s in routine.sections
+    )
+    return Routine(routine.name, routine.doc, sections), records
+
+
+def _steps(program: Program, box: Box, routine: Routine) -> list[Values]:
+    """Return all variables after steps from random states; states from which none can be taken are left out."""
+    draw = random.Random(2718)
+    variables = (program.step, *program.parameters, *program.state, *program.inputs, *program.given)
+    base = allocate(variables, float)
+    execute(program.prepare, base)
+    found = []
+    for _ in range(SAMPLES):
+        values = {name: list(held) if isinstance(held, list) else held for name, held in base.items()}
+        for variable in (*program.state, *program.inputs, *program.given):
+            low, high = box.of(variable)
+            numbers = [draw.uniform(low, high) for _ in range(variable.length or 1)]
+            values[key(variable)] = numbers[0] if variable.length is None else numbers
+        try:
+            execute(routine, values)
+        except (VanishingPivotError, OverflowError):
+            continue
+        found.append(values)
+    return found

@@ -1,0 +1,94 @@
+"""Bodies of C functions that do the same for several directions at once, side by side in memory.
+
+Every number becomes an array of as many lanes as there are directions, and every statement an inner loop over them:
+the last index runs fastest, so that compilers turn the inner loop into vector instructions.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import groupby
+
+from tmm_gen.emit.c.body import Body, sentence
+from tmm_gen.emit.c.printer import CPrinter
+from tmm_gen.emit.c.wrap import INDENT, comment, statement
+from tmm_gen.program.passes.dependence import accesses, carried_scalars
+from tmm_gen.program.statements import Assign, Loop, Statement
+from tmm_gen.program.variables import Ref, Role, Variable
+
+LANE = "k"
+_WIDE = frozenset({Role.TANGENT, Role.INPUT_TANGENT, Role.WORK, Role.LOCAL})
+
+
+@dataclass(frozen=True)
+class LaneBody(Body):
+    """The body of a function whose state, inputs and scratch have lanes; model and point have none."""
+
+    @property
+    def lanes(self) -> str:
+        """The macro that says how many directions there are."""
+        return f"{self.program.name.upper()}_LANES"
+
+    def _lines(self) -> Iterator[str]:
+        hoisted = frozenset(self._hoisted())
+        narrow = self._narrow()
+        printer = CPrinter(self.real, lambda ref: self._lane(ref, hoisted, narrow))
+        for variable in self._hoisted():
+            yield f"{INDENT}const real {variable.name} = {self._source(variable)}{variable.name};"
+        for variable in (*self.routine.variables(Role.WORK), *self.routine.variables(Role.LOCAL)):
+            if variable not in narrow:
+                yield from self._wide_declaration(variable)
+        for section in self.routine.sections:
+            yield ""
+            yield from comment(sentence(section.title), 1)
+            for is_loop, group in groupby(section.statements, lambda s: isinstance(s, Loop)):
+                if not is_loop:
+                    yield from self._for_lanes(tuple(group), printer, narrow, 1)
+                    continue
+                for loop in group:
+                    assert isinstance(loop, Loop)
+                    yield f"{INDENT}{self._loop_head(loop)} {{"
+                    yield from self._for_lanes(loop.body, printer, narrow, 2)
+                    yield f"{INDENT}}}"
+
+    def _for_lanes(
+        self, statements: tuple[Statement, ...], printer: CPrinter, narrow: frozenset[Variable], depth: int
+    ) -> Iterator[str]:
+        pad = INDENT * depth
+        yield f"{pad}for (int {LANE} = 0; {LANE} < {self.lanes}; ++{LANE}) {{"
+        declared: set[Variable] = set()
+        targets = [s.target.variable for s in statements if isinstance(s, Assign)]
+        for inner in statements:
+            if not isinstance(inner, Assign):
+                raise ValueError(f"{self.routine.name}: a tangent has no requirements")
+            variable = inner.target.variable
+            head = ""
+            if variable in narrow and variable not in declared:
+                declared.add(variable)
+                head = "real " if targets.count(variable) > 1 else "const real "
+            text = f"{head}{printer.text(inner.target)} = {printer.text(inner.value)};"
+            yield from statement(text, depth + 1)
+        yield f"{pad}}}"
+
+    def _lane(self, ref: Ref, hoisted: frozenset[Variable], narrow: frozenset[Variable]) -> str:
+        text = self._refer(ref, hoisted)
+        return f"{text}[{LANE}]" if ref.variable.role in _WIDE and ref.variable not in narrow else text
+
+    def _narrow(self) -> frozenset[Variable]:
+        """Return the scratch scalars that live within one station: they need no memory for their lanes."""
+        statements = tuple(self.routine.statements())
+        return frozenset(
+            variable
+            for variable in self.routine.variables(Role.LOCAL)
+            if all(
+                isinstance(s, Loop) and variable not in carried_scalars(s)
+                for s in statements
+                if any(a.variable == variable for a in accesses(s))
+            )
+        )
+
+    def _wide_declaration(self, variable: Variable) -> list[str]:
+        (*before, line) = self._declaration(variable)
+        head, end, remark = line.partition(";")
+        return [*before, f"{head}[{self.lanes}]{end}{remark}"]

@@ -1,0 +1,232 @@
+"""``[control]``: what a controller of the arm is to reach, what it may do, and what it knows."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import Field, PlainValidator
+
+from tmm_gen.scene.table import Count, Finite, NonNegative, Positive, Table, fault, is_finite_number
+
+
+def _range(value: object) -> tuple[float, float]:
+    """Return ``[low, high]``, or one positive number for both sides, as a pair."""
+    if is_finite_number(value) and float(value) > 0.0:
+        return -float(value), float(value)
+    if isinstance(value, list | tuple) and len(value) == 2 and all(is_finite_number(end) for end in value):
+        low, high = float(value[0]), float(value[1])
+        if low < high:
+            return low, high
+        raise fault("must be increasing", "Write the lower bound first.")
+    raise fault(
+        "must be a positive number or two increasing numbers", "Write for example `3.0` or `[-3.0, 3.0]`."
+    )
+
+
+Range = Annotated[tuple[float, float], PlainValidator(_range)]
+Horizon = Annotated[int, Field(strict=True, ge=2, le=500)]
+Substeps = Annotated[int, Field(strict=True, ge=1, le=100)]
+Modes = Annotated[int, Field(strict=True, ge=2, le=50)]
+
+
+class Weights(Table):
+    """``[control.weights]``: of the squares in the cost, each per sample.
+
+    Parameters
+    ----------
+    tip, hub : float
+        Of what tip angle and hub angle are off their targets, 1/rad^2.
+    tip_rate, hub_rate : float
+        Of the angles' rates, s^2/rad^2.
+    torque : float
+        Of the torque beyond what holds the target, 1/(N m)^2.
+    torque_step : float
+        Of the change of torque from sample to sample, 1/(N m)^2; positive, since it makes the problem convex.
+    terminal : float
+        Factor of the first four at the end of the horizon.
+    overshoot, hub_bound : float
+        Of what the tip angle passes its bound by, and the hub angle its own, 1/rad^2.
+    """
+
+    tip: Positive = Field(default=1.0, description="weight of the tip angle", examples=["1.0"])
+    hub: NonNegative = Field(default=0.0, description="weight of the hub angle", examples=["0.1"])
+    tip_rate: NonNegative = Field(default=0.0, description="weight of the tip's rate", examples=["1e-3"])
+    hub_rate: NonNegative = Field(default=0.0, description="weight of the hub's rate", examples=["1e-3"])
+    torque: NonNegative = Field(default=1e-3, description="weight of the torque", examples=["1e-3"])
+    torque_step: Positive = Field(
+        default=1e-3, description="weight of the change of torque", examples=["1e-3"]
+    )
+    terminal: Positive = Field(default=1.0, description="factor at the end of the horizon", examples=["10.0"])
+    overshoot: Positive = Field(default=1e4, description="weight of overshoot", examples=["1e4"])
+    hub_bound: Positive = Field(
+        default=1e4, description="weight of passing the hub's bounds", examples=["1e4"]
+    )
+
+
+class Bounds(Table):
+    """``[control.bounds]``.
+
+    Parameters
+    ----------
+    torque : (low, high)
+        Of the hub torque, N m; always kept.
+    torque_rate : float, optional
+        Largest rate of change of the torque from sample to sample, N m/s; always kept.
+    hub : (low, high), optional
+        Of the hub's angle, rad; soft: passed where there is no other way.
+    overshoot : float, optional
+        How far the tip may pass the reference, relative to the way from its start; soft.
+    """
+
+    torque: Range = Field(description="bounds of the hub torque in N m", examples=["3.0"])
+    torque_rate: Positive | None = Field(
+        default=None, description="largest change of the torque in N m/s", examples=["100.0"]
+    )
+    hub: Range | None = Field(
+        default=None, description="bounds of the hub angle in rad", examples=["[-0.1, 1.02]"]
+    )
+    overshoot: NonNegative | None = Field(
+        default=None, description="largest overshoot of the tip relative to its way", examples=["0.005"]
+    )
+
+
+class Sensors(Table):
+    """``[control.sensors]``: what is measured, and how well.
+
+    Parameters
+    ----------
+    encoder : int
+        Counts of the hub's encoder per revolution.
+    accelerometer : float, optional
+        Standard deviation of the noise of an accelerometer at the tip, across the last link, m/s^2; no such
+        sensor if absent.
+    strain : float, optional
+        Standard deviation of the noise of a strain gauge at the root, as a bending moment, N m; no such sensor
+        if absent.
+    """
+
+    encoder: Count = Field(default=8192, description="counts per revolution", examples=["8192"])
+    accelerometer: NonNegative | None = Field(
+        default=None, description="noise of the tip accelerometer in m/s^2", examples=["0.05"]
+    )
+    strain: NonNegative | None = Field(
+        default=None, description="noise of the root strain gauge in N m", examples=["0.01"]
+    )
+
+
+class Estimator(Table):
+    """``[control.estimator]``: standard deviations a Kalman filter takes for granted.
+
+    They speak of the model's errors as well as the sensors', and so may be larger than the sensors' own.
+
+    Parameters
+    ----------
+    encoder : float
+        rad.
+    accelerometer : float
+        m/s^2.
+    strain : float
+        N m.
+    torque : float
+        Of what drives the arm besides the torque known, per sample, N m.
+    disturbance : float
+        By how much the constant part of it changes per sample, N m.
+    rate : float
+        By how much the arm's rate as a whole changes per sample without a torque, rad/s: keeps a filter that trusts
+        an accelerometer from drifting away from the encoder.
+    """
+
+    encoder: Positive = Field(default=1e-3, description="error of the encoder in rad", examples=["1e-3"])
+    accelerometer: Positive = Field(
+        default=1.0, description="error of the accelerometer in m/s^2", examples=["1.0"]
+    )
+    strain: Positive = Field(default=0.1, description="error of the strain gauge in N m", examples=["0.1"])
+    torque: Positive = Field(default=1e-2, description="unknown torque in N m", examples=["0.01"])
+    disturbance: Positive = Field(
+        default=1e-2, description="change of the disturbance per sample in N m", examples=["0.01"]
+    )
+    rate: NonNegative = Field(
+        default=0.0, description="unexplained change of rate per sample in rad/s", examples=["0.005"]
+    )
+
+
+def _gains(value: object) -> tuple[float, float]:
+    """Return ``[proportional, derivative]`` as a pair."""
+    numbers = value if isinstance(value, list | tuple) else ()
+    if len(numbers) == 2 and all(is_finite_number(gain) and gain >= 0.0 for gain in numbers):
+        return float(numbers[0]), float(numbers[1])
+    raise fault("must be two numbers, none negative", "Write for example `[2.0, 0.8]`: N m/rad, N m s/rad.")
+
+
+Gains = Annotated[tuple[float, float], PlainValidator(_gains)]
+
+
+class RegulatorWeights(Table):
+    """``[control.baselines.lqr]``: weights of a linear-quadratic regulator beside that of the tip angle, 1/rad^2.
+
+    Parameters
+    ----------
+    hub : float
+        1/rad^2.
+    tip_rate, hub_rate : float
+        s^2/rad^2.
+    torque : float
+        1/(N m)^2, positive.
+    """
+
+    hub: NonNegative = Field(default=0.0, description="weight of the hub angle", examples=["0.1"])
+    tip_rate: NonNegative = Field(default=0.0, description="weight of the tip's rate", examples=["0.01"])
+    hub_rate: NonNegative = Field(default=0.0, description="weight of the hub's rate", examples=["0.01"])
+    torque: Positive = Field(default=0.1, description="weight of the torque", examples=["0.1"])
+
+
+class Baselines(Table):
+    """``[control.baselines]``: what predictive controllers are compared with.
+
+    Parameters
+    ----------
+    pd, pd_zv, pd_zvd : (proportional, derivative), optional
+        Gains on the hub, N m/rad and N m s/rad: alone, and with a reference shaped to leave no vibration. Without
+        them: critical damping of the rigid arm at a quarter of its first frequency.
+    lqr : RegulatorWeights
+        Of a linear-quadratic regulator.
+    """
+
+    pd: Gains | None = Field(default=None, description="gains", examples=["[2.0, 0.8]"])
+    pd_zv: Gains | None = Field(default=None, description="gains", examples=["[2.0, 0.8]"])
+    pd_zvd: Gains | None = Field(default=None, description="gains", examples=["[2.0, 0.8]"])
+    lqr: RegulatorWeights = Field(default_factory=RegulatorWeights, description="weights of an LQR")
+
+
+class Control(Table):
+    """``[control]``: a controller that turns the tip of a planar arm by the torque at its hub.
+
+    Parameters
+    ----------
+    reference : float
+        Angle of the tip to reach, rad.
+    horizon : int
+        Samples looked ahead, N.
+    sample_time : float
+        Time between samples, T, s.
+    substeps : int
+        Steps of the generated kernel per sample, M.
+    modes : int
+        Modes of the fine arm where the prediction is by modes, the turning of the whole arm among them.
+    delay : float
+        From a measurement to the torque that answers it, s; known and compensated.
+    weights, bounds, sensors, estimator, baselines
+        Tables of their own.
+    """
+
+    reference: Finite = Field(description="tip angle to reach in rad", examples=["1.0"])
+    horizon: Horizon = Field(default=30, description="samples looked ahead", examples=["30"])
+    sample_time: Positive = Field(default=0.02, description="time between samples in s", examples=["0.02"])
+    substeps: Substeps = Field(default=2, description="steps of the kernel per sample", examples=["2"])
+    modes: Modes = Field(default=3, description="modes of a prediction by modes", examples=["3"])
+    delay: NonNegative = Field(default=0.0, description="from measurement to torque in s", examples=["0.01"])
+    weights: Weights = Field(default_factory=Weights, description="weights of the cost")
+    bounds: Bounds = Field(description="what must be kept", examples=["torque = 3.0"])
+    sensors: Sensors = Field(default_factory=Sensors, description="what is measured")
+    estimator: Estimator = Field(default_factory=Estimator, description="what a Kalman filter assumes")
+    baselines: Baselines = Field(default_factory=Baselines, description="what it is compared with")
