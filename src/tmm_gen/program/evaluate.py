@@ -102,10 +102,11 @@ def _function(value: sp.Expr, modules: Any) -> tuple[list[sp.Symbol], Callable[.
     key = (value, modules if isinstance(modules, str) else id(modules))
     if key not in _FUNCTIONS:
         refs = sorted(value.free_symbols, key=lambda s: s.name)
-        dummies = [sp.Dummy() for _ in refs]
-        plain = value.xreplace(dict(zip(refs, dummies, strict=True)))
+        # no Dummies: SymPy orders sums by names, and a Dummy's tells how many there were before in the process
+        names = [sp.Symbol(f"x{k:03d}") for k in reversed(range(len(refs)))]
+        plain = value.xreplace(dict(zip(refs, names, strict=True)))
         handed = modules if isinstance(modules, str) else list(modules)
-        _FUNCTIONS[key] = refs, sp.lambdify(dummies, plain, modules=handed)
+        _FUNCTIONS[key] = refs, sp.lambdify(names, plain, modules=handed)
     return _FUNCTIONS[key]
 
 

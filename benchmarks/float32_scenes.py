@@ -1,0 +1,121 @@
+"""Single precision in each committed scene: over 60 s, and over a million steps.
+
+    python benchmarks/float32_scenes.py --out out/bench
+    python benchmarks/float32_scenes.py --figure docs/figures
+
+The C kernel in `float` beside the same kernel in `double`, both at the scene's step and under a load that keeps it
+moving. Errors are relative to the largest value of the output. `growth` is the exponent of time with which the RMS
+error grows over the second run: 0 stays, 0.5 is a random walk, 1 a drift, negative dies out.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+
+from tmm_gen.cli.console import Column, progress, table
+from tmm_gen.files import write_whole
+from tmm_gen.measure.rows import csv_text
+from tmm_gen.measure.single_precision import SingleError, single_precision
+from tmm_gen.measure.style import FAINT, PALETTE, figure, picture, style
+from tmm_gen.scene import load_scene
+
+SCENES = Path(__file__).resolve().parents[1] / "scenes"
+DURATION = 60.0
+MANY = 1_000_000
+
+Loads = dict[str, Callable[[np.ndarray], np.ndarray]]
+
+LOADS: dict[str, tuple[str, Loads]] = {
+    "thesis2": ("two tones on 1 N m", {"tip_torque": lambda t: 1.0 + np.sin(0.7 * t) + np.sin(1.9 * t)}),
+    "thesis10": ("two tones on 1 N m", {"tip_torque": lambda t: 1.0 + np.sin(0.3 * t) + np.sin(0.7 * t)}),
+    "hundred": ("1 N m at 2 rad/s", {"tip_torque": lambda t: np.sin(2.0 * t)}),
+    "drivetrain": (
+        "turning back and forth at 1 Hz",
+        {
+            "motor_torque": lambda t: 5.0 * np.cos(2.0 * np.pi * t),
+            "load_torque": lambda t: 0.5 * np.cos(6.0 * np.pi * t),
+        },
+    ),
+    "arm2": ("released, then 0.5 N m at 2 rad/s", {"hub_torque": lambda t: 0.5 * np.sin(2.0 * t)}),
+    "arm10": ("released, then 0.3 N m at 2 rad/s", {"hub_torque": lambda t: 0.3 * np.sin(2.0 * t)}),
+    "arm50": ("base swung by 1 rad at 0.5 Hz", {"base_angle": lambda t: 0.5 * (1.0 - np.cos(np.pi * t))}),
+    "fall10": ("released", {}),
+    "swing": ("turning back and forth at 1 Hz", {"hub_torque": lambda t: np.cos(2.0 * np.pi * t)}),
+}
+
+
+def measure(name: str) -> tuple[list[dict[str, object]], SingleError]:
+    """Return a row for each output, and the first output's error over the long run."""
+    scene = load_scene(SCENES / f"{name}.toml")
+    load, signals = LOADS[name]
+    minute = single_precision(scene, signals, round(DURATION / scene.integrator.step))
+    long = single_precision(scene, signals, MANY)
+    rows: list[dict[str, object]] = [
+        {
+            "scene": name,
+            "load": load,
+            "output": short.output,
+            "peak": short.peak,
+            "error_60s": short.largest,
+            "rms_60s": float(np.sqrt(np.mean(short.windows**2))),
+            "error_million_steps": far.largest,
+            "rms_second_tenth": float(np.sqrt(np.mean(far.windows[2:4] ** 2))),
+            "rms_last_tenth": float(np.sqrt(np.mean(far.windows[-2:] ** 2))),
+            "growth": far.growth,
+        }
+        for short, far in zip(minute, long, strict=True)
+    ]
+    return rows, long[0]
+
+
+def draw(found: dict[str, SingleError]) -> bytes:
+    """Show the error of each scene's first output over the steps taken."""
+    with style():
+        made, axes = figure(8.4, 4.2)
+        for (name, error), colour in zip(found.items(), (*PALETTE, FAINT), strict=True):
+            steps = MANY * (np.arange(len(error.windows)) + 0.5) / len(error.windows)
+            axes.loglog(steps, error.windows, color=colour, marker="o", markersize=3, label=name)
+        axes.set_xlabel("steps taken")
+        axes.set_ylabel("RMS difference to double precision, over the peak")
+        axes.set_title("Single precision over a million steps")
+        made.legend(loc="outside right center")
+        return picture(made, "png")
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("--out", type=Path, default=Path("out/bench"))
+    parser.add_argument("--figure", type=Path, help="folder of float32.png; by default that of the table")
+    options = parser.parse_args()
+    rows: list[dict[str, object]] = []
+    found: dict[str, SingleError] = {}
+    with progress("simulating", total=len(LOADS)) as advance:
+        for name in LOADS:
+            advance(0, doing=name)
+            more, found[name] = measure(name)
+            rows += more
+            advance()
+    columns = [
+        "scene",
+        "output",
+        Column("error_60s", "60 s", ".1e"),
+        Column("error_million_steps", "10^6 steps", ".1e"),
+        Column("rms_second_tenth", "RMS, 2nd tenth", ".1e"),
+        Column("rms_last_tenth", "RMS, last tenth", ".1e"),
+        Column("growth", "growth", "+.2f"),
+    ]
+    table(rows, columns, title="float beside double, C, relative to the peak")
+    written = {options.out / "float32_scenes.csv": csv_text(rows)}
+    for path, text in written.items():
+        write_whole(path, text)
+    target = (options.figure or options.out) / "float32.png"
+    write_whole(target, draw(found))
+    print(f"wrote {options.out / 'float32_scenes.csv'}, {target}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,123 @@
+/**
+ * beam5: Five-link arm on a hub, the model of an observer
+ *
+ * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * scene digest: 2aa7477fe5a1cf796a596a84ffa48c892dc54bfd3ece90a5d25a43813cf34ab5
+ * sha256 of the rest of this file: 41c5f32ac29f36a681075736bac0c87a367ee14056fdcc59dd42d76eac3d64e9
+ *
+ * model: planar arm, large rotations, gravity, tip mass
+ * stations: 5
+ * base: motor
+ * integrator: Newmark 1959, beta = 0.25, gamma = 0.5
+ * linearisation: newton
+ * sweep: riccati
+ * unknown: acceleration
+ * operations of a step: 685, 137 per station (315 additions, 354 multiplications, 6 divisions, 10 functions)
+ * operations of prepare: 47, 9.4 per station (8 additions, 39 multiplications)
+ * number type: float
+ * bytes of the structs: state 72, inputs 4, outputs 12
+ *
+ * Parameters and time step are constants of the code. Call beam5_initialise() to put the arm somewhere, then
+ * beam5_step() at every tick of the clock and beam5_output() to know. All memory is the caller's; nothing is
+ * kept between calls, so any number of arms can be run side by side.
+ *
+ * @file beam5.h
+ */
+#ifndef BEAM5_H
+#define BEAM5_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Number of links. */
+#define BEAM5_STATIONS 5
+
+/** The time step, a constant of the code [s]. */
+#define BEAM5_STEP 0.001f
+
+/** Largest angle, either way, of which a step takes sine and cosine [rad]. */
+#define BEAM5_LARGEST_ANGLE 6433.0f
+
+/** Type of all numbers. */
+typedef float beam5_real;
+
+/** What a function says about its success. */
+typedef enum {
+    /** Success. */
+    BEAM5_OK = 0,
+    /** An argument is infinite or not a number; nothing was changed. */
+    BEAM5_NON_FINITE_INPUT,
+    /** The time step is not a positive number; nothing was changed. */
+    BEAM5_INVALID_STEP,
+    /** No passive arm has such parameters (a negative inertia, say); the model is of no use. */
+    BEAM5_VANISHING_PIVOT,
+    /** The motion has outgrown the number type; initialise anew. */
+    BEAM5_NON_FINITE_STATE,
+    /** An angle is beyond BEAM5_LARGEST_ANGLE; nothing was changed. */
+    BEAM5_OUT_OF_RANGE
+} beam5_status;
+
+/** Motion of the arm, and the history its integrator needs. */
+typedef struct {
+    beam5_real hub_angle; /**< hub angle [rad] */
+    beam5_real hub_rate; /**< hub rate [rad/s] */
+    beam5_real hub_acceleration; /**< hub acceleration [rad/s^2] */
+    beam5_real angle[BEAM5_STATIONS]; /**< angle of each link, base to tip [rad] */
+    beam5_real rate[BEAM5_STATIONS]; /**< rate of each link, base to tip [rad/s] */
+    beam5_real acceleration[BEAM5_STATIONS]; /**< acceleration of each link, base to tip [rad/s^2] */
+} beam5_state;
+
+/** What acts on the arm. */
+typedef struct {
+    beam5_real hub_torque; /**< torque acting at the base [N m] */
+} beam5_inputs;
+
+/** What the scene asks to know. */
+typedef struct {
+    beam5_real hub; /**< angle at the base [rad] */
+    beam5_real tip_x; /**< position at the tip, x [m] */
+    beam5_real tip_y; /**< position at the tip, y [m] */
+} beam5_outputs;
+
+/**
+ * Start from given angles and rates with the acceleration that satisfies the equations of motion.
+ *
+ * @param[out] state   motion at the initial instant
+ * @param[in]  initial_angle  angles to start from [rad]
+ * @param[in]  initial_rate  rates to start from [rad/s]
+ * @param[in]  inputs  what acts at the initial instant
+ * @return OK, NON_FINITE_INPUT, VANISHING_PIVOT, NON_FINITE_STATE or OUT_OF_RANGE
+ */
+beam5_status beam5_initialise(
+    beam5_state *state,
+    const beam5_real initial_angle[BEAM5_STATIONS],
+    const beam5_real initial_rate[BEAM5_STATIONS],
+    const beam5_inputs *inputs);
+
+/**
+ * Advance the state by one step.
+ *
+ * @param[in,out] state   motion before the step, and after it
+ * @param[in]     inputs  what acts, at the end of the step
+ * @return OK, NON_FINITE_INPUT, VANISHING_PIVOT, NON_FINITE_STATE or OUT_OF_RANGE
+ */
+beam5_status beam5_step(
+    beam5_state *state,
+    const beam5_inputs *inputs);
+
+/**
+ * Read the outputs off the state.
+ *
+ * @param[in]  state    motion
+ * @param[out] outputs  what the scene asks for
+ */
+void beam5_output(
+    const beam5_state *state,
+    beam5_outputs *outputs);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* BEAM5_H */

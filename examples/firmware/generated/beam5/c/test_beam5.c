@@ -1,0 +1,156 @@
+/**
+ * beam5: Five-link arm on a hub, the model of an observer
+ *
+ * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * scene digest: 2aa7477fe5a1cf796a596a84ffa48c892dc54bfd3ece90a5d25a43813cf34ab5
+ * sha256 of the rest of this file: 54f1ebf7ca9f98aa9fd575d619ec16b08a22649a00491cb2f116c74b1f1f8ea1
+ *
+ * model: planar arm, large rotations, gravity, tip mass
+ * stations: 5
+ * base: motor
+ * integrator: Newmark 1959, beta = 0.25, gamma = 0.5
+ * linearisation: newton
+ * sweep: riccati
+ * unknown: acceleration
+ * operations of a step: 685, 137 per station (315 additions, 354 multiplications, 6 divisions, 10 functions)
+ * operations of prepare: 47, 9.4 per station (8 additions, 39 multiplications)
+ * number type: float
+ * bytes of the structs: state 72, inputs 4, outputs 12
+ *
+ * A test for any machine: the kernel against 30 digits, within what rounding explains.
+ *
+ * @file test_beam5.c
+ */
+#include "beam5.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+typedef beam5_real real;
+
+typedef struct {
+    int checks;
+    int failures;
+} tally;
+
+static void expect(tally *count, const char *what, real value, real right, real tolerance)
+{
+    ++count->checks;
+    if (!(fabsf(value - right) <= tolerance)) {
+        ++count->failures;
+        printf("%s is %.17g, not %.17g within %.2g\n", what, (double)value, (double)right, (double)tolerance);
+    }
+}
+
+static void expect_status(
+    tally *count,
+    const char *what,
+    beam5_status value,
+    beam5_status right)
+{
+    ++count->checks;
+    if (value != right) {
+        ++count->failures;
+        printf("%s: status is %d, not %d\n", what, (int)value, (int)right);
+    }
+}
+
+static void test_motion(tally *count)
+{
+    beam5_state state;
+    beam5_inputs inputs;
+    beam5_outputs outputs;
+    beam5_status status;
+    real initial_angle[BEAM5_STATIONS];
+    real initial_rate[BEAM5_STATIONS];
+
+    memset(&state, 0, sizeof state); /* padding too: it is compared below */
+
+    for (int j = 0; j < BEAM5_STATIONS; ++j) {
+        initial_angle[j] = (real)((7 * j + 3) % 16 - 8) / 64.0f;
+    }
+    for (int j = 0; j < BEAM5_STATIONS; ++j) {
+        initial_rate[j] = (real)((7 * j + 3) % 16 - 8) / 64.0f;
+    }
+    inputs.hub_torque = -0.375f;
+    status = beam5_initialise(&state, initial_angle, initial_rate, &inputs);
+    expect_status(count, "initialise", status, BEAM5_OK);
+
+    /* Step 1. */
+    inputs.hub_torque = 0.25f;
+    status = beam5_step(&state, &inputs);
+    expect_status(count, "step 1", status, BEAM5_OK);
+    beam5_output(&state, &outputs);
+    expect(count, "hub", outputs.hub, -2.4471614353714572e-05f, 6.6e-10f);
+    expect(count, "tip_x", outputs.tip_x, 0.9969939096612364f, 2.2e-06f);
+    expect(count, "tip_y", outputs.tip_y, -0.00939825154850603f, 1.7e-07f);
+
+    /* Step 2. */
+    inputs.hub_torque = -0.25f;
+    status = beam5_step(&state, &inputs);
+    expect_status(count, "step 2", status, BEAM5_OK);
+    beam5_output(&state, &outputs);
+    expect(count, "hub", outputs.hub, -9.457053970571232e-05f, 6.6e-10f);
+    expect(count, "tip_x", outputs.tip_x, 0.9972489550816658f, 2.2e-06f);
+    expect(count, "tip_y", outputs.tip_y, -0.00950229615875876f, 1.7e-07f);
+
+    /* Step 3. */
+    inputs.hub_torque = 0.375f;
+    status = beam5_step(&state, &inputs);
+    expect_status(count, "step 3", status, BEAM5_OK);
+    beam5_output(&state, &outputs);
+    expect(count, "hub", outputs.hub, -0.00020321494221149923f, 6.6e-10f);
+    expect(count, "tip_x", outputs.tip_x, 0.9975939801459514f, 2.2e-06f);
+    expect(count, "tip_y", outputs.tip_y, -0.009689272690516988f, 1.7e-07f);
+
+    /* State after the last step. */
+    expect(count, "hub_angle", state.hub_angle, -0.00020321494221149923f, 6.6e-10f);
+    expect(count, "hub_rate", state.hub_rate, -0.1260341770287053f, 3.8e-07f);
+    expect(count, "hub_acceleration", state.hub_acceleration, -25.222785859280666f, 0.00015f);
+    expect(count, "angle[0]", state.angle[0], -0.06621437481844797f, 2.4e-07f);
+    expect(count, "angle[1]", state.angle[1], 0.006045019163412799f, 2.4e-07f);
+    expect(count, "angle[2]", state.angle[2], -0.0906026354207628f, 2.4e-07f);
+    expect(count, "angle[3]", state.angle[3], -0.0045452361629078454f, 2.4e-07f);
+    expect(count, "angle[4]", state.angle[4], 0.10690210329020969f, 2.4e-07f);
+    expect(count, "rate[0]", state.rate[0], 7.295175822685509f, 5.3e-05f);
+    expect(count, "rate[1]", state.rate[1], -15.282998170414164f, 5.3e-05f);
+    expect(count, "rate[2]", state.rate[2], 11.206120137087476f, 5.3e-05f);
+    expect(count, "rate[3]", state.rate[3], -2.0276062292465076f, 5.3e-05f);
+    expect(count, "rate[4]", state.rate[4], -2.305371158241009f, 5.3e-05f);
+    expect(count, "acceleration[0]", state.acceleration[0], 1567.1157872553f, 0.045f);
+    expect(count, "acceleration[1]", state.acceleration[1], -3209.564280429331f, 0.045f);
+    expect(count, "acceleration[2]", state.acceleration[2], 2083.4853949062076f, 0.045f);
+    expect(count, "acceleration[3]", state.acceleration[3], 468.3010078138665f, 0.045f);
+    expect(count, "acceleration[4]", state.acceleration[4], -1418.3634397666137f, 0.045f);
+
+    /* Bad input is refused and leaves the state alone. */
+    beam5_state before;
+    memcpy(&before, &state, sizeof before);
+    const real bad[] = {(real)NAN, (real)INFINITY, -(real)INFINITY};
+    for (int k = 0; k < 3; ++k) {
+        const real hub_torque = inputs.hub_torque;
+        inputs.hub_torque = bad[k];
+        status = beam5_step(&state, &inputs);
+        expect_status(count, "bad hub_torque", status, BEAM5_NON_FINITE_INPUT);
+        inputs.hub_torque = hub_torque;
+    }
+    ++count->checks;
+    if (memcmp(&before, &state, sizeof state) != 0) {
+        ++count->failures;
+        printf("bad input has changed the state\n");
+    }
+}
+
+int main(void)
+{
+    tally count = {0, 0};
+
+    test_motion(&count);
+    if (count.failures > 0) {
+        printf("%d of %d checks failed\n", count.failures, count.checks);
+        return 1;
+    }
+    printf("%d checks passed\n", count.checks);
+    return 0;
+}

@@ -1,0 +1,1 @@
+"""The same arm for other tools: functional mock-up units and MuJoCo models."""

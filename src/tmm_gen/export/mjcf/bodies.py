@@ -1,0 +1,107 @@
+"""Bodies and joints of an arm in MJCF: hinges with springs and dampers, no contact."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from xml.etree import ElementTree as Xml
+
+from tmm_gen.scene import Scene
+
+_RADIUS = 0.02
+"""Of what is drawn, over the length of the arm; nothing collides, nothing drawn has mass."""
+
+_LIGHT = 1e-9
+"""Mass of a hub, kg: MuJoCo wants one, but it is not to weigh on the ground."""
+
+
+def text_of(*values: float) -> str:
+    """Write numbers as they read back."""
+    return " ".join(repr(float(value)) for value in values)
+
+
+@dataclass(frozen=True)
+class Bodies:
+    """The bodies of a model, by the station they belong to.
+
+    Parameters
+    ----------
+    ground : Element
+        Body fixed to the world on which everything stands.
+    links : tuple of Element, length n
+        Body of each link.
+    tip : Element
+        Body at the outer end of the last link, or the last link itself in a chain.
+    joints : tuple of str
+        Names of the hinges, base to tip, the hub's first where there is a motor.
+    """
+
+    ground: Xml.Element
+    links: tuple[Xml.Element, ...]
+    tip: Xml.Element
+    joints: tuple[str, ...]
+
+
+def add_bodies(world: Xml.Element, scene: Scene) -> Bodies:
+    """Add the bodies of a scene: a planar arm in the x-y plane, or the discs of a chain along z."""
+    planar = scene.model.kind == "planar"
+    size = _RADIUS * (sum(link.length for link in scene.links) if planar else float(scene.stations))
+    ground = parent = Xml.SubElement(world, "body", name="ground")
+    joints = []
+    if scene.base.kind == "motor":
+        parent = Xml.SubElement(parent, "body", name="hub")
+        Xml.SubElement(
+            parent, "joint", name="hub", type="hinge", axis="0 0 1", damping=text_of(scene.base.damping)
+        )
+        _inertial(parent, _LIGHT, 0.0, scene.base.inertia)  # about a fixed point its mass does nothing
+        _disc(parent, 2.0 * size)
+        joints.append("hub")
+    place, links = (0.0, 0.0), []
+    for number, (joint, link) in enumerate(zip(scene.joints, scene.links, strict=True), start=1):
+        parent = Xml.SubElement(parent, "body", name=f"link{number}", pos=text_of(place[0], 0.0, place[1]))
+        Xml.SubElement(
+            parent,
+            "joint",
+            name=f"joint{number}",
+            type="hinge",
+            axis="0 0 1",
+            stiffness=text_of(joint.stiffness),
+            damping=text_of(joint.damping),
+        )
+        joints.append(f"joint{number}")
+        links.append(parent)
+        if planar:
+            _inertial(parent, link.mass, link.center * link.length, link.inertia)
+            Xml.SubElement(
+                parent, "geom", type="capsule", size=_drawn(size), fromto=text_of(0, 0, 0, link.length, 0, 0)
+            )
+            place = (link.length, 0.0)
+        else:
+            _inertial(parent, 1.0, 0.0, link.inertia)
+            _disc(parent, 10.0 * size / scene.stations)
+            place = (0.0, 1.0)
+    tip = parent
+    if planar:
+        tip = Xml.SubElement(parent, "body", name="tip", pos=text_of(place[0], 0.0, 0.0))
+        if scene.tip is not None and (scene.tip.mass or scene.tip.inertia):
+            _inertial(tip, scene.tip.mass, 0.0, scene.tip.inertia)
+            Xml.SubElement(tip, "geom", type="sphere", size=_drawn(2.0 * size))
+    return Bodies(ground, tuple(links), tip, tuple(joints))
+
+
+def _inertial(parent: Xml.Element, mass: float, along: float, inertia: float) -> None:
+    # the other two moments are out of play; alike, they are always those of a possible body
+    Xml.SubElement(
+        parent,
+        "inertial",
+        mass=text_of(mass),
+        pos=text_of(along, 0.0, 0.0),
+        diaginertia=text_of(inertia, inertia, inertia),
+    )
+
+
+def _disc(parent: Xml.Element, radius: float) -> None:
+    Xml.SubElement(parent, "geom", type="cylinder", size=_drawn(radius, 0.1 * radius))
+
+
+def _drawn(*sizes: float) -> str:
+    return " ".join(f"{size:.4g}" for size in sizes)

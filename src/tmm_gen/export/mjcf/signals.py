@@ -1,0 +1,153 @@
+"""Inputs of a scene as actuators, outputs as sensors."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from xml.etree import ElementTree as Xml
+
+from tmm_gen.export.mjcf.bodies import Bodies, text_of
+from tmm_gen.export.mjcf.readings import Reading
+from tmm_gen.scene import Input, Output, Scene, station_of
+
+_AXES = {"force_x": (1, 0), "force_y": (0, 1)}
+
+
+@dataclass
+class Signals:
+    """Adds what a scene's inputs and outputs need to a model, each helper once.
+
+    Parameters
+    ----------
+    root : Element
+        The model.
+    scene : Scene
+        What is exported.
+    bodies : Bodies
+        Where signals are tied to.
+    """
+
+    root: Xml.Element
+    scene: Scene
+    bodies: Bodies
+    readings: list[Reading] = field(default_factory=list)
+    left_out: list[str] = field(default_factory=list)
+    _sites: dict[str, str] = field(default_factory=dict)
+    _sums: dict[int, str] = field(default_factory=dict)
+
+    def add(self) -> None:
+        """Add actuators, sensors, and the sites and tendons they work on."""
+        tendons = Xml.SubElement(self.root, "tendon")
+        actuators = Xml.SubElement(self.root, "actuator")
+        sensors = Xml.SubElement(self.root, "sensor")
+        self._tendons, self._sensors = tendons, sensors
+        for item in self.scene.inputs:
+            self._act(actuators, item)
+        for output in self.scene.outputs:
+            self._measure(output)
+        for empty in [each for each in (tendons, actuators, sensors) if len(each) == 0]:
+            self.root.remove(empty)
+
+    def _act(self, actuators: Xml.Element, item: Input) -> None:
+        station = station_of(item.at, self.scene.stations)
+        if item.acts == "torque":
+            # on a body, against ground: it turns with the sum of the hinges up to there
+            Xml.SubElement(actuators, "motor", name=item.name, tendon=self._angle(station), gear="1")
+            return
+        x, y = _AXES[item.acts]
+        Xml.SubElement(
+            actuators,
+            "general",
+            name=item.name,
+            site=self._end(station),
+            refsite=self._site("ground", self.bodies.ground, 0.0),
+            gear=text_of(x, y, 0, 0, 0, 0),
+        )
+
+    def _measure(self, output: Output) -> None:
+        name, of = output.name, output.of
+        if of == "kinetic_energy":
+            Xml.SubElement(self._sensors, "e_kinetic", name=name)
+            self._read(name, (name, 0, 1.0))
+            return
+        if output.at == "arm":
+            self._leave_out(output, "MuJoCo knows the sum of elastic and gravitational energy only")
+            return
+        station = station_of(output.at, self.scene.stations)
+        planar = self.scene.model.kind == "planar"
+        if of == "angle":
+            Xml.SubElement(self._sensors, "tendonpos", name=name, tendon=self._angle(station))
+            self._read(name, (name, 0, 1.0))
+        elif of == "rate" or (of == "velocity" and not planar):
+            Xml.SubElement(self._sensors, "tendonvel", name=name, tendon=self._angle(station))
+            self._read(name, (name, 0, 1.0))
+        elif of == "acceleration" and not planar:
+            Xml.SubElement(
+                self._sensors, "frameangacc", name=name, objtype="site", objname=self._end(station)
+            )
+            self._read(name, (name, 2, 1.0))
+        elif of in ("position", "velocity", "acceleration"):
+            kind = {"position": "framepos", "velocity": "framelinvel", "acceleration": "framelinacc"}[of]
+            Xml.SubElement(self._sensors, kind, name=name, objtype="site", objname=self._end(station))
+            # like an accelerometer, the sensor takes gravity for an acceleration upward
+            falling = -(self.scene.model.gravity or 0.0) if of == "acceleration" else 0.0
+            self._read(f"{name}_x", (name, 0, 1.0))
+            self._read(f"{name}_y", (name, 1, 1.0), constant=falling)
+        elif of == "torque" and not (planar and output.at == "tip"):
+            self._joint_torque(name, max(station, 1))
+        elif of == "force" and output.at == "base" and not self._pushed:
+            # what link 1 and all beyond it do to the ground, in the axes of the ground
+            site = self._site("ground", self.bodies.ground, 0.0)
+            Xml.SubElement(self._sensors, "force", name=name, site=site)
+            self._read(f"{name}_x", (name, 0, 1.0))
+            self._read(f"{name}_y", (name, 1, 1.0))
+        else:
+            self._leave_out(output, "no sensor of MuJoCo measures it in the axes of the ground")
+
+    @property
+    def _pushed(self) -> bool:
+        """Whether forces act: MuJoCo's joints then seem to carry them, as if actuators stood on the arm."""
+        return any(item.acts in _AXES for item in self.scene.inputs)
+
+    def _joint_torque(self, name: str, station: int) -> None:
+        joint = self.scene.joints[station - 1]
+        terms = []
+        for part, kind, value in (
+            ("spring", "jointpos", joint.stiffness),
+            ("damper", "jointvel", joint.damping),
+        ):
+            if value:
+                Xml.SubElement(self._sensors, kind, name=f"{name}_{part}", joint=f"joint{station}")
+                terms.append((f"{name}_{part}", 0, value))
+        self._read(name, *terms)
+
+    def _angle(self, station: int) -> str:
+        """Return the tendon whose length is the absolute angle of a station, 0 for the hub."""
+        if station not in self._sums:
+            label = "angle_of_hub" if station == 0 else f"angle_of_link{station}"
+            tendon = Xml.SubElement(self._tendons, "fixed", name=label)
+            hub = int(self.scene.base.kind == "motor")
+            for joint in self.bodies.joints[: station + hub]:
+                Xml.SubElement(tendon, "joint", joint=joint, coef="1")
+            self._sums[station] = label
+        return self._sums[station]
+
+    def _end(self, station: int) -> str:
+        """Return a site at the outer end of a link."""
+        if station == 0:
+            return self._site("ground", self.bodies.ground, 0.0)
+        if station == self.scene.stations:
+            return self._site("tip", self.bodies.tip, 0.0)
+        link = self.scene.links[station - 1]
+        return self._site(f"end{station}", self.bodies.links[station - 1], link.length)
+
+    def _site(self, name: str, body: Xml.Element, along: float) -> str:
+        if name not in self._sites:
+            Xml.SubElement(body, "site", name=name, pos=text_of(along, 0.0, 0.0))
+            self._sites[name] = name
+        return name
+
+    def _read(self, name: str, *terms: tuple[str, int, float], constant: float = 0.0) -> None:
+        self.readings.append(Reading(name, terms, constant))
+
+    def _leave_out(self, output: Output, why: str) -> None:
+        self.left_out.append(f"{output.name}: {output.of} at {output.at} is left out, {why}")

@@ -1,0 +1,19 @@
+"""The page on single precision speaks of every committed scene, and so does the benchmark behind it."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+SCENES = {path.stem for path in (ROOT / "scenes").glob("*.toml")}
+
+
+def test_every_scene_has_a_row() -> None:
+    page = (ROOT / "docs" / "float32.md").read_text()
+    assert set(re.findall(r"^\| `(\w+)`,", page, re.M)) == SCENES
+
+
+def test_every_scene_is_measured() -> None:
+    text = (ROOT / "benchmarks" / "float32_scenes.py").read_text()
+    assert set(re.findall(r'^    "(\w+)": \(', text, re.M)) == SCENES
