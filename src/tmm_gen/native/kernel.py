@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.emit.c import emit_kernel
+from tmm_gen.emit.c import emit_kernel, free_scene
 from tmm_gen.emit.c.real import REALS
 from tmm_gen.emit.templates import render
 from tmm_gen.native.compiler import FLAGS, compile_library
@@ -30,7 +30,9 @@ _MEASURED_SECONDS = 5e-3
 def compile_kernel(
     program: Program, scene: Scene, cc: str = "gcc", flags: Sequence[str] = FLAGS
 ) -> NativeKernel:
-    """Emit a program as C, compile it and load it.
+    """Emit a program as C, compile it and load it; its parameters are free even where the scene binds them.
+
+    A bound kernel gives the same bits.
 
     Parameters
     ----------
@@ -48,9 +50,19 @@ def compile_kernel(
     UserError
         If there is no such compiler, or it refuses the sources.
     """
-    files = emit_kernel(program, scene)
-    files["c/harness.c"] = render("c/harness.c.jinja", name=program.name)
-    handle = ctypes.CDLL(str(compile_library(files, cc, flags)))
+    return load_kernel(program, scene, emit_kernel(program, free_scene(scene)), cc, flags)
+
+
+def load_kernel(
+    program: Program,
+    scene: Scene,
+    files: Mapping[str, str],
+    cc: str = "gcc",
+    flags: Sequence[str] = FLAGS,
+) -> NativeKernel:
+    """Compile and load what :func:`emit_kernel` has written; see :func:`compile_kernel`."""
+    sources = {**files, "c/harness.c": render("c/harness.c.jinja", name=program.name)}
+    handle = ctypes.CDLL(str(compile_library(sources, cc, flags)))
     return NativeKernel(program, Library(program, REALS[scene.emit.real], handle))
 
 
@@ -151,6 +163,21 @@ class NativeKernel:
         """Return the outputs of the present state, by name."""
         self._library.call("output", self._model, self._state, self._outputs)
         return read(self._outputs, self._library.structs["outputs"])
+
+    def run(self, inputs: Any, outputs: Any) -> None:
+        """Take as many steps as there are structs of inputs, and fill as many of outputs.
+
+        Raises
+        ------
+        FloatingPointError
+            As :meth:`step`.
+        """
+        self._library.run(self._model, self._state, inputs, outputs)
+
+    @property
+    def types(self) -> Mapping[str, type[ctypes.Structure]]:
+        """Structs of the kernel as ctypes has them: "params", "model", "state", "inputs", "outputs"."""
+        return self._library.types
 
     # -- state --------------------------------------------------------------------------------
 

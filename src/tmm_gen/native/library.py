@@ -16,6 +16,10 @@ class NonFiniteStateError(FloatingPointError):
     """The motion has outgrown the number type."""
 
 
+class OutOfRangeError(NonFiniteStateError):
+    """An angle or an intermediate result has left the range of the kernel; its state is as it was."""
+
+
 class Library:
     """Kernel and harness of one program.
 
@@ -65,7 +69,7 @@ class Library:
         FloatingPointError, ValueError, VanishingPivotError
             If it returns another status than success.
         """
-        self._raise_for(self._function(function)(*map(self._passed, arguments)), function)
+        self.raise_for(self._function(function)(*map(self._passed, arguments)), function)
 
     def run(self, model: Any, state: Any, inputs: Any, outputs: Any) -> None:
         """Take as many steps as there are inputs, and keep the outputs after each.
@@ -78,7 +82,7 @@ class Library:
         done = ctypes.c_long()
         passed = map(self._passed, (model, state, inputs, outputs))
         status = self._handle.harness_run(*passed, ctypes.c_long(len(inputs)), ctypes.byref(done))
-        self._raise_for(status, f"step {done.value + 1}")
+        self.raise_for(status, f"step {done.value + 1}")
 
     def seconds(self, model: Any, state: Any, inputs: Any, steps: int) -> float:
         """Return how long a number of steps takes with constant inputs.
@@ -100,7 +104,8 @@ class Library:
     def _passed(self, argument: Any) -> Any:
         return self.number(argument) if isinstance(argument, float) else ctypes.byref(argument)
 
-    def _raise_for(self, status: int | None, where: str) -> None:
+    def raise_for(self, status: int | None, where: str) -> None:
+        """Raise what a status stands for; success is nothing."""
         what = f"{self.name}, {where}"
         if status == 1:
             raise FloatingPointError(f"{what}: an argument is not finite")
@@ -108,6 +113,8 @@ class Library:
             raise ValueError(f"{what}: the time step must be a positive number")
         if status == 3:
             raise VanishingPivotError(f"{what}: a pivot is not positive; check parameters and step")
+        if status == 5:
+            raise OutOfRangeError(f"{what}: an angle or an intermediate result is out of range")
         if status == 4:
             raise NonFiniteStateError(f"{what}: the motion has outgrown the number type")
 

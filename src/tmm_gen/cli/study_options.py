@@ -1,0 +1,98 @@
+"""Options that say what a study varies, shared by `trade` and `tune`."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from tmm_gen.errors import UserError
+
+if TYPE_CHECKING:
+    from tmm_gen.measure.trade.grid import Axes
+    from tmm_gen.scene import Scene
+
+
+def one_thread() -> None:
+    """Keep linear algebra to one thread: for small matrices more only wait for each other on a busy machine.
+
+    Has an effect if NumPy has not been imported yet.
+    """
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
+
+def words(_context: click.Context, _parameter: click.Parameter, value: str | None) -> tuple[str, ...]:
+    """Split a list at its commas."""
+    return tuple(word.strip() for word in (value or "").split(",") if word.strip())
+
+
+def numbers(_context: click.Context, parameter: click.Parameter, value: str | None) -> tuple[float, ...]:
+    """Read positive numbers between commas."""
+    found = []
+    for word in words(_context, parameter, value):
+        try:
+            number = float(word)
+        except ValueError:
+            number = math.nan
+        if not 0.0 < number < math.inf:
+            raise click.BadParameter(f"'{word}' is no positive number", param=parameter)
+        found.append(number)
+    return tuple(found)
+
+
+def whole_numbers(_context: click.Context, parameter: click.Parameter, value: str | None) -> tuple[int, ...]:
+    """Read positive whole numbers between commas."""
+    found = []
+    for word in words(_context, parameter, value):
+        if not word.isdecimal() or int(word) < 1:
+            raise click.BadParameter(f"'{word}' is no positive whole number", param=parameter)
+        found.append(int(word))
+    return tuple(found)
+
+
+def one_of(*choices: str) -> Callable[[click.Context, click.Parameter, str | None], tuple[str, ...]]:
+    """Return a callback that reads some of several words."""
+
+    def read(context: click.Context, parameter: click.Parameter, value: str | None) -> tuple[str, ...]:
+        found = words(context, parameter, value)
+        for word in found:
+            if word not in choices:
+                raise click.BadParameter(f"'{word}' is none of {', '.join(choices)}", param=parameter)
+        return found
+
+    return read
+
+
+def axes_of(scene: Scene, options: dict[str, Any]) -> Axes:
+    """Return what is varied.
+
+    Raises
+    ------
+    UserError
+        If an option does not suit the scene, or names no integrator.
+    """
+    from tmm_gen.measure.trade.grid import Axes
+    from tmm_gen.scene.integrator import INTEGRATOR_NAMES, underscored
+
+    names = tuple(underscored(name) for name in options["integrators"])
+    for name in names:
+        if name not in INTEGRATOR_NAMES:
+            raise UserError(
+                f"--integrators {name}: no such integrator; there are {', '.join(INTEGRATOR_NAMES)}."
+            )
+    if options["links"] and scene.beam is None:
+        raise UserError("--links: the scene has no [beam] to cut into links; it lists them. Leave it out.")
+    if scene.model.kind == "chain" and (options["linearisations"] or options["iterations"]):
+        raise UserError("--linearisations and --iterations: a chain is linear. Leave them out.")
+    return Axes(
+        integrators=names,
+        steps=options["steps"],
+        links=options["links"],
+        linearisations=options["linearisations"],
+        iterations=options["iterations"],
+        reals=options["reals"],
+        backends=options["backends"],
+    )

@@ -1,0 +1,281 @@
+"""`tmm-gen trade`: error against cost over integrators, steps, links and number types."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from tmm_gen.cli.console import Column, progress, table
+from tmm_gen.cli.given import PICTURE, picture_option, positive, refuse_folders
+from tmm_gen.cli.study_options import axes_of, numbers, one_of, one_thread, whole_numbers, words
+from tmm_gen.errors import CheckFailed
+
+if TYPE_CHECKING:
+    from tmm_gen.measure.trade.findings import Finding
+    from tmm_gen.measure.trade.study import Study
+    from tmm_gen.measure.trade.tasks import Executor
+
+# NumPy, SymPy, Dask and Matplotlib are imported inside: `tmm-gen --help` has no use for them.
+
+REPORT = "report"
+"""What ``--report`` without a file stands for."""
+
+
+def grid_options(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Add the options that say what arm goes through and what is tried."""
+    options = [
+        click.option("--integrators", metavar="A,B", callback=words, help="By default all."),
+        click.option(
+            "--steps", metavar="S,S", callback=numbers, help="Steps, s; by default ten, each half the last."
+        ),
+        click.option(
+            "--iterations",
+            metavar="N,N",
+            callback=whole_numbers,
+            help="Sweeps per stage of a planar arm; by default the scene's.",
+        ),
+        click.option(
+            "--linearisations",
+            metavar="A,B",
+            callback=one_of("newton", "taylor", "frozen"),
+            help="Of a planar arm: newton, taylor, frozen; by default the scene's.",
+        ),
+        click.option(
+            "--reals",
+            metavar="A,B",
+            callback=one_of("float64", "float32"),
+            help="Number types of the C: float64, float32; by default the scene's.",
+        ),
+        click.option(
+            "--input",
+            "given",
+            metavar="NAME=VALUE|NAME=FILE.csv|FILE.csv",
+            multiple=True,
+            help="What moves the arm, as in `run`; by default every input acts, smoothly.",
+        ),
+        click.option(
+            "--until", type=float, callback=positive, help="Time simulated, s; by default five slow periods."
+        ),
+        click.option(
+            "--output", metavar="NAME", help="Where errors are measured; by default the tip's place or angle."
+        ),
+        click.option(
+            "--workers", type=click.IntRange(min=1), help="Compute errors in so many processes (Dask)."
+        ),
+        click.option("--scheduler", metavar="ADDRESS", help="Compute errors on a running Dask cluster."),
+        click.option(
+            "--store",
+            type=click.Path(path_type=Path),
+            metavar="FILE.sqlite",
+            help="Keep results; an interrupted study goes on where it stopped.",
+        ),
+        click.option(
+            "--rounds",
+            type=click.IntRange(min=0),
+            default=9,
+            show_default=True,
+            help="Measurements of each time, of which the median counts; 0 for none.",
+        ),
+    ]
+    for option in reversed(options):
+        command = option(command)
+    return command
+
+
+@click.command("trade")
+@click.argument("scene", metavar="SCENE", type=click.Path(path_type=Path))
+@grid_options
+@click.option(
+    "--links", metavar="N,N", callback=whole_numbers, help="Links of a [beam]; by default the scene's."
+)
+@click.option("--backends", metavar="A,B", callback=one_of("c", "numpy"), help="c, numpy; by default c.")
+@click.option("--csv", "csv_file", type=click.Path(path_type=Path), help="Write all configurations.")
+@click.option(
+    "--plot",
+    "picture",
+    metavar="[FILE.png]",
+    is_flag=False,
+    flag_value=PICTURE,
+    callback=picture_option,
+    help="Draw error against cost; by default into NAME-trade.png.",
+)
+@click.option(
+    "--report",
+    "report_file",
+    metavar="[FILE.html]",
+    is_flag=False,
+    flag_value=REPORT,
+    type=click.Path(path_type=Path),
+    help="Write one page that needs no other file; by default NAME-trade.html.",
+)
+@click.option("--all", "show_all", is_flag=True, help="Show all configurations, not only the best.")
+@click.option("--json", "json_mode", is_flag=True, help="One JSON object instead of a table.")
+def trade(
+    scene: Path,
+    links: tuple[int, ...],
+    backends: tuple[str, ...],
+    csv_file: Path | None,
+    picture: Path | None,
+    report_file: Path | None,
+    show_all: bool,
+    json_mode: bool,
+    **common: Any,
+) -> None:
+    """Measure what accuracy costs: SCENE over integrators, steps, links and number types.
+
+    Errors are those of the output against an independent reference, at any instant, relative to how far the
+    output travels. Costs are those of the generated C, compiled and run on this machine. Shown are the
+    configurations that no other beats in both.
+    """
+    refuse_folders(csv_file, picture, report_file)
+    one_thread()
+    study = run(scene, {"links": links, "backends": backends, **common})
+    if (picture or report_file) and not any(point.finished for point in study.points):
+        raise CheckFailed(
+            f"{scene}: no configuration finished, so that there is nothing to draw. Try shorter --steps."
+        )
+    written = _write(study, csv_file, picture, report_file)
+    _show(study, written, show_all, json_mode)
+
+
+def run(path: Path, options: dict[str, Any]) -> Study:
+    """Read a scene and study it."""
+    from tmm_gen.measure.given import read_inputs
+    from tmm_gen.measure.trade.excitation import excitation
+    from tmm_gen.measure.trade.grid import configurations
+    from tmm_gen.measure.trade.study import run_study
+    from tmm_gen.scene import load_scene
+
+    scene = load_scene(path)
+    given = read_inputs(options["given"], tuple(item.name for item in scene.inputs))
+    went = excitation(scene, given, options["until"], options["output"])
+    grid = configurations(scene, axes_of(scene, options), went.until)
+    rounds = options["rounds"]
+    with progress(f"studying {scene.name}", total=1 + len(grid) + rounds) as advance:
+        return run_study(
+            scene,
+            went,
+            grid,
+            executor(options),
+            options["store"],
+            rounds,
+            advance=lambda n, doing: advance(n, doing),
+        )
+
+
+def executor(options: dict[str, Any]) -> Executor | None:
+    """Return who computes the errors; None for this process."""
+    if options["workers"] is None and options["scheduler"] is None:
+        return None
+    if options["workers"] is not None and options["scheduler"] is not None:
+        raise click.UsageError("--workers starts a cluster, --scheduler names one: give one of them.")
+    from tmm_gen.measure.trade.cluster import Cluster
+
+    return Cluster(options["workers"] or 0, options["scheduler"])
+
+
+def _write(study: Study, csv_file: Path | None, picture: Path | None, report_file: Path | None) -> list[Path]:
+    """Write the files asked for, all or none; return them."""
+    from tmm_gen.files import write_tree_whole
+    from tmm_gen.measure.rows import csv_text
+
+    files: dict[Path, str | bytes] = {}
+    if csv_file is not None:
+        files[csv_file] = csv_text([point.values() for point in study.points])
+    if picture is not None:
+        from tmm_gen.measure.trade.figures import trade_picture
+
+        target = Path(f"{study.scene.name}-trade.png") if picture == Path(PICTURE) else picture
+        files[target] = trade_picture(study, target.suffix[1:].lower())
+    if report_file is not None:
+        from tmm_gen.measure.trade.report import report
+
+        target = Path(f"{study.scene.name}-trade.html") if report_file == Path(REPORT) else report_file
+        files[target] = report(study)
+    write_tree_whole(files)
+    return list(files)
+
+
+_COLUMNS: list[Column | str] = [
+    "configuration",
+    Column("step", "step (s)", ".3g"),
+    "outcome",
+    Column("error", "time error", ".2e"),
+    Column("modelling_error", form=".1e"),
+    Column(
+        "ns_per_simulated_second", "µs per simulated s", lambda ns: "-" if ns is None else f"{ns / 1e3:.4g}"
+    ),
+    Column("ns_spread", "± (%)", lambda share: "-" if share is None else f"{100 * share:.0f}"),
+    Column("operations", "operations per step"),
+    Column("code_bytes", "code (bytes)"),
+    Column("state_bytes", "state (bytes)"),
+]
+
+
+def _show(study: Study, written: list[Path], show_all: bool, json_mode: bool) -> None:
+    from tmm_gen.measure.trade.excitation import unit
+    from tmm_gen.measure.trade.findings import findings
+    from tmm_gen.measure.trade.outcome import Outcome
+
+    scene, went = study.scene, study.excitation
+    front = study.front()
+    best = set(front)
+    shown = list(study.points) if show_all or json_mode else front
+    rows = [{"configuration": p.configuration.family.label, **p.values(), "pareto": p in best} for p in shown]
+    found = findings(study)
+    told = went.told(scene)
+    more = {
+        "scene": scene.name,
+        "output": went.output,
+        "unit": unit(scene, went.output),
+        "travel": study.travel,
+        "until": went.until,
+        "excitation": told,
+        "findings": [_finding(each) for each in found],
+        "modelling": [
+            {"links": each.links, "error": each.error, "order": each.order}
+            for each in study.modelling.values()
+        ],
+        "files": written,
+    }
+    columns = (
+        _COLUMNS if study.modelling else [c for c in _COLUMNS if getattr(c, "key", "") != "modelling_error"]
+    )
+    table(rows, columns, json_mode, title=f"{scene.title}: error of '{went.output}' against cost", more=more)
+    if json_mode:
+        return
+    travelled = f"{study.travel:.3g} {unit(scene, went.output)}"
+    click.echo(f"{went.until:g} s of {'; '.join(told)}. Errors are relative to the travel of {travelled}.")
+    others = ", ".join(f"{study.count(each)} {each.value}" for each in Outcome if study.count(each))
+    click.echo(f"{len(study.points)} configurations: {others}.")
+    for each in found:
+        click.echo(each.sentence())
+    for path in written:
+        click.echo(f"wrote {path}")
+    if not written:
+        click.echo("more: --report writes a page, --plot draws it, --csv FILE writes all, --all shows all")
+
+
+def _finding(finding: Finding) -> dict[str, object]:
+    best = finding.ways[0] if finding.ways else None
+    return {
+        "error": finding.level,
+        "sentence": finding.sentence(),
+        "winner": best.family.label if best else None,
+        "time_factor_over_newmark": finding.factor(best) if best else None,
+        "operations_factor_over_newmark": finding.operations_factor(best) if best else None,
+        "ways": [
+            {
+                "configuration": way.family.label,
+                "step": way.step,
+                "ns_per_simulated_second": way.ns,
+                "operations_per_simulated_second": way.operations,
+                "time_factor_over_newmark": finding.factor(way),
+                "operations_factor_over_newmark": finding.operations_factor(way),
+            }
+            for way in finding.ways
+        ],
+    }

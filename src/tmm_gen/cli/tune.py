@@ -1,0 +1,235 @@
+"""`tmm-gen tune`: the cheapest configuration of a scene within bounds on error and time."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from tmm_gen.cli.console import Column, progress, table
+from tmm_gen.cli.given import positive, refuse_folders
+from tmm_gen.cli.study_options import axes_of, one_of, one_thread, whole_numbers, words
+from tmm_gen.errors import UserError
+
+if TYPE_CHECKING:
+    from tmm_gen.measure.trade.budgets import Allowance
+    from tmm_gen.measure.trade.point import Point
+    from tmm_gen.measure.trade.tune import Tuning
+
+# NumPy, SymPy and tomlkit are imported inside: `tmm-gen --help` has no use for them.
+
+
+@click.command("tune")
+@click.argument("scene", metavar="SCENE", type=click.Path(path_type=Path))
+@click.option(
+    "--max-error",
+    required=True,
+    metavar="E",
+    help="Largest error of the output: relative to its travel (1e-3, 0.1%) or with a unit (0.5mm, 1mrad).",
+)
+@click.option(
+    "--max-time",
+    required=True,
+    metavar="T",
+    help="Computing time for a simulated second, of this machine, in s or with a unit (200us).",
+)
+@click.option(
+    "--links",
+    metavar="auto|N,N",
+    help="Choose the number of links of the [beam] too; by default the scene's.",
+)
+@click.option("--integrators", metavar="A,B", callback=words, help="Choose among these; by default all.")
+@click.option(
+    "--iterations", metavar="N,N", callback=whole_numbers, help="Sweeps per stage; by default the scene's."
+)
+@click.option(
+    "--linearisations",
+    metavar="A,B",
+    callback=one_of("newton", "taylor", "frozen"),
+    help="Of a planar arm; by default the scene's.",
+)
+@click.option(
+    "--reals",
+    metavar="A,B",
+    callback=one_of("float64", "float32"),
+    help="Number types of the C; by default the scene's.",
+)
+@click.option(
+    "--input",
+    "given",
+    metavar="NAME=VALUE|NAME=FILE.csv|FILE.csv",
+    multiple=True,
+    help="What moves the arm, as in `run`; by default every input acts, smoothly.",
+)
+@click.option(
+    "--until", type=float, callback=positive, help="Time simulated, s; by default five slow periods."
+)
+@click.option(
+    "--output", metavar="NAME", help="Where the error is measured; by default the tip's place or angle."
+)
+@click.option("--target", metavar="NAME", help="Microcontroller that the scene's [emit.budget] is for.")
+@click.option(
+    "--out", "out_file", type=click.Path(path_type=Path), metavar="FILE", help="Write the tuned scene."
+)
+@click.option(
+    "--rounds", type=click.IntRange(min=1), default=9, show_default=True, help="Measurements of each time."
+)
+@click.option("--json", "json_mode", is_flag=True, help="One JSON object instead of a table.")
+def tune(
+    scene: Path, max_error: str, max_time: str, out_file: Path | None, json_mode: bool, **options: Any
+) -> int:
+    """Find the cheapest way to compute SCENE within an error and a time.
+
+    The error bound holds at every instant of a run under the loads given; the winner is verified by building and
+    running it afresh. A plain number bounds the error relative to how far the output travels. Exits with 1 if
+    nothing keeps both bounds, and says what comes nearest.
+    """
+    refuse_folders(out_file)
+    one_thread()
+    tuning, allowed = _search(scene, max_error, max_time, options)
+    written = []
+    if out_file is not None and tuning.chosen is not None:
+        written.append(_write(scene, out_file, tuning))
+    _show(tuning, allowed, written, json_mode)
+    return 0 if tuning.chosen is not None else 1
+
+
+def _search(
+    path: Path, max_error: str, max_time: str, options: dict[str, Any]
+) -> tuple[Tuning, Allowance | None]:
+    from tmm_gen.measure.given import read_inputs
+    from tmm_gen.measure.trade.bounds import read_error, read_time
+    from tmm_gen.measure.trade.budgets import allowance
+    from tmm_gen.measure.trade.excitation import excitation
+    from tmm_gen.measure.trade.grid import families
+    from tmm_gen.measure.trade.tune import tune as search
+    from tmm_gen.scene import load_scene
+
+    bounds = read_error(max_error), read_time(max_time)
+    scene = load_scene(path)
+    auto = options["links"] == "auto"
+    links = () if auto or options["links"] is None else _links(options["links"])
+    axes = axes_of(scene, {**options, "links": links, "steps": (), "backends": ("c",)})
+    _known_target(options["target"])
+    given = read_inputs(options["given"], tuple(item.name for item in scene.inputs))
+    went = excitation(scene, given, options["until"], options["output"])
+    allowed = allowance(scene, options["target"])
+    with progress(f"tuning {scene.name}", total=len(families(scene, axes)) * (1 + auto)) as advance:
+        tuning = search(
+            scene, went, *bounds, axes, auto, allowed, options["rounds"], lambda n, doing: advance(n, doing)
+        )
+    return tuning, allowed
+
+
+def _links(text: str) -> tuple[int, ...]:
+    numbers = [word.strip() for word in text.split(",")]
+    if not all(number.isdecimal() and int(number) > 0 for number in numbers):
+        raise click.BadParameter(
+            f"'{text}' is neither auto nor numbers of links, such as 5,10", param_hint="--links"
+        )
+    return tuple(map(int, numbers))
+
+
+def _known_target(name: str | None) -> None:
+    if name is None:
+        return
+    from tmm_gen.target import BOARDS
+
+    if name not in BOARDS:
+        raise UserError(f"--target {name}: no such microcontroller; there are {', '.join(BOARDS)}.")
+
+
+def _write(scene: Path, target: Path, tuning: Tuning) -> Path:
+    from tmm_gen.files import write_whole
+    from tmm_gen.measure.trade.explain import remarks
+    from tmm_gen.measure.trade.rewrite import rewritten
+
+    assert tuning.chosen is not None
+    text = scene.read_text(encoding="utf-8-sig")
+    write_whole(target, rewritten(text, tuning.scene, tuning.chosen.configuration, remarks(tuning)))
+    return target
+
+
+_COLUMNS: list[Column | str] = [
+    "configuration",
+    Column("step", "step (s)", ".4g"),
+    Column("error", "time error", ".2e"),
+    Column("total_error", form=".2e"),
+    Column(
+        "ns_per_simulated_second", "µs per simulated s", lambda ns: "-" if ns is None else f"{ns / 1e3:.4g}"
+    ),
+    Column("fits", "within bounds"),
+]
+
+
+def _show(tuning: Tuning, allowed: Allowance | None, written: list[Path], json_mode: bool) -> None:
+    from tmm_gen.measure.trade.explain import explained
+
+    lines = explained(tuning)
+    if allowed is not None and allowed.unchecked:
+        lines.append(f"The budget of the scene was not checked: {allowed.unchecked}")
+    rows = [_row(tuning, point) for point in (*tuning.candidates, *tuning.nearest)]
+    bounds = f"error {tuning.max_error:.3g} of the travel, {tuning.max_time:.3g} s for a simulated second"
+    table(
+        rows,
+        _COLUMNS,
+        json_mode,
+        title=f"{tuning.scene.title}: {bounds}",
+        more=_facts(tuning, lines, written),
+    )
+    if json_mode:
+        return
+    for line in lines:
+        click.echo(line)
+    told = "; ".join(tuning.excitation.told(tuning.scene))
+    click.echo(
+        f"All under {tuning.excitation.until:g} s of {told}; the travel is {tuning.travel:.3g} {tuning.unit}."
+    )
+    for path in written:
+        click.echo(f"wrote {path}")
+    if tuning.chosen is not None and not written:
+        click.echo("more: --out FILE writes the tuned scene")
+
+
+def _row(tuning: Tuning, point: Point) -> dict[str, object]:
+    ns = point.ns_per_second
+    good = point.error <= tuning.max_error and ns is not None and ns <= 1e9 * tuning.max_time
+    family = point.configuration.family
+    return {
+        "configuration": family.label,
+        **point.values(),
+        "fits": good and family not in tuning.over_budget,
+        "over_budget": tuning.over_budget.get(family),
+    }
+
+
+def _facts(tuning: Tuning, lines: list[str], written: list[Path]) -> dict[str, object]:
+    facts: dict[str, object] = {
+        "scene": tuning.scene.name,
+        "output": tuning.excitation.output,
+        "unit": tuning.unit,
+        "travel": tuning.travel,
+        "until": tuning.excitation.until,
+        "excitation": tuning.excitation.told(tuning.scene),
+        "max_error": tuning.max_error,
+        "max_time": tuning.max_time,
+        "found": tuning.chosen is not None,
+        "explanation": lines,
+        "files": written,
+        "chosen": None,
+    }
+    point, checked = tuning.chosen, tuning.verified
+    if point is not None and checked is not None:
+        total = checked.error + (point.result.modelling_error or 0.0)
+        facts["chosen"] = {
+            **point.configuration.values(),
+            "error": total,
+            "error_in_unit": total * tuning.travel,
+            "time_error": checked.error,
+            "modelling_error": point.result.modelling_error,
+            "seconds_per_simulated_second": 1e-9 * checked.ns_per_second,
+            "ns_per_step": checked.ns_per_step,
+            "ns_spread": checked.spread,
+        }
+    return facts

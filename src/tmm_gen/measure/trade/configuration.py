@@ -1,0 +1,125 @@
+"""One way to compute a scene's motion: what a study of errors and costs varies."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass, replace
+from typing import Literal
+
+from tmm_gen.scene import Scene
+from tmm_gen.scene.integrator import underscored
+
+Backend = Literal["c", "numpy"]
+
+
+@dataclass(frozen=True, order=True)
+class Family:
+    """All that decides which kernel is generated: everything but the step, which a kernel takes at `prepare`.
+
+    Parameters
+    ----------
+    integrator : str
+        With underscores.
+    links : int, optional
+        Links of the beam; None where the scene lists its links.
+    linearisation : str, optional
+        Of a planar arm; None for a chain.
+    iterations : int
+        Sweeps per stage.
+    real : str
+        "float64" or "float32".
+    backend : {"c", "numpy"}
+        NumPy knows float64 only.
+    """
+
+    integrator: str
+    links: int | None
+    linearisation: str | None
+    iterations: int
+    real: str
+    backend: str
+
+    @property
+    def label(self) -> str:
+        """What tells it from others, in a few words."""
+        links = f", {self.links} links" if self.links is not None else ""
+        return f"{self.integrator}{links}" + "".join(f", {part}" for part in self._unusual())
+
+    @property
+    def variant(self) -> str:
+        """The label without the integrator; the number type where there is nothing else."""
+        links = [] if self.links is None else [f"{self.links} links"]
+        return ", ".join([*links, *(self._unusual() or [self.real])])
+
+    def _unusual(self) -> list[str]:
+        parts = []
+        if self.linearisation not in (None, "newton"):
+            parts.append(str(self.linearisation))
+        if self.iterations > 1:
+            parts.append(f"{self.iterations} sweeps")
+        if self.real != "float64":
+            parts.append(self.real)
+        if self.backend != "c":
+            parts.append(self.backend)
+        return parts
+
+    def changes(self, scene: Scene) -> dict[str, object]:
+        """Return the keys of a scene that differ, as :meth:`Scene.replace` takes them."""
+        wanted: dict[str, tuple[object, object]] = {
+            "integrator.name": (scene.integrator.name, self.integrator),
+            "emit.real": (scene.emit.real, self.real),
+            "model.iterations": (scene.model.iterations, self.iterations),
+        }
+        if self.links is not None and scene.beam is not None:
+            wanted["beam.links"] = (scene.beam.links, self.links)
+        if self.linearisation is not None:
+            wanted["model.linearisation"] = (scene.model.linearisation, self.linearisation)
+        return {key: new for key, (old, new) in wanted.items() if new != old}
+
+
+@dataclass(frozen=True, order=True)
+class Configuration:
+    """A family at one step.
+
+    Parameters
+    ----------
+    family : Family
+        What is generated.
+    step : float
+        s.
+    """
+
+    family: Family
+    step: float
+
+    def apply(self, scene: Scene) -> Scene:
+        """Return the scene so configured; the integrator's own parameters stay where the integrator does.
+
+        Raises
+        ------
+        SceneError
+            If that is no valid scene.
+        """
+        return scene.replace(**self.family.changes(scene), **{"integrator.step": self.step})
+
+    def values(self) -> dict[str, object]:
+        """Return all choices by key."""
+        return {**asdict(self.family), "step": self.step}
+
+
+def own(scene: Scene) -> Configuration:
+    """Return how a scene itself wants to be computed, in C."""
+    planar = scene.model.kind == "planar"
+    family = Family(
+        integrator=underscored(scene.integrator.name),
+        links=scene.beam.links if scene.beam else None,
+        linearisation=scene.model.linearisation if planar else None,
+        iterations=scene.model.iterations,
+        real=scene.emit.real,
+        backend="c",
+    )
+    return Configuration(family, scene.integrator.step)
+
+
+def with_step(configuration: Configuration, step: float) -> Configuration:
+    """Return a configuration at another step."""
+    return replace(configuration, step=step)

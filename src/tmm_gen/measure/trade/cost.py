@@ -1,0 +1,142 @@
+"""What a step costs in time: compiled C on this machine, the study's own run, medians over rounds.
+
+A single short run on a busy machine says nothing. So every family is timed on a run of the same loads with some
+thousand steps, all families in turn, round after round: what slows the machine for a while slows all of them. Counted
+is the time that the processor works on it. A step costs the same whatever its length, so that its time over its
+length is the cost of a simulated second.
+"""
+
+from __future__ import annotations
+
+import statistics
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from tmm_gen.measure.trade.configuration import Configuration, Family
+from tmm_gen.measure.trade.evaluate import family_scene, whole_steps
+from tmm_gen.measure.trade.excitation import Excitation
+from tmm_gen.measure.trade.kernels import Built, build
+from tmm_gen.native.series import Series
+from tmm_gen.scene import Scene
+
+ROUNDS = 9
+
+_STEPS = 4000
+"""Steps of a timed run, about."""
+
+_NUMPY_STEPS = 60
+
+_REPEATS = 5
+"""Runs of a family in a round, of which the fastest counts: nothing makes a run faster than it is."""
+
+
+@dataclass(frozen=True)
+class Cost:
+    """Time of one step.
+
+    Parameters
+    ----------
+    ns_per_step : float
+        Median over the rounds.
+    spread : float
+        Half the distance between the quartiles, over the median.
+    rounds : int
+        How many.
+    """
+
+    ns_per_step: float
+    spread: float
+    rounds: int
+
+
+def measure_costs(
+    scene: Scene,
+    excitation: Excitation,
+    finished: Mapping[Family, Sequence[float]],
+    rounds: int = ROUNDS,
+    advance: Callable[[float], None] | None = None,
+) -> dict[Family, Cost]:
+    """Measure what a step costs.
+
+    Parameters
+    ----------
+    scene : Scene
+        As the user wrote it.
+    excitation : Excitation
+        What it goes through.
+    finished : mapping from Family to steps
+        Families, and for each the steps (s) at which its run finished; at one of these it is timed.
+    rounds : int
+        Measurements of each.
+    advance : callable, optional
+        Called with 1 after each round.
+    """
+    timed = {
+        family: timer(scene, excitation, Configuration(family, _nearest(steps, excitation.until, family)))
+        for family, steps in finished.items()
+        if steps
+    }
+    found: dict[Family, list[float]] = {family: [] for family in timed}
+    for _ in range(rounds):
+        for family, seconds in timed.items():
+            found[family].append(seconds())
+        if advance is not None:
+            advance(1)
+    return {family: _cost(samples) for family, samples in found.items()}
+
+
+def timer(scene: Scene, excitation: Excitation, configuration: Configuration) -> Callable[[], float]:
+    """Return a function that runs a configuration once and returns nanoseconds per step."""
+    built = build(family_scene(scene, configuration))
+    steps = max(1, whole_steps(excitation.until, configuration.step))
+    if configuration.family.backend != "c":
+        return _numpy_timer(built, excitation, configuration.step, min(steps, _NUMPY_STEPS))
+    signals = {name: signal.at for name, signal in excitation.signals.items()}
+    series = Series(built.native, signals, steps, configuration.step)
+
+    return lambda: _once(series)
+
+
+def measured(series: Series, rounds: int) -> Cost:
+    """Return what a step of one run costs."""
+    return _cost([_once(series) for _ in range(max(1, rounds))])
+
+
+def _once(series: Series) -> float:
+    return 1e9 * min(series.seconds() for _ in range(_REPEATS)) / series.steps
+
+
+def _numpy_timer(built: Built, excitation: Excitation, step: float, steps: int) -> Callable[[], float]:
+    module: Any = built.module
+    signals = {name: float(signal.at(0.0)) for name, signal in excitation.signals.items()}
+
+    def measure() -> float:
+        with np.errstate(all="ignore"):
+            begun = time.thread_time()
+            module.simulate(step * steps, signals, step=step)
+        return 1e9 * (time.thread_time() - begun) / steps
+
+    return measure
+
+
+def timed_step(step: float, until: float) -> float:
+    """Return a step not longer than one that works, at which a run is long enough to be timed."""
+    return min(step, until / _STEPS)
+
+
+def _nearest(steps: Sequence[float], until: float, family: Family) -> float:
+    """Return the step whose run is nearest to the wanted length, in the sense of ratios."""
+    wanted = _STEPS if family.backend == "c" else _NUMPY_STEPS
+    return min(steps, key=lambda step: abs(np.log(until / step / wanted)))
+
+
+def _cost(samples: list[float]) -> Cost:
+    median = statistics.median(samples)
+    if len(samples) < 2:
+        return Cost(median, 0.0, len(samples))
+    low, _, high = statistics.quantiles(samples, n=4, method="inclusive")
+    return Cost(median, 0.5 * (high - low) / median, len(samples))

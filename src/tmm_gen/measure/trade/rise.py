@@ -1,0 +1,58 @@
+"""A smooth way from zero to a value, for a base that is moved."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.polynomial import Polynomial
+from numpy.typing import ArrayLike, NDArray
+
+Array = NDArray[np.float64]
+
+SMOOTH = 6
+"""Derivatives that are continuous at both ends: more than any integrator of ours can see."""
+
+
+def _way() -> Polynomial:
+    """Return the odd polynomial from -1/2 to 1/2 on [-1/2, 1/2] whose first `SMOOTH` derivatives vanish at the ends."""
+    u = Polynomial([0.0, 1.0])
+    way = ((0.25 - u**2) ** SMOOTH).integ()
+    return way / (2.0 * way(0.5))
+
+
+_WAY = _way()
+_RATE = _WAY.deriv()
+
+
+@dataclass(frozen=True)
+class Rise:
+    """From 0 to an amplitude, then constant. For planar arms: the exact response of a chain has no such piece.
+
+    Parameters
+    ----------
+    amplitude : float
+        In the unit of the input.
+    duration : float
+        s.
+    """
+
+    amplitude: float
+    duration: float
+    frequency: float = 0.0
+
+    @property
+    def knots(self) -> Array:
+        """Begin and end of the rise, s."""
+        return np.array([0.0, self.duration])
+
+    def at(self, time: ArrayLike) -> Array:
+        """Return the values at instants."""
+        u = np.clip(np.asarray(time, float) / self.duration, 0.0, 1.0) - 0.5
+        values: Array = self.amplitude * (0.5 + _WAY(u))
+        return values
+
+    def slope(self, time: float) -> float:
+        """Return the rate at an instant."""
+        u = min(max(time / self.duration, 0.0), 1.0) - 0.5
+        return float(self.amplitude * _RATE(u) / self.duration)
