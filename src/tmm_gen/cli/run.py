@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-import tomllib
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
+from tmm_gen.cli.changes import changed_scene, set_option
 from tmm_gen.cli.console import Column, progress, table
 from tmm_gen.errors import UserError
 
@@ -68,9 +68,7 @@ def _animated(_context: click.Context, parameter: click.Parameter, value: Path |
     multiple=True,
     help="An input: a constant, a column of a file, or all from one file. Repeatable; the rest is zero.",
 )
-@click.option(
-    "--set", "changes", metavar="KEY=VALUE", multiple=True, help="Change a key of the scene. Repeatable."
-)
+@set_option
 @click.option("--backend", type=click.Choice(["numpy", "c"]), default="numpy", show_default=True)
 @click.option("--csv", "csv_file", type=click.Path(path_type=Path), help="Write the outputs over time.")
 @click.option(
@@ -112,7 +110,7 @@ def run(
     from tmm_gen.measure.given import read_inputs
     from tmm_gen.measure.run import number_of_steps, simulate, traceable
 
-    chosen = _scene(scene, step, changes)
+    chosen = changed_scene(scene, changes, step)
     signals = read_inputs(given, tuple(item.name for item in chosen.inputs))
     planar = chosen.model.kind == "planar"
     if animated is not None and not planar:
@@ -129,31 +127,6 @@ def run(
         simulation = simulate(chosen, signals, duration, backend, advance, trace=trace)  # type: ignore[arg-type]
     written = _write(simulation, csv_file, picture, animated)
     _show(simulation, written, json_mode)
-
-
-def _scene(path: Path, step: float | None, changes: tuple[str, ...]) -> Scene:
-    """Read the scene and change what is asked for."""
-    from tmm_gen.scene import load_scene
-
-    wanted: dict[str, object] = {}
-    for text in changes:
-        key, equals, value = text.partition("=")
-        if not equals or not key.strip():
-            raise UserError(f"--set {text}: is not KEY=VALUE. Write for example --set integrator.step=0.01.")
-        wanted[key.strip()] = _value(value.strip())
-    if step is not None:
-        wanted["integrator.step"] = step
-    loaded = load_scene(path)
-    return loaded.replace(**wanted) if wanted else loaded
-
-
-def _value(text: str) -> object:
-    """Read a value as TOML has it; what is none is a string without its quotes."""
-    try:
-        read: dict[str, Any] = tomllib.loads(f"value = {text}")
-    except ValueError:
-        return text
-    return read["value"] if set(read) == {"value"} else text
 
 
 def _write(

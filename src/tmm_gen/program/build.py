@@ -5,9 +5,10 @@ from __future__ import annotations
 from tmm_gen.derive.integrators.registry import integrator
 from tmm_gen.derive.integrators.relations import UnsuitableUnknownError
 from tmm_gen.errors import UserError
-from tmm_gen.program.planar import build_planar
+from tmm_gen.program.planar.build import build_planar
 from tmm_gen.program.statements import Program
-from tmm_gen.program.torsion import build_chain
+from tmm_gen.program.torsion.build import build_chain
+from tmm_gen.program.torsion.rounding import require_digits
 from tmm_gen.program.torsion.safety import require_safe_product
 from tmm_gen.scene import Scene
 
@@ -19,13 +20,15 @@ def build_program(scene: Scene) -> Program:
     ------
     UserError
         If the scene asks for something that does not exist: a planar product sweep, a
-        product over more stations than it is safe for, or an unknown (displacement,
-        increment) that an explicit integrator cannot be solved for.
+        product over more stations than it is safe for, an unknown (displacement,
+        increment) that an explicit integrator cannot be solved for, or a step of which
+        rounding leaves too few digits.
     """
     chosen = integrator(scene.integrator.name, **scene.integrator.parameters)
     try:
         if scene.model.kind == "chain":
             require_safe_product(scene, chosen)
+            require_digits(scene, chosen)
             return build_chain(scene, chosen)
         _refuse_unsupported(scene)
         return build_planar(scene, chosen)

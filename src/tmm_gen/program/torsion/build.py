@@ -14,6 +14,8 @@ from tmm_gen.program.fields import gain_names, living_state
 from tmm_gen.program.motion import history_values
 from tmm_gen.program.passes.hoist import Hoister
 from tmm_gen.program.passes.prune import prune
+from tmm_gen.program.sensitivities.chain import chain_sensitivities
+from tmm_gen.program.sensitivities.refusals import require_derivatives
 from tmm_gen.program.statements import Assign, Program, Routine, Section
 from tmm_gen.program.torsion.factors import (
     Factors,
@@ -47,6 +49,8 @@ def build_chain(scene: Scene, integrator: Integrator) -> Program:
     UnsuitableUnknownError
         If the integrator cannot be solved for the scene's unknown.
     """
+    if scene.emit.sensitivities:
+        require_derivatives(scene, integrator)
     layout = chain_layout(scene, integrator)
     unknown: Unknown = scene.model.unknown
     factors = _FactorSets(layout, scene.model.sweep)
@@ -117,6 +121,7 @@ def build_chain(scene: Scene, integrator: Integrator) -> Program:
             "sweep": scene.model.sweep,
             "unknown": scene.model.unknown,
         },
+        sensitivities=chain_sensitivities(main, state, layout.inputs) if scene.emit.sensitivities else None,
     )
 
 

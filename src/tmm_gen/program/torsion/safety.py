@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 import sys
 from collections.abc import Iterator
+from itertools import islice
 
 import sympy as sp
 
@@ -50,8 +51,7 @@ def safe_stations(scene: Scene, integrator: Integrator) -> int:
     UnsuitableUnknownError
         If the integrator cannot be solved for the scene's unknown.
     """
-    real = scene.emit.real
-    bound = 10.0 ** -DIGITS[real] / (_MARGIN * _EPSILON[real])
+    bound = _bound(scene.emit.real)
     for stations, growth in enumerate(torque_growth(scene, integrator), start=1):
         if growth > bound or stations > _FOREVER:
             return stations - 1
@@ -84,9 +84,10 @@ def require_safe_product(scene: Scene, integrator: Integrator) -> None:
     """
     if scene.model.sweep != "product":
         return
-    safe = safe_stations(scene, integrator)
-    if scene.stations <= safe:
+    bound = _bound(scene.emit.real)
+    if all(growth <= bound for growth in islice(torque_growth(scene, integrator), scene.stations)):
         return
+    safe = safe_stations(scene, integrator)
     asked = 'model.sweep = "product"'
     line = scene.source.lines.get(("model", "sweep"))
     place = f"{scene.source.origin}:{line}" if line else scene.source.origin
@@ -97,6 +98,11 @@ def require_safe_product(scene: Scene, integrator: Integrator) -> None:
         f"{scene.integrator.step:g} s; this scene has {scene.stations} (got {asked}). "
         'Write sweep = "riccati", which is right at any length and costs no more.'
     )
+
+
+def _bound(real: str) -> float:
+    """Return the largest growth that leaves the digits to be kept."""
+    return 10.0 ** -DIGITS[real] / (_MARGIN * _EPSILON[real])
 
 
 def _gain_sets(scene: Scene, integrator: Integrator) -> list[dict[sp.Symbol, float]]:

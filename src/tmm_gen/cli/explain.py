@@ -1,0 +1,85 @@
+"""`tmm-gen explain`: what a scene makes the generator model, and what it leaves out."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from tmm_gen.cli.changes import changed_scene, set_option
+from tmm_gen.cli.console import Column, progress, table
+
+if TYPE_CHECKING:
+    from tmm_gen.measure.explain.explanation import Explained, Explanation
+
+# SymPy is imported inside: `tmm-gen --help` has no use for it.
+
+
+@click.command("explain")
+@click.argument("scene", metavar="SCENE", type=click.Path(path_type=Path))
+@set_option
+@click.option("--json", "json_mode", is_flag=True, help="One JSON object instead of a table.")
+def explain(scene: Path, changes: tuple[str, ...], json_mode: bool) -> None:
+    """Show what SCENE makes the generator model, what it leaves out and why, and what that saves.
+
+    Each figure is counted: the program of the scene against that of the same scene with the term put in or taken
+    out. Operations are floating-point operations, bytes are those of the C structs.
+    """
+    loaded = changed_scene(scene, changes)
+    with progress(f"counting {loaded.name}") as advance:
+        from tmm_gen.measure.explain.explanation import explain as explained
+
+        found = explained(loaded, lambda term: advance(1, doing=f"counted {term}"))
+    _show(found, json_mode)
+
+
+def _show(found: Explanation, json_mode: bool) -> None:
+    scene, own, everything = found.scene, found.own, found.everything
+    facts = {
+        "scene": scene.name,
+        "stations": scene.stations,
+        "real": scene.emit.real,
+        "operations_per_step": own.step,
+        "operations_per_output": own.output,
+        "operations_of_prepare": own.prepare,
+        "state_bytes": own.state_bytes,
+        "model_bytes": own.model_bytes,
+        "everything_operations_per_step": everything.step,
+        "everything_state_bytes": everything.state_bytes,
+    }
+    title = (
+        f"{scene.title}: {own.step} operations a step, {own.state_bytes} bytes of state, "
+        f"{own.model_bytes} of model"
+    )
+    columns = [
+        Column("status"),
+        Column("term"),
+        Column("why"),
+        Column("operations_per_step", "operations a step", "+d"),
+        Column("operations_per_output", "an output", "+d"),
+        Column("state_bytes", "bytes of state", "+d"),
+        Column("model_bytes", "of model", "+d"),
+    ]
+    table([_row(each) for each in found.terms], columns, json_mode, title=title, more=facts)
+    if json_mode:
+        return
+    click.echo("modelled: what the term costs; left out: what it would cost, and leaving it out saves")
+    click.echo(
+        f"all that was left out put in at once: {everything.step} operations a step "
+        f"({everything.step / max(own.step, 1):.1f} times as many), {everything.state_bytes} bytes of state"
+    )
+
+
+def _row(explained: Explained) -> dict[str, object]:
+    worth = explained.worth
+    return {
+        "term": explained.term,
+        "status": "modelled" if explained.modelled else "left out",
+        "why": explained.why,
+        "operations_per_step": worth.step,
+        "operations_per_output": worth.output,
+        "operations_of_prepare": worth.prepare,
+        "state_bytes": worth.state_bytes,
+        "model_bytes": worth.model_bytes,
+    }

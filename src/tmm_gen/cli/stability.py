@@ -1,0 +1,241 @@
+"""`tmm-gen stability`: where a scene stands against the limits of stability, and whether its kernel agrees."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from tmm_gen.cli.changes import changed_scene, set_option
+from tmm_gen.cli.console import Column, progress, table
+from tmm_gen.cli.given import PICTURE, picture_option, refuse_folders
+
+if TYPE_CHECKING:
+    from tmm_gen.measure.stability.limits import Standing
+    from tmm_gen.measure.stability.map import GrowthMap
+    from tmm_gen.measure.stability.motion import SmallMotion
+
+# NumPy, SymPy and Matplotlib are imported inside: `tmm-gen --help` has no use for them.
+
+
+@click.command("stability")
+@click.argument("scene", metavar="SCENE", type=click.Path(path_type=Path))
+@click.option(
+    "--map",
+    "mapped",
+    metavar="INTEGRATOR",
+    multiple=True,
+    help="Integrator whose growth is measured over step and stiffness. Repeatable; by default the scene's own.",
+)
+@click.option(
+    "--cells",
+    type=click.IntRange(min=0),
+    metavar="N",
+    help="Steps of a map, for two thirds as many stiffnesses; 0 leaves maps out. By default what takes seconds.",
+)
+@click.option(
+    "--plot",
+    "file",
+    metavar="[FILE.png]",
+    is_flag=False,
+    flag_value=PICTURE,
+    callback=picture_option,
+    help="Draw the maps, measured beside derived; by default into NAME-stability.png.",
+)
+@set_option
+@click.option("--json", "json_mode", is_flag=True, help="One JSON object instead of a table.")
+def stability(
+    scene: Path,
+    mapped: tuple[str, ...],
+    cells: int | None,
+    file: Path | None,
+    changes: tuple[str, ...],
+    json_mode: bool,
+) -> int:
+    """Show where SCENE stands against the limit of stability of every integrator.
+
+    Limits and growth are derived: the largest eigenvalue, over all modes of the scene with their own damping, of the
+    amplification matrix of a step. A planar arm moves about its static equilibrium. Then the same growth is measured
+    by running the generated kernel over a map of steps and stiffnesses; exit code 1 where it differs.
+    """
+    from tmm_gen.scene.integrator import INTEGRATOR_NAMES
+
+    loaded = changed_scene(scene, changes)
+    chosen = _known(mapped or (loaded.integrator.name,))
+    refuse_folders(file)
+    if file is not None and cells == 0:
+        raise click.UsageError("--plot draws maps: leave out --cells 0.")
+    with progress(f"modes of {loaded.name}", total=len(INTEGRATOR_NAMES)) as advance:
+        from tmm_gen.measure.stability.limits import scene_integrators, standings
+        from tmm_gen.measure.stability.motion import small_motion
+
+        motion = small_motion(loaded)
+        found = standings(motion, scene_integrators(loaded), lambda name: advance(1, doing=f"derived {name}"))
+    maps = _measure(motion, chosen, cells)
+    files = _draw(maps, file, loaded.name)
+    _show(motion, found, maps, files, json_mode)
+    return int(any(each.differs.any() for each in maps))
+
+
+def _known(names: Sequence[str]) -> list[str]:
+    from tmm_gen.scene.integrator import INTEGRATOR_NAMES, method_named
+
+    for name in names:
+        if method_named(name) is None:
+            raise click.UsageError(
+                f"--map {name}: no such integrator; there are {', '.join(INTEGRATOR_NAMES)}."
+            )
+    return list(dict.fromkeys(name.replace("-", "_") for name in names))
+
+
+def _measure(motion: SmallMotion, names: list[str], cells: int | None) -> list[GrowthMap]:
+    """Derive and measure maps; none for zero cells."""
+    if cells == 0:
+        return []
+    from tmm_gen.measure.stability.limits import scene_integrators
+    from tmm_gen.measure.stability.map import growth_map, map_cells, sensible_columns
+
+    columns = cells or sensible_columns(motion.scene)
+    with progress("measuring growth", total=2 * map_cells(columns) * len(names)) as advance:
+        return [
+            growth_map(motion, method, columns, lambda done: advance(done))
+            for method in scene_integrators(motion.scene, names)
+        ]
+
+
+def _draw(maps: list[GrowthMap], file: Path | None, name: str) -> list[Path]:
+    if file is None:
+        return []
+    from tmm_gen.files import write_whole
+    from tmm_gen.measure.stability.picture import map_picture
+
+    target = Path(f"{name}-stability.png") if file == Path(PICTURE) else file
+    with progress("drawing"):
+        write_whole(target, map_picture(maps, target.suffix[1:].lower()))
+    return [target]
+
+
+def _show(
+    motion: SmallMotion, found: list[Standing], maps: list[GrowthMap], files: list[Path], json_mode: bool
+) -> None:
+    scene, highest = motion.scene, motion.highest
+    h = scene.integrator.step
+    zeta = highest.damping_ratio or 0.0
+    facts: dict[str, object] = {
+        "scene": scene.name,
+        "step": h,
+        "highest_frequency": highest.frequency,
+        "highest_hertz": highest.hertz,
+        "highest_damping_ratio": highest.damping_ratio,
+        "omega_step": highest.frequency * h,
+        "falls_over": motion.falling,
+        "coupled_damping": motion.coupled,
+        "maps": [_map_facts(each) for each in maps],
+        "files": files,
+    }
+    title = (
+        f"{scene.title}\nhighest natural frequency {highest.frequency:.6g} rad/s, damping ratio {zeta:.3g}; "
+        f"times the step of {h:g} s: Ω = {highest.frequency * h:.4g}"
+    )
+    columns = [
+        Column("own", " ", lambda own: "*" if own else ""),
+        Column("integrator"),
+        Column("order"),
+        Column("limit", "limit of Ω", _limit, "right"),
+        Column("limit_damped", f"at ζ = {zeta:.3g}", _limit, "right"),
+        Column("growth_per_step", "growth in a step", _growth, "right"),
+        Column("largest_step", "largest stable step (s)", _step, "right"),
+        Column("margin", "margin", _margin, "right"),
+        Column("verdict"),
+    ]
+    table([_row(each, h) for each in found], columns, json_mode, title=title, more=facts)
+    if not json_mode:
+        _say(motion, found, maps, files)
+
+
+def _say(motion: SmallMotion, found: list[Standing], maps: list[GrowthMap], files: list[Path]) -> None:
+    click.echo(
+        f"* the scene's own; growth: of the worst of {len(motion.modes)} modes, each with its own damping"
+    )
+    if motion.coupled:
+        exact = all(each.exact for each in found)
+        click.echo(
+            "damping couples the modes: growth and largest step are those of the "
+            + ("whole arm" if exact else "modes by themselves, the arm being too large")
+        )
+    if motion.falling:
+        click.echo("the arm itself falls over: it grows in truth, whatever the integrator")
+    for each in maps:
+        click.echo(_finding(each))
+    for path in files:
+        click.echo(f"wrote {path}")
+    if maps and not files:
+        click.echo("more: --plot draws the map, --map INTEGRATOR measures another")
+
+
+def _finding(each: GrowthMap) -> str:
+    name, count = each.scene.integrator.name, each.differs.size
+    if not each.differs.any():
+        return f"measured: the {name} kernel grows as derived at all {count} steps and stiffnesses of the map"
+    step, factor, measured, derived = each.worst
+    return (
+        f"measured: the {name} kernel DIFFERS from the derived growth at {int(each.differs.sum())} of {count} steps "
+        f"and stiffnesses; most at a step of {step:.3g} s and {factor:.3g} times the stiffness: "
+        f"{measured:.6g} a step instead of {derived:.6g}"
+    )
+
+
+def _map_facts(each: GrowthMap) -> dict[str, object]:
+    return {
+        "integrator": each.scene.integrator.name,
+        "steps": each.steps,
+        "factors": each.factors,
+        "derived": each.derived,
+        "measured": each.measured,
+        "cells": each.differs.size,
+        "cells_that_differ": int(each.differs.sum()),
+        "largest_difference": float(abs(each.difference[each.worst_cell])),
+    }
+
+
+def _row(standing: Standing, h: float) -> dict[str, Any]:
+    grows = "grows at any step" if standing.largest_step == 0.0 else "grows"
+    return {
+        "integrator": standing.integrator.name,
+        "own": standing.chosen,
+        "parameters": {name: float(value) for name, value in standing.integrator.parameters.items()},
+        "order": standing.order,
+        "unconditionally_stable": math.isinf(standing.limit),
+        "limit": standing.limit,
+        "limit_damped": standing.limit_damped,
+        "growth_per_step": standing.radius_excess,
+        "worst_mode": standing.worst + 1,
+        "largest_step": standing.largest_step,
+        "margin": standing.largest_step / h,
+        "stable": standing.stable,
+        "exact": standing.exact,
+        "verdict": "stable" if standing.stable else grows,
+    }
+
+
+def _limit(value: float) -> str:
+    if value == 0:
+        return "always grows"
+    return "none" if math.isinf(value) else f"{value:.4g}"
+
+
+def _growth(value: float) -> str:
+    if math.isinf(value):
+        return "overflows"
+    return "0" if value == 0.0 else f"{value:+.2g}"
+
+
+def _step(value: float) -> str:
+    return "any" if math.isinf(value) else f"{value:.4g}"
+
+
+def _margin(value: float) -> str:
+    return "-" if math.isinf(value) else f"{value:.3g} x"

@@ -1,0 +1,58 @@
+"""What a program costs: operations counted in its routines, bytes of its structs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from tmm_gen.emit.c.real import REALS
+from tmm_gen.emit.c.structs import structs_of
+from tmm_gen.program.build import build_program
+from tmm_gen.program.count import count_routine
+from tmm_gen.program.statements import Program
+from tmm_gen.scene import Scene
+
+
+@dataclass(frozen=True)
+class Footprint:
+    """Costs of a program, or a difference of two.
+
+    Parameters
+    ----------
+    step, output, prepare : int
+        Floating-point operations of one call.
+    state_bytes, model_bytes : int
+        Of the C structs: motion and history; what prepare leaves for the step.
+    """
+
+    step: int
+    output: int
+    prepare: int
+    state_bytes: int
+    model_bytes: int
+
+    def __sub__(self, other: Footprint) -> Footprint:
+        """Return what this costs more than another."""
+        return Footprint(
+            self.step - other.step,
+            self.output - other.output,
+            self.prepare - other.prepare,
+            self.state_bytes - other.state_bytes,
+            self.model_bytes - other.model_bytes,
+        )
+
+
+def footprint(scene: Scene) -> Footprint:
+    """Build a scene's program and count."""
+    return footprint_of(build_program(scene), scene.emit.real)
+
+
+def footprint_of(program: Program, real: str) -> Footprint:
+    """Count a program; its bytes are those of C with a number type, "float64" or "float32"."""
+    size = {struct.name: struct.size(REALS[real]) for struct in structs_of(program)}
+    return Footprint(
+        step=count_routine(program.main).total,
+        output=count_routine(program.output).total,
+        prepare=count_routine(program.prepare).total,
+        state_bytes=size["state"],
+        model_bytes=size["model"],
+    )

@@ -1,0 +1,197 @@
+"""Terms a scene may have or not: whether it has them, why, and the same scene with the term put in or taken out."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any
+
+from tmm_gen.scene import Input, Output, Scene, station_of
+from tmm_gen.scene.beam import Tip
+from tmm_gen.scene.signal import Acts, Of
+
+Change = Callable[[Scene], Scene]
+
+_MORE = 1e-3
+"""By how much stations are made to differ, relatively: any difference needs an array."""
+
+
+@dataclass(frozen=True)
+class Term:
+    """A term of the model.
+
+    Parameters
+    ----------
+    name : str
+        In a few words.
+    modelled : bool
+        Whether the scene has it.
+    why : str
+        What in the scene says so.
+    other : callable
+        Makes the scene with the term put in, or taken out if it is modelled.
+    """
+
+    name: str
+    modelled: bool
+    why: str
+    other: Change
+
+
+def terms_of(scene: Scene) -> list[Term]:
+    """Return the terms of a scene, in the order of its file."""
+    found = [_joint_damping(scene), _alike_joints(scene), _alike_links(scene), *_base(scene)]
+    if scene.model.kind == "planar":
+        found = [_gravity(scene), _iterations(scene), *found, *_tip(scene), _heat(scene)]
+    return [*found, _inputs(scene), _outputs(scene)]
+
+
+def _gravity(scene: Scene) -> Term:
+    g = scene.model.gravity
+    why = f"model.gravity = {g:g}" if g else "no model.gravity"
+    return Term("gravity", bool(g), why, lambda s: _with_model(s, gravity=None if g else 9.81))
+
+
+def _iterations(scene: Scene) -> Term:
+    count = scene.model.iterations
+    why = f"model.iterations = {count}"
+    changed = 1 if count > 1 else 2
+    return Term("a second sweep in each stage", count > 1, why, lambda s: _with_model(s, iterations=changed))
+
+
+def _joint_damping(scene: Scene) -> Term:
+    damped = sum(joint.damping > 0.0 for joint in scene.joints)
+    if damped:
+        why = f"{damped} of {scene.stations} joints have a damper"
+        return Term("joint damping", True, why, lambda s: _with_damping(s, 0.0))
+    why = "no joint has damping" + (", no beam.damping_time" if scene.beam else "")
+    return Term("joint damping", False, why, lambda s: _with_damping(s, _MORE))
+
+
+def _with_damping(scene: Scene, time: float) -> Scene:
+    joints = tuple(j.model_copy(update={"damping": time * j.stiffness}) for j in scene.joints)
+    return replace(scene, joints=joints)
+
+
+def _alike_joints(scene: Scene) -> Term:
+    unlike = len({(j.stiffness, j.damping) for j in scene.joints}) > 1
+    why = "joints differ: an array of each number" if unlike else "joints are identical: one number for all"
+
+    def other(s: Scene) -> Scene:
+        if unlike:
+            return replace(s, joints=s.joints[:1] * s.stations)
+        return replace(s, joints=_spread(s.joints, ("stiffness", "damping")))
+
+    return Term("joints of their own", unlike, why, other)
+
+
+def _alike_links(scene: Scene) -> Term:
+    names = ("inertia", "mass", "length", "center") if scene.model.kind == "planar" else ("inertia",)
+    unlike = len({tuple(getattr(link, name) for name in names) for link in scene.links}) > 1
+    why = "links differ: an array of each number" if unlike else "links are identical: one number for all"
+
+    def other(s: Scene) -> Scene:
+        if unlike:
+            return replace(s, links=s.links[:1] * s.stations)
+        return replace(s, links=_spread(s.links, names))
+
+    return Term("links of their own", unlike, why, other)
+
+
+def _spread(stations: tuple[Any, ...], names: tuple[str, ...]) -> tuple[Any, ...]:
+    """Return stations that are all a little different."""
+    return tuple(
+        each.model_copy(
+            update={name: getattr(each, name) * (1.0 + _MORE * k / len(stations)) for name in names}
+        )
+        for k, each in enumerate(stations)
+    )
+
+
+def _base(scene: Scene) -> list[Term]:
+    kind, hub = scene.base.kind, "a hub that turns"
+    if kind == "clamp":
+        return [Term(hub, False, 'base.kind = "clamp"', lambda s: _with_base(s, kind="motor", inertia=1.0))]
+    found = [Term(hub, True, f'base.kind = "{kind}"', _clamped)]
+    if kind == "motor":
+        c = scene.base.damping
+        why = f"base.damping = {c:g}" if c else "no base.damping"
+        found.append(
+            Term("friction of the hub", c > 0.0, why, lambda s: _with_base(s, damping=0.0 if c else 1.0))
+        )
+    return found
+
+
+def _clamped(scene: Scene) -> Scene:
+    """Return the scene on a clamp, without what acts on the hub or is read off it."""
+    inputs = tuple(i for i in scene.inputs if i.at != "base")
+    outputs = tuple(o for o in scene.outputs if o.at != "base" or o.of in ("torque", "force"))
+    return _with_base(replace(scene, inputs=inputs, outputs=outputs), kind="clamp", inertia=0.0, damping=0.0)
+
+
+def _tip(scene: Scene) -> list[Term]:
+    found = []
+    for what in ("mass", "inertia"):
+        value = getattr(scene.tip, what) if scene.tip else 0.0
+        why = f"tip.{what} = {value:g}" if value else f"no tip.{what}"
+        found.append(Term(f"{what} at the tip", value > 0.0, why, _tip_changed(what, 0.0 if value else 1.0)))
+    return found
+
+
+def _tip_changed(what: str, value: float) -> Change:
+    return lambda s: replace(s, tip=(s.tip or Tip()).model_copy(update={what: value}))
+
+
+def _heat(scene: Scene) -> Term:
+    asked = any(o.of == "dissipated_energy" for o in scene.outputs)
+    damped = any(j.damping for j in scene.joints) or scene.base.damping > 0.0
+    why = "an output asks for it" if asked else "no output of dissipated_energy"
+    if not damped:
+        why += ", and nothing turns energy to heat"
+
+    def other(s: Scene) -> Scene:
+        if asked:
+            return replace(s, outputs=tuple(o for o in s.outputs if o.of != "dissipated_energy"))
+        return replace(s, outputs=(*s.outputs, Output(name="explain_heat", at="arm", of="dissipated_energy")))
+
+    return Term("counting energy turned to heat", asked and damped, why, other)
+
+
+def _inputs(scene: Scene) -> Term:
+    n = scene.stations
+    taken = {station_of(i.at, n) for i in scene.inputs}
+    missing = [k for k in range(1, n + 1) if k not in taken]
+    acts: tuple[Acts, ...] = ("torque", "force_x", "force_y") if scene.model.kind == "planar" else ("torque",)
+    what = "torques and forces" if len(acts) > 1 else "torques"
+
+    def other(s: Scene) -> Scene:
+        new = tuple(Input(name=f"explain_{a}_{k}", at=k, acts=a) for k in missing for a in acts)
+        return replace(s, inputs=(*s.inputs, *new))
+
+    why = f"no [[input]] at {len(missing)} of {n} links"
+    return Term(f"{what} on links without an input", False, why, other)
+
+
+def _outputs(scene: Scene) -> Term:
+    n = scene.stations
+    planar = scene.model.kind == "planar"
+    kinds: tuple[Of, ...] = ("position", "velocity", "torque")
+    if not planar:
+        kinds = ("angle", "velocity", "acceleration", "torque")
+    asked = {(station_of(o.at, n), o.of) for o in scene.outputs}
+    missing = [(k, of) for k in range(1, n + 1) for of in kinds if (k, of) not in asked]
+
+    def other(s: Scene) -> Scene:
+        new = tuple(Output(name=f"explain_{of}_{k}", at=k, of=of) for k, of in missing)
+        return replace(s, outputs=(*s.outputs, *new))
+
+    why = f"the scene has {len(scene.outputs)} [[output]]s"
+    return Term(f"{', '.join(kinds)} of every link as outputs", False, why, other)
+
+
+def _with_model(scene: Scene, **update: object) -> Scene:
+    return replace(scene, model=scene.model.model_copy(update=update))
+
+
+def _with_base(scene: Scene, **update: object) -> Scene:
+    return replace(scene, base=scene.base.model_copy(update=update))

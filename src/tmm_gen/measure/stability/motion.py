@@ -1,0 +1,89 @@
+"""A scene in small motion as its modes, and whether damping couples them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.errors import UserError
+from tmm_gen.modal.matrices import Matrices, matrices
+from tmm_gen.modal.modes import Mode, find_modes, natural_modes
+from tmm_gen.modal.situation import resting_arm
+from tmm_gen.scene import Scene
+
+Array = NDArray[np.float64]
+
+MOST_STATIONS = 1000
+"""Of what is done with dense matrices."""
+
+_COUPLED = 1e-10
+"""Coupling of modes by damping below this, relative to the largest of their own, is none."""
+
+
+@dataclass(frozen=True, eq=False)
+class SmallMotion:
+    """Modes of a scene.
+
+    Parameters
+    ----------
+    scene : Scene
+        What moves.
+    linear : Matrices
+        About rest.
+    modes : tuple of Mode
+        Increasing in undamped frequency.
+    coupled : bool
+        Whether damping couples the undamped modes, so that a step does not fall apart into modes.
+    """
+
+    scene: Scene
+    linear: Matrices
+    modes: tuple[Mode, ...]
+    coupled: bool
+
+    @property
+    def stiffness(self) -> Array:
+        """``k`` of ``q'' + d q' + k q = 0`` for each mode, 1/s^2: the product of its poles."""
+        return np.array([(mode.poles[0] * mode.poles[1]).real for mode in self.modes])
+
+    @property
+    def damping(self) -> Array:
+        """``d`` of the same, 1/s: minus the sum of its poles."""
+        return np.array([-(mode.poles[0] + mode.poles[1]).real for mode in self.modes])
+
+    @property
+    def highest(self) -> Mode:
+        """The mode of the highest natural frequency."""
+        return max(self.modes, key=lambda mode: mode.frequency)
+
+    @property
+    def falling(self) -> bool:
+        """Whether the arm itself falls over, whatever integrates it."""
+        return any(mode.unstable for mode in self.modes)
+
+
+def small_motion(scene: Scene) -> SmallMotion:
+    """Return the modes of a scene: of a chain, or of a planar arm about its static equilibrium.
+
+    Raises
+    ------
+    UserError
+        If there is no equilibrium, or the scene has more than `MOST_STATIONS` stations.
+    """
+    if scene.stations > MOST_STATIONS:
+        raise UserError(
+            f"scene '{scene.name}': the modes of {scene.stations} stations take dense matrices; at most "
+            f"{MOST_STATIONS} are possible here. The limits do not change much with more: try fewer links."
+        )
+    return motion_of(scene, matrices(resting_arm(scene)))
+
+
+def motion_of(scene: Scene, linear: Matrices) -> SmallMotion:
+    """Return the modes of some matrices."""
+    _, shapes = natural_modes(linear)
+    damping = shapes.T @ linear.damping @ shapes
+    own = np.max(np.abs(np.diag(damping)), initial=0.0)
+    coupled = bool(np.any(np.abs(damping - np.diag(np.diag(damping))) > _COUPLED * own))
+    return SmallMotion(scene, linear, find_modes(linear), coupled)
