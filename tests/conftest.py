@@ -16,6 +16,8 @@ from hypothesis import settings
 
 # Figures are drawn into files; a display is neither needed nor there.
 os.environ["MPLBACKEND"] = "Agg"
+# Small matrices, and one process a core: threads of the linear algebra would only wait for each other, at length.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 # `make test` gives the same answer on the same tree; HYPOTHESIS_PROFILE=explore looks for news.
 settings.register_profile("repeatable", derandomize=True, deadline=None, database=None)

@@ -1,8 +1,8 @@
 # arm10: Ten-link arm swung by a hub motor
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 525c1f48f30bec4efe0533edca417c45a4e26085c7c23db491d2c2e6aa2d5335
-# sha256 of the rest of this file: 3ede3deb8ea6c666f7fdafd35b28c073c0139116ff5154b50c64e2fabc3acda0
+# scene digest: 95c81c6eb7e0b6f1ffc37b1b0540e1023a1118b007e8b573b96cceed3f286490
+# sha256 of the rest of this file: 7464b29a0ee83e4c36f18dd49010a0ff31101338a8c2e493f18e01f5be301dc2
 """arm10: Ten-link arm swung by a hub motor."""
 
 from .kernel import (

@@ -1,8 +1,8 @@
 # arm10: Ten-link arm swung by a hub motor
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 525c1f48f30bec4efe0533edca417c45a4e26085c7c23db491d2c2e6aa2d5335
-# sha256 of the rest of this file: 63c5366f60951e2f02b40de365c88a8d05585d277da011b5ba847a8452728f43
+# scene digest: 95c81c6eb7e0b6f1ffc37b1b0540e1023a1118b007e8b573b96cceed3f286490
+# sha256 of the rest of this file: ede0f6e5c6e1f58d0d0a86b54241f8a7d18c0f4e65b086e72ba396e66dc431fe
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 10
@@ -179,18 +179,18 @@ def _prepare(p: ca.SX) -> dict[str, Any]:
     tip_mass = p[28]
     joint_impedance: list[Any] = [0.0] * STATIONS
 
-    # Factors of the step that depend on the time step and parameters alone
-    step2_1_over_2 = 0.5 * (step * step)
-    angle_per_acceleration = 0.25 * (step * step)
-    factor_3 = 0.5 * (2.0 * hub_inertia + hub_damping * step)
-    rate_per_acceleration = 0.5 * step
-
     # Masses by the ends they act at, and joint impedances
     carried_mass = center * mass
     inner_mass = mass - center * mass
     pin_inertia = inertia + center * center * (length * length) * mass
     for j in range(STATIONS):
         joint_impedance[j] = 0.5 * damping[j] * step + 0.25 * (step * step) * stiffness[j]
+
+    # Factors of the step that depend on the time step and parameters alone
+    step2_1_over_2 = 0.5 * (step * step)
+    angle_per_acceleration = 0.25 * (step * step)
+    factor_3 = 0.5 * (2.0 * hub_inertia + hub_damping * step)
+    rate_per_acceleration = 0.5 * step
     return {
         "step": step,
         "length": length,

@@ -1,8 +1,8 @@
 # arm10: Ten-link arm swung by a hub motor
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 525c1f48f30bec4efe0533edca417c45a4e26085c7c23db491d2c2e6aa2d5335
-# sha256 of the rest of this file: 468e85067b1a14e04066d5b2a01b559dbf3d676297beb3d58fca6ae17cf52ef8
+# scene digest: 95c81c6eb7e0b6f1ffc37b1b0540e1023a1118b007e8b573b96cceed3f286490
+# sha256 of the rest of this file: 7c778805018f4da7c63bc57127241f7b6e2630672535c42eb21a78f43fee4880
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 10
@@ -274,17 +274,17 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     stiffness = _align(stiffness, batch)
     damping = _align(damping, batch)
 
-    # Factors of the step that depend on the time step and parameters alone
-    step2_1_over_2 = 0.5 * (step * step)
-    angle_per_acceleration = 0.25 * (step * step)
-    factor_3 = 0.5 * (2.0 * hub_inertia + hub_damping * step)
-    rate_per_acceleration = 0.5 * step
-
     # Masses by the ends they act at, and joint impedances
     carried_mass = center * mass
     inner_mass = mass - center * mass
     pin_inertia = inertia + center * center * (length * length) * mass
     joint_impedance = 0.5 * damping * step + 0.25 * (step * step) * stiffness
+
+    # Factors of the step that depend on the time step and parameters alone
+    step2_1_over_2 = 0.5 * (step * step)
+    angle_per_acceleration = 0.25 * (step * step)
+    factor_3 = 0.5 * (2.0 * hub_inertia + hub_damping * step)
+    rate_per_acceleration = 0.5 * step
     return Model(
         step=step,
         length=length,

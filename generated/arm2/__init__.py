@@ -1,8 +1,8 @@
 # arm2: Two unlike links swung by a motor
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: ce631ab7b67541b39d008a903917f57db75c263fa5530caf3c1a93f3ab3ddcc0
-# sha256 of the rest of this file: 979278926bc8bd4be7fec0657af64f7a5b3f331e8da6f6d37e0d0da810fc2bb3
+# scene digest: c5e09abbb61734735cef8cfddf39dd959eb5765da3ad6484bed2957b4fdf212c
+# sha256 of the rest of this file: 7a7149ed18acdd98e3e4f7d783d30e9a68a8903e4bf46059bc2e17ca65374a5a
 """arm2: Two unlike links swung by a motor."""
 
 from .kernel import (

@@ -1,8 +1,8 @@
 # arm2: Two unlike links swung by a motor
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: ce631ab7b67541b39d008a903917f57db75c263fa5530caf3c1a93f3ab3ddcc0
-# sha256 of the rest of this file: f964e796a799110b8628b86c12897e753338781d974ca3d0ec9a0a9930c1f562
+# scene digest: c5e09abbb61734735cef8cfddf39dd959eb5765da3ad6484bed2957b4fdf212c
+# sha256 of the rest of this file: bdce1511eb052f82b34667741922e5e750681950a5e470ff9e12505c608e8fcc
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 2
@@ -172,18 +172,18 @@ def _prepare(p: ca.SX) -> dict[str, Any]:
     joint_impedance: list[Any] = [0.0] * STATIONS
     pin_inertia: list[Any] = [0.0] * STATIONS
 
-    # Factors of the step that depend on the time step and parameters alone
-    step2_1_over_2 = 0.5 * (step * step)
-    angle_per_acceleration = 0.25 * (step * step)
-    factor_3 = 0.5 * (2.0 * hub_inertia + hub_damping * step)
-    rate_per_acceleration = 0.5 * step
-
     # Masses by the ends they act at, and joint impedances
     for j in range(STATIONS):
         carried_mass[j] = center[j] * mass[j]
         inner_mass[j] = mass[j] - center[j] * mass[j]
         pin_inertia[j] = inertia[j] + center[j] * center[j] * (length[j] * length[j]) * mass[j]
         joint_impedance[j] = 0.5 * damping[j] * step + 0.25 * (step * step) * stiffness[j]
+
+    # Factors of the step that depend on the time step and parameters alone
+    step2_1_over_2 = 0.5 * (step * step)
+    angle_per_acceleration = 0.25 * (step * step)
+    factor_3 = 0.5 * (2.0 * hub_inertia + hub_damping * step)
+    rate_per_acceleration = 0.5 * step
     return {
         "step": step,
         "length": length,

@@ -1,8 +1,8 @@
 # arm2: Two unlike links swung by a motor
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: ce631ab7b67541b39d008a903917f57db75c263fa5530caf3c1a93f3ab3ddcc0
-# sha256 of the rest of this file: 48a7b28371320b1c119bea3a4fcda36690d9abf83632a107be23c17746338938
+# scene digest: c5e09abbb61734735cef8cfddf39dd959eb5765da3ad6484bed2957b4fdf212c
+# sha256 of the rest of this file: 7b7256b65a878d6ceb7618919b03374c5b8ce08d354f23bf7aa3235801ed3f3c
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 2
@@ -281,17 +281,17 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     stiffness = _align(stiffness, batch)
     damping = _align(damping, batch)
 
-    # Factors of the step that depend on the time step and parameters alone
-    step2_1_over_2 = 0.5 * (step * step)
-    angle_per_acceleration = 0.25 * (step * step)
-    factor_3 = 0.5 * (2.0 * hub_inertia + hub_damping * step)
-    rate_per_acceleration = 0.5 * step
-
     # Masses by the ends they act at, and joint impedances
     carried_mass = center * mass
     inner_mass = mass - center * mass
     pin_inertia = inertia + center * center * (length * length) * mass
     joint_impedance = 0.5 * damping * step + 0.25 * (step * step) * stiffness
+
+    # Factors of the step that depend on the time step and parameters alone
+    step2_1_over_2 = 0.5 * (step * step)
+    angle_per_acceleration = 0.25 * (step * step)
+    factor_3 = 0.5 * (2.0 * hub_inertia + hub_damping * step)
+    rate_per_acceleration = 0.5 * step
     return Model(
         step=step,
         length=length,

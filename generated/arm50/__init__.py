@@ -1,8 +1,8 @@
 # arm50: Stiff arm of fifty links on a servo
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 9874dff5d90e21876dbd2271ff786b55b83dc2e6467819bdcfde7e890f954cb6
-# sha256 of the rest of this file: ecc8af9042a76f42b2324abbf087ca2507c3dd75bce830e9d7b3fc09e7094326
+# scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
+# sha256 of the rest of this file: 2ffb7dba1bc8ed1a8416f7507b0f97671aa837db13330328693d15fe09564e91
 """arm50: Stiff arm of fifty links on a servo."""
 
 from .kernel import (

@@ -1,8 +1,8 @@
 # arm50: Stiff arm of fifty links on a servo
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 9874dff5d90e21876dbd2271ff786b55b83dc2e6467819bdcfde7e890f954cb6
-# sha256 of the rest of this file: 81fa22ee572677c29168794afbb04e355b72164eac1891f48d0187b7482fb5f4
+# scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
+# sha256 of the rest of this file: 25d3ce81cbe1c10c7bfbb5be9d4cdf0e53aa1d115c35faa1d177334197259ebd
 #
 # model: planar arm, large rotations, tip mass
 # stations: 50
@@ -261,6 +261,13 @@ def _prepare(p: ca.SX) -> dict[str, Any]:
     tip_inertia = p[106]
     joint_impedance: list[Any] = [0.0] * STATIONS
 
+    # Masses by the ends they act at, and joint impedances
+    carried_mass = center * mass
+    inner_mass = mass - center * mass
+    pin_inertia = inertia + center * center * (length * length) * mass
+    for j in range(STATIONS):
+        joint_impedance[j] = 0.25 * damping[j] * step + 0.0625 * (step * step) * stiffness[j]
+
     # Factors of the step that depend on the time step and parameters alone
     angle_per_acceleration = 0.0625 * (step * step)
     rate_per_acceleration = 0.25 * step
@@ -291,13 +298,6 @@ def _prepare(p: ca.SX) -> dict[str, Any]:
     step_41_over_6 = (41.0 / 6.0) * step
     factor_28 = mass * (center - 1.0)
     factor_29 = center * mass
-
-    # Masses by the ends they act at, and joint impedances
-    carried_mass = center * mass
-    inner_mass = mass - center * mass
-    pin_inertia = inertia + center * center * (length * length) * mass
-    for j in range(STATIONS):
-        joint_impedance[j] = 0.25 * damping[j] * step + 0.0625 * (step * step) * stiffness[j]
     return {
         "length": length,
         "mass": mass,

@@ -1,8 +1,8 @@
 # arm50: Stiff arm of fifty links on a servo
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 9874dff5d90e21876dbd2271ff786b55b83dc2e6467819bdcfde7e890f954cb6
-# sha256 of the rest of this file: ff6cd830bd2f505e1e96bef13c5b7942553c4e8073f5147a1320c362b746f8ce
+# scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
+# sha256 of the rest of this file: 0c1b0c38bf145025abd941eb9aa3af67bba9b0a7dba7077c0eb25e70cabf758e
 #
 # model: planar arm, large rotations, tip mass
 # stations: 50
@@ -437,6 +437,12 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     stiffness = _align(stiffness, batch)
     damping = _align(damping, batch)
 
+    # Masses by the ends they act at, and joint impedances
+    carried_mass = center * mass
+    inner_mass = mass - center * mass
+    pin_inertia = inertia + center * center * (length * length) * mass
+    joint_impedance = 0.25 * damping * step + 0.0625 * (step * step) * stiffness
+
     # Factors of the step that depend on the time step and parameters alone
     angle_per_acceleration = 0.0625 * (step * step)
     rate_per_acceleration = 0.25 * step
@@ -467,12 +473,6 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     step_41_over_6 = (41.0 / 6.0) * step
     factor_28 = mass * (center - 1.0)
     factor_29 = center * mass
-
-    # Masses by the ends they act at, and joint impedances
-    carried_mass = center * mass
-    inner_mass = mass - center * mass
-    pin_inertia = inertia + center * center * (length * length) * mass
-    joint_impedance = 0.25 * damping * step + 0.0625 * (step * step) * stiffness
     return Model(
         length=length,
         mass=mass,

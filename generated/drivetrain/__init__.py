@@ -1,8 +1,8 @@
 # drivetrain: Servo drive with gearbox, roller, brake and encoder
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 4ef6e83f7b983f9b3916fd8784109ad0b9257c6846d06f8cdd99f62ef9379a40
-# sha256 of the rest of this file: 0ab132f59c392889d336e420135271dff5c4002b434da1d86cbf2f22e485d7c4
+# scene digest: 260c88ca5ffe6b93ea5946fad67187e547942573db1dc2f710bcd9a0610b8738
+# sha256 of the rest of this file: f4f7e293dd3e8053eee8f6a36307ce1596d664ed920e42deb61dd8725af6877a
 """drivetrain: Servo drive with gearbox, roller, brake and encoder."""
 
 from .kernel import (

@@ -1,8 +1,8 @@
 # drivetrain: Servo drive with gearbox, roller, brake and encoder
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 4ef6e83f7b983f9b3916fd8784109ad0b9257c6846d06f8cdd99f62ef9379a40
-# sha256 of the rest of this file: c0011e71064a7ab36ee9208cd0b32fdd19f333d0905f47ad29474db9508a5af6
+# scene digest: 260c88ca5ffe6b93ea5946fad67187e547942573db1dc2f710bcd9a0610b8738
+# sha256 of the rest of this file: a2fccfd0b68d5f66e3f7641985c09c8cb96399d4d8ce41594a6baea080fbba4d
 #
 # model: torsional chain (linear)
 # stations: 6

@@ -1,8 +1,8 @@
 # drivetrain: Servo drive with gearbox, roller, brake and encoder
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 4ef6e83f7b983f9b3916fd8784109ad0b9257c6846d06f8cdd99f62ef9379a40
-# sha256 of the rest of this file: 04ec4b11b702826903e8e3a8ecbf28c6fefbd6741098de873af9ae71990955d0
+# scene digest: 260c88ca5ffe6b93ea5946fad67187e547942573db1dc2f710bcd9a0610b8738
+# sha256 of the rest of this file: 3d38372eb5b5ff8e4ab4442736b78b519d220998dbf8a85e620c69c0fb771d3e
 #
 # model: torsional chain (linear)
 # stations: 6

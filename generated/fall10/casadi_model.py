@@ -1,8 +1,8 @@
 # fall10: Soft clamped beam falling under its own weight
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 7fb53ee7611dfaa9a6a8f9157801d68007a3a764d7f41a8fa8cf16397006e130
-# sha256 of the rest of this file: ac7934a32c3b32fe4ed7a869c1f69a47ae8e570201f8bee60611163baa44321b
+# scene digest: 225557ccb20983327784b6fc8326b9127fb185b183a5e99d150385ab258b9303
+# sha256 of the rest of this file: cb20b0535934a6f45d58f2284fe2e3ccde9f7a7ec9468b60e9d71d35ca132eaf
 #
 # model: planar arm, large rotations, gravity
 # stations: 10
@@ -166,17 +166,17 @@ def _prepare(p: ca.SX) -> dict[str, Any]:
     gravity = p[25]
     joint_impedance: list[Any] = [0.0] * STATIONS
 
-    # Factors of the step that depend on the time step and parameters alone
-    step2_1_over_2 = 0.5 * (step * step)
-    angle_per_acceleration = 0.25 * (step * step)
-    rate_per_acceleration = 0.5 * step
-
     # Masses by the ends they act at, and joint impedances
     carried_mass = center * mass
     inner_mass = mass - center * mass
     pin_inertia = inertia + center * center * (length * length) * mass
     for j in range(STATIONS):
         joint_impedance[j] = 0.5 * damping[j] * step + 0.25 * (step * step) * stiffness[j]
+
+    # Factors of the step that depend on the time step and parameters alone
+    step2_1_over_2 = 0.5 * (step * step)
+    angle_per_acceleration = 0.25 * (step * step)
+    rate_per_acceleration = 0.5 * step
     return {
         "step": step,
         "length": length,

@@ -1,8 +1,8 @@
 # fall10: Soft clamped beam falling under its own weight
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 7fb53ee7611dfaa9a6a8f9157801d68007a3a764d7f41a8fa8cf16397006e130
-# sha256 of the rest of this file: 699759fef8c76fced560f30dce4c121068403d05a9534c77629586c4e78be84e
+# scene digest: 225557ccb20983327784b6fc8326b9127fb185b183a5e99d150385ab258b9303
+# sha256 of the rest of this file: d07e25e0a0c6627bc6b0fe056c5a0e3059ee601df81f12b44904f897628085f9
 #
 # model: planar arm, large rotations, gravity
 # stations: 10
@@ -232,16 +232,16 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     stiffness = _align(stiffness, batch)
     damping = _align(damping, batch)
 
-    # Factors of the step that depend on the time step and parameters alone
-    step2_1_over_2 = 0.5 * (step * step)
-    angle_per_acceleration = 0.25 * (step * step)
-    rate_per_acceleration = 0.5 * step
-
     # Masses by the ends they act at, and joint impedances
     carried_mass = center * mass
     inner_mass = mass - center * mass
     pin_inertia = inertia + center * center * (length * length) * mass
     joint_impedance = 0.5 * damping * step + 0.25 * (step * step) * stiffness
+
+    # Factors of the step that depend on the time step and parameters alone
+    step2_1_over_2 = 0.5 * (step * step)
+    angle_per_acceleration = 0.25 * (step * step)
+    rate_per_acceleration = 0.5 * step
     return Model(
         step=step,
         length=length,

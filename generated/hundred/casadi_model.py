@@ -1,8 +1,8 @@
 # hundred: Uniform shaft of a hundred stations
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: a3152934ac8258c52e8531bb1642e0caae149dd22132cb6047579d2ea37d2d4f
-# sha256 of the rest of this file: d2c33a6ca988ab94e7355388996a8031382c57a3e2756761ae05d3fe7c3e4ba3
+# scene digest: 1ec2a071f5720229c3b5c9d847fa0a44d6fa112015051ca13c1d73444e6eb10a
+# sha256 of the rest of this file: 2c0f8f79124e3d4e32f56f8316719e1a99a2f4f5c801a5dbe305c7de49d9e796
 #
 # model: torsional chain (linear)
 # stations: 100

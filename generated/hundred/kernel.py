@@ -1,8 +1,8 @@
 # hundred: Uniform shaft of a hundred stations
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: a3152934ac8258c52e8531bb1642e0caae149dd22132cb6047579d2ea37d2d4f
-# sha256 of the rest of this file: abbadc4c401a91a20fba19fc114fb5d8f2f16ec338cb88a48d41997e24bf64c5
+# scene digest: 1ec2a071f5720229c3b5c9d847fa0a44d6fa112015051ca13c1d73444e6eb10a
+# sha256 of the rest of this file: e6c0d97b9bdc9f11c6a8e03f70858dda7faf151d7c086c1bdad1ff4722868b79
 #
 # model: torsional chain (linear)
 # stations: 100

@@ -1,8 +1,8 @@
 # thesis10: Ten-station torsional chain, Gholampour (2018), table 4-1
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 5710bb166e10f184e97b3afa485de4cad13e83bb6918e415c8a1050afcb47e12
-# sha256 of the rest of this file: 25f19eb003cde086af431ee11723f7f296f3b36497dd9918a4953504b2c3bc2c
+# scene digest: ee57f7952242f19cc6be0f26d3460a304cc65a1747711d25b990a158587c6f1f
+# sha256 of the rest of this file: 20a991477cdc4dd624458d484f460e6e634b49376de7030be56a620237561057
 """thesis10: Ten-station torsional chain, Gholampour (2018), table 4-1."""
 
 from .kernel import (

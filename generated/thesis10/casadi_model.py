@@ -1,8 +1,8 @@
 # thesis10: Ten-station torsional chain, Gholampour (2018), table 4-1
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 5710bb166e10f184e97b3afa485de4cad13e83bb6918e415c8a1050afcb47e12
-# sha256 of the rest of this file: 0192ba18e62fc7eb5de07ab69ebb769f7f23d8538d73db0b0e33aaaa10133f34
+# scene digest: ee57f7952242f19cc6be0f26d3460a304cc65a1747711d25b990a158587c6f1f
+# sha256 of the rest of this file: 9bb4c8d7ba44f2c4105d0bab089d4ae3279389459ab70d981ff8d2e386c7b357
 #
 # model: torsional chain (linear)
 # stations: 10

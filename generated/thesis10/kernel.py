@@ -1,8 +1,8 @@
 # thesis10: Ten-station torsional chain, Gholampour (2018), table 4-1
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 5710bb166e10f184e97b3afa485de4cad13e83bb6918e415c8a1050afcb47e12
-# sha256 of the rest of this file: a4ee701b6a2780ca918591d5ac681a7f688583fc2bfe552a614ca95abf4bda97
+# scene digest: ee57f7952242f19cc6be0f26d3460a304cc65a1747711d25b990a158587c6f1f
+# sha256 of the rest of this file: f3c84d10f0b7e86f02a8b224dc6036362572e6c304f6c44236e56a792aa4dcd0
 #
 # model: torsional chain (linear)
 # stations: 10

@@ -1,8 +1,8 @@
 # thesis2: Two-station torsional chain, Gholampour (2018), table 3-2
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 4fdbd97419e7ff02c8d9faf01a8b79522b9a5dd593d6163ae5c751891e6cf0b2
-# sha256 of the rest of this file: a9aca20adcee872bfc3564bd1efdc1a581b24f3fe0814d44473d32449c27612c
+# scene digest: 8302c2fdab02afb73919e09c91c3abafc3d83d0760e2c0e63be40bfdc341e62e
+# sha256 of the rest of this file: b9b33522dabe4e161d726bc24cb4f4626183e80341e4413ffadf53197580877e
 """thesis2: Two-station torsional chain, Gholampour (2018), table 3-2."""
 
 from .kernel import (

@@ -1,8 +1,8 @@
 # thesis2: Two-station torsional chain, Gholampour (2018), table 3-2
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 4fdbd97419e7ff02c8d9faf01a8b79522b9a5dd593d6163ae5c751891e6cf0b2
-# sha256 of the rest of this file: 33ad1c91570e66b0d0f8bf23670804d2ab090d22ce5d50a4124e7dc9f7792ac4
+# scene digest: 8302c2fdab02afb73919e09c91c3abafc3d83d0760e2c0e63be40bfdc341e62e
+# sha256 of the rest of this file: 7141c4a880c18c4dd58d52d65cc890eec1cc8cf2a394bc1c0c870a6d709ba8d6
 #
 # model: torsional chain (linear)
 # stations: 2

@@ -1,8 +1,8 @@
 # thesis2: Two-station torsional chain, Gholampour (2018), table 3-2
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 4fdbd97419e7ff02c8d9faf01a8b79522b9a5dd593d6163ae5c751891e6cf0b2
-# sha256 of the rest of this file: 633be093ca30fa20e1b1750ff83407a6925e732c045f4951613b013cd8c73095
+# scene digest: 8302c2fdab02afb73919e09c91c3abafc3d83d0760e2c0e63be40bfdc341e62e
+# sha256 of the rest of this file: 9867859ec12fd892ddb3df94a9ba16b9e4c4284c534f264c93a48f485506bb6f
 #
 # model: torsional chain (linear)
 # stations: 2

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-__all__ = ["scenes_dir", "templates_dir"]
+__all__ = ["scenes_dir", "templates_dir", "third_party_dir"]
 
 _PACKAGE = Path(__file__).resolve().parent
 
@@ -39,3 +39,14 @@ def scenes_dir() -> Path:
         If the installation has lost it.
     """
     return _shipped("scenes")
+
+
+def third_party_dir() -> Path:
+    """Return the folder of sources by others, each with its licence.
+
+    Raises
+    ------
+    FileNotFoundError
+        If the installation has lost it.
+    """
+    return _shipped("third_party")

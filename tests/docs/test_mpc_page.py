@@ -38,7 +38,9 @@ def run(place: Path, words: list[str]) -> str:
 
 
 def test_the_tutorial_from_a_new_scene_to_a_controller_in_c(place: Path) -> None:
-    commands = [line[2:] for block in blocks("console") for line in block.splitlines() if line.startswith("$ ")]
+    commands = [
+        line[2:] for block in blocks("console") for line in block.splitlines() if line.startswith("$ ")
+    ]
     assert len(commands) >= 8
     shown = run(place, ["bash", "-euo", "pipefail", "-c", "\n".join(commands)])
     assert "beam.bending_stiffness" in shown

@@ -2,8 +2,8 @@
  * arm10: Ten-link arm swung by a hub motor
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 525c1f48f30bec4efe0533edca417c45a4e26085c7c23db491d2c2e6aa2d5335
- * sha256 of the rest of this file: dfed46466f4bf411dd2605e984c537e4104ead8284d688041b1ffb2cb7dd562f
+ * scene digest: 95c81c6eb7e0b6f1ffc37b1b0540e1023a1118b007e8b573b96cceed3f286490
+ * sha256 of the rest of this file: a1c85a8dd8723eb97becb803d172ae0ee4156182bfc5e756c8457c20e20aedd0
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 10
@@ -23,8 +23,63 @@
 #include "arm10.h"
 
 #include <math.h>
+#include <stdint.h>
 
 typedef arm10_real real;
+
+/* Sine and cosine of an angle. */
+typedef struct {
+    real sine;
+    real cosine;
+} circle;
+
+/*
+ * Sine and cosine, right within 2.5e-16 for angles up to 1647099 rad. Additions and multiplications alone, and
+ * the same ones for every angle: the same bits on every machine, in the same time.
+ */
+static circle circle_of(real angle)
+{
+    /* Sines of no, one, two, three and four quarters of a turn. */
+    static const real sine_of_quarters[5] = {
+        0.0, 1.0, 0.0, -1.0, 0.0
+    };
+    circle result;
+
+    /* So large a number that it has no digits behind the point: its last ones count quarters of a turn. */
+    const union {
+        real number;
+        uint64_t digits;
+    } counted = {angle * 0.6366197723675814 + 6755399441055744.0};
+    const uint64_t quarters = counted.digits & 3u;
+
+    /* The angle without these quarters, in three parts. One expression, so that an analyser sees how small it is. */
+    const real rest = angle
+        - ((angle * 0.6366197723675814 + 6755399441055744.0) - 6755399441055744.0) * 1.5707963267341256
+        - ((angle * 0.6366197723675814 + 6755399441055744.0) - 6755399441055744.0) * 6.077100506303966e-11
+        - ((angle * 0.6366197723675814 + 6755399441055744.0) - 6755399441055744.0) * 2.0222662487959506e-21;
+
+    /* Polynomials, of an eighth of a turn at most. */
+    const real z = rest * rest;
+    real sine = 1.5917030971117794e-10;
+    sine = -2.5051116540593934e-08 + z * sine;
+    sine = 2.7557316028832514e-06 + z * sine;
+    sine = -0.00019841269836615895 + z * sine;
+    sine = 0.008333333333330854 + z * sine;
+    sine = -0.16666666666666666 + z * sine;
+    sine = rest + rest * z * sine;
+    real cosine = -1.1381945321240986e-11;
+    cosine = 2.0876136694130206e-09 + z * cosine;
+    cosine = -2.7557317225611814e-07 + z * cosine;
+    cosine = 2.4801587298676432e-05 + z * cosine;
+    cosine = -0.001388888888888734 + z * cosine;
+    cosine = 0.041666666666666664 + z * cosine;
+    cosine = (1.0 - 0.5 * z) + z * z * cosine;
+
+    /* Theorem of addition. */
+    result.sine = sine * sine_of_quarters[quarters + 1u] + cosine * sine_of_quarters[quarters];
+    result.cosine = cosine * sine_of_quarters[quarters + 1u] - sine * sine_of_quarters[quarters];
+    return result;
+}
 
 static int inputs_are_finite(const arm10_inputs *inputs)
 {
@@ -59,8 +114,8 @@ void arm10_default_params(arm10_params *params)
 }
 
 arm10_status arm10_prepare(
-    arm10_model *restrict model,
-    const arm10_params *restrict params,
+    arm10_model *model,
+    const arm10_params *params,
     arm10_real step)
 {
     if (!isfinite(step) || !(step > 0.0)) {
@@ -77,12 +132,6 @@ arm10_status arm10_prepare(
         }
     }
 
-    /* Factors of the step that depend on the time step and parameters alone. */
-    model->step2_1_over_2 = 0.5 * (step * step);
-    model->angle_per_acceleration = 0.25 * (step * step);
-    model->factor_3 = 0.5 * (2.0 * params->hub_inertia + params->hub_damping * step);
-    model->rate_per_acceleration = 0.5 * step;
-
     /* Masses by the ends they act at, and joint impedances. */
     model->carried_mass = params->center * params->mass;
     model->inner_mass = params->mass - params->center * params->mass;
@@ -92,6 +141,12 @@ arm10_status arm10_prepare(
         model->joint_impedance[j] = 0.5 * params->damping[j] * step
             + 0.25 * (step * step) * params->stiffness[j];
     }
+
+    /* Factors of the step that depend on the time step and parameters alone. */
+    model->step2_1_over_2 = 0.5 * (step * step);
+    model->angle_per_acceleration = 0.25 * (step * step);
+    model->factor_3 = 0.5 * (2.0 * params->hub_inertia + params->hub_damping * step);
+    model->rate_per_acceleration = 0.5 * step;
 
     /* What the step needs as it is. */
     model->step = step;
@@ -111,12 +166,11 @@ arm10_status arm10_prepare(
 }
 
 arm10_status arm10_initialise(
-    arm10_state *restrict state,
-    const arm10_params *restrict params,
+    arm10_state *state,
+    const arm10_params *params,
     const arm10_real initial_angle[ARM10_STATIONS],
     const arm10_real initial_rate[ARM10_STATIONS],
-    const arm10_inputs *restrict inputs)
-
+    const arm10_inputs *inputs)
 {
     if (!inputs_are_finite(inputs)) {
         return ARM10_NON_FINITE_INPUT;
@@ -159,8 +213,13 @@ arm10_status arm10_initialise(
         predicted_angle[j + 1] = initial_angle[j];
         predicted_rate[j + 1] = initial_rate[j];
         predicted_acceleration[j + 1] = 0.0;
-        lever_sine[j] = length * sin(predicted_angle[j + 1]);
-        lever_cosine[j] = length * cos(predicted_angle[j + 1]);
+        if (!(predicted_angle[j + 1] >= -ARM10_LARGEST_ANGLE)
+            || !(predicted_angle[j + 1] <= ARM10_LARGEST_ANGLE)) {
+            return ARM10_OUT_OF_RANGE;
+        }
+        const circle turn_1 = circle_of(predicted_angle[j + 1]);
+        lever_sine[j] = length * turn_1.sine;
+        lever_cosine[j] = length * turn_1.cosine;
         const real square = predicted_rate[j + 1] * predicted_rate[j + 1];
         node_x = node_x - lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1];
         node_y = node_y + lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square;
@@ -208,13 +267,22 @@ arm10_status arm10_initialise(
             + acceleration_x[j + 1] * center * mass;
         force_y = force_y + acceleration_y[j] * (mass - center * mass)
             + acceleration_y[j + 1] * center * mass;
-        if (!(link_uu > 0.0) || !isfinite(link_uu)) {
+        if (!(link_uu > 3.814697265625e-06) || !isfinite(link_uu)) {
             return ARM10_VANISHING_PIVOT;
         }
         const real inverse_pivot = 1.0 / link_uu;
         answer_own[j] = inverse_pivot * (joint_torque - torque);
+        if (!(answer_own[j] > -536870912.0) || !(answer_own[j] < 536870912.0)) {
+            return ARM10_OUT_OF_RANGE;
+        }
         answer_x[j] = inverse_pivot * link_ux;
+        if (!(answer_x[j] > -1024.0) || !(answer_x[j] < 1024.0)) {
+            return ARM10_OUT_OF_RANGE;
+        }
         answer_y[j] = inverse_pivot * link_uy;
+        if (!(answer_y[j] > -2048.0) || !(answer_y[j] < 2048.0)) {
+            return ARM10_OUT_OF_RANGE;
+        }
         impedance_xx = link_xx - answer_x[j] * link_xu;
         impedance_xy = impedance_xy - answer_y[j] * link_xu;
         impedance_xu = 0.0;
@@ -231,7 +299,7 @@ arm10_status arm10_initialise(
 
     /* The hub. */
     const real hub_pivot = params->hub_inertia + impedance_uu;
-    if (!(hub_pivot > 0.0) || !isfinite(hub_pivot)) {
+    if (!(hub_pivot > 0.00048828125) || !isfinite(hub_pivot)) {
         return ARM10_VANISHING_PIVOT;
     }
     real unknown = (inputs->hub_torque - torque - params->hub_damping * predicted_rate[0]
@@ -267,9 +335,9 @@ arm10_status arm10_initialise(
 }
 
 arm10_status arm10_step(
-    const arm10_model *restrict model,
-    arm10_state *restrict state,
-    const arm10_inputs *restrict inputs)
+    const arm10_model *model,
+    arm10_state *state,
+    const arm10_inputs *inputs)
 {
     if (!inputs_are_finite(inputs)) {
         return ARM10_NON_FINITE_INPUT;
@@ -314,8 +382,13 @@ arm10_status arm10_step(
             + state->rate[j] * step;
         predicted_rate[j + 1] = state->rate[j] + state->acceleration[j] * step;
         predicted_acceleration[j + 1] = state->acceleration[j];
-        lever_sine[j] = length * sin(predicted_angle[j + 1]);
-        lever_cosine[j] = length * cos(predicted_angle[j + 1]);
+        if (!(predicted_angle[j + 1] >= -ARM10_LARGEST_ANGLE)
+            || !(predicted_angle[j + 1] <= ARM10_LARGEST_ANGLE)) {
+            return ARM10_OUT_OF_RANGE;
+        }
+        const circle turn_1 = circle_of(predicted_angle[j + 1]);
+        lever_sine[j] = length * turn_1.sine;
+        lever_cosine[j] = length * turn_1.cosine;
         const real square = predicted_rate[j + 1] * predicted_rate[j + 1];
         node_x = node_x - lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1];
         node_y = node_y + lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square;
@@ -367,13 +440,22 @@ arm10_status arm10_step(
         force_x = force_x + acceleration_x[j + 1] * carried_mass + acceleration_x[j] * inner_mass;
         force_y = force_y + acceleration_y[j + 1] * carried_mass + acceleration_y[j] * inner_mass;
         const real pivot = model->joint_impedance[j] + link_uu;
-        if (!(pivot > 0.0) || !isfinite(pivot)) {
+        if (!(pivot > 3.814697265625e-06) || !isfinite(pivot)) {
             return ARM10_VANISHING_PIVOT;
         }
         const real inverse_pivot = 1.0 / pivot;
         answer_own[j] = inverse_pivot * (joint_torque - torque);
+        if (!(answer_own[j] > -134217728.0) || !(answer_own[j] < 134217728.0)) {
+            return ARM10_OUT_OF_RANGE;
+        }
         answer_x[j] = inverse_pivot * link_ux;
+        if (!(answer_x[j] > -1024.0) || !(answer_x[j] < 1024.0)) {
+            return ARM10_OUT_OF_RANGE;
+        }
         answer_y[j] = inverse_pivot * link_uy;
+        if (!(answer_y[j] > -1024.0) || !(answer_y[j] < 1024.0)) {
+            return ARM10_OUT_OF_RANGE;
+        }
         answer_from_inner[j] = inverse_pivot * model->joint_impedance[j];
         impedance_xx = link_xx - answer_x[j] * link_xu;
         impedance_xy = impedance_xy - answer_y[j] * link_xu;
@@ -391,7 +473,7 @@ arm10_status arm10_step(
 
     /* The hub. */
     const real hub_pivot = model->factor_3 + impedance_uu;
-    if (!(hub_pivot > 0.0) || !isfinite(hub_pivot)) {
+    if (!(hub_pivot > 0.00048828125) || !isfinite(hub_pivot)) {
         return ARM10_VANISHING_PIVOT;
     }
     real unknown = (inputs->hub_torque - torque - model->hub_damping * predicted_rate[0]
@@ -424,9 +506,9 @@ arm10_status arm10_step(
 }
 
 void arm10_output(
-    const arm10_model *restrict model,
-    const arm10_state *restrict state,
-    arm10_outputs *restrict outputs)
+    const arm10_model *model,
+    const arm10_state *state,
+    arm10_outputs *outputs)
 {
     const real length = model->length;
 
@@ -434,8 +516,9 @@ void arm10_output(
     outputs->tip_x = 0.0;
     outputs->tip_y = 0.0;
     for (int j = 0; j < ARM10_STATIONS; ++j) {
-        outputs->tip_x = outputs->tip_x + length * cos(state->angle[j]);
-        outputs->tip_y = outputs->tip_y + length * sin(state->angle[j]);
+        const circle turn_1 = circle_of(state->angle[j]);
+        outputs->tip_x = outputs->tip_x + length * turn_1.cosine;
+        outputs->tip_y = outputs->tip_y + length * turn_1.sine;
     }
 
     /* Hub: angle. */

@@ -2,8 +2,8 @@
  * arm10: Ten-link arm swung by a hub motor
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 525c1f48f30bec4efe0533edca417c45a4e26085c7c23db491d2c2e6aa2d5335
- * sha256 of the rest of this file: fa1a8a9a48b5f42fe3e4afde285921eaf3f1e2de1eddab9a87404e62bc7d6ed7
+ * scene digest: 95c81c6eb7e0b6f1ffc37b1b0540e1023a1118b007e8b573b96cceed3f286490
+ * sha256 of the rest of this file: e1866a8df93714b3e47c80b183ae406745911d6c6bf976ad0f5b2ad81e462fc3
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 10
@@ -37,6 +37,9 @@ extern "C" {
 /** The scene's time step [s]. */
 #define ARM10_STEP 0.001
 
+/** Largest angle, either way, of which a step takes sine and cosine [rad]. */
+#define ARM10_LARGEST_ANGLE 1647099.0
+
 /** Type of all numbers. */
 typedef double arm10_real;
 
@@ -51,7 +54,10 @@ typedef enum {
     /** No passive arm has such parameters (a negative inertia, say); the model is of no use. */
     ARM10_VANISHING_PIVOT,
     /** The motion has outgrown the number type; initialise anew. */
-    ARM10_NON_FINITE_STATE
+    ARM10_NON_FINITE_STATE,
+    /** An angle is beyond ARM10_LARGEST_ANGLE, or an intermediate result is beyond what the box of the scene
+     * can lead to; nothing was changed. */
+    ARM10_OUT_OF_RANGE
 } arm10_status;
 
 /** Physical parameters. */
@@ -141,15 +147,14 @@ arm10_status arm10_prepare(
  * @param[in]  initial_angle  angles to start from [rad]
  * @param[in]  initial_rate  rates to start from [rad/s]
  * @param[in]  inputs  what acts at the initial instant
- * @return OK, NON_FINITE_INPUT, VANISHING_PIVOT or NON_FINITE_STATE
+ * @return OK, NON_FINITE_INPUT, VANISHING_PIVOT, NON_FINITE_STATE or OUT_OF_RANGE
  */
 arm10_status arm10_initialise(
     arm10_state *state,
     const arm10_params *params,
     const arm10_real initial_angle[ARM10_STATIONS],
     const arm10_real initial_rate[ARM10_STATIONS],
-    const arm10_inputs *inputs)
-;
+    const arm10_inputs *inputs);
 
 /**
  * Advance the state by one step.
@@ -157,7 +162,7 @@ arm10_status arm10_initialise(
  * @param[in]     model   from arm10_prepare()
  * @param[in,out] state   motion before the step, and after it
  * @param[in]     inputs  what acts, at the end of the step
- * @return OK, NON_FINITE_INPUT, VANISHING_PIVOT or NON_FINITE_STATE
+ * @return OK, NON_FINITE_INPUT, VANISHING_PIVOT, NON_FINITE_STATE or OUT_OF_RANGE
  */
 arm10_status arm10_step(
     const arm10_model *model,

@@ -2,8 +2,8 @@
  * arm10: Ten-link arm swung by a hub motor
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 525c1f48f30bec4efe0533edca417c45a4e26085c7c23db491d2c2e6aa2d5335
- * sha256 of the rest of this file: 1a6ed22386675d299181f6ad20e019aaddc5bfba1c9d3e3301d5f26a1183e866
+ * scene digest: 95c81c6eb7e0b6f1ffc37b1b0540e1023a1118b007e8b573b96cceed3f286490
+ * sha256 of the rest of this file: 2a02f762e45bf993522645b785742db4091bc9c069c31d519420946c430b891c
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 10

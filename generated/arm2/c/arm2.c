@@ -2,8 +2,8 @@
  * arm2: Two unlike links swung by a motor
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: ce631ab7b67541b39d008a903917f57db75c263fa5530caf3c1a93f3ab3ddcc0
- * sha256 of the rest of this file: dacfb747f15fba2537c2ef268f04c6a181b09da2dd7f1972248bf9a78a98b0b8
+ * scene digest: c5e09abbb61734735cef8cfddf39dd959eb5765da3ad6484bed2957b4fdf212c
+ * sha256 of the rest of this file: 9f116839781faaf696e10e67341278933f9b02f11ff935c06118a2b3b0a0ef58
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 2
@@ -79,8 +79,8 @@ void arm2_default_params(arm2_params *params)
 }
 
 arm2_status arm2_prepare(
-    arm2_model *restrict model,
-    const arm2_params *restrict params,
+    arm2_model *model,
+    const arm2_params *params,
     arm2_real step)
 {
     if (!isfinite(step) || !(step > 0.0)) {
@@ -98,12 +98,6 @@ arm2_status arm2_prepare(
         return ARM2_NON_FINITE_INPUT;
     }
 
-    /* Factors of the step that depend on the time step and parameters alone. */
-    model->step2_1_over_2 = 0.5 * (step * step);
-    model->angle_per_acceleration = 0.25 * (step * step);
-    model->factor_3 = 0.5 * (2.0 * params->hub_inertia + params->hub_damping * step);
-    model->rate_per_acceleration = 0.5 * step;
-
     /* Masses by the ends they act at, and joint impedances. */
     for (int j = 0; j < ARM2_STATIONS; ++j) {
         model->carried_mass[j] = params->center[j] * params->mass[j];
@@ -114,6 +108,12 @@ arm2_status arm2_prepare(
         model->joint_impedance[j] = 0.5 * params->damping[j] * step
             + 0.25 * (step * step) * params->stiffness[j];
     }
+
+    /* Factors of the step that depend on the time step and parameters alone. */
+    model->step2_1_over_2 = 0.5 * (step * step);
+    model->angle_per_acceleration = 0.25 * (step * step);
+    model->factor_3 = 0.5 * (2.0 * params->hub_inertia + params->hub_damping * step);
+    model->rate_per_acceleration = 0.5 * step;
 
     /* What the step needs as it is. */
     model->step = step;
@@ -138,12 +138,11 @@ arm2_status arm2_prepare(
 }
 
 arm2_status arm2_initialise(
-    arm2_state *restrict state,
-    const arm2_params *restrict params,
+    arm2_state *state,
+    const arm2_params *params,
     const arm2_real initial_angle[ARM2_STATIONS],
     const arm2_real initial_rate[ARM2_STATIONS],
-    const arm2_inputs *restrict inputs)
-
+    const arm2_inputs *inputs)
 {
     if (!inputs_are_finite(inputs)) {
         return ARM2_NON_FINITE_INPUT;
@@ -295,9 +294,9 @@ arm2_status arm2_initialise(
 }
 
 arm2_status arm2_step(
-    const arm2_model *restrict model,
-    arm2_state *restrict state,
-    const arm2_inputs *restrict inputs)
+    const arm2_model *model,
+    arm2_state *state,
+    const arm2_inputs *inputs)
 {
     if (!inputs_are_finite(inputs)) {
         return ARM2_NON_FINITE_INPUT;
@@ -449,9 +448,9 @@ arm2_status arm2_step(
 }
 
 void arm2_output(
-    const arm2_model *restrict model,
-    const arm2_state *restrict state,
-    arm2_outputs *restrict outputs)
+    const arm2_model *model,
+    const arm2_state *state,
+    arm2_outputs *outputs)
 {
     /* Tip: position. */
     outputs->tip_x = 0.0;

@@ -2,8 +2,8 @@
  * arm2: Two unlike links swung by a motor
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: ce631ab7b67541b39d008a903917f57db75c263fa5530caf3c1a93f3ab3ddcc0
- * sha256 of the rest of this file: bdbf0c86f47690a136e7d985fb642a53e5b542e4e8906072fb003af2fc202097
+ * scene digest: c5e09abbb61734735cef8cfddf39dd959eb5765da3ad6484bed2957b4fdf212c
+ * sha256 of the rest of this file: 59ad755ba64096b6995ad0574a1f7c89dc23742859b642201dc7ba0fe04b681b
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 2
@@ -148,8 +148,7 @@ arm2_status arm2_initialise(
     const arm2_params *params,
     const arm2_real initial_angle[ARM2_STATIONS],
     const arm2_real initial_rate[ARM2_STATIONS],
-    const arm2_inputs *inputs)
-;
+    const arm2_inputs *inputs);
 
 /**
  * Advance the state by one step.

@@ -2,8 +2,8 @@
  * arm50: Stiff arm of fifty links on a servo
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 9874dff5d90e21876dbd2271ff786b55b83dc2e6467819bdcfde7e890f954cb6
- * sha256 of the rest of this file: 48800f5bed37304f2ae3c91777cab8e07c279e919a41ddb881ab8f3d199e13c2
+ * scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
+ * sha256 of the rest of this file: 4c63d04dee3bc40c9f8f236b0471ed5ea51b923750401c6a05bf35da7b4d73b4
  *
  * model: planar arm, large rotations, tip mass
  * stations: 50
@@ -66,8 +66,8 @@ void arm50_default_params(arm50_params *params)
 }
 
 arm50_status arm50_prepare(
-    arm50_model *restrict model,
-    const arm50_params *restrict params,
+    arm50_model *model,
+    const arm50_params *params,
     arm50_real step)
 {
     if (!isfinite(step) || !(step > 0.0)) {
@@ -81,6 +81,16 @@ arm50_status arm50_prepare(
         if (!isfinite(params->stiffness[j]) || !isfinite(params->damping[j])) {
             return ARM50_NON_FINITE_INPUT;
         }
+    }
+
+    /* Masses by the ends they act at, and joint impedances. */
+    model->carried_mass = params->center * params->mass;
+    model->inner_mass = params->mass - params->center * params->mass;
+    model->pin_inertia = params->inertia
+        + params->center * params->center * (params->length * params->length) * params->mass;
+    for (int j = 0; j < ARM50_STATIONS; ++j) {
+        model->joint_impedance[j] = 0.25 * params->damping[j] * step
+            + 0.0625 * (step * step) * params->stiffness[j];
     }
 
     /* Factors of the step that depend on the time step and parameters alone. */
@@ -114,16 +124,6 @@ arm50_status arm50_prepare(
     model->factor_28 = params->mass * (params->center - 1.0);
     model->factor_29 = params->center * params->mass;
 
-    /* Masses by the ends they act at, and joint impedances. */
-    model->carried_mass = params->center * params->mass;
-    model->inner_mass = params->mass - params->center * params->mass;
-    model->pin_inertia = params->inertia
-        + params->center * params->center * (params->length * params->length) * params->mass;
-    for (int j = 0; j < ARM50_STATIONS; ++j) {
-        model->joint_impedance[j] = 0.25 * params->damping[j] * step
-            + 0.0625 * (step * step) * params->stiffness[j];
-    }
-
     /* What the step needs as it is. */
     model->length = params->length;
     model->mass = params->mass;
@@ -139,12 +139,11 @@ arm50_status arm50_prepare(
 }
 
 arm50_status arm50_initialise(
-    arm50_state *restrict state,
-    const arm50_params *restrict params,
+    arm50_state *state,
+    const arm50_params *params,
     const arm50_real initial_angle[ARM50_STATIONS],
     const arm50_real initial_rate[ARM50_STATIONS],
-    const arm50_inputs *restrict inputs)
-
+    const arm50_inputs *inputs)
 {
     if (!inputs_are_finite(inputs)) {
         return ARM50_NON_FINITE_INPUT;
@@ -290,9 +289,9 @@ arm50_status arm50_initialise(
 }
 
 arm50_status arm50_step(
-    const arm50_model *restrict model,
-    arm50_state *restrict state,
-    const arm50_inputs *restrict inputs)
+    const arm50_model *model,
+    arm50_state *state,
+    const arm50_inputs *inputs)
 {
     if (!inputs_are_finite(inputs)) {
         return ARM50_NON_FINITE_INPUT;
@@ -931,9 +930,9 @@ arm50_status arm50_step(
 }
 
 void arm50_output(
-    const arm50_model *restrict model,
-    const arm50_state *restrict state,
-    arm50_outputs *restrict outputs)
+    const arm50_model *model,
+    const arm50_state *state,
+    arm50_outputs *outputs)
 {
     const real length = model->length;
     const real factor_28 = model->factor_28;

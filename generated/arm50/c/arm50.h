@@ -2,8 +2,8 @@
  * arm50: Stiff arm of fifty links on a servo
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 9874dff5d90e21876dbd2271ff786b55b83dc2e6467819bdcfde7e890f954cb6
- * sha256 of the rest of this file: 196ffb204a11f80fef7fbc0afaefc84f2ada8c7c4aab506299d734b8b25da308
+ * scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
+ * sha256 of the rest of this file: 59f88805c2a6caeb07330d762aab54ce6214f03b677ad11248cc230f32e533aa
  *
  * model: planar arm, large rotations, tip mass
  * stations: 50
@@ -173,8 +173,7 @@ arm50_status arm50_initialise(
     const arm50_params *params,
     const arm50_real initial_angle[ARM50_STATIONS],
     const arm50_real initial_rate[ARM50_STATIONS],
-    const arm50_inputs *inputs)
-;
+    const arm50_inputs *inputs);
 
 /**
  * Advance the state by one step.

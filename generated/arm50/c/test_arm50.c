@@ -2,8 +2,8 @@
  * arm50: Stiff arm of fifty links on a servo
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 9874dff5d90e21876dbd2271ff786b55b83dc2e6467819bdcfde7e890f954cb6
- * sha256 of the rest of this file: 3399f0411a55450737282e3bdeebc575935db7b8b4f404b99497ad7a62a85bee
+ * scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
+ * sha256 of the rest of this file: 84fee3526f4457d969abc33243d38e62837316018d7d75ec6340ad0d7e099db4
  *
  * model: planar arm, large rotations, tip mass
  * stations: 50

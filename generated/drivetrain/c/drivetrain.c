@@ -2,8 +2,8 @@
  * drivetrain: Servo drive with gearbox, roller, brake and encoder
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 4ef6e83f7b983f9b3916fd8784109ad0b9257c6846d06f8cdd99f62ef9379a40
- * sha256 of the rest of this file: 5c658ab5ae44c4a385f99164521d2ec2cc087aa9d98fe3711bf49d9cd3e7d161
+ * scene digest: 260c88ca5ffe6b93ea5946fad67187e547942573db1dc2f710bcd9a0610b8738
+ * sha256 of the rest of this file: c01fc0ead76b77f3b7fbd0e9c240857b98487621ff0fe7abc69f52e6ff599be9
  *
  * model: torsional chain (linear)
  * stations: 6
@@ -57,8 +57,8 @@ void drivetrain_default_params(drivetrain_params *params)
 }
 
 drivetrain_status drivetrain_prepare(
-    drivetrain_model *restrict model,
-    const drivetrain_params *restrict params,
+    drivetrain_model *model,
+    const drivetrain_params *params,
     drivetrain_real step)
 {
     if (!isfinite(step) || !(step > 0.0)) {
@@ -117,12 +117,11 @@ drivetrain_status drivetrain_prepare(
 }
 
 drivetrain_status drivetrain_initialise(
-    drivetrain_state *restrict state,
-    const drivetrain_params *restrict params,
+    drivetrain_state *state,
+    const drivetrain_params *params,
     const drivetrain_real initial_angle[DRIVETRAIN_STATIONS],
     const drivetrain_real initial_rate[DRIVETRAIN_STATIONS],
-    const drivetrain_inputs *restrict inputs)
-
+    const drivetrain_inputs *inputs)
 {
     if (!inputs_are_finite(inputs)) {
         return DRIVETRAIN_NON_FINITE_INPUT;
@@ -189,9 +188,9 @@ drivetrain_status drivetrain_initialise(
 }
 
 drivetrain_status drivetrain_step(
-    const drivetrain_model *restrict model,
-    drivetrain_state *restrict state,
-    const drivetrain_inputs *restrict inputs)
+    const drivetrain_model *model,
+    drivetrain_state *state,
+    const drivetrain_inputs *inputs)
 {
     if (!inputs_are_finite(inputs)) {
         return DRIVETRAIN_NON_FINITE_INPUT;
@@ -263,9 +262,9 @@ drivetrain_status drivetrain_step(
 }
 
 void drivetrain_output(
-    const drivetrain_model *restrict model,
-    const drivetrain_state *restrict state,
-    drivetrain_outputs *restrict outputs)
+    const drivetrain_model *model,
+    const drivetrain_state *state,
+    drivetrain_outputs *outputs)
 {
     /* Outputs. */
     outputs->motor_speed = state->hub_rate;

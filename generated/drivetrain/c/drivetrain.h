@@ -2,8 +2,8 @@
  * drivetrain: Servo drive with gearbox, roller, brake and encoder
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 4ef6e83f7b983f9b3916fd8784109ad0b9257c6846d06f8cdd99f62ef9379a40
- * sha256 of the rest of this file: 3894dd92521b22abc87c624f1e384b83214f37a70469aaed5e5965f49dbbbd75
+ * scene digest: 260c88ca5ffe6b93ea5946fad67187e547942573db1dc2f710bcd9a0610b8738
+ * sha256 of the rest of this file: e70adb07b78e2d139f6d805db43d20104ce58cd3b51b0ab0fe38b0db56e3563f
  *
  * model: torsional chain (linear)
  * stations: 6
@@ -160,8 +160,7 @@ drivetrain_status drivetrain_initialise(
     const drivetrain_params *params,
     const drivetrain_real initial_angle[DRIVETRAIN_STATIONS],
     const drivetrain_real initial_rate[DRIVETRAIN_STATIONS],
-    const drivetrain_inputs *inputs)
-;
+    const drivetrain_inputs *inputs);
 
 /**
  * Advance the state by one step.

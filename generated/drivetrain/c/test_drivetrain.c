@@ -2,8 +2,8 @@
  * drivetrain: Servo drive with gearbox, roller, brake and encoder
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 4ef6e83f7b983f9b3916fd8784109ad0b9257c6846d06f8cdd99f62ef9379a40
- * sha256 of the rest of this file: 4ae769a259e83ed8dd44cbd837c7b352d6c093577aebd5d7c0283316826297d7
+ * scene digest: 260c88ca5ffe6b93ea5946fad67187e547942573db1dc2f710bcd9a0610b8738
+ * sha256 of the rest of this file: 84b51d838472659f7c045e1309d68e7f7f814f89b4a525b2faffa9762bf5b2a9
  *
  * model: torsional chain (linear)
  * stations: 6

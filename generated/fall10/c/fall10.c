@@ -2,8 +2,8 @@
  * fall10: Soft clamped beam falling under its own weight
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 7fb53ee7611dfaa9a6a8f9157801d68007a3a764d7f41a8fa8cf16397006e130
- * sha256 of the rest of this file: c3da5e751999846b1a34b69c4a521cffe37bc1dc4f6a6780495cb1bf8828af55
+ * scene digest: 225557ccb20983327784b6fc8326b9127fb185b183a5e99d150385ab258b9303
+ * sha256 of the rest of this file: 5d06ffca2997514547389a7a0cd2f744bca6d533614cb317caefb86421b9ee2a
  *
  * model: planar arm, large rotations, gravity
  * stations: 10
@@ -48,8 +48,8 @@ void fall10_default_params(fall10_params *params)
 }
 
 fall10_status fall10_prepare(
-    fall10_model *restrict model,
-    const fall10_params *restrict params,
+    fall10_model *model,
+    const fall10_params *params,
     fall10_real step)
 {
     if (!isfinite(step) || !(step > 0.0)) {
@@ -65,11 +65,6 @@ fall10_status fall10_prepare(
         }
     }
 
-    /* Factors of the step that depend on the time step and parameters alone. */
-    model->step2_1_over_2 = 0.5 * (step * step);
-    model->angle_per_acceleration = 0.25 * (step * step);
-    model->rate_per_acceleration = 0.5 * step;
-
     /* Masses by the ends they act at, and joint impedances. */
     model->carried_mass = params->center * params->mass;
     model->inner_mass = params->mass - params->center * params->mass;
@@ -79,6 +74,11 @@ fall10_status fall10_prepare(
         model->joint_impedance[j] = 0.5 * params->damping[j] * step
             + 0.25 * (step * step) * params->stiffness[j];
     }
+
+    /* Factors of the step that depend on the time step and parameters alone. */
+    model->step2_1_over_2 = 0.5 * (step * step);
+    model->angle_per_acceleration = 0.25 * (step * step);
+    model->rate_per_acceleration = 0.5 * step;
 
     /* What the step needs as it is. */
     model->step = step;
@@ -95,12 +95,11 @@ fall10_status fall10_prepare(
 }
 
 fall10_status fall10_initialise(
-    fall10_state *restrict state,
-    const fall10_params *restrict params,
+    fall10_state *state,
+    const fall10_params *params,
     const fall10_real initial_angle[FALL10_STATIONS],
     const fall10_real initial_rate[FALL10_STATIONS],
-    const fall10_inputs *restrict inputs)
-
+    const fall10_inputs *inputs)
 {
     for (int j = 0; j < FALL10_STATIONS; ++j) {
         if (!isfinite(initial_angle[j]) || !isfinite(initial_rate[j])) {
@@ -235,9 +234,9 @@ fall10_status fall10_initialise(
 }
 
 fall10_status fall10_step(
-    const fall10_model *restrict model,
-    fall10_state *restrict state,
-    const fall10_inputs *restrict inputs)
+    const fall10_model *model,
+    fall10_state *state,
+    const fall10_inputs *inputs)
 {
     (void)inputs;
 
@@ -379,9 +378,9 @@ fall10_status fall10_step(
 }
 
 void fall10_output(
-    const fall10_model *restrict model,
-    const fall10_state *restrict state,
-    fall10_outputs *restrict outputs)
+    const fall10_model *model,
+    const fall10_state *state,
+    fall10_outputs *outputs)
 {
     const real length = model->length;
 

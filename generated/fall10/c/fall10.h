@@ -2,8 +2,8 @@
  * fall10: Soft clamped beam falling under its own weight
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 7fb53ee7611dfaa9a6a8f9157801d68007a3a764d7f41a8fa8cf16397006e130
- * sha256 of the rest of this file: 416a009ab69c110ad50f37d6421fb87e77e1ef11e86789bf6bf4397fda69c702
+ * scene digest: 225557ccb20983327784b6fc8326b9127fb185b183a5e99d150385ab258b9303
+ * sha256 of the rest of this file: a816e0a8872b3ddb02c65d9d25e6eb405ef5cc7e940570c71d22d02c0756673b
  *
  * model: planar arm, large rotations, gravity
  * stations: 10
@@ -138,8 +138,7 @@ fall10_status fall10_initialise(
     const fall10_params *params,
     const fall10_real initial_angle[FALL10_STATIONS],
     const fall10_real initial_rate[FALL10_STATIONS],
-    const fall10_inputs *inputs)
-;
+    const fall10_inputs *inputs);
 
 /**
  * Advance the state by one step.

@@ -2,8 +2,8 @@
  * fall10: Soft clamped beam falling under its own weight
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 7fb53ee7611dfaa9a6a8f9157801d68007a3a764d7f41a8fa8cf16397006e130
- * sha256 of the rest of this file: 8e60bbb0906350371403858bc3427552442f22e93324ec72e5d0ac043987faf5
+ * scene digest: 225557ccb20983327784b6fc8326b9127fb185b183a5e99d150385ab258b9303
+ * sha256 of the rest of this file: 3b2263ce0603b68d677943193a35841f3c944956d912da1e3b3a968cdc1bede2
  *
  * model: planar arm, large rotations, gravity
  * stations: 10

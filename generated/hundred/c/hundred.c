@@ -2,8 +2,8 @@
  * hundred: Uniform shaft of a hundred stations
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: a3152934ac8258c52e8531bb1642e0caae149dd22132cb6047579d2ea37d2d4f
- * sha256 of the rest of this file: 19432782ef2113c2be549f8c16ad5e2b792a21c62c1e0236aab8cc0ccdd602dc
+ * scene digest: 1ec2a071f5720229c3b5c9d847fa0a44d6fa112015051ca13c1d73444e6eb10a
+ * sha256 of the rest of this file: 1e21c045c11fc73eeffac3b3f0ca5c1f91dc13aafa9cd54564d35f959f525f98
  *
  * model: torsional chain (linear)
  * stations: 100
@@ -40,8 +40,8 @@ void hundred_default_params(hundred_params *params)
 }
 
 hundred_status hundred_prepare(
-    hundred_model *restrict model,
-    const hundred_params *restrict params,
+    hundred_model *model,
+    const hundred_params *params,
     hundred_real step)
 {
     if (!isfinite(step) || !(step > 0.0)) {
@@ -80,12 +80,11 @@ hundred_status hundred_prepare(
 }
 
 hundred_status hundred_initialise(
-    hundred_state *restrict state,
-    const hundred_params *restrict params,
+    hundred_state *state,
+    const hundred_params *params,
     const hundred_real initial_angle[HUNDRED_STATIONS],
     const hundred_real initial_rate[HUNDRED_STATIONS],
-    const hundred_inputs *restrict inputs)
-
+    const hundred_inputs *inputs)
 {
     if (!inputs_are_finite(inputs)) {
         return HUNDRED_NON_FINITE_INPUT;
@@ -136,9 +135,9 @@ hundred_status hundred_initialise(
 }
 
 hundred_status hundred_step(
-    const hundred_model *restrict model,
-    hundred_state *restrict state,
-    const hundred_inputs *restrict inputs)
+    const hundred_model *model,
+    hundred_state *state,
+    const hundred_inputs *inputs)
 {
     if (!inputs_are_finite(inputs)) {
         return HUNDRED_NON_FINITE_INPUT;
@@ -193,9 +192,9 @@ hundred_status hundred_step(
 }
 
 void hundred_output(
-    const hundred_model *restrict model,
-    const hundred_state *restrict state,
-    hundred_outputs *restrict outputs)
+    const hundred_model *model,
+    const hundred_state *state,
+    hundred_outputs *outputs)
 {
     /* Outputs. */
     outputs->tip = state->angle[99];

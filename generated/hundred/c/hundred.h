@@ -2,8 +2,8 @@
  * hundred: Uniform shaft of a hundred stations
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: a3152934ac8258c52e8531bb1642e0caae149dd22132cb6047579d2ea37d2d4f
- * sha256 of the rest of this file: 22a8320ecdda34ec584c1b8b601c9b36cd35e15bef3a2a8cda253616944ddb53
+ * scene digest: 1ec2a071f5720229c3b5c9d847fa0a44d6fa112015051ca13c1d73444e6eb10a
+ * sha256 of the rest of this file: 2745826968c76c0abc720b337d18328b46ae93949909938471ca6c62cfcc13cc
  *
  * model: torsional chain (linear)
  * stations: 100
@@ -125,8 +125,7 @@ hundred_status hundred_initialise(
     const hundred_params *params,
     const hundred_real initial_angle[HUNDRED_STATIONS],
     const hundred_real initial_rate[HUNDRED_STATIONS],
-    const hundred_inputs *inputs)
-;
+    const hundred_inputs *inputs);
 
 /**
  * Advance the state by one step.

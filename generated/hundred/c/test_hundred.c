@@ -2,8 +2,8 @@
  * hundred: Uniform shaft of a hundred stations
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: a3152934ac8258c52e8531bb1642e0caae149dd22132cb6047579d2ea37d2d4f
- * sha256 of the rest of this file: 6301e08e4231ca52a680f22b4075642c29ca451ad5f855bb36bfda9a2e5c1daa
+ * scene digest: 1ec2a071f5720229c3b5c9d847fa0a44d6fa112015051ca13c1d73444e6eb10a
+ * sha256 of the rest of this file: 5bd705d84341486c0577ddf5a73b7852be1d18d3d63d7deed5a30768291b5746
  *
  * model: torsional chain (linear)
  * stations: 100

@@ -2,8 +2,8 @@
  * thesis10: Ten-station torsional chain, Gholampour (2018), table 4-1
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 5710bb166e10f184e97b3afa485de4cad13e83bb6918e415c8a1050afcb47e12
- * sha256 of the rest of this file: 845a472d7cef6fe0c81b09612aa32e75d88f18850a1fec9e1e03833256bd8349
+ * scene digest: ee57f7952242f19cc6be0f26d3460a304cc65a1747711d25b990a158587c6f1f
+ * sha256 of the rest of this file: c269f5493f4764942e156ec8a435bc6b8284abde52e23466ec7b67afc5fc82bc
  *
  * model: torsional chain (linear)
  * stations: 10

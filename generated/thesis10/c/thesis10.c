@@ -2,8 +2,8 @@
  * thesis10: Ten-station torsional chain, Gholampour (2018), table 4-1
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 5710bb166e10f184e97b3afa485de4cad13e83bb6918e415c8a1050afcb47e12
- * sha256 of the rest of this file: 27c4ed90413b65447db232f8545cf05b74279519b326ffb5b7666cea16726ad9
+ * scene digest: ee57f7952242f19cc6be0f26d3460a304cc65a1747711d25b990a158587c6f1f
+ * sha256 of the rest of this file: 0474a6b27c60d02a11259f8b1977b44da27ff175ec298350710db539d32fff53
  *
  * model: torsional chain (linear)
  * stations: 10
@@ -40,8 +40,8 @@ void thesis10_default_params(thesis10_params *params)
 }
 
 thesis10_status thesis10_prepare(
-    thesis10_model *restrict model,
-    const thesis10_params *restrict params,
+    thesis10_model *model,
+    const thesis10_params *params,
     thesis10_real step)
 {
     if (!isfinite(step) || !(step > 0.0)) {
@@ -80,12 +80,11 @@ thesis10_status thesis10_prepare(
 }
 
 thesis10_status thesis10_initialise(
-    thesis10_state *restrict state,
-    const thesis10_params *restrict params,
+    thesis10_state *state,
+    const thesis10_params *params,
     const thesis10_real initial_angle[THESIS10_STATIONS],
     const thesis10_real initial_rate[THESIS10_STATIONS],
-    const thesis10_inputs *restrict inputs)
-
+    const thesis10_inputs *inputs)
 {
     if (!inputs_are_finite(inputs)) {
         return THESIS10_NON_FINITE_INPUT;
@@ -136,9 +135,9 @@ thesis10_status thesis10_initialise(
 }
 
 thesis10_status thesis10_step(
-    const thesis10_model *restrict model,
-    thesis10_state *restrict state,
-    const thesis10_inputs *restrict inputs)
+    const thesis10_model *model,
+    thesis10_state *state,
+    const thesis10_inputs *inputs)
 {
     if (!inputs_are_finite(inputs)) {
         return THESIS10_NON_FINITE_INPUT;
@@ -193,9 +192,9 @@ thesis10_status thesis10_step(
 }
 
 void thesis10_output(
-    const thesis10_model *restrict model,
-    const thesis10_state *restrict state,
-    thesis10_outputs *restrict outputs)
+    const thesis10_model *model,
+    const thesis10_state *state,
+    thesis10_outputs *outputs)
 {
     /* Outputs. */
     outputs->tip = state->angle[9];

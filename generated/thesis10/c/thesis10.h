@@ -2,8 +2,8 @@
  * thesis10: Ten-station torsional chain, Gholampour (2018), table 4-1
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 5710bb166e10f184e97b3afa485de4cad13e83bb6918e415c8a1050afcb47e12
- * sha256 of the rest of this file: 621618e9ef80f79190c19bc6e43a390d603d9231e2d11f3b0cb41da9620f8027
+ * scene digest: ee57f7952242f19cc6be0f26d3460a304cc65a1747711d25b990a158587c6f1f
+ * sha256 of the rest of this file: 5684f682f49e73c3f03ae3c46c376cf3f383614c1e76def010e3e5042fa15939
  *
  * model: torsional chain (linear)
  * stations: 10
@@ -124,8 +124,7 @@ thesis10_status thesis10_initialise(
     const thesis10_params *params,
     const thesis10_real initial_angle[THESIS10_STATIONS],
     const thesis10_real initial_rate[THESIS10_STATIONS],
-    const thesis10_inputs *inputs)
-;
+    const thesis10_inputs *inputs);
 
 /**
  * Advance the state by one step.

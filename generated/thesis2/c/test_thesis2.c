@@ -2,8 +2,8 @@
  * thesis2: Two-station torsional chain, Gholampour (2018), table 3-2
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 4fdbd97419e7ff02c8d9faf01a8b79522b9a5dd593d6163ae5c751891e6cf0b2
- * sha256 of the rest of this file: 47df272ffde629f3c502a101b061f07e302917df68326ef75520589d69898b96
+ * scene digest: 8302c2fdab02afb73919e09c91c3abafc3d83d0760e2c0e63be40bfdc341e62e
+ * sha256 of the rest of this file: 396c17ce4888f20c4d86ec811adcdb9f8ff75c551f0ec2d74ba7291c77d9e1e0
  *
  * model: torsional chain (linear)
  * stations: 2

@@ -2,8 +2,8 @@
  * thesis2: Two-station torsional chain, Gholampour (2018), table 3-2
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 4fdbd97419e7ff02c8d9faf01a8b79522b9a5dd593d6163ae5c751891e6cf0b2
- * sha256 of the rest of this file: e1472b6a428089e59000c3551d76f938a34a4e95eb81b7223d43ea315919fd97
+ * scene digest: 8302c2fdab02afb73919e09c91c3abafc3d83d0760e2c0e63be40bfdc341e62e
+ * sha256 of the rest of this file: d6751623d7ce7e55e491b5b3bc489cc6b5cd3b09b52a074fc952e6c0bab0c88b
  *
  * model: torsional chain (linear)
  * stations: 2
@@ -40,8 +40,8 @@ void thesis2_default_params(thesis2_params *params)
 }
 
 thesis2_status thesis2_prepare(
-    thesis2_model *restrict model,
-    const thesis2_params *restrict params,
+    thesis2_model *model,
+    const thesis2_params *params,
     thesis2_real step)
 {
     if (!isfinite(step) || !(step > 0.0)) {
@@ -80,12 +80,11 @@ thesis2_status thesis2_prepare(
 }
 
 thesis2_status thesis2_initialise(
-    thesis2_state *restrict state,
-    const thesis2_params *restrict params,
+    thesis2_state *state,
+    const thesis2_params *params,
     const thesis2_real initial_angle[THESIS2_STATIONS],
     const thesis2_real initial_rate[THESIS2_STATIONS],
-    const thesis2_inputs *restrict inputs)
-
+    const thesis2_inputs *inputs)
 {
     if (!inputs_are_finite(inputs)) {
         return THESIS2_NON_FINITE_INPUT;
@@ -136,9 +135,9 @@ thesis2_status thesis2_initialise(
 }
 
 thesis2_status thesis2_step(
-    const thesis2_model *restrict model,
-    thesis2_state *restrict state,
-    const thesis2_inputs *restrict inputs)
+    const thesis2_model *model,
+    thesis2_state *state,
+    const thesis2_inputs *inputs)
 {
     if (!inputs_are_finite(inputs)) {
         return THESIS2_NON_FINITE_INPUT;
@@ -193,9 +192,9 @@ thesis2_status thesis2_step(
 }
 
 void thesis2_output(
-    const thesis2_model *restrict model,
-    const thesis2_state *restrict state,
-    thesis2_outputs *restrict outputs)
+    const thesis2_model *model,
+    const thesis2_state *state,
+    thesis2_outputs *outputs)
 {
     /* Outputs. */
     outputs->tip = state->angle[1];

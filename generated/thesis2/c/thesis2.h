@@ -2,8 +2,8 @@
  * thesis2: Two-station torsional chain, Gholampour (2018), table 3-2
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 4fdbd97419e7ff02c8d9faf01a8b79522b9a5dd593d6163ae5c751891e6cf0b2
- * sha256 of the rest of this file: 34bb46e2f14cfeb232f153cbda1355691b0a970a5c4ebe659d5b37ff7626c870
+ * scene digest: 8302c2fdab02afb73919e09c91c3abafc3d83d0760e2c0e63be40bfdc341e62e
+ * sha256 of the rest of this file: edb03bd87424044eebac981681dfdb4aa7e84aa13c5c7354e2c7d1eebd7f17c1
  *
  * model: torsional chain (linear)
  * stations: 2
@@ -124,8 +124,7 @@ thesis2_status thesis2_initialise(
     const thesis2_params *params,
     const thesis2_real initial_angle[THESIS2_STATIONS],
     const thesis2_real initial_rate[THESIS2_STATIONS],
-    const thesis2_inputs *inputs)
-;
+    const thesis2_inputs *inputs);
 
 /**
  * Advance the state by one step.

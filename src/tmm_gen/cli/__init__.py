@@ -23,6 +23,7 @@ _PROGRAM = "tmm-gen"
 
 COMMANDS = {
     "new": LazyCommand("tmm_gen.cli.new:new", "Write a commented scene to start from."),
+    "keys": LazyCommand("tmm_gen.cli.keys:keys", "List every key a scene may have."),
     "build": LazyCommand("tmm_gen.cli.build:build", "Generate the kernels of scenes; --check only compares."),
     "check": LazyCommand("tmm_gen.cli.check:check", "Compile and compare every backend of a scene."),
     "run": LazyCommand("tmm_gen.cli.run:run", "Simulate a scene."),
@@ -33,7 +34,18 @@ COMMANDS = {
     "integrators": LazyCommand(
         "tmm_gen.cli.integrators:integrators", "Show what is derived about each integrator."
     ),
+    "stability": LazyCommand(
+        "tmm_gen.cli.stability:stability", "Show where a scene stands against every limit of stability."
+    ),
+    "trade": LazyCommand("tmm_gen.cli.trade:trade", "Measure error against cost over integrators and steps."),
+    "tune": LazyCommand("tmm_gen.cli.tune:tune", "Find the cheapest configuration within given bounds."),
+    "explain": LazyCommand(
+        "tmm_gen.cli.explain:explain", "Show what a scene models, what it leaves out, and what that saves."
+    ),
+    "export": LazyCommand("tmm_gen.cli.export:export", "Write a scene for FMI or MuJoCo."),
     "errata": LazyCommand("tmm_gen.cli.errata:errata", "Compare the thesis's coefficients with the derived."),
+    "calibrate": LazyCommand("tmm_gen.cli.calibrate:calibrate", "Fit a scene to a recorded response."),
+    "mpc": LazyCommand("tmm_gen.cli.mpc:mpc", "Control the arm on a finer plant, and compare controllers."),
     "demo": LazyCommand("tmm_gen.cli.demo:demo", "Build, run and compare the example scenes."),
 }
 

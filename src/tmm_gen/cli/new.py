@@ -32,8 +32,9 @@ if TYPE_CHECKING:
     show_default=True,
     help="Folder to write to; made if missing.",
 )
+@click.option("--control", is_flag=True, help="With [control], for `tmm-gen mpc`; planar only.")
 @click.option("--force", is_flag=True, help="Replace a scene of that name.")
-def new(name: str, kind: Kind, out: Path, force: bool) -> None:
+def new(name: str, kind: Kind, out: Path, control: bool, force: bool) -> None:
     """Write a commented scene NAME.toml to start from."""
     from tmm_gen.scene.identifier import scene_name_fault
     from tmm_gen.scene.problem import show_value
@@ -41,12 +42,15 @@ def new(name: str, kind: Kind, out: Path, force: bool) -> None:
 
     if fault := scene_name_fault(name):
         raise UserError(f"NAME: {fault[0]} (got {show_value(name)}). {fault[1]}")
+    if control and kind != "planar":
+        raise UserError(f"--control: a {kind} has no motor to be controlled. Add --kind planar.")
     target = out / f"{name}.toml"
     if target.is_symlink() or target.exists():
         if target.is_dir():
             raise UserError(f"{target}: is a directory. Choose another name.")
         if not force:
             raise UserError(f"{target}: exists already. Choose another name, or replace it with --force.")
-    write_whole(target, template(name, kind))
+    write_whole(target, template(name, kind, control))
     click.echo(f"wrote {target}")
-    click.echo(f"next: edit it, then `tmm-gen build {target}` and `tmm-gen run {target}`")
+    then = "mpc" if control else "run"
+    click.echo(f"next: edit it, then `tmm-gen build {target}` and `tmm-gen {then} {target}`")

@@ -39,7 +39,11 @@ def frequency_response(arm: LinearArm, s: ArrayLike) -> dict[str, Complex]:
         some = points[start : start + chunk]
         states = sweep(arm, some)
         parts.append(
-            {name: value for item in linear_outputs(arm.scene) for name, value in _read(arm, states, some, item)}
+            {
+                name: value
+                for item in linear_outputs(arm.scene)
+                for name, value in _read(arm, states, some, item)
+            }
         )
     return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
 

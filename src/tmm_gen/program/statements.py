@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from enum import Enum
+from functools import cached_property
 
 import sympy as sp
 
@@ -113,6 +114,10 @@ class Routine:
 
     def read(self) -> frozenset[Variable]:
         """Variables that occur in expressions."""
+        return self._read
+
+    @cached_property
+    def _read(self) -> frozenset[Variable]:
         return frozenset(ref.variable for value in self.values() for ref in refs_in(value))
 
     def written(self) -> frozenset[Variable]:
@@ -124,6 +129,30 @@ class Routine:
         return tuple(
             sorted((v for v in self.read() | self.written() if v.role is role), key=lambda v: v.name)
         )
+
+
+@dataclass(frozen=True)
+class Sensitivities:
+    """How a step's result follows its state and inputs, to first order: exact, one direction at a time.
+
+    Parameters
+    ----------
+    point : tuple of Variable
+        What the step keeps for its tangents (role POINT); none where the arm is linear.
+    state, inputs : tuple of Variable
+        Changes of the program's state and inputs, in their order and under their names (roles TANGENT and
+        INPUT_TANGENT).
+    linearise : Routine
+        The step, which also writes the point.
+    tangent : Routine
+        From the changes before the step to the changes of the state after it, with the factors of the point.
+    """
+
+    point: tuple[Variable, ...]
+    state: tuple[Variable, ...]
+    inputs: tuple[Variable, ...]
+    linearise: Routine
+    tangent: Routine
 
 
 @dataclass(frozen=True)
@@ -151,6 +180,8 @@ class Program:
         For each start-up routine and then the main one: instants in units of the step at which inputs are read.
     facts : mapping from str to str
         For headers: integrator, sweep, unknown and so on, in reading order.
+    sensitivities : Sensitivities, optional
+        Where the scene asks for them.
     """
 
     name: str
@@ -170,15 +201,19 @@ class Program:
     output: Routine
     stage_instants: tuple[tuple[float, ...], ...]
     facts: dict[str, str] = field(default_factory=dict)
+    sensitivities: Sensitivities | None = None
 
     @property
     def steps(self) -> tuple[Routine, ...]:
         """Start-up routines in order, then the main one."""
         return (*self.startup, self.main)
 
-    @property
+    @cached_property
     def model(self) -> tuple[Variable, ...]:
         """What prepare leaves for the later phases: coefficients, and parameters the later phases read."""
-        later = set().union(*(routine.read() for routine in (*self.steps, self.output)))
+        routines = [*self.steps, self.output]
+        if self.sensitivities is not None:
+            routines += [self.sensitivities.linearise, self.sensitivities.tangent]
+        later = set().union(*(routine.read() for routine in routines))
         kept = tuple(v for v in (self.step, *self.parameters) if v in later)
         return (*kept, *(c for c in self.coefficients if c in later))

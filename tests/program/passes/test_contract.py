@@ -15,7 +15,7 @@ from tmm_gen.program.count import count_routine
 from tmm_gen.program.passes.contract import contract
 from tmm_gen.program.passes.fuse import fuse
 from tmm_gen.program.statements import Assign, Loop, Order, Routine, Section
-from tmm_gen.program.torsion import build_chain
+from tmm_gen.program.torsion.build import build_chain
 from tmm_gen.program.variables import Role, Variable
 from tmm_gen.resources import scenes_dir
 from tmm_gen.scene import load_scene

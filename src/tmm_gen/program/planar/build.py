@@ -30,6 +30,9 @@ from tmm_gen.program.planar.loads import planar_loads
 from tmm_gen.program.planar.output import output_routine
 from tmm_gen.program.planar.step import PlanarStep, planar_history
 from tmm_gen.program.planar.thesis_step import ThesisStep, start_places
+from tmm_gen.program.sensitivities.planar_step import TangentableStep
+from tmm_gen.program.sensitivities.planar_tangent import planar_sensitivities
+from tmm_gen.program.sensitivities.refusals import require_derivatives
 from tmm_gen.program.statements import Assign, Loop, Order, Program, Routine, Section
 from tmm_gen.program.variables import Ref, Role, Variable, refs_in
 from tmm_gen.scene import Scene
@@ -46,11 +49,13 @@ def build_planar(scene: Scene, integrator: Integrator) -> Program:
     if scene.model.linearisation != "newton":
         _require_one_implicit_stage(scene, integrator)
     layout = planar_layout(scene, integrator)
+    if scene.emit.sensitivities:
+        require_derivatives(scene, integrator, layout)
     unknown: Unknown = scene.model.unknown
     combined = _Combinations(layout)
     hoister = Hoister(names=gain_names(integrator, unknown, layout.step))
     sources, hub_sources = planar_history(layout)
-    step_of = _STEPS[scene.model.linearisation]
+    step_of = TangentableStep if scene.emit.sensitivities else _STEPS[scene.model.linearisation]
     routines: dict[str, Routine] = {}
     # the main scheme first: its factors get the plain names
     for position, scheme in sorted(
@@ -77,6 +82,8 @@ def build_planar(scene: Scene, integrator: Integrator) -> Program:
             *heat_after(layout),
         )
         routines[name] = hoister.hoist(Routine(name, doc, sections))
+        if scheme is integrator.main:
+            main_builder = builder
     main = routines.pop("step")
     startup = tuple(routines[f"step_start{k + 1}"] for k in range(len(integrator.startup)))
     output = hoister.hoist(output_routine(scene, layout))
@@ -85,12 +92,17 @@ def build_planar(scene: Scene, integrator: Integrator) -> Program:
     wanted = frozenset(state)
     startup = tuple(prune(r, wanted) for r in startup)
     main, initialise = prune(main, wanted), prune(initialise, wanted)
-    used = frozenset().union(*(r.read() for r in (*startup, main, output)))
+    sensitivities = None
+    if isinstance(main_builder, TangentableStep):
+        held = _hold(layout, len(integrator.main.stages))
+        sensitivities = planar_sensitivities(main_builder, held, state, layout.inputs, hoister)
+    derivatives = (sensitivities.linearise, sensitivities.tangent) if sensitivities else ()
+    used = frozenset().union(*(r.read() for r in (*startup, main, output, *derivatives)))
     prepare = prune(
         Routine(
             "prepare",
             "Compute what depends on parameters and step alone.",
-            (hoister.section(), *combined.sections),
+            (*combined.sections, hoister.section()),
         ),
         used,
     )
@@ -128,6 +140,7 @@ def build_planar(scene: Scene, integrator: Integrator) -> Program:
             "sweep": scene.model.sweep,
             "unknown": scene.model.unknown,
         },
+        sensitivities=sensitivities,
     )
 
 

@@ -87,7 +87,8 @@ class PlanarStep:
             for iteration in range(self.iterations):
                 again = f"iteration {iteration + 1}: " if self.iterations > 1 else ""
                 sections += [
-                    Section(title + again + s.title, s.statements) for s in self._sweep(index, motion)
+                    Section(title + again + s.title, s.statements)
+                    for s in self._sweep(index, iteration, motion)
                 ]
                 if iteration + 1 < self.iterations:
                     sections.append(
@@ -130,7 +131,7 @@ class PlanarStep:
 
     # -- sweep ---------------------------------------------------------------------------------------------
 
-    def _sweep(self, index: int, motion: AffineMotion) -> list[Section]:
+    def _sweep(self, index: int, iteration: int, motion: AffineMotion) -> list[Section]:
         loads, impedance = self.loads[index - 1], self.impedances[index - 1]
         return [
             self._outward_motion(),
@@ -252,8 +253,9 @@ class PlanarStep:
             Assign(load_x, laws.load_x.xreplace({**symbols, **at_bias})),
             Assign(load_y, laws.load_y.xreplace({**symbols, **at_bias})),
         ]
+        slopes = {**named, **self._loads_of_slope()}
         body += [
-            Assign(_INNER[i][k], law.impedance[i, k].xreplace(named)) for i in (2, 0, 1) for k in range(3)
+            Assign(_INNER[i][k], law.impedance[i, k].xreplace(slopes)) for i in (2, 0, 1) for k in range(3)
         ]
         body += [Assign(_E[i], law.bias[i].xreplace(named)) for i in (2, 0, 1)]
         # the joint: one scalar pivot
@@ -277,6 +279,7 @@ class PlanarStep:
             Assign(pivot, joint.pivot.xreplace(turned)),
             Require(pivot),
             Assign(inverse, 1 / pivot),
+            *self._keep_of_link(_INNER[0][2], _INNER[1][2], inverse),
             Assign(kept["own"], inverse * own.xreplace(turned)),
             *(
                 Assign(kept[name], inverse * value.xreplace(turned))
@@ -387,6 +390,14 @@ class PlanarStep:
 
     def _before_link(self, motion: AffineMotion) -> list[Assign]:
         """Return what a link's inward recursion needs besides geometry."""
+        return []
+
+    def _loads_of_slope(self) -> dict[sp.Symbol, sp.Expr]:
+        """Return the loads at which the slope of "force times lever arm" is taken, where they are others."""
+        return {}
+
+    def _keep_of_link(self, column_x: Ref, column_y: Ref, inverse: Ref) -> list[Assign]:
+        """Return what else to keep of a link's factors: its column of forces and its inverse pivot."""
         return []
 
     def _torque_gain(self, motion: AffineMotion) -> sp.Expr:

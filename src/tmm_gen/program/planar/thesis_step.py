@@ -47,8 +47,8 @@ class ThesisStep(PlanarStep):
     def _motion(self) -> AffineMotion:
         return affine_motion(self.scheme, 1, self.unknown)
 
-    def _sweep(self, index: int, motion: AffineMotion) -> list[Section]:
-        outward, geometry, inward, base, back = super()._sweep(index, motion)
+    def _sweep(self, index: int, iteration: int, motion: AffineMotion) -> list[Section]:
+        outward, geometry, inward, base, back = super()._sweep(index, iteration, motion)
         del outward, geometry
         return [self._nodes(motion), self._answers(motion), inward, base, back]
 

@@ -1,0 +1,439 @@
+/**
+ * swing: Flexible arm swung by one radian
+ *
+ * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * scene digest: 868cfa12f40301fce7e48999d8aea72973d3e46fc5a7472af91f361a43220440
+ * sha256 of the rest of this file: 4431bab12e1243dc38e268ed313ea4f92165576dd84ffd390ebe6b589785c208
+ *
+ * model: planar arm, large rotations, tip mass
+ * stations: 5
+ * base: motor
+ * integrator: Newmark 1959, beta = 0.25, gamma = 0.5
+ * linearisation: newton
+ * sweep: riccati
+ * unknown: acceleration
+ * operations of a step: 685, 137 per station (315 additions, 354 multiplications, 6 divisions, 10 functions)
+ * operations of prepare: 47, 9.4 per station (8 additions, 39 multiplications)
+ * number type: double
+ * bytes of the structs: params 136, model 224, state 144, inputs 8, outputs 24
+ *
+ * @file swing.c
+ */
+#include "swing.h"
+
+#include <math.h>
+
+typedef swing_real real;
+
+static int inputs_are_finite(const swing_inputs *inputs)
+{
+    if (!isfinite(inputs->hub_torque)) {
+        return 0;
+    }
+    return 1;
+}
+
+void swing_default_params(swing_params *params)
+{
+    static const real stiffness[] = {
+        120.0, 60.0, 60.0, 60.0, 60.0
+    };
+    static const real damping[] = {
+        0.18, 0.09, 0.09, 0.09, 0.09
+    };
+    params->length = 0.2;
+    params->mass = 0.08000000000000002;
+    params->inertia = 0.00026666666666666673;
+    params->center = 0.5;
+    for (int j = 0; j < SWING_STATIONS; ++j) {
+        params->stiffness[j] = stiffness[j];
+    }
+    for (int j = 0; j < SWING_STATIONS; ++j) {
+        params->damping[j] = damping[j];
+    }
+    params->hub_inertia = 0.05;
+    params->hub_damping = 0.02;
+    params->tip_mass = 0.1;
+}
+
+swing_status swing_prepare(
+    swing_model *model,
+    const swing_params *params,
+    swing_real step)
+{
+    if (!isfinite(step) || !(step > 0.0)) {
+        return SWING_INVALID_STEP;
+    }
+    if (!isfinite(params->length) || !isfinite(params->mass) || !isfinite(params->inertia)
+        || !isfinite(params->center) || !isfinite(params->hub_inertia) || !isfinite(params->hub_damping)
+        || !isfinite(params->tip_mass)) {
+        return SWING_NON_FINITE_INPUT;
+    }
+    for (int j = 0; j < SWING_STATIONS; ++j) {
+        if (!isfinite(params->stiffness[j]) || !isfinite(params->damping[j])) {
+            return SWING_NON_FINITE_INPUT;
+        }
+    }
+
+    /* Masses by the ends they act at, and joint impedances. */
+    model->carried_mass = params->center * params->mass;
+    model->inner_mass = params->mass - params->center * params->mass;
+    model->pin_inertia = params->inertia
+        + params->center * params->center * (params->length * params->length) * params->mass;
+    for (int j = 0; j < SWING_STATIONS; ++j) {
+        model->joint_impedance[j] = 0.5 * params->damping[j] * step
+            + 0.25 * (step * step) * params->stiffness[j];
+    }
+
+    /* Factors of the step that depend on the time step and parameters alone. */
+    model->step2_1_over_2 = 0.5 * (step * step);
+    model->angle_per_acceleration = 0.25 * (step * step);
+    model->factor_3 = 0.5 * (2.0 * params->hub_inertia + params->hub_damping * step);
+    model->rate_per_acceleration = 0.5 * step;
+
+    /* What the step needs as it is. */
+    model->step = step;
+    model->length = params->length;
+    model->mass = params->mass;
+    for (int j = 0; j < SWING_STATIONS; ++j) {
+        model->stiffness[j] = params->stiffness[j];
+    }
+    for (int j = 0; j < SWING_STATIONS; ++j) {
+        model->damping[j] = params->damping[j];
+    }
+    model->hub_inertia = params->hub_inertia;
+    model->hub_damping = params->hub_damping;
+    model->tip_mass = params->tip_mass;
+    return SWING_OK;
+}
+
+swing_status swing_initialise(
+    swing_state *state,
+    const swing_params *params,
+    const swing_real initial_angle[SWING_STATIONS],
+    const swing_real initial_rate[SWING_STATIONS],
+    const swing_inputs *inputs)
+{
+    if (!inputs_are_finite(inputs)) {
+        return SWING_NON_FINITE_INPUT;
+    }
+    for (int j = 0; j < SWING_STATIONS; ++j) {
+        if (!isfinite(initial_angle[j]) || !isfinite(initial_rate[j])) {
+            return SWING_NON_FINITE_INPUT;
+        }
+    }
+
+    const real length = params->length;
+    const real mass = params->mass;
+    const real inertia = params->inertia;
+    const real center = params->center;
+    real acceleration_x[SWING_STATIONS + 1]; /* acceleration of the nodes along x [m/s^2] */
+    real acceleration_y[SWING_STATIONS + 1]; /* acceleration of the nodes along y [m/s^2] */
+    real answer_own[SWING_STATIONS]; /* increment of the unknown if the inner side kept its motion */
+    real answer_x[SWING_STATIONS]; /* answer to the joint's acceleration along x */
+    real answer_y[SWING_STATIONS]; /* answer to the joint's acceleration along y */
+    real lever_cosine[SWING_STATIONS]; /* length times cosine of the predicted angle [m] */
+    real lever_sine[SWING_STATIONS]; /* length times sine of the predicted angle [m] */
+    /* acceleration of base and links as predicted [rad/s^2] */
+    real predicted_acceleration[SWING_STATIONS + 1];
+    real predicted_angle[SWING_STATIONS + 1]; /* angle of base and links as predicted [rad] */
+    real predicted_rate[SWING_STATIONS + 1]; /* rate of base and links as predicted [rad/s] */
+    real swing_x[SWING_STATIONS]; /* change of the outer end's acceleration along x per unknown [m] */
+    real swing_y[SWING_STATIONS]; /* change of the outer end's acceleration along y per unknown [m] */
+
+    /* Predicted motion. */
+    predicted_angle[0] = 0.0;
+    predicted_rate[0] = 0.0;
+    predicted_acceleration[0] = 0.0;
+
+    /* Predicted motion; accelerations of the nodes. */
+    real node_x = 0.0;
+    real node_y = 0.0;
+    acceleration_x[0] = node_x;
+    acceleration_y[0] = node_y;
+    for (int j = 0; j < SWING_STATIONS; ++j) {
+        predicted_angle[j + 1] = initial_angle[j];
+        predicted_rate[j + 1] = initial_rate[j];
+        predicted_acceleration[j + 1] = 0.0;
+        lever_sine[j] = length * sin(predicted_angle[j + 1]);
+        lever_cosine[j] = length * cos(predicted_angle[j + 1]);
+        const real square = predicted_rate[j + 1] * predicted_rate[j + 1];
+        node_x = node_x - lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1];
+        node_y = node_y + lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square;
+        acceleration_x[j + 1] = node_x;
+        acceleration_y[j + 1] = node_y;
+    }
+
+    /* How each link's outer end answers to its unknown, and the predicted joint torques; sweep inward: force
+     * beyond each joint as an affine function of the motion at it. */
+    real impedance_xx = params->tip_mass;
+    real impedance_xy = 0.0;
+    real impedance_xu = 0.0;
+    real impedance_yx = 0.0;
+    real impedance_yy = params->tip_mass;
+    real impedance_yu = 0.0;
+    real impedance_ux = 0.0;
+    real impedance_uy = 0.0;
+    real impedance_uu = 0.0;
+    real force_x = acceleration_x[5] * params->tip_mass;
+    real force_y = acceleration_y[5] * params->tip_mass;
+    real torque = 0.0;
+    for (int j = SWING_STATIONS - 1; j >= 0; --j) {
+        swing_x[j] = -lever_sine[j];
+        swing_y[j] = lever_cosine[j];
+        const real joint_torque = params->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
+            + params->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
+        const real outer_x = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j];
+        const real outer_y = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j];
+        const real outer_u = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j];
+        const real load_x = force_x + acceleration_x[j] * center * mass;
+        const real load_y = force_y + acceleration_y[j] * center * mass;
+        const real link_ux = impedance_ux + impedance_yx * lever_cosine[j]
+            - lever_sine[j] * (impedance_xx + center * mass);
+        const real link_uy = impedance_uy - impedance_xy * lever_sine[j]
+            + lever_cosine[j] * (impedance_yy + center * mass);
+        const real link_uu = inertia + outer_u + lever_cosine[j] * outer_y - lever_sine[j] * outer_x
+            + center * center * (length * length) * mass;
+        const real link_xx = impedance_xx + mass;
+        const real link_xu = outer_x + center * mass * swing_x[j];
+        const real link_yy = impedance_yy + mass;
+        const real link_yu = outer_y + center * mass * swing_y[j];
+        torque = torque + lever_cosine[j] * load_y - lever_sine[j] * load_x
+            + predicted_acceleration[j + 1] * (inertia + center * center * (length * length) * mass);
+        force_x = force_x + acceleration_x[j] * (mass - center * mass)
+            + acceleration_x[j + 1] * center * mass;
+        force_y = force_y + acceleration_y[j] * (mass - center * mass)
+            + acceleration_y[j + 1] * center * mass;
+        if (!(link_uu > 0.0) || !isfinite(link_uu)) {
+            return SWING_VANISHING_PIVOT;
+        }
+        const real inverse_pivot = 1.0 / link_uu;
+        answer_own[j] = inverse_pivot * (joint_torque - torque);
+        answer_x[j] = inverse_pivot * link_ux;
+        answer_y[j] = inverse_pivot * link_uy;
+        impedance_xx = link_xx - answer_x[j] * link_xu;
+        impedance_xy = impedance_xy - answer_y[j] * link_xu;
+        impedance_xu = 0.0;
+        force_x = force_x + answer_own[j] * link_xu;
+        impedance_yx = impedance_yx - answer_x[j] * link_yu;
+        impedance_yy = link_yy - answer_y[j] * link_yu;
+        impedance_yu = 0.0;
+        force_y = force_y + answer_own[j] * link_yu;
+        impedance_ux = 0.0;
+        impedance_uy = 0.0;
+        impedance_uu = 0.0;
+        torque = joint_torque;
+    }
+
+    /* The hub. */
+    const real hub_pivot = params->hub_inertia + impedance_uu;
+    if (!(hub_pivot > 0.0) || !isfinite(hub_pivot)) {
+        return SWING_VANISHING_PIVOT;
+    }
+    real unknown = (inputs->hub_torque - torque - params->hub_damping * predicted_rate[0]
+        - params->hub_inertia * predicted_acceleration[0]) / hub_pivot;
+    const real hub_unknown = unknown;
+
+    /* Sweep outward: the increment of each link's unknown. */
+    real change_x = 0.0;
+    real change_y = 0.0;
+
+    /* Sweep outward: the increment of each link's unknown; motion at the end of the step. */
+    state->hub_angle = predicted_angle[0];
+    state->hub_rate = predicted_rate[0];
+    state->hub_acceleration = hub_unknown + predicted_acceleration[0];
+    for (int j = 0; j < SWING_STATIONS; ++j) {
+        unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y;
+        change_x = change_x + swing_x[j] * unknown;
+        change_y = change_y + swing_y[j] * unknown;
+        state->angle[j] = predicted_angle[j + 1];
+        state->rate[j] = predicted_rate[j + 1];
+        state->acceleration[j] = predicted_acceleration[j + 1] + unknown;
+    }
+
+    if (!isfinite(state->hub_angle) || !isfinite(state->hub_rate) || !isfinite(state->hub_acceleration)) {
+        return SWING_NON_FINITE_STATE;
+    }
+    for (int j = 0; j < SWING_STATIONS; ++j) {
+        if (!isfinite(state->angle[j]) || !isfinite(state->rate[j]) || !isfinite(state->acceleration[j])) {
+            return SWING_NON_FINITE_STATE;
+        }
+    }
+    return SWING_OK;
+}
+
+swing_status swing_step(
+    const swing_model *model,
+    swing_state *state,
+    const swing_inputs *inputs)
+{
+    if (!inputs_are_finite(inputs)) {
+        return SWING_NON_FINITE_INPUT;
+    }
+
+    const real step = model->step;
+    const real length = model->length;
+    const real mass = model->mass;
+    const real step2_1_over_2 = model->step2_1_over_2;
+    const real angle_per_acceleration = model->angle_per_acceleration;
+    const real rate_per_acceleration = model->rate_per_acceleration;
+    const real carried_mass = model->carried_mass;
+    const real inner_mass = model->inner_mass;
+    const real pin_inertia = model->pin_inertia;
+    real acceleration_x[SWING_STATIONS + 1]; /* acceleration of the nodes along x [m/s^2] */
+    real acceleration_y[SWING_STATIONS + 1]; /* acceleration of the nodes along y [m/s^2] */
+    real answer_from_inner[SWING_STATIONS]; /* answer to the inner link's unknown */
+    real answer_own[SWING_STATIONS]; /* increment of the unknown if the inner side kept its motion */
+    real answer_x[SWING_STATIONS]; /* answer to the joint's acceleration along x */
+    real answer_y[SWING_STATIONS]; /* answer to the joint's acceleration along y */
+    real lever_cosine[SWING_STATIONS]; /* length times cosine of the predicted angle [m] */
+    real lever_sine[SWING_STATIONS]; /* length times sine of the predicted angle [m] */
+    /* acceleration of base and links as predicted [rad/s^2] */
+    real predicted_acceleration[SWING_STATIONS + 1];
+    real predicted_angle[SWING_STATIONS + 1]; /* angle of base and links as predicted [rad] */
+    real predicted_rate[SWING_STATIONS + 1]; /* rate of base and links as predicted [rad/s] */
+    real swing_x[SWING_STATIONS]; /* change of the outer end's acceleration along x per unknown [m] */
+    real swing_y[SWING_STATIONS]; /* change of the outer end's acceleration along y per unknown [m] */
+
+    /* Predicted motion. */
+    predicted_angle[0] = state->hub_angle + state->hub_acceleration * step2_1_over_2 + state->hub_rate * step;
+    predicted_rate[0] = state->hub_rate + state->hub_acceleration * step;
+    predicted_acceleration[0] = state->hub_acceleration;
+
+    /* Predicted motion; accelerations of the nodes. */
+    real node_x = 0.0;
+    real node_y = 0.0;
+    acceleration_x[0] = node_x;
+    acceleration_y[0] = node_y;
+    for (int j = 0; j < SWING_STATIONS; ++j) {
+        predicted_angle[j + 1] = state->angle[j] + state->acceleration[j] * step2_1_over_2
+            + state->rate[j] * step;
+        predicted_rate[j + 1] = state->rate[j] + state->acceleration[j] * step;
+        predicted_acceleration[j + 1] = state->acceleration[j];
+        lever_sine[j] = length * sin(predicted_angle[j + 1]);
+        lever_cosine[j] = length * cos(predicted_angle[j + 1]);
+        const real square = predicted_rate[j + 1] * predicted_rate[j + 1];
+        node_x = node_x - lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1];
+        node_y = node_y + lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square;
+        acceleration_x[j + 1] = node_x;
+        acceleration_y[j + 1] = node_y;
+    }
+
+    /* How each link's outer end answers to its unknown, and the predicted joint torques; sweep inward: force
+     * beyond each joint as an affine function of the motion at it. */
+    real impedance_xx = model->tip_mass;
+    real impedance_xy = 0.0;
+    real impedance_xu = 0.0;
+    real impedance_yx = 0.0;
+    real impedance_yy = model->tip_mass;
+    real impedance_yu = 0.0;
+    real impedance_ux = 0.0;
+    real impedance_uy = 0.0;
+    real impedance_uu = 0.0;
+    real force_x = acceleration_x[5] * model->tip_mass;
+    real force_y = acceleration_y[5] * model->tip_mass;
+    real torque = 0.0;
+    for (int j = SWING_STATIONS - 1; j >= 0; --j) {
+        const real tangential = 1.0
+            - angle_per_acceleration * (predicted_rate[j + 1] * predicted_rate[j + 1]);
+        const real turning = angle_per_acceleration * predicted_acceleration[j + 1]
+            + predicted_rate[j + 1] * step;
+        swing_x[j] = -lever_cosine[j] * turning - lever_sine[j] * tangential;
+        swing_y[j] = lever_cosine[j] * tangential - lever_sine[j] * turning;
+        const real joint_torque = model->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
+            + model->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
+        const real outer_x = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j];
+        const real outer_y = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j];
+        const real outer_u = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j];
+        const real load_x = force_x + acceleration_x[j] * carried_mass;
+        const real load_y = force_y + acceleration_y[j] * carried_mass;
+        const real link_ux = impedance_ux + impedance_yx * lever_cosine[j]
+            - lever_sine[j] * (carried_mass + impedance_xx);
+        const real link_uy = impedance_uy - impedance_xy * lever_sine[j]
+            + lever_cosine[j] * (carried_mass + impedance_yy);
+        const real link_uu = outer_u + pin_inertia
+            + angle_per_acceleration * (-lever_cosine[j] * load_x - lever_sine[j] * load_y)
+            + lever_cosine[j] * outer_y - lever_sine[j] * outer_x;
+        const real link_xx = impedance_xx + mass;
+        const real link_xu = outer_x + carried_mass * swing_x[j];
+        const real link_yy = impedance_yy + mass;
+        const real link_yu = outer_y + carried_mass * swing_y[j];
+        torque = torque + lever_cosine[j] * load_y - lever_sine[j] * load_x
+            + pin_inertia * predicted_acceleration[j + 1];
+        force_x = force_x + acceleration_x[j + 1] * carried_mass + acceleration_x[j] * inner_mass;
+        force_y = force_y + acceleration_y[j + 1] * carried_mass + acceleration_y[j] * inner_mass;
+        const real pivot = model->joint_impedance[j] + link_uu;
+        if (!(pivot > 0.0) || !isfinite(pivot)) {
+            return SWING_VANISHING_PIVOT;
+        }
+        const real inverse_pivot = 1.0 / pivot;
+        answer_own[j] = inverse_pivot * (joint_torque - torque);
+        answer_x[j] = inverse_pivot * link_ux;
+        answer_y[j] = inverse_pivot * link_uy;
+        answer_from_inner[j] = inverse_pivot * model->joint_impedance[j];
+        impedance_xx = link_xx - answer_x[j] * link_xu;
+        impedance_xy = impedance_xy - answer_y[j] * link_xu;
+        impedance_xu = answer_from_inner[j] * link_xu;
+        force_x = force_x + answer_own[j] * link_xu;
+        impedance_yx = impedance_yx - answer_x[j] * link_yu;
+        impedance_yy = link_yy - answer_y[j] * link_yu;
+        impedance_yu = answer_from_inner[j] * link_yu;
+        force_y = force_y + answer_own[j] * link_yu;
+        impedance_ux = answer_x[j] * model->joint_impedance[j];
+        impedance_uy = answer_y[j] * model->joint_impedance[j];
+        impedance_uu = answer_from_inner[j] * link_uu;
+        torque = joint_torque - answer_own[j] * model->joint_impedance[j];
+    }
+
+    /* The hub. */
+    const real hub_pivot = model->factor_3 + impedance_uu;
+    if (!(hub_pivot > 0.0) || !isfinite(hub_pivot)) {
+        return SWING_VANISHING_PIVOT;
+    }
+    real unknown = (inputs->hub_torque - torque - model->hub_damping * predicted_rate[0]
+        - model->hub_inertia * predicted_acceleration[0]) / hub_pivot;
+    const real hub_unknown = unknown;
+
+    /* Sweep outward: the increment of each link's unknown. */
+    real change_x = 0.0;
+    real change_y = 0.0;
+
+    /* Sweep outward: the increment of each link's unknown; motion at the end of the step. */
+    state->hub_angle = predicted_angle[0] + angle_per_acceleration * hub_unknown;
+    state->hub_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration;
+    state->hub_acceleration = hub_unknown + predicted_acceleration[0];
+    for (int j = 0; j < SWING_STATIONS; ++j) {
+        unknown = answer_own[j] + answer_from_inner[j] * unknown - answer_x[j] * change_x
+            - answer_y[j] * change_y;
+        change_x = change_x + swing_x[j] * unknown;
+        change_y = change_y + swing_y[j] * unknown;
+        state->angle[j] = predicted_angle[j + 1] + angle_per_acceleration * unknown;
+        state->rate[j] = predicted_rate[j + 1] + rate_per_acceleration * unknown;
+        state->acceleration[j] = predicted_acceleration[j + 1] + unknown;
+    }
+
+    /* Anything that is not a number has reached this one. */
+    if (!isfinite(state->acceleration[SWING_STATIONS - 1])) {
+        return SWING_NON_FINITE_STATE;
+    }
+    return SWING_OK;
+}
+
+void swing_output(
+    const swing_model *model,
+    const swing_state *state,
+    swing_outputs *outputs)
+{
+    const real length = model->length;
+
+    /* Tip: position. */
+    outputs->tip_x = 0.0;
+    outputs->tip_y = 0.0;
+    for (int j = 0; j < SWING_STATIONS; ++j) {
+        outputs->tip_x = outputs->tip_x + length * cos(state->angle[j]);
+        outputs->tip_y = outputs->tip_y + length * sin(state->angle[j]);
+    }
+
+    /* Hub: angle. */
+    outputs->hub = state->hub_angle;
+}

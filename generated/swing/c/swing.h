@@ -1,0 +1,177 @@
+/**
+ * swing: Flexible arm swung by one radian
+ *
+ * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * scene digest: 868cfa12f40301fce7e48999d8aea72973d3e46fc5a7472af91f361a43220440
+ * sha256 of the rest of this file: 30d067884c592600876790fc6e2b2551efe961f78036e41f7bc479e390996b95
+ *
+ * model: planar arm, large rotations, tip mass
+ * stations: 5
+ * base: motor
+ * integrator: Newmark 1959, beta = 0.25, gamma = 0.5
+ * linearisation: newton
+ * sweep: riccati
+ * unknown: acceleration
+ * operations of a step: 685, 137 per station (315 additions, 354 multiplications, 6 divisions, 10 functions)
+ * operations of prepare: 47, 9.4 per station (8 additions, 39 multiplications)
+ * number type: double
+ * bytes of the structs: params 136, model 224, state 144, inputs 8, outputs 24
+ *
+ * Call swing_default_params() and swing_prepare() once, swing_initialise() to put the arm somewhere, then
+ * swing_step() at every tick of the clock and swing_output() to know. All memory is the caller's; nothing is
+ * kept between calls, so any number of arms can be run side by side.
+ *
+ * @file swing.h
+ */
+#ifndef SWING_H
+#define SWING_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Number of links. */
+#define SWING_STATIONS 5
+
+/** The scene's time step [s]. */
+#define SWING_STEP 0.005
+
+/** Type of all numbers. */
+typedef double swing_real;
+
+/** What a function says about its success. */
+typedef enum {
+    /** Success. */
+    SWING_OK = 0,
+    /** An argument is infinite or not a number; nothing was changed. */
+    SWING_NON_FINITE_INPUT,
+    /** The time step is not a positive number; nothing was changed. */
+    SWING_INVALID_STEP,
+    /** No passive arm has such parameters (a negative inertia, say); the model is of no use. */
+    SWING_VANISHING_PIVOT,
+    /** The motion has outgrown the number type; initialise anew. */
+    SWING_NON_FINITE_STATE
+} swing_status;
+
+/** Physical parameters. */
+typedef struct {
+    swing_real length; /**< link length, the same everywhere [m] */
+    swing_real mass; /**< link mass, the same everywhere [kg] */
+    swing_real inertia; /**< link inertia about its centre of mass, the same everywhere [kg m^2] */
+    swing_real center; /**< centre of mass along the link, 0 to 1, the same everywhere */
+    swing_real stiffness[SWING_STATIONS]; /**< joint stiffness, base to tip [N m/rad] */
+    swing_real damping[SWING_STATIONS]; /**< joint damping, base to tip [N m s/rad] */
+    swing_real hub_inertia; /**< hub inertia [kg m^2] */
+    swing_real hub_damping; /**< viscous damping of the hub to ground [N m s/rad] */
+    swing_real tip_mass; /**< mass at the tip [kg] */
+} swing_params;
+
+/** What prepare() derives from the parameters and the time step. */
+typedef struct {
+    swing_real step; /**< time step [s] */
+    swing_real length; /**< link length, the same everywhere [m] */
+    swing_real mass; /**< link mass, the same everywhere [kg] */
+    swing_real stiffness[SWING_STATIONS]; /**< joint stiffness, base to tip [N m/rad] */
+    swing_real damping[SWING_STATIONS]; /**< joint damping, base to tip [N m s/rad] */
+    swing_real hub_inertia; /**< hub inertia [kg m^2] */
+    swing_real hub_damping; /**< viscous damping of the hub to ground [N m s/rad] */
+    swing_real tip_mass; /**< mass at the tip [kg] */
+    swing_real step2_1_over_2; /**< step**2/2 [s^2] */
+    swing_real angle_per_acceleration; /**< angle per unit of acceleration: step**2/4 [SI] */
+    swing_real factor_3; /**< (hub_damping*step + 2*hub_inertia)/2 [SI] */
+    swing_real rate_per_acceleration; /**< rate per unit of acceleration: step/2 [SI] */
+    swing_real carried_mass; /**< mass acting at a link's outer end [kg] */
+    swing_real inner_mass; /**< mass acting at a link's inner end [kg] */
+    swing_real pin_inertia; /**< inertia of a link about its inner end [kg m^2] */
+    swing_real joint_impedance[SWING_STATIONS]; /**< torque of a joint per difference of unknowns [SI] */
+} swing_model;
+
+/** Motion of the arm, and the history its integrator needs. */
+typedef struct {
+    swing_real hub_angle; /**< hub angle [rad] */
+    swing_real hub_rate; /**< hub rate [rad/s] */
+    swing_real hub_acceleration; /**< hub acceleration [rad/s^2] */
+    swing_real angle[SWING_STATIONS]; /**< angle of each link, base to tip [rad] */
+    swing_real rate[SWING_STATIONS]; /**< rate of each link, base to tip [rad/s] */
+    swing_real acceleration[SWING_STATIONS]; /**< acceleration of each link, base to tip [rad/s^2] */
+} swing_state;
+
+/** What acts on the arm. */
+typedef struct {
+    swing_real hub_torque; /**< torque acting at the base [N m] */
+} swing_inputs;
+
+/** What the scene asks to know. */
+typedef struct {
+    swing_real tip_x; /**< position at the tip, x [m] */
+    swing_real tip_y; /**< position at the tip, y [m] */
+    swing_real hub; /**< angle at the base [rad] */
+} swing_outputs;
+
+/**
+ * Write the scene's parameters.
+ *
+ * @param[out] params  parameters
+ */
+void swing_default_params(swing_params *params);
+
+/**
+ * Compute what depends on parameters and step alone.
+ *
+ * @param[out] model   what the other functions need
+ * @param[in]  params  parameters
+ * @param[in]  step    time step [s]
+ * @return OK, NON_FINITE_INPUT, INVALID_STEP or VANISHING_PIVOT
+ */
+swing_status swing_prepare(
+    swing_model *model,
+    const swing_params *params,
+    swing_real step);
+
+/**
+ * Start from given angles and rates with the acceleration that satisfies the equations of motion.
+ *
+ * @param[out] state   motion at the initial instant
+ * @param[in]  params  parameters
+ * @param[in]  initial_angle  angles to start from [rad]
+ * @param[in]  initial_rate  rates to start from [rad/s]
+ * @param[in]  inputs  what acts at the initial instant
+ * @return OK, NON_FINITE_INPUT, VANISHING_PIVOT or NON_FINITE_STATE
+ */
+swing_status swing_initialise(
+    swing_state *state,
+    const swing_params *params,
+    const swing_real initial_angle[SWING_STATIONS],
+    const swing_real initial_rate[SWING_STATIONS],
+    const swing_inputs *inputs);
+
+/**
+ * Advance the state by one step.
+ *
+ * @param[in]     model   from swing_prepare()
+ * @param[in,out] state   motion before the step, and after it
+ * @param[in]     inputs  what acts, at the end of the step
+ * @return OK, NON_FINITE_INPUT, VANISHING_PIVOT or NON_FINITE_STATE
+ */
+swing_status swing_step(
+    const swing_model *model,
+    swing_state *state,
+    const swing_inputs *inputs);
+
+/**
+ * Read the outputs off the state.
+ *
+ * @param[in]  model    from swing_prepare()
+ * @param[in]  state    motion
+ * @param[out] outputs  what the scene asks for
+ */
+void swing_output(
+    const swing_model *model,
+    const swing_state *state,
+    swing_outputs *outputs);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* SWING_H */

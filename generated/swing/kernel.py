@@ -1,0 +1,865 @@
+# swing: Flexible arm swung by one radian
+#
+# Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+# scene digest: 868cfa12f40301fce7e48999d8aea72973d3e46fc5a7472af91f361a43220440
+# sha256 of the rest of this file: 7365bd5485896381df83adce5a760d0cf8819cde33af8d300e4bd2d8170cf958
+#
+# model: planar arm, large rotations, tip mass
+# stations: 5
+# base: motor
+# integrator: Newmark 1959, beta = 0.25, gamma = 0.5
+# linearisation: newton
+# sweep: riccati
+# unknown: acceleration
+# operations of a step: 685, 137 per station (315 additions, 354 multiplications, 6 divisions, 10 functions)
+# operations of prepare: 47, 9.4 per station (8 additions, 39 multiplications)
+"""swing: Flexible arm swung by one radian.
+
+A state goes in, a new one comes out: ``model = prepare(params, step)``, ``state = initialise(params,
+input)``, ``state = step(model, state, input)``, ``y = output(model, state)``; or ``simulate(duration,
+inputs)`` for all of them. Arrays are never written in place.
+
+All arrays may have further axes behind, those of a batch: many arms at once, each with its own parameters,
+inputs and state. What is one number for an arm then has the batch's shape; what differs between stations has
+the stations first, base to tip.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Array = NDArray[Any]
+
+STATIONS = 5
+"""Number of links."""
+STEP = 0.005
+"""Time step of the scene (s)."""
+INPUT_NAMES: tuple[str, ...] = ("hub_torque",)
+OUTPUT_NAMES: tuple[str, ...] = ("tip_x", "tip_y", "hub")
+STAGE_INSTANTS = ((1.0,),)
+"""When inputs are read, in steps from the start of the step."""
+INITIAL_ANGLE: ArrayLike = 0.0
+INITIAL_RATE: ArrayLike = 0.0
+
+
+class VanishingPivotError(ArithmeticError):
+    """A pivot that is positive for every passive arm is not: the model cannot be solved."""
+
+
+@dataclass(frozen=True, eq=False)
+class Params:
+    """Physical parameters, by default the scene's.
+
+    Attributes
+    ----------
+    length : array_like, shape (*batch)
+        Link length, the same everywhere (m).
+    mass : array_like, shape (*batch)
+        Link mass, the same everywhere (kg).
+    inertia : array_like, shape (*batch)
+        Link inertia about its centre of mass, the same everywhere (kg m^2).
+    center : array_like, shape (*batch)
+        Centre of mass along the link, 0 to 1, the same everywhere.
+    stiffness : array_like, shape (5, *batch)
+        Joint stiffness, base to tip (N m/rad).
+    damping : array_like, shape (5, *batch)
+        Joint damping, base to tip (N m s/rad).
+    hub_inertia : array_like, shape (*batch)
+        Hub inertia (kg m^2).
+    hub_damping : array_like, shape (*batch)
+        Viscous damping of the hub to ground (N m s/rad).
+    tip_mass : array_like, shape (*batch)
+        Mass at the tip (kg).
+    """
+
+    length: ArrayLike = 0.2
+    mass: ArrayLike = 0.08000000000000002
+    inertia: ArrayLike = 0.00026666666666666673
+    center: ArrayLike = 0.5
+    stiffness: ArrayLike = (120.0, 60.0, 60.0, 60.0, 60.0)
+    damping: ArrayLike = (0.18, 0.09, 0.09, 0.09, 0.09)
+    hub_inertia: ArrayLike = 0.05
+    hub_damping: ArrayLike = 0.02
+    tip_mass: ArrayLike = 0.1
+
+
+@dataclass(frozen=True, eq=False)
+class Model:
+    """What depends on parameters and step alone.
+
+    Attributes
+    ----------
+    step : array, shape (*batch)
+        Time step (s).
+    length : array, shape (*batch)
+        Link length, the same everywhere (m).
+    mass : array, shape (*batch)
+        Link mass, the same everywhere (kg).
+    stiffness : array, shape (5, *batch)
+        Joint stiffness, base to tip (N m/rad).
+    damping : array, shape (5, *batch)
+        Joint damping, base to tip (N m s/rad).
+    hub_inertia : array, shape (*batch)
+        Hub inertia (kg m^2).
+    hub_damping : array, shape (*batch)
+        Viscous damping of the hub to ground (N m s/rad).
+    tip_mass : array, shape (*batch)
+        Mass at the tip (kg).
+    step2_1_over_2 : array, shape (*batch)
+        Step**2/2 (s^2).
+    angle_per_acceleration : array, shape (*batch)
+        Angle per unit of acceleration: step**2/4 (SI).
+    factor_3 : array, shape (*batch)
+        (hub_damping*step + 2*hub_inertia)/2 (SI).
+    rate_per_acceleration : array, shape (*batch)
+        Rate per unit of acceleration: step/2 (SI).
+    carried_mass : array, shape (*batch)
+        Mass acting at a link's outer end (kg).
+    inner_mass : array, shape (*batch)
+        Mass acting at a link's inner end (kg).
+    pin_inertia : array, shape (*batch)
+        Inertia of a link about its inner end (kg m^2).
+    joint_impedance : array, shape (5, *batch)
+        Torque of a joint per difference of unknowns (SI).
+    """
+
+    step: Array
+    length: Array
+    mass: Array
+    stiffness: Array
+    damping: Array
+    hub_inertia: Array
+    hub_damping: Array
+    tip_mass: Array
+    step2_1_over_2: Array
+    angle_per_acceleration: Array
+    factor_3: Array
+    rate_per_acceleration: Array
+    carried_mass: Array
+    inner_mass: Array
+    pin_inertia: Array
+    joint_impedance: Array
+
+
+@dataclass(frozen=True, eq=False)
+class State:
+    """Motion at one instant.
+
+    Attributes
+    ----------
+    hub_angle : array, shape (*batch)
+        Hub angle (rad).
+    hub_rate : array, shape (*batch)
+        Hub rate (rad/s).
+    hub_acceleration : array, shape (*batch)
+        Hub acceleration (rad/s^2).
+    angle : array, shape (5, *batch)
+        Angle of each link, base to tip (rad).
+    rate : array, shape (5, *batch)
+        Rate of each link, base to tip (rad/s).
+    acceleration : array, shape (5, *batch)
+        Acceleration of each link, base to tip (rad/s^2).
+    """
+
+    hub_angle: Array
+    hub_rate: Array
+    hub_acceleration: Array
+    angle: Array
+    rate: Array
+    acceleration: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Input:
+    """What acts on the arm during a step.
+
+    Attributes
+    ----------
+    hub_torque : array_like, shape (*batch)
+        Torque acting at the base (N m).
+    """
+
+    hub_torque: ArrayLike = 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class Output:
+    """What the scene reports.
+
+    Attributes
+    ----------
+    tip_x : array, shape (*batch)
+        Position at the tip, x (m).
+    tip_y : array, shape (*batch)
+        Position at the tip, y (m).
+    hub : array, shape (*batch)
+        Angle at the base (rad).
+    """
+
+    tip_x: Array
+    tip_y: Array
+    hub: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Result:
+    """A simulation.
+
+    Attributes
+    ----------
+    times : array, shape (steps + 1,)
+        Instants (s).
+    outputs : dict from str to array, shape (steps + 1, *batch)
+        Outputs at these instants, by name.
+    state : State
+        Motion at the end.
+    """
+
+    times: Array
+    outputs: dict[str, Array]
+    state: State
+
+
+def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
+    """Compute what depends on parameters and step alone.
+
+    Parameters
+    ----------
+    params : Params
+        Physical parameters.
+    step : array_like, shape (*batch)
+        Time step (s).
+
+    Raises
+    ------
+    FloatingPointError
+        If a parameter or the step is not finite.
+    ValueError
+        If shapes do not fit.
+    VanishingPivotError
+        If parameters or step leave a pivot that is not positive.
+    """
+    step = _array(step, None, "step")
+    length = _array(params.length, None, "length")
+    mass = _array(params.mass, None, "mass")
+    inertia = _array(params.inertia, None, "inertia")
+    center = _array(params.center, None, "center")
+    stiffness = _array(params.stiffness, STATIONS, "stiffness")
+    damping = _array(params.damping, STATIONS, "damping")
+    hub_inertia = _array(params.hub_inertia, None, "hub_inertia")
+    hub_damping = _array(params.hub_damping, None, "hub_damping")
+    tip_mass = _array(params.tip_mass, None, "tip_mass")
+    numbers = (step, length, mass, inertia, center, hub_inertia, hub_damping, tip_mass)
+    arrays = (stiffness, damping)
+    batch, _ = _common(numbers, arrays)
+    stiffness = _align(stiffness, batch)
+    damping = _align(damping, batch)
+
+    # Masses by the ends they act at, and joint impedances
+    carried_mass = center * mass
+    inner_mass = mass - center * mass
+    pin_inertia = inertia + center * center * (length * length) * mass
+    joint_impedance = 0.5 * damping * step + 0.25 * (step * step) * stiffness
+
+    # Factors of the step that depend on the time step and parameters alone
+    step2_1_over_2 = 0.5 * (step * step)
+    angle_per_acceleration = 0.25 * (step * step)
+    factor_3 = 0.5 * (2.0 * hub_inertia + hub_damping * step)
+    rate_per_acceleration = 0.5 * step
+    return Model(
+        step=step,
+        length=length,
+        mass=mass,
+        stiffness=stiffness,
+        damping=damping,
+        hub_inertia=hub_inertia,
+        hub_damping=hub_damping,
+        tip_mass=tip_mass,
+        step2_1_over_2=step2_1_over_2,
+        angle_per_acceleration=angle_per_acceleration,
+        factor_3=factor_3,
+        rate_per_acceleration=rate_per_acceleration,
+        carried_mass=carried_mass,
+        inner_mass=inner_mass,
+        pin_inertia=pin_inertia,
+        joint_impedance=joint_impedance,
+    )
+
+
+def initialise(
+    params: Params = Params(),
+    input: Input = Input(),
+    *,
+    initial_angle: ArrayLike = INITIAL_ANGLE,
+    initial_rate: ArrayLike = INITIAL_RATE,
+) -> State:
+    """Start from given angles and rates with the acceleration that satisfies the equations of motion.
+
+    Parameters
+    ----------
+    params : Params
+        Physical parameters.
+    input : Input
+        What acts at the initial instant.
+    initial_angle : number, or array_like, shape (5, *batch)
+        Angles to start from (rad).
+    initial_rate : number, or array_like, shape (5, *batch)
+        Rates to start from (rad/s).
+
+    Raises
+    ------
+    FloatingPointError
+        If an argument is not finite.
+    ValueError
+        If shapes do not fit.
+    VanishingPivotError
+        If parameters leave a pivot that is not positive.
+    """
+    hub_torque = _array(input.hub_torque, None, "input hub_torque")
+    length = _array(params.length, None, "length")
+    mass = _array(params.mass, None, "mass")
+    inertia = _array(params.inertia, None, "inertia")
+    center = _array(params.center, None, "center")
+    stiffness = _array(params.stiffness, STATIONS, "stiffness")
+    damping = _array(params.damping, STATIONS, "damping")
+    hub_inertia = _array(params.hub_inertia, None, "hub_inertia")
+    hub_damping = _array(params.hub_damping, None, "hub_damping")
+    tip_mass = _array(params.tip_mass, None, "tip_mass")
+    initial_angle = _array(initial_angle, STATIONS, "initial_angle")
+    initial_rate = _array(initial_rate, STATIONS, "initial_rate")
+    numbers = (hub_torque, length, mass, inertia, center, hub_inertia, hub_damping, tip_mass)
+    arrays = (stiffness, damping, initial_angle, initial_rate)
+    batch, dtype = _common(numbers, arrays)
+    stiffness = _align(stiffness, batch)
+    damping = _align(damping, batch)
+    initial_angle = _align(initial_angle, batch)
+    initial_rate = _align(initial_rate, batch)
+    acceleration_x = np.zeros((STATIONS + 1, *batch), dtype)
+    acceleration_y = np.zeros((STATIONS + 1, *batch), dtype)
+    answer_own = np.zeros((STATIONS, *batch), dtype)
+    answer_x = np.zeros((STATIONS, *batch), dtype)
+    answer_y = np.zeros((STATIONS, *batch), dtype)
+    predicted_acceleration = np.zeros((STATIONS + 1, *batch), dtype)
+    predicted_angle = np.zeros((STATIONS + 1, *batch), dtype)
+    predicted_rate = np.zeros((STATIONS + 1, *batch), dtype)
+    solved = np.zeros((STATIONS, *batch), dtype)
+
+    # predicted motion
+    predicted_angle[0] = 0.0
+    predicted_rate[0] = 0.0
+    predicted_acceleration[0] = 0.0
+    predicted_angle[1:] = initial_angle
+    predicted_rate[1:] = initial_rate
+    predicted_acceleration[1:] = 0.0
+
+    # accelerations of the nodes
+    lever_sine = length * np.sin(predicted_angle[1:])
+    lever_cosine = length * np.cos(predicted_angle[1:])
+    node_x: Any = 0.0
+    node_y: Any = 0.0
+    acceleration_x[0] = node_x
+    acceleration_y[0] = node_y
+    for j in range(STATIONS):
+        square = predicted_rate[j + 1] * predicted_rate[j + 1]
+        node_x = node_x - lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1]
+        node_y = node_y + lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square
+        acceleration_x[j + 1] = node_x
+        acceleration_y[j + 1] = node_y
+
+    # how each link's outer end answers to its unknown, and the predicted joint torques
+    swing_x = -lever_sine
+    swing_y = lever_cosine
+    joint_torque = damping * (predicted_rate[:5] - predicted_rate[1:]) + stiffness * (
+        predicted_angle[:5] - predicted_angle[1:]
+    )
+
+    # sweep inward: force beyond each joint as an affine function of the motion at it
+    impedance_xx = tip_mass
+    impedance_xy: Any = 0.0
+    impedance_xu: Any = 0.0
+    impedance_yx: Any = 0.0
+    impedance_yy = tip_mass
+    impedance_yu: Any = 0.0
+    impedance_ux: Any = 0.0
+    impedance_uy: Any = 0.0
+    impedance_uu: Any = 0.0
+    force_x = acceleration_x[5] * tip_mass
+    force_y = acceleration_y[5] * tip_mass
+    torque: Any = 0.0
+    for j in reversed(range(STATIONS)):
+        outer_x = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
+        outer_y = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
+        outer_u = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
+        load_x = force_x + acceleration_x[j] * center * mass
+        load_y = force_y + acceleration_y[j] * center * mass
+        link_ux = (
+            impedance_ux + impedance_yx * lever_cosine[j] - lever_sine[j] * (impedance_xx + center * mass)
+        )
+        link_uy = (
+            impedance_uy - impedance_xy * lever_sine[j] + lever_cosine[j] * (impedance_yy + center * mass)
+        )
+        link_uu = (
+            inertia
+            + outer_u
+            + lever_cosine[j] * outer_y
+            - lever_sine[j] * outer_x
+            + center * center * (length * length) * mass
+        )
+        link_xx = impedance_xx + mass
+        link_xy = impedance_xy
+        link_xu = outer_x + center * mass * swing_x[j]
+        link_yx = impedance_yx
+        link_yy = impedance_yy + mass
+        link_yu = outer_y + center * mass * swing_y[j]
+        torque = (
+            torque
+            + lever_cosine[j] * load_y
+            - lever_sine[j] * load_x
+            + predicted_acceleration[j + 1] * (inertia + center * center * (length * length) * mass)
+        )
+        force_x = force_x + acceleration_x[j] * (mass - center * mass) + acceleration_x[j + 1] * center * mass
+        force_y = force_y + acceleration_y[j] * (mass - center * mass) + acceleration_y[j + 1] * center * mass
+        pivot = link_uu
+        _require_positive(pivot, "pivot", j)
+        inverse_pivot = 1.0 / pivot
+        answer_own[j] = inverse_pivot * (joint_torque[j] - torque)
+        answer_x[j] = inverse_pivot * link_ux
+        answer_y[j] = inverse_pivot * link_uy
+        impedance_xx = link_xx - answer_x[j] * link_xu
+        impedance_xy = link_xy - answer_y[j] * link_xu
+        impedance_xu = 0.0
+        force_x = force_x + answer_own[j] * link_xu
+        impedance_yx = link_yx - answer_x[j] * link_yu
+        impedance_yy = link_yy - answer_y[j] * link_yu
+        impedance_yu = 0.0
+        force_y = force_y + answer_own[j] * link_yu
+        impedance_ux = 0.0
+        impedance_uy = 0.0
+        impedance_uu = 0.0
+        torque = joint_torque[j]
+
+    # the hub
+    hub_pivot = hub_inertia + impedance_uu
+    _require_positive(hub_pivot, "hub_pivot", None)
+    unknown = (
+        hub_torque - torque - hub_damping * predicted_rate[0] - hub_inertia * predicted_acceleration[0]
+    ) / hub_pivot
+    hub_unknown = unknown
+
+    # sweep outward: the increment of each link's unknown
+    change_x: Any = 0.0
+    change_y: Any = 0.0
+    for j in range(STATIONS):
+        unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y
+        change_x = change_x + swing_x[j] * unknown
+        change_y = change_y + swing_y[j] * unknown
+        solved[j] = unknown
+
+    # motion at the end of the step
+    hub_angle = predicted_angle[0]
+    hub_rate = predicted_rate[0]
+    hub_acceleration = hub_unknown + predicted_acceleration[0]
+    angle = predicted_angle[1:]
+    rate = predicted_rate[1:]
+    acceleration = predicted_acceleration[1:] + solved
+    return State(
+        hub_angle=_spread(hub_angle, batch, False),
+        hub_rate=_spread(hub_rate, batch, False),
+        hub_acceleration=_spread(hub_acceleration, batch, False),
+        angle=_spread(angle, batch, True),
+        rate=_spread(rate, batch, True),
+        acceleration=_spread(acceleration, batch, True),
+    )
+
+
+def step(model: Model, state: State, input: Input = Input()) -> State:
+    """Advance the state by one step.
+
+    Parameters
+    ----------
+    model : Model
+        From :func:`prepare`.
+    state : State
+        At the start of the step; left as it is.
+    input : Input
+        What acts at the instant in STAGE_INSTANTS.
+
+    Returns
+    -------
+    State
+        At the end of the step.
+
+    Raises
+    ------
+    FloatingPointError
+        If an input is not finite.
+    ValueError
+        If shapes do not fit.
+    VanishingPivotError
+        If the motion, parameters or step leave a pivot that is not positive.
+    """
+    hub_torque = _array(input.hub_torque, None, "input hub_torque")
+    step = model.step
+    length = model.length
+    mass = model.mass
+    stiffness = np.asarray(model.stiffness)
+    damping = np.asarray(model.damping)
+    hub_inertia = model.hub_inertia
+    hub_damping = model.hub_damping
+    tip_mass = model.tip_mass
+    step2_1_over_2 = model.step2_1_over_2
+    angle_per_acceleration = model.angle_per_acceleration
+    factor_3 = model.factor_3
+    rate_per_acceleration = model.rate_per_acceleration
+    carried_mass = model.carried_mass
+    inner_mass = model.inner_mass
+    pin_inertia = model.pin_inertia
+    joint_impedance = np.asarray(model.joint_impedance)
+    hub_angle = state.hub_angle
+    hub_rate = state.hub_rate
+    hub_acceleration = state.hub_acceleration
+    angle = np.asarray(state.angle)
+    rate = np.asarray(state.rate)
+    acceleration = np.asarray(state.acceleration)
+    numbers = (
+        hub_torque,
+        step,
+        length,
+        mass,
+        hub_inertia,
+        hub_damping,
+        tip_mass,
+        step2_1_over_2,
+        angle_per_acceleration,
+        factor_3,
+        rate_per_acceleration,
+        carried_mass,
+        inner_mass,
+        pin_inertia,
+        hub_angle,
+        hub_rate,
+        hub_acceleration,
+    )
+    arrays = (stiffness, damping, joint_impedance, angle, rate, acceleration)
+    batch, dtype = _common(numbers, arrays)
+    stiffness = _align(stiffness, batch)
+    damping = _align(damping, batch)
+    joint_impedance = _align(joint_impedance, batch)
+    hub_angle = _spread(hub_angle, batch, False)
+    hub_rate = _spread(hub_rate, batch, False)
+    hub_acceleration = _spread(hub_acceleration, batch, False)
+    angle = _spread(angle, batch, True)
+    rate = _spread(rate, batch, True)
+    acceleration = _spread(acceleration, batch, True)
+    acceleration_x = np.zeros((STATIONS + 1, *batch), dtype)
+    acceleration_y = np.zeros((STATIONS + 1, *batch), dtype)
+    answer_from_inner = np.zeros((STATIONS, *batch), dtype)
+    answer_own = np.zeros((STATIONS, *batch), dtype)
+    answer_x = np.zeros((STATIONS, *batch), dtype)
+    answer_y = np.zeros((STATIONS, *batch), dtype)
+    predicted_acceleration = np.zeros((STATIONS + 1, *batch), dtype)
+    predicted_angle = np.zeros((STATIONS + 1, *batch), dtype)
+    predicted_rate = np.zeros((STATIONS + 1, *batch), dtype)
+    solved = np.zeros((STATIONS, *batch), dtype)
+
+    # predicted motion
+    predicted_angle[0] = hub_angle + hub_acceleration * step2_1_over_2 + hub_rate * step
+    predicted_rate[0] = hub_rate + hub_acceleration * step
+    predicted_acceleration[0] = hub_acceleration
+    predicted_angle[1:] = angle + acceleration * step2_1_over_2 + rate * step
+    predicted_rate[1:] = rate + acceleration * step
+    predicted_acceleration[1:] = acceleration
+
+    # accelerations of the nodes
+    lever_sine = length * np.sin(predicted_angle[1:])
+    lever_cosine = length * np.cos(predicted_angle[1:])
+    node_x: Any = 0.0
+    node_y: Any = 0.0
+    acceleration_x[0] = node_x
+    acceleration_y[0] = node_y
+    for j in range(STATIONS):
+        square = predicted_rate[j + 1] * predicted_rate[j + 1]
+        node_x = node_x - lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1]
+        node_y = node_y + lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square
+        acceleration_x[j + 1] = node_x
+        acceleration_y[j + 1] = node_y
+
+    # how each link's outer end answers to its unknown, and the predicted joint torques
+    tangential = 1.0 - angle_per_acceleration * (predicted_rate[1:] * predicted_rate[1:])
+    turning = angle_per_acceleration * predicted_acceleration[1:] + predicted_rate[1:] * step
+    swing_x = -lever_cosine * turning - lever_sine * tangential
+    swing_y = lever_cosine * tangential - lever_sine * turning
+    joint_torque = damping * (predicted_rate[:5] - predicted_rate[1:]) + stiffness * (
+        predicted_angle[:5] - predicted_angle[1:]
+    )
+
+    # sweep inward: force beyond each joint as an affine function of the motion at it
+    impedance_xx = tip_mass
+    impedance_xy: Any = 0.0
+    impedance_xu: Any = 0.0
+    impedance_yx: Any = 0.0
+    impedance_yy = tip_mass
+    impedance_yu: Any = 0.0
+    impedance_ux: Any = 0.0
+    impedance_uy: Any = 0.0
+    impedance_uu: Any = 0.0
+    force_x = acceleration_x[5] * tip_mass
+    force_y = acceleration_y[5] * tip_mass
+    torque: Any = 0.0
+    for j in reversed(range(STATIONS)):
+        outer_x = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
+        outer_y = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
+        outer_u = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
+        load_x = force_x + acceleration_x[j] * carried_mass
+        load_y = force_y + acceleration_y[j] * carried_mass
+        link_ux = (
+            impedance_ux + impedance_yx * lever_cosine[j] - lever_sine[j] * (carried_mass + impedance_xx)
+        )
+        link_uy = (
+            impedance_uy - impedance_xy * lever_sine[j] + lever_cosine[j] * (carried_mass + impedance_yy)
+        )
+        link_uu = (
+            outer_u
+            + pin_inertia
+            + angle_per_acceleration * (-lever_cosine[j] * load_x - lever_sine[j] * load_y)
+            + lever_cosine[j] * outer_y
+            - lever_sine[j] * outer_x
+        )
+        link_xx = impedance_xx + mass
+        link_xy = impedance_xy
+        link_xu = outer_x + carried_mass * swing_x[j]
+        link_yx = impedance_yx
+        link_yy = impedance_yy + mass
+        link_yu = outer_y + carried_mass * swing_y[j]
+        torque = (
+            torque
+            + lever_cosine[j] * load_y
+            - lever_sine[j] * load_x
+            + pin_inertia * predicted_acceleration[j + 1]
+        )
+        force_x = force_x + acceleration_x[j + 1] * carried_mass + acceleration_x[j] * inner_mass
+        force_y = force_y + acceleration_y[j + 1] * carried_mass + acceleration_y[j] * inner_mass
+        pivot = joint_impedance[j] + link_uu
+        _require_positive(pivot, "pivot", j)
+        inverse_pivot = 1.0 / pivot
+        answer_own[j] = inverse_pivot * (joint_torque[j] - torque)
+        answer_x[j] = inverse_pivot * link_ux
+        answer_y[j] = inverse_pivot * link_uy
+        answer_from_inner[j] = inverse_pivot * joint_impedance[j]
+        impedance_xx = link_xx - answer_x[j] * link_xu
+        impedance_xy = link_xy - answer_y[j] * link_xu
+        impedance_xu = answer_from_inner[j] * link_xu
+        force_x = force_x + answer_own[j] * link_xu
+        impedance_yx = link_yx - answer_x[j] * link_yu
+        impedance_yy = link_yy - answer_y[j] * link_yu
+        impedance_yu = answer_from_inner[j] * link_yu
+        force_y = force_y + answer_own[j] * link_yu
+        impedance_ux = answer_x[j] * joint_impedance[j]
+        impedance_uy = answer_y[j] * joint_impedance[j]
+        impedance_uu = answer_from_inner[j] * link_uu
+        torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
+
+    # the hub
+    hub_pivot = factor_3 + impedance_uu
+    _require_positive(hub_pivot, "hub_pivot", None)
+    unknown = (
+        hub_torque - torque - hub_damping * predicted_rate[0] - hub_inertia * predicted_acceleration[0]
+    ) / hub_pivot
+    hub_unknown = unknown
+
+    # sweep outward: the increment of each link's unknown
+    change_x: Any = 0.0
+    change_y: Any = 0.0
+    for j in range(STATIONS):
+        unknown = (
+            answer_own[j] + answer_from_inner[j] * unknown - answer_x[j] * change_x - answer_y[j] * change_y
+        )
+        change_x = change_x + swing_x[j] * unknown
+        change_y = change_y + swing_y[j] * unknown
+        solved[j] = unknown
+
+    # motion at the end of the step
+    hub_angle = predicted_angle[0] + angle_per_acceleration * hub_unknown
+    hub_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration
+    hub_acceleration = hub_unknown + predicted_acceleration[0]
+    angle = predicted_angle[1:] + angle_per_acceleration * solved
+    rate = predicted_rate[1:] + rate_per_acceleration * solved
+    acceleration = predicted_acceleration[1:] + solved
+    return State(
+        hub_angle=_spread(hub_angle, batch, False),
+        hub_rate=_spread(hub_rate, batch, False),
+        hub_acceleration=_spread(hub_acceleration, batch, False),
+        angle=_spread(angle, batch, True),
+        rate=_spread(rate, batch, True),
+        acceleration=_spread(acceleration, batch, True),
+    )
+
+
+def output(model: Model, state: State) -> Output:
+    """Read the outputs off a state.
+
+    Parameters
+    ----------
+    model : Model
+        From :func:`prepare`.
+    state : State
+        At the instant of the outputs.
+    """
+    length = model.length
+    hub_angle = state.hub_angle
+    hub_rate = state.hub_rate
+    hub_acceleration = state.hub_acceleration
+    angle = np.asarray(state.angle)
+    rate = np.asarray(state.rate)
+    acceleration = np.asarray(state.acceleration)
+    numbers = (length, hub_angle, hub_rate, hub_acceleration)
+    arrays = (angle, rate, acceleration)
+    batch, _ = _common(numbers, arrays)
+    hub_angle = _spread(hub_angle, batch, False)
+    hub_rate = _spread(hub_rate, batch, False)
+    hub_acceleration = _spread(hub_acceleration, batch, False)
+    angle = _spread(angle, batch, True)
+    rate = _spread(rate, batch, True)
+    acceleration = _spread(acceleration, batch, True)
+
+    # tip: position
+    tip_x: Any = 0.0
+    tip_y: Any = 0.0
+    for j in range(STATIONS):
+        tip_x = tip_x + length * np.cos(angle[j])
+        tip_y = tip_y + length * np.sin(angle[j])
+
+    # hub: angle
+    hub = hub_angle
+    return Output(
+        tip_x=_spread(tip_x, batch, False), tip_y=_spread(tip_y, batch, False), hub=_spread(hub, batch, False)
+    )
+
+
+_advance = step  # an argument of simulate has the name
+
+
+def simulate(
+    duration: float,
+    inputs: Mapping[str, ArrayLike | Callable[[float], ArrayLike]] | None = None,
+    params: Params = Params(),
+    step: float = STEP,
+    *,
+    initial_angle: ArrayLike = INITIAL_ANGLE,
+    initial_rate: ArrayLike = INITIAL_RATE,
+) -> Result:
+    """Simulate from time zero in whole steps.
+
+    Parameters
+    ----------
+    duration : float
+        Time to simulate (s); the last instant is the last whole step within it.
+    inputs : mapping from str
+        Constants of shape ``(*batch)``, or functions of time (s) that return them; inputs not named are zero.
+    params : Params
+        Physical parameters.
+    step : float
+        Time step (s).
+    initial_angle : number, or array_like, shape (5, *batch)
+        Angles to start from (rad).
+    initial_rate : number, or array_like, shape (5, *batch)
+        Rates to start from (rad/s).
+
+    Raises
+    ------
+    FloatingPointError
+        If an argument or an input is not finite.
+    ValueError
+        If shapes do not fit, an input has no such name, or there is no time to simulate.
+    VanishingPivotError
+        If parameters or step leave a pivot that is not positive.
+    """
+    if np.ndim(step) != 0 or not step > 0.0:
+        raise ValueError(f"step must be one positive number, not {step!r}")
+    if not 0.0 <= duration < np.inf:
+        raise ValueError(f"duration must be a time, not {duration!r}")
+    given = dict(inputs or {})
+    if unknown := sorted(set(given) - set(INPUT_NAMES)):
+        known = ", ".join(INPUT_NAMES) or "none"
+        raise ValueError(f"no input is named {', '.join(unknown)}; there are: {known}")
+
+    def read(time: float) -> Input:
+        return Input(**{name: value(time) if callable(value) else value for name, value in given.items()})
+
+    model = prepare(params, step)
+    state = initialise(params, read(0.0), initial_angle=initial_angle, initial_rate=initial_rate)
+    rows = [output(model, state)]
+    times = step * np.arange(int(np.floor(duration / step * (1.0 + 1e-12))) + 1)
+    for index, time in enumerate(times[:-1].tolist()):
+        instants = STAGE_INSTANTS[min(index, len(STAGE_INSTANTS) - 1)]
+        state = _advance(model, state, read(time + instants[0] * step))
+        rows.append(output(model, state))
+    outputs = {name: _series([getattr(row, name) for row in rows]) for name in OUTPUT_NAMES}
+    return Result(times, outputs, state)
+
+
+def _array(value: ArrayLike, length: int | None, what: str) -> Array:
+    """Check what a user gives: a number for each arm if length is None, else an array over stations."""
+    array = np.asarray(value)
+    if array.dtype.kind in "biu":
+        array = array.astype(float)
+    if array.dtype.kind not in "fcO":
+        raise TypeError(f"{what} must be numeric, not {value!r}")
+    if array.dtype.kind != "O" and not np.isfinite(array).all():
+        raise FloatingPointError(f"{what} must be finite, not {value!r}")
+    if length is None:
+        return array
+    if array.ndim == 0:
+        return np.full(length, array)
+    if array.shape[0] != length:
+        expected = f"shape ({length}, *batch), or be one number"
+        raise ValueError(f"{what} must have {expected}; it has shape {array.shape}")
+    return array
+
+
+def _common(numbers: tuple[Any, ...], arrays: tuple[Array, ...]) -> tuple[tuple[int, ...], np.dtype[Any]]:
+    """Return the shape of the batch and the number type of everything together."""
+    single = [np.asarray(number) for number in numbers]
+    shapes = {number.shape for number in single} | {array.shape[1:] for array in arrays}
+    types = {array.dtype for array in (*single, *arrays)}
+    try:
+        batch = shapes.pop() if len(shapes) == 1 else np.broadcast_shapes(*shapes)
+    except ValueError:
+        raise ValueError(f"batch shapes do not fit together: {sorted(shapes)}") from None
+    return batch, types.pop() if len(types) == 1 else np.result_type(*types)
+
+
+def _align(array: Array, batch: tuple[int, ...]) -> Array:
+    """Give an array over stations as many axes behind the first as the batch has."""
+    missing = len(batch) + 1 - array.ndim
+    return array.reshape(array.shape[0], *(1,) * missing, *array.shape[1:]) if missing else array
+
+
+def _spread(value: Any, batch: tuple[int, ...], stations: bool) -> Array:
+    """Return a number for every arm of the batch, or an array over stations for every arm."""
+    array = np.asarray(value)
+    if array.shape[stations:] == batch:
+        return array
+    if stations:
+        return np.broadcast_to(_align(array, batch), (array.shape[0], *batch))
+    return np.broadcast_to(array, batch)
+
+
+def _require_positive(pivot: Any, name: str, station: int | None) -> None:
+    """Leave where a pivot is not positive and finite."""
+    if not np.all((pivot > 0.0) & (pivot < np.inf)):
+        where = "" if station is None else f" of station {station + 1}"
+        raise VanishingPivotError(
+            f"{name}{where} must be positive and finite, not {pivot}; check parameters and step"
+        )
+
+
+def _series(values: list[Array]) -> Array:
+    """Put values at all instants together; a batch that came with an input counts from the start."""
+    shape = values[-1].shape
+    return np.stack([np.broadcast_to(value, shape) for value in values])

@@ -1,0 +1,167 @@
+"""`tmm-gen mpc`: a scene's controllers on a finer arm, side by side; and as C."""
+
+from __future__ import annotations
+
+from difflib import get_close_matches
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from tmm_gen.cli.console import progress
+from tmm_gen.cli.given import PICTURE, picture_option, positive, refuse_folders
+from tmm_gen.errors import UserError
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from tmm_gen.control.bench import Bench
+    from tmm_gen.control.compare import Trial
+    from tmm_gen.control.condition import Condition
+    from tmm_gen.control.controllers import ControllerKind
+    from tmm_gen.scene import Scene
+
+# SciPy, CasADi and Matplotlib are imported inside: `tmm-gen --help` has no use for them.
+
+_MOVING = (".gif", ".html")
+_EMITTED = "mpc-modes"
+"""What ``--emit`` writes unless another controller is chosen."""
+
+
+def _animated(_context: click.Context, parameter: click.Parameter, value: Path | None) -> Path | None:
+    if value is not None and value.suffix.lower() not in _MOVING:
+        raise click.BadParameter(f"'{value}' must end in {' or '.join(_MOVING)}", param=parameter)
+    return value
+
+
+@click.command("mpc")
+@click.argument("scene", metavar="SCENE", type=click.Path(path_type=Path))
+@click.option(
+    "--controller",
+    "controllers",
+    metavar="NAME",
+    multiple=True,
+    help="Only this controller. Repeatable; --list shows them.",
+)
+@click.option(
+    "--condition",
+    "conditions",
+    metavar="NAME",
+    multiple=True,
+    help="Only under this condition. Repeatable; --list shows them.",
+)
+@click.option("--list", "listed", is_flag=True, help="List controllers and conditions, and do nothing else.")
+@click.option("--until", type=float, callback=positive, default=2.5, show_default=True, help="Duration, s.")
+@click.option("--seed", type=int, default=0, show_default=True, help="Of the sensors' noise.")
+@click.option("--compiled", is_flag=True, help="Run the controllers that exist as C as compiled C.")
+@click.option(
+    "--plot",
+    "picture",
+    metavar="[FILE.png]",
+    is_flag=False,
+    flag_value=PICTURE,
+    callback=picture_option,
+    help="Draw tip angles and torques; by default into NAME-mpc.png.",
+)
+@click.option(
+    "--animate",
+    "animated",
+    metavar="FILE.gif|FILE.html",
+    type=click.Path(path_type=Path),
+    callback=_animated,
+    help="Show the arm in motion: the last controller under the last condition.",
+)
+@click.option(
+    "--emit",
+    "folder",
+    metavar="DIR",
+    type=click.Path(file_okay=False, path_type=Path),
+    help=f"Write the controller as C for a microcontroller, {_EMITTED} unless one is chosen; no comparison.",
+)
+@click.option(
+    "--real",
+    type=click.Choice(["float64", "float32"]),
+    default="float64",
+    show_default=True,
+    help="Number type of the C code.",
+)
+@click.option("--json", "json_mode", is_flag=True, help="One JSON object instead of a table.")
+def mpc(
+    scene: Path,
+    controllers: tuple[str, ...],
+    conditions: tuple[str, ...],
+    listed: bool,
+    until: float,
+    seed: int,
+    compiled: bool,
+    picture: Path | None,
+    animated: Path | None,
+    folder: Path | None,
+    real: str,
+    json_mode: bool,
+) -> None:
+    """Control the arm of SCENE as its [control] says, and compare controllers.
+
+    The arm that is controlled is finer than the scene's model and integrated by another method; its encoder
+    rounds and its other sensors are noisy. Conditions change it in ways the controllers do not know, except for
+    gravity and delay.
+    """
+    from tmm_gen.cli.mpc_report import emit, list_all, show, write_files
+    from tmm_gen.scene import load_scene
+
+    loaded = load_scene(scene)
+    refuse_folders(picture, animated)
+    from tmm_gen.control.condition import CONDITIONS
+    from tmm_gen.control.controllers import CONTROLLERS
+
+    kinds = _chosen("--controller", controllers, {kind.name: kind for kind in CONTROLLERS})
+    cases = _chosen("--condition", conditions, {case.name: case for case in CONDITIONS}) or [*CONDITIONS]
+    if listed:
+        list_all(json_mode)
+        return
+    from tmm_gen.control.bench import Bench
+
+    bench = Bench.of(loaded)
+    if folder is not None:
+        names = [kind.name for kind in kinds] or [_EMITTED]
+        emit(bench, names, folder, real, json_mode)
+        return
+    kinds = kinds or [kind for kind in CONTROLLERS if kind.default]
+    trials = _trials(loaded, bench, kinds, cases, until, seed, compiled)
+    show(loaded, trials, until, write_files(bench, trials, picture, animated), json_mode)
+
+
+def _trials(
+    scene: Scene,
+    bench: Bench,
+    kinds: list[ControllerKind],
+    cases: list[Condition],
+    until: float,
+    seed: int,
+    compiled: bool,
+) -> list[Trial]:
+    """Return the trials of all controllers under all conditions."""
+    from tmm_gen.control.compare import compare
+
+    done: list[Trial] = []
+    with progress(f"controlling {scene.name}", total=len(kinds) * len(cases)) as advance:
+        for trial in compare(bench, kinds, cases, until, seed, compiled):
+            done.append(trial)
+            advance(1, f"{trial.kind.title}, {trial.condition.title}")
+    return done
+
+
+def _chosen(option: str, names: tuple[str, ...], known: Mapping[str, Any]) -> list[Any]:
+    """Return what is meant by names, in the order there is.
+
+    Raises
+    ------
+    UserError
+        If one is unknown; it lists them.
+    """
+    for name in names:
+        if name not in known:
+            near = get_close_matches(name, known, n=1)
+            guess = f"Did you mean {near[0]}? " if near else ""
+            raise UserError(f"{option} {name}: there is none. {guess}There are {', '.join(known)}.")
+    return [item for name, item in known.items() if name in names]

@@ -1,0 +1,112 @@
+"""What `tmm-gen mpc` prints and writes."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from tmm_gen.cli.console import Column, progress, table
+from tmm_gen.cli.given import PICTURE
+from tmm_gen.errors import UserError
+
+if TYPE_CHECKING:
+    from tmm_gen.control.bench import Bench
+    from tmm_gen.control.compare import Trial
+    from tmm_gen.scene import Scene
+
+
+def list_all(json_mode: bool) -> None:
+    """Print controllers and conditions."""
+    from tmm_gen.control.condition import CONDITIONS
+    from tmm_gen.control.controllers import CONTROLLERS
+    from tmm_gen.control.emitted.emit import EMITTED
+
+    rows: list[dict[str, object]] = [
+        {"what": "controller", "name": kind.name, "title": kind.title, "c": kind.name in EMITTED}
+        for kind in CONTROLLERS
+    ]
+    rows += [{"what": "condition", "name": case.name, "title": case.title, "c": None} for case in CONDITIONS]
+    table(rows, ["what", "name", Column("title", ""), Column("c", "as C")], json_mode)
+
+
+def show(scene: Scene, trials: list[Trial], until: float, files: list[Path], json_mode: bool) -> None:
+    """Print the figures, and what could be done next."""
+    from tmm_gen.control.figures import BAND, RESIDUAL_FROM
+
+    columns: list[Column | str] = [
+        "controller",
+        "condition",
+        Column("settling_s", f"settles to {100 * BAND:g} % (s)", ".3f"),
+        Column("overshoot_percent", "overshoot (%)", ".2f"),
+        Column("residual_mrad", "residual (mrad)", ".2f"),
+        Column("offset_mrad", "offset (mrad)", ".2f"),
+        Column("solve_us_median", "solve (us)", ".0f"),
+        Column("solve_us_max", "at most (us)", ".0f"),
+    ]
+    rows = [trial.row() for trial in trials]
+    if any(row["fallbacks"] for row in rows):
+        columns.append("fallbacks")
+    facts = {
+        "scene": scene.name,
+        "until": until,
+        "band_percent": 100.0 * BAND,
+        "residual_from_s": RESIDUAL_FROM,
+        "files": files,
+    }
+    table(rows, columns, json_mode, title=scene.title, more=facts)
+    if json_mode:
+        return
+    for path in files:
+        click.echo(f"wrote {path}")
+    if not files:
+        click.echo("more: --plot draws it, --animate FILE.gif shows it, --emit DIR writes a controller in C")
+
+
+def write_files(bench: Bench, trials: list[Trial], picture: Path | None, animated: Path | None) -> list[Path]:
+    """Write the pictures asked for, all or none; return them."""
+    from tmm_gen.files import write_tree_whole
+
+    files: dict[Path, str | bytes] = {}
+    if picture is not None:
+        from tmm_gen.control.pictures import comparison_picture
+
+        target = Path(f"{bench.scene.name}-mpc.png") if picture == Path(PICTURE) else picture
+        files[target] = comparison_picture(trials, bench.problem, target.suffix[1:].lower())
+    if animated is not None:
+        from tmm_gen.control.motion import motion
+        from tmm_gen.measure.animate import animation
+
+        files[animated] = animation(motion(bench.scene, trials[-1]), animated.suffix[1:].lower())
+    write_tree_whole(files)
+    return list(files)
+
+
+def emit(bench: Bench, names: list[str], folder: Path, real: str, json_mode: bool) -> None:
+    """Write a controller as C.
+
+    Raises
+    ------
+    UserError
+        If there is none of that name in C, or more than one is asked for.
+    """
+    from tmm_gen.control.emitted.emit import EMITTED, emit_controller
+    from tmm_gen.files import write_tree_whole
+
+    if len(names) != 1 or names[0] not in EMITTED:
+        raise UserError(
+            f"--emit: cannot write {' and '.join(names)}. Choose one by --controller: {', '.join(EMITTED)}."
+        )
+    with progress(f"writing {names[0]}"):
+        name, files = emit_controller(bench, names[0], real=real)
+    written = {folder / path: text for path, text in files.items()}
+    write_tree_whole(dict(written))
+    rows: list[dict[str, object]] = [
+        {"file": path, "bytes": len(text.encode())} for path, text in written.items()
+    ]
+    facts = {"scene": bench.scene.name, "controller": names[0], "name": name, "real": real}
+    title = f"{bench.scene.title}: {names[0]} as C"
+    table(rows, ["file", Column("bytes", form="d")], json_mode, title=title, more=facts)
+    if not json_mode:
+        click.echo(f"call {name}_command() once per sample; {folder / (name + '.h')} says how")

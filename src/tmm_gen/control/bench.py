@@ -1,0 +1,94 @@
+"""What several controllers of a scene share: models are derived and linearised once."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+from tmm_gen.control.condition import Condition
+from tmm_gen.control.linear import LinearModel
+from tmm_gen.control.links import links_model
+from tmm_gen.control.modes import modes_model
+from tmm_gen.control.prediction import prediction_scene
+from tmm_gen.control.problem import ControlProblem, control_problem
+from tmm_gen.control.step_model import StepModel
+from tmm_gen.modal.arm import linear_arm
+from tmm_gen.modal.matrices import matrices
+from tmm_gen.scene import Scene
+
+
+@dataclass(frozen=True, eq=False)
+class Bench:
+    """A scene's control problem and its models.
+
+    Parameters
+    ----------
+    scene : Scene
+        With ``[control]``.
+    problem : ControlProblem
+        Of the scene, perhaps with other weights.
+    """
+
+    scene: Scene
+    problem: ControlProblem
+
+    @classmethod
+    def of(cls, scene: Scene) -> Bench:
+        """Return the bench of a scene.
+
+        Raises
+        ------
+        UserError
+            If it has no ``[control]``.
+        """
+        return cls(scene, control_problem(scene))
+
+    def told(self, condition: Condition) -> Bench:
+        """Return the bench of those who know a condition's gravity and delay, which are no secrets."""
+        scene = self.scene
+        if condition.gravity:
+            scene = scene.replace(**{"model.gravity": (scene.model.gravity or 0.0) + condition.gravity})
+        if scene is self.scene and not condition.delay:
+            return self
+        return Bench(scene, replace(self.problem, delay=self.problem.delay + condition.delay))
+
+    def retuned(self, scene: Scene) -> Bench:
+        """Return the bench of the same arm with other weights, estimator or baselines; models are not made anew."""
+        return Bench(scene, self.problem).with_problem(control_problem(scene), self)
+
+    def with_problem(self, problem: ControlProblem, models: Bench | None = None) -> Bench:
+        """Return the bench with another problem of the same sample time, horizon, substeps, delay and reference.
+
+        Parameters
+        ----------
+        problem : ControlProblem
+            To be solved.
+        models : Bench, optional
+            Where models that exist are taken from; by default this one.
+        """
+        source = models or self
+        other = Bench(self.scene, problem)
+        for name in ("links", "modes", "inertia"):
+            other.__dict__[name] = getattr(source, name)
+        other.__dict__["step"] = source.step.with_problem(problem)
+        return other
+
+    @cached_property
+    def step(self) -> StepModel:
+        """The generated step, calibrated on the first frequency."""
+        return StepModel(prediction_scene(self.scene), self.problem)
+
+    @cached_property
+    def links(self) -> LinearModel:
+        """The generated step, linearised."""
+        return links_model(self.step)
+
+    @cached_property
+    def modes(self) -> LinearModel:
+        """First modes of the fine arm."""
+        return modes_model(self.scene, self.problem)
+
+    @cached_property
+    def inertia(self) -> float:
+        """Of hub and straight arm about the hub, kg m^2."""
+        return float(matrices(linear_arm(self.scene)).mass.sum())

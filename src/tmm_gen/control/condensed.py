@@ -1,0 +1,170 @@
+"""The condensed quadratic program: of the inputs and one slack per stage and soft bound.
+
+What it says is stated in :mod:`tmm_gen.control.problem`; here are its arrays.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.control.problem import ControlProblem
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Outputs:
+    """Tip and hub over the horizon, or how they depend on the inputs.
+
+    Parameters
+    ----------
+    tip, tip_rate, hub, hub_rate : array, (N,) or (N, N)
+        After samples 1 to N: rad and rad/s; or their derivatives by ``u[0], ..., u[N-1]``.
+    """
+
+    tip: Array
+    tip_rate: Array
+    hub: Array
+    hub_rate: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Condensed:
+    """Arrays of the quadratic program in ``z = (u - u^, s, r)`` for given sensitivities.
+
+    Parameters
+    ----------
+    problem : ControlProblem
+        What is to be solved.
+    slopes : Outputs
+        Derivatives by the inputs, (N, N) each.
+    target_hub, target_torque : float
+        ``hub_s`` (rad), ``u_s`` (N m).
+    """
+
+    problem: ControlProblem
+    slopes: Outputs
+    target_hub: float
+    target_torque: float
+
+    @property
+    def size(self) -> int:
+        """Number of variables."""
+        return len(self.hessian)
+
+    @cached_property
+    def factors(self) -> Array:
+        """``f_i``, (N,): one, and the terminal factor at the end."""
+        found = np.ones(self.problem.horizon)
+        found[-1] = self.problem.weights.terminal
+        return found
+
+    @cached_property
+    def difference(self) -> Array:
+        """``D``, (N, N): changes of the inputs are ``D u - e_0 u[-1]``."""
+        count = self.problem.horizon
+        return np.eye(count) - np.eye(count, k=-1)
+
+    @cached_property
+    def input_hessian(self) -> Array:
+        """The part of the inputs, (N, N), Gauss-Newton."""
+        weights, slopes = self.problem.weights, self.slopes
+        found = weights.torque * np.eye(self.problem.horizon)
+        found += weights.torque_step * self.difference.T @ self.difference
+        for weight, slope in (
+            (weights.tip, slopes.tip),
+            (weights.hub, slopes.hub),
+            (weights.tip_rate, slopes.tip_rate),
+            (weights.hub_rate, slopes.hub_rate),
+        ):
+            if weight:
+                found += weight * slope.T @ (self.factors[:, None] * slope)
+        return found
+
+    @cached_property
+    def hessian(self) -> Array:
+        """H, with the slacks behind the inputs."""
+        weights, problem = self.problem.weights, self.problem
+        slack = [weights.overshoot] * problem.horizon if problem.tip else []
+        slack += [weights.hub_bound] * problem.horizon if problem.hub else []
+        count = problem.horizon
+        found = np.diag(np.concatenate([np.zeros(count), slack]))
+        found[:count, :count] = self.input_hessian
+        return found
+
+    @cached_property
+    def rows(self) -> Array:
+        """A: changes of the torque, tip, hub; those present, N rows each."""
+        problem, count = self.problem, self.problem.horizon
+        width = len(self.hessian)
+        blocks = []
+        if problem.torque_rate is not None:
+            blocks.append(np.hstack([self.difference, np.zeros((count, width - count))]))
+        column = count
+        for present, slope in ((problem.tip, self.slopes.tip), (problem.hub, self.slopes.hub)):
+            if present is not None:
+                block = np.zeros((count, width))
+                block[:, :count] = slope
+                block[:, column : column + count] = -np.eye(count)
+                column += count
+                # two-sided with one slack: low - s <= y <= high + s needs a row for each finite side
+                if np.isfinite(present[1]):
+                    blocks.append(block)
+                if np.isfinite(present[0]):
+                    lower = block.copy()
+                    lower[:, count:] *= -1.0
+                    blocks.append(lower)
+        return np.vstack(blocks) if blocks else np.zeros((0, width))
+
+    def gradient(self, along: Outputs, inputs: Array, last: float, disturbance: float) -> Array:
+        """Return f.
+
+        Parameters
+        ----------
+        along : Outputs
+            Predicted with the inputs below, (N,) each.
+        inputs : array, (N,)
+            ``u^``, N m.
+        last : float
+            ``u[-1]``, N m.
+        disturbance : float
+            ``d``, N m.
+        """
+        weights, slopes = self.problem.weights, self.slopes
+        changes = self.difference @ inputs
+        changes[0] -= last
+        found = weights.torque * (inputs - self.target_torque + disturbance)
+        found += weights.torque_step * (changes @ self.difference)
+        for weight, slope, error in (
+            (weights.tip, slopes.tip, along.tip - self.problem.reference),
+            (weights.hub, slopes.hub, along.hub - self.target_hub),
+            (weights.tip_rate, slopes.tip_rate, along.tip_rate),
+            (weights.hub_rate, slopes.hub_rate, along.hub_rate),
+        ):
+            if weight:
+                found += weight * (self.factors * error) @ slope
+        return np.concatenate([found, np.zeros(self.size - len(found))])
+
+    def bounds(self, along: Outputs, inputs: Array, last: float) -> tuple[Array, Array]:
+        """Return lower and upper bounds of the inputs and of the rows, with arguments as for :meth:`gradient`."""
+        problem, count = self.problem, self.problem.horizon
+        low, high = [problem.torque[0] - inputs], [problem.torque[1] - inputs]
+        if problem.torque_rate is not None:
+            change = problem.torque_rate * problem.sample_time
+            changes = self.difference @ inputs
+            changes[0] -= last
+            low.append(-change - changes)
+            high.append(change - changes)
+        none = np.full(count, np.inf)
+        for present, value in ((problem.tip, along.tip), (problem.hub, along.hub)):
+            if present is not None and np.isfinite(present[1]):
+                low.append(-none)
+                high.append(present[1] - value)
+            if present is not None and np.isfinite(present[0]):
+                low.append(present[0] - value)
+                high.append(none)
+        return np.concatenate(low), np.concatenate(high)

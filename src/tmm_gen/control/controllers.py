@@ -1,0 +1,98 @@
+"""The controllers there are, by name."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from tmm_gen.control.bench import Bench
+from tmm_gen.control.command import Controller
+from tmm_gen.control.linear_mpc import LinearMpc
+from tmm_gen.control.lqr import Regulator
+from tmm_gen.control.pd import PdController
+from tmm_gen.control.rti import RealTimeIteration
+from tmm_gen.control.shaper import Kind, shaper, slowest_vibration
+from tmm_gen.scene.control import Baselines
+
+
+@dataclass(frozen=True)
+class ControllerKind:
+    """How to make a controller.
+
+    Parameters
+    ----------
+    name : str
+        As on the command line.
+    title : str
+        A few words.
+    make : callable
+        From a bench to a controller.
+    default : bool
+        Whether it is compared unless others are chosen.
+    """
+
+    name: str
+    title: str
+    make: Callable[[Bench], Controller]
+    default: bool = True
+
+
+def _gains(bench: Bench, gains: tuple[float, float] | None) -> tuple[float, float]:
+    """Return gains, by default critical damping of the rigid arm at a quarter of its first frequency."""
+    if gains is not None:
+        return gains
+    from tmm_gen.measure.planar_linear import vibration
+
+    frequencies = vibration(bench.scene).frequencies
+    slow = 0.25 * float(frequencies[frequencies > 0.0][0])
+    return bench.inertia * slow**2, 2.0 * bench.inertia * slow
+
+
+def _baselines(bench: Bench) -> Baselines:
+    control = bench.scene.control
+    return control.baselines if control is not None else Baselines()
+
+
+def make_pd(bench: Bench, gains: tuple[float, float] | None, shaping: Kind | None = None) -> PdController:
+    """Return a PD controller, with a reference shaped for the closed loop's slowest vibration if asked for."""
+    proportional, derivative = _gains(bench, gains)
+    model, problem = bench.modes, bench.problem
+    impulses = None
+    if shaping is not None:
+        frequency, damping = slowest_vibration(model, problem, proportional, derivative)
+        impulses = shaper(shaping, frequency, damping, problem.sample_time)
+    return PdController(
+        problem,
+        proportional,
+        derivative,
+        model.target_hub,
+        model.target_torque,
+        impulses,
+        bench.inertia if math.isfinite(bench.inertia) else 0.0,
+    )
+
+
+def _nmpc(bench: Bench) -> Controller:
+    from tmm_gen.control.full_nmpc import FullNmpc
+
+    return FullNmpc(bench.step, bench.links, bench.inertia)
+
+
+CONTROLLERS: tuple[ControllerKind, ...] = (
+    ControllerKind("pd", "PD on the hub", lambda b: make_pd(b, _baselines(b).pd)),
+    ControllerKind("pd-zv", "PD, ZV shaper", lambda b: make_pd(b, _baselines(b).pd_zv, "zv")),
+    ControllerKind("pd-zvd", "PD, ZVD shaper", lambda b: make_pd(b, _baselines(b).pd_zvd, "zvd")),
+    ControllerKind(
+        "lqr", "LQR, modes", lambda b: Regulator(b.modes, b.problem, _baselines(b).lqr, b.inertia)
+    ),
+    ControllerKind("mpc-links", "linear MPC, links", lambda b: LinearMpc(b.links, b.problem, b.inertia)),
+    ControllerKind("mpc-modes", "linear MPC, modes", lambda b: LinearMpc(b.modes, b.problem, b.inertia)),
+    ControllerKind(
+        "rti-zero", "RTI, zero order", lambda b: RealTimeIteration(b.step, b.links, b.inertia, True)
+    ),
+    ControllerKind("rti", "RTI, full", lambda b: RealTimeIteration(b.step, b.links, b.inertia)),
+    ControllerKind("nmpc", "NMPC to convergence", _nmpc, default=False),
+)
+
+BY_NAME = {kind.name: kind for kind in CONTROLLERS}

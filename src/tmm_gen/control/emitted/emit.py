@@ -1,0 +1,49 @@
+"""Which controllers can be written in C, and their files."""
+
+from __future__ import annotations
+
+from tmm_gen.control.bench import Bench
+from tmm_gen.control.emitted.linear import emit_linear_mpc
+from tmm_gen.control.emitted.rti import emit_rti
+from tmm_gen.control.linear_mpc import LinearMpc
+from tmm_gen.control.rti import RealTimeIteration
+from tmm_gen.errors import UserError
+
+EMITTED = ("mpc-links", "mpc-modes", "rti-zero", "rti")
+"""Names of the controllers that can be written in C."""
+
+
+def emit_controller(bench: Bench, controller: str, real: str = "float64") -> tuple[str, dict[str, str]]:
+    """Write a controller of a scene in C.
+
+    Parameters
+    ----------
+    bench : Bench
+        Of the scene.
+    controller : str
+        One of `EMITTED`.
+    real : {"float64", "float32"}
+        Number type.
+
+    Returns
+    -------
+    name : str
+        Prefix of its functions and files.
+    files : dict of str to str
+        Texts by path.
+
+    Raises
+    ------
+    UserError
+        If that controller cannot be written in C.
+    """
+    name = f"{bench.scene.name}_{controller.replace('-', '_')}"
+    title = bench.scene.title
+    if controller == "mpc-links":
+        return name, emit_linear_mpc(name, title, LinearMpc(bench.links, bench.problem, bench.inertia), real)
+    if controller == "mpc-modes":
+        return name, emit_linear_mpc(name, title, LinearMpc(bench.modes, bench.problem, bench.inertia), real)
+    if controller in ("rti", "rti-zero"):
+        made = RealTimeIteration(bench.step, bench.links, bench.inertia, controller == "rti-zero")
+        return name, emit_rti(name, title, made, real)
+    raise UserError(f"the controller '{controller}' cannot be written in C; these can: {', '.join(EMITTED)}")

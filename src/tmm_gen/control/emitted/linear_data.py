@@ -1,0 +1,143 @@
+"""Everything numeric that a linear MPC in C needs, prepared once."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.control.condensed import Outputs
+from tmm_gen.control.emitted.program_data import ProgramData, program_data
+from tmm_gen.control.kalman import KalmanFilter
+from tmm_gen.control.linear_mpc import LinearMpc
+from tmm_gen.control.safe import BRAKE_TIME
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class LinearMpcData:
+    """Tables of a linear MPC; ``z = (x, d - u_s, u[-1], 1)`` has ``m + 3`` entries.
+
+    Parameters
+    ----------
+    size : int
+        Entries of the model's state, m.
+    transition, before, then : array, (m + 1, m + 1), (m + 1,) and (m + 1,)
+        Of state and disturbance over a sample, and by the torques that act in it.
+    measure, feed, gain : array, (p, m + 1), (p,) and (m + 1, p)
+        Of the Kalman filter.
+    start : array, (m + 1,)
+        Estimate at time zero.
+    tip_rate, whirl : array, (m,)
+        The accelerometer feels the tip's rate squared times ``whirl x`` besides what is linear.
+    sensors : tuple of int
+        Which of encoder, accelerometer and strain gauge there are.
+    shown : array, (p,)
+        What they show at the target.
+    target_torque : float
+        N m.
+    whole, acting, memory : int
+        Delay in samples, of the model and of the arm; past torques that count.
+    program : ProgramData
+        The quadratic program, but for what follows.
+    shift : array, (N, m + 3)
+        ``v = R^-T f`` by ``z``.
+    free : array, (rows, m + 2)
+        What the rows are at without inputs, by ``z`` but for its last entry, less what they are at the target.
+    rest : array, (kinds of rows,)
+        What the rows are at at the target.
+    brake : float
+        Of the safe law, N m s/rad.
+    """
+
+    size: int
+    transition: Array
+    before: Array
+    then: Array
+    measure: Array
+    feed: Array
+    gain: Array
+    start: Array
+    tip_rate: Array
+    whirl: Array
+    sensors: tuple[int, ...]
+    shown: Array
+    target_torque: float
+    whole: int
+    acting: int
+    memory: int
+    program: ProgramData
+    shift: Array
+    free: Array
+    rest: Array
+    brake: float
+
+
+def linear_mpc_data(controller: LinearMpc) -> LinearMpcData:
+    """Return the tables of a controller."""
+    model, kalman, problem = controller.model, controller.estimator, controller.problem
+    assert isinstance(kalman, KalmanFilter)
+    program = program_data(problem, controller.condensed)
+    size = model.size
+    gradient, free = _affine_maps(controller)
+    kinds = len(free) // problem.horizon
+    return LinearMpcData(
+        size=size,
+        transition=kalman.transition,
+        before=np.append(model.before, 0.0),
+        then=np.append(model.then, 0.0),
+        measure=kalman.measure,
+        feed=kalman.feed,
+        gain=kalman.gain,
+        start=np.append(model.start, 0.0),
+        tip_rate=model.tip_rate,
+        whirl=model.whirl,
+        sensors=tuple(kalman.sensors),
+        shown=model.target_sensors[kalman.sensors],
+        target_torque=model.target_torque,
+        whole=controller.delay.whole,
+        acting=controller.delay.acting,
+        memory=controller.delay.memory,
+        program=program,
+        shift=program.inverse.T @ gradient,
+        free=free[:, :-1],
+        rest=free[:: problem.horizon, -1] if kinds else np.zeros(0),
+        brake=controller.inertia / BRAKE_TIME,
+    )
+
+
+def _affine_maps(controller: LinearMpc) -> tuple[Array, Array]:
+    """Return gradient of the inputs, and free motion of the rows, as maps of ``z``: both are affine in it."""
+    problem, found, target = controller.problem, controller.response, controller.model
+    size = target.size
+    none = np.zeros(problem.horizon)
+
+    def at(z: Array) -> tuple[Array, Array]:
+        state, pushed, last, one = z[:size], z[size], z[size + 1], z[size + 2]
+        disturbance = pushed + target.target_torque * one
+        motion = (
+            found.by_state @ state
+            + found.by_constant * pushed
+            + found.by_last * last
+            + controller.offsets * one
+        )
+        along = Outputs(*motion)
+        gradient = controller.condensed.gradient(along, none, last, disturbance)[: problem.horizon]
+        rows = []
+        if problem.torque_rate is not None:
+            rows.append(np.concatenate([[-last], none[1:]]))
+        rows += [along.tip] if problem.tip is not None else []
+        rows += [along.hub] if problem.hub is not None else []
+        return gradient, np.concatenate(rows) if rows else np.zeros(0)
+
+    units = np.eye(size + 3)
+    constant = at(units[-1])
+    columns = [at(unit + units[-1]) for unit in units[:-1]]
+    # the gradient's own constant belongs to the last entry of z, which is always one
+    maps = []
+    for which in range(2):
+        parts = [column[which] - constant[which] for column in columns]
+        maps.append(np.column_stack([*parts, constant[which]]))
+    return maps[0], maps[1]

@@ -1,0 +1,96 @@
+"""A condensed quadratic program as DAQP's core wants it: a least-distance problem with normalised rows.
+
+With ``H = R' R`` and ``v = R^-T f`` the problem in ``y = R u + v`` is: smallest ``|y|`` under ``low <= M y <= high``
+shifted by ``M v``, where ``M = A R^-1``. Soft rows need no slack variables: a quadratic penalty ``W s^2 / 2`` adds
+``1 / W`` to the diagonal of the dual problem (Arnstroem, Bemporad and Axehill 2022).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.control.condensed import Condensed
+from tmm_gen.control.problem import ControlProblem
+
+Array = NDArray[np.float64]
+
+INFINITE = 1e30
+"""DAQP's infinity."""
+ACTIVE_PER_INPUT = 2.4
+"""How many bounds per input may be active at once: soft rows can be more, where hard ones could not. All of them would
+be three per input, and half as much memory again."""
+ITERATIONS_PER_INPUT = 5
+"""Iterations of the solver a sample may take, per input."""
+
+
+@dataclass(frozen=True, eq=False)
+class ProgramData:
+    """Tables of a quadratic program of N inputs with bounds and some rows.
+
+    Parameters
+    ----------
+    inverse : array, (N, N)
+        ``R^-1``, upper triangular.
+    rows : array, (r, N)
+        ``A``.
+    low, high : array, (N + r,)
+        Bounds of inputs and rows, infinite as `INFINITE`.
+    softness : array, (N + r,)
+        ``1 / W`` of soft rows, zero of hard ones.
+    capacity, iteration_limit : int
+        How many bounds may be active at once; how many iterations a solution may take.
+    """
+
+    inverse: Array
+    rows: Array
+    low: Array
+    high: Array
+    softness: Array
+    capacity: int
+    iteration_limit: int
+
+    @property
+    def horizon(self) -> int:
+        """Number of inputs, N."""
+        return len(self.inverse)
+
+    @property
+    def scaling(self) -> Array:
+        """What normalises the rows of ``R^-1`` and ``A R^-1``, (N + r,)."""
+        scaling: Array = 1.0 / np.linalg.norm(np.vstack([self.inverse, self.rows @ self.inverse]), axis=1)
+        return scaling
+
+
+def program_data(problem: ControlProblem, condensed: Condensed) -> ProgramData:
+    """Return the tables of a condensed problem; its slopes must be those of the controller."""
+    count = problem.horizon
+    upper = np.linalg.cholesky(condensed.input_hessian).T
+    rows, low, high, soft = [], [], [], []
+    if problem.torque_rate is not None:
+        change = problem.torque_rate * problem.sample_time
+        rows.append(condensed.difference)
+        low.append(-change)
+        high.append(change)
+        soft.append(0.0)
+    weights = problem.weights
+    for bounds, slope, weight in (
+        (problem.tip, condensed.slopes.tip, weights.overshoot),
+        (problem.hub, condensed.slopes.hub, weights.hub_bound),
+    ):
+        if bounds is not None:
+            rows.append(slope)
+            low.append(bounds[0])
+            high.append(bounds[1])
+            soft.append(1.0 / weight)
+    return ProgramData(
+        inverse=np.linalg.inv(upper),
+        rows=np.vstack(rows) if rows else np.zeros((0, count)),
+        low=np.maximum(np.repeat([problem.torque[0], *low], count), -INFINITE),
+        high=np.minimum(np.repeat([problem.torque[1], *high], count), INFINITE),
+        softness=np.repeat([0.0, *soft], count),
+        capacity=round(ACTIVE_PER_INPUT * count),
+        iteration_limit=ITERATIONS_PER_INPUT * count,
+    )

@@ -1,0 +1,174 @@
+"""What the templates of all controllers ask for."""
+
+from __future__ import annotations
+
+import textwrap
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from tmm_gen.control.emitted.program_data import ProgramData
+from tmm_gen.control.emitted.tables import number, table
+from tmm_gen.control.emitted.tolerances import TOLERANCES, Tolerances
+from tmm_gen.control.problem import ControlProblem
+from tmm_gen.emit.c.real import Real
+from tmm_gen.emit.c.wrap import WIDTH
+from tmm_gen.version import __version__
+
+_SENSORS = (
+    ("hub encoder", "hub angle [rad]"),
+    ("tip accelerometer", "acceleration across the last link at the tip [m/s^2]"),
+    ("root strain gauge", "bending moment at the root [N m]"),
+)
+
+
+class ControllerData(Protocol):
+    """What all controllers' tables have."""
+
+    @property
+    def size(self) -> int:
+        """Entries of the state."""
+        ...
+
+    @property
+    def sensors(self) -> tuple[int, ...]:
+        """Which of encoder, accelerometer and strain gauge there are."""
+        ...
+
+    @property
+    def memory(self) -> int:
+        """Past torques that count."""
+        ...
+
+    @property
+    def program(self) -> ProgramData:
+        """The quadratic program."""
+        ...
+
+
+@dataclass(frozen=True, eq=False)
+class ControllerText:
+    """Numbers, tables and names of a controller in C.
+
+    Parameters
+    ----------
+    name, title : str
+        Prefix of everything; one line.
+    problem : ControlProblem
+        What it solves.
+    kind : str
+        In a few words, for the head of its files.
+    real : Real
+        Number type.
+    data : ControllerData
+        Tables.
+    """
+
+    name: str
+    title: str
+    problem: ControlProblem
+    kind: str
+    real: Real
+    data: ControllerData
+
+    @property
+    def NAME(self) -> str:
+        """Prefix of macros."""
+        return self.name.upper()
+
+    @property
+    def single(self) -> bool:
+        """Whether numbers are ``float``."""
+        return self.real.size == 4
+
+    @property
+    def horizon(self) -> int:
+        """Samples looked ahead."""
+        return self.data.program.horizon
+
+    @property
+    def rows(self) -> int:
+        """Rows of the program besides the bounds of its inputs."""
+        return len(self.data.program.rows)
+
+    @property
+    def bounds(self) -> int:
+        """Bounds and rows."""
+        return self.horizon + self.rows
+
+    @property
+    def past(self) -> int:
+        """How many torques are remembered."""
+        return self.data.memory + 1
+
+    @property
+    def tolerances(self) -> Tolerances:
+        """Of the solver."""
+        return TOLERANCES[self.real.name]
+
+    @property
+    def sensor_names(self) -> str:
+        """Which sensors there are, in words."""
+        return ", ".join(_SENSORS[i][0] for i in self.data.sensors)
+
+    @property
+    def sensor_units(self) -> str:
+        """What they measure, in words."""
+        return ", ".join(_SENSORS[i][1] for i in self.data.sensors)
+
+    @property
+    def packed(self) -> NDArray[np.float64]:
+        """``R^-1``, its rows normalised, the upper triangle row by row."""
+        program = self.data.program
+        scaled = program.scaling[: self.horizon, None] * program.inverse
+        packed: NDArray[np.float64] = scaled[np.triu_indices(self.horizon)]
+        return packed
+
+    @property
+    def scaled_rows(self) -> NDArray[np.float64]:
+        """``A R^-1``, its rows normalised, row by row."""
+        program = self.data.program
+        scaled: NDArray[np.float64] = program.scaling[self.horizon :, None] * (program.rows @ program.inverse)
+        return scaled.ravel()
+
+    @property
+    def kinds(self) -> int:
+        """How many kinds of bounds there are: of the torques, and of each kind of row."""
+        return self.bounds // self.horizon
+
+    def each_kind(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return one value for each kind of bounds, all of whose samples have the same."""
+        return values[:: self.horizon]
+
+    def trimmed(self, values: NDArray[np.float64]) -> tuple[int, NDArray[np.float64]]:
+        """Return a vector without the zeros at its ends, and how many the first ones were."""
+        places = np.flatnonzero(values)
+        first, last = (int(places[0]), int(places[-1])) if len(places) else (0, 0)
+        return first, values[first : last + 1]
+
+    def number(self, value: float) -> str:
+        """Write a number."""
+        return number(value, self.real)
+
+    def table(self, name: str, values: ArrayLike, dimension: str) -> str:
+        """Write a table."""
+        return table(name, values, dimension, self.real)
+
+    def comment(self, lead: str) -> str:
+        """Return the head of a file."""
+        problem = self.problem
+        lines = [
+            f"{self.name}: {self.title}",
+            "",
+            f"Written by tmm-gen {__version__}. Do not edit: change the scene and run `tmm-gen mpc --emit`.",
+            "",
+            f"controller: {self.kind}; {self.horizon} samples of {problem.sample_time:g} s, {self.data.size} states, "
+            f"{self.bounds} bounds and rows",
+            f"delay: {problem.delay:g} s, torque: {problem.torque[0]:g} to {problem.torque[1]:g} N m",
+            f"number type: {self.real.c}",
+            "quadratic programs: DAQP (MIT licence), in daqp/",
+        ]
+        wrapped = [part for line in lines for part in (textwrap.wrap(line, WIDTH - len(lead) - 1) or [""])]
+        return "\n".join(f"{lead} {line}".rstrip() for line in wrapped)

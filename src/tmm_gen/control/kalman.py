@@ -1,0 +1,122 @@
+"""Kalman filter of a linear model with a disturbance state, at its stationary gain."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.control.delay import Pair
+from tmm_gen.control.linear import LinearModel
+from tmm_gen.control.problem import ControlProblem
+
+Array = NDArray[np.float64]
+
+_TINY = 1e-12
+"""Variance of every state per sample, relative to the torque's: keeps the filter from being too sure."""
+_MOST = 20_000
+_SETTLED = 1e-10
+
+
+def present_sensors(problem: ControlProblem) -> list[int]:
+    """Return which of encoder, accelerometer and strain gauge there are."""
+    sensors = problem.sensors
+    return [
+        0,
+        *([1] if sensors.accelerometer is not None else []),
+        *([2] if sensors.strain is not None else []),
+    ]
+
+
+class KalmanFilter:
+    """Estimates state and disturbance of a linear model from the sensors there are.
+
+    ``x+ = A x + B_0 (u_before + d) + B_1 (u_then + d)``, ``d+ = d``, ``y = C x + D (e + d)``,
+    torques less the target's.
+    Noise acts on the torque, on the disturbance and on each sensor, as ``[control.estimator]`` says. One thing is not
+    linear: what the swinging arm's centripetal acceleration adds to the accelerometer is taken off its reading.
+
+    Parameters
+    ----------
+    model : LinearModel
+        About the target.
+    problem : ControlProblem
+        Sensors and noise.
+    """
+
+    def __init__(self, model: LinearModel, problem: ControlProblem) -> None:
+        self.model = model
+        self.sensors = present_sensors(problem)
+        size = model.size
+        self.transition = np.eye(size + 1)
+        self.transition[:size, :size] = model.transition
+        self.transition[:size, size] = model.drive
+        self.drive = np.append(model.drive, 0.0)
+        self.measure = np.column_stack([model.measure, model.feed])[self.sensors]
+        self.feed = model.feed[self.sensors]
+        self._assumed = problem.estimator
+        spreads = np.array([self._assumed.encoder, self._assumed.accelerometer, self._assumed.strain])
+        self.noise = np.diag(spreads[self.sensors] ** 2)
+        self.gain, self.covariance = self._stationary()
+        self.reset()
+
+    def reset(self) -> None:
+        """Start from the scene's initial motion."""
+        self.estimate = np.append(self.model.start, 0.0)
+        self._direct = 0.0
+
+    def correct(self, measured: Array) -> None:
+        """Take a measurement in, (3,), NaN where there is no sensor."""
+        model, state = self.model, self.estimate[:-1]
+        seen = measured - model.target_sensors
+        rate = float(model.tip_rate @ state)
+        seen[1] -= rate * rate * float(model.whirl @ state)
+        seen = seen[self.sensors]
+        self.estimate = self.estimate + self.gain @ (
+            seen - self.measure @ self.estimate - self.feed * self._direct
+        )
+
+    def advance(self, torques: Pair, end: float) -> None:
+        """Predict a sample with the torques that act in it, and the one at its end, N m."""
+        self.estimate = self._after(self.estimate, torques)
+        self._direct = end - self.model.target_torque
+
+    def ahead(self, torques: list[Pair]) -> tuple[Array, float]:
+        """Return state, (m,), and disturbance, N m, after some more samples."""
+        estimate = self.estimate
+        for pair in torques:
+            estimate = self._after(estimate, pair)
+        return estimate[:-1], float(estimate[-1])
+
+    def _after(self, estimate: Array, torques: Pair) -> Array:
+        before, then = (torque - self.model.target_torque for torque in torques)
+        after = self.transition @ estimate
+        after[:-1] += self.model.before * before + self.model.then * then
+        return np.asarray(after, float)
+
+    def finite(self) -> bool:
+        """Return whether the estimate can be used."""
+        return bool(np.all(np.isfinite(self.estimate)))
+
+    def driven(self, drive: Array) -> Array:
+        """Return what the state's covariance grows by per sample, (m + 1, m + 1), for a column of the torque."""
+        found = self._assumed.torque**2 * (np.outer(drive, drive) + _TINY * np.eye(len(drive)))
+        turn = np.append(self.model.turn, 0.0)
+        found += self._assumed.rate**2 * np.outer(turn, turn)
+        found[-1, -1] += self._assumed.disturbance**2
+        return np.asarray(found, float)
+
+    def _stationary(self) -> tuple[Array, Array]:
+        """Iterate the Riccati equation until it stands; return gain and covariance before a measurement."""
+        driven = self.driven(self.drive)
+        covariance: Array = driven.copy()
+        gain: Array = np.zeros((len(driven), len(self.noise)))
+        for _ in range(_MOST):
+            seen = self.measure @ covariance
+            new: Array = np.asarray(np.linalg.solve(seen @ self.measure.T + self.noise, seen).T, float)
+            corrected = covariance - new @ seen
+            covariance[:] = self.transition @ (0.5 * (corrected + corrected.T)) @ self.transition.T + driven
+            settled = np.max(np.abs(new - gain)) <= _SETTLED * np.max(np.abs(new))
+            gain = new
+            if settled:
+                break
+        return gain, covariance

@@ -1,0 +1,55 @@
+"""Linear-quadratic regulator: the baseline that knows the model but no bounds."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.control.command import Command
+from tmm_gen.control.kalman import KalmanFilter
+from tmm_gen.control.linear import LinearModel
+from tmm_gen.control.model_based import ModelBased
+from tmm_gen.control.problem import ControlProblem
+from tmm_gen.scene.control import RegulatorWeights
+
+Array = NDArray[np.float64]
+
+
+class Regulator(ModelBased):
+    """``u = u_s - d - K x``, clipped; with the estimator and the look ahead that linear MPC has.
+
+    Parameters
+    ----------
+    model : LinearModel
+        By links or by modes.
+    problem : ControlProblem
+        Sample time, sensors, bounds.
+    weights : RegulatorWeights
+        Of the infinite-horizon cost.
+    inertia : float
+        Of hub and arm about the hub, kg m^2, for the safe law.
+    """
+
+    def __init__(
+        self, model: LinearModel, problem: ControlProblem, weights: RegulatorWeights, inertia: float
+    ) -> None:
+        from scipy.linalg import solve_discrete_are  # slow to import
+
+        self.model = model
+        cost = np.zeros((model.size, model.size))
+        for weight, row in (
+            (1.0, model.tip),
+            (weights.hub, model.hub),
+            (weights.tip_rate, model.tip_rate),
+            (weights.hub_rate, model.hub_rate),
+        ):
+            cost += weight * np.outer(row, row)
+        a, b = model.transition, model.drive[:, None]
+        price = np.array([[weights.torque]])
+        value = solve_discrete_are(a, b, cost, price)
+        self.gain = np.linalg.solve(price + b.T @ value @ b, b.T @ value @ a)[0]
+        super().__init__(problem, KalmanFilter(model, problem), model.delay, inertia)
+
+    def decide(self, state: Array, disturbance: float, last: float) -> Command:
+        """Return the torque of the linear law; see :class:`ModelBased`."""
+        return Command(self.model.target_torque - disturbance - float(self.gain @ state))

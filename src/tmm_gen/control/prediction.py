@@ -1,0 +1,106 @@
+"""The scenes behind a control problem: the model a controller predicts with, and a finer arm."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.control.stepped_frequency import model_frequency
+from tmm_gen.scene import Scene
+
+Array = NDArray[np.float64]
+
+FINE_LINKS = 40
+"""Links of the arm whose modes a prediction by modes takes."""
+
+SENSORS = [
+    {"name": "hub", "at": "base", "of": "angle"},
+    {"name": "tip_acceleration", "at": "tip", "of": "acceleration"},
+    {"name": "root", "at": "base", "of": "torque"},
+]
+"""Outputs of every kernel that predicts."""
+
+
+def prediction_scene(scene: Scene, calibrate: bool = True) -> Scene:
+    """Return the scene a controller predicts with: kernel step, sensors as outputs, first frequencies set right.
+
+    A beam cut into few links vibrates too slowly, and a long step slows it down further. The spring at the hub and
+    the others are scaled, each by a factor, so that the first two natural frequencies of the straight arm on its
+    free hub are those of the continuous beam *when stepped*. Damping stays proportional to stiffness.
+
+    Parameters
+    ----------
+    scene : Scene
+        With ``[control]``.
+    calibrate : bool
+        Whether to set frequencies right.
+    """
+    control = scene.control
+    assert control is not None
+    step = control.sample_time / control.substeps
+    changes: dict[str, object] = {"output": SENSORS, "integrator.step": step, "emit.sensitivities": True}
+    if calibrate and scene.beam is not None:
+        first, others = spring_factors(scene, step)
+        joints, link, more = scene.joints, scene.links[0], scene.stations - 1
+        changes["beam"] = None
+        changes["joint"] = [_scaled(joints[0], first)]
+        if more:
+            changes["joint"] = [_scaled(joints[0], first), *(_scaled(joint, others) for joint in joints[1:])]
+        changes["link"] = [
+            {"mass": link.mass, "length": link.length, "inertia": link.inertia, "repeat": scene.stations}
+        ]
+    return scene.replace(**changes)
+
+
+def _scaled(joint: object, factor: float) -> dict[str, float]:
+    return {key: factor * float(getattr(joint, key)) for key in ("stiffness", "damping")}
+
+
+def spring_factors(scene: Scene, step: float) -> tuple[float, float]:
+    """Return by what to multiply the first spring and the others; see :func:`prediction_scene`.
+
+    Parameters
+    ----------
+    scene : Scene
+        With a beam, on a motor.
+    step : float
+        Of the integrator, s.
+    """
+    from scipy.linalg import eigvalsh
+    from scipy.optimize import least_squares
+
+    from tmm_gen.modal.arm import linear_arm
+    from tmm_gen.modal.beam import natural_frequencies
+    from tmm_gen.modal.discretised import continuous
+    from tmm_gen.modal.matrices import matrices
+
+    beam = continuous(scene)
+    assert beam is not None
+    count = min(2, scene.stations)
+    exact = natural_frequencies(beam, count + 1)[1:]
+    goal = np.array([model_frequency(scene.integrator, step, float(each)) for each in exact])
+    mass = matrices(linear_arm(scene)).mass
+    twist = np.eye(scene.stations, scene.stations + 1, k=1) - np.eye(scene.stations, scene.stations + 1)
+    springs = [joint.stiffness * np.outer(row, row) for joint, row in zip(scene.joints, twist, strict=True)]
+    root, beyond = springs[0], np.sum(springs[1:], axis=0) if count > 1 else np.zeros_like(mass)
+
+    def off(logarithms: Array) -> Array:
+        first, others = np.exp(logarithms[0]), np.exp(logarithms[-1])
+        squares = eigvalsh(first * root + others * beyond, mass)
+        return np.asarray(np.sqrt(np.maximum(squares[1 : count + 1], 0.0)) / goal - 1.0, float)
+
+    found = least_squares(off, np.zeros(count), xtol=1e-14, ftol=1e-14, gtol=1e-14)
+    return float(np.exp(found.x[0])), float(np.exp(found.x[-1]))
+
+
+def fine_scene(scene: Scene, links: int = FINE_LINKS) -> Scene:
+    """Return the scene with its beam cut into at least so many links; a scene without beam as it is."""
+    if scene.beam is None or scene.beam.links >= links:
+        return scene
+    changes: dict[str, object] = {"beam.links": links}
+    for key in ("angles", "rates"):
+        values = getattr(scene.initial, key)
+        if any(value != values[0] for value in values):
+            middle = (np.arange(links) + 0.5) / links * scene.stations - 0.5
+            changes[f"initial.{key}"] = np.interp(middle, np.arange(scene.stations), values).tolist()
+    return scene.replace(**changes)

@@ -1,0 +1,208 @@
+"""The generated CasADi step as a prediction model: one sample, its derivatives, what sensors see."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache, cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.control.delay import Delay, delay_of
+from tmm_gen.control.lag import input_lag
+from tmm_gen.control.problem import ControlProblem
+from tmm_gen.scene import Scene
+
+Array = NDArray[np.float64]
+
+HUB, ACCELERATION, STRAIN = "hub", "acceleration", "strain"
+"""Names of the sensors: hub angle, acceleration across the last link at the tip, bending moment at the root."""
+
+
+@cache
+def _module(scene: Scene) -> Any:
+    """Return the generated module of a scene, made once."""
+    from tmm_gen.measure.module import casadi_module
+
+    return casadi_module(scene)
+
+
+@dataclass(frozen=True, eq=False)
+class StepModel:
+    """``x[k+1] = F(x[k], w[k])`` over a sample, by the generated step; ``w`` are two torques, see `Delay`.
+
+    Parameters
+    ----------
+    scene : Scene
+        That of :func:`tmm_gen.control.prediction.prediction_scene`.
+    problem : ControlProblem
+        Gives sample time and substeps.
+    """
+
+    scene: Scene
+    problem: ControlProblem
+
+    def with_problem(self, problem: ControlProblem) -> StepModel:
+        """Return the same model for a problem of the same sample time, horizon and substeps."""
+        other = StepModel(self.scene, problem)
+        made = {key: value for key, value in self.__dict__.items() if key not in ("scene", "problem")}
+        other.__dict__.update(made)
+        return other
+
+    @cached_property
+    def module(self) -> Any:
+        """The generated module."""
+        return _module(self.scene)
+
+    @cached_property
+    def names(self) -> tuple[str, ...]:
+        """Names of the state's entries."""
+        return tuple(self.module.STATE_NAMES)
+
+    @property
+    def size(self) -> int:
+        """Entries of the state."""
+        return len(self.names)
+
+    def places(self, quantity: str) -> list[int]:
+        """Return where the hub's and the links' values of a quantity are, base to tip.
+
+        Parameters
+        ----------
+        quantity : {"angle", "rate", "acceleration"}
+            Part of the state.
+        """
+        wanted = [f"hub_{quantity}", *(f"{quantity}_{i + 1}" for i in range(self.scene.stations))]
+        return [self.names.index(name) for name in wanted]
+
+    @cached_property
+    def lengths(self) -> Array:
+        """Lengths of the links, (n,), m."""
+        return np.array([link.length for link in self.scene.links])
+
+    def mean_row(self, quantity: str) -> Array:
+        """Return the row that gives the tip angle, or its derivative, from the state."""
+        row = np.zeros(self.size)
+        row[self.places(quantity)[1:]] = self.lengths / self.lengths.sum()
+        return row
+
+    def hub_row(self, quantity: str) -> Array:
+        """Return the row that gives the hub's angle, or its derivative, from the state."""
+        row = np.zeros(self.size)
+        row[self.places(quantity)[0]] = 1.0
+        return row
+
+    # -- functions ----------------------------------------------------------------------------------------------
+
+    @cached_property
+    def parameters(self) -> Array:
+        """Step and physical parameters, a column ``p``."""
+        values = np.array(self.module.default_parameters(), float).ravel()
+        values[0] = self.problem.step
+        return values
+
+    @cached_property
+    def lag(self) -> float:
+        """By how much one step answers its input late, in steps; see :func:`tmm_gen.control.lag.input_lag`."""
+        import casadi as ca
+
+        x, w = ca.SX.sym("x", self.size), ca.SX.sym("w")
+        after = self.module.step_function()(x, self.inputs(w), self.parameters)[0]
+        slopes = ca.Function("slopes", [x, w], [ca.densify(ca.jacobian(after, x)), ca.jacobian(after, w)])
+        by_state, by_torque = slopes(self.straight(0.0), 0.0)
+        places = {name: self.places(name) for name in ("rate", "acceleration")}
+        return input_lag(self.scene, places, np.array(by_state), np.array(by_torque).ravel())
+
+    @cached_property
+    def delay(self) -> Delay:
+        """What remains of the delay beside the model's own."""
+        return delay_of(self.problem, self.lag / self.problem.substeps)
+
+    @cached_property
+    def sample(self) -> Any:
+        """``F(x, w)``, a CasADi function of SX: the state a sample later; ``w`` are the torques before and then."""
+        import casadi as ca
+
+        step = self.module.step_function()
+        x, w = ca.SX.sym("x", self.size), ca.SX.sym("w", 2)
+        after = x
+        for share in self.delay.shares(self.problem.substeps):
+            torque = w[1] if share == 0.0 else share * w[0] + (1.0 - share) * w[1]
+            after = step(after, self.inputs(torque), self.parameters)[0]
+        return ca.Function("sample", [x, w], [after], ["x", "w"], ["x_next"])
+
+    def inputs(self, torque: Any) -> Any:
+        """Return the inputs of the kernel where only the hub's torque acts."""
+        import casadi as ca
+
+        names = self.module.INPUT_NAMES
+        return ca.vertcat(*(torque if name == self.problem.input_name else 0.0 for name in names))
+
+    @cached_property
+    def sensors(self) -> Any:
+        """``h(x)``, a CasADi function: hub angle, acceleration across the last link at the tip, root moment.
+
+        The accelerometer measures what gravity does to a proof mass too: at rest, ``g cos(q_n)``.
+        """
+        import casadi as ca
+
+        x = ca.SX.sym("x", self.size)
+        y = self.module.step_function()(x, self.inputs(0.0), self.parameters)[1]
+        names = self.module.OUTPUT_NAMES
+        hub, across, up, root = (
+            y[names.index(name)] for name in ("hub", "tip_acceleration_x", "tip_acceleration_y", "root")
+        )
+        angle = x[self.places("angle")[-1]]
+        gravity = self.scene.model.gravity or 0.0
+        felt = -across * ca.sin(angle) + (up + gravity) * ca.cos(angle)
+        return ca.Function("sensors", [x], [ca.vertcat(hub, felt, root)], ["x"], [HUB + "_and_others"])
+
+    @cached_property
+    def sample_slopes(self) -> Any:
+        """``(x, w) -> F, dF/dx, dF/dw``."""
+        import casadi as ca
+
+        x, w = ca.SX.sym("x", self.size), ca.SX.sym("w", 2)
+        after = self.sample(x, w)
+        slopes = [ca.densify(ca.jacobian(after, x)), ca.densify(ca.jacobian(after, w))]
+        return ca.Function("sample_slopes", [x, w], [after, *slopes])
+
+    @cached_property
+    def sensor_slopes(self) -> Any:
+        """``x -> h, dh/dx``."""
+        import casadi as ca
+
+        x = ca.SX.sym("x", self.size)
+        seen = self.sensors(x)
+        return ca.Function("sensor_slopes", [x], [seen, ca.densify(ca.jacobian(seen, x))])
+
+    @cached_property
+    def rollout(self) -> Any:
+        """``(x, w (2, N)) -> (states after each sample, (size, N))``."""
+        return self.sample.mapaccum("rollout", self.problem.horizon)
+
+    @cached_property
+    def rollout_slopes(self) -> Any:
+        """``(x (size, N), w (2, N)) -> F, dF/dx side by side, dF/dw likewise`` at each of N points."""
+        return self.sample_slopes.map(self.problem.horizon)
+
+    # -- states -------------------------------------------------------------------------------------------------
+
+    def straight(self, angle: float) -> Array:
+        """Return the state of the straight arm at rest at an angle."""
+        state = np.zeros(self.size)
+        state[self.places("angle")] = angle
+        return state
+
+    def initial(self) -> Array:
+        """Return the state the scene starts from, at rest in its accelerations."""
+        state = np.zeros(self.size)
+        for quantity, values in (("angle", self.scene.initial.angles), ("rate", self.scene.initial.rates)):
+            state[self.places(quantity)[1:]] = values
+        return state
+
+    def jacobian(self, state: Array, torque: float) -> tuple[Array, Array]:
+        """Return ``dF/dx``, (size, size), and ``dF/dw``, (size, 2), where one torque acts throughout."""
+        _, by_state, by_torques = self.sample_slopes(state, [torque, torque])
+        return np.array(by_state), np.array(by_torques)

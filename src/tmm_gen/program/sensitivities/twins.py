@@ -1,0 +1,48 @@
+"""Variables that hold changes of others, and the routines that compute with them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+from tmm_gen.program.passes.dependence import SCRATCH
+from tmm_gen.program.passes.rewrite import map_values
+from tmm_gen.program.statements import Assign, Loop, Require, Routine
+from tmm_gen.program.variables import Ref, Role, Variable, refs_in
+
+_ROLES = {Role.STATE: Role.TANGENT, Role.INPUT: Role.INPUT_TANGENT}
+
+
+def change_of(variable: Variable) -> Variable:
+    """Return the change of a state variable, an input, or a scratch variable; others do not change."""
+    doc = f"change of {variable.doc}" if variable.doc else ""
+    if variable.role in SCRATCH:
+        return replace(variable, name=f"d_{variable.name}", doc=doc)
+    return replace(variable, role=_ROLES[variable.role], doc=doc)
+
+
+def changes_of(variables: Iterable[Variable]) -> tuple[Variable, ...]:
+    """Return the changes of several variables."""
+    return tuple(change_of(v) for v in variables)
+
+
+def as_tangent(routine: Routine) -> Routine:
+    """Return a routine that is linear in state, inputs and scratch as the same routine on their changes."""
+
+    def changed(ref: Ref) -> Ref:
+        if ref.variable.role in SCRATCH or ref.variable.role in _ROLES:
+            return Ref(change_of(ref.variable), ref.offset, ref.entry)
+        return ref
+
+    def target(statement: Assign | Require | Loop) -> Assign | Require | Loop:
+        if isinstance(statement, Loop):
+            return replace(statement, body=tuple(target(s) for s in statement.body))  # type: ignore[misc]
+        return (
+            replace(statement, target=changed(statement.target))
+            if isinstance(statement, Assign)
+            else statement
+        )
+
+    values = map_values(routine, lambda e: e.xreplace({ref: changed(ref) for ref in refs_in(e)}))
+    sections = tuple(replace(s, statements=tuple(map(target, s.statements))) for s in values.sections)
+    return replace(values, sections=sections)

@@ -1,0 +1,155 @@
+"""Emitted controllers against those in Python, and what they do when things go wrong."""
+
+from __future__ import annotations
+
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tmm_gen.control.bench import Bench
+from tmm_gen.control.command import Status
+from tmm_gen.control.condition import CONDITIONS
+from tmm_gen.control.emitted.emit import EMITTED, emit_controller
+from tmm_gen.control.emitted.native import EmittedController
+from tmm_gen.control.emitted.program_data import ITERATIONS_PER_INPUT
+from tmm_gen.control.linear_mpc import LinearMpc
+from tmm_gen.control.plant import Plant
+from tmm_gen.control.safe import BRAKE_TIME
+from tmm_gen.errors import UserError
+
+pytestmark = pytest.mark.compiler
+
+SAMPLES = {"mpc-links": 60, "mpc-modes": 60, "rti-zero": 25, "rti": 8}
+WARNINGS = (
+    *(
+        "-std=c99",
+        "-pedantic",
+        "-Wall",
+        "-Wextra",
+        "-Wconversion",
+        "-Wdouble-promotion",
+        "-Wshadow",
+        "-Wundef",
+    ),
+    *("-Wstrict-prototypes", "-Wmissing-prototypes", "-Werror", "-O1", "-fsyntax-only", "-I."),
+)
+
+
+@pytest.mark.parametrize("kind", EMITTED)
+def test_torques_are_those_of_python(
+    kind: str, emitted: Callable[..., EmittedController], recorded: Callable[..., object]
+) -> None:
+    loop = recorded(kind, SAMPLES[kind])
+    controller = emitted(kind)
+    controller.reset()
+    found = controller.run(loop.measured)
+    assert set(found.statuses) == {Status.OK}
+    # both solve the same program to DAQP's tolerance
+    assert np.abs(found.torques - loop.torques).max() < 1e-6
+
+
+def test_a_rate_bound_and_a_long_delay_are_those_of_python(bench: Bench) -> None:
+    """Two samples and a half of delay, a bound of the change of torque that binds."""
+    scene = bench.scene.replace(**{"control.delay": 0.05, "control.bounds.torque_rate": 60.0})
+    other = Bench.of(scene)
+    name, files = emit_controller(other, "mpc-modes")
+    controller = EmittedController(name, files, [0, 1], flags=("-O1", "-ffp-contract=off"))
+    python, plant = (
+        LinearMpc(other.modes, other.problem, other.inertia),
+        Plant(scene, other.problem, CONDITIONS[0]),
+    )
+    torques = []
+    for _ in range(60):
+        seen = plant.measured()
+        torques.append((controller.command(seen).torque, python.command(seen).torque))
+        plant.advance(torques[-1][1])
+    in_c, in_python = np.array(torques).T
+    assert np.abs(in_c - in_python).max() < 1e-6
+    assert np.abs(np.diff(in_c)).max() == pytest.approx(60.0 * 0.02)
+
+
+@pytest.mark.parametrize("kind", ["mpc-modes", "rti-zero"])
+def test_without_a_measurement_the_hub_is_braked(
+    kind: str, bench: Bench, emitted: Callable[..., EmittedController]
+) -> None:
+    controller = emitted(kind)
+    controller.reset()
+    hub = 0.0
+    for _ in range(3):
+        controller.command(np.array([hub, 0.0, np.nan]))
+        hub += 0.002
+    command = controller.command(np.array([hub, np.nan, np.nan]))
+    assert command.status is Status.MEASUREMENT
+    rate = 0.002 / bench.problem.sample_time
+    assert command.torque == pytest.approx(-bench.inertia / BRAKE_TIME * rate, rel=1e-9)
+    lost = controller.command(np.array([np.nan, np.nan, np.nan]))
+    assert lost.status is Status.MEASUREMENT
+    assert lost.torque == 0.0
+
+
+@pytest.mark.parametrize("kind", ["mpc-links", "mpc-modes", "rti-zero", "rti"])
+def test_torques_are_finite_and_within_bounds_whatever_is_measured(
+    kind: str, bench: Bench, emitted: Callable[..., EmittedController]
+) -> None:
+    random = np.random.default_rng(17)
+    count = 200 if kind != "rti" else 60
+    measured = random.normal(size=(count, 3)) * 10.0 ** random.uniform(-3.0, 3.0, (count, 1))
+    strange = random.choice([np.nan, np.inf, -np.inf, 1e308, 1e30, 0.0], size=measured.shape)
+    measured = np.where(random.uniform(size=measured.shape) < 0.1, strange, measured)
+    controller = emitted(kind)
+    controller.reset()
+    found = controller.run(measured)
+    low, high = bench.problem.torque
+    assert np.all(np.isfinite(found.torques))
+    assert np.all((found.torques >= low) & (found.torques <= high))
+    assert found.iterations.max() <= ITERATIONS_PER_INPUT * bench.problem.horizon
+    assert len(set(found.statuses)) > 1  # some of it cannot be used, and it says so
+
+
+def test_it_recovers_from_a_bad_measurement(bench: Bench, emitted: Callable[..., EmittedController]) -> None:
+    controller = emitted("mpc-modes")
+    controller.reset()
+    plant = Plant(bench.scene, bench.problem, CONDITIONS[0])
+    for sample in range(110):
+        seen = plant.measured()
+        if sample == 20:
+            seen = np.full(3, np.nan)
+        command = controller.command(seen)
+        plant.advance(command.torque)
+        assert (command.status is Status.OK) == (sample != 20)
+    assert plant.angles()[0] == pytest.approx(bench.problem.reference, abs=5e-3)
+
+
+def test_float32_controls_as_well(bench: Bench, emitted: Callable[..., EmittedController]) -> None:
+    ends = {}
+    for real in ("float64", "float32"):
+        controller, plant = emitted("mpc-modes", real), Plant(bench.scene, bench.problem, CONDITIONS[0])
+        controller.reset()
+        for _ in range(90):
+            plant.advance(controller.command(plant.measured()).torque)
+        ends[real] = plant.angles()[0]
+    assert ends["float32"] == pytest.approx(ends["float64"], abs=1e-3)
+
+
+@pytest.mark.parametrize("real", ["float64", "float32"])
+@pytest.mark.parametrize("kind", ["mpc-links", "rti-zero", "rti"])
+def test_compilers_have_nothing_to_say(kind: str, real: str, bench: Bench, tmp_path: Path) -> None:
+    name, files = emit_controller(bench, kind, real)
+    for path, text in files.items():
+        (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / path).write_text(text)
+    own = [path for path in files if path.endswith(".c") and not path.startswith("daqp/")]
+    done = subprocess.run(["gcc", *WARNINGS, *own], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.stderr == ""
+    for path in own:
+        assert not any(word in files[path] for word in ("malloc", "free(", "printf"))
+    assert "daqp/LICENSE" in files
+    assert any(path == f"{name}.h" for path in files)
+
+
+def test_other_controllers_are_refused(bench: Bench) -> None:
+    with pytest.raises(UserError, match="mpc-modes"):
+        emit_controller(bench, "pd")

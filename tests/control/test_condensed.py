@@ -1,0 +1,96 @@
+"""The condensed quadratic program says what the problem says."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+from numpy.testing import assert_allclose
+
+from tmm_gen.control.bench import Bench
+from tmm_gen.control.condensed import Condensed, Outputs
+from tmm_gen.control.linear import LinearModel
+from tmm_gen.control.problem import ControlProblem
+from tmm_gen.control.response import response
+
+
+def predicted(model: LinearModel, problem: ControlProblem, state: np.ndarray, torques: np.ndarray, last: float,
+              disturbance: float) -> np.ndarray:  # fmt: skip
+    """Step a linear model through the horizon; tip, tip rate, hub, hub rate, (4, N)."""
+    found = []
+    for before, then in zip(np.append(last, torques[:-1]), torques, strict=True):
+        pushed = disturbance - model.target_torque
+        state = model.transition @ state + model.before * (before + pushed) + model.then * (then + pushed)
+        rows = (model.tip, model.tip_rate, model.hub, model.hub_rate)
+        found.append([row @ state for row in rows])
+    offsets = np.array([problem.reference, 0.0, model.target_hub, 0.0])
+    return (np.array(found) + offsets).T
+
+
+def stated_cost(problem: ControlProblem, model: LinearModel, outputs: np.ndarray, torques: np.ndarray,
+                last: float, disturbance: float, slack: np.ndarray) -> float:  # fmt: skip
+    """The cost, term by term as the problem states it."""
+    weights, total = problem.weights, 0.0
+    tip, tip_rate, hub, hub_rate = outputs
+    for k in range(problem.horizon):
+        factor = weights.terminal if k == problem.horizon - 1 else 1.0
+        total += 0.5 * factor * weights.tip * (tip[k] - problem.reference) ** 2
+        total += 0.5 * factor * weights.hub * (hub[k] - model.target_hub) ** 2
+        total += 0.5 * factor * (weights.tip_rate * tip_rate[k] ** 2 + weights.hub_rate * hub_rate[k] ** 2)
+        change = torques[k] - (torques[k - 1] if k else last)
+        total += 0.5 * weights.torque * (torques[k] - model.target_torque + disturbance) ** 2
+        total += 0.5 * weights.torque_step * change**2
+        total += 0.5 * (weights.overshoot * slack[0, k] ** 2 + weights.hub_bound * slack[1, k] ** 2)
+    return total
+
+
+def test_cost_and_rows_are_those_of_the_problem(bench: Bench) -> None:
+    problem = dataclasses.replace(bench.problem, torque_rate=40.0, delay=0.027)
+    model = dataclasses.replace(
+        bench.modes,
+        before=0.3 * bench.modes.then,
+        then=0.7 * bench.modes.then,
+        target_torque=0.2,
+        target_hub=1.03,
+    )
+    random = np.random.default_rng(0)
+    count, last, disturbance = problem.horizon, 0.4, -0.15
+    state = 0.1 * random.standard_normal(model.size)
+    along = random.uniform(-1.0, 1.0, count)
+    made = response(model, count)
+    condensed = Condensed(problem, made.slopes, model.target_hub, model.target_torque)
+    start = predicted(model, problem, state, along, last, disturbance)
+    gradient = condensed.gradient(Outputs(*start), along, last, disturbance)
+    low, high = condensed.bounds(Outputs(*start), along, last)
+    origin = stated_cost(problem, model, start, along, last, disturbance, np.zeros((2, count)))
+    for _ in range(3):
+        change, slack = random.uniform(-1.0, 1.0, count), random.uniform(0.0, 0.1, (2, count))
+        torques, z = along + change, np.concatenate([change, *slack])
+        outputs = predicted(model, problem, state, torques, last, disturbance)
+        stated = stated_cost(problem, model, outputs, torques, last, disturbance, slack)
+        quadratic = 0.5 * z @ condensed.hessian @ z + gradient @ z
+        assert_allclose(quadratic, stated - origin, rtol=1e-9, atol=1e-9)
+        changes = np.diff(torques, prepend=last)
+        tip, hub = outputs[0], outputs[2]
+        upper = [
+            torques - 3.0,
+            changes - 0.8,
+            tip - slack[0] - problem.tip[1],
+            hub - slack[1] - problem.hub[1],
+        ]
+        lower = [torques + 3.0, changes + 0.8, hub + slack[1] - problem.hub[0]]
+        rows = np.concatenate([z[:count], condensed.rows @ z])
+        assert_allclose(np.sort((rows - high)[np.isfinite(high)]), np.sort(np.concatenate(upper)), atol=1e-9)
+        assert_allclose(np.sort((rows - low)[np.isfinite(low)]), np.sort(np.concatenate(lower)), atol=1e-9)
+
+
+def test_the_free_response_is_the_models(bench: Bench) -> None:
+    model, problem = bench.links, bench.problem
+    random = np.random.default_rng(1)
+    state, torques = 0.1 * random.standard_normal(model.size), random.uniform(-3.0, 3.0, problem.horizon)
+    made = response(model, problem.horizon)
+    found = made.by_state @ state + made.by_constant * (0.3 - model.target_torque) + made.by_last * 0.7
+    slopes = (made.slopes.tip, made.slopes.tip_rate, made.slopes.hub, made.slopes.hub_rate)
+    found = found + np.array([slope @ torques for slope in slopes])
+    found += np.array([problem.reference, 0.0, model.target_hub, 0.0])[:, None]
+    assert_allclose(found, predicted(model, problem, state, torques, 0.7, 0.3), rtol=1e-9, atol=1e-9)

@@ -1,0 +1,131 @@
+"""Prediction models: the generated step and the modes, held against the arm they stand for."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from tmm_gen.control.bench import Bench
+from tmm_gen.control.condition import CONDITIONS
+from tmm_gen.control.delay import Delay, delay_of
+from tmm_gen.control.modes import modes_model
+from tmm_gen.control.plant import Plant
+from tmm_gen.control.step_model import StepModel
+from tmm_gen.control.stepped_frequency import model_frequency
+from tmm_gen.modal.beam import natural_frequencies
+from tmm_gen.modal.discretised import continuous
+from tmm_gen.scene import Scene
+
+
+def nearest(transition: np.ndarray, wanted: np.ndarray) -> np.ndarray:
+    """Return the natural frequencies of a sampled model nearest to some, rad/s; higher ones appear among them."""
+    poles = np.linalg.eigvals(transition).astype(complex)
+    found = np.abs(np.log(poles[np.abs(poles) > 1e-3]) / 0.02)
+    return np.array([found[np.argmin(np.abs(found - each))] for each in wanted])
+
+
+def test_stepped_frequency_of_the_average_acceleration(swing: Scene) -> None:
+    """tan(w h / 2) is half of the model's frequency times the step."""
+    for wanted in (1.0, 30.0, 100.0):
+        expected = 2.0 / 5e-3 * math.tan(0.5 * wanted * 5e-3)
+        assert model_frequency(swing.integrator, 5e-3, wanted) == pytest.approx(expected, rel=1e-9)
+
+
+def test_links_and_modes_have_the_frequencies_of_the_beam(swing: Scene, bench: Bench) -> None:
+    beam = continuous(swing)
+    assert beam is not None
+    exact = natural_frequencies(beam, 3)[1:]
+    assert_allclose(nearest(bench.links.transition, exact), exact, rtol=3e-3)  # damping shifts them
+    assert_allclose(nearest(bench.modes.transition, exact), exact, rtol=2e-3)
+
+
+def test_a_beam_of_few_links_is_too_slow_without_calibration(swing: Scene, small: Bench) -> None:
+    from tmm_gen.control.prediction import prediction_scene
+
+    raw = StepModel(prediction_scene(small.scene, calibrate=False), small.problem)
+    transition, _ = raw.jacobian(raw.straight(1.0), 0.0)
+    beam = continuous(swing)
+    assert beam is not None
+    exact = natural_frequencies(beam, 3)[1:]
+    assert nearest(transition, exact)[0] < 0.95 * exact[0]
+    assert_allclose(nearest(small.links.transition, exact), exact, rtol=6e-3)
+
+
+def test_slopes_are_those_of_the_sample(bench: Bench) -> None:
+    model, random = bench.step, np.random.default_rng(0)
+    state = 0.1 * random.standard_normal(model.size)
+    _, by_state, by_torques = (np.array(item) for item in model.sample_slopes(state, [0.5, -0.7]))
+    for slope, width in ((by_state, model.size), (by_torques, 2)):
+        for column in random.choice(width, min(4, width), replace=False):
+            change = np.zeros(width)
+            change[column] = 1e-6
+
+            def moved(sign: float, change: np.ndarray = change, states: bool = width > 2) -> np.ndarray:
+                at = state + sign * change if states else state
+                torques = [0.5, -0.7] if states else np.array([0.5, -0.7]) + sign * change
+                return np.array(model.sample(at, torques)).ravel()
+
+            assert_allclose(slope[:, column], (moved(1.0) - moved(-1.0)) / 2e-6, rtol=1e-6, atol=1e-5)
+
+
+def test_newmark_is_half_a_step_late_and_runge_kutta_is_not(swing: Scene, bench: Bench) -> None:
+    assert bench.step.lag == pytest.approx(0.5, abs=2e-3)
+    other = Bench.of(swing.replace(**{"integrator.name": "sdirk2", "beam.links": 1}))
+    assert other.step.lag == 0.0
+
+
+def test_delays_are_split(bench: Bench) -> None:
+    def split(delay: float, lag: float) -> Delay:
+        return delay_of(dataclasses.replace(bench.problem, delay=delay), lag)
+
+    assert split(0.0, 0.0) == Delay(0, 0.0, 0)
+    assert split(0.0, 0.125) == Delay(0, -0.125, 0)
+    assert split(0.01, 0.0) == Delay(0, 0.5, 0)
+    assert split(0.04, 0.0) == Delay(2, pytest.approx(0.0), 2)
+    assert split(0.05, 0.125) == Delay(2, pytest.approx(0.375), 2)
+    assert_allclose(split(0.0, 0.125).shares(4), [-0.5, 0.0, 0.0, 0.0])
+    assert_allclose(split(0.015, 0.0).shares(4), [1.0, 1.0, 1.0, 0.0])
+
+
+def test_which_torques_act() -> None:
+    past = np.array([1.0, 2.0, 3.0, 4.0])  # the newest last
+    late = Delay(whole=2, part=0.5, acting=2)
+    assert late.memory == 3
+    assert late.pair(past) == (1.0, 2.0)
+    assert late.end(past) == 2.0
+    assert late.known(past) == [(2.0, 3.0), (3.0, 4.0)]
+    assert Delay(0, 0.0, 0).known(past) == []
+
+
+@pytest.mark.compiler
+@pytest.mark.parametrize("delay", [0.0, 0.01, 0.034])
+def test_models_follow_the_arm_under_known_torques(swing: Scene, bench: Bench, delay: float) -> None:
+    """Half a second of changing torques, with a delay: tip within 0.6 % of its way, hub within 2 %, by modes 1 %."""
+    problem = dataclasses.replace(bench.problem, delay=delay)
+    plant = Plant(swing, problem, CONDITIONS[0])
+    step = StepModel(bench.step.scene, problem)
+    modes = modes_model(swing, problem)
+    random = np.random.default_rng(3)
+    state, modal = step.initial(), modes.start.copy()
+    offset = np.array([modes.tip @ modes.start, modes.hub @ modes.start])
+    past = {"links": np.zeros(5), "modes": np.zeros(5)}
+    seen, way = [], []
+    for k in range(25):
+        torque = 2.0 * (1.0 if k < 12 else -1.0) + random.uniform(-1.0, 1.0)
+        angles = plant.advance(torque)[-1]
+        past = {name: np.append(old[1:], torque) for name, old in past.items()}
+        state = np.array(step.sample(state, step.delay.pair(past["links"]))).ravel()
+        before, then = modes.delay.pair(past["modes"])
+        modal = modes.transition @ modal + modes.before * before + modes.then * then
+        links = np.array([step.mean_row("angle") @ state, step.hub_row("angle") @ state])
+        found = np.array([modes.tip @ modal, modes.hub @ modal]) - offset
+        seen.append([links - angles, found - angles])
+        way.append(angles)
+    off, reach = np.max(np.abs(seen), axis=0), np.max(np.abs(way), axis=0)
+    assert reach[0] > 0.3
+    assert np.all(off[:, 0] < 6e-3 * reach[0]), off
+    assert np.all(off[:, 1] < np.array([2e-2, 1e-2]) * reach[1]), off

@@ -1,0 +1,119 @@
+"""`tmm-gen mpc`, `tmm-gen calibrate` and `tmm-gen new --control`."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+pytestmark = pytest.mark.compiler
+
+Call = Callable[..., subprocess.CompletedProcess[str]]
+KEYS = {
+    "controller",
+    "condition",
+    "settling_s",
+    "overshoot_percent",
+    "residual_mrad",
+    "solve_us_median",
+    "solve_us_max",
+}
+
+
+def test_a_new_scene_is_controlled(tmm_gen: Call, tmp_path: Path) -> None:
+    made = tmm_gen("new", "crane", "--kind", "planar", "--control")
+    assert made.returncode == 0, made.stderr
+    assert "tmm-gen mpc" in made.stdout
+    done = tmm_gen(
+        "mpc", "scenes/crane.toml", "--controller", "mpc-modes", "--controller", "pd", "--condition", "nominal",
+        "--until", "1.5", "--plot", "a.png", "--animate", "a.gif", "--json",
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    shown = json.loads(done.stdout)
+    assert [row["controller"] for row in shown["rows"]] == ["pd", "mpc-modes"]
+    assert all(set(row) >= KEYS for row in shown["rows"])
+    assert shown["rows"][1]["settling_s"] < 0.85
+    assert (tmp_path / "a.png").read_bytes().startswith(b"\x89PNG")
+    assert (tmp_path / "a.gif").read_bytes().startswith(b"GIF8")
+
+
+def test_a_controller_is_written_in_c(tmm_gen: Call, tmp_path: Path, repository: Path) -> None:
+    done = tmm_gen("mpc", repository / "scenes" / "swing.toml", "--emit", "controller", "--json")
+    assert done.returncode == 0, done.stderr
+    shown = json.loads(done.stdout)
+    assert (tmp_path / "controller" / f"{shown['name']}.h").is_file()
+    assert (tmp_path / "controller" / "daqp" / "LICENSE").is_file()
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["scenes/arm10.toml"], "has no [control]"),
+        (["scenes/swing.toml", "--controller", "mcp"], "There are pd, pd-zv"),
+        (["scenes/swing.toml", "--condition", "payloads"], "Did you mean payload?"),
+        (["scenes/swing.toml", "--controller", "pd", "--emit", "x"], "cannot write pd"),
+        (["scenes/swing.toml", "--until", "-1"], "positive"),
+        (["scenes/swing.toml", "--animate", "x.mp4"], ".gif"),
+    ],
+)
+def test_what_cannot_be_done_is_said(tmm_gen: Call, repository: Path, words: list[str], message: str) -> None:
+    done = tmm_gen("mpc", *words, cwd=repository)
+    assert done.returncode == 2
+    assert message in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_the_list_shows_what_there_is(tmm_gen: Call, repository: Path) -> None:
+    done = tmm_gen("mpc", "scenes/swing.toml", "--list", "--json", cwd=repository)
+    assert done.returncode == 0, done.stderr
+    rows = json.loads(done.stdout)["rows"]
+    assert {"controller", "condition"} == {row["what"] for row in rows}
+    assert {"rti", "payload"} <= {row["name"] for row in rows}
+
+
+def test_a_chain_gets_no_controller(tmm_gen: Call) -> None:
+    done = tmm_gen("new", "shaft", "--control")
+    assert done.returncode == 2
+    assert "--kind planar" in done.stderr
+
+
+def test_a_record_is_fitted_from_the_command_line(tmm_gen: Call, tmp_path: Path, repository: Path) -> None:
+    """The record comes from `tmm-gen run` on a softer arm."""
+    scene = repository / "scenes" / "swing.toml"
+    rows = ["time,hub_torque", *(f"{0.1 * k},{(-1.0) ** k}" for k in range(13))]
+    (tmp_path / "torque.csv").write_text("\n".join(rows) + "\n")
+    made = tmm_gen(
+        "run", scene, "--set", "beam.bending_stiffness=9.0", "--input", "torque.csv", "--until", "1.2",
+        "--csv", "out.csv",
+    )  # fmt: skip
+    assert made.returncode == 0, made.stderr
+    outputs = (tmp_path / "out.csv").read_text().splitlines()
+    step = 5e-3
+    torques = [_between(k * step) for k in range(len(outputs) - 1)]
+    joined = [
+        outputs[0] + ",hub_torque",
+        *(f"{row},{u}" for row, u in zip(outputs[1:], torques, strict=True)),
+    ]
+    (tmp_path / "record.csv").write_text("\n".join(joined) + "\n")
+    done = tmm_gen("calibrate", scene, "record.csv", "--out", "fitted.toml", "--json")
+    assert done.returncode == 0, done.stderr
+    found = {row["key"]: row for row in json.loads(done.stdout)["rows"]}
+    assert found["beam.bending_stiffness"]["value"] == pytest.approx(9.0, rel=1e-3)
+    assert (
+        "bending_stiffness = 9.0" in (tmp_path / "fitted.toml").read_text()
+        or "8.99" in (tmp_path / "fitted.toml").read_text()
+    )
+    assert tmm_gen("calibrate", scene, "torque.csv").returncode == 2
+    missing = tmm_gen("calibrate", scene, "none.csv")
+    assert missing.returncode == 2
+    assert "no such file" in missing.stderr
+
+
+def _between(time: float) -> float:
+    """The torque of the file: linear between plus and minus one every tenth of a second."""
+    k = int(time / 0.1 + 1e-9)
+    share = time / 0.1 - k
+    return (-1.0) ** k * (1.0 - 2.0 * share)

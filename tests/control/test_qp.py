@@ -1,0 +1,83 @@
+"""Quadratic programs: optimal where they say so, and no word taken for it where not."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from tmm_gen.control.command import Status
+from tmm_gen.control.qp import QuadraticProgram
+
+
+def random_problem(seed: int, size: int = 12, rows: int = 8) -> tuple[np.ndarray, ...]:
+    random = np.random.default_rng(seed)
+    factor = random.standard_normal((size, size))
+    hessian = factor @ factor.T + 0.1 * np.eye(size)
+    return hessian, random.standard_normal((rows, size)), 3.0 * random.standard_normal(size)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_the_solution_satisfies_the_conditions_of_optimality(seed: int) -> None:
+    """Projected gradient steps of the dual solve the same problem without a line in common."""
+    hessian, rows, gradient = random_problem(seed)
+    size = len(hessian)
+    low, high = np.full(size + len(rows), -0.5), np.full(size + len(rows), 0.7)
+    solution = QuadraticProgram(hessian, rows, size).solve(gradient, low, high)
+    assert solution.status is Status.OK
+    whole = np.vstack([np.eye(size), rows])
+    values = whole @ solution.point
+    assert np.all(values >= low - 1e-6)
+    assert np.all(values <= high + 1e-6)
+    # the gradient is a combination of active rows, of the right signs
+    active = np.flatnonzero((values < low + 1e-6) | (values > high - 1e-6))
+    left = -(hessian @ solution.point + gradient)
+    multipliers, *_ = np.linalg.lstsq(whole[active].T, left, rcond=None)
+    assert_allclose(whole[active].T @ multipliers, left, atol=1e-6)
+    upper = values[active] > high[active] - 1e-6
+    assert np.all(np.where(upper, multipliers, -multipliers) > -1e-6)
+
+
+def test_a_warm_start_changes_nothing() -> None:
+    hessian, rows, gradient = random_problem(7)
+    low, high = np.full(20, -0.5), np.full(20, 0.5)
+    program = QuadraticProgram(hessian, rows, 12)
+    for turn in range(4):
+        asked = (1.0 - 0.5 * turn) * gradient
+        fresh = QuadraticProgram(hessian, rows, 12).solve(asked, low, high)
+        assert_allclose(program.solve(asked, low, high).point, fresh.point, atol=1e-7)
+    program.forget()
+    assert_allclose(program.solve(asked, low, high).point, fresh.point, atol=1e-7)
+
+
+def test_new_hessians_and_rows_are_taken() -> None:
+    hessian, rows, gradient = random_problem(1)
+    other, more, _ = random_problem(2)
+    low, high = np.full(20, -0.5), np.full(20, 0.5)
+    program = QuadraticProgram(hessian, rows, 12)
+    program.solve(gradient, low, high)
+    changed = program.solve(gradient, low, high, hessian=other, rows=more)
+    assert_allclose(
+        changed.point, QuadraticProgram(other, more, 12).solve(gradient, low, high).point, atol=1e-7
+    )
+
+
+def test_what_cannot_be_solved_is_said_and_forgotten() -> None:
+    hessian, rows, gradient = random_problem(3)
+    low, high = np.full(20, -0.5), np.full(20, 0.5)
+    program = QuadraticProgram(hessian, rows, 12)
+    good = program.solve(gradient, low, high)
+    apart = high.copy()
+    apart[-1] = -2.0
+    assert program.solve(gradient, low, apart).status is Status.INFEASIBLE  # low above high
+    conflicting = low.copy(), high.copy()
+    conflicting[0][12:], conflicting[1][12:] = 50.0, 60.0  # rows that bounded variables cannot reach
+    assert program.solve(gradient, *conflicting).status is Status.INFEASIBLE
+    assert program.solve(gradient * np.nan, low, high).status is Status.NOT_FINITE
+    assert program.solve(gradient, low * np.nan, high).status is Status.NOT_FINITE
+    assert_allclose(program.solve(gradient, low, high).point, good.point, atol=1e-7)
+
+
+def test_an_indefinite_hessian_is_refused() -> None:
+    with pytest.raises(ValueError, match="positive definite"):
+        QuadraticProgram(np.diag([1.0, -1.0]), np.zeros((1, 2)), 2)

@@ -1,0 +1,161 @@
+"""Scenes whose step is differentiated, and CasADi's derivatives of it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import casadi as ca
+import numpy as np
+import pytest
+
+from tmm_gen.measure.module import casadi_module
+from tmm_gen.native.sensitivities import NativeSensitivities
+from tmm_gen.program.build import build_program
+from tmm_gen.program.statements import Program
+from tmm_gen.resources import scenes_dir
+from tmm_gen.scene import Scene, load_scene, parse_scene
+
+UNLIKE = """
+name = "unlike"
+[model]
+kind = "planar"
+gravity = 9.81
+[integrator]
+name = "newmark"
+step = 2e-3
+[base]
+kind = "{base}"
+{hub}
+[[joint]]
+stiffness = 40.0
+damping = 0.2
+[[joint]]
+stiffness = 25.0
+damping = 0.05
+[[joint]]
+stiffness = 30.0
+damping = 0.3
+[[link]]
+mass = 0.7
+length = 0.4
+center = 0.3
+inertia = 0.01
+[[link]]
+mass = 0.5
+length = 0.25
+inertia = 0.003
+[[link]]
+mass = 0.4
+length = 0.3
+center = 0.8
+inertia = 0.004
+[tip]
+mass = 0.3
+inertia = 0.01
+[[input]]
+name = "push"
+at = "tip"
+acts = "force_y"
+[[input]]
+name = "pull"
+at = 1
+acts = "force_x"
+[[input]]
+name = "twist"
+at = 2
+acts = "torque"
+{base_input}
+[[output]]
+name = "tip"
+at = "tip"
+of = "position"
+[[output]]
+name = "shear"
+at = 1
+of = "force"
+[emit]
+sensitivities = true
+"""
+_HUB = '\n[[input]]\nname = "hub"\nat = "base"\nacts = "{}"\n'
+
+
+def unlike(base: str) -> Scene:
+    """Return an arm of three unlike links under loads of every kind."""
+    hub = {"motor": "inertia = 0.3\ndamping = 0.2"}.get(base, "")
+    acts = {"motor": "torque", "prescribed": "angle"}.get(base)
+    return parse_scene(UNLIKE.format(base=base, hub=hub, base_input=_HUB.format(acts) if acts else ""))
+
+
+@dataclass(frozen=True, eq=False)
+class Case:
+    """A scene, a point, and CasADi's derivatives there.
+
+    Parameters
+    ----------
+    x, u : array
+        State, and inputs with all their stages, one input after the other.
+    x_next, a, b : array
+        The step and its derivatives by x and u.
+    """
+
+    scene: Scene
+    program: Program
+    module: Any
+    x: np.ndarray
+    u: np.ndarray
+    x_next: np.ndarray
+    a: np.ndarray
+    b: np.ndarray
+
+    @cached_property
+    def native(self) -> NativeSensitivities:
+        """The step with its derivatives in compiled C."""
+        return NativeSensitivities(self.program, self.scene, flags=("-O1", "-ffp-contract=off"))
+
+
+def case_of(scene: Scene) -> Case:
+    program = build_program(scene)
+    module = casadi_module(scene, program)
+    several = len(program.stage_instants[-1]) > 1
+    step = module.step_function(held=False) if several else module.step_function()
+    x, u, p = ca.SX.sym("x", step.size1_in(0)), ca.SX.sym("u", *step.size_in(1)), module.default_parameters()
+    after = step(x, u, p)[0]
+    slopes = ca.Function("slopes", [x, u], [after, ca.jacobian(after, x), ca.jacobian(after, ca.vec(u))])
+    random = np.random.default_rng(3)
+    point = random.uniform(-0.6, 0.6, x.numel())
+    acting = random.uniform(-2.0, 2.0, u.shape)
+    x_next, a, b = (np.array(value) for value in slopes(point, acting))
+    b = b[:, np.arange(u.numel()).reshape(u.shape, order="F").ravel()]  # stage by stage -> input by input
+    return Case(scene, program, module, point, acting.ravel(), x_next.ravel(), a, b)
+
+
+SCENES: dict[str, Callable[[], Scene]] = {
+    "arm2": lambda: _shipped("arm2"),
+    "arm10": lambda: _shipped("arm10"),
+    "chain": lambda: _shipped("drivetrain"),
+    "clamp": lambda: unlike("clamp"),
+    "motor": lambda: unlike("motor"),
+    "prescribed": lambda: unlike("prescribed"),
+    "sdirk4": lambda: unlike("motor").replace(**{"integrator.name": "sdirk4"}),
+    "generalized_alpha": lambda: unlike("motor").replace(**{"integrator.name": "generalized_alpha"}),
+    "two iterations": lambda: unlike("motor").replace(**{"model.iterations": 2}),
+}
+
+
+def _shipped(name: str) -> Scene:
+    return load_scene(scenes_dir() / f"{name}.toml").replace(emit={"sensitivities": True})
+
+
+_known: dict[str, Case] = {}
+
+
+@pytest.fixture(params=list(SCENES))
+def case(request: pytest.FixtureRequest) -> Case:
+    """Return each scene with CasADi's derivatives."""
+    name = str(request.param)
+    if name not in _known:
+        _known[name] = case_of(SCENES[name]())
+    return _known[name]

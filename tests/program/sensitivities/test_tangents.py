@@ -1,0 +1,177 @@
+"""Sensitivities by the sweep's own factors against CasADi's derivatives and finite differences."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import casadi as ca
+import numpy as np
+import pytest
+
+from tmm_gen.emit.c import emit_kernel
+from tmm_gen.errors import UserError
+from tmm_gen.native import compile_kernel
+from tmm_gen.program.build import build_program
+from tmm_gen.program.count import count_routine
+from tmm_gen.program.evaluate import allocate, execute, key
+from tmm_gen.resources import scenes_dir
+from tmm_gen.scene import load_scene
+
+EXACT = 1e-11
+FLAGS = ("-O1", "-ffp-contract=off")
+
+
+def relative(found: np.ndarray, right: np.ndarray) -> float:
+    """Return the largest error of any column, relative to its largest entry; columns of mere rounding are zero."""
+    if right.size == 0:
+        return 0.0
+    scale = np.maximum(np.abs(right).max(axis=0), 1e-9 * np.abs(right).max())
+    return float((np.abs(found - right).max(axis=0) / scale).max())
+
+
+@pytest.mark.compiler
+def test_emitted_c_has_casadis_derivatives(case: Any) -> None:
+    kernel = case.native
+    nx, nu = len(case.x), len(case.u)
+    after, found = kernel.step(case.x, case.u, np.eye(nx, nx + nu), np.eye(nu, nx + nu, k=nx))
+    assert np.allclose(after, case.x_next, rtol=1e-12, atol=1e-12 * np.abs(case.x_next).max())
+    assert relative(found[:, :nx], case.a) < EXACT
+    assert relative(found[:, nx:], case.b) < EXACT
+
+
+@pytest.mark.compiler
+@pytest.mark.parametrize("case", ["arm2", "chain", "two iterations"], indirect=True)
+def test_the_linearised_step_is_the_step_to_the_last_bit(case: Any) -> None:
+    plain = compile_kernel(case.program, case.scene, flags=FLAGS)
+    plain.prepare()
+    start, state = 0, {}
+    for variable in case.program.state:
+        stop = start + (variable.length or 1)
+        state[variable.name] = case.x[start:stop] if variable.length else float(case.x[start])
+        start = stop
+    plain.state = state
+    acting, start = {}, 0
+    for variable in case.program.inputs:
+        stop = start + (variable.length or 1)
+        acting[variable.name] = case.u[start:stop] if variable.length else float(case.u[start])
+        start = stop
+    plain.step(acting)
+    right = np.concatenate([np.ravel(plain.state[v.name]) for v in case.program.state])
+    after, _ = case.native.step(case.x, case.u, np.zeros((len(case.x), 1)), np.zeros((len(case.u), 1)))
+    assert np.array_equal(after, right)
+
+
+def test_the_interpreter_has_casadis_derivatives(case: Any) -> None:
+    """What no printer has touched, along one random direction."""
+    program = case.program
+    found = program.sensitivities
+    values = allocate(
+        (
+            program.step,
+            *program.parameters,
+            *program.coefficients,
+            *program.state,
+            *program.inputs,
+            *found.point,
+        ),
+        float,
+    )
+    execute(program.prepare, values)
+    _fill(values, program.state, case.x)
+    _fill(values, program.inputs, case.u)
+    execute(found.linearise, values)
+    random = np.random.default_rng(8)
+    dx, du = random.normal(size=len(case.x)), random.normal(size=len(case.u))
+    _fill(values, found.state, dx)
+    _fill(values, found.inputs, du)
+    execute(found.tangent, values)
+    carried = np.concatenate([np.ravel(values[key(v)]) for v in found.state])
+    right = case.a @ dx + case.b @ du
+    assert np.abs(carried - right).max() < EXACT * np.abs(right).max()
+
+
+def test_casadi_functions_of_the_sweep_have_casadis_derivatives(case: Any) -> None:
+    module, size = case.module, len(case.x)
+    stages = len(case.program.stage_instants[-1])
+    if stages > 1:
+        pytest.skip("the Jacobian is that of held inputs; tested in the one that follows")
+    p = module.default_parameters()
+    after, a, b = (np.array(value) for value in module.jacobian_function()(case.x, case.u, p))
+    assert np.allclose(after.ravel(), case.x_next, rtol=1e-12, atol=1e-12 * np.abs(case.x_next).max())
+    assert relative(a, case.a) < EXACT
+    assert relative(b, case.b) < EXACT
+    directions = np.random.default_rng(5).normal(size=(size + len(case.u), 3))
+    tangent = module.tangent_function(3)(case.x, case.u, p, directions[:size], directions[size:])
+    right = case.a @ directions[:size] + case.b @ directions[size:]
+    assert relative(np.array(tangent), right) < EXACT
+
+
+def test_casadi_takes_the_jacobian_it_is_told(case: Any) -> None:
+    """Inside a larger expression, and of inputs held over all stages of a step."""
+    module = case.module
+    p = module.default_parameters()
+    x, u = ca.MX.sym("x", len(module.STATE_NAMES)), ca.MX.sym("u", len(module.INPUT_NAMES))
+    step = module.step_with_jacobian()
+    twice = step(step(x, u, p), 2.0 * u, p)
+    plain = module.step_function()
+    right = plain(plain(x, u, p)[0], 2.0 * u, p)[0]
+    slopes = [ca.Function("slopes", [x, u], [ca.jacobian(y, x), ca.jacobian(y, u)]) for y in (twice, right)]
+    acting = case.u[: len(module.INPUT_NAMES)]
+    for found, expected in zip(slopes[0](case.x, acting), slopes[1](case.x, acting), strict=True):
+        if expected.numel():
+            assert relative(np.array(found), np.array(expected)) < 10 * EXACT
+
+
+@pytest.mark.compiler
+def test_finite_differences_agree_to_their_own_accuracy(case: Any) -> None:
+    kernel = case.native
+    random = np.random.default_rng(11)
+    dx, du = random.normal(size=len(case.x)), random.normal(size=len(case.u))
+    _, found = kernel.step(case.x, case.u, dx[:, None], du[:, None])
+    none = np.zeros((len(case.x), 1)), np.zeros((len(case.u), 1))
+
+    def after(h: float) -> np.ndarray:
+        return kernel.step(case.x + h * dx, case.u + h * du, *none)[0]
+
+    errors = []
+    for h in (1e-2, 5e-3):
+        difference = (after(h) - after(-h)) / (2.0 * h)
+        errors.append(np.abs(difference - found[:, 0]).max() / np.abs(found).max())
+    # central differences: a fourth at half the step, unless the step is linear and rounding is all there is
+    assert errors[1] < 1e-9 or errors[0] / errors[1] == pytest.approx(4.0, rel=0.2)
+    assert errors[1] < 1e-2
+
+
+def test_a_direction_costs_less_than_a_step(case: Any) -> None:
+    program = case.program
+    assert count_routine(program.sensitivities.tangent).total < 0.8 * count_routine(program.main).total or (
+        program.sensitivities.point == ()
+    )
+
+
+def test_nothing_is_emitted_unless_asked_for() -> None:
+    scene = load_scene(scenes_dir() / "arm2.toml")
+    assert build_program(scene).sensitivities is None
+    assert not any("sensitivities" in path for path in emit_kernel(build_program(scene), scene))
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"model.linearisation": "taylor"}, "model.linearisation = 'newton'"),
+        ({"integrator.name": "houbolt"}, "start-up steps"),
+    ],
+)
+def test_steps_without_derivatives_are_refused(changes: dict[str, object], said: str) -> None:
+    scene = load_scene(scenes_dir() / "arm2.toml").replace(**{"emit.sensitivities": True, **changes})
+    with pytest.raises(UserError, match=said):
+        build_program(scene)
+
+
+def _fill(values: dict[str, Any], variables: tuple[Any, ...], numbers: np.ndarray) -> None:
+    start = 0
+    for variable in variables:
+        stop = start + (variable.length or 1)
+        part = [float(x) for x in numbers[start:stop]]
+        values[key(variable)] = part if variable.length is not None else part[0]
+        start = stop
