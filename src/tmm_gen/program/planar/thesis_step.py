@@ -12,17 +12,17 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from tmm_gen.derive import expansions, torsion_chain
+from tmm_gen.derive import expansions
 from tmm_gen.derive import planar_chain as chain
-from tmm_gen.derive.elements import planar as element
 from tmm_gen.derive.integrators.declaration import KINDS, STEP, Past, past, stage
 from tmm_gen.derive.integrators.relations import AffineMotion, affine_motion
 from tmm_gen.program.motion import history_values, update_assignments
 from tmm_gen.program.planar.layout import PlanarLayout
-from tmm_gen.program.planar.step import PlanarStep, predicted, solved
-from tmm_gen.program.planar.step import lever as lever_of
-from tmm_gen.program.planar.step import node as node_of
-from tmm_gen.program.planar.step import swing as swing_of
+from tmm_gen.program.planar.scratch import joint_torque, predicted
+from tmm_gen.program.planar.scratch import lever as lever_of
+from tmm_gen.program.planar.scratch import node as node_of
+from tmm_gen.program.planar.scratch import swing as swing_of
+from tmm_gen.program.planar.step import PlanarStep
 from tmm_gen.program.statements import Assign, Loop, Order, Section, Statement
 from tmm_gen.program.variables import Ref, Role, Variable, local
 
@@ -101,7 +101,7 @@ class ThesisStep(PlanarStep):
         body = (
             Assign(swing_of("x", n).at(), -follow * lever_sine),
             Assign(swing_of("y", n).at(), follow * lever_cosine),
-            Assign(_joint_torque(n).at(), joint.known_torque.xreplace({**super()._symbols(), **ends})),
+            Assign(joint_torque(n).at(), joint.known_torque.xreplace({**super()._symbols(), **ends})),
         )
         return Section(
             "answers of places, and the predicted joint torques", (Loop(Order.OUTWARD, 0, n, body),)
@@ -209,12 +209,3 @@ def start_places(layout: PlanarLayout) -> Section:
 
 def _moved(axis: str, n: int) -> Variable:
     return Variable(f"moved_{axis}", Role.WORK, n, f"change of the node's acceleration along {axis}", "m/s^2")
-
-
-def _joint_torque(n: int) -> Variable:
-    return Variable(
-        "joint_torque", Role.WORK, n, "torque of each joint on its outer link as predicted", "N m"
-    )
-
-
-__all__ = ["ThesisStep", "element", "solved", "start_places", "torsion_chain"]

@@ -12,7 +12,8 @@ from tmm_gen.derive import torsion_chain
 from tmm_gen.derive.integrators.declaration import KINDS
 from tmm_gen.derive.integrators.relations import AffineMotion
 from tmm_gen.program.planar.loads import PlanarLoads
-from tmm_gen.program.planar.step import PlanarStep, lever, node, predicted, solved, swing
+from tmm_gen.program.planar.scratch import lever, node, predicted, solved, swing
+from tmm_gen.program.planar.step import PlanarStep
 from tmm_gen.program.sensitivities.planar_walk import AXES, inner_loads, through_link, tip_forces
 from tmm_gen.program.sensitivities.point import Point
 from tmm_gen.program.statements import Assign, Loop, Order, Section

@@ -17,7 +17,8 @@ from tmm_gen.program.passes.hoist import Hoister
 from tmm_gen.program.passes.prune import prune
 from tmm_gen.program.passes.rewrite import map_values
 from tmm_gen.program.planar.loads import PlanarLoads
-from tmm_gen.program.planar.step import BASE, PlanarStep, predicted, swing
+from tmm_gen.program.planar.scratch import BASE, predicted, swing
+from tmm_gen.program.planar.step import PlanarStep
 from tmm_gen.program.sensitivities.chain import LINEARISE_DOC, TANGENT_DOC
 from tmm_gen.program.sensitivities.planar_step import LinearisedStep, Place, SweepPoint, TangentableStep
 from tmm_gen.program.sensitivities.planar_walk import AXES, inner_loads, through_link, tip_forces
