@@ -52,6 +52,7 @@ def _shipped(repository: Path) -> set[str]:
         "src/tmm_gen": "tmm_gen",
         "templates": "tmm_gen/templates",
         "scenes": "tmm_gen/scenes",
+        "third_party": "tmm_gen/third_party",
     }.items():
         folder = repository / source
         names |= {
