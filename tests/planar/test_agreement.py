@@ -26,7 +26,12 @@ TOLERANCE = 1e-12
 BASES = ("clamp", "motor", "prescribed")
 # an explicit integrator cannot follow a prescribed base
 DRAWN = [
-    (method.name, "motor" if method.explicit({}) else BASES[k % 3], 1 + k % 4, {"tip": k % 2 == 0, "gravity": 9.81 if k % 3 else None, "seed": k})
+    (
+        method.name,
+        "motor" if method.explicit({}) else BASES[k % 3],
+        1 + k % 4,
+        {"tip": k % 2 == 0, "gravity": 9.81 if k % 3 else None, "seed": k},
+    )
     for k, method in enumerate(METHODS)
 ]
 DRAWN += [
