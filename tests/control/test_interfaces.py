@@ -46,7 +46,6 @@ def test_acados_fields_of_the_continuous_model(swing, gravity: float | None) -> 
 @pytest.mark.filterwarnings("ignore::FutureWarning")  # do-mpc calls NumPy on CasADi values
 def test_do_mpc_swings_the_arm(small: Bench) -> None:
     """The example of the documentation: do-mpc's controller with the generated step, a few samples long."""
-    pytest.importorskip("do_mpc", reason="pip install do-mpc")
     import do_mpc
 
     from tmm_gen.control.do_mpc import do_mpc_model

@@ -50,7 +50,6 @@ def test_the_tutorial_from_a_new_scene_to_a_controller_in_c(place: Path) -> None
     stiffness = re.search(r"bending_stiffness = ([0-9.e+-]+)", fitted)
     assert stiffness is not None
     assert float(stiffness[1]) == pytest.approx(10.5, rel=5e-3)
-    pytest.importorskip("do_mpc", reason="pip install do-mpc")
     run(place, [sys.executable, "-W", "ignore", "-c", "\n".join(blocks("python"))])
 
 
