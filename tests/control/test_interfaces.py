@@ -43,6 +43,8 @@ def test_acados_fields_of_the_continuous_model(swing, gravity: float | None) -> 
     assert_allclose(np.array(residual(np.concatenate([angles, rates]), 0.3)), 0.0, atol=1e-12)
 
 
+# do-mpc tells of its optional parts when it is imported
+@pytest.mark.filterwarnings("ignore:The .* feature:UserWarning")
 @pytest.mark.filterwarnings("ignore::FutureWarning")  # do-mpc calls NumPy on CasADi values
 def test_do_mpc_swings_the_arm(small: Bench) -> None:
     """The example of the documentation: do-mpc's controller with the generated step, a few samples long."""
