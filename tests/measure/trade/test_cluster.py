@@ -95,7 +95,10 @@ def test_a_running_scheduler_is_used(chain: Scene, tmp_path: Path) -> None:
     went = excitation(chain, until=1.0)
     grid = configurations(chain, Axes(integrators=("newmark",), steps=(0.1, 0.05)), 1.0)
     store = tmp_path / "here.sqlite"
-    with LocalCluster(n_workers=1, threads_per_worker=1, processes=False, dashboard_address=None) as cluster:
+    # by loopback, which is there where no network is
+    with LocalCluster(
+        n_workers=1, threads_per_worker=1, host="127.0.0.1", dashboard_address=None, memory_limit=0
+    ) as cluster:
         study = run_study(chain, went, grid, Cluster(0, cluster.scheduler_address), store=store, rounds=0)
     assert results(study) == results(run_study(chain, went, grid, rounds=0))
     with Store(store) as kept:

@@ -94,6 +94,7 @@ class Cluster:
                 n_workers=self.workers,
                 threads_per_worker=1,
                 processes=True,
+                host="127.0.0.1",  # there where no network is
                 dashboard_address=None,
                 memory_limit=0,
                 silence_logs=logging.CRITICAL,
