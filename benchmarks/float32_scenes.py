@@ -1,11 +1,12 @@
-"""Single precision in each committed scene: over 60 s, and over a million steps.
+"""Single precision in each committed scene: over 60 s, and over a million steps, plain and compensated.
 
     python benchmarks/float32_scenes.py --out out/bench
     python benchmarks/float32_scenes.py --figure docs/figures
 
 The C kernel in `float` beside the same kernel in `double`, both at the scene's step and under a load that keeps it
-moving. Errors are relative to the largest value of the output. `growth` is the exponent of time with which the RMS
-error grows over the second run: 0 stays, 0.5 is a random walk, 1 a drift, negative dies out.
+moving; two scenes once more, turning one way and on. Then the same with `[emit] compensated = true`. Errors are
+relative to the largest value of the output. `growth` is the exponent of time with which the RMS error grows over the
+second run: 0 stays, 0.5 is a random walk, 1 a drift, negative dies out.
 """
 
 from __future__ import annotations
@@ -25,6 +26,8 @@ from tmm_gen.scene import load_scene
 
 SCENES = Path(__file__).resolve().parents[1] / "scenes"
 DURATION = 60.0
+LEAST = 1e-9
+"""Of the figure: what has died out is drawn there."""
 MANY = 1_000_000
 
 Loads = dict[str, Callable[[np.ndarray], np.ndarray]]
@@ -48,16 +51,37 @@ LOADS: dict[str, tuple[str, Loads]] = {
 }
 
 
-def measure(name: str) -> tuple[list[dict[str, object]], SingleError]:
-    """Return a row for each output, and the first output's error over the long run."""
+ONWARD: dict[str, tuple[str, Loads]] = {
+    "drivetrain": (
+        "spun up, on and on",
+        {
+            "motor_torque": lambda t: 5.0 * np.sin(2.0 * np.pi * t),
+            "load_torque": lambda t: np.full_like(t, -0.5),
+        },
+    ),
+    "swing": ("turned one way", {"hub_torque": lambda t: np.sin(2.0 * np.pi * t)}),
+}
+"""Nothing holds these where they are."""
+SHOWN = {"spun up, on and on": "shaft_torque", "turned one way": "hub"}
+"""Outputs of the figure, by load; others show the first."""
+CASES = [(name, LOADS[name]) for name in LOADS] + [(name, ONWARD[name]) for name in ONWARD]
+COMPENSATED = {"emit.real": "float32", "emit.compensated": True, "emit.trigonometry": "own"}
+
+
+def measure(
+    name: str, load: str, signals: Loads, compensated: bool
+) -> tuple[list[dict[str, object]], SingleError]:
+    """Return a row for each output, and the error over the long run of the output that the figure shows."""
     scene = load_scene(SCENES / f"{name}.toml")
-    load, signals = LOADS[name]
+    if compensated:
+        scene = scene.replace(**{**COMPENSATED, **({"emit.box": None} if scene.emit.box else {})})
     minute = single_precision(scene, signals, round(DURATION / scene.integrator.step))
     long = single_precision(scene, signals, MANY)
     rows: list[dict[str, object]] = [
         {
             "scene": name,
             "load": load,
+            "compensated": compensated,
             "output": short.output,
             "peak": short.peak,
             "error_60s": short.largest,
@@ -69,19 +93,31 @@ def measure(name: str) -> tuple[list[dict[str, object]], SingleError]:
         }
         for short, far in zip(minute, long, strict=True)
     ]
-    return rows, long[0]
+    shown = SHOWN.get(load, long[0].output)
+    return rows, next(error for error in long if error.output == shown)
 
 
-def draw(found: dict[str, SingleError]) -> bytes:
-    """Show the error of each scene's first output over the steps taken."""
+def draw(found: dict[bool, dict[tuple[str, str], SingleError]]) -> bytes:
+    """Show the error of one output of each case over the steps taken, plain beside compensated."""
+    colours = dict(zip(LOADS, (*PALETTE, FAINT), strict=True))
     with style():
-        made, axes = figure(8.4, 4.2)
-        for (name, error), colour in zip(found.items(), (*PALETTE, FAINT), strict=True):
-            steps = MANY * (np.arange(len(error.windows)) + 0.5) / len(error.windows)
-            axes.loglog(steps, error.windows, color=colour, marker="o", markersize=3, label=name)
-        axes.set_xlabel("steps taken")
-        axes.set_ylabel("RMS difference to double precision, over the peak")
-        axes.set_title("Single precision over a million steps")
+        made, axes = figure(10.0, 4.6, nrows=1, ncols=2, sharey=True)
+        for axis, (compensated, errors) in zip(axes, found.items(), strict=True):
+            for (name, load), error in errors.items():
+                onward = name in ONWARD and load == ONWARD[name][0]
+                steps = MANY * (np.arange(len(error.windows)) + 0.5) / len(error.windows)
+                axis.loglog(
+                    steps,
+                    np.maximum(error.windows, LEAST),
+                    color=colours[name],
+                    linestyle="--" if onward else "-",
+                    marker="o",
+                    markersize=3,
+                    label=None if compensated else f"{name}, {load}" if onward else name,
+                )
+            axis.set_title("compensated = true" if compensated else "plain")
+            axis.set_xlabel("steps taken")
+        axes[0].set_ylabel("RMS difference to double precision, over the peak")
         made.legend(loc="outside right center")
         return picture(made, "png")
 
@@ -92,15 +128,18 @@ def main() -> None:
     parser.add_argument("--figure", type=Path, help="folder of float32.png; by default that of the table")
     options = parser.parse_args()
     rows: list[dict[str, object]] = []
-    found: dict[str, SingleError] = {}
-    with progress("simulating", total=len(LOADS)) as advance:
-        for name in LOADS:
-            advance(0, doing=name)
-            more, found[name] = measure(name)
-            rows += more
-            advance()
+    found: dict[bool, dict[tuple[str, str], SingleError]] = {False: {}, True: {}}
+    with progress("simulating", total=2 * len(CASES)) as advance:
+        for compensated, errors in found.items():
+            for name, (load, signals) in CASES:
+                advance(0, doing=f"{name}, compensated" if compensated else name)
+                more, errors[name, load] = measure(name, load, signals, compensated)
+                rows += more
+                advance()
     columns = [
         "scene",
+        "load",
+        "compensated",
         "output",
         Column("error_60s", "60 s", ".1e"),
         Column("error_million_steps", "10^6 steps", ".1e"),

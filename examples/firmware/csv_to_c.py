@@ -1,4 +1,7 @@
-"""Write a recording as a C header: python csv_to_c.py recording.csv recording.h."""
+"""Write columns of a table as a C header: python csv_to_c.py recording.csv recording.h recorded hub_torque hub_angle.
+
+The third word stands in front of the names of the arrays.
+"""
 
 from __future__ import annotations
 
@@ -6,15 +9,14 @@ import csv
 import sys
 from pathlib import Path
 
-COLUMNS = ("hub_torque", "hub_angle")
 
-
-def header(rows: list[dict[str, str]]) -> str:
+def header(rows: list[dict[str, str]], prefix: str, columns: list[str]) -> str:
     """Return the header: one array for each column, in single precision."""
-    lines = ["/* Written by csv_to_c.py. */", "#ifndef RECORDING_H", "#define RECORDING_H", ""]
-    lines += [f"#define RECORDING_SAMPLES {len(rows)}", ""]
-    for column in COLUMNS:
-        lines += [f"static const float recorded_{column}[RECORDING_SAMPLES] = {{"]
+    guard = f"{prefix.upper()}_H"
+    lines = ["/* Written by csv_to_c.py. */", f"#ifndef {guard}", f"#define {guard}", ""]
+    lines += [f"#define {prefix.upper()}_ROWS {len(rows)}", ""]
+    for column in columns:
+        lines += [f"static const float {prefix}_{column}[{prefix.upper()}_ROWS] = {{"]
         lines += [f"    {float(row[column])!r}f," for row in rows]
         lines += ["};", ""]
     return "\n".join([*lines, "#endif"]) + "\n"
@@ -23,8 +25,9 @@ def header(rows: list[dict[str, str]]) -> str:
 def main() -> None:
     """Convert the file named first into the one named second."""
     source, target = map(Path, sys.argv[1:3])
+    prefix, *columns = sys.argv[3:]
     with source.open(newline="") as stream:
-        target.write_text(header(list(csv.DictReader(stream))))
+        target.write_text(header(list(csv.DictReader(stream)), prefix, columns))
 
 
 if __name__ == "__main__":

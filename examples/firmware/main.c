@@ -1,13 +1,14 @@
 /*
- * The model of a flexible arm in step with the real one: a timer interrupt reads what was measured, advances
- * the model by a millisecond and notes how far the model's hub is from the encoder's. An observer would feed that
- * difference back; here it is sent out, with the position of the tip, which no sensor sees.
+ * An observer of a flexible arm: a timer interrupt reads what was measured, advances the model by a millisecond and
+ * corrects its state by how far its hub is from the encoder's. What it sends out is that difference, and where it
+ * takes the tip to be, which no sensor sees.
  *
  * In place of a converter and an encoder there is a recording, in place of a serial line semihosting. All else is
  * as on a real board: SysTick at 1 kHz, the model's memory static, nothing allocated, the main loop asleep.
  */
 #include "beam5.h"
-#include "recording.h"
+#include "gain.h"
+#include "recorded.h"
 
 #include <stdint.h>
 #include <stdio.h>
@@ -25,7 +26,7 @@
 
 typedef struct {
     uint32_t sample;
-    float residual; /* encoder less model [rad] */
+    float residual; /* encoder less model, before the correction [rad] */
     beam5_outputs model;
 } message;
 
@@ -39,13 +40,26 @@ static volatile uint32_t dropped;   /* messages for which there was no room */
 static volatile uint32_t longest;   /* ticks of the timer in an interrupt */
 static volatile int failure;        /* first status of the model that was no success */
 
+/* Move the state towards what the encoder says, by a gain that gain.py has computed; its first row is the hub's. */
+static void correct(float residual)
+{
+    state.hub_angle += gain_angle[0] * residual;
+    state.hub_rate += gain_rate[0] * residual;
+    state.hub_acceleration += gain_acceleration[0] * residual;
+    for (int j = 0; j < BEAM5_STATIONS; ++j) {
+        state.angle[j] += gain_angle[j + 1] * residual;
+        state.rate[j] += gain_rate[j + 1] * residual;
+        state.acceleration[j] += gain_acceleration[j + 1] * residual;
+    }
+}
+
 /* The name by which the start-up code of picolibc knows the interrupt of SysTick. */
 void arm_systick_isr(void);
 
 void arm_systick_isr(void)
 {
     const uint32_t k = samples;
-    if (k >= RECORDING_SAMPLES) {
+    if (k >= RECORDED_ROWS) {
         return;
     }
     const uint32_t begin = SYST_CVR;
@@ -56,13 +70,15 @@ void arm_systick_isr(void)
     if (status != BEAM5_OK && failure == 0) {
         failure = (int)status; /* the state is what it was */
     }
+    const float residual = recorded_hub_angle[k] - state.hub_angle;
+    correct(residual);
     beam5_outputs outputs;
     beam5_output(&state, &outputs);
     if ((k + 1u) % TELEMETRY_EVERY == 0u) {
         if (written - sent < RING) {
             message *next = &ring[written % RING];
             next->sample = k + 1u;
-            next->residual = recorded_hub_angle[k] - outputs.hub;
+            next->residual = residual;
             next->model = outputs;
             written = written + 1u;
         } else {
@@ -103,7 +119,7 @@ int main(void)
     SYST_CVR = 0u;
     SYST_CSR = SYST_RUNS_AND_INTERRUPTS;
 
-    while (samples < RECORDING_SAMPLES || sent != written) {
+    while (samples < RECORDED_ROWS || sent != written) {
         if (sent == written) {
             __asm__ volatile("wfi");
             continue;

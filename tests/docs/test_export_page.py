@@ -85,8 +85,8 @@ def test_firmware(run: Callable[[list[str]], str], need_tool: Callable[[str, str
     assert len(there) == 2
     assert there == here[:2]
     shown = run(here)
-    assert "100 messages of 1000 samples" in shown
+    assert "300 messages of 3000 samples" in shown
     assert "100% tests passed" in shown
-    printed = re.search(r"```\n(100 messages.*?)```", FIRMWARE.read_text(), re.DOTALL)
+    printed = re.search(r"```\n(300 messages.*?)```", FIRMWARE.read_text(), re.DOTALL)
     assert printed is not None
     assert printed[1] in shown

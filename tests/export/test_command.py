@@ -68,3 +68,15 @@ def test_refusals_write_nothing(
     assert what in shown.err
     assert "Traceback" not in shown.err
     assert list(folder.iterdir()) == []
+
+
+def test_sums_of_two_are_not_for_units() -> None:
+    """A unit's parameters are single numbers: it would be less exact than the scene asks."""
+    from tmm_gen.errors import UserError
+    from tmm_gen.export.fmu import fmu
+    from tmm_gen.resources import scenes_dir
+    from tmm_gen.scene import load_scene
+
+    scene = load_scene(scenes_dir() / "thesis2.toml")
+    with pytest.raises(UserError, match=r'emit\.compensated = true: .*real = "float64"'):
+        fmu(scene.replace(**{"emit.real": "float32", "emit.compensated": True}))

@@ -9,6 +9,7 @@ import pytest
 
 from tmm_gen.measure.single_precision import SingleError, single_precision
 from tmm_gen.native import NativeKernel, compile_kernel
+from tmm_gen.native.series import Series
 from tmm_gen.program.build import build_program
 from tmm_gen.resources import scenes_dir
 from tmm_gen.scene import Scene, load_scene
@@ -102,3 +103,52 @@ def test_turns_of_a_free_drive_are_to_be_taken_out() -> None:
     peak = np.max(np.abs(exact))
     assert np.max(np.abs(spun(single, 0) - exact)) > 0.1 * peak
     assert np.max(np.abs(spun(single, 10) - exact)) < 2e-3 * peak
+
+
+# -- numbers kept as sums of two ----------------------------------------------------------------
+
+SUMS = {"emit.real": "float32", "emit.compensated": True, "emit.trigonometry": "own"}
+ENDLESS: dict[str, tuple[str, dict[str, Any], int]] = {
+    "hundred": ("tip", {"tip_torque": lambda t: np.sin(2.0 * t)}, 100_000),
+    "drivetrain": (
+        "shaft_torque",
+        {
+            "motor_torque": lambda t: 5.0 * np.sin(2.0 * np.pi * t),
+            "load_torque": lambda t: np.full_like(t, -0.5),
+        },
+        100_000,
+    ),
+    "swing": ("hub", {"hub_torque": lambda t: np.sin(2.0 * np.pi * t)}, 30_000),
+}
+"""Scenes whose error grows with time in plain single precision: the output, the load, and steps enough to see it."""
+
+
+@pytest.mark.parametrize("name", ENDLESS)
+def test_compensated_errors_do_not_grow(name: str) -> None:
+    output, load, steps = ENDLESS[name]
+    plain = {error.output: error for error in single_precision(committed(name), load, steps)}[output]
+    assert plain.growth > 0.5
+    assert plain.largest > 16.0 * ULP
+    found = {error.output: error for error in single_precision(committed(name, **SUMS), load, steps)}
+    assert found[output].growth < 0.3  # of a rounding that grows as the output does, before it has settled
+    assert all(error.largest < ULP for error in found.values())  # what is left is the rounding of an output
+
+
+@pytest.mark.parametrize("name", ENDLESS)
+def test_below_the_rounding_of_outputs_the_state_is_right_too(name: str) -> None:
+    """Outputs are rounded once more; the state shows what rounding has really added up to."""
+    _, load, steps = ENDLESS[name]
+    scene = committed(name, **SUMS)
+    program, step = build_program(scene), scene.integrator.step
+    rounded = {key: _in_single(signal) for key, signal in load.items()}
+    states = []
+    for changes in ({}, {"emit.compensated": False, "emit.real": "float64"}):
+        kernel = compile_kernel(program, scene.replace(**changes))
+        Series(kernel, rounded, steps, step).run()
+        states.append(kernel.state)
+    mine, right = states
+    assert np.max(np.abs(mine["angle"] - right["angle"])) < 1e-10 * np.max(np.abs(right["angle"]))
+
+
+def _in_single(signal: Any) -> Any:
+    return lambda t: signal(t).astype(np.float32).astype(float)

@@ -21,6 +21,8 @@ _COLUMNS: list[Column | str] = [
     "meaning",
 ]
 
+_COMPENSATED = {"emit.real": "float32", "emit.compensated": True, "emit.trigonometry": "own"}
+
 
 @click.command("check")
 @click.argument("scene", metavar="SCENE", type=click.Path(path_type=Path))
@@ -34,9 +36,20 @@ _COLUMNS: list[Column | str] = [
 @click.option(
     "--real", type=click.Choice(["float64", "float32"]), help="Number type of the C, not the scene's."
 )
+@click.option(
+    "--compensated",
+    is_flag=True,
+    help="float32 with each number as the sum of two, and own sines: [emit] compensated.",
+)
 @click.option("--json", "json_mode", is_flag=True, help="One JSON object instead of a table.")
 def check(
-    scene: Path, target: str | None, prove_mode: bool, lint_mode: bool, real: str | None, json_mode: bool
+    scene: Path,
+    target: str | None,
+    prove_mode: bool,
+    lint_mode: bool,
+    real: str | None,
+    compensated: bool,
+    json_mode: bool,
 ) -> int:
     """Compile SCENE's C and compare every backend with the others and with the exact response.
 
@@ -55,8 +68,12 @@ def check(
     from tmm_gen.scene import load_scene
 
     loaded = load_scene(scene)
+    if compensated and real == "float64":
+        raise click.UsageError("--compensated is a way of computing in float32: leave --real out")
     if real is not None:
-        loaded = loaded.replace(**{"emit.real": real})
+        loaded = loaded.replace(**{"emit.real": real, "emit.compensated": False})
+    if compensated:
+        loaded = loaded.replace(**_COMPENSATED)
     if (target is not None) + prove_mode + lint_mode > 1:
         raise click.UsageError("--target, --prove and --lint are checks of their own: name one")
     if lint_mode:

@@ -73,14 +73,14 @@ class ExpressionPrinter(ABC):
         terms = ordered_terms(e)
         text = self._factor_text(terms[0], _SUM)
         for term in terms[1:]:
-            if _is_negative(term):
+            if is_negative(term):
                 text += f" - {self._factor_text(opposite(term), _PRODUCT)}"
             else:
                 text += f" + {self._factor_text(term, _PRODUCT)}"
         return text
 
     def _product(self, e: sp.Expr) -> tuple[str, int]:
-        if _is_negative(e):
+        if is_negative(e):
             return f"-{self._factor_text(opposite(e), _PRODUCT)}", _PRODUCT
         above, below = numerator_and_denominator(e)
         text = self.times.join(
@@ -115,7 +115,7 @@ def ordered_terms(e: sp.Expr) -> list[sp.Expr]:
     """Return the terms of a sum in printing order: a positive one first if there is one."""
     terms = list(sp.Add.make_args(e))
     terms.sort(key=lambda t: sp.default_sort_key(t))
-    first = next((i for i, t in enumerate(terms) if not _is_negative(t)), 0)
+    first = next((i for i, t in enumerate(terms) if not is_negative(t)), 0)
     return [terms[first], *terms[:first], *terms[first + 1 :]]
 
 
@@ -144,6 +144,7 @@ def opposite(term: sp.Expr) -> sp.Expr:
     return sp.Mul(*rest, evaluate=False) if len(rest) > 1 else sp.Mul(*rest)
 
 
-def _is_negative(term: sp.Expr) -> bool:
+def is_negative(term: sp.Expr) -> bool:
+    """Whether a term is written with a minus sign in front."""
     numbers = [f for f in sp.Mul.make_args(term) if f.is_Number]
     return bool(sum(1 for f in numbers if f.is_negative) % 2)

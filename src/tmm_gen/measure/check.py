@@ -239,5 +239,5 @@ def _moving_tip(module: ModuleType, scene: Scene, step: float, steps: int) -> Ar
     tip = np.empty(steps)
     for index in range(steps):
         state = module.step(model, state, given)
-        tip[index] = state.angle[-1]
+        tip[index] = state.angle[-1] + getattr(state, "turned", 0.0)
     return tip

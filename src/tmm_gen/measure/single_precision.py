@@ -60,9 +60,10 @@ def single_precision(
     Parameters
     ----------
     scene : Scene
-        At its own step; ``emit.real`` does not matter.
+        At its own step; ``emit.real`` does not matter, ``emit.compensated`` tells how single precision is used.
     signals : mapping from str to callable
-        Inputs by name, from instants (s) to values; those not named are zero.
+        Inputs by name, from instants (s) to values; those not named are zero. Both kernels get them rounded to single
+        precision, as what a kernel is handed is none of its errors.
     steps : int
         How many.
     windows : int
@@ -77,16 +78,23 @@ def single_precision(
     """
     program = build_program(scene)
     step = scene.integrator.step
+    rounded = {name: _rounded(signal) for name, signal in signals.items()}
     double, single = (
-        Series(compile_kernel(program, _free_of_bounds(scene, real)), signals, steps, step).run()
+        Series(compile_kernel(program, _free_of_bounds(scene, real)), rounded, steps, step).run()
         for real in ("float64", "float32")
     )
     return tuple(_compared(name, double[name], single[name], step, windows) for name in double)
 
 
+def _rounded(signal: Sampled) -> Sampled:
+    return lambda times: signal(times).astype(np.float32).astype(float)
+
+
 def _free_of_bounds(scene: Scene, real: str) -> Scene:
     """Return a scene of a number type, without the box that a proof needs."""
     changes: dict[str, object] = {"emit.real": real}
+    if real == "float64" and scene.emit.compensated:
+        changes["emit.compensated"] = False
     if scene.emit.box is not None:
         changes["emit.box"] = None
     return scene.replace(**changes)

@@ -42,10 +42,15 @@ class Trace:
         Parameters
         ----------
         state : mapping or object
-            With `angle` and `rate`, and those of the hub if there is one.
+            With `angle` and `rate`, and those of the hub if there is one; and the turns that are kept apart from
+            its angles, if they are.
         """
         get = state.__getitem__ if isinstance(state, Mapping) else lambda name: getattr(state, name)
         moved = self.angle.shape[1] > len(np.atleast_1d(get("angle")))
         for target, name in ((self.angle, "angle"), (self.rate, "rate")):
             target[self.count] = [get(f"hub_{name}"), *get(name)] if moved else get(name)
+        if isinstance(state, Mapping):
+            self.angle[self.count] += state.get("turned", 0.0)
+        else:
+            self.angle[self.count] += getattr(state, "turned", 0.0)
         self.count += 1

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.emit.c import emit_kernel, free_scene
-from tmm_gen.emit.c.real import REALS
+from tmm_gen.emit.c.real import real_of
 from tmm_gen.emit.templates import render
 from tmm_gen.native.compiler import FLAGS, compile_library
 from tmm_gen.native.layout import Value, element_values, read, write
@@ -63,7 +63,7 @@ def load_kernel(
     """Compile and load what :func:`emit_kernel` has written; see :func:`compile_kernel`."""
     sources = {**files, "c/harness.c": render("c/harness.c.jinja", name=program.name)}
     handle = ctypes.CDLL(str(compile_library(sources, cc, flags)))
-    return NativeKernel(program, Library(program, REALS[scene.emit.real], handle))
+    return NativeKernel(program, Library(program, real_of(scene.emit), handle))
 
 
 class NativeKernel:
@@ -237,14 +237,37 @@ class NativeKernel:
         self.prepare(params, step)
         self.initialise({name: _at(signal, 0.0) for name, signal in signals.items()}, **given)
         steps = int(np.floor(duration / self._step * (1.0 + 1e-12)))
-        rows = [self.output()]
-        series, results = ((self._library.types[which] * steps)() for which in ("inputs", "outputs"))
-        for index in range(steps):
-            write(series[index], self._library.structs["inputs"], self._sampled(signals, index))
-        self._library.run(self._model, self._state, series, results)
-        rows += (read(result, self._library.structs["outputs"]) for result in results)
+        rows = [self.output(), *self.advance(signals, 0, steps)]
         outputs = {v.name: np.array([row[v.name] for row in rows]) for v in self.program.outputs}
         return np.arange(steps + 1, dtype=float) * self._step, outputs
+
+    def advance(self, signals: Mapping[str, Signal], taken: int, steps: int) -> list[dict[str, float]]:
+        """Take some steps from the present state.
+
+        Parameters
+        ----------
+        signals : mapping from str
+            Constants or functions of time; inputs not named are zero.
+        taken : int
+            Steps taken before, from time zero.
+        steps : int
+            How many to take.
+
+        Returns
+        -------
+        list of dict from str to float
+            Outputs after each step.
+
+        Raises
+        ------
+        FloatingPointError, ArithmeticError
+            As :meth:`step`.
+        """
+        series, results = ((self._library.types[which] * steps)() for which in ("inputs", "outputs"))
+        for index in range(steps):
+            write(series[index], self._library.structs["inputs"], self._sampled(signals, taken + index))
+        self._library.run(self._model, self._state, series, results)
+        return [read(result, self._library.structs["outputs"]) for result in results]
 
     def time_step(self, inputs: Mapping[str, Value] | None = None, repeats: int = 9) -> float:
         """Measure how long a step takes, in a loop of compiled C from the scene's initial motion.

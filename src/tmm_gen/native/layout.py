@@ -17,9 +17,28 @@ Value = float | Sequence[float] | NDArray[np.floating[Any]]
 """A number, also one for all elements of an array, or an array."""
 
 
+class PairStructure(ctypes.Structure):
+    """A number that is the sum of two floats."""
+
+    _fields_ = (("high", ctypes.c_float), ("low", ctypes.c_float))
+
+    @classmethod
+    def of(cls, value: float) -> PairStructure:
+        """Split a number; one that floats are too small for becomes zero, as in any state of floats."""
+        with np.errstate(over="ignore", invalid="ignore"):
+            high = np.float32(value)
+            return cls(float(high), float(np.float32(value - float(high))))
+
+    def __float__(self) -> float:
+        """Return the sum, exact in double precision."""
+        return float(self.high + self.low)
+
+
 def structure_of(struct: Struct, real: Real) -> type[ctypes.Structure]:
     """Return the type of a struct, its members in order."""
     number: Any = ctypes.c_double if real.size == 8 else ctypes.c_float
+    if struct.holds_pairs(real):
+        number = PairStructure
     fields = [(f.name, number if not f.dimension else number * f.numbers) for f in struct.fields]
     if not fields:
         fields.append(("none", number))
@@ -58,11 +77,16 @@ def element_values(variable: Variable, value: Value, kind: Any) -> Any:
     if variable.length is None:
         if array.ndim:
             raise ValueError(f"{variable.name} is one number, not an array of shape {array.shape}")
-        return float(array)
+        return PairStructure.of(float(array)) if kind is PairStructure else float(array)
     if array.shape not in ((), (variable.length,)):
         raise ValueError(f"{variable.name} has {variable.length} numbers, not the shape {array.shape}")
-    return kind(*np.broadcast_to(array, variable.length).tolist())
+    numbers = np.broadcast_to(array, variable.length).tolist()
+    if getattr(kind, "_type_", None) is PairStructure:
+        numbers = [PairStructure.of(number) for number in numbers]
+    return kind(*numbers)
 
 
 def _python(member: Any) -> Any:
-    return float(member) if isinstance(member, float) else np.array(member, dtype=float)
+    if isinstance(member, float | PairStructure):
+        return float(member)
+    return np.array([float(number) for number in member], dtype=float)

@@ -7,7 +7,7 @@ from typing import Any
 
 from tmm_gen.emit.c.real import Real
 from tmm_gen.emit.c.structs import structs_of
-from tmm_gen.native.layout import structure_of
+from tmm_gen.native.layout import PairStructure, structure_of
 from tmm_gen.program.evaluate import VanishingPivotError
 from tmm_gen.program.statements import Program
 
@@ -102,7 +102,9 @@ class Library:
         return getattr(self._handle, f"{self.name}_{name}")
 
     def _passed(self, argument: Any) -> Any:
-        return self.number(argument) if isinstance(argument, float) else ctypes.byref(argument)
+        if isinstance(argument, float):  # the time step
+            return PairStructure.of(argument) if self.real.pair else self.number(argument)
+        return ctypes.byref(argument)
 
     def raise_for(self, status: int | None, where: str) -> None:
         """Raise what a status stands for; success is nothing."""

@@ -66,6 +66,9 @@ class Emit(Table):
         Whose sine and cosine the C code calls: the C library's, or its own, with the same bits everywhere.
     parameters : {"free", "bound"}
         Whether the C code takes parameters and step when it runs, or has them built in as constants.
+    compensated : bool
+        Whether the C code keeps every number as the unevaluated sum of two floats, so that rounding does not add up
+        over millions of steps; with ``real = "float32"`` only.
     budget : Budget, optional
         Bounds on the cost of the C code.
     box : dict from str to (low, high), optional
@@ -87,6 +90,9 @@ class Emit(Table):
     )
     parameters: Literal["free", "bound"] = Field(
         default="free", description="whether the C code's parameters are constants", examples=['"bound"']
+    )
+    compensated: bool = Field(
+        default=False, description="float32 only: keep each number as a sum of two", examples=["true"]
     )
     budget: Budget | None = Field(default=None, description="bounds on the cost of the C code")
     box: dict[str, Interval] | None = Field(default=None, description="bounds of inputs and state")

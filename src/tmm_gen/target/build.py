@@ -17,6 +17,8 @@ CROSS = (
     "-fno-math-errno",  # sqrt is one instruction
     "-fno-tree-loop-distribute-patterns",  # no calls of memcpy for short loops
 )
+PAIRS = "-O2"
+"""Optimisation of kernels whose numbers are sums of two: it puts their arithmetic where it is called."""
 KERNEL = ("-fstack-usage", "-fcallgraph-info=su")
 
 
@@ -67,7 +69,8 @@ def build_for(board: Board, kernel: Kernel, sources: dict[str, str], folder: Pat
     cc = need(f"{board.prefix}gcc", board.package)
     _need_library(cc, board)
     name = _lay_out(kernel, sources, board.counter, folder)
-    common = (*FLAGS, *CROSS, board.optimisation, *board.machine, "--specs=picolibc.specs")
+    optimisation = PAIRS if kernel.real.pair else board.optimisation
+    common = (*FLAGS, *CROSS, optimisation, *board.machine, "--specs=picolibc.specs")
     call([cc, *common, *KERNEL, "-c", f"{name}.c", "-o", "kernel.o"], folder)
     call([cc, *common, "-c", "harness.c", "-o", "harness.o"], folder)
     link = (*common[:-1], *board.link, "-Wl,--gc-sections")

@@ -127,7 +127,9 @@ def driver(kernel: Kernel, box: Box) -> str:
         kernel=kernel,
         name=program.name,
         interval="Frama_C_float_interval" if kernel.real.size == 4 else "Frama_C_double_interval",
-        step=f"any({literal(step[0])}, {literal(step[1])})" if step else f"{program.name.upper()}_STEP",
+        step=f"{'any_pair' if kernel.real.pair else 'any'}({literal(step[0])}, {literal(step[1])})"
+        if step
+        else f"{program.name.upper()}_STEP",
         zero=literal(0.0),
         inputs=members(program.inputs),
         state=members(program.state),

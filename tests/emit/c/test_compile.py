@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 
 from tmm_gen.derive.integrators.registry import names
+from tmm_gen.emit.c import emit_c
 
 pytestmark = pytest.mark.compiler
 
@@ -107,3 +108,18 @@ def test_the_emitted_test_finds_a_wrong_sign(chain: Any, written: Any, command: 
     command("gcc", "-std=c99", *written(files), "-o", "test", "-lm")
     with pytest.raises(AssertionError, match=r"\d+ of \d+ checks failed"):
         command("./test")
+
+
+@pytest.mark.parametrize(
+    "kind",
+    [{"base": "motor", "inner": True}, {"integrator": "houbolt", "base": "prescribed"}, {"driven": False}],
+    ids=lambda kind: "-".join(map(str, kind.values())),
+)
+def test_compensated_kernels_are_silent_and_right(
+    kind: dict[str, Any], chain: Any, written: Any, command: Any, warnings: Any
+) -> None:
+    scene = chain(**kind, real="float32").scene.replace(**{"emit.compensated": True})
+    sources = written(emit_c(chain(**kind, real="float32").program, scene))
+    for compiler in ("gcc", "clang"):
+        command(compiler, *warnings, "-O2", *sources, "-o", "test", "-lm")
+        assert re.fullmatch(r"\d+ checks passed\n", command("./test"))

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from tmm_gen.emit.c import pair
 from tmm_gen.emit.c.real import Real
 from tmm_gen.emit.expressions import ExpressionPrinter
 from tmm_gen.errors import UserError
@@ -49,18 +50,18 @@ def bind(program: Program, real: Real) -> Bound:
     UserError
         If a pivot is not positive, or a number is beyond the range of the type.
     """
-    number: Any = np.float32 if real.size == 4 else np.float64
+    number: Any = pair.Pair.of if real.pair else np.float32 if real.size == 4 else np.float64
     held: dict[str, list[Any]] = {}
     for variable in (program.step, *program.parameters):
         default = variable.default
         values = default if isinstance(default, tuple) else (default or 0.0,) * (variable.length or 1)
-        held[variable.name] = [number(real.round(value)) for value in values]
+        held[variable.name] = [number(value if real.pair else real.round(value)) for value in values]
     for variable in program.prepare.written():
         held[variable.name] = [number(0.0)] * (variable.length or 1)
     with np.errstate(all="ignore"):  # looked at below
         exec(
-            compile(_python(program.prepare), "prepare", "exec"),
-            {"np": np, "real": number, "held": held, "need": _need},
+            compile(_python(program.prepare, real), "prepare", "exec"),
+            {"np": np, "real": number, "held": held, "need": _need, **_PAIR_FUNCTIONS},
         )
     kept = (program.step, *program.parameters, *program.coefficients)
     bound = {v: tuple(float(x) for x in held[v.name]) for v in kept if v.name in held}
@@ -73,14 +74,30 @@ def bind(program: Program, real: Real) -> Bound:
 
 
 def _need(value: Any, what: str) -> None:
+    value = float(value)
     if not (value > 0 and np.isfinite(value)):
         raise UserError(
             f"no passive arm has these parameters: {what} is {value}, not positive; they cannot be bound"
         )
 
 
-def _python(routine: Routine) -> str:
-    printer = _PythonPrinter()
+_PAIR_FUNCTIONS = {
+    "plus": pair.plus,
+    "minus": pair.minus,
+    "opposite": pair.opposite_of,
+    "scaled": pair.scaled,
+    "times": pair.times,
+    "over": pair.over,
+}
+
+
+def _pair_printer() -> pair.PairPrinter:
+    plain = _PythonPrinter()
+    return pair.PairPrinter(plain.reference, lambda value: f"real({float(value)!r})", repr)
+
+
+def _python(routine: Routine, real: Real) -> str:
+    printer = _pair_printer() if real.pair else _PythonPrinter()
 
     def line(statement: Assign | Require) -> str:
         value = printer.text(statement.value)

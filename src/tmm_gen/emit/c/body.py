@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from itertools import count
 
 from tmm_gen.emit.c.circle import Turns
 from tmm_gen.emit.c.fence import Fence
+from tmm_gen.emit.c.pair import PairPrinter, is_pair
 from tmm_gen.emit.c.printer import CPrinter, element
 from tmm_gen.emit.c.real import Real
 from tmm_gen.emit.c.scalars import place_scalars
@@ -131,9 +132,11 @@ class Body:
         hoisted = self._hoisted()
         placement = place_scalars(self.routine)
         local = frozenset(hoisted)
-        printer = CPrinter(self.real, lambda ref: self._refer(ref, local))
+        printer = self._printer(lambda ref: self._refer(ref, local))
         for variable in hoisted:
-            yield f"{INDENT}const real {variable.name} = {self._source(variable)}{variable.name};"
+            yield (
+                f"{INDENT}const {self._type(variable)} {variable.name} = {self._source(variable)}{variable.name};"
+            )
         for variable in (*self._intermediate(), *self.routine.variables(Role.WORK), *placement.at_top):
             yield from self._declaration(variable)
         positions = iter(range(len(tuple(self.routine.assignments()))))
@@ -148,11 +151,16 @@ class Body:
                 yield from self._required(inner, printer.text(inner.value), depth)
                 return
             constant = placement.constant.get(next(positions))
-            head = "" if constant is None else "const real " if constant else "real "
-            target = printer.text(inner.target)
-            yield from statement(f"{head}{target} = {printer.text(inner.value)};", depth)
-            if inner.target.variable.name in self.fence.largest:
-                yield from self._fenced(target, self.fence.largest[inner.target.variable.name], depth)
+            variable = inner.target.variable
+            kind = self._type(variable)
+            head = "" if constant is None else f"const {kind} " if constant else f"{kind} "
+            target = printer.text(inner.target) if kind == "pair" else printer.reference(inner.target)
+            value = printer.text(inner.value)
+            if self.real.pair and kind == "real":
+                value += ".high"
+            yield from statement(f"{head}{target} = {value};", depth)
+            if variable.name in self.fence.largest:
+                yield from self._fenced(target, self.fence.largest[variable.name], depth)
             turns.forget(inner.target)
 
         straight = Turns(names)
@@ -171,6 +179,17 @@ class Body:
                 else:
                     yield from simple(top, 1, straight)
 
+    def _printer(self, refer: Callable[[Ref], str]) -> CPrinter:
+        return PairPrinter(refer) if self.real.pair else CPrinter(self.real, refer)
+
+    def _type(self, variable: Variable) -> str:
+        return "pair" if self.real.pair and is_pair(variable) else "real"
+
+    @property
+    def _high(self) -> str:
+        """What stands behind a number to compare it."""
+        return ".high" if self.real.pair else ""
+
     def _refer(self, ref: Ref, local: frozenset[Variable]) -> str:
         source = "" if ref.variable in local else self._source(ref.variable)
         return element(source + ref.variable.name, ref)
@@ -181,7 +200,7 @@ class Body:
         return tuple(v for v in self.routine.variables(Role.COEFFICIENT) if not self._source(v))
 
     def _declaration(self, variable: Variable) -> list[str]:
-        line = f"{INDENT}real {variable.name}{dimension(variable, self.program)};"
+        line = f"{INDENT}{self._type(variable)} {variable.name}{dimension(variable, self.program)};"
         remark = f" /* {described(variable)} */"
         if variable.doc and len(line) + len(remark) <= WIDTH:
             return [line + remark]
@@ -199,18 +218,23 @@ class Body:
 
     def _required(self, required: Require, value: str, depth: int) -> list[str]:
         least = self.real.literal(self.fence.least_of(required))
+        value += self._high
         return self._unless(f"({value} > {least})", f"isfinite({value})", "VANISHING_PIVOT", depth)
 
     def _fenced(self, value: str, largest: float, depth: int) -> list[str]:
-        bound = self.real.literal(largest)
-        return self._unless(f"({value} > -{bound})", f"({value} < {bound})", "OUT_OF_RANGE", depth)
+        bound, number = self.real.literal(largest), value + self._high
+        lines = self._unless(f"({number} > -{bound})", f"({number} < {bound})", "OUT_OF_RANGE", depth)
+        if self.real.pair:  # to a prover, the lower part is still that of a number not looked at
+            small = f"0x1p-24 * {largest!r}"
+            lines.append(f"{INDENT * depth}/*@ admit -{small} <= {value}.low <= {small}; */")
+        return lines
 
     def _turned(self, angle: str, name: str, depth: int) -> Iterator[str]:
         """Yield sine and cosine of an angle; before them, where the function can refuse, a check of its range."""
         if self.kind != "output":
-            largest = f"{self.program.name.upper()}_LARGEST_ANGLE"
+            largest, number = f"{self.program.name.upper()}_LARGEST_ANGLE", angle + self._high
             yield from self._unless(
-                f"({angle} >= -{largest})", f"({angle} <= {largest})", "OUT_OF_RANGE", depth
+                f"({number} >= -{largest})", f"({number} <= {largest})", "OUT_OF_RANGE", depth
             )
         yield from statement(f"const circle {name} = circle_of({angle});", depth)
 

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 import sympy as sp
 
 from tmm_gen.derive.trigonometry import Trigonometry, trigonometry
-from tmm_gen.emit.c.real import Real
+from tmm_gen.emit.c.pair import pair_literal
+from tmm_gen.emit.c.real import FLOAT, Real
 from tmm_gen.program.statements import Program, Routine
 from tmm_gen.program.variables import Ref, refs_in
 
@@ -16,12 +18,18 @@ COUNT_BITS = {"float32": 12, "float64": 20}
 """Bits of the number of quarter turns, by number type: a thousand turns, and a quarter of a million."""
 ERROR = 2.25
 """Largest error of sine and cosine in units of ``2^-digits``, half a unit in the last place of 1."""
+PAIR_DIGITS = 48
+"""Of a sum of two floats."""
+PAIR_ERROR = 2.0**-45
+"""Largest error of sine and cosine of such a sum, relative to 1 and to the angle, whichever is larger."""
 _DIGITS = {"float32": 24, "float64": 53}
 _WORD = {"float32": "uint32_t", "float64": "uint64_t"}
 
 
 def constants(real: Real) -> Trigonometry:
     """Return the constants of a number type."""
+    if real.pair:
+        return trigonometry(PAIR_DIGITS, COUNT_BITS["float64"])
     return trigonometry(_DIGITS[real.name], COUNT_BITS[real.name])
 
 
@@ -80,6 +88,40 @@ class Circle:
     def number(self, value: float) -> str:
         """Write a number."""
         return self.real.literal(value)
+
+
+class PairCircle(Circle):
+    """The same for numbers that are sums of two: constants are such sums where they have to be."""
+
+    @property
+    def error(self) -> str:
+        """Largest error, in decimal."""
+        return f"{PAIR_ERROR:.1e}"
+
+    @property
+    def quarters(self) -> str:
+        """``2/pi``: a float, as it only counts."""
+        return FLOAT.shortest(constants(FLOAT).quarters_per_radian)
+
+    @property
+    def whole(self) -> str:
+        """What rounds a float to whole numbers."""
+        return FLOAT.shortest(constants(FLOAT).whole)
+
+    @property
+    def quarter(self) -> str:
+        """``pi/2``."""
+        return pair_literal(math.pi / 2.0)
+
+    @property
+    def sine(self) -> list[str]:
+        """Coefficients of the sine, the last first."""
+        return [pair_literal(c) for c in reversed(constants(self.real).sine)]
+
+    @property
+    def cosine(self) -> list[str]:
+        """Coefficients of the cosine, the last first."""
+        return [pair_literal(c) for c in reversed(constants(self.real).cosine)]
 
 
 @dataclass

@@ -11,7 +11,7 @@ from tmm_gen.program.variables import Variable
 
 
 def finite_checks(
-    pointer: str, variables: tuple[Variable, ...], program: Program, failure: str
+    pointer: str, variables: tuple[Variable, ...], program: Program, failure: str, pairs: bool = False
 ) -> Iterator[str]:
     """Yield lines that leave a function unless all of some variables are finite.
 
@@ -25,16 +25,19 @@ def finite_checks(
         Whose macros give the lengths of arrays.
     failure : str
         What to return.
+    pairs : bool
+        Whether they are sums of two numbers, of which both are looked at.
     """
+    sums = "{0}.high + {0}.low" if pairs else "{0}"
     by_length: dict[str, list[str]] = {}
     for variable in variables:
         by_length.setdefault(dimension(variable, program), []).append(pointer + variable.name)
     for length, names in by_length.items():
         if not length:
-            yield from check(names, failure, 1)
+            yield from check([sums.format(name) for name in names], failure, 1)
             continue
         yield f"{INDENT}for (int j = 0; j < {length[1:-1]}; ++j) {{"
-        yield from check([f"{name}[j]" for name in names], failure, 2)
+        yield from check([sums.format(f"{name}[j]") for name in names], failure, 2)
         yield f"{INDENT}}}"
 
 

@@ -4,19 +4,21 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 from tmm_gen.emit.c.bind import bind
 from tmm_gen.emit.c.body import Body
 from tmm_gen.emit.c.box import complete_box
-from tmm_gen.emit.c.circle import Circle, has_angles, uses_circle
+from tmm_gen.emit.c.circle import Circle, PairCircle, has_angles, uses_circle
 from tmm_gen.emit.c.fence import Fence, fence_of
 from tmm_gen.emit.c.finite import check, finite_checks
 from tmm_gen.emit.c.guard import telling_value
 from tmm_gen.emit.c.lower import lower
+from tmm_gen.emit.c.pair import functions_in, pair_literal
+from tmm_gen.emit.c.pair_outputs import rounded_last
 from tmm_gen.emit.c.printer import element
-from tmm_gen.emit.c.real import REALS, Real
+from tmm_gen.emit.c.real import Real, real_of
 from tmm_gen.emit.c.structs import COUNTER, Struct, described, dimension, structs_of
 from tmm_gen.emit.c.wrap import INDENT, WIDTH, comment
 from tmm_gen.emit.header import header_lines
@@ -55,13 +57,17 @@ class Kernel:
     @classmethod
     def of(cls, program: Program, scene: Scene) -> Kernel:
         """Prepare a program for a scene's number type."""
-        real = REALS[scene.emit.real]
+        real = real_of(scene.emit)
         structs = {struct.name: struct for struct in structs_of(program)}
         if scene.emit.parameters == "bound":
             structs = {name: struct for name, struct in structs.items() if name not in ("params", "model")}
         sizes = ", ".join(f"{name} {struct.size(real)}" for name, struct in structs.items())
-        lines = (*header_lines(program, scene), f"number type: {real.c}", f"bytes of the structs: {sizes}")
-        return cls(program, lower(program), real, lines, structs, scene)
+        number = f"sums of two of type {real.c}" if real.pair else real.c
+        lines = (*header_lines(program, scene), f"number type: {number}", f"bytes of the structs: {sizes}")
+        lowered = lower(program)
+        if real.pair:
+            lowered = replace(lowered, output=rounded_last(lowered.output))
+        return cls(program, lowered, real, lines, structs, scene)
 
     def comment(self, lead: str, *paragraphs: str) -> str:
         """Return the head of a file and paragraphs behind it, every line with a lead."""
@@ -127,7 +133,8 @@ class Kernel:
 
     def members(self, which: str) -> list[str]:
         """Return the members of a struct, documented beside, or above where that is too wide."""
-        struct, number = self.structs[which], f"{self.program.name}_real"
+        struct = self.structs[which]
+        number = f"{self.program.name}_{'pair' if struct.holds_pairs(self.real) else 'real'}"
         members = [(f"{number} {f.name}{f.dimension};", f.doc) for f in struct.fields]
         if not members:
             members = [(f"{number} none;", "unused: C has no empty structs")]
@@ -160,7 +167,9 @@ class Kernel:
     def circle(self) -> Circle | None:
         """Own sine and cosine, where the scene asks for them and its arm needs them."""
         own = self.scene.emit.trigonometry == "own" and uses_circle(self.program)
-        return Circle(self.real) if own else None
+        if not own:
+            return None
+        return PairCircle(self.real) if self.real.pair else Circle(self.real)
 
     @cached_property
     def fences(self) -> dict[str, Fence]:
@@ -239,6 +248,7 @@ class Kernel:
         name = element(f"state->{found.variable.name}", found)
         if found.entry:
             name = f"state->{found.variable.name}[{self.program.name.upper()}_STATIONS - 1]"
+        name += ".high" if self.real.pair else ""
         lines = (
             *comment("Anything that is not a number has reached this one.", 1),
             *check([name], failure, 1),
@@ -247,7 +257,8 @@ class Kernel:
 
     def checks(self, pointer: str, variables: tuple[Variable, ...], failure: str) -> str:
         """Return statements that leave a function with ``failure`` unless all variables are finite."""
-        return "\n".join(finite_checks(pointer, variables, self.program, failure))
+        pairs = self.real.pair and pointer in ("params->", "state->")
+        return "\n".join(finite_checks(pointer, variables, self.program, failure, pairs))
 
     @property
     def copied(self) -> list[tuple[str, str, str]]:
@@ -267,12 +278,13 @@ class Kernel:
 
     def _constant(self, variable: Variable, values: tuple[float, ...]) -> list[str]:
         remark = comment(described(variable), 0)
-        head = f"static const real {variable.name}{dimension(variable, self.program)} ="
+        literal = pair_literal if self.real.pair else self.real.shortest
+        head = f"static const {self.number} {variable.name}{dimension(variable, self.program)} ="
         if variable.length is None:
-            line = f"{head} {self.real.shortest(values[0])};"
+            line = f"{head} {literal(values[0])};"
             beside = f"{line} {remark[0]}"
             return [beside] if len(remark) == 1 and len(beside) <= WIDTH else [*remark, line]
-        numbers = textwrap.wrap(", ".join(map(self.real.shortest, values)), WIDTH - len(INDENT))
+        numbers = textwrap.wrap(", ".join(map(literal, values)), WIDTH - len(INDENT))
         return [*remark, f"{head} {{", *(INDENT + line for line in numbers), "};"]
 
     def defaults(self) -> list[tuple[Variable, list[str]]]:
@@ -283,14 +295,33 @@ class Kernel:
     def default_step(self) -> str:
         """The scene's time step as a literal."""
         assert isinstance(self.program.step.default, float)
+        if self.real.pair:
+            return f"(({self.program.name}_pair){pair_literal(self.program.step.default)})"
         return self.real.literal(self.program.step.default)
+
+    @property
+    def number(self) -> str:
+        """Type of parameters, model and state within the source."""
+        return "pair" if self.real.pair else "real"
+
+    @property
+    def pair_functions(self) -> frozenset[str]:
+        """Functions of pairs that the kernel calls; none where its numbers are single."""
+        if not self.real.pair:
+            return frozenset()
+        bodies = [self.initialise, self.main, self.output, *self.startup]
+        texts = [body.text() for body in (bodies if self.bound else [self.prepare, *bodies])]
+        if self.circle is not None:
+            texts.append("pair_of( minus( plus( times( scaled(")
+        return functions_in("\n".join(texts))
 
     def _argument(self, variable: Variable) -> str:
         return variable.name if variable is self.program.step else f"params->{variable.name}"
 
     def _literals(self, variable: Variable) -> list[str]:
         values = variable.default if isinstance(variable.default, tuple) else (variable.default,)
-        numbers = [self.real.literal(value) for value in values if value is not None]
+        literal = pair_literal if self.real.pair else self.real.literal
+        numbers = [literal(value) for value in values if value is not None]
         return textwrap.wrap(", ".join(numbers), WIDTH - 2 * len(INDENT))
 
 

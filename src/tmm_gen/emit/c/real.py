@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tmm_gen.errors import UserError
+from tmm_gen.scene.emit import Emit
 
 
 @dataclass(frozen=True)
@@ -26,6 +27,8 @@ class Real:
         Bytes.
     epsilon : float
         Distance from 1 to the next number.
+    pair : bool
+        Whether parameters, model and state hold sums of two numbers of the type; inputs and outputs never do.
     """
 
     name: str
@@ -33,6 +36,12 @@ class Real:
     suffix: str
     size: int
     epsilon: float
+    pair: bool = False
+
+    @property
+    def number_size(self) -> int:
+        """Bytes of a number of parameters, model or state."""
+        return 2 * self.size if self.pair else self.size
 
     def literal(self, value: float) -> str:
         """Write a number: the shortest decimal that reads back as the same ``double``.
@@ -77,5 +86,12 @@ class Real:
 
 DOUBLE = Real("float64", "double", "", 8, 2.0**-52)
 FLOAT = Real("float32", "float", "f", 4, 2.0**-23)
+COMPENSATED = Real("float32", "float", "f", 4, 2.0**-45, pair=True)
+"""Pairs of floats; sums and products of two are right within ``2^-46``."""
 REALS: dict[str, Real] = {real.name: real for real in (DOUBLE, FLOAT)}
-"""By the name scenes use."""
+"""By the name scenes use; see :func:`real_of` for pairs."""
+
+
+def real_of(emit: Emit) -> Real:
+    """Return the number type of a scene's C code."""
+    return COMPENSATED if emit.compensated else REALS[emit.real]

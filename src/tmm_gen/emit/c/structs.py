@@ -59,7 +59,11 @@ class Struct:
         """Return its bytes, padding included."""
         numbers = sum(field.numbers for field in self.fields) or 1
         tail = -(-_COUNTER_SIZE // real.size) * real.size if self.counter else 0
-        return numbers * real.size + tail
+        return numbers * (real.number_size if self.holds_pairs(real) else real.size) + tail
+
+    def holds_pairs(self, real: Real) -> bool:
+        """Whether its numbers are sums of two."""
+        return real.pair and self.name not in ("inputs", "outputs")
 
 
 def structs_of(program: Program) -> tuple[Struct, ...]:

@@ -12,7 +12,8 @@ import mpmath
 
 from tmm_gen.emit.c.estimate import FUNCTIONS, Estimate, estimate_of
 from tmm_gen.emit.c.kernel import Kernel
-from tmm_gen.emit.c.real import Real
+from tmm_gen.emit.c.pair import is_pair, pair_literal, parts
+from tmm_gen.emit.c.real import FLOAT, Real
 from tmm_gen.program.evaluate import Values, VanishingPivotError, allocate, execute, key
 from tmm_gen.program.statements import Program
 from tmm_gen.program.variables import Ref, Variable
@@ -95,7 +96,9 @@ def vectors(kernel: Kernel) -> Vectors:
         raise ArithmeticError(f"{program.name}: no initial state leads to a step that can be solved")
 
     def expected(ref: Ref, record: dict[Ref, Estimate]) -> Expected:
-        return Expected(ref.name, _literal(record[ref].value, real), real.literal(tolerance[ref.variable]))
+        pair = real.pair and is_pair(ref.variable)
+        value = _literal(record[ref].value, real, pair)
+        return Expected(ref.name, value, real.literal(tolerance[ref.variable]))
 
     steps = tuple(
         Step(_inputs(program, k + 1, spread, real), tuple(expected(v.ref, record) for v in program.outputs))
@@ -123,7 +126,7 @@ def _simulate(program: Program, real: Real, shown: list[Ref], spread: int) -> li
     """Return outputs after every step, and the state that is shown."""
 
     def number(value: float) -> Estimate:
-        return Estimate(mpmath.mpf(real.round(value)))
+        return Estimate(mpmath.mpf(sum(parts(value)) if real.pair else real.round(value)))
 
     with mpmath.workdps(DIGITS):
         variables = (program.step, *program.parameters, *program.state, *program.inputs, *program.outputs)
@@ -184,7 +187,12 @@ def _tolerances(records: list[dict[Ref, Estimate]], real: Real) -> dict[Variable
         for ref, estimate in record.items():
             error[ref.variable] = max(error.get(ref.variable, 0.0), estimate.error)
     unit = real.epsilon / 2
-    return {v: _two_digits_up(_SAFETY * unit * (largest or 1.0)) for v, largest in error.items()}
+    bounds = {v: _SAFETY * unit * (largest or 1.0) for v, largest in error.items()}
+    if real.pair:  # what callers get is rounded, and so is what it is compared with
+        for ref, estimate in (item for record in records for item in record.items()):
+            if not is_pair(ref.variable):
+                bounds[ref.variable] = max(bounds[ref.variable], FLOAT.epsilon * abs(float(estimate.value)))
+    return {v: _two_digits_up(bound) for v, bound in bounds.items()}
 
 
 def _two_digits_up(value: float) -> float:
@@ -192,7 +200,7 @@ def _two_digits_up(value: float) -> float:
     return float(f"{math.ceil(value / 10.0**exponent)}e{exponent}")
 
 
-def _literal(value: Any, real: Real) -> str:
+def _literal(value: Any, real: Real, pair: bool) -> str:
     """Write a reference value; what the type cannot tell from zero is zero."""
-    number = float(value)
-    return real.literal(0.0 if abs(number) < 2.0**-126 else number)
+    number = 0.0 if abs(value) < 2.0**-126 else float(value)
+    return f"(pair){pair_literal(number)}" if pair else real.literal(number)

@@ -34,14 +34,15 @@ def comment(text: str, depth: int, opening: str = "/*") -> list[str]:
 
 
 def _break(text: str, width: int) -> int | None:
-    """Return where to break: before the last of the loosest operators within the width."""
+    """Return where to break: before the last of the loosest operators within the width, or behind a comma."""
     best: tuple[int, int] | None = None
     depth = 0
     for place, character in enumerate(text[: width + 1]):
         depth += (character in "([") - (character in ")]")
         operator = text[place : text.find(" ", place)]
-        if operator in _LOOSENESS and text[place - 1 : place] == " ":
-            looseness = len(_LOOSENESS) * depth + _LOOSENESS[operator]
+        behind = text[place - 1 : place] == " " and (operator in _LOOSENESS or text[place - 2] == ",")
+        if behind:
+            looseness = len(_LOOSENESS) * depth + _LOOSENESS.get(operator, 0)
             if best is None or looseness <= best[0]:
                 best = (looseness, place)
     return best[1] if best else None

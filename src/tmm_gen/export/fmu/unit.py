@@ -10,6 +10,7 @@ from tmm_gen.emit.c import emit_kernel, free_scene
 from tmm_gen.emit.c.kernel import Kernel
 from tmm_gen.emit.c.real import REALS
 from tmm_gen.emit.templates import render
+from tmm_gen.errors import UserError
 from tmm_gen.export.fmu.archive import archive
 from tmm_gen.export.fmu.description2 import description2
 from tmm_gen.export.fmu.description3 import build_description, description3
@@ -75,6 +76,11 @@ def fmu(scene: Scene, version: FmiVersion = 2, cc: str = "gcc", program: Program
 
 def _importers(scene: Scene) -> Scene:
     """Return a scene whose parameters are the importer's to choose: no constants, and no bounds that rest on them."""
+    if scene.emit.compensated:
+        raise UserError(
+            f"scene '{scene.name}': emit.compensated = true: a functional mock-up unit holds its parameters as single "
+            'numbers; write real = "float64" instead, which is as exact'
+        )
     changes: dict[str, object] = {"emit.sensitivities": None} if scene.emit.sensitivities else {}
     if scene.emit.box is not None:
         changes["emit.box"] = None

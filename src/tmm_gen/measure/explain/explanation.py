@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from tmm_gen.derive.integrators.history import history_depth
 from tmm_gen.derive.integrators.registry import integrator
-from tmm_gen.emit.c.real import REALS
+from tmm_gen.emit.c.real import Real, real_of
 from tmm_gen.measure.explain.footprint import Footprint, footprint, footprint_of
 from tmm_gen.measure.explain.terms import Term, terms_of
 from tmm_gen.program.build import build_program
@@ -79,7 +79,7 @@ def explain(scene: Scene, advance: Callable[[str], None] = lambda term: None) ->
         Called with the name of each term as it is counted.
     """
     program = build_program(scene)
-    own = footprint_of(program, scene.emit.real)
+    own = footprint_of(program, real_of(scene.emit))
     advance("the scene")
     found = []
     full = scene
@@ -90,13 +90,13 @@ def explain(scene: Scene, advance: Callable[[str], None] = lambda term: None) ->
         advance(term.name)
     found += [_history(scene, program), _hoisted(scene, program, own)]
     whole = build_program(full)
-    everything = footprint_of(whole, scene.emit.real)
+    everything = footprint_of(whole, real_of(scene.emit))
     everything = everything - Footprint(
         -everything.prepare,
         0,
         everything.prepare,
         -_history(full, whole).worth.state_bytes,
-        _coefficient_bytes(whole, scene.emit.real),
+        _coefficient_bytes(whole, real_of(scene.emit)),
     )
     advance("everything")
     return Explanation(scene, own, tuple(found), everything)
@@ -115,7 +115,7 @@ def _history(scene: Scene, program: Program) -> Explained:
     turning = scene.stations + (scene.base.kind != "clamp")
     motion = [v for v in program.state if _is_motion(v)]
     kept = sum(v.length or 1 for v in motion)
-    saved = (3 * depth * turning - kept) * REALS[scene.emit.real].size
+    saved = (3 * depth * turning - kept) * real_of(scene.emit).number_size
     per_link = sum(1 for v in motion if v.length is not None)
     why = f"{method.name} looks back {depth} instant{'s' * (depth > 1)}: {per_link} numbers a link are read"
     return Explained("history that no step reads", False, why, Footprint(0, 0, 0, saved, 0))
@@ -129,12 +129,12 @@ def _is_motion(variable: Variable) -> bool:
 def _hoisted(scene: Scene, program: Program, own: Footprint) -> Explained:
     """Count what each step would repeat if parameters or step could change between steps."""
     why = "parameters and step stay as they are: prepare computes what depends on them alone, once"
-    bytes_kept = _coefficient_bytes(program, scene.emit.real)
+    bytes_kept = _coefficient_bytes(program, real_of(scene.emit))
     return Explained(
         "parameters that change between steps", False, why, Footprint(own.prepare, 0, 0, 0, -bytes_kept)
     )
 
 
-def _coefficient_bytes(program: Program, real: str) -> int:
+def _coefficient_bytes(program: Program, real: Real) -> int:
     """Return the bytes of what prepare computes and the model keeps."""
-    return sum(v.length or 1 for v in program.coefficients) * REALS[real].size
+    return sum(v.length or 1 for v in program.coefficients) * real.number_size

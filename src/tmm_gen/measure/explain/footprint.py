@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from tmm_gen.emit.c.real import REALS
+from tmm_gen.emit.c.real import Real, real_of
 from tmm_gen.emit.c.structs import structs_of
 from tmm_gen.program.build import build_program
 from tmm_gen.program.count import count_routine
@@ -43,12 +43,12 @@ class Footprint:
 
 def footprint(scene: Scene) -> Footprint:
     """Build a scene's program and count."""
-    return footprint_of(build_program(scene), scene.emit.real)
+    return footprint_of(build_program(scene), real_of(scene.emit))
 
 
-def footprint_of(program: Program, real: str) -> Footprint:
-    """Count a program; its bytes are those of C with a number type, "float64" or "float32"."""
-    size = {struct.name: struct.size(REALS[real]) for struct in structs_of(program)}
+def footprint_of(program: Program, real: Real) -> Footprint:
+    """Count a program; its bytes are those of C with a number type."""
+    size = {struct.name: struct.size(real) for struct in structs_of(program)}
     return Footprint(
         step=count_routine(program.main).total,
         output=count_routine(program.output).total,

@@ -69,6 +69,8 @@ class Family:
             "emit.real": (scene.emit.real, self.real),
             "model.iterations": (scene.model.iterations, self.iterations),
         }
+        if scene.emit.compensated and self.real == "float64":
+            wanted["emit.compensated"] = (True, False)
         if self.links is not None and scene.beam is not None:
             wanted["beam.links"] = (scene.beam.links, self.links)
         if self.linearisation is not None:

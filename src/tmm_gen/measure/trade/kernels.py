@@ -49,11 +49,11 @@ class Built:
     @cached_property
     def sizes(self) -> dict[str, int | None]:
         """Bytes of the C: ``code_bytes``, ``state_bytes``, ``model_bytes``; see :func:`code_size`."""
-        from tmm_gen.emit.c.real import REALS
+        from tmm_gen.emit.c.real import real_of
         from tmm_gen.emit.c.structs import structs_of
         from tmm_gen.measure.trade.code_size import code_size
 
-        real = REALS[self.scene.emit.real]
+        real = real_of(self.scene.emit)
         structs = {struct.name: struct.size(real) for struct in structs_of(self.program)}
         return {
             "code_bytes": code_size(self.files),

@@ -30,6 +30,7 @@ from tmm_gen.program.torsion.factors import (
 from tmm_gen.program.torsion.layout import OUTPUT_KINDS, ChainLayout, chain_layout
 from tmm_gen.program.torsion.loads import Loads, loads_of
 from tmm_gen.program.torsion.step import StepBuilder
+from tmm_gen.program.torsion.turns import start_unturned, take_turns_out, turns_of
 from tmm_gen.program.variables import Variable
 from tmm_gen.scene import Scene, station_of
 
@@ -76,8 +77,14 @@ def build_chain(scene: Scene, integrator: Integrator) -> Program:
     main = routines.pop("step")
     startup = tuple(routines[f"step_start{k + 1}"] for k in range(len(integrator.startup)))
     initialise = _initialise(layout, loads_of(scene, layout.inputs, 0), scene.base.kind)
-    output = _output(scene, layout)
-    state = living_state(layout.all_state, (*startup, main), output)
+    turned = turns_of(scene)
+    output = _output(scene, layout, turned)
+    if turned is not None:
+        main, *others = take_turns_out((main, *startup), layout)
+        startup = tuple(others)
+        initialise = start_unturned(initialise)
+    kept = (*((turned,) if turned is not None else ()), *layout.all_state)
+    state = living_state(kept, (*startup, main), output)
     wanted = frozenset(state)
     startup = tuple(prune(r, wanted) for r in startup)
     main = prune(main, wanted)
@@ -195,7 +202,7 @@ def _initialise(layout: ChainLayout, loads: Loads, base: str) -> Routine:
     )
 
 
-def _output(scene: Scene, layout: ChainLayout) -> Routine:
+def _output(scene: Scene, layout: ChainLayout, turned: Variable | None) -> Routine:
     """Build the outputs from the state."""
     assignments = []
     for described, variable in zip(scene.outputs, layout.outputs, strict=True):
@@ -204,6 +211,8 @@ def _output(scene: Scene, layout: ChainLayout) -> Routine:
             value = _joint_torque(layout, max(link, 1))
         else:
             value = _motion(layout, link, Past(OUTPUT_KINDS[described.of], 0))
+            if described.of == "angle" and turned is not None:
+                value = turned.ref + value
         assignments.append(Assign(variable.ref, value))
     sections = (Section("outputs", tuple(assignments)),) if assignments else ()
     return Routine("output", "Read the outputs off the state.", sections)

@@ -29,6 +29,8 @@ from tmm_gen.scene import Scene
 
 _EPSILON = {"float64": sys.float_info.epsilon / 2.0, "float32": 2.0**-24}
 """Unit roundoff."""
+_COMPENSATED = 2.0**-46
+"""The same of sums of two floats."""
 
 LONG_MARGIN = 10.0
 """Errors measured are below this times ``epsilon * mu``."""
@@ -76,16 +78,17 @@ class Rounding:
         """Refuse a scene; see :func:`require_digits`."""
         real, h, unknown = scene.emit.real, scene.integrator.step, scene.model.unknown
         promised = 10.0 ** -DIGITS[real]
+        epsilon = _COMPENSATED if scene.emit.compensated else _EPSILON[real]
         if unknown == "acceleration" or (unknown == "increment" and not self.keeps_increments):
             stiffest = self.step_stiffness(scene)
-            if LONG_MARGIN * _EPSILON[real] * stiffest > promised:
+            if LONG_MARGIN * epsilon * stiffest > promised:
                 raise UserError(
                     f"{_place(scene)}: at a step of {h:g} s a joint is {stiffest:.1e} times as stiff as the link "
                     f"beside it is heavy: with {self._integrator.name} and {unknown}s as unknowns, {real} cannot keep "
                     f"{DIGITS[real]} digits of the angles. {self._remedy}"
                 )
         period = first_period(scene)
-        shortest = SHORT_MARGIN * _EPSILON[real] * period / promised
+        shortest = SHORT_MARGIN * epsilon * period / promised
         if h < shortest:
             larger = ', or real = "float64"' if real == "float32" else ""
             raise UserError(

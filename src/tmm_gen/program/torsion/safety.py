@@ -21,11 +21,14 @@ from tmm_gen.derive.integrators.declaration import STEP, Integrator
 from tmm_gen.derive.integrators.relations import affine_motion
 from tmm_gen.errors import UserError
 from tmm_gen.scene import Scene
+from tmm_gen.scene.emit import Emit
 
 DIGITS = {"float64": 6, "float32": 3}
 """Digits to be kept, by the number type of the C code."""
 
 _EPSILON = {"float64": sys.float_info.epsilon, "float32": 2.0**-23}
+_COMPENSATED = 2.0**-45
+"""The same for sums of two floats."""
 
 _MARGIN = 10.0
 """Errors measured are within this factor of ``epsilon * f``: rounding adds up over steps and stages."""
@@ -51,7 +54,7 @@ def safe_stations(scene: Scene, integrator: Integrator) -> int:
     UnsuitableUnknownError
         If the integrator cannot be solved for the scene's unknown.
     """
-    bound = _bound(scene.emit.real)
+    bound = _bound(scene.emit)
     for stations, growth in enumerate(torque_growth(scene, integrator), start=1):
         if growth > bound or stations > _FOREVER:
             return stations - 1
@@ -84,7 +87,7 @@ def require_safe_product(scene: Scene, integrator: Integrator) -> None:
     """
     if scene.model.sweep != "product":
         return
-    bound = _bound(scene.emit.real)
+    bound = _bound(scene.emit)
     if all(growth <= bound for growth in islice(torque_growth(scene, integrator), scene.stations)):
         return
     safe = safe_stations(scene, integrator)
@@ -100,9 +103,10 @@ def require_safe_product(scene: Scene, integrator: Integrator) -> None:
     )
 
 
-def _bound(real: str) -> float:
+def _bound(emit: Emit) -> float:
     """Return the largest growth that leaves the digits to be kept."""
-    return 10.0 ** -DIGITS[real] / (_MARGIN * _EPSILON[real])
+    epsilon = _COMPENSATED if emit.compensated else _EPSILON[emit.real]
+    return 10.0 ** -DIGITS[emit.real] / (_MARGIN * epsilon)
 
 
 def _gain_sets(scene: Scene, integrator: Integrator) -> list[dict[sp.Symbol, float]]:

@@ -11,6 +11,7 @@ from tmm_gen.scene.rules.emission import (
     bound_without_sensitivities,
     box_names,
     budget_not_empty,
+    compensated_suits,
     real_is_used,
 )
 from tmm_gen.scene.rules.inputs import inputs_possible, prescribed_motion
@@ -42,6 +43,7 @@ RULES: tuple[Rule, ...] = (
     real_is_used,
     bound_without_sensitivities,
     budget_not_empty,
+    compensated_suits,
     box_names,
     control_possible,
 )

@@ -17,7 +17,7 @@ def real_is_used(document: Document) -> Iterator[Finding]:
     emit = document.emit
     if "c" in emit.backends:
         return
-    for key in ("real", "trigonometry", "parameters"):
+    for key in ("real", "trigonometry", "parameters", "compensated"):
         if (value := getattr(emit, key)) != Emit.model_fields[key].default:
             yield Finding(
                 ("emit", key),
@@ -40,6 +40,34 @@ def bound_without_sensitivities(document: Document) -> Iterator[Finding]:
             "and emit.sensitivities exclude each other",
             'Write parameters = "free", or remove sensitivities.',
             document.emit.parameters,
+        )
+
+
+def compensated_suits(document: Document) -> Iterator[Finding]:
+    """Find sums of two numbers asked for where they are of no use, or not to be had."""
+    emit, key = document.emit, ("emit", "compensated")
+    if not emit.compensated or "c" not in emit.backends:
+        return
+    if emit.real != "float32":
+        yield Finding(
+            key,
+            f"keeps each number as the sum of two of type float, and emit.real is {emit.real}",
+            'Write real = "float32", or remove it.',
+            True,
+        )
+    if emit.sensitivities:
+        yield Finding(
+            key,
+            "and emit.sensitivities exclude each other",
+            "Remove one of them: exact derivatives are emitted without compensation.",
+            True,
+        )
+    if document.model.kind == "planar" and emit.trigonometry != "own":
+        yield Finding(
+            key,
+            "needs sines that are as exact, which a C library has not",
+            'Write trigonometry = "own" beside it.',
+            True,
         )
 
 
