@@ -21,7 +21,7 @@ ROOT = Path(__file__).resolve().parents[2]
 @pytest.fixture(scope="module")
 def moved(unlike: Callable[..., Scene], swinging: Any) -> Any:
     scene = unlike("motor", step=0.01)
-    return simulate(scene, swinging(scene), 0.4, trace=True)
+    return simulate(scene, swinging(scene), 0.4, trace=True, refuse=False)
 
 
 def test_nodes_are_where_the_outputs_say(moved: Any) -> None:

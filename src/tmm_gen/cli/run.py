@@ -14,7 +14,6 @@ from tmm_gen.errors import UserError
 
 if TYPE_CHECKING:
     from tmm_gen.measure.simulation import Simulation
-    from tmm_gen.scene import Scene
 
 # NumPy, SymPy and Matplotlib are imported inside: `tmm-gen --help` has no use for them.
 
@@ -23,6 +22,8 @@ _PICTURE = "picture"
 
 _MOVING = (".gif", ".html")
 _PICTURES = (".png", ".svg", ".pdf")
+_BALANCED = 1e-2
+"""Imbalance of energies, as a share of what moves, that is worth a word on how the step may cause it."""
 
 _COLUMNS: list[Column | str] = [
     "output",
@@ -162,14 +163,15 @@ def _show(simulation: Simulation, written: list[Path], json_mode: bool) -> None:
         "steps": simulation.steps,
         "until": last,
         "energy_imbalance": simulation.imbalance,
+        "unsolved": simulation.unsolved,
         "files": written,
     }
     done = f"{last:g} s in {simulation.steps} steps of {scene.integrator.step:g} s by {scene.integrator.name}"
     table(list(simulation.rows()), _COLUMNS, json_mode, title=f"{scene.title}: {done}", more=facts)
     if json_mode:
         return
-    if simulation.imbalance:
-        click.echo(_balance(simulation.imbalance, scene))
+    if simulation.unsolved is not None and not simulation.still:
+        click.echo(_trusted(simulation))
     for path in written:
         click.echo(f"wrote {path}")
     if simulation.still and scene.inputs:
@@ -178,15 +180,14 @@ def _show(simulation: Simulation, written: list[Path], json_mode: bool) -> None:
         click.echo("more: --plot draws it, --csv FILE writes it, --until and --step change it")
 
 
-def _balance(imbalance: float, scene: Scene) -> str:
-    """Say how well energies balance, and what may help where they do not."""
-    from tmm_gen.measure.energy import BALANCED
-
-    said = f"energies balance to {imbalance:.1e} of the energy that moves"
-    if imbalance <= BALANCED:
+def _trusted(simulation: Simulation) -> str:
+    """Say how well a planar arm's equations were solved, and how well its energies balance for that."""
+    share = f"{simulation.unsolved:.1e}" if simulation.unsolved else "nothing but rounding"
+    said = f"of the energy that moves, sweeps left {share} unsolved"
+    if not simulation.imbalance:
         return said
-    again = " or --set model.iterations=2" if scene.model.iterations == 1 else ""
-    return (
-        f"warning: {said}: the step is long for this arm, the integrator damps it, or one sweep per step is not "
-        f"enough; try --step {scene.integrator.step / 10:g}{again}"
-    )
+    said += f"; work, energy and heat balance to {simulation.imbalance:.1e}"
+    if simulation.imbalance <= _BALANCED:
+        return said
+    smaller = f"{simulation.scene.integrator.step / 10:g}"
+    return f"{said}: the step is long for this arm, or the integrator damps it; --step {smaller} would tell"

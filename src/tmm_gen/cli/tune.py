@@ -147,7 +147,9 @@ def _write(scene: Path, target: Path, tuning: Tuning) -> Path:
 
     assert tuning.chosen is not None
     text = scene.read_text(encoding="utf-8-sig")
-    write_whole(target, rewritten(text, tuning.scene, tuning.chosen.configuration, remarks(tuning)))
+    unsolved = tuning.verified.unsolved if tuning.verified is not None else None
+    chosen = rewritten(text, tuning.scene, tuning.chosen.configuration, remarks(tuning), unsolved)
+    write_whole(target, chosen)
     return target
 
 

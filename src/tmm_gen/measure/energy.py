@@ -14,9 +14,6 @@ from tmm_gen.scene import Scene
 
 Array = NDArray[np.float64]
 
-BALANCED = 1e-4
-"""Imbalance, as a share of the energy that moves, beyond which a run is worth a second look."""
-
 
 @dataclass(frozen=True, eq=False)
 class Energy:
@@ -106,14 +103,14 @@ def energy(scene: Scene, signals: Mapping[str, Signal], time: Array, angle: Arra
 
 def kinetic_energy(arm: Arm, angle: Array, rate: Array) -> Array:
     """Return the kinetic energy of hub, links and tip, (k,), J."""
-    along_x, along_y = (np.sin(angle) * rate) @ arm.levers.T, (np.cos(angle) * rate) @ arm.levers.T
+    along_x, along_y = arm.walked(np.sin(angle) * rate), arm.walked(np.cos(angle) * rate)
     found: Array = 0.5 * (along_x**2 + along_y**2) @ arm.masses + 0.5 * rate**2 @ arm.inertias
     return found
 
 
 def elastic_energy(arm: Arm, time: Array, angle: Array) -> Array:
     """Return the energy of the bent joints, (k,), J."""
-    found: Array = 0.5 * np.einsum("kj,ji,ki->k", angle, arm.springs[0], angle)
+    found: Array = 0.5 * arm.bent(angle) ** 2 @ arm.joints[0]
     if arm.scene.base.kind == "prescribed":  # joint 1 stands between the base and link 1
         base_angle, _ = arm.base_motion(time)
         found += arm.scene.joints[0].stiffness * (0.5 * base_angle**2 - base_angle * angle[:, 0])
@@ -128,7 +125,7 @@ def gravitational_energy(arm: Arm, angle: Array) -> Array:
 
 def dissipation(arm: Arm, time: Array, rate: Array) -> Array:
     """Return what dampers of joints and hub turn to heat, (k,), W."""
-    found: Array = np.einsum("kj,ji,ki->k", rate, arm.springs[1], rate)
+    found: Array = np.sum(rate * arm.damper_torques(rate), axis=1)
     if arm.scene.base.kind == "prescribed":
         _, base_rate = arm.base_motion(time)
         found += arm.scene.joints[0].damping * (base_rate**2 - 2.0 * base_rate * rate[:, 0])
@@ -139,8 +136,8 @@ def angular_momentum(scene: Scene, angle: Array, rate: Array) -> Array:
     """Return the angular momentum of hub and arm about the base point, (k,), kg m^2/s."""
     arm = Arm(scene, {})
     s, c = np.sin(angle), np.cos(angle)
-    place = (c @ arm.levers.T, s @ arm.levers.T)
-    speed = (-(s * rate) @ arm.levers.T, (c * rate) @ arm.levers.T)
+    place = (arm.walked(c), arm.walked(s))
+    speed = (-arm.walked(s * rate), arm.walked(c * rate))
     found: Array = (place[0] * speed[1] - place[1] * speed[0]) @ arm.masses + rate @ arm.inertias
     return found
 

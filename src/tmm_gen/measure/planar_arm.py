@@ -51,31 +51,15 @@ class Arm:
         return np.array([0.0] * self.first + [link.length for link in self.scene.links])
 
     @cached_property
-    def levers(self) -> Array:
-        """Lever arms, (bodies, n): how far each centre of mass stands off along each link; the tip mass last."""
-        n, first = self.scene.stations, self.first
-        arms = np.zeros((n + 1, n + first))
-        for i, link in enumerate(self.scene.links):
-            arms[i, first : first + i] = self.lengths[first : first + i]
-            arms[i, first + i] = link.center * link.length
-        arms[n] = self.lengths
-        return arms
-
-    @cached_property
     def masses(self) -> Array:
         """Masses of the links and of the body at the tip, (bodies,), kg."""
         tip = self.scene.tip
         return np.array([link.mass for link in self.scene.links] + [tip.mass if tip else 0.0])
 
     @cached_property
-    def coupling(self) -> Array:
-        """``B``, (n, n), kg m^2."""
-        return (self.levers.T * self.masses) @ self.levers
-
-    @cached_property
     def moments(self) -> Array:
         """First moments ``b``, (n,), kg m."""
-        return self.levers.T @ self.masses
+        return self.gathered(self.masses)
 
     @cached_property
     def inertias(self) -> Array:
@@ -85,26 +69,81 @@ class Arm:
         own[-1] += tip.inertia if tip else 0.0
         return np.array(own)
 
-    @cached_property
-    def springs(self) -> tuple[Array, Array]:
-        """Stiffness and damping matrices of joints and hub bearing, (n, n)."""
-        n = len(self.lengths)
-        found = np.zeros((2, n, n))
-        for i, joint in enumerate(self.scene.joints):
-            difference = np.zeros(n)
-            difference[self.first + i] = 1.0
-            if self.first + i:
-                difference[self.first + i - 1] = -1.0
-            found[0] += joint.stiffness * np.outer(difference, difference)
-            found[1] += joint.damping * np.outer(difference, difference)
-        if self.first:
-            found[1, 0, 0] += self.scene.base.damping
-        return found[0], found[1]
-
     @property
     def gravity(self) -> float:
         """Along -y, m/s^2."""
         return self.scene.model.gravity or 0.0
+
+    # -- sums over the chain, each as long as the chain -------------------------------------------------------
+
+    @cached_property
+    def _centers(self) -> Array:
+        """How far the centres of mass stand off along their own links, (n,); the hub has none."""
+        return np.array([0.0] * self.first + [link.center * link.length for link in self.scene.links])
+
+    def walked(self, x: Array) -> Array:
+        """Sum lever arms times values from the base to each body, (..., n) to (..., bodies); the tip is last."""
+        ends = np.cumsum(self.lengths * x, axis=-1)
+        found = np.empty((*x.shape[:-1], x.shape[-1] + 1 - self.first))
+        found[..., :-1] = (ends - self.lengths * x + self._centers * x)[..., self.first :]
+        found[..., -1] = ends[..., -1]
+        return found
+
+    def gathered(self, forces: Array) -> Array:
+        """Sum forces on the bodies times their lever arms in each link, (..., bodies) to (..., n)."""
+        beyond = np.cumsum(forces[..., ::-1], axis=-1)[..., ::-1]
+        found = np.zeros((*forces.shape[:-1], len(self.lengths)))
+        own = slice(self.first, None)
+        found[..., own] = self.lengths[own] * beyond[..., 1:] + self._centers[own] * forces[..., :-1]
+        return found
+
+    @cached_property
+    def joints(self) -> tuple[Array, Array]:
+        """Stiffness and damping of the joints, (joints,) each; joint 1 is at the base."""
+        joints = self.scene.joints
+        return np.array([j.stiffness for j in joints]), np.array([j.damping for j in joints])
+
+    def bent(self, x: Array) -> Array:
+        """Return differences across the joints, (..., n) to (..., joints); a base that is no coordinate is zero."""
+        padded = x if self.first else np.concatenate([np.zeros((*x.shape[:-1], 1)), x], axis=-1)
+        return np.diff(padded, axis=-1)
+
+    def _pulled(self, torques: Array) -> Array:
+        """Return what torques in the joints do to the coordinates, (..., joints) to (..., n)."""
+        found = np.zeros((*torques.shape[:-1], len(self.lengths)))
+        found[..., self.first :] += torques
+        inner = torques if self.first else torques[..., 1:]
+        found[..., : inner.shape[-1]] -= inner
+        return found
+
+    def spring_torques(self, q: Array) -> Array:
+        """Return what springs exert against angles, (..., n), N m."""
+        return self._pulled(self.joints[0] * self.bent(q))
+
+    def damper_torques(self, v: Array) -> Array:
+        """Return what dampers of joints and hub exert against rates, (..., n), N m."""
+        found = self._pulled(self.joints[1] * self.bent(v))
+        if self.first:
+            found[..., 0] += self.scene.base.damping * v[..., 0]
+        return found
+
+    # -- the same as matrices ----------------------------------------------------------------------------------
+
+    @cached_property
+    def levers(self) -> Array:
+        """Lever arms, (bodies, n): how far each centre of mass stands off along each link; the tip mass last."""
+        return self.walked(np.eye(len(self.lengths))).T
+
+    @cached_property
+    def coupling(self) -> Array:
+        """``B``, (n, n), kg m^2."""
+        return (self.levers.T * self.masses) @ self.levers
+
+    @cached_property
+    def springs(self) -> tuple[Array, Array]:
+        """Stiffness and damping matrices of joints and hub bearing, (n, n)."""
+        unit = np.eye(len(self.lengths))
+        return self.spring_torques(unit), self.damper_torques(unit)
 
     # -- loads --------------------------------------------------------------------------------------------------
 
@@ -139,17 +178,16 @@ class Arm:
 
     def residual(self, times: Array, q: Array, v: Array, a: Array) -> Array:
         """Return what is left of Lagrange's equations, (k, n), N m."""
-        stiffness, damping = self.springs
         torque, force_x, force_y = self.loads(times)
         s, c = np.sin(q), np.cos(q)
-        # cos(qj - qk) ak + sin(qj - qk) vk^2, summed over k with B, from the sums over each end alone
-        along = (c * a - s * v**2) @ self.coupling
-        across = (s * a + c * v**2) @ self.coupling
+        # cos(qj - qk) ak + sin(qj - qk) vk^2, summed over k with B, from the accelerations of the bodies
+        along = self.gathered(self.masses * self.walked(c * a - s * v**2))
+        across = self.gathered(self.masses * self.walked(s * a + c * v**2))
         inertial = c * along + s * across + self.inertias * a
         weight = self.gravity * self.moments * c
         beyond_x, beyond_y = (np.cumsum(f[:, ::-1], axis=1)[:, ::-1] for f in (force_x, force_y))
         pushed = self.lengths * (c * beyond_y - s * beyond_x)
-        return inertial + weight + q @ stiffness + v @ damping - torque - pushed
+        return inertial + weight + self.spring_torques(q) + self.damper_torques(v) - torque - pushed
 
     def slopes(self, times: Array, q: Array, v: Array, a: Array) -> tuple[Array, Array, Array]:
         """Return the derivatives of the residual by angles, rates and accelerations, (k, n, n) each."""

@@ -1,4 +1,4 @@
-"""Planar arms far from the usual: each motion is right, or it is refused, or `run` warns and names the remedy.
+"""Planar arms far from the usual: each motion is right, or it is refused.
 
 An arm of 1 m and 0.5 kg is let go from the horizontal under a weight that bends it by about a third of its length at
 most, or spun on a free hub. Right means: the tip follows Lagrange's equations to the error that the integrator's own
@@ -8,12 +8,11 @@ order explains; beyond the reach of that reference (many links), the energies ba
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from tmm_gen.errors import UserError
-from tmm_gen.measure.energy import BALANCED
 from tmm_gen.measure.planar_reference import planar_response
 from tmm_gen.measure.run import simulate
 from tmm_gen.scene import Scene, SceneError, parse_scene
@@ -163,12 +162,11 @@ class Verdict:
     Parameters
     ----------
     status : str
-        "right", "refused", "warned" (the energies of the run are out of balance, which it says, and one more sweep per
-        stage makes it right) or "wrong".
+        "right", "refused" or "wrong".
     error, bound : float
         Share of the largest motion, or of the energy that moves; zero where refused.
-    imbalance : float
-        Of the energies, as `run` tells it.
+    unsolved : float
+        What the sweeps left of the equations (:mod:`tmm_gen.measure.unsolved`); zero where refused.
     said : str
         The refusal, or what was compared.
     """
@@ -176,32 +174,19 @@ class Verdict:
     status: str
     error: float
     bound: float
-    imbalance: float
+    unsolved: float
     said: str
 
 
 def judge(extreme: Extreme) -> Verdict:
-    """Simulate an extreme in compiled C and compare; where it is wrong, once more with a second sweep per stage.
-
-    The figures are those of the extreme as given.
-    """
-    verdict = _judged(extreme)
-    if verdict.status == "wrong" and extreme.iterations == 1 and verdict.imbalance > BALANCED:
-        again = _judged(replace(extreme, iterations=2))
-        if again.status == "right":
-            return replace(verdict, status="warned", said=f"{again.error:.1e} with two sweeps per stage")
-    return verdict
-
-
-def _judged(extreme: Extreme) -> Verdict:
+    """Simulate an extreme in compiled C, as `run` does, and compare."""
     try:
         scene = extreme.scene()
         run = simulate(scene, {}, extreme.steps * scene.integrator.step, "c", trace=True)
     except (UserError, SceneError) as refusal:
         return Verdict("refused", 0.0, 0.0, 0.0, str(refusal))
-    imbalance = run.imbalance or 0.0
     if extreme.links > MOST_LINKS:
-        error, said = imbalance, "energies balance"
+        error, said = run.imbalance or 0.0, "energies balance"
     else:
         shown = np.unique(np.round(np.linspace(0, run.steps, _CHECKPOINTS + 1)).astype(int))
         exact = planar_response(scene, {}, run.time[shown], 1e-10)
@@ -210,4 +195,4 @@ def _judged(extreme: Extreme) -> Verdict:
         # motion below rounding of the length is none
         error, said = float(np.max(off) / max(np.max(moved), 1e-7)), "follows Lagrange's equations"
     status = "right" if error <= extreme.bound else "wrong"
-    return Verdict(status, error, extreme.bound, imbalance, said)
+    return Verdict(status, error, extreme.bound, run.unsolved or 0.0, said)

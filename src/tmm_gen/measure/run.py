@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +21,9 @@ from tmm_gen.measure.signals import Constant, Signal
 from tmm_gen.measure.simulation import Simulation
 from tmm_gen.measure.trace import Trace
 from tmm_gen.scene import Scene
+
+if TYPE_CHECKING:
+    from tmm_gen.measure.unsolved import Unsolved
 
 Array = NDArray[np.float64]
 Backend = Literal["numpy", "c"]
@@ -65,6 +68,7 @@ def simulate(
     kernel: Any = None,
     *,
     trace: bool = False,
+    refuse: bool = True,
 ) -> Simulation:
     """Simulate a scene at its own step.
 
@@ -84,11 +88,15 @@ def simulate(
         The scene's generated NumPy package, or its compiled C, if it is there already.
     trace : bool
         Keep angles and rates of all links too.
+    refuse : bool
+        Raise where sweeps leave too much of a planar arm's equations unsolved; the share is in the result either way.
 
     Raises
     ------
     DivergedError
         If the motion leaves all bounds.
+    UnsolvedError
+        If sweeps leave more unsolved than the scene's ``model.unsolved``.
     UserError
         If the kernel cannot be made, the steps are too many, or a pivot vanishes.
     """
@@ -99,11 +107,12 @@ def simulate(
     guard = planar_watch(scene, until, step) if planar else watch(scene, inputs, until, step)
     run = _numpy if backend == "numpy" else _native
     kept = _trace(scene, steps) if trace else None
+    checked = _unsolved(scene, inputs, steps, backend)
     names = [column.name for column in output_columns(scene)]
     outputs = np.empty((steps + 1, len(names)))
     row = 0
     try:
-        for block in run(scene, inputs, steps, guard, kernel, kept):
+        for block in run(scene, inputs, steps, guard, kernel, kept, checked):
             outputs[row : row + len(block)] = block
             row += len(block)
             if advance is not None:
@@ -121,6 +130,7 @@ def simulate(
             f"scene '{scene.name}' cannot be solved: {error}. "
             f"{smaller} for numbers that are far too large or small."
         ) from error
+    left = None if checked is None else checked.check() if refuse else checked.share()
     time: Array = scene.integrator.step * np.arange(steps + 1, dtype=float)
     return Simulation(
         scene=scene,
@@ -131,6 +141,7 @@ def simulate(
         rest=_rest(scene, inputs, float(time[-1])),
         trace=kept,
         imbalance=_imbalance(scene, inputs, time, kept),
+        unsolved=left,
     )
 
 
@@ -151,6 +162,15 @@ def _abrupt(signal: Signal, acts: str, step: float) -> bool:
     """Whether a load changes within a few steps, or a prescribed base jerks."""
     knots = signal.knots
     return len(knots) > 0 and (acts == "angle" or bool(np.min(np.diff(knots), initial=np.inf) < _FEW * step))
+
+
+def _unsolved(scene: Scene, signals: Mapping[str, Signal], steps: int, backend: Backend) -> Unsolved | None:
+    """Return who looks at what sweeps leave unsolved; None where nothing is solved by iteration."""
+    if scene.model.kind != "planar" or scene.model.linearisation != "newton":
+        return None
+    from tmm_gen.measure.unsolved import Unsolved  # SymPy comes with it
+
+    return Unsolved(scene, signals, steps, scene.emit.real if backend == "c" else "float64")
 
 
 def _trace(scene: Scene, steps: int) -> Trace:
@@ -176,7 +196,13 @@ def _rest(scene: Scene, signals: Mapping[str, Signal], until: float) -> dict[str
 
 
 def _numpy(
-    scene: Scene, signals: Mapping[str, Signal], steps: int, guard: Guard, kernel: Any, trace: Trace | None
+    scene: Scene,
+    signals: Mapping[str, Signal],
+    steps: int,
+    guard: Guard,
+    kernel: Any,
+    trace: Trace | None,
+    checked: Unsolved | None,
 ) -> Iterator[Array]:
     """Yield blocks of outputs, (rows, outputs), the first one with the start."""
     module = kernel or numpy_module(scene)
@@ -196,6 +222,7 @@ def _numpy(
     instants = module.STAGE_INSTANTS
     held = all(isinstance(signal, Constant) for signal in signals.values())
     constant = read(0.0)
+    looks = set(checked.instants()) if checked is not None else set()
     with np.errstate(all="ignore"):  # kernel and guard tell what becomes of it
         model = module.prepare()
         state = module.initialise(module.Params(), constant)
@@ -207,8 +234,10 @@ def _numpy(
                 stages = [read(now + at * h) for at in instants[min(index, len(instants) - 1)]]
                 given = stages if len(stages) > 1 else stages[0]
             with _located((index + 1) * h):
-                state = module.step(model, state, given)
+                before, state = state, module.step(model, state, given)
             guard.look((index + 1) * h, state.angle)
+            if checked is not None and index + 1 in looks:
+                checked.look(index + 1, vars(before), vars(state))
             rows.append(row())
             if len(rows) >= _CHUNK or index + 1 == steps:
                 yield np.array(rows)
@@ -216,7 +245,13 @@ def _numpy(
 
 
 def _native(
-    scene: Scene, signals: Mapping[str, Signal], steps: int, guard: Guard, kernel: Any, trace: Trace | None
+    scene: Scene,
+    signals: Mapping[str, Signal],
+    steps: int,
+    guard: Guard,
+    kernel: Any,
+    trace: Trace | None,
+    checked: Unsolved | None,
 ) -> Iterator[Array]:
     """Yield all outputs, (steps + 1, outputs)."""
     from tmm_gen.native import NonFiniteStateError, compile_kernel
@@ -230,21 +265,42 @@ def _native(
         for name, signal in signals.items()
     }
     if trace is not None:
-        yield _step_by_step(kernel, given, h, steps, guard, trace, [c.name for c in output_columns(scene)])
+        names = [column.name for column in output_columns(scene)]
+        yield _step_by_step(kernel, given, h, steps, guard, trace, names, checked)
         return
     try:
-        _, outputs = kernel.simulate(h * steps, given)
+        blocks = list(_by_blocks(kernel, given, h, steps, checked))
         kept = np.max(np.abs(kernel.state["angle"])) <= guard.bound
     except (NonFiniteStateError, VanishingPivotError):
         kept = False
     if not kept:
         _find_divergence(kernel, given, h, steps, guard)
-    yield np.column_stack([outputs[column.name] for column in output_columns(scene)])
+    names = [column.name for column in output_columns(scene)]
+    yield np.array([[row[name] for name in names] for block in blocks for row in block])
+
+
+def _by_blocks(
+    kernel: Any, given: Mapping[str, Any], h: float, steps: int, checked: Unsolved | None
+) -> Iterator[list[dict[str, float]]]:
+    """Run compiled C from one step to look at to the next; yield outputs, the first block with the start."""
+    kernel.prepare(step=h)
+    kernel.initialise({name: value(0.0) if callable(value) else value for name, value in given.items()})
+    yield [kernel.output()]
+    taken = 0
+    for index in checked.instants() if checked is not None else [steps]:
+        if checked is None:
+            yield kernel.advance(given, taken, index - taken)
+        else:
+            yield kernel.advance(given, taken, index - 1 - taken)
+            before = kernel.state
+            yield kernel.advance(given, index - 1, 1)
+            checked.look(index, before, kernel.state)
+        taken = index
 
 
 def _find_divergence(kernel: Any, given: Mapping[str, Any], h: float, steps: int, guard: Guard) -> None:
     """Run once more, looking at each step, until the guard raises."""
-    _step_by_step(kernel, given, h, steps, guard, None, [])
+    _step_by_step(kernel, given, h, steps, guard, None, [], None)
 
 
 def _step_by_step(
@@ -255,6 +311,7 @@ def _step_by_step(
     guard: Guard,
     trace: Trace | None,
     names: list[str],
+    checked: Unsolved | None,
 ) -> Array:
     """Run compiled C, looking at each step; returns some of its outputs, (steps + 1, names)."""
     from tmm_gen.native import NonFiniteStateError
@@ -272,6 +329,7 @@ def _step_by_step(
     kernel.initialise(read(0.0))
     instants = kernel.program.stage_instants
     longest = max(len(each) for each in instants)
+    looks = set(checked.instants()) if checked is not None else set()
     rows = [row()]
     for index in range(steps):
         stages = [read((index + at) * h) for at in instants[min(index, len(instants) - 1)]]
@@ -279,9 +337,12 @@ def _step_by_step(
         values = {
             name: [stage[name] for stage in stages] if longest > 1 else stages[0][name] for name in given
         }
+        before = kernel.state if index + 1 in looks else None
         with _located((index + 1) * h), suppress(NonFiniteStateError):  # its state tells where
             kernel.step(values)
         guard.look((index + 1) * h, kernel.state["angle"])
+        if checked is not None and before is not None:
+            checked.look(index + 1, before, kernel.state)
         rows.append(row())
     return np.array(rows)
 

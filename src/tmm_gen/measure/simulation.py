@@ -39,6 +39,8 @@ class Simulation:
     imbalance : float, optional
         Where the motion of all links is known: largest difference between work done and energy gained and
         dissipated, as a share of the energy that moved.
+    unsolved : float, optional
+        Of a planar arm: work of what the sweeps left unsolved, as a share of the energy that moved.
     """
 
     scene: Scene
@@ -49,6 +51,7 @@ class Simulation:
     rest: dict[str, float] | None
     trace: Trace | None = None
     imbalance: float | None = None
+    unsolved: float | None = None
 
     @property
     def steps(self) -> int:

@@ -6,7 +6,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from tmm_gen.scene.table import Count, NonNegative, Table
+from tmm_gen.scene.table import Count, NonNegative, Positive, Table
 
 Kind = Literal["chain", "planar"]
 Linearisation = Literal["newton", "taylor", "frozen"]
@@ -27,6 +27,8 @@ class Model(Table):
         Planar only.
     iterations : int
         Sweeps per stage; with ``newton`` only.
+    unsolved : float
+        Most work of what sweeps leave unsolved, as a share of the energy that moves; with ``newton`` only.
     sweep : {"riccati", "product"}
         How the stations' matrices are combined.
     unknown : {"acceleration", "increment", "displacement"}
@@ -39,6 +41,11 @@ class Model(Table):
     )
     linearisation: Linearisation = Field(default="newton", description="linearisation", examples=['"newton"'])
     iterations: Count = Field(default=1, description="sweeps per stage", examples=["1"])
+    unsolved: Positive = Field(
+        default=1e-4,
+        description="most work of what sweeps leave unsolved, as a share of the energy that moves",
+        examples=["1e-3"],
+    )
     sweep: Sweep = Field(default="riccati", description="sweep", examples=['"riccati"'])
     unknown: Unknown = Field(
         default="acceleration", description="unknown of the sweep", examples=['"acceleration"']

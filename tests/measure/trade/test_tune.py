@@ -45,7 +45,9 @@ def test_claimed_error_is_found_by_another_run(name: str, until: float, integrat
     went = excitation(scene, until=until)
     tuning = tune(scene, went, RELATIVE, 1.0, Axes(integrators=integrators), rounds=1)
     assert tuning.chosen is not None
-    text = rewritten(path.read_text(), scene, tuning.chosen.configuration, remarks(tuning))
+    assert tuning.verified is not None
+    unsolved = tuning.verified.unsolved
+    text = rewritten(path.read_text(), scene, tuning.chosen.configuration, remarks(tuning), unsolved)
     written = parse_scene(text)
     run = simulate(written, went.signals, until, "numpy")
     times = run.time[run.time <= until * (1 + 1e-9)]
@@ -183,3 +185,13 @@ def test_a_rewritten_scene_keeps_what_the_user_wrote(chain: Scene) -> None:
     assert '[emit]\nreal = "float32"' in text
     kept = [line for line in CHAIN.splitlines() if not line.startswith(("beta", "step", 'name = "newmark'))]
     assert [line for line in text.splitlines() if line in kept and line] == [line for line in kept if line]
+
+
+def test_a_rewritten_scene_accepts_what_its_sweeps_leave(arm: Scene) -> None:
+    """Else `run` would refuse what `tune` has verified."""
+    from .conftest import ARM
+
+    configuration = Configuration(Family("newmark", 3, "newton", 1, "float64", "c"), 0.05)
+    assert "unsolved" not in rewritten(ARM, arm, configuration, [], 1e-5)
+    text = rewritten(ARM, arm, configuration, [], 3.1e-4)
+    assert parse_scene(text).model.unsolved == 4e-4

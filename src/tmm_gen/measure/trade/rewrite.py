@@ -5,11 +5,14 @@ from __future__ import annotations
 from typing import Any
 
 from tmm_gen.measure.trade.configuration import Configuration
+from tmm_gen.measure.unsolved import accepting
 from tmm_gen.scene import Scene, parse_scene
 from tmm_gen.scene.integrator import underscored
 
 
-def rewritten(text: str, scene: Scene, configuration: Configuration, remarks: list[str]) -> str:
+def rewritten(
+    text: str, scene: Scene, configuration: Configuration, remarks: list[str], unsolved: float | None = None
+) -> str:
     """Return the text of a scene file with another configuration.
 
     Parameters
@@ -22,6 +25,9 @@ def rewritten(text: str, scene: Scene, configuration: Configuration, remarks: li
         What it is to say.
     remarks : list of str
         Written as comments on top.
+    unsolved : float, optional
+        What its sweeps have been found to leave unsolved: where that is more than the scene accepts, it is accepted
+        from now on, as the error that was measured contains it.
 
     Raises
     ------
@@ -32,6 +38,10 @@ def rewritten(text: str, scene: Scene, configuration: Configuration, remarks: li
 
     document = tomlkit.parse(text)
     changes = {**configuration.family.changes(scene), "integrator.step": configuration.step}
+    expected = configuration.apply(scene)
+    if unsolved is not None and unsolved > scene.model.unsolved:
+        changes["model.unsolved"] = accepting(unsolved)
+        expected = expected.replace(**{"model.unsolved": changes["model.unsolved"]})
     table: Any = document["integrator"]
     if underscored(configuration.family.integrator) != scene.integrator.name:
         for key in [key for key in table if key not in ("name", "step")]:
@@ -43,6 +53,6 @@ def rewritten(text: str, scene: Scene, configuration: Configuration, remarks: li
         section: Any = document[place]
         section[name] = value
     written = "".join(f"# {remark}\n" for remark in remarks) + "#\n" + tomlkit.dumps(document)
-    if parse_scene(written, scene.source.origin) != configuration.apply(scene):
+    if parse_scene(written, scene.source.origin) != expected:
         raise RuntimeError(f"{scene.source.origin}: the rewritten scene says something else")
     return written

@@ -29,7 +29,7 @@ def kind_keys(document: Document) -> Iterator[Finding]:
 
 def _planar_keys_in_chain(document: Document) -> Iterator[Finding]:
     model = document.model
-    for key in ("gravity", "linearisation", "iterations"):
+    for key in ("gravity", "linearisation", "iterations", "unsolved"):
         if key in model.model_fields_set:
             yield Finding(
                 ("model", key),
@@ -61,13 +61,16 @@ def _planar_keys_in_chain(document: Document) -> Iterator[Finding]:
 def newton_keys(document: Document) -> Iterator[Finding]:
     """Find iterations of a linearisation that does not iterate."""
     model = document.model
-    if model.kind == "planar" and model.linearisation != "newton" and "iterations" in model.model_fields_set:
-        yield Finding(
-            ("model", "iterations"),
-            f'contradicts linearisation = "{model.linearisation}", which does not iterate',
-            'Remove it, or set linearisation = "newton".',
-            model.iterations,
-        )
+    if model.kind != "planar" or model.linearisation == "newton":
+        return
+    for key in ("iterations", "unsolved"):
+        if key in model.model_fields_set:
+            yield Finding(
+                ("model", key),
+                f'contradicts linearisation = "{model.linearisation}", which does not iterate',
+                'Remove it, or set linearisation = "newton".',
+                getattr(model, key),
+            )
 
 
 def base_hub(document: Document) -> Iterator[Finding]:

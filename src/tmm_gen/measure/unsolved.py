@@ -1,0 +1,225 @@
+"""What the sweeps of a planar run leave unsolved, weighed by the energy it gives or takes.
+
+A sweep is one Newton iteration on the exact equations of a step. What it leaves of them is a load that nobody put on
+the arm, and its work is energy from nowhere. Whether that matters is the energy criterion of nonlinear finite elements
+(K. J. Bathe, Finite Element Procedures, 2nd ed. 2014, section 8.4.4), taken over a whole run: the states that kernels
+reach are put into Lagrange's equations, which share nothing with the sweep. Of a step with several stages the last is
+looked at.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import sympy as sp
+from numpy.typing import NDArray
+
+from tmm_gen.derive.integrators.declaration import KINDS, STEP, Kind, Scheme, past, stage
+from tmm_gen.derive.integrators.registry import integrator
+from tmm_gen.derive.integrators.relations import UNKNOWN, affine_motion
+from tmm_gen.errors import CheckFailed
+from tmm_gen.measure.energy import elastic_energy, gravitational_energy, kinetic_energy
+from tmm_gen.measure.planar_arm import Arm
+from tmm_gen.measure.signals import Signal
+from tmm_gen.scene import Scene
+
+Array = NDArray[np.float64]
+State = Mapping[str, Any]
+
+_FIRST, _LATER, _KINKS = 20, 400, 50
+"""Steps looked at: as many at the beginning and behind each kink of an input (up to so many kinks), where blows are;
+and as many spread over the whole run."""
+
+_KEYS: dict[Kind, str] = {"q": "angle", "v": "rate", "a": "acceleration"}
+_EPSILON = {"float64": 2.0**-52, "float32": 2.0**-23}
+
+
+class UnsolvedError(CheckFailed):
+    """The sweeps of a run left too much of its equations: the message says how much, and what to do."""
+
+
+@dataclass(eq=False)
+class Unsolved:
+    """Looks at some of the steps of a run.
+
+    Parameters
+    ----------
+    scene : Scene
+        Planar, with the linearisation "newton".
+    signals : mapping from str to Signal
+        Inputs by name.
+    steps : int
+        Of the whole run.
+    real : {"float64", "float32"}
+        What the kernel computes in: what rounding leaves is not the sweeps' doing.
+    """
+
+    scene: Scene
+    signals: Mapping[str, Signal]
+    steps: int
+    real: str = "float64"
+    _looks: list[tuple[int, State, State]] = field(default_factory=list, repr=False)
+
+    def instants(self) -> list[int]:
+        """Return the steps to look at, counted from 1, in order."""
+        spread = np.linspace(1, self.steps, min(_LATER, self.steps)).round().astype(int)
+        kinks = np.unique(np.concatenate([[0.0], *(signal.knots for signal in self.signals.values())]))
+        begins = (kinks[:_KINKS] / self.scene.integrator.step).astype(int)
+        # from the step before the kink on: what comes after it is not to count for what came before
+        behind = (begins[:, None] + np.arange(_FIRST + 1)).ravel()
+        found = np.union1d(spread, behind)
+        return [int(index) for index in found if 1 <= index <= self.steps]
+
+    def look(self, index: int, before: State, after: State) -> None:
+        """Take note of the states before and after a step, counted from 1."""
+        self._looks.append((index, before, after))
+
+    def share(self) -> float:
+        """Return the work of what is left unsolved, as a share of the energy that moves; zero where nothing does.
+
+        Less than what rounding would leave counts as nothing.
+        """
+        if not self._looks:
+            return 0.0
+        whole = Arm(self.scene, self.signals)
+        held = {item.name for item in self.scene.inputs if item.acts == "angle"}
+        arm = Arm(self.scene, {name: signal for name, signal in self.signals.items() if name not in held})
+        indices = np.array([index for index, _, _ in self._looks])
+        power, rounding = np.zeros((2, len(indices)))
+        instants = list(self._equilibria(arm, indices))
+        for times, motion, base in instants:
+            q, v, a = motion["q"], motion["v"], motion["a"]
+            left = arm.residual(times, q, v, a)
+            if self.scene.base.kind == "prescribed":  # as the kernel has the base, its rate included
+                left[:, 0] -= arm.joints[0][0] * base["q"] + arm.joints[1][0] * base["v"]
+            power += np.sum(left * v, axis=1) / len(instants)
+            rounding += self._rounded(arm, motion, base) / len(instants)
+        spans = np.diff(indices, prepend=0) * self.scene.integrator.step
+        work = np.max(np.abs(np.cumsum(power * spans)))
+        # signs of rounding errors are at random: they add up like their squares
+        floor = float(np.sqrt(np.sum((rounding * spans) ** 2)))
+        times, motion, _ = instants[-1]
+        start = np.array([[0.0] * arm.first + list(self.scene.initial.angles)])
+        q = np.concatenate([start, motion["q"]])
+        times = np.concatenate([[0.0], times])
+        moved = float(
+            np.max(kinetic_energy(whole, motion["q"], motion["v"]))
+            + np.ptp(elastic_energy(whole, times, q))
+            + np.ptp(gravitational_energy(whole, q))
+        )
+        return max(0.0, float(work) - floor) / moved if moved > 0.0 else 0.0
+
+    def check(self) -> float:
+        """Return the share.
+
+        Raises
+        ------
+        UnsolvedError
+            If it is beyond what the scene accepts.
+        """
+        share, most = self.share(), self.scene.model.unsolved
+        if share <= most:
+            return share
+        sweeps, step = self.scene.model.iterations, self.scene.integrator.step
+        done = "one sweep per stage" if sweeps == 1 else f"{sweeps} sweeps per stage"
+        raise UnsolvedError(
+            f"scene '{self.scene.name}': {done} left loads unsolved whose work is {share:.1e} of the energy that "
+            f"moves, more than model.unsolved = {most:g}: the motion cannot be trusted.\n"
+            f"Sweep again, --set model.iterations={sweeps + 1}, or use a smaller step, --step {step / 10:g}; or "
+            f"accept it, --set model.unsolved={accepting(share):g}."
+        )
+
+    # -- where equations hold -----------------------------------------------------------------------------------
+
+    def _equilibria(
+        self, arm: Arm, indices: Array
+    ) -> Iterator[tuple[Array, dict[Kind, Array], dict[Kind, Array]]]:
+        """Yield times, motions of the coordinates and of a prescribed base, where steps looked at are in balance."""
+        step = self.scene.integrator.step
+        ends = ([b for _, b, _ in self._looks], [a for _, _, a in self._looks])
+        before, after = ([_motion(state, arm.first) for state in states] for states in ends)
+        base = [[_base(state, self.scene) for state in states] for states in ends]
+        instant, reached = equilibrium(self.scene)
+        if reached is not None:
+            found = [
+                _stack([reached(*pair) for pair in zip(*both, strict=True)])
+                for both in ((before, after), base)
+            ]
+            yield (indices - 1 + instant) * step, found[0], found[1]
+            return
+        # the states themselves; two at a time, since some motions alternate from step to step
+        yield np.maximum(indices - 1, 0) * step, _stack(before), _stack(base[0])
+        yield indices * step, _stack(after), _stack(base[1])
+
+    def _rounded(self, arm: Arm, motion: Mapping[Kind, Array], base: Mapping[Kind, Array]) -> Array:
+        """Return the power of what rounding leaves of the equations, (k,), W: a last place of each of their terms."""
+        q, v, a = (np.abs(motion[kind]) for kind in KINDS)
+        largest = np.maximum(q, np.abs(np.asarray(base["q"])).reshape(-1, 1))
+        stiffness = np.zeros(q.shape[1])
+        stiffness[arm.first :] += 2.0 * arm.joints[0]
+        inertial = arm.gathered(arm.masses * arm.walked(a + v**2)) + arm.inertias * a
+        terms = stiffness * largest + inertial + arm.gravity * arm.moments
+        return np.asarray(_EPSILON[self.real] * np.sum(v * terms, axis=1))
+
+
+def accepting(share: float) -> float:
+    """Return a value of ``model.unsolved`` that accepts a share: the next number above with one digit."""
+    unit = 10.0 ** np.floor(np.log10(share))
+    return float(f"{np.ceil(share / unit * 1.001) * unit:.1g}")
+
+
+def equilibrium(
+    scene: Scene,
+) -> tuple[float, Callable[[Mapping[Kind, Any], Mapping[Kind, Any]], dict[Kind, Any]] | None]:
+    """Return where in a step the equations of motion hold last, and how the motion there follows from both its ends.
+
+    Returns
+    -------
+    instant : float
+        From the start of the step, in steps.
+    reached : callable or None
+        From the motions before and after the step; None where the equations hold at its end.
+    """
+    scheme = integrator(scene.integrator.name, **scene.integrator.parameters).main
+    last = len(scheme.stages)
+    if all(sp.sympify(scheme.update[kind]) == stage(kind, last) for kind in KINDS):
+        return 1.0, None
+    return float(scheme.stages[-1].instant), _collocated(scheme, scene.integrator.step)
+
+
+def _collocated(
+    scheme: Scheme, step: float
+) -> Callable[[Mapping[Kind, Any], Mapping[Kind, Any]], dict[Kind, Any]]:
+    """Solve the update of a scheme with one stage for the motion at that stage."""
+    (unknown,) = sp.solve(sp.sympify(scheme.update["a"]) - UNKNOWN, stage("a", 1))
+    motion = affine_motion(scheme, 1, "acceleration")
+    earlier = [past(kind) for kind in KINDS]
+    functions = {
+        kind: sp.lambdify(
+            [*earlier, UNKNOWN],
+            (motion.offset[kind] + motion.gain[kind] * unknown).subs(STEP, step),
+        )
+        for kind in KINDS
+    }
+
+    def reached(before: Mapping[Kind, Any], after: Mapping[Kind, Any]) -> dict[Kind, Any]:
+        return {kind: functions[kind](*(before[k] for k in KINDS), after["a"]) for kind in KINDS}
+
+    return reached
+
+
+def _motion(state: State, first: int) -> dict[Kind, Array]:
+    hub = {kind: [state[f"hub_{name}"]] if first else [] for kind, name in _KEYS.items()}
+    return {kind: np.array([*hub[kind], *state[name]], float) for kind, name in _KEYS.items()}
+
+
+def _base(state: State, scene: Scene) -> dict[Kind, Any]:
+    moves = scene.base.kind == "prescribed"
+    return {kind: float(state[f"hub_{name}"]) if moves else 0.0 for kind, name in _KEYS.items()}
+
+
+def _stack(motions: list[dict[Kind, Any]]) -> dict[Kind, Array]:
+    return {kind: np.array([motion[kind] for motion in motions]) for kind in KINDS}
