@@ -1,0 +1,111 @@
+"""What was measured, as the page shows it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+Rows = Sequence[Mapping[str, object]]
+BEGIN, END = "<!-- written by benchmarks/mpc_speed.py --update -->", "<!-- end -->"
+HEAD = (
+    "| links | solver | median (µs) | 99 % over median | times full RTI | times zero-order | torque off by | samples |",
+    "|---:|---|---:|---:|---:|---:|---:|---:|",
+)
+
+
+def section(rows: Rows, growth: Rows, costs: Rows) -> str:
+    """Return table and sentences.
+
+    Parameters
+    ----------
+    rows, growth, costs
+        Of `mpc_speed.py`.
+    """
+    smallest, largest = min(_whole(row["links"]) for row in rows), max(_whole(row["links"]) for row in rows)
+    powers = [f"{_short_name(row)} {_number(row['exponent']):.2f}" for row in growth]
+    grows = f"From {smallest} to {largest} links the time of a sample grows as the number of links to the power of"
+    return "\n\n".join(
+        [
+            "\n".join([*HEAD, *map(_line, rows)]),
+            f"{grows}: {', '.join(powers)}.",
+            *_limits(rows),
+            f"Closed-loop cost on the model, relative to SQP iterated to convergence at every sample: {_costs(costs)}.",
+        ]
+    )
+
+
+def renewed(page: str, text: str) -> str:
+    """Return a page with what stands between the marks replaced.
+
+    Raises
+    ------
+    ValueError
+        If the page has not each mark once.
+    """
+    if page.count(BEGIN) != 1 or page.count(END) != 1:
+        raise ValueError(f"the page needs '{BEGIN}' and '{END}', once each")
+    before, _, rest = page.partition(BEGIN)
+    return f"{before}{BEGIN}\n{text}\n{END}{rest.partition(END)[2]}"
+
+
+def _limits(rows: Rows) -> list[str]:
+    """Return, for each form of CasADi's and do-mpc's, the least ratio over five and ten links."""
+    found = []
+    for name in dict.fromkeys(str(row["solver"]) for row in rows):
+        seen = [row for row in rows if row["solver"] == name and row["links"] in (5, 10)]
+        if len(seen) == 2 and all(_number(row["over_full"]) > 1.0 for row in seen):
+            full, zero = (min(_number(row[key]) for row in seen) for key in ("over_full", "over_zero"))
+            found.append(f"{name} {_short(full)} and {_short(zero)}")
+    if not found:
+        return []
+    text = "At five and ten links others take at least so many times the time of full and zero-order RTI"
+    return [f"{text}: {'; '.join(found)}."]
+
+
+def _line(row: Mapping[str, object]) -> str:
+    cells = [
+        str(row["links"]),
+        str(row["solver"]),
+        _time(_number(row["median_us"])),
+        f"{_number(row['p99_over_median']):.2f}",
+        _short(_number(row["over_full"])),
+        _short(_number(row["over_zero"])),
+        f"{_number(row['torque_off']):.0e}".replace("e-0", "e-") if row["torque_off"] else "0",
+        str(row["samples"]),
+    ]
+    return f"| {' | '.join(cells)} |"
+
+
+def _time(microseconds: float) -> str:
+    return f"{microseconds:.3g}" if microseconds < 1000.0 else f"{microseconds:.0f}"
+
+
+def _short(ratio: float) -> str:
+    return f"{ratio:.2f}" if ratio < 10.0 else f"{ratio:.3g}" if ratio < 1000.0 else f"{ratio:.0f}"
+
+
+def _costs(costs: Rows) -> str:
+    links = dict.fromkeys(row["links"] for row in costs)
+    parts = []
+    for count in links:
+        others = [row for row in costs if row["links"] == count and row["solver"] != "converged SQP"]
+        changes = [f"{_short_name(row)} {_change(_number(row['more']))}" for row in others]
+        parts.append(f"with {count} links {', '.join(changes)}")
+    return "; ".join(parts)
+
+
+def _change(more: float) -> str:
+    return f"{abs(more):.0e} {'more' if more >= 0.0 else 'less'}".replace("e-0", "e-")
+
+
+def _short_name(row: Mapping[str, object]) -> str:
+    return str(row["solver"]).partition(",")[0]
+
+
+def _number(value: object) -> float:
+    assert isinstance(value, int | float)
+    return float(value)
+
+
+def _whole(value: object) -> int:
+    assert isinstance(value, int)
+    return value
