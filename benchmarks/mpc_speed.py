@@ -47,6 +47,7 @@ from tmm_gen.control.extended_kalman import NonlinearFilter
 from tmm_gen.control.rti import RealTimeIteration
 from tmm_gen.files import write_tree_whole, write_whole
 from tmm_gen.measure.rows import csv_text
+from tmm_gen.measure.style import PALETTE, figure, picture, style
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGE, FIGURE = ROOT / "docs" / "mpc-speed.md", ROOT / "docs" / "figures" / "mpc-speed.png"
@@ -287,23 +288,20 @@ def growth(rows: list[dict[str, object]]) -> list[dict[str, object]]:
 
 def draw(rows: list[dict[str, object]], path: Path) -> None:
     """Draw the time of a sample over the number of links."""
-    import matplotlib
-
-    matplotlib.use("Agg")
-    from matplotlib import pyplot as plt
-
-    figure, axes = plt.subplots(figsize=(7.0, 4.2), layout="constrained")
-    for name in dict.fromkeys(str(row["solver"]) for row in rows):
-        points = [(int(str(r["links"])), float(str(r["median_us"]))) for r in rows if r["solver"] == name]
-        own = name in EMITTED.values()
-        axes.loglog(*zip(*points, strict=True), "o-" if own else "s--", label=name, markersize=4)
-    axes.set(xlabel="links of the model", ylabel="processor time of a sample (us)")
-    axes.set_xticks(GROWTH, [str(n) for n in GROWTH], minor=False)
-    axes.minorticks_off()
-    axes.grid(alpha=0.3)
-    axes.legend(fontsize=8, loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False)
-    figure.savefig(path, dpi=130)
-    plt.close(figure)
+    with style():
+        made, axes = figure(8.4, 4.6)
+        solvers = dict.fromkeys(str(row["solver"]) for row in rows)
+        for name, colour in zip(solvers, PALETTE, strict=False):
+            points = [(int(str(r["links"])), float(str(r["median_us"]))) for r in rows if r["solver"] == name]
+            own = name in EMITTED.values()
+            axes.loglog(
+                *zip(*points, strict=True), "o-" if own else "s--", color=colour, label=name, markersize=4
+            )
+        axes.set(xlabel="links of the model", ylabel="processor time of a sample (µs)")
+        axes.set_xticks(GROWTH, [str(n) for n in GROWTH], minor=False)
+        axes.minorticks_off()
+        axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
+        write_whole(path, picture(made, "png"))
 
 
 def parsed() -> argparse.Namespace:

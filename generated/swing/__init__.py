@@ -1,8 +1,8 @@
 # swing: Flexible arm swung by one radian
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 868cfa12f40301fce7e48999d8aea72973d3e46fc5a7472af91f361a43220440
-# sha256 of the rest of this file: c41ac64551f6c7028ac6d05677207b01bd4ffc02560395e3b052b71cab936eca
+# scene digest: 6b90c64f2cded7b13abead2a111296948f509c27fdf2f5b6aa6bf2a4ebe1e528
+# sha256 of the rest of this file: 37c6bd115d7b8517b1bfaaa13aad554c48aaef99b3553ae390ce45e852836495
 """swing: Flexible arm swung by one radian."""
 
 from .kernel import (

@@ -1,8 +1,8 @@
 # swing: Flexible arm swung by one radian
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 868cfa12f40301fce7e48999d8aea72973d3e46fc5a7472af91f361a43220440
-# sha256 of the rest of this file: 46bd216e41bd4dc7e72c48af0d2b3042cc5341a569996af12e81a29ca145cf69
+# scene digest: 6b90c64f2cded7b13abead2a111296948f509c27fdf2f5b6aa6bf2a4ebe1e528
+# sha256 of the rest of this file: d67d93b740c783b00b7aab9910d3a4b78d5104bdfadf2e3ee215859e4cbd7fd8
 #
 # model: planar arm, large rotations, tip mass
 # stations: 5

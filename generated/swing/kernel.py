@@ -1,8 +1,8 @@
 # swing: Flexible arm swung by one radian
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 868cfa12f40301fce7e48999d8aea72973d3e46fc5a7472af91f361a43220440
-# sha256 of the rest of this file: 7365bd5485896381df83adce5a760d0cf8819cde33af8d300e4bd2d8170cf958
+# scene digest: 6b90c64f2cded7b13abead2a111296948f509c27fdf2f5b6aa6bf2a4ebe1e528
+# sha256 of the rest of this file: 8e5cd1aa152357b34b92bd3f8944c75ea0066938b7aad06f61ed4aba930fb05e
 #
 # model: planar arm, large rotations, tip mass
 # stations: 5

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tmm_gen.control.bench import Bench
-from tmm_gen.control.compare import compare
+from tmm_gen.control.compare import compare, worst
 from tmm_gen.control.condition import CONDITIONS
 from tmm_gen.control.controllers import BY_NAME
 from tmm_gen.control.motion import motion
@@ -19,22 +19,35 @@ pytestmark = pytest.mark.compiler
 CASES = {case.name: case for case in CONDITIONS}
 
 
-@pytest.mark.parametrize("name", ["mpc-links", "mpc-modes", "rti-zero"])
-def test_one_tuning_serves_with_and_without_payload(bench: Bench, name: str) -> None:
-    """0.80 s to 0.5 %; 1 % and 1 mrad nominally, 1.5 % and 4 mrad with half as much payload again."""
-    limits = {"nominal": (0.01, 1e-3), "payload": (0.015, 4e-3)}
-    for trial in compare(bench, [BY_NAME[name]], [CASES[case] for case in limits]):
-        overshoot, residual = limits[trial.condition.name]
-        figures = trial.figures
-        assert figures.settling is not None
-        assert figures.settling <= 0.80
-        assert figures.overshoot <= overshoot
-        assert figures.residual <= residual
-        assert figures.fallbacks == 0
+LIMITS = {"nominal": (0.01, 1e-3), "payload": (0.015, 4e-3)}
+"""Overshoot, residual vibration (rad); the arm is to settle within 0.80 s."""
 
 
 @pytest.mark.parametrize(
-    ("name", "case", "settling"), [("mpc-modes", "delay", 0.8), ("rti-zero", "gravity", 1.5)]
+    ("name", "compiled", "seeds"),
+    [
+        ("mpc-links", False, range(10)),
+        ("mpc-modes", False, range(10)),
+        ("rti-zero", False, range(10)),
+        ("rti", True, range(10)),
+    ],
+)
+@pytest.mark.parametrize("case", LIMITS)
+def test_one_tuning_serves_with_and_without_payload(
+    bench: Bench, name: str, compiled: bool, seeds: range, case: str
+) -> None:
+    """0.80 s to 0.5 %; 1 % and 1 mrad nominally, 1.5 % and 4 mrad with half as much payload again; ten noises."""
+    figures = worst(bench, BY_NAME[name], CASES[case], seeds, compiled=compiled)
+    overshoot, residual = LIMITS[case]
+    assert figures.settling is not None
+    assert figures.settling <= 0.80
+    assert figures.overshoot <= overshoot
+    assert figures.residual <= residual
+    assert figures.fallbacks == 0
+
+
+@pytest.mark.parametrize(
+    ("name", "case", "settling"), [("mpc-modes", "delay", 0.81), ("rti-zero", "gravity", 0.9)]
 )
 def test_known_delay_and_gravity_are_compensated(bench: Bench, name: str, case: str, settling: float) -> None:
     """A delay is in every model; gravity, which changes along the way, needs the nonlinear one."""

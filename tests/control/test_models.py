@@ -21,6 +21,12 @@ from tmm_gen.modal.discretised import continuous
 from tmm_gen.scene import Scene
 
 
+@pytest.fixture(scope="module")
+def bench(swing: Scene) -> Bench:
+    """Models of the arm there is: they reckon with the payload it has."""
+    return Bench.of(swing.replace(**{"control.payload": 1.0}))
+
+
 def nearest(transition: np.ndarray, wanted: np.ndarray) -> np.ndarray:
     """Return the natural frequencies of a sampled model nearest to some, rad/s; higher ones appear among them."""
     poles = np.linalg.eigvals(transition).astype(complex)
@@ -129,3 +135,14 @@ def test_models_follow_the_arm_under_known_torques(swing: Scene, bench: Bench, d
     assert reach[0] > 0.3
     assert np.all(off[:, 0] < 6e-3 * reach[0]), off
     assert np.all(off[:, 1] < np.array([2e-2, 1e-2]) * reach[1]), off
+
+
+def test_models_reckon_with_the_payload_they_are_told(swing: Scene) -> None:
+    told = Bench.of(swing.replace(**{"control.payload": 1.5}))
+    heavier = Bench.of(swing.replace(**{"control.payload": 1.0, "tip.mass": 1.5 * 0.1}))
+    assert told.inertia == pytest.approx(heavier.inertia, rel=1e-12)
+    for model, other in ((told.modes, heavier.modes), (told.links, heavier.links)):
+        assert_allclose(model.transition, other.transition, rtol=1e-12, atol=1e-12)
+    plants = [Plant(each.scene, each.problem, CONDITIONS[0]) for each in (told, heavier)]
+    lighter, loaded = (np.vstack([plant.advance(1.0) for _ in range(10)])[-1, 0] for plant in plants)
+    assert lighter > 1.05 * loaded  # the arm itself has the payload of the scene

@@ -57,6 +57,8 @@ def test_a_controller_is_written_in_c(tmm_gen: Call, tmp_path: Path, repository:
         (["scenes/swing.toml", "--controller", "pd", "--emit", "x"], "cannot write pd"),
         (["scenes/swing.toml", "--until", "-1"], "positive"),
         (["scenes/swing.toml", "--animate", "x.mp4"], ".gif"),
+        (["scenes/swing.toml", "--tune", "pdd"], "Did you mean pd? There are mpc, lqr, pd"),
+        (["scenes/swing.toml", "--tune", "pd", "--evaluations", "3"], "3 is not in the range"),
     ],
 )
 def test_what_cannot_be_done_is_said(tmm_gen: Call, repository: Path, words: list[str], message: str) -> None:
@@ -70,7 +72,7 @@ def test_the_list_shows_what_there_is(tmm_gen: Call, repository: Path) -> None:
     done = tmm_gen("mpc", "scenes/swing.toml", "--list", "--json", cwd=repository)
     assert done.returncode == 0, done.stderr
     rows = json.loads(done.stdout)["rows"]
-    assert {"controller", "condition"} == {row["what"] for row in rows}
+    assert {"controller", "condition", "tunable"} == {row["what"] for row in rows}
     assert {"rti", "payload"} <= {row["name"] for row in rows}
 
 

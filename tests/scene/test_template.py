@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
-from tmm_gen.scene import parse_scene
+from tmm_gen.scene import load_scene, parse_scene
 from tmm_gen.scene.model import Kind
 from tmm_gen.scene.template import template
 
@@ -27,3 +29,9 @@ def test_lines_commented_out_are_valid_too(kind: Kind) -> None:
 @pytest.mark.parametrize("kind", ["chain", "planar"])
 def test_lines_fit_a_screen(kind: Kind) -> None:
     assert max(map(len, template("arm", kind).splitlines())) <= 100
+
+
+def test_control_is_that_of_the_swing(repository: Path) -> None:
+    """Tuned for that arm, and fair to start from."""
+    swing = load_scene(repository / "scenes" / "swing.toml")
+    assert parse_scene(template("crane", "planar", control=True)).control == swing.control

@@ -2,8 +2,8 @@
  * swing: Flexible arm swung by one radian
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 868cfa12f40301fce7e48999d8aea72973d3e46fc5a7472af91f361a43220440
- * sha256 of the rest of this file: 4431bab12e1243dc38e268ed313ea4f92165576dd84ffd390ebe6b589785c208
+ * scene digest: 6b90c64f2cded7b13abead2a111296948f509c27fdf2f5b6aa6bf2a4ebe1e528
+ * sha256 of the rest of this file: f9113d4c36f1fe40c556450097e8320c63829656561eed6030a96780df413d06
  *
  * model: planar arm, large rotations, tip mass
  * stations: 5

@@ -2,8 +2,8 @@
  * swing: Flexible arm swung by one radian
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 868cfa12f40301fce7e48999d8aea72973d3e46fc5a7472af91f361a43220440
- * sha256 of the rest of this file: 30d067884c592600876790fc6e2b2551efe961f78036e41f7bc479e390996b95
+ * scene digest: 6b90c64f2cded7b13abead2a111296948f509c27fdf2f5b6aa6bf2a4ebe1e528
+ * sha256 of the rest of this file: 8018a5a6b7dc0af55f2dbfde7385b38d2cf69bef5b427873d901728bd305e743
  *
  * model: planar arm, large rotations, tip mass
  * stations: 5

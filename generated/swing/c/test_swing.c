@@ -2,8 +2,8 @@
  * swing: Flexible arm swung by one radian
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 868cfa12f40301fce7e48999d8aea72973d3e46fc5a7472af91f361a43220440
- * sha256 of the rest of this file: a38c3c72497df82d7be8ec339d28415451e8f431ee545e22a8b89a00e2d6d9a7
+ * scene digest: 6b90c64f2cded7b13abead2a111296948f509c27fdf2f5b6aa6bf2a4ebe1e528
+ * sha256 of the rest of this file: 12cac19a9be24a357c1391b883e806b9d9326d3c7a37834b7065f8ebe00aa2cc
  *
  * model: planar arm, large rotations, tip mass
  * stations: 5

@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-from difflib import get_close_matches
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
 from tmm_gen.cli.console import progress
 from tmm_gen.cli.given import PICTURE, picture_option, positive, refuse_folders
-from tmm_gen.errors import UserError
+from tmm_gen.cli.mpc_tune import EVERYTHING, chosen, tuned
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from tmm_gen.control.bench import Bench
     from tmm_gen.control.compare import Trial
     from tmm_gen.control.condition import Condition
@@ -50,9 +47,15 @@ def _animated(_context: click.Context, parameter: click.Parameter, value: Path |
     multiple=True,
     help="Only under this condition. Repeatable; --list shows them.",
 )
-@click.option("--list", "listed", is_flag=True, help="List controllers and conditions, and do nothing else.")
+@click.option("--list", "listed", is_flag=True, help="List controllers, conditions and what can be tuned.")
 @click.option("--until", type=float, callback=positive, default=2.5, show_default=True, help="Duration, s.")
-@click.option("--seed", type=int, default=0, show_default=True, help="Of the sensors' noise.")
+@click.option(
+    "--seed",
+    type=int,
+    default=0,
+    show_default=True,
+    help="Of the sensors' noise, or of the search by --tune.",
+)
 @click.option("--compiled", is_flag=True, help="Run the controllers that exist as C as compiled C.")
 @click.option(
     "--plot",
@@ -85,6 +88,28 @@ def _animated(_context: click.Context, parameter: click.Parameter, value: Path |
     show_default=True,
     help="Number type of the C code.",
 )
+@click.option(
+    "--tune",
+    "tunables",
+    metavar="[NAME]",
+    multiple=True,
+    is_flag=False,
+    flag_value=EVERYTHING,
+    help="Tune gains and weights, all or those of one name (--list shows them; repeatable); no comparison. Nothing is "
+    "kept of the numbers in SCENE.",
+)
+@click.option(
+    "--evaluations",
+    type=click.IntRange(min=20),
+    default=1000,
+    show_default=True,
+    help="How many tunings to try, each in several closed loops.",
+)
+@click.option(
+    "--out",
+    type=click.Path(dir_okay=False, path_type=Path),
+    help="Where --tune writes the tuned scene.",
+)
 @click.option("--json", "json_mode", is_flag=True, help="One JSON object instead of a table.")
 def mpc(
     scene: Path,
@@ -98,6 +123,9 @@ def mpc(
     animated: Path | None,
     folder: Path | None,
     real: str,
+    tunables: tuple[str, ...],
+    evaluations: int,
+    out: Path | None,
     json_mode: bool,
 ) -> None:
     """Control the arm of SCENE as its [control] says, and compare controllers.
@@ -114,14 +142,17 @@ def mpc(
     from tmm_gen.control.condition import CONDITIONS
     from tmm_gen.control.controllers import CONTROLLERS
 
-    kinds = _chosen("--controller", controllers, {kind.name: kind for kind in CONTROLLERS})
-    cases = _chosen("--condition", conditions, {case.name: case for case in CONDITIONS}) or [*CONDITIONS]
+    kinds = chosen("--controller", controllers, {kind.name: kind for kind in CONTROLLERS})
+    cases = chosen("--condition", conditions, {case.name: case for case in CONDITIONS}) or [*CONDITIONS]
     if listed:
         list_all(json_mode)
         return
     from tmm_gen.control.bench import Bench
 
     bench = Bench.of(loaded)
+    if tunables:
+        tuned(scene, bench, tunables, evaluations, seed, out, json_mode)
+        return
     if folder is not None:
         names = [kind.name for kind in kinds] or [_EMITTED]
         emit(bench, names, folder, real, json_mode)
@@ -149,19 +180,3 @@ def _trials(
             done.append(trial)
             advance(1, f"{trial.kind.title}, {trial.condition.title}")
     return done
-
-
-def _chosen(option: str, names: tuple[str, ...], known: Mapping[str, Any]) -> list[Any]:
-    """Return what is meant by names, in the order there is.
-
-    Raises
-    ------
-    UserError
-        If one is unknown; it lists them.
-    """
-    for name in names:
-        if name not in known:
-            near = get_close_matches(name, known, n=1)
-            guess = f"Did you mean {near[0]}? " if near else ""
-            raise UserError(f"{option} {name}: there is none. {guess}There are {', '.join(known)}.")
-    return [item for name, item in known.items() if name in names]

@@ -18,16 +18,18 @@ if TYPE_CHECKING:
 
 
 def list_all(json_mode: bool) -> None:
-    """Print controllers and conditions."""
+    """Print controllers, conditions, and what can be tuned."""
     from tmm_gen.control.condition import CONDITIONS
     from tmm_gen.control.controllers import CONTROLLERS
     from tmm_gen.control.emitted.emit import EMITTED
+    from tmm_gen.control.tuning import TUNABLE
 
     rows: list[dict[str, object]] = [
         {"what": "controller", "name": kind.name, "title": kind.title, "c": kind.name in EMITTED}
         for kind in CONTROLLERS
     ]
     rows += [{"what": "condition", "name": case.name, "title": case.title, "c": None} for case in CONDITIONS]
+    rows += [{"what": "tunable", "name": item.name, "title": item.title, "c": None} for item in TUNABLE]
     table(rows, ["what", "name", Column("title", ""), Column("c", "as C")], json_mode)
 
 

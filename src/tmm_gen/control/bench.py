@@ -73,10 +73,18 @@ class Bench:
         other.__dict__["step"] = source.step.with_problem(problem)
         return other
 
+    @property
+    def assumed(self) -> Scene:
+        """The scene controllers reckon with: with the payload of ``[control]``."""
+        scene = self.scene
+        if scene.control is None or scene.tip is None or scene.control.payload == 1.0:
+            return scene
+        return scene.replace(**{"tip.mass": scene.control.payload * scene.tip.mass})
+
     @cached_property
     def step(self) -> StepModel:
         """The generated step, calibrated on the first frequency."""
-        return StepModel(prediction_scene(self.scene), self.problem)
+        return StepModel(prediction_scene(self.assumed), self.problem)
 
     @cached_property
     def links(self) -> LinearModel:
@@ -86,9 +94,9 @@ class Bench:
     @cached_property
     def modes(self) -> LinearModel:
         """First modes of the fine arm."""
-        return modes_model(self.scene, self.problem)
+        return modes_model(self.assumed, self.problem)
 
     @cached_property
     def inertia(self) -> float:
         """Of hub and straight arm about the hub, kg m^2."""
-        return float(matrices(linear_arm(self.scene)).mass.sum())
+        return float(matrices(linear_arm(self.assumed)).mass.sum())

@@ -100,14 +100,54 @@ def compare(
         if known not in told:
             told[known] = bench.told(condition)
         for kind in kinds:
-            controller = _made(kind, told[known], compiled)
+            controller = made(kind, told[known], compiled)
             plant = Plant(bench.scene, bench.problem, condition, seed)
             loop = run_loop(controller, plant, duration)
             figures = loop_figures(loop, bench.problem.reference)
             yield Trial(kind, condition, loop, figures, compiled and kind.name in EMITTED)
 
 
-def _made(kind: ControllerKind, bench: Bench, compiled: bool) -> Controller:
+def worst(
+    bench: Bench,
+    kind: ControllerKind,
+    condition: Condition,
+    seeds: Sequence[int],
+    duration: float = DURATION,
+    compiled: bool = False,
+) -> Figures:
+    """Return the worst of each figure over several noises; it settles only if it does with all of them.
+
+    Parameters
+    ----------
+    bench : Bench
+        Of the scene.
+    kind : ControllerKind
+        What controls.
+    condition : Condition
+        Of the arm; gravity and delay are told.
+    seeds : sequence of int
+        Of the noise.
+    duration : float
+        Of each loop, s.
+    compiled : bool
+        Whether to run compiled C where there is such.
+    """
+    controller = made(kind, bench.told(condition), compiled)
+    every = []
+    for seed in seeds:
+        loop = run_loop(controller, Plant(bench.scene, bench.problem, condition, seed), duration)
+        every.append(loop_figures(loop, bench.problem.reference))
+    settling = [figures.settling for figures in every if figures.settling is not None]
+    return Figures(
+        settling=max(settling) if len(settling) == len(every) else None,
+        overshoot=max(figures.overshoot for figures in every),
+        residual=max(figures.residual for figures in every),
+        offset=max((figures.offset for figures in every), key=abs),
+        fallbacks=max(figures.fallbacks for figures in every),
+    )
+
+
+def made(kind: ControllerKind, bench: Bench, compiled: bool) -> Controller:
     """Return a controller, as compiled C where that is asked for and exists."""
     if not compiled or kind.name not in EMITTED:
         return kind.make(bench)

@@ -11,7 +11,7 @@ from tmm_gen.control.kalman import KalmanFilter
 from tmm_gen.control.linear import LinearModel
 from tmm_gen.control.model_based import ModelBased
 from tmm_gen.control.problem import ControlProblem
-from tmm_gen.control.qp import QuadraticProgram
+from tmm_gen.control.qp import QuadraticProgram, Solution
 from tmm_gen.control.response import response
 
 Array = NDArray[np.float64]
@@ -44,13 +44,17 @@ class LinearMpc(ModelBased):
 
     def decide(self, state: Array, disturbance: float, last: float) -> Command:
         """Solve the quadratic program about no torque at all; see :class:`ModelBased`."""
+        solution = self.planned(state, disturbance, last)
+        torque = float(solution.point[0]) if solution.status is Status.OK else 0.0
+        return Command(torque, solution.status, solution.iterations)
+
+    def planned(self, state: Array, disturbance: float, last: float) -> Solution:
+        """Return the torques over the horizon, and the slacks behind them, with arguments as for :meth:`decide`."""
         pushed = disturbance - self.model.target_torque
         found = self.response.by_state @ state + self.response.by_constant * pushed
         along = Outputs(*(found + self.response.by_last * last + self.offsets))
         nothing = np.zeros(self.problem.horizon)
-        solution = self._program.solve(
+        return self._program.solve(
             self.condensed.gradient(along, nothing, last, disturbance),
             *self.condensed.bounds(along, nothing, last),
         )
-        torque = float(solution.point[0]) if solution.status is Status.OK else 0.0
-        return Command(torque, solution.status, solution.iterations)

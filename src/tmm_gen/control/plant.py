@@ -86,6 +86,16 @@ class Plant:
         self._random = np.random.default_rng(seed)
         self._torques = [0.0] * self._late
         self._gravity = self.scene.model.gravity or 0.0
+        # a sample's steps in one call of C: that is most of the time a closed loop takes
+        types = self.kernel.types
+        self._inputs = (types["inputs"] * self.substeps)()
+        self._outputs = (types["outputs"] * self.substeps)()
+        field: Any = getattr(types["inputs"], problem.input_name)
+        first, last = field.offset // 8, (field.offset + field.size) // 8
+        self._driven = _numbers(self._inputs)[:, first:last]
+        names = [variable.name for variable in self.kernel.program.outputs]
+        seen = _numbers(self._outputs)
+        self._seen = [seen[:, names.index(name)] for name in ("tip_x", "tip_y", "hub")]
         self._start()
 
     def _start(self) -> None:
@@ -143,18 +153,28 @@ class Plant:
             Polar angle of the tip and hub angle after each step, rad.
         """
         self.states.append(self.kernel.state)
-        found = np.empty((self.substeps, 2))
-        for k in range(self.substeps):
-            self._torques.append(torque)
-            acting = self._torques.pop(0)
-            if self.condition.friction:
-                rate = self.kernel.state["hub_rate"]
-                acting -= self.condition.friction * float(np.tanh(rate / SLIP))
-            self.kernel.step({self.problem.input_name: acting})
-            found[k] = self.angles()
-        return found
+        self._torques += [torque] * self.substeps
+        acting, self._torques = self._torques[: self.substeps], self._torques[self.substeps :]
+        if self.condition.friction:
+            return np.array([self._rubbed(each) for each in acting])
+        self._driven[:] = np.array(acting)[:, None]  # one number for each of a step's stages
+        self.kernel.run(self._inputs, self._outputs)
+        across, up, hub = self._seen
+        return np.column_stack([np.arctan2(up, across), hub])
+
+    def _rubbed(self, torque: float) -> Array:
+        """Take one step under a torque, less friction; return the angles after it."""
+        rate = self.kernel.state["hub_rate"]
+        rubbing = self.condition.friction * float(np.tanh(rate / SLIP))
+        self.kernel.step({self.problem.input_name: torque - rubbing})
+        return self.angles()
 
     def angles(self) -> Array:
         """Return polar angle of the tip and hub angle, (2,), rad."""
         out = self.kernel.output()
         return np.array([np.arctan2(out["tip_y"], out["tip_x"]), out["hub"]])
+
+
+def _numbers(structs: Any) -> Array:
+    """Return the numbers of an array of structs as a view of its memory, a row for each."""
+    return np.frombuffer(structs).reshape(len(structs), -1)

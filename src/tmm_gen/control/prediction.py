@@ -39,6 +39,7 @@ def prediction_scene(scene: Scene, calibrate: bool = True) -> Scene:
     assert control is not None
     step = control.sample_time / control.substeps
     changes: dict[str, object] = {"output": SENSORS, "integrator.step": step, "emit.sensitivities": True}
+    changes["emit.compensated"] = False  # derivatives are not
     if calibrate and scene.beam is not None:
         first, others = spring_factors(scene, step)
         joints, link, more = scene.joints, scene.links[0], scene.stations - 1

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from tmm_gen.control.compiled import compiled
 from tmm_gen.control.delay import Delay, delay_of
 from tmm_gen.control.lag import input_lag
 from tmm_gen.control.problem import ControlProblem
@@ -179,8 +180,8 @@ class StepModel:
 
     @cached_property
     def rollout(self) -> Any:
-        """``(x, w (2, N)) -> (states after each sample, (size, N))``."""
-        return self.sample.mapaccum("rollout", self.problem.horizon)
+        """``(x, w (2, N)) -> (states after each sample, (size, N))``, compiled."""
+        return compiled(self.sample.mapaccum("rollout", self.problem.horizon))
 
     @cached_property
     def rollout_slopes(self) -> Any:

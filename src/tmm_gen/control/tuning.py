@@ -1,41 +1,40 @@
 """Every controller tuned by the same optimiser, on the same objective, with the same number of closed loops.
 
-Differential evolution (R. Storn, K. Price, J. Global Optim. 11, 1997) on the logarithms of the gains or weights:
-settling time has steps, so that nothing smoother will do.
+CMA-ES (N. Hansen, A. Ostermeier, Evol. Comput. 9, 2001) on the logarithms of gains or weights, by the package `cma`:
+settling time has steps, so that nothing smoother will do, and a dozen numbers are too many for a search that does
+not learn how they depend on one another. It begins at the best of points spread evenly over the ranges below; the
+scene's own numbers play no part.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
+import warnings
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.control.bench import Bench
-from tmm_gen.control.closed_loop import run_loop
-from tmm_gen.control.condition import CONDITIONS, Condition
-from tmm_gen.control.controllers import BY_NAME
-from tmm_gen.control.figures import Figures, loop_figures
-from tmm_gen.control.plant import Plant
+from tmm_gen.control.objective import objective
+from tmm_gen.errors import UserError
 from tmm_gen.scene import Scene
 
 Array = NDArray[np.float64]
 
-BUDGET = 400
-"""Evaluations of the objective."""
-POPULATION = 20
-DURATION = 2.0
-"""Of each closed loop, s."""
-TRIED: tuple[Condition, ...] = tuple(case for case in CONDITIONS if case.name in ("nominal", "payload"))
-"""Conditions a tuning has to do well under, all at once."""
-
-_NEAR = 0.06
-"""Spread of the first tunings about the scene's own, relative to the ranges."""
-_NEVER = 2.5
-"""Settling time where the arm does not settle, s."""
-_OVERSHOOT, _RESIDUAL = 0.005, 0.5e-3
-"""Free of charge: overshoot relative to the way, residual vibration in rad."""
+EVALUATIONS = 1000
+"""Of the objective, for each of what is tuned."""
+FEWEST = 20
+"""Evaluations below which nothing can be learnt."""
+_SPREAD_EVENLY = 0.25
+"""Share of the evaluations spent on points spread evenly over the ranges."""
+_STEP = 0.15
+"""Standard deviation of the first steps from the best of them, relative to the ranges."""
+_FAR = 1.2
+"""What costs so many times as much as the best so far need not be tried to the end."""
+_DIGITS = 3
 
 
 @dataclass(frozen=True)
@@ -63,6 +62,8 @@ class Tunable:
     ----------
     name : str
         As on the command line.
+    title : str
+        A few words.
     controllers : tuple of str
         Whose objectives count, all with one tuning.
     knobs : tuple of Knob
@@ -70,97 +71,108 @@ class Tunable:
     """
 
     name: str
+    title: str
     controllers: tuple[str, ...]
     knobs: tuple[Knob, ...]
 
 
-def _pd(name: str, key: str) -> Tunable:
-    gains = f"control.baselines.{key}"
-    return Tunable(name, (name,), (Knob(gains, -1.0, 2.0), Knob(gains, -1.5, 1.5)))
+@dataclass(frozen=True)
+class Tuned:
+    """What came of it.
+
+    Parameters
+    ----------
+    tunable : Tunable
+        What was tuned.
+    scene : Scene
+        With the numbers found.
+    price, price_before : float
+        Of the numbers found and of those the scene had.
+    """
+
+    tunable: Tunable
+    scene: Scene
+    price: float
+    price_before: float
 
 
-_LQR = tuple(
-    Knob(f"control.baselines.lqr.{key}", low, high)
-    for key, low, high in (
-        ("hub", -3.0, 1.0),
-        ("tip_rate", -5.0, 0.0),
-        ("hub_rate", -5.0, 0.0),
-        ("torque", -4.0, 1.0),
-    )
+_WEIGHTS = (("hub", -2.0, 1.0), ("tip_rate", -3.0, 0.0), ("hub_rate", -4.0, -1.0), ("torque", -4.0, -1.0))
+"""Two or three decades each, as all that follow: a tip weight of one, and time constants below a second."""
+_MORE_WEIGHTS = (
+    ("torque_step", -5.0, -2.0),
+    ("terminal", 0.0, 2.0),
+    ("overshoot", 1.0, 4.0),
+    ("hub_bound", 0.0, 3.0),
 )
-_MPC = tuple(
-    Knob(f"control.{key}", low, high)
-    for key, low, high in (
-        ("weights.hub", -3.0, 1.0),
-        ("weights.tip_rate", -5.0, 0.0),
-        ("weights.hub_rate", -5.0, 0.0),
-        ("weights.torque", -5.0, -1.0),
-        ("weights.torque_step", -5.0, -1.0),
-        ("weights.terminal", 0.0, 3.0),
-        ("weights.overshoot", 0.0, 5.0),
-        ("weights.hub_bound", 0.0, 5.0),
-        ("estimator.encoder", -4.0, -1.5),
-        ("estimator.accelerometer", -1.5, 1.0),
-        ("estimator.torque", -4.0, 1.0),
-        ("estimator.disturbance", -4.0, 1.0),
-    )
+_ESTIMATOR = (
+    ("encoder", -3.5, -1.5),  # a count of 16384 is 4e-4 rad
+    ("accelerometer", -1.5, 0.5),  # of some m/s^2
+    ("torque", -3.0, 0.0),  # of 3 N m
+    ("disturbance", -3.0, 0.0),
+    ("rate", -3.0, 0.0),  # of some rad/s
 )
+
+
+def _knobs(prefix: str, ranges: Sequence[tuple[str, float, float]]) -> tuple[Knob, ...]:
+    return tuple(Knob(f"{prefix}.{key}", low, high) for key, low, high in ranges)
+
+
+def _pd(name: str, title: str) -> Tunable:
+    gains = f"control.baselines.{name.replace('-', '_')}"
+    return Tunable(name, title, (name,), (Knob(gains, -1.0, 2.0), Knob(gains, -1.5, 1.5)))
+
 
 TUNABLE: tuple[Tunable, ...] = (
-    _pd("pd", "pd"),
-    _pd("pd-zv", "pd_zv"),
-    _pd("pd-zvd", "pd_zvd"),
-    Tunable("lqr", ("lqr",), _LQR),
-    Tunable("mpc", ("mpc-modes", "rti-zero"), _MPC),
+    Tunable(
+        "mpc",
+        "weights and estimator of predictive control",
+        ("mpc-modes", "mpc-links", "rti-zero"),
+        _knobs("control.weights", (*_WEIGHTS, *_MORE_WEIGHTS)) + _knobs("control.estimator", _ESTIMATOR),
+    ),
+    Tunable("lqr", "weights of LQR", ("lqr",), _knobs("control.baselines.lqr", _WEIGHTS)),
+    _pd("pd", "gains of PD"),
+    _pd("pd-zv", "gains of PD, ZV shaper"),
+    _pd("pd-zvd", "gains of PD, ZVD shaper"),
 )
+"""In this order, since LQR takes the estimator that was found for predictive control."""
 
 
-def price(figures: Figures) -> float:
-    """Return what a closed loop costs: its settling time, and overshoot and vibration beyond what is free."""
-    settling = _NEVER if figures.settling is None else figures.settling
-    overshoot = max(0.0, figures.overshoot - _OVERSHOOT)
-    residual = max(0.0, figures.residual - _RESIDUAL)
-    return settling + 30.0 * overshoot + 100.0 * residual
+def turned(scene: Scene, tunable: Tunable, places: Array) -> Scene:
+    """Return a scene with its knobs turned, numbers rounded to three digits.
+
+    Parameters
+    ----------
+    scene : Scene
+        Any.
+    tunable : Tunable
+        Whose knobs.
+    places : array, (knobs,)
+        In the ranges, 0 to 1.
+    """
+    values: dict[str, list[float]] = {}
+    for knob, place in zip(tunable.knobs, places, strict=True):
+        value = 10.0 ** (knob.low + (knob.high - knob.low) * float(place))
+        values.setdefault(knob.key, []).append(float(f"{value:.{_DIGITS}g}"))
+    return scene.replace(**{key: found if len(found) > 1 else found[0] for key, found in values.items()})
 
 
-def turned(scene: Scene, tunable: Tunable, values: Array) -> Scene:
-    """Return a scene with its knobs set to values, decimal logarithms, rounded to three digits."""
-    changes: dict[str, object] = {}
-    for knob, value in zip(tunable.knobs, values, strict=True):
-        number = float(f"{10.0 ** float(value):.3g}")
-        known = changes.get(knob.key)
-        if sum(other.key == knob.key for other in tunable.knobs) > 1:
-            changes[knob.key] = [*(known if isinstance(known, list) else []), number]
-        else:
-            changes[knob.key] = number
-    return scene.replace(**changes)
-
-
-def objective(bench: Bench, tunable: Tunable) -> float:
-    """Return the mean price of a scene's tuning over controllers and conditions."""
-    total = 0.0
-    for name in tunable.controllers:
-        try:
-            controller = BY_NAME[name].make(bench)
-        except (
-            np.linalg.LinAlgError,
-            ValueError,
-        ):  # weights so far apart that nothing can be solved with them
-            return 10.0 * _NEVER
-        for condition in TRIED:
-            loop = run_loop(controller, Plant(bench.scene, bench.problem, condition), DURATION)
-            total += price(loop_figures(loop, bench.problem.reference))
-    return total / (len(tunable.controllers) * len(TRIED))
+def number(scene: Scene, key: str) -> float | tuple[float, ...]:
+    """Return a number of a scene, or a list of them, by its dotted key; zeros where the scene has none."""
+    value: Any = scene
+    for part in key.split("."):
+        value = getattr(value, part)
+    return (0.0, 0.0) if value is None else value
 
 
 def tune(
     bench: Bench,
     tunable: Tunable,
-    budget: int = BUDGET,
+    evaluations: int = EVALUATIONS,
     seed: int = 0,
-    advance: Callable[[], object] | None = None,
-) -> tuple[Scene, float]:
-    """Return the scene with the best tuning found, its own one among those tried, and its price.
+    advance: Callable[[float], object] | None = None,
+    cost: Callable[[Bench, float], float] | None = None,
+) -> Tuned:
+    """Return the best tuning found.
 
     Parameters
     ----------
@@ -168,58 +180,69 @@ def tune(
         Of the scene.
     tunable : Tunable
         What is tuned.
-    budget : int
-        Evaluations, at least twice `POPULATION`.
+    evaluations : int
+        Of the objective, at least `FEWEST`.
     seed : int
-        Of the optimiser.
+        Of the search; the same one finds the same numbers.
     advance : callable, optional
-        Called after each evaluation.
+        Called after each evaluation with the lowest price so far.
+    cost : callable, optional
+        From a bench, and a price that is bad enough, to its price; by default
+        :func:`tmm_gen.control.objective.objective` of the tunable's controllers.
+
+    Raises
+    ------
+    UserError
+        If there is no package `cma`.
     """
-    from scipy.optimize import differential_evolution  # slow to import
+    judged = cost or (lambda tried, enough: objective(tried, tunable.controllers, enough=enough))
+    best = (math.inf, bench)
 
-    best: list[tuple[float, Scene]] = [(objective(bench, tunable), bench.scene)]
-
-    def cost(values: Array) -> float:
-        scene = turned(bench.scene, tunable, values)
-        found = objective(bench.retuned(scene), tunable)
-        if found < best[0][0]:
-            best[0] = (found, scene)
+    def tried(places: Array) -> float:
+        nonlocal best
+        other = bench.retuned(turned(bench.scene, tunable, places))
+        found = judged(other, _FAR * best[0])
+        if found < best[0]:
+            best = (found, other)
         if advance is not None:
-            advance()
+            advance(best[0])
         return found
 
-    random = np.random.default_rng(seed)
-    low, high = (np.array([getattr(knob, end) for knob in tunable.knobs]) for end in ("low", "high"))
-    first = low + (high - low) * random.random((POPULATION, len(low)))
-    start = _present(bench.scene, tunable)
-    if start is not None:  # most of the population starts near the scene's own tuning
-        near = start + _NEAR * (high - low) * random.standard_normal(first.shape)
-        near[0] = start
-        first[: 3 * POPULATION // 4] = np.clip(near, low, high)[: 3 * POPULATION // 4]
-    differential_evolution(
-        cost,
-        list(zip(low, high, strict=True)),
-        init=first,
-        maxiter=max(1, budget // POPULATION - 1),
-        mutation=(0.4, 0.9),
-        recombination=0.7,
-        polish=False,
-        tol=0.0,
-        rng=random,
-    )
-    return best[0][1], best[0][0]
+    before = judged(bench, math.inf)
+    _search(tried, len(tunable.knobs), evaluations, seed)
+    return Tuned(tunable, best[1].scene, best[0], before)
 
 
-def _present(scene: Scene, tunable: Tunable) -> Array | None:
-    """Return the scene's own tuning, decimal logarithms; None where it has none or one beyond all ranges."""
-    found: list[float] = []
-    for place, knob in enumerate(tunable.knobs):
-        value: object = scene
-        for part in knob.key.split("."):
-            value = getattr(value, part)
-        if isinstance(value, tuple):
-            value = value[place]
-        if not isinstance(value, float):
-            return None
-        found.append(float(np.log10(max(value, 1e-12))))
-    return np.array(found)
+def _search(cost: Callable[[Array], float], dimensions: int, evaluations: int, seed: int) -> None:
+    """Evaluate a function so many times over the unit cube, more and more where it is low."""
+    from scipy.stats import qmc  # slow to import
+
+    cma: Any = _cma()
+    spread = max(FEWEST // 2, round(_SPREAD_EVENLY * evaluations))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", UserWarning)  # Sobol's points are best balanced in powers of two
+        first = qmc.Sobol(dimensions, seed=seed).random(spread)
+    prices = [cost(places) for places in first]
+    random = np.random.default_rng(seed + 1)
+    options = {
+        "bounds": [0.0, 1.0],
+        "randn": lambda *shape: random.standard_normal(shape),
+        "seed": seed + 1,
+        "verbose": -9,
+    }
+    strategy = cma.CMAEvolutionStrategy(first[int(np.argmin(prices))], _STEP, options)
+    left = evaluations - spread
+    while left > 0:
+        places = strategy.ask()
+        found = [cost(place) for place in places[:left]]
+        left -= len(found)
+        if len(found) == len(places):
+            strategy.tell(places, found)
+
+
+def _cma() -> Any:
+    try:
+        import cma
+    except ImportError:
+        raise UserError("tuning needs the package cma: pip install 'tmm-gen[mpc]'") from None
+    return cma

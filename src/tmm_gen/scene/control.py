@@ -215,6 +215,9 @@ class Control(Table):
         Modes of the fine arm where the prediction is by modes, the turning of the whole arm among them.
     delay : float
         From a measurement to the torque that answers it, s; known and compensated.
+    payload : float
+        What models take the tip's mass times: a controller that is to do with more than the scene's mass may well
+        reckon with some of it.
     weights, bounds, sensors, estimator, baselines
         Tables of their own.
     """
@@ -225,6 +228,9 @@ class Control(Table):
     substeps: Substeps = Field(default=2, description="steps of the kernel per sample", examples=["2"])
     modes: Modes = Field(default=3, description="modes of a prediction by modes", examples=["3"])
     delay: NonNegative = Field(default=0.0, description="from measurement to torque in s", examples=["0.01"])
+    payload: Positive = Field(
+        default=1.0, description="tip mass models reckon with, by the scene's", examples=["1.05"]
+    )
     weights: Weights = Field(default_factory=Weights, description="weights of the cost")
     bounds: Bounds = Field(description="what must be kept", examples=["torque = 3.0"])
     sensors: Sensors = Field(default_factory=Sensors, description="what is measured")

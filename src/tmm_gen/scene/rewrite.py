@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from tmm_gen.scene.load import parse_scene
 from tmm_gen.scene.problem import Path, Problem, SceneError, show_path
 from tmm_gen.scene.scene import Scene
 
 _NUMBER = r"[+-]?(?:\d[\d_]*\.?[\d_]*(?:[eE][+-]?\d+)?)"
+_LIST = r"\[[^\[\]#]*\]"
 
 
-def rewritten(text: str, origin: str, scene: Scene, changes: Mapping[Path, float]) -> str:
+def rewritten(text: str, origin: str, scene: Scene, changes: Mapping[Path, float | Sequence[float]]) -> str:
     """Return the text of a scene file with some numbers replaced; comments and layout stay.
 
     Parameters
@@ -23,8 +24,8 @@ def rewritten(text: str, origin: str, scene: Scene, changes: Mapping[Path, float
         Name used in errors.
     scene : Scene
         What the new text must say.
-    changes : mapping from path to float
-        New values; each key must stand on a line of its own in the file.
+    changes : mapping from path to float or sequence of float
+        New values, numbers or lists of them; each key must stand with its value on a line of its own in the file.
 
     Raises
     ------
@@ -35,16 +36,27 @@ def rewritten(text: str, origin: str, scene: Scene, changes: Mapping[Path, float
     lines = parse_scene(text, origin).source.lines
     for path, value in changes.items():
         line = lines.get(path)
-        pattern = re.compile(rf"^(\s*{re.escape(str(path[-1]))}\s*=\s*){_NUMBER}(?=\s|$|#)")
+        old = _LIST if isinstance(value, Sequence) else _NUMBER
+        pattern = re.compile(rf"^(\s*{re.escape(str(path[-1]))}\s*=\s*){old}(?=\s|$|#)")
         match = pattern.match(rows[line - 1]) if line else None
         if line is None or match is None:
             remedy = "Write the key and its number on a line of their own."
             raise SceneError(
                 [Problem(origin, line or 1, show_path(path), None, "cannot be rewritten", remedy)]
             )
-        rows[line - 1] = f"{match[1]}{value!r}{rows[line - 1][match.end() :]}"
-    new = "\n".join(rows)
-    if parse_scene(new, origin) != scene:
+        new = repr(list(value)) if isinstance(value, Sequence) else repr(value)
+        rows[line - 1] = _aligned(match[1] + new, match.end(), rows[line - 1])
+    whole = "\n".join(rows)
+    if parse_scene(whole, origin) != scene:
         problem = Problem(origin, 1, "", None, "cannot be rewritten", "Change the numbers by hand.")
         raise SceneError([problem])
-    return new
+    return whole
+
+
+def _aligned(start: str, end: int, row: str) -> str:
+    """Return a row whose first characters, up to an end, are others; a comment stays in its column if it can."""
+    rest = row[end:]
+    comment = rest.lstrip()
+    if not comment.startswith("#"):
+        return start + rest
+    return start + " " * max(1, len(row) - len(comment) - len(start)) + comment

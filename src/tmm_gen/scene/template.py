@@ -114,36 +114,51 @@ _CONTROL = """
 reference = 1.0                # angle of the tip to reach, rad
 horizon = 30                   # samples looked ahead
 sample_time = 0.02             # s
-substeps = 4                   # steps of the kernel per sample
-modes = 3                      # where prediction is by modes; the turning of the whole arm is one of them
+substeps = 4                   # steps of the generated kernel per sample
+modes = 4                      # where prediction is by modes
 delay = 0.0                    # from a measurement to the torque that answers it, s
+payload = 1.035                # mass at the tip that controllers reckon with, relative to the one above
 
 [control.weights]              # of squares, per sample
 tip = 1.0                      # 1/rad^2
-hub = 2.03                     # 1/rad^2
-tip_rate = 0.038               # s^2/rad^2
-hub_rate = 0.0247              # s^2/rad^2
-torque = 0.00748               # 1/(N m)^2, beyond what holds the target
-torque_step = 3.37e-05         # 1/(N m)^2, of its change
-terminal = 6.03                # factor at the end of the horizon
-overshoot = 1080.0             # 1/rad^2, of passing the soft bounds below
-hub_bound = 6.82               # 1/rad^2
+hub = 5.35                     # 1/rad^2
+tip_rate = 0.147               # s^2/rad^2
+hub_rate = 0.00606             # s^2/rad^2
+torque = 0.00609               # 1/(N m)^2, beyond what holds the target
+torque_step = 0.000162         # 1/(N m)^2, of its change
+terminal = 5.56                # factor at the end of the horizon
+overshoot = 147.0              # 1/rad^2, of passing the soft bounds below
+hub_bound = 30.7               # 1/rad^2
 
 [control.bounds]
 torque = 3.0                   # N m, always kept
 hub = [-0.1, 1.02]             # rad; passed where there is no other way
 overshoot = 0.005              # of the tip, relative to its way; likewise
 
+# As data sheets have them: an ordinary industrial encoder of 4096 lines in quadrature; a MEMS accelerometer
+# of low noise, 25 ug/sqrt(Hz) over the 25 Hz that a sample can see, and some more.
 [control.sensors]
 encoder = 16384                # counts per revolution of the hub
-accelerometer = 0.005          # noise at the tip, m/s^2; leave out what is not there
+accelerometer = 0.002          # noise at the tip, m/s^2; leave out what is not there
 # strain = 0.01                # noise of the bending moment at the root, N m
 
 [control.estimator]            # standard deviations the Kalman filter assumes, model errors included
-encoder = 0.009                # rad
-accelerometer = 0.05           # m/s^2
-torque = 0.06                  # unknown torque, N m
-disturbance = 0.06             # change of the constant part per sample, N m
+encoder = 0.00326              # rad
+accelerometer = 0.237          # m/s^2
+torque = 0.032                 # unknown torque, N m
+disturbance = 0.111            # change of the constant part per sample, N m
+rate = 0.569                   # change of rate per sample that no torque explains, rad/s
+
+[control.baselines]            # what predictive control is compared with; gains in N m/rad, N m s/rad
+pd = [8.97, 2.67]
+pd_zv = [10.8, 2.87]           # with a shaped reference
+pd_zvd = [11.0, 2.78]
+
+[control.baselines.lqr]        # weights beside that of the tip, 1
+hub = 0.247
+tip_rate = 0.0208
+hub_rate = 0.000656
+torque = 0.0017
 """
 
 _CHAIN_MODEL = """\

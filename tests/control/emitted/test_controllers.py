@@ -153,3 +153,16 @@ def test_compilers_have_nothing_to_say(kind: str, real: str, bench: Bench, tmp_p
 def test_other_controllers_are_refused(bench: Bench) -> None:
     with pytest.raises(UserError, match="mpc-modes"):
         emit_controller(bench, "pd")
+
+
+@pytest.mark.parametrize("kind", ["mpc-links", "mpc-modes"])
+def test_the_first_sample_begins_where_it_ends(
+    kind: str, bench: Bench, emitted: Callable[..., EmittedController], recorded: Callable[..., object]
+) -> None:
+    """What is active at the start is written into the C; Python's, which finds it, takes many iterations."""
+    loop, controller = recorded(kind, 60), emitted(kind)
+    for _ in range(2):  # also after a reset
+        controller.reset()
+        assert controller.run(loop.measured).iterations[0] <= 2
+    cold = LinearMpc(getattr(bench, kind.removeprefix("mpc-")), bench.problem, bench.inertia)
+    assert cold.command(loop.measured[0]).iterations >= 8

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from tmm_gen.control.command import Status
 from tmm_gen.control.condensed import Outputs
 from tmm_gen.control.emitted.program_data import ProgramData, program_data
 from tmm_gen.control.kalman import KalmanFilter
@@ -14,6 +15,9 @@ from tmm_gen.control.linear_mpc import LinearMpc
 from tmm_gen.control.safe import BRAKE_TIME
 
 Array = NDArray[np.float64]
+
+_ACTIVE = 1e-9
+"""How near a bound an input or a row is that is held by it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,6 +54,9 @@ class LinearMpcData:
         What the rows are at at the target.
     brake : float
         Of the safe law, N m s/rad.
+    first : tuple of int
+        Bounds that are active at the start, counted from 1, lower ones negative, a sample later than they are: where
+        a solver that lets them move on by a sample begins. So the first sample is none of the longest.
     """
 
     size: int
@@ -73,6 +80,7 @@ class LinearMpcData:
     free: Array
     rest: Array
     brake: float
+    first: tuple[int, ...]
 
 
 def linear_mpc_data(controller: LinearMpc) -> LinearMpcData:
@@ -105,7 +113,27 @@ def linear_mpc_data(controller: LinearMpc) -> LinearMpcData:
         free=free[:, :-1],
         rest=free[:: problem.horizon, -1] if kinds else np.zeros(0),
         brake=controller.inertia / BRAKE_TIME,
+        first=_first_active(controller, program, free),
     )
+
+
+def _first_active(controller: LinearMpc, program: ProgramData, free: Array) -> tuple[int, ...]:
+    """Return what is active at the scene's start, a sample later; see :class:`LinearMpcData`."""
+    count, delay = program.horizon, controller.delay
+    controller.reset()
+    state, disturbance = controller.estimator.ahead(delay.known(np.zeros(delay.memory + 1)))
+    solution = controller.planned(state, disturbance, 0.0)
+    controller.reset()
+    if solution.status is not Status.OK:
+        return ()
+    inputs = solution.point[:count]
+    known = np.array([*state, disturbance - controller.model.target_torque, 0.0, 1.0])
+    values = np.concatenate([inputs, program.rows @ inputs + free @ known])
+    found = []
+    for at in np.flatnonzero((values > program.high - _ACTIVE) | (values < program.low + _ACTIVE)):
+        place = at if at % count == count - 1 else at + 1
+        found.append(int(place + 1 if values[at] > program.low[at] + _ACTIVE else -place - 1))
+    return tuple(dict.fromkeys(found))
 
 
 def _affine_maps(controller: LinearMpc) -> tuple[Array, Array]:

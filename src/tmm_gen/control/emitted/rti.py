@@ -91,6 +91,7 @@ def emit_rti(name: str, title: str, controller: RealTimeIteration, real: str = "
         "emit.backends": ["c"],
         "emit.real": real,
         "emit.sensitivities": True,
+        "emit.compensated": False,
         "emit.parameters": "free",
     }
     scene = controller.model.scene.replace(**changes)

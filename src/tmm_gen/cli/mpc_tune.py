@@ -1,0 +1,134 @@
+"""`tmm-gen mpc --tune`: gains and weights of all controllers, found by one optimiser."""
+
+from __future__ import annotations
+
+from difflib import get_close_matches
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from tmm_gen.cli.console import Column, progress, table
+from tmm_gen.errors import UserError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Mapping
+
+    from tmm_gen.cli.console import Advance
+    from tmm_gen.control.bench import Bench
+    from tmm_gen.control.tuning import Tunable, Tuned
+    from tmm_gen.scene import Scene
+
+EVERYTHING = "all"
+"""What is tuned unless something is named."""
+
+
+def chosen(option: str, names: tuple[str, ...], known: Mapping[str, Any]) -> list[Any]:
+    """Return what is meant by names, in the order there is.
+
+    Raises
+    ------
+    UserError
+        If one is unknown; it lists them.
+    """
+    for name in names:
+        if name not in known:
+            near = get_close_matches(name, known, n=1)
+            guess = f"Did you mean {near[0]}? " if near else ""
+            raise UserError(f"{option} {name}: there is none. {guess}There are {', '.join(known)}.")
+    return [item for name, item in known.items() if name in names]
+
+
+def tuned(
+    file: Path,
+    bench: Bench,
+    names: tuple[str, ...],
+    evaluations: int,
+    seed: int,
+    out: Path | None,
+    json_mode: bool,
+) -> None:
+    """Tune what is named, one after the other, and write the scene with the numbers found.
+
+    Parameters
+    ----------
+    file : Path
+        Of the scene.
+    bench : Bench
+        Of the scene.
+    names : tuple of str
+        Of tunables, or `EVERYTHING`.
+    evaluations, seed : int
+        Of the search, for each.
+    out : Path, optional
+        Where the tuned scene is written.
+    json_mode : bool
+        Whether to print JSON.
+
+    Raises
+    ------
+    UserError
+        If there is no tunable of that name, or the file has no line for a number that is to be found.
+    """
+    from tmm_gen.control.tuning import TUNABLE, tune
+
+    known = {tunable.name: tunable for tunable in TUNABLE}
+    wanted = [*TUNABLE] if EVERYTHING in names else chosen("--tune", names, known)
+    if out is not None:  # what cannot be written is better known before the search than after it
+        _text(file, bench.scene, wanted)
+    found: list[Tuned] = []
+    with progress(f"tuning {bench.scene.name}", total=len(wanted) * evaluations) as advance:
+        for tunable in wanted:
+            found.append(tune(bench, tunable, evaluations, seed, _report(advance, tunable.title)))
+            bench = bench.retuned(found[-1].scene)
+    written = []
+    if out is not None:
+        from tmm_gen.files import write_whole
+
+        write_whole(out, _text(file, found[-1].scene, wanted))
+        written.append(out)
+    _show(found, evaluations, seed, written, json_mode)
+
+
+def _report(advance: Advance, title: str) -> Callable[[float], None]:
+    """Return what is called after each evaluation with the lowest price so far."""
+    return lambda price: advance(1, f"{title}: {price:.3f}")
+
+
+def _text(file: Path, scene: Scene, tunables: Iterable[Tunable]) -> str:
+    """Return the text of a scene's file with the numbers of another scene in place of those that are tuned."""
+    from tmm_gen.control.tuning import number
+    from tmm_gen.scene.rewrite import rewritten
+
+    keys = dict.fromkeys(knob.key for tunable in tunables for knob in tunable.knobs)
+    text = file.read_bytes().decode("utf-8-sig")
+    return rewritten(text, str(file), scene, {tuple(key.split(".")): number(scene, key) for key in keys})
+
+
+def _show(found: list[Tuned], evaluations: int, seed: int, files: list[Path], json_mode: bool) -> None:
+    from tmm_gen.control.tuning import number
+
+    rows: list[dict[str, object]] = []
+    for item in found:
+        for key in dict.fromkeys(knob.key for knob in item.tunable.knobs):
+            rows.append({"tuned": item.tunable.name, "key": key, "value": number(item.scene, key)})
+    prices = [
+        {"tuned": item.tunable.name, "price": item.price, "price_before": item.price_before} for item in found
+    ]
+    facts = {"evaluations": evaluations, "seed": seed, "prices": prices, "files": files}
+    columns: list[Column | str] = ["tuned", "key", Column("value", form=_written)]
+    table(rows, columns, json_mode, title=f"{evaluations} evaluations each, seed {seed}", more=facts)
+    if json_mode:
+        return
+    for item in found:
+        click.echo(
+            f"{item.tunable.name}: {item.price:.3f}, {item.price_before:.3f} with the numbers the scene had"
+        )
+    for path in files:
+        click.echo(f"wrote {path}")
+    if not files:
+        click.echo("more: --out FILE writes the tuned scene")
+
+
+def _written(value: object) -> str:
+    return repr(list(value)) if isinstance(value, tuple) else str(value)

@@ -1,0 +1,114 @@
+"""What a tuning is judged by: the worst of closed loops under several conditions, one price for all controllers."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from tmm_gen.control.bench import Bench
+from tmm_gen.control.closed_loop import run_loop
+from tmm_gen.control.command import Controller
+from tmm_gen.control.condition import Condition
+from tmm_gen.control.controllers import BY_NAME
+from tmm_gen.control.figures import Figures, loop_figures
+from tmm_gen.control.plant import Plant
+
+DURATION = 2.0
+"""Of each closed loop, s."""
+NOISES = (101, 102)
+"""Seeds of the sensors' noise while tuning: none of those by which a tuning is judged afterwards."""
+
+_NEVER = 2.5
+"""Settling time where the arm does not settle, s."""
+_HOPELESS = 100.0
+"""Price of numbers with which nothing can be solved."""
+_STRICT = 5.0
+"""How many times as much a share of the settling time counts as the same share of vibration: it varies less."""
+_MEAN = 0.02
+"""Weight of the mean beside the worst, so that the others are not forgotten."""
+
+
+@dataclass(frozen=True)
+class Aim:
+    """What is wanted under a condition.
+
+    Parameters
+    ----------
+    condition : Condition
+        Which nobody tells the controllers.
+    settling : float
+        To 0.5 %, s.
+    overshoot : float
+        Relative to the way.
+    residual : float
+        Vibration from 1 s on, peak to peak, rad.
+    required : bool
+        Of all controllers with several noises; else of the first of those tuned together, with one.
+    """
+
+    condition: Condition
+    settling: float
+    overshoot: float
+    residual: float
+    required: bool = False
+
+
+AIMS: tuple[Aim, ...] = (
+    Aim(Condition("payload", "payload +50 %", payload=1.5), 0.798, 0.0053, 3.8e-3, required=True),
+    Aim(Condition("nominal", "as the scene says"), 0.798, 0.009, 0.9e-3, required=True),
+    Aim(Condition("soft", "stiffness -23 %", stiffness=0.77), 0.95, 0.015, 6e-3),
+    Aim(Condition("stiff", "stiffness +25 %", stiffness=1.25), 0.95, 0.015, 6e-3),
+    Aim(Condition("late", "delay of 5 ms that nobody knows of", delay=5e-3), 0.95, 0.01, 6e-3),
+)
+"""Under which conditions tunings are tried. The first two are what is required of predictive control, with little room;
+of the others it is wanted that the arm comes to rest soon."""
+
+
+def price(figures: Figures, aim: Aim) -> float:
+    """Return what a closed loop costs: the figure that is worst, relative to what was aimed at."""
+    settling = (_NEVER if figures.settling is None else figures.settling) / aim.settling
+    if aim.required:
+        settling = max(0.0, 1.0 + _STRICT * (settling - 1.0))
+    return max(settling, figures.overshoot / aim.overshoot, figures.residual / aim.residual)
+
+
+def objective(
+    bench: Bench, controllers: Sequence[str], aims: Sequence[Aim] = AIMS, enough: float = math.inf
+) -> float:
+    """Return the price of a scene's tuning: that of its worst closed loop, and a little of the mean.
+
+    A price of one meets all aims. Loops are run in turn until one costs more than is enough.
+
+    Parameters
+    ----------
+    bench : Bench
+        Of the scene.
+    controllers : sequence of str
+        Names; all with the scene's numbers.
+    aims : sequence of Aim
+        Conditions, and what is wanted under each.
+    enough : float
+        Price from which on it does not matter how bad a tuning is.
+    """
+    made: dict[str, Controller] = {}
+    prices: list[float] = []
+    for aim in aims:
+        for name in controllers if aim.required else controllers[:1]:
+            try:
+                controller = made.get(name) or BY_NAME[name].make(bench)
+            except (np.linalg.LinAlgError, ValueError):  # numbers with which nothing can be solved
+                return _HOPELESS
+            made[name] = controller
+            for seed in NOISES if aim.required else NOISES[:1]:
+                loop = run_loop(controller, Plant(bench.scene, bench.problem, aim.condition, seed), DURATION)
+                prices.append(price(loop_figures(loop, bench.problem.reference), aim))
+                if prices[-1] > enough:
+                    return _total(prices)
+    return _total(prices)
+
+
+def _total(prices: Sequence[float]) -> float:
+    return max(prices) + _MEAN * sum(prices) / len(prices)

@@ -1,0 +1,133 @@
+"""Tuning: the same search for everything, repeatable, blind to the numbers a scene has."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tmm_gen.control.bench import Bench
+from tmm_gen.control.figures import Figures
+from tmm_gen.control.objective import AIMS, objective, price
+from tmm_gen.control.tuning import TUNABLE, Tunable, number, tune, turned
+from tmm_gen.scene import load_scene, parse_scene
+from tmm_gen.scene.problem import SceneError
+from tmm_gen.scene.rewrite import rewritten
+
+pytestmark = pytest.mark.compiler
+
+Call = Callable[..., subprocess.CompletedProcess[str]]
+BY_NAME = {item.name: item for item in TUNABLE}
+GOOD = Figures(settling=0.7, overshoot=0.001, residual=1e-4, offset=0.0, fallbacks=0)
+
+
+def valley(tunable: Tunable) -> Callable[[Bench, float], float]:
+    """A price that is least, zero, at 30 % of every range, and steep in one direction that is no axis."""
+    keys = list(dict.fromkeys(knob.key for knob in tunable.knobs))
+
+    def cost(bench: Bench, _enough: float = 0.0) -> float:
+        values = np.hstack([number(bench.scene, key) for key in keys])
+        places = [
+            (np.log10(value) - knob.low) / (knob.high - knob.low) - 0.3
+            for knob, value in zip(tunable.knobs, values, strict=True)
+        ]
+        return float(np.sum(np.square(places)) + 30.0 * np.sum(places) ** 2)
+
+    return cost
+
+
+def test_what_meets_its_aims_costs_less_than_one() -> None:
+    for aim in AIMS:
+        assert 0.0 < price(GOOD, aim) < 1.0
+        edge = replace(GOOD, settling=aim.settling, overshoot=aim.overshoot, residual=aim.residual)
+        assert price(edge, aim) == pytest.approx(1.0, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    "worse", [{"settling": 1.1}, {"settling": None}, {"overshoot": 0.05}, {"residual": 0.02}]
+)
+def test_whatever_gets_worse_costs_more(worse: dict[str, float | None]) -> None:
+    for aim in AIMS:
+        assert price(replace(GOOD, **worse), aim) > price(GOOD, aim)
+
+
+def test_the_worst_loop_counts_and_no_more_are_run_than_it_takes(bench: Bench) -> None:
+    """Beside it a fiftieth of the mean; what is already too bad is not tried on."""
+    first, both = objective(bench, ["pd"], AIMS[:1]), objective(bench, ["pd"], AIMS[:2])
+    assert both > first
+    assert objective(bench, ["pd"], AIMS[:2], enough=1e9) == both
+    assert objective(bench, ["pd"], AIMS[:2], enough=0.5 * first) < both
+
+
+@pytest.mark.parametrize(("name", "evaluations"), [("pd", 60), ("mpc", 400)])
+def test_the_search_finds_the_valley_wherever_the_scene_stands(
+    bench: Bench, name: str, evaluations: int
+) -> None:
+    tunable, prices = BY_NAME[name], []
+    cost = valley(tunable)
+    elsewhere = bench.retuned(turned(bench.scene, tunable, np.full(len(tunable.knobs), 0.9)))
+    first = tune(bench, tunable, evaluations, 1, prices.append, cost)
+    assert len(prices) == evaluations
+    assert prices == sorted(prices, reverse=True)
+    assert prices[-1] == first.price == cost(bench.retuned(first.scene))
+    assert first.price < 0.05 * cost(elsewhere)
+    assert first.price_before == cost(bench)
+    again = tune(elsewhere, tunable, evaluations, 1, cost=cost)
+    assert again.scene == first.scene
+    assert tune(bench, tunable, evaluations, 2, cost=cost).scene != first.scene
+
+
+def test_every_knob_is_a_number_of_the_committed_scene(bench: Bench) -> None:
+    for tunable in TUNABLE:
+        keys = dict.fromkeys(knob.key for knob in tunable.knobs)
+        for end in (0.0, 1.0):
+            scene = turned(bench.scene, tunable, np.full(len(tunable.knobs), end))
+            values = np.hstack([number(scene, key) for key in keys])
+            ends = [knob.high if end else knob.low for knob in tunable.knobs]
+            assert np.log10(values) == pytest.approx(ends, abs=3e-3)
+
+
+def test_lists_are_rewritten_too(repository: Path) -> None:
+    text = (repository / "scenes" / "swing.toml").read_text()
+    scene = load_scene(repository / "scenes" / "swing.toml")
+    other = scene.replace(**{"control.baselines.pd": [1.5, 20.0]})
+    path = ("control", "baselines", "pd")
+    new = rewritten(text, "swing.toml", other, {path: (1.5, 20.0)})
+    assert parse_scene(new, "swing.toml") == other
+    changed = [row for row in new.split("\n") if row not in text.split("\n")]
+    assert changed == ["pd = [1.5, 20.0]"]
+    with pytest.raises(SceneError, match="a line of their own"):
+        rewritten(text.replace("pd = [", "pd = [ # gains\n"), "swing.toml", other, {path: (1.5, 20.0)})
+
+
+def test_a_comment_stays_in_its_column(repository: Path) -> None:
+    text = (repository / "scenes" / "swing.toml").read_text()
+    scene = load_scene(repository / "scenes" / "swing.toml")
+    new = rewritten(text, "swing.toml", scene.replace(**{"tip.mass": 0.125}), {("tip", "mass"): 0.125})
+    (row,) = (row for row in new.split("\n") if row not in text.split("\n"))
+    assert row.startswith("mass = 0.125 ")
+    assert row.index("#") == text.split("\n")[new.split("\n").index(row)].index("#")
+
+
+def test_the_command_writes_the_scene_with_the_numbers_found(
+    tmm_gen: Call, tmp_path: Path, repository: Path
+) -> None:
+    scene = repository / "scenes" / "swing.toml"
+    done = tmm_gen("mpc", scene, "--tune", "pd", "--evaluations", "20", "--out", "tuned.toml", "--json")
+    assert done.returncode == 0, done.stderr
+    shown = json.loads(done.stdout)
+    assert shown["evaluations"] == 20
+    (row,) = shown["rows"]
+    old, new = (path.read_text().split("\n") for path in (scene, tmp_path / "tuned.toml"))
+    changed = [(before, after) for before, after in zip(old, new, strict=True) if before != after]
+    assert [after for _, after in changed] == [f"pd = {row['value']}"]
+    missing = tmp_path / "missing.toml"
+    missing.write_text("\n".join(row for row in old if not row.startswith("pd_zv = ")))
+    refused = tmm_gen("mpc", missing, "--tune", "pd-zv", "--out", "tuned.toml")
+    assert refused.returncode == 2
+    assert "control.baselines.pd_zv" in refused.stderr
