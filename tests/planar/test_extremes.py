@@ -23,7 +23,7 @@ RIGHT = [
     Extreme(tip_ratio=1e4, links=1000, slenderness=0.01, iterations=2),
     Extreme(step=1e-6),
     Extreme(step=0.1, iterations=2),
-    Extreme(step=0.1, integrator="sdirk4"),
+    Extreme(step=0.1, integrator="sdirk4", iterations=2),
     Extreme(revolutions=0.1),
     Extreme(revolutions=100.0, step=1e-4),
     Extreme(revolutions=100.0, stiffness=1e5, step=1e-3),

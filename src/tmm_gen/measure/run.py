@@ -170,7 +170,8 @@ def _unsolved(scene: Scene, signals: Mapping[str, Signal], steps: int, backend: 
         return None
     from tmm_gen.measure.unsolved import Unsolved  # SymPy comes with it
 
-    return Unsolved(scene, signals, steps, scene.emit.real if backend == "c" else "float64")
+    real = "compensated" if scene.emit.compensated else scene.emit.real
+    return Unsolved(scene, signals, steps, real if backend == "c" else "float64")
 
 
 def _trace(scene: Scene, steps: int) -> Trace:

@@ -34,7 +34,7 @@ _FIRST, _LATER, _KINKS = 20, 400, 50
 and as many spread over the whole run."""
 
 _KEYS: dict[Kind, str] = {"q": "angle", "v": "rate", "a": "acceleration"}
-_EPSILON = {"float64": 2.0**-52, "float32": 2.0**-23}
+_EPSILON = {"float64": 2.0**-52, "float32": 2.0**-23, "compensated": 2.0**-47}
 
 
 class UnsolvedError(CheckFailed):
@@ -53,7 +53,7 @@ class Unsolved:
         Inputs by name.
     steps : int
         Of the whole run.
-    real : {"float64", "float32"}
+    real : {"float64", "float32", "compensated"}
         What the kernel computes in: what rounding leaves is not the sweeps' doing.
     """
 

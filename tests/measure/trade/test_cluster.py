@@ -97,7 +97,11 @@ def test_a_running_scheduler_is_used(chain: Scene, tmp_path: Path) -> None:
     store = tmp_path / "here.sqlite"
     # by loopback, which is there where no network is
     with LocalCluster(
-        n_workers=1, threads_per_worker=1, host="127.0.0.1", dashboard_address=None, memory_limit=0
+        n_workers=1,
+        threads_per_worker=1,
+        host="127.0.0.1",
+        dashboard_address="127.0.0.1:0",  # any port: another cluster may have the usual one
+        memory_limit=0,
     ) as cluster:
         study = run_study(chain, went, grid, Cluster(0, cluster.scheduler_address), store=store, rounds=0)
     assert results(study) == results(run_study(chain, went, grid, rounds=0))

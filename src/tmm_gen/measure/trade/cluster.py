@@ -95,7 +95,7 @@ class Cluster:
                 threads_per_worker=1,
                 processes=True,
                 host="127.0.0.1",  # there where no network is
-                dashboard_address=None,
+                dashboard_address="127.0.0.1:0",  # any port: another study may have the usual one
                 memory_limit=0,
                 silence_logs=logging.CRITICAL,
             ) as cluster,
