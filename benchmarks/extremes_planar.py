@@ -1,8 +1,9 @@
 """Try planar arms over the whole range of the usual and the unusual: right, refused or wrong?
 
 Links 1 to 1000, EI over ten decades, links of point mass to stubby, tip masses to 1e4 times the arm's, steps of 1e-6 to
-0.1 of the first period, rotation up to 100 revolutions per second: each alone, and combinations at random (the
-same ones for a seed). What is refused for what its sweeps leave unsolved is tried with more of them. Exits with 1 if any is wrong.
+0.1 of the first period, rotation up to 100 revolutions per second: each alone, and combinations at random (the same
+ones for a seed). What is refused for what its sweeps leave unsolved is tried with more of them. Exits with 1 if any is
+wrong.
 """
 
 from __future__ import annotations
