@@ -227,9 +227,11 @@ def test_a_planar_run_says_how_far_it_is_to_be_trusted(
     scene.write_text(FALLING.format(step="5e-3"))
     said = succeed(str(scene), "--until", "1", capsys=capsys)
     assert "of the energy that moves, sweeps left" in said
+    assert "unsolved (the step's own error: " in said
     assert "work, energy and heat balance to" in said
     found = json.loads(succeed(str(scene), "--until", "1", "--json", capsys=capsys))
     assert 0.0 < found["unsolved"] < 1e-6
+    assert found["unsolved"] < found["step_error"] < 1e-3
     assert found["energy_imbalance"] < 1e-4
 
 

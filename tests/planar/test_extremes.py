@@ -52,12 +52,17 @@ NEEDS_TWO = [
     Extreme(links=1000),
     Extreme(links=20, stiffness=10.0, tip_ratio=0.01, step=0.01, revolutions=0.1),
     Extreme(links=20, stiffness=1e4, slenderness=1e-3, tip_ratio=1.0, revolutions=0.1),
+    # more than their fine steps explain, though less than 1e-4
+    Extreme(links=50, stiffness=1e-3, slenderness=1e-2, tip_ratio=1.0, step=1e-4),
+    Extreme(links=20, stiffness=1e5, slenderness=1e-3, tip_ratio=100.0, step=1e-5, revolutions=1.0),
+    Extreme(links=20, stiffness=1e4, slenderness=100.0, tip_ratio=1e4, step=1e-5, revolutions=0.1),
+    Extreme(links=50, stiffness=1e-5, slenderness=1e-3, tip_ratio=0.01, step=1e-6, revolutions=1.0),
 ]
 
 
 @pytest.mark.parametrize("extreme", NEEDS_TWO, ids=str)
 def test_where_one_sweep_leaves_too_much_it_is_refused_and_a_second_is_right(extreme: Extreme) -> None:
-    """Very many links, and a blow (the arm in motion, the hub at rest) at a step that is long for its echoes."""
+    """Very many links, and blows (the arm in motion, the hub at rest) whose echoes are short beside the step."""
     verdict = judge(extreme)
     assert verdict.status == "refused", verdict
     assert "model.iterations=2" in verdict.said

@@ -164,6 +164,7 @@ def _show(simulation: Simulation, written: list[Path], json_mode: bool) -> None:
         "until": last,
         "energy_imbalance": simulation.imbalance,
         "unsolved": simulation.unsolved,
+        "step_error": simulation.step_error,
         "files": written,
     }
     done = f"{last:g} s in {simulation.steps} steps of {scene.integrator.step:g} s by {scene.integrator.name}"
@@ -183,7 +184,8 @@ def _show(simulation: Simulation, written: list[Path], json_mode: bool) -> None:
 def _trusted(simulation: Simulation) -> str:
     """Say how well a planar arm's equations were solved, and how well its energies balance for that."""
     share = f"{simulation.unsolved:.1e}" if simulation.unsolved else "nothing but rounding"
-    said = f"of the energy that moves, sweeps left {share} unsolved"
+    step = f"the step's own error: {simulation.step_error:.1e} per radian"
+    said = f"of the energy that moves, sweeps left {share} unsolved ({step})"
     if not simulation.imbalance:
         return said
     said += f"; work, energy and heat balance to {simulation.imbalance:.1e}"

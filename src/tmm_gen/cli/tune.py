@@ -147,8 +147,8 @@ def _write(scene: Path, target: Path, tuning: Tuning) -> Path:
 
     assert tuning.chosen is not None
     text = scene.read_text(encoding="utf-8-sig")
-    unsolved = tuning.verified.unsolved if tuning.verified is not None else None
-    chosen = rewritten(text, tuning.scene, tuning.chosen.configuration, remarks(tuning), unsolved)
+    accepted = tuning.verified.accepted if tuning.verified is not None else None
+    chosen = rewritten(text, tuning.scene, tuning.chosen.configuration, remarks(tuning), accepted)
     write_whole(target, chosen)
     return target
 

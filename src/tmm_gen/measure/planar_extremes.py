@@ -165,8 +165,9 @@ class Verdict:
         "right", "refused" or "wrong".
     error, bound : float
         Share of the largest motion, or of the energy that moves; zero where refused.
-    unsolved : float
-        What the sweeps left of the equations (:mod:`tmm_gen.measure.unsolved`); zero where refused.
+    unsolved, step_error : float
+        What the sweeps left of the equations, and what the step leaves by itself (:mod:`tmm_gen.measure.tolerance`);
+        zero where refused.
     said : str
         The refusal, or what was compared.
     """
@@ -175,16 +176,25 @@ class Verdict:
     error: float
     bound: float
     unsolved: float
+    step_error: float
     said: str
 
 
-def judge(extreme: Extreme) -> Verdict:
-    """Simulate an extreme in compiled C, as `run` does, and compare."""
+def judge(extreme: Extreme, *, refuse: bool = True) -> Verdict:
+    """Simulate an extreme in compiled C, as `run` does, and compare.
+
+    Parameters
+    ----------
+    extreme : Extreme
+        What to simulate.
+    refuse : bool
+        For what its sweeps leave unsolved, too.
+    """
     try:
         scene = extreme.scene()
-        run = simulate(scene, {}, extreme.steps * scene.integrator.step, "c", trace=True)
+        run = simulate(scene, {}, extreme.steps * scene.integrator.step, "c", trace=True, refuse=refuse)
     except (UserError, SceneError) as refusal:
-        return Verdict("refused", 0.0, 0.0, 0.0, str(refusal))
+        return Verdict("refused", 0.0, 0.0, 0.0, 0.0, str(refusal))
     if extreme.links > MOST_LINKS:
         error, said = run.imbalance or 0.0, "energies balance"
     else:
@@ -195,4 +205,4 @@ def judge(extreme: Extreme) -> Verdict:
         # motion below rounding of the length is none
         error, said = float(np.max(off) / max(np.max(moved), 1e-7)), "follows Lagrange's equations"
     status = "right" if error <= extreme.bound else "wrong"
-    return Verdict(status, error, extreme.bound, run.unsolved or 0.0, said)
+    return Verdict(status, error, extreme.bound, run.unsolved or 0.0, run.step_error or 0.0, said)

@@ -18,6 +18,7 @@ from tmm_gen.measure.planar_divergence import PlanarWatch, planar_watch
 from tmm_gen.measure.signals import Constant, Signal
 from tmm_gen.measure.simulation import Simulation
 from tmm_gen.measure.stepping import native_steps, numpy_steps
+from tmm_gen.measure.tolerance import refuse_unsolved
 from tmm_gen.measure.trace import Trace
 from tmm_gen.scene import Scene
 
@@ -89,7 +90,7 @@ def simulate(
     DivergedError
         If the motion leaves all bounds.
     UnsolvedError
-        If sweeps leave more unsolved than the scene's ``model.unsolved``.
+        If sweeps leave more unsolved than the step does, or than the scene's ``model.unsolved``.
     UserError
         If the kernel cannot be made, the steps are too many, or a pivot vanishes.
     """
@@ -123,7 +124,9 @@ def simulate(
             f"scene '{scene.name}' cannot be solved: {error}. "
             f"{smaller} for numbers that are far too large or small."
         ) from error
-    left = None if checked is None else checked.check() if refuse else checked.share()
+    left, own = (None, None) if checked is None else (checked.share(), checked.step_error())
+    if refuse and left is not None and own is not None:
+        refuse_unsolved(scene, left, own)
     time: Array = scene.integrator.step * np.arange(steps + 1, dtype=float)
     return Simulation(
         scene=scene,
@@ -135,6 +138,7 @@ def simulate(
         trace=kept,
         imbalance=_imbalance(scene, inputs, time, kept),
         unsolved=left,
+        step_error=own,
     )
 
 

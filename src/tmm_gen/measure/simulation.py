@@ -41,6 +41,8 @@ class Simulation:
         dissipated, as a share of the energy that moved.
     unsolved : float, optional
         Of a planar arm: work of what the sweeps left unsolved, as a share of the energy that moved.
+    step_error : float, optional
+        Of a planar arm: error that the step leaves by itself (:func:`tmm_gen.measure.step_error.step_error`).
     """
 
     scene: Scene
@@ -52,6 +54,7 @@ class Simulation:
     trace: Trace | None = None
     imbalance: float | None = None
     unsolved: float | None = None
+    step_error: float | None = None
 
     @property
     def steps(self) -> int:

@@ -20,10 +20,10 @@ from numpy.typing import NDArray
 from tmm_gen.derive.integrators.declaration import KINDS, STEP, Kind, Scheme, past, stage
 from tmm_gen.derive.integrators.registry import integrator
 from tmm_gen.derive.integrators.relations import UNKNOWN, affine_motion
-from tmm_gen.errors import CheckFailed
 from tmm_gen.measure.energy import elastic_energy, gravitational_energy, kinetic_energy
 from tmm_gen.measure.planar_arm import Arm
 from tmm_gen.measure.signals import Signal
+from tmm_gen.measure.step_error import step_error
 from tmm_gen.scene import Scene
 
 Array = NDArray[np.float64]
@@ -35,10 +35,6 @@ and as many spread over the whole run."""
 
 _KEYS: dict[Kind, str] = {"q": "angle", "v": "rate", "a": "acceleration"}
 _EPSILON = {"float64": 2.0**-52, "float32": 2.0**-23, "compensated": 2.0**-47}
-
-
-class UnsolvedError(CheckFailed):
-    """The sweeps of a run left too much of its equations: the message says how much, and what to do."""
 
 
 @dataclass(eq=False)
@@ -112,25 +108,14 @@ class Unsolved:
         )
         return max(0.0, float(work) - floor) / moved if moved > 0.0 else 0.0
 
-    def check(self) -> float:
-        """Return the share.
-
-        Raises
-        ------
-        UnsolvedError
-            If it is beyond what the scene accepts.
-        """
-        share, most = self.share(), self.scene.model.unsolved
-        if share <= most:
-            return share
-        sweeps, step = self.scene.model.iterations, self.scene.integrator.step
-        done = "one sweep per stage" if sweeps == 1 else f"{sweeps} sweeps per stage"
-        raise UnsolvedError(
-            f"scene '{self.scene.name}': {done} left loads unsolved whose work is {share:.1e} of the energy that "
-            f"moves, more than model.unsolved = {most:g}: the motion cannot be trusted.\n"
-            f"Sweep again, --set model.iterations={sweeps + 1}, or use a smaller step, --step {step / 10:g}; or "
-            f"accept it, --set model.unsolved={accepting(share):g}."
-        )
+    def step_error(self) -> float:
+        """Return the error that the step leaves by itself (:func:`tmm_gen.measure.step_error.step_error`)."""
+        if not self._looks:
+            return 0.0
+        arm = Arm(self.scene, self.signals)
+        times = np.array([index for index, _, _ in self._looks]) * self.scene.integrator.step
+        reached = _stack([_motion(after, arm.first) for _, _, after in self._looks])
+        return step_error(arm, times, reached["q"], reached["v"])
 
     # -- where equations hold -----------------------------------------------------------------------------------
 
@@ -163,12 +148,6 @@ class Unsolved:
         inertial = arm.gathered(arm.masses * arm.walked(a + v**2)) + arm.inertias * a
         terms = stiffness * largest + inertial + arm.gravity * arm.moments
         return np.asarray(_EPSILON[self.real] * np.sum(v * terms, axis=1))
-
-
-def accepting(share: float) -> float:
-    """Return a value of ``model.unsolved`` that accepts a share: the next number above with one digit."""
-    unit = 10.0 ** np.floor(np.log10(share))
-    return float(f"{np.ceil(share / unit * 1.001) * unit:.1g}")
 
 
 def equilibrium(

@@ -27,8 +27,9 @@ class Model(Table):
         Planar only.
     iterations : int
         Sweeps per stage; with ``newton`` only.
-    unsolved : float
-        Most work of what sweeps leave unsolved, as a share of the energy that moves; with ``newton`` only.
+    unsolved : float, optional
+        Most work of what sweeps leave unsolved, as a share of the energy that moves; absent, what the step leaves by
+        itself (:mod:`tmm_gen.measure.tolerance`). With ``newton`` only.
     sweep : {"riccati", "product"}
         How the stations' matrices are combined.
     unknown : {"acceleration", "increment", "displacement"}
@@ -41,10 +42,11 @@ class Model(Table):
     )
     linearisation: Linearisation = Field(default="newton", description="linearisation", examples=['"newton"'])
     iterations: Count = Field(default=1, description="sweeps per stage", examples=["1"])
-    unsolved: Positive = Field(
-        default=1e-4,
+    unsolved: Positive | None = Field(
+        default=None,
         description="most work of what sweeps leave unsolved, as a share of the energy that moves",
         examples=["1e-3"],
+        json_schema_extra={"absent": "follows the step's own error"},
     )
     sweep: Sweep = Field(default="riccati", description="sweep", examples=['"riccati"'])
     unknown: Unknown = Field(

@@ -99,6 +99,8 @@ def _table_in(annotation: Any) -> type[Table] | None:
 def _default(field: FieldInfo) -> str | None:
     if field.is_required():
         return None
+    if isinstance(field.json_schema_extra, dict) and "absent" in field.json_schema_extra:
+        return str(field.json_schema_extra["absent"])
     value = field.get_default(call_default_factory=False)
     positive = any(isinstance(item, Gt) for item in field.metadata)
     if value is None or value is PydanticUndefined or value in ((), "") or (positive and value == 0):

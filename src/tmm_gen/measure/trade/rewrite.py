@@ -5,13 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 from tmm_gen.measure.trade.configuration import Configuration
-from tmm_gen.measure.unsolved import accepting
 from tmm_gen.scene import Scene, parse_scene
 from tmm_gen.scene.integrator import underscored
 
 
 def rewritten(
-    text: str, scene: Scene, configuration: Configuration, remarks: list[str], unsolved: float | None = None
+    text: str, scene: Scene, configuration: Configuration, remarks: list[str], accepted: float | None = None
 ) -> str:
     """Return the text of a scene file with another configuration.
 
@@ -25,9 +24,8 @@ def rewritten(
         What it is to say.
     remarks : list of str
         Written as comments on top.
-    unsolved : float, optional
-        What its sweeps have been found to leave unsolved: where that is more than the scene accepts, it is accepted
-        from now on, as the error that was measured contains it.
+    accepted : float, optional
+        What its sweeps may leave unsolved, as the error that was measured contains it; if absent, as the scene says.
 
     Raises
     ------
@@ -39,9 +37,9 @@ def rewritten(
     document = tomlkit.parse(text)
     changes = {**configuration.family.changes(scene), "integrator.step": configuration.step}
     expected = configuration.apply(scene)
-    if unsolved is not None and unsolved > scene.model.unsolved:
-        changes["model.unsolved"] = accepting(unsolved)
-        expected = expected.replace(**{"model.unsolved": changes["model.unsolved"]})
+    if accepted is not None:
+        changes["model.unsolved"] = accepted
+        expected = expected.replace(**{"model.unsolved": accepted})
     table: Any = document["integrator"]
     if underscored(configuration.family.integrator) != scene.integrator.name:
         for key in [key for key in table if key not in ("name", "step")]:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tmm_gen.measure.run import simulate
+from tmm_gen.measure.tolerance import to_accept
 from tmm_gen.measure.trade.configuration import Configuration
 from tmm_gen.measure.trade.cost import measured, timed_step
 from tmm_gen.measure.trade.evaluate import whole_steps
@@ -32,15 +33,16 @@ class Verified:
         Half the distance between the quartiles, over the median.
     ns_per_second : float
         Nanoseconds of computing for a simulated second.
-    unsolved : float, optional
-        What sweeps left of a planar arm's equations (:mod:`tmm_gen.measure.unsolved`); the error counts it in.
+    accepted : float, optional
+        What ``model.unsolved`` must accept of a planar arm's run (:func:`tmm_gen.measure.tolerance.to_accept`): the
+        error counts it in.
     """
 
     error: float
     ns_per_step: float
     spread: float
     ns_per_second: float
-    unsolved: float | None = None
+    accepted: float | None = None
 
 
 def verify(
@@ -66,5 +68,6 @@ def verify(
     step = timed_step(configuration.step, excitation.until)
     series = Series(kernel, signals, whole_steps(excitation.until, step), step)
     cost = measured(series, rounds)
+    accepted = to_accept(chosen, simulation.unsolved, simulation.step_error)
     per_second = cost.ns_per_step / configuration.step
-    return Verified(error, cost.ns_per_step, cost.spread, per_second, simulation.unsolved)
+    return Verified(error, cost.ns_per_step, cost.spread, per_second, accepted)
