@@ -103,7 +103,7 @@ def _controller(stage: Stage, kind: str) -> tuple[Any, Any]:
         nlpsol_opts=QUIET,
     )
     running = motion.state_cost(x) + motion.input_cost(x, u, disturbance)
-    controller.set_objective(mterm=problem.weights.terminal * motion.state_cost(x), lterm=running)
+    controller.set_objective(mterm=motion.state_cost(x) + motion.cost_to_go(x, disturbance), lterm=running)
     controller.set_rterm(u=np.zeros(INPUTS))
     for side, value in zip(("lower", "upper"), problem.torque, strict=True):
         beyond = -np.inf if side == "lower" else np.inf

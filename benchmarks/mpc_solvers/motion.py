@@ -21,6 +21,8 @@ import casadi as ca
 import numpy as np
 
 from tmm_gen.control.bench import Bench
+from tmm_gen.control.links import rest_state
+from tmm_gen.control.terminal import end_rows
 
 
 class Motion:
@@ -97,13 +99,23 @@ class Motion:
         return found
 
     def state_cost(self, x: Any) -> Any:
-        """Return what a state costs, without the factor of the end of the horizon."""
+        """Return what a state costs."""
         weights = self.bench.problem.weights
         targets = {"tip": self.bench.problem.reference, "hub": self.bench.links.target_hub}
         return 0.5 * sum(
             getattr(weights, name) * (value - targets.get(name, 0.0)) ** 2
             for name, value in self.outputs(x).items()
         )
+
+    def cost_to_go(self, x: Any, disturbance: Any) -> Any:
+        """Return what a state still costs after it; the same for all states of the kernel with its z and z'."""
+        end = end_rows(self.bench.links, self.bench.problem.weights)
+        rest = rest_state(self.step, self.bench.links)[self.angles]
+        ahead, later = x[: self.count], x[self.count : 2 * self.count]
+        left = ca.mtimes(end[:, self.angles], ahead - self.h * later - rest)
+        left += ca.mtimes(end[:, self.rates], later)
+        left += ca.mtimes(end[:, -1:], x[2 * self.count] + disturbance)
+        return 0.5 * ca.sumsqr(left)
 
     def input_cost(self, x: Any, u: Any, disturbance: Any) -> Any:
         """Return what torque, its change and both slacks cost."""

@@ -107,7 +107,8 @@ def _cost(stage: Stage) -> tuple[Any, Any, Any]:
     for k in range(count):
         here, after = point[k * width : k * width + size], point[(k + 1) * width : (k + 1) * width + size]
         value += motion.input_cost(here, point[k * width + size : (k + 1) * width], disturbance)
-        value += (problem.weights.terminal if k == count - 1 else 1.0) * motion.state_cost(after)
+        value += motion.state_cost(after)
+    value += motion.cost_to_go(after, disturbance)
     hessian, gradient = ca.hessian(value, point)
     constant = ca.DM(ca.Function("hessian", [], [hessian])()["o0"])
     given = [point, disturbance]

@@ -8,7 +8,7 @@ from tmm_gen.scene import Scene, load_scene
 
 SWING = Path(__file__).resolve().parents[2] / "scenes" / "swing.toml"
 WEIGHTS = {
-    **{"tip": 1.0, "hub": 0.2, "tip_rate": 0.02, "torque": 1e-3, "torque_step": 5e-3, "terminal": 10.0},
+    **{"tip": 1.0, "hub": 0.2, "tip_rate": 0.02, "torque": 1e-3, "torque_step": 5e-3},
     **{"overshoot": 1e3, "hub_bound": 1e3},
 }
 

@@ -1,8 +1,8 @@
 # swing: Flexible arm swung by one radian
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 6b90c64f2cded7b13abead2a111296948f509c27fdf2f5b6aa6bf2a4ebe1e528
-# sha256 of the rest of this file: 37c6bd115d7b8517b1bfaaa13aad554c48aaef99b3553ae390ce45e852836495
+# scene digest: 476044b5033909eab497869f77bea5ba149efd6384441c410156f4f20f4ae6ac
+# sha256 of the rest of this file: cc908a0f1038d76607e170d9d35451a88f601875a814af8961153bfa0cabfcd9
 """swing: Flexible arm swung by one radian."""
 
 from .kernel import (

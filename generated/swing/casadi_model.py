@@ -1,8 +1,8 @@
 # swing: Flexible arm swung by one radian
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 6b90c64f2cded7b13abead2a111296948f509c27fdf2f5b6aa6bf2a4ebe1e528
-# sha256 of the rest of this file: d67d93b740c783b00b7aab9910d3a4b78d5104bdfadf2e3ee215859e4cbd7fd8
+# scene digest: 476044b5033909eab497869f77bea5ba149efd6384441c410156f4f20f4ae6ac
+# sha256 of the rest of this file: 3f90117e29cd03e67db98a82f219a2a9c182931736e51272738865eae61f2c8e
 #
 # model: planar arm, large rotations, tip mass
 # stations: 5

@@ -1,8 +1,8 @@
 # swing: Flexible arm swung by one radian
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 6b90c64f2cded7b13abead2a111296948f509c27fdf2f5b6aa6bf2a4ebe1e528
-# sha256 of the rest of this file: 8e5cd1aa152357b34b92bd3f8944c75ea0066938b7aad06f61ed4aba930fb05e
+# scene digest: 476044b5033909eab497869f77bea5ba149efd6384441c410156f4f20f4ae6ac
+# sha256 of the rest of this file: 93488b6470397ad6efec9d870bf892acbf8e746786e6aa1cadde9ab494b6422b
 #
 # model: planar arm, large rotations, tip mass
 # stations: 5

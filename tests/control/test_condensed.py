@@ -15,8 +15,8 @@ from tmm_gen.control.response import response
 
 
 def predicted(model: LinearModel, problem: ControlProblem, state: np.ndarray, torques: np.ndarray, last: float,
-              disturbance: float) -> np.ndarray:  # fmt: skip
-    """Step a linear model through the horizon; tip, tip rate, hub, hub rate, (4, N)."""
+              disturbance: float) -> tuple[np.ndarray, np.ndarray]:  # fmt: skip
+    """Step a linear model through the horizon; tip, tip rate, hub, hub rate, (4, N), and what is left, (m + 1,)."""
     found = []
     for before, then in zip(np.append(last, torques[:-1]), torques, strict=True):
         pushed = disturbance - model.target_torque
@@ -24,7 +24,8 @@ def predicted(model: LinearModel, problem: ControlProblem, state: np.ndarray, to
         rows = (model.tip, model.tip_rate, model.hub, model.hub_rate)
         found.append([row @ state for row in rows])
     offsets = np.array([problem.reference, 0.0, model.target_hub, 0.0])
-    return (np.array(found) + offsets).T
+    left = np.append(state, torques[-1] + disturbance - model.target_torque)
+    return (np.array(found) + offsets).T, left
 
 
 def stated_cost(problem: ControlProblem, model: LinearModel, outputs: np.ndarray, torques: np.ndarray,
@@ -33,10 +34,9 @@ def stated_cost(problem: ControlProblem, model: LinearModel, outputs: np.ndarray
     weights, total = problem.weights, 0.0
     tip, tip_rate, hub, hub_rate = outputs
     for k in range(problem.horizon):
-        factor = weights.terminal if k == problem.horizon - 1 else 1.0
-        total += 0.5 * factor * weights.tip * (tip[k] - problem.reference) ** 2
-        total += 0.5 * factor * weights.hub * (hub[k] - model.target_hub) ** 2
-        total += 0.5 * factor * (weights.tip_rate * tip_rate[k] ** 2 + weights.hub_rate * hub_rate[k] ** 2)
+        total += 0.5 * weights.tip * (tip[k] - problem.reference) ** 2
+        total += 0.5 * weights.hub * (hub[k] - model.target_hub) ** 2
+        total += 0.5 * (weights.tip_rate * tip_rate[k] ** 2 + weights.hub_rate * hub_rate[k] ** 2)
         change = torques[k] - (torques[k - 1] if k else last)
         total += 0.5 * weights.torque * (torques[k] - model.target_torque + disturbance) ** 2
         total += 0.5 * weights.torque_step * change**2
@@ -57,17 +57,21 @@ def test_cost_and_rows_are_those_of_the_problem(bench: Bench) -> None:
     count, last, disturbance = problem.horizon, 0.4, -0.15
     state = 0.1 * random.standard_normal(model.size)
     along = random.uniform(-1.0, 1.0, count)
-    made = response(model, count)
+    end = random.standard_normal((3, model.size + 1))
+    made = response(model, count, end)
     condensed = Condensed(problem, made.slopes, model.target_hub, model.target_torque)
-    start = predicted(model, problem, state, along, last, disturbance)
-    gradient = condensed.gradient(Outputs(*start), along, last, disturbance)
-    low, high = condensed.bounds(Outputs(*start), along, last)
+    start, left = predicted(model, problem, state, along, last, disturbance)
+    at_start = Outputs(*start, end @ left)
+    gradient = condensed.gradient(at_start, along, last, disturbance)
+    low, high = condensed.bounds(at_start, along, last)
     origin = stated_cost(problem, model, start, along, last, disturbance, np.zeros((2, count)))
+    origin += 0.5 * np.sum((end @ left) ** 2)
     for _ in range(3):
         change, slack = random.uniform(-1.0, 1.0, count), random.uniform(0.0, 0.1, (2, count))
         torques, z = along + change, np.concatenate([change, *slack])
-        outputs = predicted(model, problem, state, torques, last, disturbance)
+        outputs, left = predicted(model, problem, state, torques, last, disturbance)
         stated = stated_cost(problem, model, outputs, torques, last, disturbance, slack)
+        stated += 0.5 * np.sum((end @ left) ** 2)
         quadratic = 0.5 * z @ condensed.hessian @ z + gradient @ z
         assert_allclose(quadratic, stated - origin, rtol=1e-9, atol=1e-9)
         changes = np.diff(torques, prepend=last)
@@ -88,9 +92,14 @@ def test_the_free_response_is_the_models(bench: Bench) -> None:
     model, problem = bench.links, bench.problem
     random = np.random.default_rng(1)
     state, torques = 0.1 * random.standard_normal(model.size), random.uniform(-3.0, 3.0, problem.horizon)
-    made = response(model, problem.horizon)
+    end = np.eye(model.size + 1)
+    made = response(model, problem.horizon, end)
     found = made.by_state @ state + made.by_constant * (0.3 - model.target_torque) + made.by_last * 0.7
-    slopes = (made.slopes.tip, made.slopes.tip_rate, made.slopes.hub, made.slopes.hub_rate)
-    found = found + np.array([slope @ torques for slope in slopes])
-    found += np.array([problem.reference, 0.0, model.target_hub, 0.0])[:, None]
-    assert_allclose(found, predicted(model, problem, state, torques, 0.7, 0.3), rtol=1e-9, atol=1e-9)
+    slopes = (made.slopes.tip, made.slopes.tip_rate, made.slopes.hub, made.slopes.hub_rate, made.slopes.end)
+    found += np.concatenate([slope @ torques for slope in slopes])
+    shown = made.outputs(found)
+    outputs, left = predicted(model, problem, state, torques, 0.7, 0.3)
+    targets = np.array([problem.reference, 0.0, model.target_hub, 0.0])[:, None]
+    together = np.array([shown.tip, shown.tip_rate, shown.hub, shown.hub_rate]) + targets
+    assert_allclose(together, outputs, rtol=1e-9, atol=1e-9)
+    assert_allclose(shown.end, left, rtol=1e-9, atol=1e-9)

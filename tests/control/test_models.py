@@ -41,20 +41,20 @@ def test_stepped_frequency_of_the_average_acceleration(swing: Scene) -> None:
         assert model_frequency(swing.integrator, 5e-3, wanted) == pytest.approx(expected, rel=1e-9)
 
 
-def test_links_and_modes_have_the_frequencies_of_the_beam(swing: Scene, bench: Bench) -> None:
-    beam = continuous(swing)
+def test_links_and_modes_have_the_frequencies_of_the_beam(bench: Bench) -> None:
+    beam = continuous(bench.assumed)
     assert beam is not None
     exact = natural_frequencies(beam, 3)[1:]
     assert_allclose(nearest(bench.links.transition, exact), exact, rtol=3e-3)  # damping shifts them
     assert_allclose(nearest(bench.modes.transition, exact), exact, rtol=2e-3)
 
 
-def test_a_beam_of_few_links_is_too_slow_without_calibration(swing: Scene, small: Bench) -> None:
+def test_a_beam_of_few_links_is_too_slow_without_calibration(small: Bench) -> None:
     from tmm_gen.control.prediction import prediction_scene
 
-    raw = StepModel(prediction_scene(small.scene, calibrate=False), small.problem)
+    raw = StepModel(prediction_scene(small.assumed, calibrate=False), small.problem)
     transition, _ = raw.jacobian(raw.straight(1.0), 0.0)
-    beam = continuous(swing)
+    beam = continuous(small.assumed)
     assert beam is not None
     exact = natural_frequencies(beam, 3)[1:]
     assert nearest(transition, exact)[0] < 0.95 * exact[0]

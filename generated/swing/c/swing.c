@@ -2,8 +2,8 @@
  * swing: Flexible arm swung by one radian
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 6b90c64f2cded7b13abead2a111296948f509c27fdf2f5b6aa6bf2a4ebe1e528
- * sha256 of the rest of this file: f9113d4c36f1fe40c556450097e8320c63829656561eed6030a96780df413d06
+ * scene digest: 476044b5033909eab497869f77bea5ba149efd6384441c410156f4f20f4ae6ac
+ * sha256 of the rest of this file: a6107581db79fb3d7c32275d3906a61a5a644857166ed0261384620222f1160c
  *
  * model: planar arm, large rotations, tip mass
  * stations: 5

@@ -2,8 +2,8 @@
  * swing: Flexible arm swung by one radian
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 6b90c64f2cded7b13abead2a111296948f509c27fdf2f5b6aa6bf2a4ebe1e528
- * sha256 of the rest of this file: 8018a5a6b7dc0af55f2dbfde7385b38d2cf69bef5b427873d901728bd305e743
+ * scene digest: 476044b5033909eab497869f77bea5ba149efd6384441c410156f4f20f4ae6ac
+ * sha256 of the rest of this file: 0051adc17e4a6d1cfbac1b56ed493e206a7613d5a9dc04f764c12068eae8573a
  *
  * model: planar arm, large rotations, tip mass
  * stations: 5

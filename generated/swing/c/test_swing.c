@@ -2,8 +2,8 @@
  * swing: Flexible arm swung by one radian
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 6b90c64f2cded7b13abead2a111296948f509c27fdf2f5b6aa6bf2a4ebe1e528
- * sha256 of the rest of this file: 12cac19a9be24a357c1391b883e806b9d9326d3c7a37834b7065f8ebe00aa2cc
+ * scene digest: 476044b5033909eab497869f77bea5ba149efd6384441c410156f4f20f4ae6ac
+ * sha256 of the rest of this file: f0dd3965fed9a3e637a3358d4d9360461369916a2e72c0e16656b7fccd8dc095
  *
  * model: planar arm, large rotations, tip mass
  * stations: 5

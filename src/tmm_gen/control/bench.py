@@ -16,6 +16,8 @@ from tmm_gen.modal.arm import linear_arm
 from tmm_gen.modal.matrices import matrices
 from tmm_gen.scene import Scene
 
+_MODELS = ("step", "links", "modes", "inertia")
+
 
 @dataclass(frozen=True, eq=False)
 class Bench:
@@ -53,24 +55,29 @@ class Bench:
         return Bench(scene, replace(self.problem, delay=self.problem.delay + condition.delay))
 
     def retuned(self, scene: Scene) -> Bench:
-        """Return the bench of the same arm with other weights, estimator or baselines; models are not made anew."""
-        return Bench(scene, self.problem).with_problem(control_problem(scene), self)
+        """Return the bench of the same arm with other weights, estimator, baselines or payload to reckon with.
 
-    def with_problem(self, problem: ControlProblem, models: Bench | None = None) -> Bench:
+        Models there are already are shared, unless they reckon with another payload.
+        """
+        payloads = {each.control.payload if each.control else 1.0 for each in (self.scene, scene)}
+        return self._sharing(scene, control_problem(scene)) if len(payloads) == 1 else Bench.of(scene)
+
+    def with_problem(self, problem: ControlProblem) -> Bench:
         """Return the bench with another problem of the same sample time, horizon, substeps, delay and reference.
 
-        Parameters
-        ----------
-        problem : ControlProblem
-            To be solved.
-        models : Bench, optional
-            Where models that exist are taken from; by default this one.
+        Models are made here, once for all.
         """
-        source = models or self
-        other = Bench(self.scene, problem)
-        for name in ("links", "modes", "inertia"):
-            other.__dict__[name] = getattr(source, name)
-        other.__dict__["step"] = source.step.with_problem(problem)
+        for name in _MODELS:
+            getattr(self, name)
+        return self._sharing(self.scene, problem)
+
+    def _sharing(self, scene: Scene, problem: ControlProblem) -> Bench:
+        """Return a bench with the models that have been made here."""
+        other = Bench(scene, problem)
+        for name in _MODELS:
+            if name in self.__dict__:
+                model = self.__dict__[name]
+                other.__dict__[name] = model.with_problem(problem) if isinstance(model, StepModel) else model
         return other
 
     @property

@@ -24,12 +24,15 @@ class Outputs:
     ----------
     tip, tip_rate, hub, hub_rate : array, (N,) or (N, N)
         After samples 1 to N: rad and rad/s; or their derivatives by ``u[0], ..., u[N-1]``.
+    end : array, (r,) or (r, N)
+        ``G s_N``, what is left at the end: half its square is the cost to go; or its derivatives.
     """
 
     tip: Array
     tip_rate: Array
     hub: Array
     hub_rate: Array
+    end: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,7 +44,7 @@ class Condensed:
     problem : ControlProblem
         What is to be solved.
     slopes : Outputs
-        Derivatives by the inputs, (N, N) each.
+        Derivatives by the inputs, (N, N) each, those of the end (r, N).
     target_hub, target_torque : float
         ``hub_s`` (rad), ``u_s`` (N m).
     """
@@ -57,13 +60,6 @@ class Condensed:
         return len(self.hessian)
 
     @cached_property
-    def factors(self) -> Array:
-        """``f_i``, (N,): one, and the terminal factor at the end."""
-        found = np.ones(self.problem.horizon)
-        found[-1] = self.problem.weights.terminal
-        return found
-
-    @cached_property
     def difference(self) -> Array:
         """``D``, (N, N): changes of the inputs are ``D u - e_0 u[-1]``."""
         count = self.problem.horizon
@@ -74,7 +70,7 @@ class Condensed:
         """The part of the inputs, (N, N), Gauss-Newton."""
         weights, slopes = self.problem.weights, self.slopes
         found = weights.torque * np.eye(self.problem.horizon)
-        found += weights.torque_step * self.difference.T @ self.difference
+        found += weights.torque_step * self.difference.T @ self.difference + slopes.end.T @ slopes.end
         for weight, slope in (
             (weights.tip, slopes.tip),
             (weights.hub, slopes.hub),
@@ -82,7 +78,7 @@ class Condensed:
             (weights.hub_rate, slopes.hub_rate),
         ):
             if weight:
-                found += weight * slope.T @ (self.factors[:, None] * slope)
+                found += weight * slope.T @ slope
         return found
 
     @cached_property
@@ -126,7 +122,7 @@ class Condensed:
         Parameters
         ----------
         along : Outputs
-            Predicted with the inputs below, (N,) each.
+            Predicted with the inputs below, (N,) each, (r,) at the end.
         inputs : array, (N,)
             ``u^``, N m.
         last : float
@@ -138,7 +134,7 @@ class Condensed:
         changes = self.difference @ inputs
         changes[0] -= last
         found = weights.torque * (inputs - self.target_torque + disturbance)
-        found += weights.torque_step * (changes @ self.difference)
+        found += weights.torque_step * (changes @ self.difference) + along.end @ slopes.end
         for weight, slope, error in (
             (weights.tip, slopes.tip, along.tip - self.problem.reference),
             (weights.hub, slopes.hub, along.hub - self.target_hub),
@@ -146,7 +142,7 @@ class Condensed:
             (weights.hub_rate, slopes.hub_rate, along.hub_rate),
         ):
             if weight:
-                found += weight * (self.factors * error) @ slope
+                found += weight * error @ slope
         return np.concatenate([found, np.zeros(self.size - len(found))])
 
     def bounds(self, along: Outputs, inputs: Array, last: float) -> tuple[Array, Array]:

@@ -17,8 +17,10 @@ from numpy.typing import NDArray
 from tmm_gen.control.command import Command, Status
 from tmm_gen.control.extended_kalman import ExtendedKalmanFilter
 from tmm_gen.control.linear import LinearModel
+from tmm_gen.control.links import rest_state
 from tmm_gen.control.model_based import ModelBased
 from tmm_gen.control.step_model import StepModel
+from tmm_gen.control.terminal import end_rows
 
 Array = NDArray[np.float64]
 Solver = Literal["fatrop", "ipopt"]
@@ -28,12 +30,12 @@ _OPTIONS: dict[str, dict[str, Any]] = {
         "structure_detection": "auto",
         "expand": True,
         "print_time": False,
-        "fatrop": {"print_level": 0, "tol": 1e-8, "max_iter": 200},
+        "fatrop": {"print_level": 0, "tol": 1e-10, "max_iter": 200},
     },
     "ipopt": {
         "expand": True,
         "print_time": False,
-        "ipopt": {"print_level": 0, "sb": "yes", "tol": 1e-8, "max_iter": 200},
+        "ipopt": {"print_level": 0, "sb": "yes", "tol": 1e-10, "max_iter": 200},
     },
 }
 
@@ -105,7 +107,7 @@ class FullNmpc(ModelBased):
             cost += 0.5 * weights.torque * (torque - self.linear.target_torque + disturbance) ** 2
             cost += 0.5 * weights.torque_step * change**2
             cost += 0.5 * (weights.overshoot * free[k][1] ** 2 + weights.hub_bound * free[k][2] ** 2)
-            cost += 0.5 * (weights.terminal if k == count - 1 else 1.0) * self._stage_cost(after)
+            cost += 0.5 * self._stage_cost(after)
             tip, hub = self._row("tip", after), self._row("hub", after)
             more = [(tip, free[k][1], problem.tip), (hub, free[k][2], problem.hub)]
             for value, slack, bounds in more:
@@ -122,6 +124,9 @@ class FullNmpc(ModelBased):
                 equality.append(False)
                 low_rows.append(-largest)
                 high_rows.append(largest)
+        rest = np.append(rest_state(self.model, self.linear), self.linear.target_torque)
+        left = state[-1] - rest + ca.vertcat(np.zeros(size), disturbance)
+        cost += 0.5 * ca.sumsqr(ca.mtimes(end_rows(self.linear, weights), left))
         variables = [part for pair in zip(state, free, strict=False) for part in pair] + [state[-1]]
         low, high = np.full((count, self.width), -np.inf), np.full((count, self.width), np.inf)
         low[:, size + 1], high[:, size + 1] = problem.torque

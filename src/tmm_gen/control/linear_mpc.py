@@ -6,13 +6,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.control.command import Command, Status
-from tmm_gen.control.condensed import Condensed, Outputs
+from tmm_gen.control.condensed import Condensed
 from tmm_gen.control.kalman import KalmanFilter
 from tmm_gen.control.linear import LinearModel
 from tmm_gen.control.model_based import ModelBased
 from tmm_gen.control.problem import ControlProblem
 from tmm_gen.control.qp import QuadraticProgram, Solution
 from tmm_gen.control.response import response
+from tmm_gen.control.terminal import end_rows
 
 Array = NDArray[np.float64]
 
@@ -32,9 +33,10 @@ class LinearMpc(ModelBased):
 
     def __init__(self, model: LinearModel, problem: ControlProblem, inertia: float) -> None:
         self.model = model
-        self.response = response(model, problem.horizon)
+        self.response = response(model, problem.horizon, end_rows(model, problem.weights))
         self.condensed = Condensed(problem, self.response.slopes, model.target_hub, model.target_torque)
-        self.offsets = np.array([problem.reference, 0.0, model.target_hub, 0.0])[:, None]
+        targets = np.repeat([problem.reference, 0.0, model.target_hub, 0.0], problem.horizon)
+        self.offsets = np.concatenate([targets, np.zeros(len(self.response.slopes.end))])
         self._program = QuadraticProgram(self.condensed.hessian, self.condensed.rows, problem.horizon)
         super().__init__(problem, KalmanFilter(model, problem), model.delay, inertia)
 
@@ -52,7 +54,7 @@ class LinearMpc(ModelBased):
         """Return the torques over the horizon, and the slacks behind them, with arguments as for :meth:`decide`."""
         pushed = disturbance - self.model.target_torque
         found = self.response.by_state @ state + self.response.by_constant * pushed
-        along = Outputs(*(found + self.response.by_last * last + self.offsets))
+        along = self.response.outputs(found + self.response.by_last * last + self.offsets)
         nothing = np.zeros(self.problem.horizon)
         return self._program.solve(
             self.condensed.gradient(along, nothing, last, disturbance),

@@ -19,6 +19,11 @@ def target_state(model: StepModel, target: Target) -> Array:
     return state
 
 
+def rest_state(model: StepModel, linear: LinearModel) -> Array:
+    """Return the kernel's state about which a linear model of it was made."""
+    return model.initial() - linear.start
+
+
 def links_model(model: StepModel) -> LinearModel:
     """Return the linear model of a generated step; its state is the kernel's, less that at the target.
 

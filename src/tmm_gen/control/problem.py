@@ -24,17 +24,18 @@ The state is first predicted over ``whole`` samples with torques already chosen;
 
 **Problem.** Over ``u = (u[0], ..., u[N-1])`` and one slack per stage and soft bound,
 
-    minimise    1/2 sum_{i=1..N} f_i ( W.tip (tip_i - reference)^2 + W.hub (hub_i - hub_s)^2
-                                       + W.tip_rate tip'_i^2 + W.hub_rate hub'_i^2 )
+    minimise    1/2 sum_{i=1..N} ( W.tip (tip_i - reference)^2 + W.hub (hub_i - hub_s)^2
+                                   + W.tip_rate tip'_i^2 + W.hub_rate hub'_i^2 )
               + 1/2 sum_{i=0..N-1} ( W.torque (u_i - u_s + d)^2 + W.torque_step (u_i - u_{i-1})^2 )
-              + 1/2 sum_{i=1..N} ( W.overshoot s_i^2 + W.hub_bound r_i^2 )
+              + 1/2 sum_{i=1..N} ( W.overshoot s_i^2 + W.hub_bound r_i^2 )  +  1/2 |G (x_N - x_s, u_{N-1} - u_s + d)|^2
     subject to  torque_low <= u_i <= torque_high                                           i = 0..N-1
                 -rate T <= u_i - u_{i-1} <= rate T            (if there is a torque_rate)   i = 0..N-1
                 tip_low - s_i <= tip_i <= tip_high + s_i      (if there is an overshoot)    i = 1..N
                 hub_low - r_i <= hub_i <= hub_high + r_i      (if there are hub bounds)     i = 1..N
 
-with ``f_i = 1``, ``f_N = W.terminal``. Of the tip only the side beyond the reference is bounded, by
-``reference + overshoot (reference - start)``, where ``start`` is the tip angle of the scene's initial state.
+The last term is the cost to go: what the first two sums would come to beyond the horizon, without bounds, for the model
+linearised about the target (:mod:`tmm_gen.control.terminal`). Of the tip only the side beyond the reference is bounded,
+by ``reference + overshoot (reference - start)``, where ``start`` is the tip angle of the scene's initial state.
 
 **Condensed QP.** Predictions are affine in the inputs about a trajectory ``u^``:
 

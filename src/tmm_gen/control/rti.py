@@ -16,10 +16,12 @@ from tmm_gen.control.command import Command, Status
 from tmm_gen.control.condensed import Condensed, Outputs
 from tmm_gen.control.extended_kalman import ExtendedKalmanFilter, NonlinearFilter
 from tmm_gen.control.linear import LinearModel
+from tmm_gen.control.links import rest_state
 from tmm_gen.control.model_based import ModelBased
 from tmm_gen.control.qp import QuadraticProgram
 from tmm_gen.control.response import response
 from tmm_gen.control.step_model import StepModel
+from tmm_gen.control.terminal import end_rows
 
 Array = NDArray[np.float64]
 
@@ -45,7 +47,8 @@ class RealTimeIteration(ModelBased):
     ) -> None:
         problem = model.problem
         self.model, self.linear, self.zero_order = model, linear, zero_order
-        slopes = response(linear, problem.horizon).slopes
+        self.end = end_rows(linear, problem.weights)
+        slopes = response(linear, problem.horizon, self.end).slopes
         self.prepared = Condensed(problem, slopes, linear.target_hub, linear.target_torque)
         kind = NonlinearFilter if zero_order else ExtendedKalmanFilter
         self._program = QuadraticProgram(self.prepared.hessian, self.prepared.rows, problem.horizon)
@@ -59,6 +62,11 @@ class RealTimeIteration(ModelBased):
             [model.mean_row("angle"), model.mean_row("rate"), model.hub_row("angle"), model.hub_row("rate")]
         )
 
+    @property
+    def target(self) -> Array:
+        """The state at the target, (m,)."""
+        return rest_state(self.model, self.linear)
+
     def _start(self) -> None:
         super()._start()
         self._program.forget()
@@ -70,7 +78,9 @@ class RealTimeIteration(ModelBased):
         plan = np.clip(np.append(self._plan[1:], self._plan[-1]), low, high)
         inputs = np.vstack([np.append(last, plan[:-1]), plan]) + disturbance
         states = np.array(self.model.rollout(state, inputs))
-        along = Outputs(*(self.rows @ states))
+        left = np.append(states[:, -1] - self.target, inputs[1, -1] - self.linear.target_torque)
+        tip, tip_rate, hub, hub_rate = self.rows @ states
+        along = Outputs(tip, tip_rate, hub, hub_rate, self.end @ left)
         condensed = self.prepared if self.zero_order else self._linearised(state, states, inputs)
         renewed = condensed is not self.prepared
         solution = self._program.solve(
@@ -100,4 +110,7 @@ class RealTimeIteration(ModelBased):
                 carried[:, stage - 1] += drives[:, stage, 0]
             carried[:, stage] += drives[:, stage, 1]
             slopes[:, stage] = self.rows @ carried
-        return Condensed(self.problem, Outputs(*slopes), self.linear.target_hub, self.linear.target_torque)
+        left = np.vstack([carried, np.eye(1, count, count - 1)])
+        tip, tip_rate, hub, hub_rate = slopes
+        found = Outputs(tip, tip_rate, hub, hub_rate, self.end @ left)
+        return Condensed(self.problem, found, self.linear.target_hub, self.linear.target_torque)

@@ -1,15 +1,13 @@
 """Every controller tuned by the same optimiser, on the same objective, with the same number of closed loops.
 
-CMA-ES (N. Hansen, A. Ostermeier, Evol. Comput. 9, 2001) on the logarithms of gains or weights, by the package `cma`:
-settling time has steps, so that nothing smoother will do, and a dozen numbers are too many for a search that does
-not learn how they depend on one another. It begins at the best of points spread evenly over the ranges below; the
-scene's own numbers play no part.
+The logarithms of gains or weights are searched (:mod:`tmm_gen.control.search`), over ranges; the scene's own numbers
+play no part. Predictive control without bounds is the regulator of the same weights, whose loops cost a tenth: so
+weights and estimator of a regulator are searched first, and predictive control begins where that has ended.
 """
 
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -19,7 +17,7 @@ from numpy.typing import NDArray
 
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.objective import objective
-from tmm_gen.errors import UserError
+from tmm_gen.control.search import search_nearby, search_widely
 from tmm_gen.scene import Scene
 
 Array = NDArray[np.float64]
@@ -28,12 +26,6 @@ EVALUATIONS = 1000
 """Of the objective, for each of what is tuned."""
 FEWEST = 20
 """Evaluations below which nothing can be learnt."""
-_SPREAD_EVENLY = 0.25
-"""Share of the evaluations spent on points spread evenly over the ranges."""
-_STEP = 0.15
-"""Standard deviation of the first steps from the best of them, relative to the ranges."""
-_FAR = 1.2
-"""What costs so many times as much as the best so far need not be tried to the end."""
 _DIGITS = 3
 
 
@@ -47,11 +39,21 @@ class Knob:
         In the scene, dotted; the same key twice makes a list.
     low, high : float
         Decimal logarithms of its range.
+    grid : float, optional
+        What its values are multiples of; by default they have three digits.
     """
 
     key: str
     low: float
     high: float
+    grid: float | None = None
+
+    def value(self, place: float) -> float:
+        """Return what it is turned to at a place in its range, 0 to 1."""
+        value = 10.0 ** (self.low + (self.high - self.low) * place)
+        if self.grid is not None:
+            value = self.grid * round(value / self.grid)
+        return float(f"{value:.{_DIGITS}g}")
 
 
 @dataclass(frozen=True)
@@ -68,12 +70,15 @@ class Tunable:
         Whose objectives count, all with one tuning.
     knobs : tuple of Knob
         What may be turned.
+    first : Tunable, optional
+        What is tuned before, and where the search then begins.
     """
 
     name: str
     title: str
     controllers: tuple[str, ...]
     knobs: tuple[Knob, ...]
+    first: Tunable | None = None
 
 
 @dataclass(frozen=True)
@@ -86,12 +91,15 @@ class Tuned:
         What was tuned.
     scene : Scene
         With the numbers found.
+    places : array, (knobs,)
+        Where these are in their ranges, 0 to 1.
     price, price_before : float
         Of the numbers found and of those the scene had.
     """
 
     tunable: Tunable
     scene: Scene
+    places: Array
     price: float
     price_before: float
 
@@ -100,17 +108,20 @@ _WEIGHTS = (("hub", -2.0, 1.0), ("tip_rate", -3.0, 0.0), ("hub_rate", -4.0, -1.0
 """Two or three decades each, as all that follow: a tip weight of one, and time constants below a second."""
 _MORE_WEIGHTS = (
     ("torque_step", -5.0, -2.0),
-    ("terminal", 0.0, 2.0),
-    ("overshoot", 1.0, 4.0),
+    ("overshoot", 0.0, 3.0),
     ("hub_bound", 0.0, 3.0),
 )
 _ESTIMATOR = (
-    ("encoder", -3.5, -1.5),  # a count of 16384 is 4e-4 rad
+    ("encoder", -3.5, -1.5),  # from a few counts of good encoders
     ("accelerometer", -1.5, 0.5),  # of some m/s^2
     ("torque", -3.0, 0.0),  # of 3 N m
     ("disturbance", -3.0, 0.0),
     ("rate", -3.0, 0.0),  # of some rad/s
 )
+
+
+_PAYLOAD = Knob("control.payload", 0.0, math.log10(1.4), grid=0.05)
+"""Of what is tried the heaviest carries half as much again. A grid, since models are made anew for each value."""
 
 
 def _knobs(prefix: str, ranges: Sequence[tuple[str, float, float]]) -> tuple[Knob, ...]:
@@ -122,14 +133,24 @@ def _pd(name: str, title: str) -> Tunable:
     return Tunable(name, title, (name,), (Knob(gains, -1.0, 2.0), Knob(gains, -1.5, 1.5)))
 
 
+_OF_MPC, _OF_LQR = "control.weights", "control.baselines.lqr"
+_ESTIMATING = (*_knobs("control.estimator", _ESTIMATOR), _PAYLOAD)
+_REGULATOR = Tunable(
+    "regulator",
+    "weights and estimator of a regulator",
+    ("lqr",),
+    (*_knobs(_OF_LQR, _WEIGHTS), *_ESTIMATING),
+)
+
 TUNABLE: tuple[Tunable, ...] = (
     Tunable(
         "mpc",
         "weights and estimator of predictive control",
         ("mpc-modes", "mpc-links", "rti-zero"),
-        _knobs("control.weights", (*_WEIGHTS, *_MORE_WEIGHTS)) + _knobs("control.estimator", _ESTIMATOR),
+        (*_knobs(_OF_MPC, (*_WEIGHTS, *_MORE_WEIGHTS)), *_ESTIMATING),
+        _REGULATOR,
     ),
-    Tunable("lqr", "weights of LQR", ("lqr",), _knobs("control.baselines.lqr", _WEIGHTS)),
+    Tunable("lqr", "weights of LQR", ("lqr",), _knobs(_OF_LQR, _WEIGHTS)),
     _pd("pd", "gains of PD"),
     _pd("pd-zv", "gains of PD, ZV shaper"),
     _pd("pd-zvd", "gains of PD, ZVD shaper"),
@@ -151,8 +172,7 @@ def turned(scene: Scene, tunable: Tunable, places: Array) -> Scene:
     """
     values: dict[str, list[float]] = {}
     for knob, place in zip(tunable.knobs, places, strict=True):
-        value = 10.0 ** (knob.low + (knob.high - knob.low) * float(place))
-        values.setdefault(knob.key, []).append(float(f"{value:.{_DIGITS}g}"))
+        values.setdefault(knob.key, []).append(knob.value(float(place)))
     return scene.replace(**{key: found if len(found) > 1 else found[0] for key, found in values.items()})
 
 
@@ -181,7 +201,7 @@ def tune(
     tunable : Tunable
         What is tuned.
     evaluations : int
-        Of the objective, at least `FEWEST`.
+        Of the objective, at least `FEWEST`; half of them go to what is tuned first, if there is such.
     seed : int
         Of the search; the same one finds the same numbers.
     advance : callable, optional
@@ -195,54 +215,36 @@ def tune(
     UserError
         If there is no package `cma`.
     """
+    first = None
+    if tunable.first is not None:
+        first = tune(bench, tunable.first, evaluations // 2, seed, advance, cost)
+        evaluations -= evaluations // 2
     judged = cost or (lambda tried, enough: objective(tried, tunable.controllers, enough=enough))
-    best = (math.inf, bench)
+    best = (math.inf, bench.scene, np.zeros(0))
+    benches = {number(bench.scene, _PAYLOAD.key): bench}
 
-    def tried(places: Array) -> float:
+    def tried(places: Array, enough: float) -> float:
         nonlocal best
-        other = bench.retuned(turned(bench.scene, tunable, places))
-        found = judged(other, _FAR * best[0])
+        scene = turned(bench.scene, tunable, places)
+        payload = number(scene, _PAYLOAD.key)
+        other = benches[payload] = benches.get(payload, bench).retuned(scene)
+        found = judged(other, enough)
         if found < best[0]:
-            best = (found, other)
+            best = (found, scene, places)
         if advance is not None:
             advance(best[0])
         return found
 
     before = judged(bench, math.inf)
-    _search(tried, len(tunable.knobs), evaluations, seed)
-    return Tuned(tunable, best[1].scene, best[0], before)
+    if first is None:
+        search_widely(tried, len(tunable.knobs), evaluations, seed)
+    else:
+        search_nearby(tried, _begin(tunable, first), evaluations, seed)
+    return Tuned(tunable, best[1], best[2], best[0], before)
 
 
-def _search(cost: Callable[[Array], float], dimensions: int, evaluations: int, seed: int) -> None:
-    """Evaluate a function so many times over the unit cube, more and more where it is low."""
-    from scipy.stats import qmc  # slow to import
-
-    cma: Any = _cma()
-    spread = max(FEWEST // 2, round(_SPREAD_EVENLY * evaluations))
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", UserWarning)  # Sobol's points are best balanced in powers of two
-        first = qmc.Sobol(dimensions, seed=seed).random(spread)
-    prices = [cost(places) for places in first]
-    random = np.random.default_rng(seed + 1)
-    options = {
-        "bounds": [0.0, 1.0],
-        "randn": lambda *shape: random.standard_normal(shape),
-        "seed": seed + 1,
-        "verbose": -9,
-    }
-    strategy = cma.CMAEvolutionStrategy(first[int(np.argmin(prices))], _STEP, options)
-    left = evaluations - spread
-    while left > 0:
-        places = strategy.ask()
-        found = [cost(place) for place in places[:left]]
-        left -= len(found)
-        if len(found) == len(places):
-            strategy.tell(places, found)
-
-
-def _cma() -> Any:
-    try:
-        import cma
-    except ImportError:
-        raise UserError("tuning needs the package cma: pip install 'tmm-gen[mpc]'") from None
-    return cma
+def _begin(tunable: Tunable, first: Tuned) -> Array:
+    """Return where what was tuned first ended; what that does not know begins at the low end of its range."""
+    places = {knob.key: place for knob, place in zip(first.tunable.knobs, first.places, strict=True)}
+    keys = (knob.key.replace(_OF_MPC, _OF_LQR) for knob in tunable.knobs)
+    return np.array([places.get(key, 0.0) for key in keys])

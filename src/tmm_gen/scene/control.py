@@ -42,8 +42,6 @@ class Weights(Table):
         Of the torque beyond what holds the target, 1/(N m)^2.
     torque_step : float
         Of the change of torque from sample to sample, 1/(N m)^2; positive, since it makes the problem convex.
-    terminal : float
-        Factor of the first four at the end of the horizon.
     overshoot, hub_bound : float
         Of what the tip angle passes its bound by, and the hub angle its own, 1/rad^2.
     """
@@ -56,7 +54,6 @@ class Weights(Table):
     torque_step: Positive = Field(
         default=1e-3, description="weight of the change of torque", examples=["1e-3"]
     )
-    terminal: Positive = Field(default=1.0, description="factor at the end of the horizon", examples=["10.0"])
     overshoot: Positive = Field(default=1e4, description="weight of overshoot", examples=["1e4"])
     hub_bound: Positive = Field(
         default=1e4, description="weight of passing the hub's bounds", examples=["1e4"]

@@ -117,48 +117,47 @@ sample_time = 0.02             # s
 substeps = 4                   # steps of the generated kernel per sample
 modes = 4                      # where prediction is by modes
 delay = 0.0                    # from a measurement to the torque that answers it, s
-payload = 1.035                # mass at the tip that controllers reckon with, relative to the one above
+payload = 1.24                 # mass at the tip that controllers reckon with, relative to the one above
 
 [control.weights]              # of squares, per sample
 tip = 1.0                      # 1/rad^2
-hub = 5.35                     # 1/rad^2
-tip_rate = 0.147               # s^2/rad^2
-hub_rate = 0.00606             # s^2/rad^2
-torque = 0.00609               # 1/(N m)^2, beyond what holds the target
-torque_step = 0.000162         # 1/(N m)^2, of its change
-terminal = 5.56                # factor at the end of the horizon
-overshoot = 147.0              # 1/rad^2, of passing the soft bounds below
-hub_bound = 30.7               # 1/rad^2
+hub = 9.92                     # 1/rad^2
+tip_rate = 0.277               # s^2/rad^2
+hub_rate = 0.000979            # s^2/rad^2
+torque = 0.00436               # 1/(N m)^2, beyond what holds the target
+torque_step = 0.00141          # 1/(N m)^2, of its change
+overshoot = 14.3               # 1/rad^2, of passing the soft bounds below
+hub_bound = 1.01               # 1/rad^2
 
 [control.bounds]
 torque = 3.0                   # N m, always kept
 hub = [-0.1, 1.02]             # rad; passed where there is no other way
 overshoot = 0.005              # of the tip, relative to its way; likewise
 
-# As data sheets have them: an ordinary industrial encoder of 4096 lines in quadrature; a MEMS accelerometer
-# of low noise, 25 ug/sqrt(Hz) over the 25 Hz that a sample can see, and some more.
+# As data sheets have them: an absolute encoder of 16 bits, as robots have at their joints; an ordinary MEMS
+# accelerometer, 300 ug/sqrt(Hz) over the 25 Hz that a sample can see, and some more.
 [control.sensors]
-encoder = 16384                # counts per revolution of the hub
-accelerometer = 0.002          # noise at the tip, m/s^2; leave out what is not there
+encoder = 65536                # counts per revolution of the hub
+accelerometer = 0.02           # noise at the tip, m/s^2; leave out what is not there
 # strain = 0.01                # noise of the bending moment at the root, N m
 
 [control.estimator]            # standard deviations the Kalman filter assumes, model errors included
-encoder = 0.00326              # rad
-accelerometer = 0.237          # m/s^2
-torque = 0.032                 # unknown torque, N m
-disturbance = 0.111            # change of the constant part per sample, N m
-rate = 0.569                   # change of rate per sample that no torque explains, rad/s
+encoder = 0.000397             # rad
+accelerometer = 2.47           # m/s^2
+torque = 0.00853               # unknown torque, N m
+disturbance = 0.505            # change of the constant part per sample, N m
+rate = 0.0407                  # change of rate per sample that no torque explains, rad/s
 
 [control.baselines]            # what predictive control is compared with; gains in N m/rad, N m s/rad
-pd = [8.97, 2.67]
-pd_zv = [10.8, 2.87]           # with a shaped reference
-pd_zvd = [11.0, 2.78]
+pd = [9.25, 2.71]
+pd_zv = [11.5, 2.98]           # with a shaped reference
+pd_zvd = [11.1, 2.62]
 
 [control.baselines.lqr]        # weights beside that of the tip, 1
-hub = 0.247
-tip_rate = 0.0208
-hub_rate = 0.000656
-torque = 0.0017
+hub = 9.72
+tip_rate = 0.276
+hub_rate = 0.000996
+torque = 0.00395
 """
 
 _CHAIN_MODEL = """\

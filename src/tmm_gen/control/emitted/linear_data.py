@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.control.command import Status
-from tmm_gen.control.condensed import Outputs
 from tmm_gen.control.emitted.program_data import ProgramData, program_data
 from tmm_gen.control.kalman import KalmanFilter
 from tmm_gen.control.linear_mpc import LinearMpc
@@ -151,7 +150,7 @@ def _affine_maps(controller: LinearMpc) -> tuple[Array, Array]:
             + found.by_last * last
             + controller.offsets * one
         )
-        along = Outputs(*motion)
+        along = found.outputs(motion)
         gradient = controller.condensed.gradient(along, none, last, disturbance)[: problem.horizon]
         rows = []
         if problem.torque_rate is not None:

@@ -45,6 +45,12 @@ class RtiData:
         The quadratic program at the target.
     answers : array, (outputs, N)
         To a torque, sample by sample, at the target.
+    target : array, (m,)
+        The state at rest there.
+    end : array, (r, m + 1)
+        G of the cost to go, by the state off the target and the last torque off the target's.
+    end_gradient : array, (N, m + 1)
+        What these make of the gradient, at the target.
     """
 
     size: int
@@ -63,6 +69,9 @@ class RtiData:
     memory: int
     program: ProgramData
     answers: Array
+    target: Array
+    end: Array
+    end_gradient: Array
 
 
 def rti_data(controller: RealTimeIteration) -> RtiData:
@@ -91,4 +100,7 @@ def rti_data(controller: RealTimeIteration) -> RtiData:
         memory=controller.delay.memory,
         program=program_data(problem, controller.prepared),
         answers=np.array([getattr(slopes, name)[:, 0] for name in outputs]),
+        target=controller.target,
+        end=controller.end,
+        end_gradient=slopes.end.T @ controller.end,
     )

@@ -1,0 +1,102 @@
+"""A search for the lowest price over the unit cube, where prices have ridges and the dimensions are a dozen.
+
+CMA-ES (N. Hansen, A. Ostermeier, Evol. Comput. 9, 2001), by the package `cma`: such prices need a search that learns
+how the dimensions depend on one another. A price comes with the question how bad is bad enough: trying what is worse is
+broken off.
+"""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.errors import UserError
+
+Array = NDArray[np.float64]
+Cost = Callable[[Array, float], float]
+"""From a point, and a price that is bad enough, to its price."""
+
+_EVENLY = 0.25
+"""Share of the evaluations spent on points spread evenly."""
+_WIDE, _NEAR = 0.15, 0.06
+"""Standard deviation of the first steps: from the best of these points, or from one that is known to be good."""
+_SETTLED = 3e-3
+"""Standard deviation of the steps below which they make no difference."""
+_FAR = 1.5
+"""What costs so many times as much as the best since the search began, or began anew, is bad enough."""
+
+
+def search_widely(cost: Cost, dimensions: int, evaluations: int, seed: int) -> None:
+    """Evaluate a price so many times: first at points spread evenly, then around the best, the next best, and so on.
+
+    Parameters
+    ----------
+    cost : callable
+        Price of a point.
+    dimensions : int
+        Of the cube.
+    evaluations : int
+        How many.
+    seed : int
+        Of random numbers; the same one leads to the same points.
+
+    Raises
+    ------
+    UserError
+        If there is no package `cma`.
+    """
+    from scipy.stats import qmc  # slow to import
+
+    spread = max(1, round(_EVENLY * evaluations))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", UserWarning)  # Sobol's points are best balanced in powers of two
+        points = qmc.Sobol(dimensions, seed=seed).random(spread)
+    prices: list[float] = []
+    for point in points:
+        prices.append(cost(point, _FAR * min(prices, default=math.inf)))
+    _descend(cost, points[np.argsort(prices, kind="stable")], evaluations - spread, _WIDE, seed)
+
+
+def search_nearby(cost: Cost, begin: Array, evaluations: int, seed: int) -> None:
+    """Evaluate a price so many times around a point; arguments as for :func:`search_widely`."""
+    _descend(cost, begin[None, :], evaluations, _NEAR, seed)
+
+
+def _descend(cost: Cost, begins: Array, left: int, step: float, seed: int) -> None:
+    """Run CMA-ES from one point after the other, and over again, as long as evaluations are left."""
+    cma = _cma()
+    random = np.random.default_rng(seed + 1)
+    options = {
+        "bounds": [0.0, 1.0],
+        "randn": lambda *shape: random.standard_normal(shape),
+        "seed": seed + 1,
+        "tolx": _SETTLED,
+        "verbose": -9,
+    }
+    run = 0
+    while left > 0:
+        strategy = cma.CMAEvolutionStrategy(begins[run % len(begins)], step, options)
+        lowest = math.inf
+        while left > 0 and not strategy.stop():
+            points = strategy.ask()
+            found: list[float] = []
+            for point in points[:left]:
+                found.append(cost(point, _FAR * lowest))
+                lowest = min(lowest, found[-1])
+            left -= len(found)
+            if len(found) == len(points):
+                strategy.tell(points, found)
+        run += 1
+
+
+def _cma() -> Any:
+    try:
+        import cma
+    except ImportError:
+        raise UserError("tuning needs the package cma: pip install 'tmm-gen[mpc]'") from None
+    return cma
