@@ -70,6 +70,18 @@ class LinearModel:
         """Entries of the state, m."""
         return len(self.then)
 
+    def weighed(self, tip: float, hub: float, tip_rate: float, hub_rate: float) -> Array:
+        """Return Q of ``x'Q x``, (m, m): the weighed squares of both angles and their rates."""
+        found = np.zeros((self.size, self.size))
+        for weight, row in (
+            (tip, self.tip),
+            (hub, self.hub),
+            (tip_rate, self.tip_rate),
+            (hub_rate, self.hub_rate),
+        ):
+            found += weight * np.outer(row, row)
+        return found
+
     @property
     def drive(self) -> Array:
         """What a torque does that acts throughout a sample, (m,)."""

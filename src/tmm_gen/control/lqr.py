@@ -36,14 +36,7 @@ class Regulator(ModelBased):
         from scipy.linalg import solve_discrete_are  # slow to import
 
         self.model = model
-        cost = np.zeros((model.size, model.size))
-        for weight, row in (
-            (1.0, model.tip),
-            (weights.hub, model.hub),
-            (weights.tip_rate, model.tip_rate),
-            (weights.hub_rate, model.hub_rate),
-        ):
-            cost += weight * np.outer(row, row)
+        cost = model.weighed(1.0, weights.hub, weights.tip_rate, weights.hub_rate)
         a, b = model.transition, model.drive[:, None]
         price = np.array([[weights.torque]])
         value = solve_discrete_are(a, b, cost, price)

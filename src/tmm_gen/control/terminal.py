@@ -42,13 +42,7 @@ def cost_to_go(model: LinearModel, weights: Weights) -> Array:
     transition, drive = np.zeros((size + 1, size + 1)), np.append(model.then, 1.0)
     transition[:size, :size], transition[:size, size] = model.transition, model.before
     state = np.zeros((size + 1, size + 1))
-    for weight, row in (
-        (weights.tip, model.tip),
-        (weights.hub, model.hub),
-        (weights.tip_rate, model.tip_rate),
-        (weights.hub_rate, model.hub_rate),
-    ):
-        state[:size, :size] += weight * np.outer(row, row)
+    state[:size, :size] = model.weighed(weights.tip, weights.hub, weights.tip_rate, weights.hub_rate)
     change = np.zeros((size + 1, 1))
     change[size] = weights.torque_step
     now = state.copy()
