@@ -31,9 +31,10 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import casadi as ca
 import numpy as np
+from marks import renewed
 from mpc_solvers.do_mpc_controller import DoMpc
 from mpc_solvers.motion import Motion
-from mpc_solvers.page import renewed, section
+from mpc_solvers.page import section
 from mpc_solvers.sequential import Sequential
 from mpc_solvers.stage import Stage
 from mpc_solvers.task import arm
@@ -369,7 +370,7 @@ def main() -> None:
     if given.update:
         text = section(found["rows"], found["growth"], found["costs"])
         picture = (given.out / "mpc_speed.png").read_bytes()
-        write_tree_whole({PAGE: renewed(PAGE.read_text(), text), FIGURE: picture})
+        write_tree_whole({PAGE: renewed(PAGE.read_text(), text, Path(__file__).name), FIGURE: picture})
         print(f"wrote {PAGE} and {FIGURE}")
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 Rows = Sequence[Mapping[str, object]]
-BEGIN, END = "<!-- written by benchmarks/mpc_speed.py --update -->", "<!-- end -->"
 HEAD = (
     "| links | solver | median (µs) | 99 % over median | times full RTI | times zero-order | torque off by | samples |",
     "|---:|---|---:|---:|---:|---:|---:|---:|",
@@ -31,20 +30,6 @@ def section(rows: Rows, growth: Rows, costs: Rows) -> str:
             f"Closed-loop cost on the model, relative to SQP iterated to convergence at every sample: {_costs(costs)}.",
         ]
     )
-
-
-def renewed(page: str, text: str) -> str:
-    """Return a page with what stands between the marks replaced.
-
-    Raises
-    ------
-    ValueError
-        If the page has not each mark once.
-    """
-    if page.count(BEGIN) != 1 or page.count(END) != 1:
-        raise ValueError(f"the page needs '{BEGIN}' and '{END}', once each")
-    before, _, rest = page.partition(BEGIN)
-    return f"{before}{BEGIN}\n{text}\n{END}{rest.partition(END)[2]}"
 
 
 def _limits(rows: Rows) -> list[str]:

@@ -78,6 +78,30 @@ def test_slopes_are_those_of_the_sample(bench: Bench) -> None:
             assert_allclose(slope[:, column], (moved(1.0) - moved(-1.0)) / 2e-6, rtol=1e-6, atol=1e-5)
 
 
+def test_compiled_trajectories_are_those_of_single_samples_whatever_is_carried(bench: Bench) -> None:
+    """One library for all arms alike: what they weigh is an argument."""
+    heavier = Bench.of(bench.scene.replace(**{"control.payload": 1.5}))
+    random = np.random.default_rng(1)
+    count = bench.problem.horizon
+    states = 0.1 * random.standard_normal((bench.step.size, count))
+    torques = random.standard_normal((2, count))
+    rolled = []
+    for model in (bench.step, heavier.step):
+        singly = [model.sample_slopes(x, w) for x, w in zip(states.T, torques.T, strict=True)]
+        expected = np.stack([np.hstack([np.array(item) for item in each]) for each in singly], axis=1)
+        after, by_state, by_torques = (np.array(item) for item in model.rollout_slopes(states, torques))
+        width = model.size
+        assert_allclose(after, expected[:, :, 0], rtol=1e-9, atol=1e-9)
+        assert_allclose(by_state.reshape(width, count, width), expected[:, :, 1:-2], rtol=1e-9, atol=1e-6)
+        assert_allclose(by_torques.reshape(width, count, 2), expected[:, :, -2:], rtol=1e-9, atol=1e-9)
+        x = states[:, 0]
+        for k, reached in enumerate(np.array(model.rollout(x, torques)).T):
+            x = np.array(model.sample(x, torques[:, k])).ravel()
+            assert_allclose(reached, x, rtol=1e-9, atol=1e-9)
+        rolled.append(x)
+    assert np.max(np.abs(rolled[0] - rolled[1])) > 1e-3
+
+
 def test_newmark_is_half_a_step_late_and_runge_kutta_is_not(swing: Scene, bench: Bench) -> None:
     assert bench.step.lag == pytest.approx(0.5, abs=2e-3)
     other = Bench.of(swing.replace(**{"integrator.name": "sdirk2", "beam.links": 1}))

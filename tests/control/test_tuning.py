@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import subprocess
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -14,6 +14,7 @@ import pytest
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.closed_loop import Loop
 from tmm_gen.control.objective import AIMS, objective, price
+from tmm_gen.control.pricing import Cost, OneByOne, side_by_side
 from tmm_gen.control.tuning import TUNABLE, Tunable, number, tune, turned
 from tmm_gen.scene import load_scene, parse_scene
 from tmm_gen.scene.problem import SceneError
@@ -36,11 +37,11 @@ def swing(settling: float = 0.7, overshoot: float = 0.0, residual: float = 0.0) 
     return Loop(time, tip, tip, empty, empty, (), empty, np.zeros(0, int), ())
 
 
-def valley(tunable: Tunable) -> Callable[[Bench, float], float]:
+def valley(tunable: Tunable) -> Cost:
     """A price that is least, zero, at 30 % of every range, and steep in one direction that is no axis."""
     keys = list(dict.fromkeys(knob.key for knob in tunable.knobs))
 
-    def cost(bench: Bench, _enough: float = 0.0) -> float:
+    def cost(bench: Bench, _controllers: Sequence[str] = (), _enough: float = 0.0) -> float:
         values = np.hstack([number(bench.scene, key) for key in keys])
         places = [
             (np.log10(value) - knob.low) / (knob.high - knob.low) - 0.3
@@ -82,10 +83,10 @@ def test_a_motion_without_end_has_a_price() -> None:
 
 def test_the_worst_loop_counts_and_no_more_are_run_than_it_takes(bench: Bench) -> None:
     """Beside it a fiftieth of the mean; what is already too bad is not tried on."""
-    first, both = objective(bench, ["pd"], AIMS[:1]), objective(bench, ["pd"], AIMS[:2])
+    first, both = (objective(bench, ["pd"], aims=AIMS[:count]) for count in (1, 2))
     assert both > first
-    assert objective(bench, ["pd"], AIMS[:2], enough=1e9) == both
-    assert objective(bench, ["pd"], AIMS[:2], enough=0.5 * first) < both
+    assert objective(bench, ["pd"], 1e9, AIMS[:2]) == both
+    assert objective(bench, ["pd"], 0.5 * first, AIMS[:2]) < both
 
 
 @pytest.mark.parametrize(("name", "evaluations"), [("pd", 60), ("mpc", 400)])
@@ -95,15 +96,29 @@ def test_the_search_finds_the_valley_wherever_the_scene_stands(
     tunable, prices = replace(BY_NAME[name], first=None), []
     cost = valley(tunable)
     elsewhere = bench.retuned(turned(bench.scene, tunable, np.full(len(tunable.knobs), 0.9)))
-    first = tune(bench, tunable, evaluations, 1, prices.append, cost)
+    pricing = OneByOne(bench, cost)
+    first = tune(bench.scene, tunable, evaluations, 1, prices.append, pricing)
     assert len(prices) == evaluations
     assert prices == sorted(prices, reverse=True)
     assert prices[-1] == first.price == cost(bench.retuned(first.scene))
     assert first.price < 0.05 * cost(elsewhere)
     assert first.price_before == cost(bench)
-    again = tune(elsewhere, tunable, evaluations, 1, cost=cost)
+    again = tune(elsewhere.scene, tunable, evaluations, 1, pricing=pricing)
     assert again.scene == first.scene
-    assert tune(bench, tunable, evaluations, 2, cost=cost).scene != first.scene
+    assert tune(bench.scene, tunable, evaluations, 2, pricing=pricing).scene != first.scene
+
+
+def test_processes_side_by_side_find_the_same_numbers(bench: Bench) -> None:
+    """Also what is broken off is broken off alike."""
+    tunable = BY_NAME["pd"]
+    alone = tune(bench.scene, tunable, 40, 3)
+    with side_by_side(2) as pricing:
+        together = tune(bench.scene, tunable, 40, 3, pricing=pricing)
+        payloads = [bench.scene.replace(**{"control.payload": value}) for value in (1.1, 1.2, 1.1)]
+        assert list(pricing(payloads, ["lqr"], np.inf)) == list(OneByOne()(payloads, ["lqr"], np.inf))
+    assert together.scene == alone.scene
+    assert (together.price, together.price_before) == (alone.price, alone.price_before)
+    np.testing.assert_array_equal(together.places, alone.places)
 
 
 def test_predictive_control_begins_where_a_regulator_ended(bench: Bench) -> None:
@@ -112,7 +127,7 @@ def test_predictive_control_begins_where_a_regulator_ended(bench: Bench) -> None
     assert tunable.first is not None
     shared = valley(replace(tunable, knobs=tuple(knob for knob in tunable.knobs if "estimator" in knob.key)))
     prices: list[float] = []
-    tune(bench, tunable, 400, 1, prices.append, shared)
+    tune(bench.scene, tunable, 400, 1, prices.append, OneByOne(bench, shared))
     regulator, predictive = prices[:200], prices[200:]
     assert len(predictive) == 200
     assert regulator == sorted(regulator, reverse=True)

@@ -10,6 +10,7 @@ import click
 from tmm_gen.cli.console import progress
 from tmm_gen.cli.given import PICTURE, picture_option, positive, refuse_folders
 from tmm_gen.cli.mpc_tune import EVERYTHING, chosen, tuned
+from tmm_gen.cli.study_options import one_thread
 
 if TYPE_CHECKING:
     from tmm_gen.control.bench import Bench
@@ -106,6 +107,13 @@ def _animated(_context: click.Context, parameter: click.Parameter, value: Path |
     help="How many tunings to try, each in several closed loops.",
 )
 @click.option(
+    "--workers",
+    type=click.IntRange(min=1),
+    default=1,
+    show_default=True,
+    help="Processes --tune runs closed loops in; the numbers found are the same.",
+)
+@click.option(
     "--out",
     type=click.Path(dir_okay=False, path_type=Path),
     help="Where --tune writes the tuned scene.",
@@ -125,6 +133,7 @@ def mpc(
     real: str,
     tunables: tuple[str, ...],
     evaluations: int,
+    workers: int,
     out: Path | None,
     json_mode: bool,
 ) -> None:
@@ -137,6 +146,7 @@ def mpc(
     from tmm_gen.cli.mpc_report import emit, list_all, show, write_files
     from tmm_gen.scene import load_scene
 
+    one_thread()
     loaded = load_scene(scene)
     refuse_folders(picture, animated)
     from tmm_gen.control.condition import CONDITIONS
@@ -151,7 +161,7 @@ def mpc(
 
     bench = Bench.of(loaded)
     if tunables:
-        tuned(scene, bench, tunables, evaluations, seed, out, json_mode)
+        tuned(scene, bench, tunables, evaluations, seed, workers, out, json_mode)
         return
     if folder is not None:
         names = [kind.name for kind in kinds] or [_EMITTED]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from difflib import get_close_matches
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -45,6 +46,7 @@ def tuned(
     names: tuple[str, ...],
     evaluations: int,
     seed: int,
+    workers: int,
     out: Path | None,
     json_mode: bool,
 ) -> None:
@@ -60,6 +62,8 @@ def tuned(
         Of tunables, or `EVERYTHING`.
     evaluations, seed : int
         Of the search, for each.
+    workers : int
+        Processes that run closed loops.
     out : Path, optional
         Where the tuned scene is written.
     json_mode : bool
@@ -70,6 +74,7 @@ def tuned(
     UserError
         If there is no tunable of that name, or the file has no line for a number that is to be found.
     """
+    from tmm_gen.control.pricing import OneByOne, side_by_side
     from tmm_gen.control.tuning import TUNABLE, tune
 
     known = {tunable.name: tunable for tunable in TUNABLE}
@@ -77,10 +82,14 @@ def tuned(
     if out is not None:  # what cannot be written is better known before the search than after it
         _text(file, bench.scene, wanted)
     found: list[Tuned] = []
-    with progress(f"tuning {bench.scene.name}", total=len(wanted) * evaluations) as advance:
+    with (
+        nullcontext(OneByOne(bench)) if workers == 1 else side_by_side(workers) as pricing,
+        progress(f"tuning {bench.scene.name}", total=len(wanted) * evaluations) as advance,
+    ):
+        scene = bench.scene
         for tunable in wanted:
-            found.append(tune(bench, tunable, evaluations, seed, _report(advance, tunable.title)))
-            bench = bench.retuned(found[-1].scene)
+            found.append(tune(scene, tunable, evaluations, seed, _report(advance, tunable.title), pricing))
+            scene = found[-1].scene
     written = []
     if out is not None:
         from tmm_gen.files import write_whole

@@ -78,7 +78,7 @@ def price(loop: Loop, reference: float, aim: Aim) -> float:
 
 
 def objective(
-    bench: Bench, controllers: Sequence[str], aims: Sequence[Aim] = AIMS, enough: float = math.inf
+    bench: Bench, controllers: Sequence[str], enough: float = math.inf, aims: Sequence[Aim] = AIMS
 ) -> float:
     """Return the price of a scene's tuning: that of its worst closed loop, and a little of the mean.
 
@@ -90,10 +90,10 @@ def objective(
         Of the scene.
     controllers : sequence of str
         Names; all with the scene's numbers.
-    aims : sequence of Aim
-        Conditions, and what is wanted under each.
     enough : float
         Price from which on it does not matter how bad a tuning is.
+    aims : sequence of Aim
+        Conditions, and what is wanted under each.
     """
     prices: list[float] = []
     for name in controllers:
@@ -103,7 +103,8 @@ def objective(
             return _HOPELESS
         for aim in aims if name in controllers[:2] else [aim for aim in aims if aim.required]:
             for seed in NOISES if aim.required else NOISES[:1]:
-                loop = run_loop(controller, Plant(bench.scene, bench.problem, aim.condition, seed), DURATION)
+                plant = Plant(bench.scene, bench.problem, aim.condition, seed)
+                loop = run_loop(controller, plant, DURATION, timed=False)
                 prices.append(price(loop, bench.problem.reference, aim))
                 if prices[-1] > enough:
                     return _total(prices)

@@ -1,15 +1,15 @@
 """A search for the lowest price over the unit cube, where prices have ridges and the dimensions are a dozen.
 
 CMA-ES (N. Hansen, A. Ostermeier, Evol. Comput. 9, 2001), by the package `cma`: such prices need a search that learns
-how the dimensions depend on one another. A price comes with the question how bad is bad enough: trying what is worse is
-broken off.
+how the dimensions depend on one another. Points come in batches, whose prices may be found side by side, and with the
+question how bad is bad enough: trying what is worse is broken off.
 """
 
 from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -18,26 +18,28 @@ from numpy.typing import NDArray
 from tmm_gen.errors import UserError
 
 Array = NDArray[np.float64]
-Cost = Callable[[Array, float], float]
-"""From a point, and a price that is bad enough, to its price."""
+Prices = Callable[[Sequence[Array], float], Sequence[float]]
+"""From a batch of points, and a price that is bad enough, to their prices."""
 
 _EVENLY = 0.25
 """Share of the evaluations spent on points spread evenly."""
+_BATCH = 16
+"""How many of these come at once."""
 _WIDE, _NEAR = 0.15, 0.06
 """Standard deviation of the first steps: from the best of these points, or from one that is known to be good."""
 _SETTLED = 3e-3
 """Standard deviation of the steps below which they make no difference."""
-_FAR = 1.5
+_FAR = 1.2
 """What costs so many times as much as the best since the search began, or began anew, is bad enough."""
 
 
-def search_widely(cost: Cost, dimensions: int, evaluations: int, seed: int) -> None:
+def search_widely(prices: Prices, dimensions: int, evaluations: int, seed: int) -> None:
     """Evaluate a price so many times: first at points spread evenly, then around the best, the next best, and so on.
 
     Parameters
     ----------
-    cost : callable
-        Price of a point.
+    prices : callable
+        Of a batch of points.
     dimensions : int
         Of the cube.
     evaluations : int
@@ -56,18 +58,18 @@ def search_widely(cost: Cost, dimensions: int, evaluations: int, seed: int) -> N
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", UserWarning)  # Sobol's points are best balanced in powers of two
         points = qmc.Sobol(dimensions, seed=seed).random(spread)
-    prices: list[float] = []
-    for point in points:
-        prices.append(cost(point, _FAR * min(prices, default=math.inf)))
-    _descend(cost, points[np.argsort(prices, kind="stable")], evaluations - spread, _WIDE, seed)
+    found: list[float] = []
+    for begin in range(0, spread, _BATCH):
+        found += prices(points[begin : begin + _BATCH], _FAR * min(found, default=math.inf))
+    _descend(prices, points[np.argsort(found, kind="stable")], evaluations - spread, _WIDE, seed)
 
 
-def search_nearby(cost: Cost, begin: Array, evaluations: int, seed: int) -> None:
+def search_nearby(prices: Prices, begin: Array, evaluations: int, seed: int) -> None:
     """Evaluate a price so many times around a point; arguments as for :func:`search_widely`."""
-    _descend(cost, begin[None, :], evaluations, _NEAR, seed)
+    _descend(prices, begin[None, :], evaluations, _NEAR, seed)
 
 
-def _descend(cost: Cost, begins: Array, left: int, step: float, seed: int) -> None:
+def _descend(prices: Prices, begins: Array, left: int, step: float, seed: int) -> None:
     """Run CMA-ES from one point after the other, and over again, as long as evaluations are left."""
     cma = _cma()
     random = np.random.default_rng(seed + 1)
@@ -84,10 +86,8 @@ def _descend(cost: Cost, begins: Array, left: int, step: float, seed: int) -> No
         lowest = math.inf
         while left > 0 and not strategy.stop():
             points = strategy.ask()
-            found: list[float] = []
-            for point in points[:left]:
-                found.append(cost(point, _FAR * lowest))
-                lowest = min(lowest, found[-1])
+            found = list(prices(points[:left], _FAR * lowest))
+            lowest = min(lowest, *found)
             left -= len(found)
             if len(found) == len(points):
                 strategy.tell(points, found)

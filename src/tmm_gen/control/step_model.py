@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache, cached_property
 from typing import Any
@@ -125,13 +126,19 @@ class StepModel:
         """``F(x, w)``, a CasADi function of SX: the state a sample later; ``w`` are the torques before and then."""
         import casadi as ca
 
-        step = self.module.step_function()
         x, w = ca.SX.sym("x", self.size), ca.SX.sym("w", 2)
-        after = x
-        for share in self.delay.shares(self.problem.substeps):
-            torque = w[1] if share == 0.0 else share * w[0] + (1.0 - share) * w[1]
-            after = step(after, self.inputs(torque), self.parameters)[0]
-        return ca.Function("sample", [x, w], [after], ["x", "w"], ["x_next"])
+        return ca.Function("sample", [x, w], [self._after(x, w, self.parameters)], ["x", "w"], ["x_next"])
+
+    def _after(self, x: Any, w: Any, p: Any) -> Any:
+        step = self.module.step_function()
+        for torque in self._torques(w):
+            x = step(x, self.inputs(torque), p)[0]
+        return x
+
+    def _torques(self, w: Any) -> list[Any]:
+        """Return the torque of each step of a sample."""
+        shares = self.delay.shares(self.problem.substeps)
+        return [w[1] if share == 0.0 else share * w[0] + (1.0 - share) * w[1] for share in shares]
 
     def inputs(self, torque: Any) -> Any:
         """Return the inputs of the kernel where only the hub's torque acts."""
@@ -161,13 +168,24 @@ class StepModel:
 
     @cached_property
     def sample_slopes(self) -> Any:
-        """``(x, w) -> F, dF/dx, dF/dw``."""
+        """``(x, w) -> F, dF/dx, dF/dw``, a CasADi function: derivatives by the factors of each step's own sweep."""
         import casadi as ca
 
-        x, w = ca.SX.sym("x", self.size), ca.SX.sym("w", 2)
-        after = self.sample(x, w)
-        slopes = [ca.densify(ca.jacobian(after, x)), ca.densify(ca.jacobian(after, w))]
-        return ca.Function("sample_slopes", [x, w], [after, *slopes])
+        x, w = ca.MX.sym("x", self.size), ca.MX.sym("w", 2)
+        return ca.Function("sample_slopes", [x, w], self._slopes(x, w, self.parameters))
+
+    def _slopes(self, x: Any, w: Any, p: Any) -> list[Any]:
+        """Return state and slopes after a sample; of MX, so that code for one step serves all."""
+        import casadi as ca
+
+        step, driven = self.module.jacobian_function(), ca.DM(self.inputs(1.0))
+        by_state, by_torques = ca.MX.eye(self.size), ca.MX.zeros(self.size, 2)
+        for torque in self._torques(w):
+            x, slope, by_inputs = step(x, self.inputs(torque), p)
+            by_state = ca.mtimes(slope, by_state)
+            shares = ca.densify(ca.jacobian(torque, w))
+            by_torques = ca.mtimes(slope, by_torques) + ca.mtimes(ca.mtimes(by_inputs, driven), shares)
+        return [x, ca.densify(by_state), ca.densify(by_torques)]
 
     @cached_property
     def sensor_slopes(self) -> Any:
@@ -179,14 +197,37 @@ class StepModel:
         return ca.Function("sensor_slopes", [x], [seen, ca.densify(ca.jacobian(seen, x))])
 
     @cached_property
-    def rollout(self) -> Any:
+    def rollout(self) -> Callable[[Any, Any], Any]:
         """``(x, w (2, N)) -> (states after each sample, (size, N))``, compiled."""
-        return compiled(self.sample.mapaccum("rollout", self.problem.horizon))
+        import casadi as ca
+
+        x, w, p = (ca.SX.sym(name, size) for name, size in self._sizes)
+        one = ca.Function("sample", [x, w, p], [self._after(x, w, p)])
+        return self._along("rollout", one.mapaccum(self.problem.horizon), 1)
 
     @cached_property
-    def rollout_slopes(self) -> Any:
-        """``(x (size, N), w (2, N)) -> F, dF/dx side by side, dF/dw likewise`` at each of N points."""
-        return self.sample_slopes.map(self.problem.horizon)
+    def rollout_slopes(self) -> Callable[[Any, Any], Any]:
+        """``(x (size, N), w (2, N)) -> F, dF/dx side by side, dF/dw likewise`` at each of N points, compiled."""
+        import casadi as ca
+
+        x, w, p = (ca.MX.sym(name, size) for name, size in self._sizes)
+        one = ca.Function("sample_slopes", [x, w, p], self._slopes(x, w, p))
+        return self._along("rollout_slopes", one.map(self.problem.horizon), self.problem.horizon)
+
+    @property
+    def _sizes(self) -> list[tuple[str, int]]:
+        return [("x", self.size), ("w", 2), ("p", len(self.parameters))]
+
+    def _along(self, name: str, many: Any, states: int) -> Callable[[Any, Any], Any]:
+        """Return a function of states and torques, compiled with parameters open: one library for all arms alike."""
+        import casadi as ca
+
+        x, w = ca.MX.sym("x", self.size, states), ca.MX.sym("w", 2, self.problem.horizon)
+        p = ca.MX.sym("p", len(self.parameters))
+        results = many(x, w, ca.repmat(p, 1, self.problem.horizon))
+        run = compiled(ca.Function(name, [x, w, p], [*results] if states > 1 else [results]))
+        parameters = self.parameters
+        return lambda states, torques: run(states, torques, parameters)
 
     # -- states -------------------------------------------------------------------------------------------------
 

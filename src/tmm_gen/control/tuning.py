@@ -15,8 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.control.bench import Bench
-from tmm_gen.control.objective import objective
+from tmm_gen.control.pricing import OneByOne, Pricing
 from tmm_gen.control.search import search_nearby, search_widely
 from tmm_gen.scene import Scene
 
@@ -104,19 +103,19 @@ class Tuned:
     price_before: float
 
 
-_WEIGHTS = (("hub", -2.0, 1.0), ("tip_rate", -3.0, 0.0), ("hub_rate", -4.0, -1.0), ("torque", -4.0, -1.0))
-"""Two or three decades each, as all that follow: a tip weight of one, and time constants below a second."""
+_WEIGHTS = (("hub", -1.0, 2.0), ("tip_rate", -2.0, 1.0), ("hub_rate", -4.0, -1.0), ("torque", -4.0, -1.0))
+"""Three decades each, as most that follow: a tip weight of one, and time constants of about a second or less."""
 _MORE_WEIGHTS = (
     ("torque_step", -5.0, -2.0),
     ("overshoot", 0.0, 3.0),
     ("hub_bound", 0.0, 3.0),
 )
 _ESTIMATOR = (
-    ("encoder", -3.5, -1.5),  # from a few counts of good encoders
-    ("accelerometer", -1.5, 0.5),  # of some m/s^2
+    ("encoder", -4.0, -1.5),  # from a count of good encoders
+    ("accelerometer", -1.5, 1.0),  # of some tens of m/s^2
     ("torque", -3.0, 0.0),  # of 3 N m
     ("disturbance", -3.0, 0.0),
-    ("rate", -3.0, 0.0),  # of some rad/s
+    ("rate", -2.5, 0.5),  # of some rad/s
 )
 
 
@@ -138,7 +137,7 @@ _ESTIMATING = (*_knobs("control.estimator", _ESTIMATOR), _PAYLOAD)
 _REGULATOR = Tunable(
     "regulator",
     "weights and estimator of a regulator",
-    ("lqr",),
+    ("lqr", "lqr-links"),
     (*_knobs(_OF_LQR, _WEIGHTS), *_ESTIMATING),
 )
 
@@ -146,7 +145,7 @@ TUNABLE: tuple[Tunable, ...] = (
     Tunable(
         "mpc",
         "weights and estimator of predictive control",
-        ("mpc-modes", "mpc-links", "rti-zero"),
+        ("mpc-modes", "mpc-links", "rti-zero", "rti"),
         (*_knobs(_OF_MPC, (*_WEIGHTS, *_MORE_WEIGHTS)), *_ESTIMATING),
         _REGULATOR,
     ),
@@ -185,19 +184,19 @@ def number(scene: Scene, key: str) -> float | tuple[float, ...]:
 
 
 def tune(
-    bench: Bench,
+    scene: Scene,
     tunable: Tunable,
     evaluations: int = EVALUATIONS,
     seed: int = 0,
     advance: Callable[[float], object] | None = None,
-    cost: Callable[[Bench, float], float] | None = None,
+    pricing: Pricing | None = None,
 ) -> Tuned:
     """Return the best tuning found.
 
     Parameters
     ----------
-    bench : Bench
-        Of the scene.
+    scene : Scene
+        With ``[control]``.
     tunable : Tunable
         What is tuned.
     evaluations : int
@@ -206,40 +205,41 @@ def tune(
         Of the search; the same one finds the same numbers.
     advance : callable, optional
         Called after each evaluation with the lowest price so far.
-    cost : callable, optional
-        From a bench, and a price that is bad enough, to its price; by default
-        :func:`tmm_gen.control.objective.objective` of the tunable's controllers.
+    pricing : callable, optional
+        What finds prices; by default :class:`~tmm_gen.control.pricing.OneByOne`, of
+        :func:`tmm_gen.control.objective.objective`.
 
     Raises
     ------
     UserError
         If there is no package `cma`.
     """
+    pricing = pricing or OneByOne()
     first = None
     if tunable.first is not None:
-        first = tune(bench, tunable.first, evaluations // 2, seed, advance, cost)
+        first = tune(scene, tunable.first, evaluations // 2, seed, advance, pricing)
         evaluations -= evaluations // 2
-    judged = cost or (lambda tried, enough: objective(tried, tunable.controllers, enough=enough))
-    best = (math.inf, bench.scene, np.zeros(0))
-    benches = {number(bench.scene, _PAYLOAD.key): bench}
+    best = (math.inf, scene, np.zeros(0))
 
-    def tried(places: Array, enough: float) -> float:
+    def prices(points: Sequence[Array], enough: float) -> list[float]:
         nonlocal best
-        scene = turned(bench.scene, tunable, places)
-        payload = number(scene, _PAYLOAD.key)
-        other = benches[payload] = benches.get(payload, bench).retuned(scene)
-        found = judged(other, enough)
-        if found < best[0]:
-            best = (found, scene, places)
-        if advance is not None:
-            advance(best[0])
+        scenes = [turned(scene, tunable, places) for places in points]
+        found = []
+        for tried, places, price in zip(
+            scenes, points, pricing(scenes, tunable.controllers, enough), strict=True
+        ):
+            found.append(price)
+            if price < best[0]:
+                best = (price, tried, places)
+            if advance is not None:
+                advance(best[0])
         return found
 
-    before = judged(bench, math.inf)
+    (before,) = pricing([scene], tunable.controllers, math.inf)
     if first is None:
-        search_widely(tried, len(tunable.knobs), evaluations, seed)
+        search_widely(prices, len(tunable.knobs), evaluations, seed)
     else:
-        search_nearby(tried, _begin(tunable, first), evaluations, seed)
+        search_nearby(prices, _begin(tunable, first), evaluations, seed)
     return Tuned(tunable, best[1], best[2], best[0], before)
 
 

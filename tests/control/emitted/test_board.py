@@ -13,7 +13,7 @@ from tmm_gen.control.emitted.on_board import run_on_board
 pytestmark = pytest.mark.compiler
 
 INSTRUCTIONS = 200_000
-FLASH, RAM = 50 * 1024, 32 * 1024
+FLASH, RAM = 50_000, 32_000
 
 
 @pytest.fixture(scope="module")

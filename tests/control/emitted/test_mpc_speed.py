@@ -159,8 +159,9 @@ def test_the_page_has_room_for_what_is_measured(solvers: Any) -> None:
     assert "full RTI 0.61" in text
     assert "with 5 links full RTI 1e-10 more" in text
     committed = (ROOT / "docs" / "mpc-speed.md").read_text()
-    written = page.renewed(committed, text)
-    assert written == page.renewed(page.renewed(committed, "other"), text)
+    renewed, script = importlib.import_module("marks").renewed, "mpc_speed.py"
+    written = renewed(committed, text, script)
+    assert written == renewed(renewed(committed, "other", script), text, script)
     assert text in written
     with pytest.raises(ValueError, match="once each"):
-        page.renewed("no marks", text)
+        renewed("no marks", text, script)
