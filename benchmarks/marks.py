@@ -20,10 +20,11 @@ def renewed(page: str, text: str, script: str) -> str:
     Raises
     ------
     ValueError
-        If the page has not each mark once.
+        If the page has not its mark once, and an end after it.
     """
     begin = f"<!-- written by benchmarks/{script} --update -->"
-    if page.count(begin) != 1 or page.count(END) != 1:
-        raise ValueError(f"the page needs '{begin}' and '{END}', once each")
     before, _, rest = page.partition(begin)
-    return f"{before}{begin}\n{text}\n{END}{rest.partition(END)[2]}"
+    _, end, after = rest.partition(END)
+    if page.count(begin) != 1 or not end:
+        raise ValueError(f"the page needs '{begin}' once, and '{END}' after it")
+    return f"{before}{begin}\n{text}\n{END}{after}"

@@ -24,20 +24,18 @@ LIMITS = {"nominal": (0.01, 1e-3), "payload": (0.015, 4e-3)}
 
 
 @pytest.mark.parametrize(
-    ("name", "compiled", "seeds"),
-    [
-        ("mpc-links", False, range(10)),
-        ("mpc-modes", False, range(10)),
-        ("rti-zero", False, range(10)),
-        ("rti", True, range(10)),
-    ],
+    ("name", "compiled"),
+    [("mpc-links", False), ("mpc-modes", False), ("rti-zero", False), ("rti", True), ("rti", False)],
 )
 @pytest.mark.parametrize("case", LIMITS)
 def test_one_tuning_serves_with_and_without_payload(
-    bench: Bench, name: str, compiled: bool, seeds: range, case: str
+    bench: Bench, name: str, compiled: bool, case: str
 ) -> None:
-    """0.80 s to 0.5 %; 1 % and 1 mrad nominally, 1.5 % and 4 mrad with half as much payload again; ten noises."""
-    figures = worst(bench, BY_NAME[name], CASES[case], seeds, compiled=compiled)
+    """0.80 s to 0.5 %; 1 % and 1 mrad nominally, 1.5 % and 4 mrad with half as much payload again; ten noises.
+
+    Full real-time iteration as emitted, with a filter of constant gain, and in Python, with the extended one.
+    """
+    figures = worst(bench, BY_NAME[name], CASES[case], range(10), compiled=compiled)
     overshoot, residual = LIMITS[case]
     assert figures.settling is not None
     assert figures.settling <= 0.80

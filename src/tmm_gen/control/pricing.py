@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import multiprocessing
+import os
+import threading
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
@@ -64,12 +66,25 @@ def side_by_side(workers: int) -> Iterator[Pricing]:
         Processes.
     """
     # not forked: what this process has begun in threads would be half there
-    with ProcessPoolExecutor(workers, multiprocessing.get_context("spawn")) as pool:
+    apart = multiprocessing.get_context("spawn")
+    with ProcessPoolExecutor(workers, apart, initializer=_end_with_parent) as pool:
 
         def prices(scenes: Sequence[Scene], controllers: Sequence[str], enough: float) -> Iterator[float]:
             return pool.map(partial(_price, controllers=tuple(controllers), enough=enough), scenes)
 
         yield prices
+
+
+def _end_with_parent() -> None:
+    """Let this worker end when the process that started it is killed, instead of waiting for work for ever."""
+    parent = multiprocessing.parent_process()
+    assert parent is not None
+
+    def wait() -> None:
+        parent.join()
+        os._exit(1)
+
+    threading.Thread(target=wait, daemon=True).start()
 
 
 _here = OneByOne()

@@ -29,8 +29,8 @@ _WIDE, _NEAR = 0.15, 0.06
 """Standard deviation of the first steps: from the best of these points, or from one that is known to be good."""
 _SETTLED = 3e-3
 """Standard deviation of the steps below which they make no difference."""
-_FAR = 1.2
-"""What costs so many times as much as the best since the search began, or began anew, is bad enough."""
+_FAR = 1.5
+"""Of points spread evenly, what costs so many times as much as the best so far is bad enough."""
 
 
 def search_widely(prices: Prices, dimensions: int, evaluations: int, seed: int) -> None:
@@ -83,11 +83,11 @@ def _descend(prices: Prices, begins: Array, left: int, step: float, seed: int) -
     run = 0
     while left > 0:
         strategy = cma.CMAEvolutionStrategy(begins[run % len(begins)], step, options)
-        lowest = math.inf
+        enough = math.inf
         while left > 0 and not strategy.stop():
             points = strategy.ask()
-            found = list(prices(points[:left], _FAR * lowest))
-            lowest = min(lowest, *found)
+            found = list(prices(points[:left], enough))
+            enough = float(np.median(found))  # half of the next points will cost more and count for little
             left -= len(found)
             if len(found) == len(points):
                 strategy.tell(points, found)

@@ -1,0 +1,100 @@
+"""What a sample of emitted linear MPC costs on emulated microcontrollers, in a loop with half as much payload again.
+
+    python benchmarks/mpc_board.py [--out out/bench] [--update]
+
+Instructions are counted, not timed: the figures are exact. `--update` renews the table of docs/mpc-speed.md.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from dataclasses import asdict
+from pathlib import Path
+
+import numpy as np
+from marks import renewed
+
+from tmm_gen.cli.console import plain, progress, table
+from tmm_gen.control.bench import Bench
+from tmm_gen.control.condition import CONDITIONS
+from tmm_gen.control.controllers import BY_NAME
+from tmm_gen.control.emitted.emit import emit_controller
+from tmm_gen.control.emitted.on_board import BoardRun, run_on_board
+from tmm_gen.control.kalman import present_sensors
+from tmm_gen.control.plant import Plant
+from tmm_gen.files import write_whole
+from tmm_gen.scene import load_scene
+
+ROOT = Path(__file__).parents[1]
+SCENE = ROOT / "scenes" / "swing.toml"
+PAGE = ROOT / "docs" / "mpc-speed.md"
+SAMPLES = 100
+CASES = tuple(
+    (kind, target, real)
+    for kind in ("mpc-links", "mpc-modes")
+    for target, real in (("cortex-m7", "float64"), ("cortex-m4f", "float32"))
+)
+HEADINGS = (
+    "controller",
+    "processor",
+    "number type",
+    "instructions, longest sample",
+    "median",
+    "flash",
+    "memory",
+    "stack",
+    "bits as on the host",
+)
+
+
+def measured(bench: Bench, kind: str, condition: str = "payload") -> np.ndarray:
+    """Return what the sensors there are show in a closed loop, (samples, sensors)."""
+    case = next(case for case in CONDITIONS if case.name == condition)
+    controller, plant = BY_NAME[kind].make(bench), Plant(bench.scene, bench.problem, case)
+    shown = []
+    for _ in range(SAMPLES):
+        shown.append(plant.measured())
+        plant.advance(controller.command(shown[-1]).torque)
+    return np.array(shown)[:, present_sensors(bench.problem)]
+
+
+def line(kind: str, run: BoardRun) -> str:
+    """Return a row of the page's table."""
+    sizes = " | ".join(f"{size} B" for size in (run.code_bytes, run.ram_bytes, run.stack_bytes))
+    counts = f"{run.instructions_per_sample} | {run.instructions_median}"
+    title = BY_NAME[kind].title
+    bits = "equal" if run.bits_equal else "differ"
+    return f"| {title} | {run.title} | {run.real} | {counts} | {sizes} | {bits} |"
+
+
+def main() -> int:
+    """Print and write the figures; return 1 if a torque has other bits than on the host."""
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("--out", type=Path, default=Path("out/bench"))
+    parser.add_argument("--update", action="store_true", help=f"renew {PAGE.name}")
+    given = parser.parse_args()
+    bench = Bench.of(load_scene(SCENE))
+    runs: list[tuple[str, BoardRun]] = []
+    with progress("emulating", total=len(CASES)) as advance:
+        for kind, target, real in CASES:
+            name, files = emit_controller(bench, kind, real)
+            runs.append((kind, run_on_board(target, name, files, measured(bench, kind), real)))
+            advance()
+    rows = [{"controller": kind, **asdict(run)} for kind, run in runs]
+    shown = ["controller", "title", "real", "instructions_per_sample", "instructions_median"]
+    table(rows, [*shown, "code_bytes", "ram_bytes", "stack_bytes", "bits_equal", "fallbacks"])
+    given.out.mkdir(parents=True, exist_ok=True)
+    write_whole(given.out / "mpc_board.json", json.dumps(plain(rows), indent=1) + "\n")
+    print(f"wrote {given.out / 'mpc_board.json'}")
+    if given.update:
+        head = f"| {' | '.join(HEADINGS)} |\n{'|---' * len(HEADINGS)}|"
+        text = "\n".join([head, *(line(kind, run) for kind, run in runs)])
+        write_whole(PAGE, renewed(PAGE.read_text(), text, Path(__file__).name))
+        print(f"wrote {PAGE}")
+    return 0 if all(run.bits_equal for _, run in runs) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
