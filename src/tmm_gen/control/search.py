@@ -21,20 +21,24 @@ Array = NDArray[np.float64]
 Prices = Callable[[Sequence[Array], float], Sequence[float]]
 """From a batch of points, and a price that is bad enough, to their prices."""
 
-_EVENLY = 0.25
-"""Share of the evaluations spent on points spread evenly."""
+_EVENLY, _FINALLY = 0.2, 0.3
+"""Shares of the evaluations spent on points spread evenly, and on the last descent."""
 _BATCH = 16
-"""How many of these come at once."""
-_WIDE, _NEAR = 0.15, 0.06
+"""How many points come at once where they are spread."""
+_WIDE, _NEAR = 0.2, 0.05
 """Standard deviation of the first steps: from the best of these points, or from one that is known to be good."""
-_SETTLED = 3e-3
-"""Standard deviation of the steps below which they make no difference."""
+_COARSE, _SETTLED = 0.02, 3e-3
+"""Standard deviation of the steps below which a descent will find no other valley, and below which they make no
+difference."""
 _FAR = 1.5
 """Of points spread evenly, what costs so many times as much as the best so far is bad enough."""
 
 
 def search_widely(prices: Prices, dimensions: int, evaluations: int, seed: int) -> None:
-    """Evaluate a price so many times: first at points spread evenly, then around the best, the next best, and so on.
+    """Evaluate a price so many times: at points spread evenly, then around the best, the next best, and so on.
+
+    These descents end where they will not leave their valley any more; the last evaluations are spent around the best
+    point of all.
 
     Parameters
     ----------
@@ -54,22 +58,40 @@ def search_widely(prices: Prices, dimensions: int, evaluations: int, seed: int) 
     """
     from scipy.stats import qmc  # slow to import
 
-    spread = max(1, round(_EVENLY * evaluations))
+    best = _Best(prices)
+    spread, last = max(1, round(_EVENLY * evaluations)), round(_FINALLY * evaluations)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", UserWarning)  # Sobol's points are best balanced in powers of two
         points = qmc.Sobol(dimensions, seed=seed).random(spread)
     found: list[float] = []
     for begin in range(0, spread, _BATCH):
-        found += prices(points[begin : begin + _BATCH], _FAR * min(found, default=math.inf))
-    _descend(prices, points[np.argsort(found, kind="stable")], evaluations - spread, _WIDE, seed)
+        found += best(points[begin : begin + _BATCH], _FAR * min(found, default=math.inf))
+    begins = points[np.argsort(found, kind="stable")]
+    _descend(best, begins, evaluations - spread - last, _WIDE, _COARSE, seed)
+    search_nearby(best, best.point, last, seed)
 
 
 def search_nearby(prices: Prices, begin: Array, evaluations: int, seed: int) -> None:
     """Evaluate a price so many times around a point; arguments as for :func:`search_widely`."""
-    _descend(prices, begin[None, :], evaluations, _NEAR, seed)
+    _descend(prices, begin[None, :], evaluations, _NEAR, _SETTLED, seed)
 
 
-def _descend(prices: Prices, begins: Array, left: int, step: float, seed: int) -> None:
+class _Best:
+    """Prices that remember the best point."""
+
+    def __init__(self, prices: Prices) -> None:
+        self._prices, self._lowest = prices, math.inf
+        self.point: Array = np.zeros(0)
+
+    def __call__(self, points: Sequence[Array], enough: float) -> Sequence[float]:
+        found = self._prices(points, enough)
+        place = int(np.argmin(found))
+        if found[place] < self._lowest:
+            self._lowest, self.point = found[place], points[place]
+        return found
+
+
+def _descend(prices: Prices, begins: Array, left: int, step: float, end: float, seed: int) -> None:
     """Run CMA-ES from one point after the other, and over again, as long as evaluations are left."""
     cma = _cma()
     random = np.random.default_rng(seed + 1)
@@ -77,7 +99,7 @@ def _descend(prices: Prices, begins: Array, left: int, step: float, seed: int) -
         "bounds": [0.0, 1.0],
         "randn": lambda *shape: random.standard_normal(shape),
         "seed": seed + 1,
-        "tolx": _SETTLED,
+        "tolx": end,
         "verbose": -9,
     }
     run = 0
