@@ -15,7 +15,7 @@ from tmm_gen.control.bench import Bench
 from tmm_gen.control.closed_loop import Loop
 from tmm_gen.control.objective import AIMS, objective, price
 from tmm_gen.control.pricing import Cost, OneByOne, side_by_side
-from tmm_gen.control.tuning import TUNABLE, Tunable, number, tune, turned
+from tmm_gen.control.tuning import TUNABLE, Tunable, number, places_of, tune, turned
 from tmm_gen.scene import load_scene, parse_scene
 from tmm_gen.scene.problem import SceneError
 from tmm_gen.scene.rewrite import rewritten
@@ -109,6 +109,21 @@ def test_the_search_finds_the_valley_wherever_the_scene_stands(
     again = tune(elsewhere.scene, tunable, evaluations, 1, pricing=pricing)
     assert again.scene == first.scene
     assert tune(bench.scene, tunable, evaluations, 2, pricing=pricing).scene != first.scene
+
+
+def test_refining_begins_where_the_scene_stands(bench: Bench) -> None:
+    tunable = BY_NAME["mpc"]
+    pricing = OneByOne(bench, valley(tunable))
+    prices: list[float] = []
+    near = turned(bench.scene, tunable, np.full(len(tunable.knobs), 0.31))
+    assert places_of(near, tunable) == pytest.approx(
+        np.full(len(tunable.knobs), 0.31), abs=0.06
+    )  # payload's grid
+    found = tune(near, tunable, 200, 1, prices.append, pricing, refine=True)
+    assert len(prices) == 200
+    assert prices[0] < 30.0 * 0.5**2  # far from the tens and hundreds of points spread evenly
+    assert found.price < 0.5 * found.price_before
+    assert BY_NAME["pd"].knobs[0].place(0.0) == 0.0
 
 
 def test_processes_side_by_side_find_the_same_numbers(bench: Bench) -> None:

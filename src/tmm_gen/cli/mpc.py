@@ -96,8 +96,8 @@ def _animated(_context: click.Context, parameter: click.Parameter, value: Path |
     multiple=True,
     is_flag=False,
     flag_value=EVERYTHING,
-    help="Tune gains and weights, all or those of one name (--list shows them; repeatable); no comparison. Nothing is "
-    "kept of the numbers in SCENE.",
+    help="Tune gains and weights, all or those of one name (--list shows them; repeatable); no comparison. The "
+    "numbers in SCENE play no part, unless --refine is given.",
 )
 @click.option(
     "--evaluations",
@@ -106,6 +106,7 @@ def _animated(_context: click.Context, parameter: click.Parameter, value: Path |
     show_default=True,
     help="How many tunings to try, each in several closed loops.",
 )
+@click.option("--refine", is_flag=True, help="Let --tune begin at the numbers in SCENE, and nowhere else.")
 @click.option(
     "--workers",
     type=click.IntRange(min=1),
@@ -133,6 +134,7 @@ def mpc(
     real: str,
     tunables: tuple[str, ...],
     evaluations: int,
+    refine: bool,
     workers: int,
     out: Path | None,
     json_mode: bool,
@@ -161,7 +163,7 @@ def mpc(
 
     bench = Bench.of(loaded)
     if tunables:
-        tuned(scene, bench, tunables, evaluations, seed, workers, out, json_mode)
+        tuned(scene, bench, tunables, evaluations, seed, workers, refine, out, json_mode)
         return
     if folder is not None:
         names = [kind.name for kind in kinds] or [_EMITTED]

@@ -47,6 +47,7 @@ def tuned(
     evaluations: int,
     seed: int,
     workers: int,
+    refine: bool,
     out: Path | None,
     json_mode: bool,
 ) -> None:
@@ -64,6 +65,8 @@ def tuned(
         Of the search, for each.
     workers : int
         Processes that run closed loops.
+    refine : bool
+        Whether to begin at the scene's numbers.
     out : Path, optional
         Where the tuned scene is written.
     json_mode : bool
@@ -88,7 +91,8 @@ def tuned(
     ):
         scene = bench.scene
         for tunable in wanted:
-            found.append(tune(scene, tunable, evaluations, seed, _report(advance, tunable.title), pricing))
+            report = _report(advance, tunable.title)
+            found.append(tune(scene, tunable, evaluations, seed, report, pricing, refine))
             scene = found[-1].scene
     written = []
     if out is not None:

@@ -1,8 +1,9 @@
 """Every controller tuned by the same optimiser, on the same objective, with the same number of closed loops.
 
 The logarithms of gains or weights are searched (:mod:`tmm_gen.control.search`), over ranges; the scene's own numbers
-play no part. Predictive control without bounds is the regulator of the same weights, whose loops cost a tenth: so
-weights and estimator of a regulator are searched first, and predictive control begins where that has ended.
+play no part, unless they are to be refined. Predictive control without bounds is the regulator of the same weights,
+whose loops cost a tenth: so weights and estimator of a regulator are searched first, and predictive control begins
+where that has ended.
 """
 
 from __future__ import annotations
@@ -46,6 +47,11 @@ class Knob:
     low: float
     high: float
     grid: float | None = None
+
+    def place(self, value: float) -> float:
+        """Return where a value is in its range, 0 to 1; the nearer end for what is out of it."""
+        logarithm = math.log10(value) if value > 0.0 else -math.inf
+        return min(max((logarithm - self.low) / (self.high - self.low), 0.0), 1.0)
 
     def value(self, place: float) -> float:
         """Return what it is turned to at a place in its range, 0 to 1."""
@@ -183,6 +189,12 @@ def number(scene: Scene, key: str) -> float | tuple[float, ...]:
     return (0.0, 0.0) if value is None else value
 
 
+def places_of(scene: Scene, tunable: Tunable) -> Array:
+    """Return where a scene's numbers are in the ranges of the knobs, (knobs,), 0 to 1."""
+    values = np.hstack([number(scene, key) for key in dict.fromkeys(knob.key for knob in tunable.knobs)])
+    return np.array([knob.place(float(value)) for knob, value in zip(tunable.knobs, values, strict=True)])
+
+
 def tune(
     scene: Scene,
     tunable: Tunable,
@@ -190,6 +202,7 @@ def tune(
     seed: int = 0,
     advance: Callable[[float], object] | None = None,
     pricing: Pricing | None = None,
+    refine: bool = False,
 ) -> Tuned:
     """Return the best tuning found.
 
@@ -208,6 +221,8 @@ def tune(
     pricing : callable, optional
         What finds prices; by default :class:`~tmm_gen.control.pricing.OneByOne`, of
         :func:`tmm_gen.control.objective.objective`.
+    refine : bool
+        Whether to begin at the numbers the scene has, and nowhere else.
 
     Raises
     ------
@@ -215,9 +230,10 @@ def tune(
         If there is no package `cma`.
     """
     pricing = pricing or OneByOne()
-    first = None
-    if tunable.first is not None:
+    begin = places_of(scene, tunable) if refine else None
+    if tunable.first is not None and begin is None:
         first = tune(scene, tunable.first, evaluations // 2, seed, advance, pricing)
+        begin = _begin(tunable, first)
         evaluations -= evaluations // 2
     best = (math.inf, scene, np.zeros(0))
 
@@ -236,10 +252,10 @@ def tune(
         return found
 
     (before,) = pricing([scene], tunable.controllers, math.inf)
-    if first is None:
+    if begin is None:
         search_widely(prices, len(tunable.knobs), evaluations, seed)
     else:
-        search_nearby(prices, _begin(tunable, first), evaluations, seed)
+        search_nearby(prices, begin, evaluations, seed)
     return Tuned(tunable, best[1], best[2], best[0], before)
 
 
