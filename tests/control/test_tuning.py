@@ -123,6 +123,10 @@ def test_refining_begins_where_the_scene_stands(bench: Bench) -> None:
     assert len(prices) == 200
     assert prices[0] < 30.0 * 0.5**2  # far from the tens and hundreds of points spread evenly
     assert found.price < 0.5 * found.price_before
+    best = turned(bench.scene, tunable, np.full(len(tunable.knobs), 0.3))
+    kept = tune(best, tunable, 20, 1, pricing=pricing, refine=True)
+    assert kept.scene == best
+    assert kept.price == kept.price_before
     assert BY_NAME["pd"].knobs[0].place(0.0) == 0.0
 
 

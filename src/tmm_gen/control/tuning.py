@@ -252,6 +252,8 @@ def tune(
         return found
 
     (before,) = pricing([scene], tunable.controllers, math.inf)
+    if refine:  # what is there already is not given up for something worse
+        best = (before, scene, places_of(scene, tunable))
     if begin is None:
         search_widely(prices, len(tunable.knobs), evaluations, seed)
     else:
