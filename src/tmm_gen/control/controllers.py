@@ -8,7 +8,6 @@ from dataclasses import dataclass
 
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.command import Controller
-from tmm_gen.control.linear import LinearModel
 from tmm_gen.control.linear_mpc import LinearMpc
 from tmm_gen.control.lqr import Regulator
 from tmm_gen.control.pd import PdController
@@ -74,10 +73,6 @@ def make_pd(bench: Bench, gains: tuple[float, float] | None, shaping: Kind | Non
     )
 
 
-def _regulator(bench: Bench, model: LinearModel) -> Regulator:
-    return Regulator(model, bench.problem, _baselines(bench).lqr, bench.inertia)
-
-
 def _nmpc(bench: Bench) -> Controller:
     from tmm_gen.control.full_nmpc import FullNmpc
 
@@ -88,8 +83,9 @@ CONTROLLERS: tuple[ControllerKind, ...] = (
     ControllerKind("pd", "PD on the hub", lambda b: make_pd(b, _baselines(b).pd)),
     ControllerKind("pd-zv", "PD, ZV shaper", lambda b: make_pd(b, _baselines(b).pd_zv, "zv")),
     ControllerKind("pd-zvd", "PD, ZVD shaper", lambda b: make_pd(b, _baselines(b).pd_zvd, "zvd")),
-    ControllerKind("lqr", "LQR, modes", lambda b: _regulator(b, b.modes)),
-    ControllerKind("lqr-links", "LQR, links", lambda b: _regulator(b, b.links), default=False),
+    ControllerKind(
+        "lqr", "LQR, modes", lambda b: Regulator(b.modes, b.problem, _baselines(b).lqr, b.inertia)
+    ),
     ControllerKind("mpc-links", "linear MPC, links", lambda b: LinearMpc(b.links, b.problem, b.inertia)),
     ControllerKind("mpc-modes", "linear MPC, modes", lambda b: LinearMpc(b.modes, b.problem, b.inertia)),
     ControllerKind(

@@ -34,11 +34,11 @@ _FAR = 1.5
 """Of points spread evenly, what costs so many times as much as the best so far is bad enough."""
 
 
-def search_widely(prices: Prices, dimensions: int, evaluations: int, seed: int) -> None:
+def search_widely(prices: Prices, dimensions: int, evaluations: int, seed: int) -> list[Array]:
     """Evaluate a price so many times: at points spread evenly, then around the best, the next best, and so on.
 
     These descents end where they will not leave their valley any more; the last evaluations are spent around the best
-    point of all.
+    point of all. Return the lowest point of each descent, those of the lowest prices first.
 
     Parameters
     ----------
@@ -67,32 +67,42 @@ def search_widely(prices: Prices, dimensions: int, evaluations: int, seed: int) 
     for begin in range(0, spread, _BATCH):
         found += best(points[begin : begin + _BATCH], _FAR * min(found, default=math.inf))
     begins = points[np.argsort(found, kind="stable")]
-    _descend(best, begins, evaluations - spread - last, _WIDE, _COARSE, seed)
-    search_nearby(best, best.point, last, seed)
+    ends = _descend(best, begins, evaluations - spread - last, _WIDE, _COARSE, seed)
+    ends += _descend(best, best.point[None, :], last, _NEAR, _SETTLED, seed)
+    return [end.point for end in sorted(ends, key=lambda end: end.price)]
 
 
-def search_nearby(prices: Prices, begin: Array, evaluations: int, seed: int) -> None:
-    """Evaluate a price so many times around a point; arguments as for :func:`search_widely`."""
-    _descend(prices, begin[None, :], evaluations, _NEAR, _SETTLED, seed)
+def search_nearby(prices: Prices, begins: Sequence[Array], evaluations: int, seed: int) -> list[Array]:
+    """Evaluate a price so many times, at some points and around the best of them; return the lowest point of all.
+
+    Arguments else as for :func:`search_widely`.
+    """
+    best = _Best(prices)
+    best(begins[:evaluations], math.inf)
+    _descend(best, best.point[None, :], evaluations - len(begins), _NEAR, _SETTLED, seed)
+    return [best.point]
 
 
 class _Best:
-    """Prices that remember the best point."""
+    """Prices that remember the best point, and what it costs."""
 
     def __init__(self, prices: Prices) -> None:
-        self._prices, self._lowest = prices, math.inf
+        self._prices, self.price = prices, math.inf
         self.point: Array = np.zeros(0)
 
-    def __call__(self, points: Sequence[Array], enough: float) -> Sequence[float]:
-        found = self._prices(points, enough)
+    def __call__(self, points: Sequence[Array], enough: float) -> list[float]:
+        found = list(self._prices(points, enough))
         place = int(np.argmin(found))
-        if found[place] < self._lowest:
-            self._lowest, self.point = found[place], points[place]
+        if found[place] < self.price:
+            self.price, self.point = found[place], points[place]
         return found
 
 
-def _descend(prices: Prices, begins: Array, left: int, step: float, end: float, seed: int) -> None:
-    """Run CMA-ES from one point after the other, and over again, as long as evaluations are left."""
+def _descend(prices: Prices, begins: Array, left: int, step: float, end: float, seed: int) -> list[_Best]:
+    """Run CMA-ES from one point after the other, and over again, as long as evaluations are left.
+
+    Return what was best of each.
+    """
     cma = _cma()
     random = np.random.default_rng(seed + 1)
     options = {
@@ -102,18 +112,19 @@ def _descend(prices: Prices, begins: Array, left: int, step: float, end: float, 
         "tolx": end,
         "verbose": -9,
     }
-    run = 0
+    ends: list[_Best] = []
     while left > 0:
-        strategy = cma.CMAEvolutionStrategy(begins[run % len(begins)], step, options)
+        strategy = cma.CMAEvolutionStrategy(begins[len(ends) % len(begins)], step, options)
+        ends.append(_Best(prices))
         enough = math.inf
         while left > 0 and not strategy.stop():
             points = strategy.ask()
-            found = list(prices(points[:left], enough))
+            found = ends[-1](points[:left], enough)
             enough = float(np.median(found))  # half of the next points will cost more and count for little
             left -= len(found)
             if len(found) == len(points):
                 strategy.tell(points, found)
-        run += 1
+    return ends
 
 
 def _cma() -> Any:

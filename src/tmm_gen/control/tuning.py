@@ -2,8 +2,9 @@
 
 The logarithms of gains or weights are searched (:mod:`tmm_gen.control.search`), over ranges; the scene's own numbers
 play no part, unless they are to be refined. Predictive control without bounds is the regulator of the same weights,
-whose loops cost a tenth: so weights and estimator of a regulator are searched first, and predictive control begins
-where that has ended.
+whose loops cost a tenth: so weights and estimator of a regulator are searched first, and predictive control begins at
+one of the valleys found there, that which is the best for itself: a regulator by modes bears estimators that others
+do not.
 """
 
 from __future__ import annotations
@@ -100,6 +101,8 @@ class Tuned:
         Where these are in their ranges, 0 to 1.
     price, price_before : float
         Of the numbers found and of those the scene had.
+    ends : tuple of array, (knobs,)
+        Where descents of the search ended; the best first.
     """
 
     tunable: Tunable
@@ -107,6 +110,7 @@ class Tuned:
     places: Array
     price: float
     price_before: float
+    ends: tuple[Array, ...]
 
 
 _WEIGHTS = (("hub", -1.0, 2.0), ("tip_rate", -2.0, 1.0), ("hub_rate", -4.0, -1.0), ("torque", -4.0, -1.0))
@@ -143,7 +147,7 @@ _ESTIMATING = (*_knobs("control.estimator", _ESTIMATOR), _PAYLOAD)
 _REGULATOR = Tunable(
     "regulator",
     "weights and estimator of a regulator",
-    ("lqr", "lqr-links"),
+    ("lqr",),
     (*_knobs(_OF_LQR, _WEIGHTS), *_ESTIMATING),
 )
 
@@ -230,10 +234,10 @@ def tune(
         If there is no package `cma`.
     """
     pricing = pricing or OneByOne()
-    begin = places_of(scene, tunable) if refine else None
-    if tunable.first is not None and begin is None:
+    begins = [places_of(scene, tunable)] if refine else []
+    if tunable.first is not None and not refine:
         first = tune(scene, tunable.first, evaluations // 2, seed, advance, pricing)
-        begin = _begin(tunable, first)
+        begins = [_begin(tunable, tunable.first, end) for end in first.ends]
         evaluations -= evaluations // 2
     best = (math.inf, scene, np.zeros(0))
 
@@ -254,15 +258,15 @@ def tune(
     (before,) = pricing([scene], tunable.controllers, math.inf)
     if refine:  # what is there already is not given up for something worse
         best = (before, scene, places_of(scene, tunable))
-    if begin is None:
-        search_widely(prices, len(tunable.knobs), evaluations, seed)
+    if begins:
+        ends = search_nearby(prices, begins, evaluations, seed)
     else:
-        search_nearby(prices, begin, evaluations, seed)
-    return Tuned(tunable, best[1], best[2], best[0], before)
+        ends = search_widely(prices, len(tunable.knobs), evaluations, seed)
+    return Tuned(tunable, best[1], best[2], best[0], before, tuple(ends))
 
 
-def _begin(tunable: Tunable, first: Tuned) -> Array:
-    """Return where what was tuned first ended; what that does not know begins at the low end of its range."""
-    places = {knob.key: place for knob, place in zip(first.tunable.knobs, first.places, strict=True)}
+def _begin(tunable: Tunable, first: Tunable, end: Array) -> Array:
+    """Return where to begin if what was tuned first ended there; what that does not know is at its low end."""
+    places = {knob.key: place for knob, place in zip(first.knobs, end, strict=True)}
     keys = (knob.key.replace(_OF_MPC, _OF_LQR) for knob in tunable.knobs)
     return np.array([places.get(key, 0.0) for key in keys])
