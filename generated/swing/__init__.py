@@ -1,8 +1,8 @@
 # swing: Flexible arm swung by one radian
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 476044b5033909eab497869f77bea5ba149efd6384441c410156f4f20f4ae6ac
-# sha256 of the rest of this file: cc908a0f1038d76607e170d9d35451a88f601875a814af8961153bfa0cabfcd9
+# scene digest: 1d772428e2d772ebb733ea95a16abbe042281079aa7667facf050e2b156d94bf
+# sha256 of the rest of this file: 5ef9f7a0e21de21e9770e884c6b1f97d5dc09cf7c1a6321b8f10116e5651f3db
 """swing: Flexible arm swung by one radian."""
 
 from .kernel import (

@@ -1,8 +1,8 @@
 # swing: Flexible arm swung by one radian
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 476044b5033909eab497869f77bea5ba149efd6384441c410156f4f20f4ae6ac
-# sha256 of the rest of this file: 3f90117e29cd03e67db98a82f219a2a9c182931736e51272738865eae61f2c8e
+# scene digest: 1d772428e2d772ebb733ea95a16abbe042281079aa7667facf050e2b156d94bf
+# sha256 of the rest of this file: 1d9d632bfda2c88c93fc1a885b627084a29821b52acf8b0bb4863481f7dbebb8
 #
 # model: planar arm, large rotations, tip mass
 # stations: 5

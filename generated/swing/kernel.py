@@ -1,8 +1,8 @@
 # swing: Flexible arm swung by one radian
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 476044b5033909eab497869f77bea5ba149efd6384441c410156f4f20f4ae6ac
-# sha256 of the rest of this file: 93488b6470397ad6efec9d870bf892acbf8e746786e6aa1cadde9ab494b6422b
+# scene digest: 1d772428e2d772ebb733ea95a16abbe042281079aa7667facf050e2b156d94bf
+# sha256 of the rest of this file: bc6a2902393acc1d5ecec57151b97e38993fd101f1d56384cd750d209b60eaa9
 #
 # model: planar arm, large rotations, tip mass
 # stations: 5

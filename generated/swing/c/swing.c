@@ -2,8 +2,8 @@
  * swing: Flexible arm swung by one radian
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 476044b5033909eab497869f77bea5ba149efd6384441c410156f4f20f4ae6ac
- * sha256 of the rest of this file: a6107581db79fb3d7c32275d3906a61a5a644857166ed0261384620222f1160c
+ * scene digest: 1d772428e2d772ebb733ea95a16abbe042281079aa7667facf050e2b156d94bf
+ * sha256 of the rest of this file: fcb25805457a601d3cbe4fb9ba014d68037e8b51c65282b2078b478894961635
  *
  * model: planar arm, large rotations, tip mass
  * stations: 5

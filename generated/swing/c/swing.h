@@ -2,8 +2,8 @@
  * swing: Flexible arm swung by one radian
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 476044b5033909eab497869f77bea5ba149efd6384441c410156f4f20f4ae6ac
- * sha256 of the rest of this file: 0051adc17e4a6d1cfbac1b56ed493e206a7613d5a9dc04f764c12068eae8573a
+ * scene digest: 1d772428e2d772ebb733ea95a16abbe042281079aa7667facf050e2b156d94bf
+ * sha256 of the rest of this file: da18a58803a4215cfc602735d3bc4b3d9e2cf25fc269af6e67683d09057ca822
  *
  * model: planar arm, large rotations, tip mass
  * stations: 5

@@ -2,8 +2,8 @@
  * swing: Flexible arm swung by one radian
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 476044b5033909eab497869f77bea5ba149efd6384441c410156f4f20f4ae6ac
- * sha256 of the rest of this file: f0dd3965fed9a3e637a3358d4d9360461369916a2e72c0e16656b7fccd8dc095
+ * scene digest: 1d772428e2d772ebb733ea95a16abbe042281079aa7667facf050e2b156d94bf
+ * sha256 of the rest of this file: 87c09f083b9cd84149c21b1c58f300e44090417ec8cd4b5e52d19ee1673766ae
  *
  * model: planar arm, large rotations, tip mass
  * stations: 5
