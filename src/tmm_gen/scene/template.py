@@ -117,17 +117,17 @@ sample_time = 0.02             # s
 substeps = 4                   # steps of the generated kernel per sample
 modes = 4                      # where prediction is by modes
 delay = 0.0                    # from a measurement to the torque that answers it, s
-payload = 1.24                 # mass at the tip that controllers reckon with, relative to the one above
+payload = 1.3                  # mass at the tip that controllers reckon with, relative to the one above
 
 [control.weights]              # of squares, per sample
 tip = 1.0                      # 1/rad^2
-hub = 9.92                     # 1/rad^2
-tip_rate = 0.277               # s^2/rad^2
-hub_rate = 0.000979            # s^2/rad^2
-torque = 0.00436               # 1/(N m)^2, beyond what holds the target
-torque_step = 0.00141          # 1/(N m)^2, of its change
-overshoot = 14.3               # 1/rad^2, of passing the soft bounds below
-hub_bound = 1.01               # 1/rad^2
+hub = 14.5                     # 1/rad^2
+tip_rate = 0.399               # s^2/rad^2
+hub_rate = 0.00234             # s^2/rad^2
+torque = 0.00252               # 1/(N m)^2, beyond what holds the target
+torque_step = 0.00551          # 1/(N m)^2, of its change
+overshoot = 6.98               # 1/rad^2, of passing the soft bounds below
+hub_bound = 1.32               # 1/rad^2
 
 [control.bounds]
 torque = 3.0                   # N m, always kept
@@ -142,22 +142,22 @@ accelerometer = 0.02           # noise at the tip, m/s^2; leave out what is not 
 # strain = 0.01                # noise of the bending moment at the root, N m
 
 [control.estimator]            # standard deviations the Kalman filter assumes, model errors included
-encoder = 0.000397             # rad
-accelerometer = 2.47           # m/s^2
-torque = 0.00853               # unknown torque, N m
-disturbance = 0.505            # change of the constant part per sample, N m
-rate = 0.0407                  # change of rate per sample that no torque explains, rad/s
+encoder = 0.000547             # rad
+accelerometer = 2.22           # m/s^2
+torque = 0.0119                # unknown torque, N m
+disturbance = 0.704            # change of the constant part per sample, N m
+rate = 0.0386                  # change of rate per sample that no torque explains, rad/s
 
 [control.baselines]            # what predictive control is compared with; gains in N m/rad, N m s/rad
-pd = [9.25, 2.71]
-pd_zv = [11.5, 2.98]           # with a shaped reference
-pd_zvd = [11.1, 2.62]
+pd = [9.35, 2.71]
+pd_zv = [11.8, 3.0]            # with a shaped reference
+pd_zvd = [11.6, 2.58]
 
 [control.baselines.lqr]        # weights beside that of the tip, 1
-hub = 9.72
-tip_rate = 0.276
-hub_rate = 0.000996
-torque = 0.00395
+hub = 0.198
+tip_rate = 0.0199
+hub_rate = 0.000132
+torque = 0.000747
 """
 
 _CHAIN_MODEL = """\
