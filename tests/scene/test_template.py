@@ -35,9 +35,3 @@ def test_control_is_that_of_the_swing(repository: Path) -> None:
     """Tuned for that arm, and fair to start from."""
     swing = load_scene(repository / "scenes" / "swing.toml")
     assert parse_scene(template("crane", "planar", control=True)).control == swing.control
-
-
-def test_a_new_scene_is_controlled_as_the_swing_is(repository: Path) -> None:
-    """Same arm, same numbers: what was tuned for the one is what the other begins with."""
-    swing = load_scene(repository / "scenes" / "swing.toml")
-    assert parse_scene(template("boom", "planar", control=True), "boom.toml").control == swing.control
