@@ -13,6 +13,7 @@ from tmm_gen.cli.console import Column, progress, table
 from tmm_gen.errors import UserError
 
 if TYPE_CHECKING:
+    from tmm_gen.measure.run import Backend
     from tmm_gen.measure.simulation import Simulation
 
 # NumPy, SymPy and Matplotlib are imported inside: `tmm-gen --help` has no use for them.
@@ -96,7 +97,7 @@ def run(
     step: float | None,
     given: tuple[str, ...],
     changes: tuple[str, ...],
-    backend: str,
+    backend: Backend,
     csv_file: Path | None,
     picture: Path | None,
     animated: Path | None,
@@ -125,7 +126,7 @@ def run(
         drawn = planar and (picture is not None or animated is not None)
         # in NumPy the motion of all links is at hand; compiled C would have to stop at every step
         trace = drawn or (backend == "numpy" and traceable(chosen, steps))
-        simulation = simulate(chosen, signals, duration, backend, advance, trace=trace)  # type: ignore[arg-type]
+        simulation = simulate(chosen, signals, duration, backend, advance, trace=trace)
     written = _write(simulation, csv_file, picture, animated)
     _show(simulation, written, json_mode)
 

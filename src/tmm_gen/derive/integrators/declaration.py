@@ -14,7 +14,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import Literal, cast
 
 import sympy as sp
 
@@ -48,7 +48,7 @@ def pasts_in(expression: sp.Expr) -> frozenset[Past]:
     found = set()
     for symbol in expression.free_symbols:
         if match := re.fullmatch(r"([qva])_past(\d+)", symbol.name):
-            found.add(Past(match[1], int(match[2])))  # type: ignore[arg-type]
+            found.add(Past(cast(Kind, match[1]), int(match[2])))
     return frozenset(found)
 
 
@@ -57,8 +57,8 @@ def stages_in(expression: sp.Expr) -> frozenset[tuple[Kind, int]]:
     found = set()
     for symbol in expression.free_symbols:
         if match := re.fullmatch(r"([qva])_stage(\d+)", symbol.name):
-            found.add((match[1], int(match[2])))
-    return frozenset(found)  # type: ignore[arg-type]
+            found.add((cast(Kind, match[1]), int(match[2])))
+    return frozenset(found)
 
 
 @dataclass(frozen=True)

@@ -37,7 +37,8 @@ RIGHT, REFUSED, DIVERGED, WRONG = "right", "refused", "diverged as predicted", "
 _BEYOND = 1e3
 """A motion this many times the static deflection has diverged."""
 
-_ROUNDING = {"float64": 2.0**-53, "float32": 2.0**-24}
+ROUNDING = {"float64": 2.0**-53, "float32": 2.0**-24}
+"""Unit roundoff; of increments four times as much a step is what is promised."""
 
 _VISIBLE = 1e-7
 """Growth in a step below this is none: it does nothing in the steps taken."""
@@ -133,7 +134,7 @@ def judge(
         worst = max(worst, float(np.max(np.abs(found - exact[count]))) / max(largest, _SMALLEST))
     promised = 10.0 ** -DIGITS[extreme.real]
     if not worst <= promised:
-        if _ROUNDING[extreme.real] * _grown(grows, extreme.steps) > promised:
+        if ROUNDING[extreme.real] * _grown(grows, extreme.steps) > promised:
             return ChainVerdict(DIVERGED, worst, grows, "rounding errors have grown as derived")
         return ChainVerdict(WRONG, worst, grows, "differs from the integrator's own equations")
     status = DIVERGED if grows > 0.0 and largest > _BEYOND else RIGHT

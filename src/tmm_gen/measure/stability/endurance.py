@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from tmm_gen.derive.integrators.registry import integrator
 from tmm_gen.errors import UserError
-from tmm_gen.measure.stability.chain_extremes import REFUSED, RIGHT, WRONG, compiled
-from tmm_gen.measure.stability.extreme import ChainExtreme
+from tmm_gen.measure.stability.chain_extremes import REFUSED, RIGHT, ROUNDING, WRONG, compiled
+from tmm_gen.measure.stability.extreme import ChainExtreme, Real, Unknown
 from tmm_gen.native import NativeKernel
 from tmm_gen.program.torsion.rounding import require_digits
 from tmm_gen.program.torsion.safety import DIGITS
@@ -86,13 +86,9 @@ def endure(extreme: ChainExtreme, done: Callable[[], None] = lambda: None) -> En
     return replace(found, error=error, status=RIGHT if error <= limit else WRONG)
 
 
-ROUNDING = {"float64": 2.0**-53, "float32": 2.0**-24}
-"""Unit roundoff; of increments four times as much a step is what is promised."""
-
-
 @cache
-def _kernel(links: int, real: str, unknown: str) -> NativeKernel:
-    extreme = ChainExtreme(links=links, real=real, unknown=unknown)  # type: ignore[arg-type]
+def _kernel(links: int, real: Real, unknown: Unknown) -> NativeKernel:
+    extreme = ChainExtreme(links=links, real=real, unknown=unknown)
     return compiled(extreme, integrator("newmark"))
 
 

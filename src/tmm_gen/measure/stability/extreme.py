@@ -14,6 +14,8 @@ from tmm_gen.scene import Scene, parse_scene
 Array = NDArray[np.float64]
 Pattern = Literal["halves", "alternating", "graded"]
 Start = Literal["loaded", "released"]
+Real = Literal["float64", "float32"]
+Unknown = Literal["acceleration", "increment", "displacement"]
 
 STEPS = 32
 """How many are taken."""
@@ -83,9 +85,9 @@ class ChainExtreme:
     inertia_ratio: float = 1.0
     step: float = 1e-3
     damping: float = 0.0
-    real: Literal["float64", "float32"] = "float64"
+    real: Real = "float64"
     sweep: Literal["riccati", "product"] = "riccati"
-    unknown: Literal["acceleration", "increment", "displacement"] = "acceleration"
+    unknown: Unknown = "acceleration"
     integrator: str = "newmark"
     start: Start = "loaded"
     pattern: Pattern = "halves"
