@@ -60,7 +60,7 @@ def grid(integrator: str = "newmark", most: int = 100_000) -> Iterator[ChainExtr
                 inertia,
                 step,
                 integrator=integrator,
-                **kernel,  # type: ignore[arg-type]
+                **kernel,
             )
 
 
@@ -81,7 +81,7 @@ def at_random(count: int) -> Iterator[ChainExtreme]:
                 integrator=method.name,
                 start=random.choice(["loaded", "released"]),
                 pattern=random.choice(["halves", "alternating", "graded"]),
-                **kernel,  # type: ignore[arg-type]
+                **kernel,
             )
 
 

@@ -38,12 +38,12 @@ def extremes(at_random: int, seed: int = 0) -> Iterator[Extreme]:
     """Yield the extremes to try."""
     for name, values in ALONE.items():
         for value in values:
-            yield Extreme(**{name: value})  # type: ignore[arg-type]
+            yield Extreme(**{name: value})
     random = np.random.default_rng(seed)
     few = {**ALONE, "links": (1, 2, 5, 20, 50), "revolutions": (0.0, 0.0, 0.1, 1.0, 10.0, 100.0)}
     for _ in range(at_random):
         drawn = {name: values[random.integers(len(values))] for name, values in few.items()}
-        yield Extreme(**drawn)  # type: ignore[arg-type]
+        yield Extreme(**drawn)
 
 
 def swept(extreme: Extreme, verdict: Verdict) -> str:

@@ -129,8 +129,11 @@ def numerator_and_denominator(e: sp.Expr) -> tuple[list[sp.Expr], list[sp.Expr]]
             below.append(base**-exponent)
         elif factor != 1:
             above.append(factor)
-    key = lambda f: (not f.is_Number, sp.default_sort_key(f))  # noqa: E731
-    return sorted(above, key=key), sorted(below, key=key)
+    return sorted(above, key=_numbers_first), sorted(below, key=_numbers_first)
+
+
+def _numbers_first(factor: sp.Expr) -> tuple[bool, tuple[object, ...]]:
+    return not factor.is_Number, sp.default_sort_key(factor)
 
 
 def opposite(term: sp.Expr) -> sp.Expr:
