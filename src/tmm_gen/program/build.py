@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from tmm_gen.derive.integrators.declaration import Integrator
 from tmm_gen.derive.integrators.registry import integrator
-from tmm_gen.derive.integrators.relations import UnsuitableUnknownError
+from tmm_gen.derive.integrators.relations import UnsuitableUnknownError, affine_motion
 from tmm_gen.errors import UserError
-from tmm_gen.program.planar.build import build_planar
+from tmm_gen.program.arm.assemble import Assembly, Choices
+from tmm_gen.program.arm.product import ProductWalks
+from tmm_gen.program.arm.thesis import TaylorWalks, ThesisWalks
+from tmm_gen.program.arm.walks import Walks
 from tmm_gen.program.statements import Program
-from tmm_gen.program.torsion.build import build_chain
 from tmm_gen.program.torsion.rounding import require_digits
 from tmm_gen.program.torsion.safety import require_safe_product
+from tmm_gen.row.scene import row_of
 from tmm_gen.scene import Scene
 
 
@@ -29,14 +33,56 @@ def build_program(scene: Scene) -> Program:
         if scene.model.kind == "chain":
             require_safe_product(scene, chosen)
             require_digits(scene, chosen)
-            return build_chain(scene, chosen)
-        _refuse_unsupported(scene)
-        return build_planar(scene, chosen)
+        else:
+            _refuse_unsupported(scene)
+        return build_unchecked(scene, chosen)
     except UnsuitableUnknownError as error:
         raise UserError(
             f"scene '{scene.name}': model.unknown = '{scene.model.unknown}' with model.sweep = "
             f"'{scene.model.sweep}' and integrator '{scene.integrator.name}': {error}"
         ) from error
+
+
+def build_unchecked(scene: Scene, chosen: Integrator) -> Program:
+    """Build the program of a scene without asking whether it keeps enough digits.
+
+    Parameters
+    ----------
+    chosen : Integrator
+        With its parameters bound to numbers.
+    """
+    from tmm_gen.program.planar.build import build_planar
+    if (scene.emit.sensitivities and scene.model.kind!='chain'): return build_planar(scene,chosen)
+    if scene.model.linearisation != 'newton': _require_one_implicit_stage(scene, chosen)
+    row = row_of(scene, chosen)
+    return Assembly(
+        row,
+        chosen,
+        Choices(
+            step=scene.integrator.step,
+            unknown=scene.model.unknown,
+            iterations=scene.model.iterations,
+            walks=ProductWalks if scene.model.sweep == "product" else WALKS[scene.model.linearisation],
+            places=scene.model.linearisation != "newton",
+            turns_apart=scene.emit.compensated and row.boundary == "free",
+            sensitivities=scene.emit.sensitivities,
+        ),
+    ).program()
+
+
+WALKS: dict[str, type[Walks]] = {"newton": Walks, "taylor": TaylorWalks, "frozen": ThesisWalks}
+"""What walks a sweep takes by each linearisation."""
+
+
+def _require_one_implicit_stage(scene: Scene, chosen: Integrator) -> None:
+    """Refuse integrators that the thesis's step, which derives accelerations from places, has no form for."""
+    explicit = any(affine_motion(scheme, 1, "acceleration").gain["q"] == 0 for scheme in chosen.schemes)
+    if explicit or any(len(scheme.stages) > 1 for scheme in chosen.schemes):
+        raise UserError(
+            f"scene '{scene.name}': model.linearisation = '{scene.model.linearisation}' integrates places in one "
+            f"implicit stage, which '{chosen.name}' does not have; use linearisation = 'newton', or an "
+            "integrator such as 'newmark'"
+        )
 
 
 def _refuse_unsupported(scene: Scene) -> None:

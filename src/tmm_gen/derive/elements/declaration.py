@@ -1,13 +1,14 @@
 """What an element is: textbook equations between the state at its inboard and at its outboard side.
 
 A state is made of motions (displacement ``q``, velocity ``v``, acceleration ``a`` of one coordinate each) and of the
-forces conjugate to them, Gholampour (2018), sec. 2-1. Equations are written once, in these symbols, and
-:mod:`tmm_gen.derive.transfer` turns them into transfer matrices in discrete time and in the Laplace domain.
+forces conjugate to them, Gholampour (2018), sec. 2-1. Equations are written once, in these symbols; transfer matrices
+(:mod:`tmm_gen.derive.transfer`) and sweeps (:mod:`tmm_gen.derive.station`) are derived from them.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 
 import sympy as sp
 
@@ -47,6 +48,9 @@ class Element:
         Physical parameters.
     inputs : tuple of sympy.Symbol
         External loads or prescribed values.
+    energies : mapping from str to sympy.Expr
+        What it holds, J ("kinetic", "elastic", "gravitational"), and the power it turns to heat, W ("heat"), by the
+        motions of its ports.
     """
 
     name: str
@@ -56,6 +60,15 @@ class Element:
     equations: tuple[sp.Expr, ...]
     parameters: tuple[sp.Symbol, ...] = ()
     inputs: tuple[sp.Symbol, ...] = ()
+    energies: Mapping[str, sp.Expr] = field(default_factory=dict, compare=False)
+
+    def with_values(self, values: Mapping[sp.Symbol, sp.Expr]) -> Element:
+        """Return the element with its parameters and inputs written by other symbols, or by zero."""
+        return replace(
+            self,
+            equations=tuple(equation.subs(values) for equation in self.equations),
+            energies={kind: energy.subs(values) for kind, energy in self.energies.items()},
+        )
 
 
 def motion(name: str, side: str) -> Motion:

@@ -26,6 +26,10 @@ JOINT = Element(
         _tau_out - _tau_in,
     ),
     parameters=(STIFFNESS, DAMPING),
+    energies={
+        "elastic": STIFFNESS * (_theta_out.q - _theta_in.q) ** 2 / 2,
+        "heat": DAMPING * (_theta_out.v - _theta_in.v) ** 2,
+    },
 )
 """Massless torsion spring with a viscous damper beside it."""
 
@@ -36,6 +40,7 @@ LINK = Element(
     outboard=_OUT,
     equations=(_theta_out.q - _theta_in.q, _tau_out - _tau_in - INERTIA * _theta_in.a),
     parameters=(INERTIA,),
+    energies={"kinetic": INERTIA * _theta_in.v**2 / 2},
 )
 """Rigid inertia."""
 
@@ -56,5 +61,6 @@ GROUND_DAMPER = Element(
     outboard=_OUT,
     equations=(_theta_out.q - _theta_in.q, _tau_out - _tau_in - GROUND_DAMPING * _theta_in.v),
     parameters=(GROUND_DAMPING,),
+    energies={"heat": GROUND_DAMPING * _theta_in.v**2},
 )
 """Viscous damper between a station and ground."""

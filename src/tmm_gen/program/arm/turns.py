@@ -14,20 +14,14 @@ from dataclasses import replace
 import sympy as sp
 
 from tmm_gen.derive.integrators.declaration import Past
+from tmm_gen.program.arm.layout import Layout
 from tmm_gen.program.statements import Assign, Loop, Order, Routine, Section
-from tmm_gen.program.torsion.layout import ChainLayout
 from tmm_gen.program.variables import Role, Variable
-from tmm_gen.scene import Scene
 
 TURNED = Variable("turned", Role.STATE, doc="angle that is taken out of all others", unit="rad")
 
 
-def turns_of(scene: Scene) -> Variable | None:
-    """Return the variable that holds the turns of a scene's chain; None where they are part of its angles."""
-    return TURNED if scene.emit.compensated and scene.base.kind == "motor" else None
-
-
-def take_turns_out(steps: Sequence[Routine], layout: ChainLayout) -> tuple[Routine, ...]:
+def take_turns_out(steps: Sequence[Routine], layout: Layout) -> tuple[Routine, ...]:
     """Return steps that end with the hub's angle taken out of every angle, the older ones of the history too."""
     hub = layout.hub[Past("q", 0)].ref
     links = [v.at() for p, v in layout.state.items() if p.kind == "q"]

@@ -1,0 +1,314 @@
+"""The way in: how the force beyond a place, affine in the motion there, is carried over each element.
+
+Outboard of an element ``f = S k + e``, with ``k`` the changes of motion a sweep solves for. An element with motion
+through it changes ``S`` by congruence, ``A S T + B``; one that gives way in a coordinate by a rank-one update, whose
+force row follows from the element's own law.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+import sympy as sp
+
+from tmm_gen.derive.station.frame import INNER, OUTER, Frame, change, force, impedance, predicted_force
+from tmm_gen.derive.station.law import KINDS
+from tmm_gen.derive.station.lets import Let, Line, Pivot, Update
+from tmm_gen.derive.station.motion import Outward, Passed
+
+ZERO, ONE = sp.Integer(0), sp.Integer(1)
+
+ADMITTANCE = sp.Symbol("admittance", real=True)
+TRANSMISSION = sp.Symbol("transmission", real=True)
+REFLECTION = sp.Symbol("reflection", real=True)
+OWN = sp.Symbol("answer_own", real=True)
+STIFFNESS = sp.Symbol("joint_impedance", real=True)
+PIVOT = sp.Symbol("pivot", real=True)
+TORQUE = sp.Symbol("joint_torque", real=True)
+
+
+class Inward:
+    """Walks the elements of a station from its outer to its inner side.
+
+    Parameters
+    ----------
+    out : Outward
+        The same elements on the way out.
+    zero : frozenset of sympy.Symbol
+        Entries of ``S`` and ``e`` that are known to be zero at the outer side.
+    """
+
+    def __init__(self, out: Outward, zero: frozenset[sp.Symbol] = frozenset()) -> None:
+        self.frame: Frame = out.frame
+        self.arriving = zero
+        """What was known to be zero at the outer side."""
+        self.lines: list[Line] = []
+        self.known: list[Let] = []
+        """Forces of elements that give way, at the point of linearisation."""
+        self.answers: list[tuple[Passed, dict[str, sp.Expr]]] = []
+        self._out = out
+        c = self.frame.coordinates
+        self._s = {
+            (i, k): ZERO if impedance(a, b) in zero else impedance(a, b)
+            for i, a in enumerate(c)
+            for k, b in enumerate(c)
+        }
+        self._e = {i: ZERO if force(a) in zero else force(a) for i, a in enumerate(c)}
+        for passed in reversed(out.passed):
+            answers: dict[str, sp.Expr] = {}
+            if passed.law.free is None:
+                self._carry(passed)
+            else:
+                answers = self._give_way(passed)
+            self.answers.append((passed, answers))
+        self.answers.reverse()
+
+    @property
+    def zero(self) -> frozenset[sp.Symbol]:
+        """Entries that are zero at the inner side."""
+        c = self.frame.coordinates
+        entries = {impedance(c[i], c[k]): value for (i, k), value in self._s.items()}
+        entries |= {force(c[i]): value for i, value in self._e.items()}
+        return frozenset(symbol for symbol, value in entries.items() if value == 0)
+
+    # -- elements with motion through them ---------------------------------------------------------------
+
+    def _carry(self, passed: Passed) -> None:
+        frame, own = self.frame, self.frame.own
+        size = range(len(frame.coordinates))
+        column = {
+            i: self._s[i, own] + sum((self._s[i, k] * swing for k, swing in passed.swings.items()), ZERO)
+            for i in size
+        }
+        self._set_impedance({(i, own): column[i] for i in size if column[i] != self._s[i, own]})
+        outside = passed.element.outboard.forces
+        at_bias = dict(zip(outside, (self._e[i] for i in size), strict=True))
+        slopes_at = at_bias
+        if frame.predicted:
+            slopes_at = {f: predicted_force(c) for f, c in zip(outside, frame.coordinates, strict=True)}
+        impedances: dict[tuple[int, int], sp.Expr] = {}
+        forces: dict[int, sp.Expr] = {}
+        for i in size:
+            law = passed.law.inner[i]
+            through = [self._written(passed.at_point(sp.diff(law, f))) for f in outside]
+            for k in size:
+                value = sum((through[j] * self._s[j, k] for j in size), ZERO)
+                if k == own:
+                    # slopes by gain, so that a lever arm multiplies what it shares
+                    slope = sp.Add(
+                        *(
+                            frame.gains[kind]
+                            * self._written(frame.settled(frame.slope(passed.at_point(law), kind)))
+                            for kind in KINDS
+                        )
+                    ).subs(slopes_at)
+                    value += self._constant_named(passed, slope)
+                else:
+                    value += self._written(passed.at_point(sp.diff(law, passed.element.inboard.motions[k].a)))
+                if value != self._s[i, k]:
+                    impedances[i, k] = cheapest(value, self._levers)
+            biased = self._written(frame.settled(passed.at_point(law))).subs(at_bias)
+            if biased != self._e[i]:
+                forces[i] = cheapest(biased, self._levers)
+        self._set(impedances, forces)
+
+    def _constant_named(self, passed: Passed, slope: sp.Expr) -> sp.Expr:
+        """Name the part of a slope that depends on parameters and gains alone, if it takes arithmetic."""
+        early = passed.constants | set(self.frame.gains.values())
+        constant = sp.Add(*(term for term in sp.Add.make_args(sp.expand(slope)) if term.free_symbols <= early))
+        if constant == 0 or constant.is_Atom or (-constant).is_Atom:
+            return slope
+        symbol = sp.Symbol(f"{passed.element.name}_impedance", real=True)
+        self.lines.append(Let(symbol, constant, "force of its inertia or friction per unknown", "kg m^2"))
+        return sp.expand(slope - constant) + symbol
+
+    @property
+    def _levers(self) -> list[sp.Symbol]:
+        return [let.symbol for let in self._out.lets if let.symbol.name.startswith("lever")]
+
+    def _written(self, value: sp.Expr) -> sp.Expr:
+        return self._out.values.written(value)
+
+    # -- elements that give way ---------------------------------------------------------------------------
+
+    def _give_way(self, passed: Passed) -> dict[str, sp.Expr]:
+        """Solve the element's law for the motion beyond it; return what the way out needs of that."""
+        frame, own = self.frame, self.frame.own
+        sign, names = sp.Integer(frame.sign), [c.name for c in frame.coordinates]
+        law, inside = passed.law, passed.element.inboard.motions[own]
+        outside = passed.element.outboard.motions[own]
+        ratio, besides = law.ratio, law.inner[own]
+        of_inner, of_outer = self._gain(law.own, inside), self._gain(law.own, outside)
+        more_inner, more_outer = self._gain(besides, inside), self._gain(besides, outside)
+        known = self._known(passed, law.own, TORQUE, "torque of each joint at the point of linearisation")
+        more = self._known(passed, besides, sp.Symbol("inner_torque", real=True), "what acts on its inner side besides")
+        load, bias = self._s[own, own], self._e[own]
+        stiffness = -sign * of_outer
+        if stiffness != 0:
+            self.lines.append(Let(STIFFNESS, stiffness, "torque of a joint per difference of unknowns", "kg m^2"))
+            stiffness = STIFFNESS
+        inner_stiffness = stiffness if sp.expand(of_inner + of_outer) == 0 else sign * of_inner
+        self.lines += [
+            Let(PIVOT, stiffness + sign * load, "pivot of the joint"),
+            Pivot(PIVOT),
+            Let(ADMITTANCE, 1 / PIVOT, "inverse pivot of each joint"),
+        ]
+        answers: dict[str, sp.Expr] = {"own": OWN}
+        self.lines.append(
+            Let(
+                OWN,
+                ADMITTANCE * (known - bias if sign > 0 else bias - known),
+                "unknown of a station if its inner side kept its motion",
+            )
+        )
+        for k, name in enumerate(names):
+            if k != own and self._s[own, k] != 0:
+                answers[name] = sp.Symbol(f"answer_{name}", real=True)
+                self.lines.append(
+                    Let(
+                        answers[name],
+                        sign * ADMITTANCE * self._s[own, k],
+                        f"answer of the unknown to the joint's acceleration along {name}",
+                    )
+                )
+        if inner_stiffness != 0:
+            answers["inner"] = TRANSMISSION
+            self.lines.append(
+                Let(TRANSMISSION, ADMITTANCE * inner_stiffness, "share of motion and torque each joint passes on")
+            )
+        passes = answers.get("inner", ZERO)
+        impedances: dict[tuple[int, int], sp.Expr] = {}
+        forces: dict[int, sp.Expr] = {}
+        for i in range(len(names)):
+            if i == own:
+                continue
+            column = self._s[i, own]
+            for k, name in enumerate(names):
+                if k == own:
+                    impedances[i, k] = column * passes
+                elif name in answers:
+                    impedances[i, k] = self._s[i, k] - column * answers[name]
+            forces[i] = self._e[i] + column * OWN
+        for k, name in enumerate(names):
+            if k == own:
+                impedances[own, own] = ratio * passes * load + more_outer * passes + more_inner
+            else:
+                back = ratio * sign * stiffness - more_outer
+                impedances[own, k] = cheapest(back * answers[name], []) if name in answers else ZERO
+        if frame.about == "known":
+            forces[own] = ratio * self._shares(known, bias, load, stiffness) + more + more_outer * OWN
+        else:
+            forces[own] = ratio * known + more + (more_outer - ratio * sign * stiffness) * OWN
+        self._set(impedances, forces)
+        return answers
+
+    def _shares(self, known: sp.Expr, bias: sp.Expr, load: sp.Expr, stiffness: sp.Expr) -> sp.Expr:
+        """Pass on the known torque and the force beyond by shares: no digits are lost in a stiff joint."""
+        if stiffness == 0:
+            return known
+        sign = sp.Integer(self.frame.sign)
+        passes = next(
+            (x.symbol for x in self.lines if isinstance(x, Let) and x.value == ADMITTANCE * stiffness), None
+        )
+        if passes is None:
+            passes = sp.Symbol("passed_share", real=True)
+            self.lines.append(Let(passes, ADMITTANCE * stiffness, "share of the force beyond each joint passes on"))
+        self.lines.append(
+            Let(REFLECTION, sign * ADMITTANCE * load, "share of its own known torque each joint passes on")
+        )
+        return passes * bias + REFLECTION * known
+
+    def _gain(self, value: sp.Expr, motion: object) -> sp.Expr:
+        return sp.expand(
+            sp.Add(*(self.frame.gains[k] * sp.diff(value, getattr(motion, k)) for k in KINDS))
+        )
+
+    def _known(self, passed: Passed, value: sp.Expr, symbol: sp.Symbol, doc: str) -> sp.Expr:
+        at_point = self.frame.settled(passed.at_point(value))
+        if at_point == 0:
+            return ZERO
+        differences = {kind: (INNER[kind], OUTER[kind]) for kind in KINDS}
+        if not at_point.is_Atom:
+            self.known.append(Let(symbol, grouped(at_point, differences), doc, "N m"))
+            return symbol
+        return at_point
+
+    # -- what is carried ------------------------------------------------------------------------------------
+
+    def _set_impedance(self, values: Mapping[tuple[int, int], sp.Expr]) -> None:
+        self._set(values, {})
+
+    def _set(self, impedances: Mapping[tuple[int, int], sp.Expr], forces: Mapping[int, sp.Expr]) -> None:
+        c = self.frame.coordinates
+        update: dict[sp.Symbol, sp.Expr] = {}
+        for (i, k), value in impedances.items():
+            symbol = impedance(c[i], c[k])
+            if value != self._s[i, k] and value != 0:
+                update[symbol] = value
+            self._s[i, k] = symbol if value != 0 else ZERO
+        for i, value in forces.items():
+            symbol = force(c[i])
+            if value != self._e[i] and value != 0:
+                update[symbol] = value
+            self._e[i] = symbol if value != 0 else ZERO
+        if update:
+            self.lines.append(Update(update))
+
+
+def grouped(value: sp.Expr, differences: Mapping[str, tuple[sp.Symbol, sp.Symbol]]) -> sp.Expr:
+    """Write a law by differences of motion, where it is one: ``k (q_o - q_i)`` instead of two products."""
+    value = sp.expand(value)
+    found: list[sp.Expr] = []
+    for inner, outer in differences.values():
+        of_inner, of_outer = value.coeff(inner), value.coeff(outer)
+        if of_outer != 0 and sp.expand(of_inner + of_outer) == 0:
+            back = of_outer.could_extract_minus_sign()
+            difference = inner - outer if back else outer - inner
+            found.append(sp.Mul(-of_outer if back else of_outer, difference))
+            value = sp.expand(value - of_outer * outer - of_inner * inner)
+    return sp.Add(value, *found)
+
+
+def cheapest(value: sp.Expr, levers: list[sp.Symbol]) -> sp.Expr:
+    """Return the way of writing a value that takes the fewest operations."""
+    gains = [s for s in value.free_symbols if s.name.startswith("P_")]
+    expanded = sp.expand(value)
+    ways: list[Callable[[], sp.Expr]] = [
+        lambda: value,
+        lambda: expanded,
+        lambda: sp.factor_terms(value),
+        lambda: sp.collect(expanded, levers),
+        lambda: sp.collect(expanded, gains),
+        lambda: sp.collect(expanded, [*levers, *gains]),
+    ]
+    return min((way() for way in ways), key=lambda e: (operations(e), len(str(e))))
+
+
+def operations(e: sp.Expr) -> int:
+    """Count additions and multiplications as printed; a change of sign is none."""
+    if e.is_Atom:
+        return 0
+    inner = sum(operations(a) for a in e.args)
+    if e.is_Mul:
+        return inner + len([a for a in e.args if a not in (1, -1)]) - 1
+    if e.is_Pow:
+        return inner + abs(int(e.exp)) - 1 if e.exp.is_Integer and e.exp > 0 else inner + 1
+    return inner + len(e.args) - 1
+
+
+def back(inward: Inward) -> list[Line]:
+    """Return the way out with the answers: the station's unknown, and the changes of its outer node."""
+    frame = inward.frame
+    unknown = sp.Symbol("unknown", real=True)
+    lines: list[Line] = []
+    for passed, answers in inward.answers:
+        if answers:
+            value = answers["own"] + answers.get("inner", ZERO) * unknown
+            for c in frame.coordinates:
+                if c.name in answers:
+                    value -= answers[c.name] * change(c)
+            lines.append(Update({unknown: value}))
+        for i, swing in passed.swings.items():
+            moved = change(frame.coordinates[i])
+            lines.append(Update({moved: moved + swing * unknown}))
+    return lines

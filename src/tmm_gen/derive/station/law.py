@@ -1,0 +1,101 @@
+"""An element's equations, solved: what moves its outer side, and what force its inner side needs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+
+import sympy as sp
+
+from tmm_gen.derive.elements.declaration import Element, Motion, Port
+
+KINDS = ("q", "v", "a")
+
+
+@dataclass(frozen=True)
+class Law:
+    """A solved element.
+
+    Parameters
+    ----------
+    outer : dict from int to dict from "q", "v", "a" to sympy.Expr
+        Motion of the outer side by that of the inner one, of each coordinate that has no motion of its own there.
+    free : int or None
+        The coordinate in which the element gives way: its outer motion is a new unknown.
+    inner : tuple of sympy.Expr
+        Forces at the inner side, by those at the outer side and by motions.
+    own : sympy.Expr
+        Force at the outer side in the free coordinate by the motion of both sides; zero where there is none.
+    ratio : sympy.Expr
+        How much of that force acts at the inner side; ``inner`` of the free coordinate is what acts there besides.
+    """
+
+    outer: dict[int, dict[str, sp.Expr]]
+    free: int | None
+    inner: tuple[sp.Expr, ...]
+    own: sp.Expr
+    ratio: sp.Expr
+
+
+@cache
+def law_of(element: Element) -> Law:
+    """Solve an element's equations.
+
+    Raises
+    ------
+    ValueError
+        If they do not determine outer motion and inner force, but for one coordinate.
+    """
+    inboard, outboard = element.inboard, element.outboard
+    forces = {*inboard.forces, *outboard.forces}
+    geometric = [e for e in element.equations if not e.free_symbols & forces]
+    outer: dict[int, dict[str, sp.Expr]] = {}
+    for i, motion in enumerate(outboard.motions):
+        found = _outer_motion(motion, geometric, inboard)
+        if found is not None:
+            outer[i] = found
+    free = [i for i in range(len(outboard.motions)) if i not in outer]
+    if len(free) > 1 or len(geometric) != len(outer):
+        raise ValueError(f"{element.name}: its outer motion should be determined but for one coordinate")
+    by_inner = {
+        getattr(outboard.motions[i], kind): value for i, m in outer.items() for kind, value in m.items()
+    }
+    balance = [e.subs(by_inner) for e in element.equations if e.free_symbols & forces]
+    unknown = [*inboard.forces, *(outboard.forces[i] for i in free)]
+    solved = sp.solve(balance, unknown, dict=True)
+    if len(solved) != 1 or len(solved[0]) != len(unknown):
+        raise ValueError(f"{element.name}: its inner forces are not determined")
+    values = {force: sp.expand(value) for force, value in solved[0].items()}
+    inner = [values[force] for force in inboard.forces]
+    own, ratio = sp.Integer(0), sp.Integer(1)
+    if free:
+        own = values[outboard.forces[free[0]]]
+        quotient = sp.cancel(inner[free[0]] / own) if own != 0 else sp.Integer(1)
+        moving = {s for port in (inboard, outboard) for m in port.motions for s in (m.q, m.v, m.a)}
+        if not quotient.free_symbols & moving:
+            ratio = quotient
+        inner[free[0]] = sp.expand(inner[free[0]] - ratio * own)
+    return Law(outer, free[0] if free else None, tuple(inner), own, ratio)
+
+
+def _outer_motion(motion: Motion, geometric: list[sp.Expr], inboard: Port) -> dict[str, sp.Expr] | None:
+    """Solve the equation that holds a coordinate of the outer side, and differentiate it by time."""
+    for kind in KINDS:
+        symbol = getattr(motion, kind)
+        for equation in geometric:
+            if equation.has(symbol):
+                (value,) = sp.solve(equation, symbol)
+                found = {kind: sp.expand(value)}
+                for lower, higher in zip(KINDS, KINDS[1:], strict=False):
+                    if lower in found:
+                        found[higher] = sp.expand(by_time(found[lower], inboard))
+                return found
+    return None
+
+
+def by_time(expression: sp.Expr, *ports: Port) -> sp.Expr:
+    """Differentiate by time: displacements move by velocities, velocities by accelerations."""
+    rates = {m.q: m.v for port in ports for m in port.motions} | {
+        m.v: m.a for port in ports for m in port.motions
+    }
+    return sp.Add(*(sp.diff(expression, s) * rate for s, rate in rates.items()))

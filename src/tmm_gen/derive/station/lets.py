@@ -1,0 +1,59 @@
+"""What a derivation consists of: named values in order, updates of what a sweep carries, pivots it relies on."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import sympy as sp
+
+
+@dataclass(frozen=True)
+class Let:
+    """A named value."""
+
+    symbol: sp.Symbol
+    value: sp.Expr
+    doc: str = ""
+    unit: str = "1"
+
+
+@dataclass(frozen=True)
+class Update:
+    """New values of what a sweep carries, all at once: each is written by the old ones."""
+
+    values: Mapping[sp.Symbol, sp.Expr]
+
+
+@dataclass(frozen=True)
+class Pivot:
+    """A value that must be positive."""
+
+    value: sp.Expr
+
+
+Line = Let | Update | Pivot
+
+
+@dataclass(frozen=True)
+class Coordinate:
+    """One coordinate of a row's stations.
+
+    Parameters
+    ----------
+    name : str
+        In names of what belongs to it: "x", "y", "u" (the unknown of an integrated coordinate).
+    force : str
+        Name of the force conjugate to it.
+    integrated : bool
+        Whether time integration knows its motion. Of any other only accelerations are carried from station to
+        station; what a sweep solves for in it is the change of the acceleration.
+    unit, force_unit : str
+        Of its acceleration and of its force.
+    """
+
+    name: str
+    force: str
+    integrated: bool
+    unit: str
+    force_unit: str

@@ -1,0 +1,1 @@
+"""From a row of elements to its program."""

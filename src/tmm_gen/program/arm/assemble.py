@@ -1,0 +1,204 @@
+"""From a row and an integrator to the program of a kernel."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import sympy as sp
+
+from tmm_gen.derive.integrators.declaration import CONSISTENT_START, Integrator, past
+from tmm_gen.derive.integrators.relations import Unknown
+from tmm_gen.program.arm.combinations import Combinations
+from tmm_gen.program.arm.heat import heat_after, heat_before
+from tmm_gen.program.arm.layout import Layout, layout_of
+from tmm_gen.program.arm.loads import Loads
+from tmm_gen.program.arm.readings import output_routine
+from tmm_gen.program.arm.step import MakeWalks, StepBuilder
+from tmm_gen.program.arm.thesis import start_places
+from tmm_gen.program.arm.turns import TURNED, start_unturned, take_turns_out
+from tmm_gen.program.arm.walks import Walks
+from tmm_gen.program.fields import gain_names, living_state
+from tmm_gen.program.motion import history_values
+from tmm_gen.program.passes.early import EarlySets
+from tmm_gen.program.passes.hoist import Hoister
+from tmm_gen.program.passes.prune import prune
+from tmm_gen.program.sensitivities.chain import chain_sensitivities
+from tmm_gen.program.statements import Assign, Program, Routine, Section
+from tmm_gen.program.variables import Role
+from tmm_gen.row.row import Row
+
+
+@dataclass(frozen=True)
+class Choices:
+    """How a row is solved.
+
+    Parameters
+    ----------
+    step : float
+        The scene's time step, s.
+    unknown : str
+        What sweeps solve for.
+    iterations : int
+        Sweeps per stage.
+    walks : callable
+        Makes the walks of a sweep.
+    places : bool
+        Whether the nodes' places are integrated on their own.
+    turns_apart : bool
+        Whether the turns of a base that turns on and on are kept apart from angles.
+    sensitivities : bool
+        Whether the step's derivatives are built too.
+    """
+
+    step: float
+    unknown: Unknown = "acceleration"
+    iterations: int = 1
+    walks: MakeWalks = Walks
+    places: bool = False
+    turns_apart: bool = False
+    sensitivities: bool = False
+
+
+class Assembly:
+    """Gathers the routines of a row's program.
+
+    Parameters
+    ----------
+    row : Row
+        The arm.
+    integrator : Integrator
+        With its parameters bound to numbers.
+    choices : Choices
+        How it is solved.
+    """
+
+    def __init__(self, row: Row, integrator: Integrator, choices: Choices) -> None:
+        self.row, self.integrator, self.choices = row, integrator, choices
+        self.layout = layout_of(row, integrator, choices.step, choices.unknown, places=choices.places)
+        self.combinations = Combinations(self.layout, Role.COEFFICIENT)
+        self.early = EarlySets()
+        self.hoister = Hoister(names=gain_names(integrator, choices.unknown, self.layout.step))
+
+    def program(self) -> Program:
+        """Build the program."""
+        layout, integrator = self.layout, self.integrator
+        routines: dict[str, Routine] = {}
+        # the main scheme first: its factors get the plain names
+        for position, scheme in sorted(
+            enumerate(integrator.schemes), key=lambda item: item[1] is not integrator.main
+        ):
+            main = scheme is integrator.main
+            builder = StepBuilder(
+                layout=layout,
+                prepared=self.combinations.variables,
+                scheme=scheme,
+                unknown=self.choices.unknown,
+                sources=history_values(layout.state, lambda v: v.at()),
+                hub_sources=history_values(layout.hub, lambda v: v.ref),
+                iterations=self.choices.iterations,
+                split=self.early.split,
+                walks=self.choices.walks,
+            )
+            name = "step" if main else f"step_start{position + 1}"
+            doc = "Advance the state by one step." if main else f"Start-up: take step {position + 1}."
+            sections = (
+                *heat_before(layout),
+                *builder.sections(),
+                *hold(layout, len(scheme.stages)),
+                *heat_after(layout),
+            )
+            routines[name] = self.hoister.hoist(Routine(name, doc, sections))
+        main_routine = routines.pop("step")
+        startup = tuple(routines[f"step_start{k + 1}"] for k in range(len(integrator.startup)))
+        return self._gathered(main_routine, startup)
+
+    def _gathered(self, main: Routine, startup: tuple[Routine, ...]) -> Program:
+        layout, row, integrator = self.layout, self.row, self.integrator
+        turned = TURNED if self.choices.turns_apart else None
+        output = self.hoister.hoist(output_routine(layout, turned))
+        initialise = self._initialise()
+        if turned is not None:
+            main, *others = take_turns_out((main, *startup), layout)
+            startup = tuple(others)
+            initialise = start_unturned(initialise)
+        kept = (*((turned,) if turned is not None else ()), *layout.all_state)
+        state = living_state(kept, (*startup, main), output)
+        wanted = frozenset(state)
+        startup = tuple(prune(r, wanted) for r in startup)
+        main, initialise = prune(main, wanted), prune(initialise, wanted)
+        used = frozenset().union(*(r.read() for r in (*startup, main, output)))
+        sections = (self.combinations.section, *self.early.sections, self.hoister.section())
+        doc = "Compute what depends on parameters and step alone."
+        prepare = prune(Routine("prepare", doc, sections), used)
+        coefficients = (
+            *self.hoister.coefficients,
+            *self.combinations.variables.values(),
+            *self.early.coefficients,
+        )
+        read = prepare.read() | used | initialise.read()
+        return Program(
+            name=row.name,
+            title=row.title,
+            stations=layout.stations,
+            step=layout.step,
+            parameters=tuple(p for p in layout.parameters.values() if p in read),
+            coefficients=tuple(c for c in coefficients if c in used),
+            state=state,
+            inputs=layout.inputs,
+            outputs=layout.outputs,
+            given=layout.given,
+            prepare=prepare,
+            initialise=initialise,
+            startup=startup,
+            main=main,
+            output=output,
+            stage_instants=tuple(
+                tuple(float(stage.instant) for stage in scheme.stages) for scheme in integrator.schemes
+            ),
+            facts=dict(row.facts),
+            sensitivities=chain_sensitivities(main, state, layout.inputs) if self.choices.sensitivities else None,
+        )
+
+    def _initialise(self) -> Routine:
+        """Build the start: given motion, consistent acceleration, an older history that nothing reads yet."""
+        layout = self.layout
+        combined = Combinations(layout, Role.WORK)
+        angle, rate = layout.given
+        builder = StepBuilder(
+            layout=replace(
+                layout,
+                state={p: v for p, v in layout.state.items() if p.lag == 0},
+                hub={p: v for p, v in layout.hub.items() if p.lag == 0},
+            ),
+            prepared=combined.variables,
+            scheme=CONSISTENT_START,
+            unknown="acceleration",
+            sources={past("q"): angle.at(), past("v"): rate.at(), past("a"): sp.Integer(0)},
+            hub_sources={
+                past("q"): Loads(layout, 0).prescribed,
+                past("v"): sp.Integer(0),
+                past("a"): sp.Integer(0),
+            },
+        )
+        older = tuple(Assign(v.ref, sp.Integer(0)) for p, v in layout.hub.items() if p.lag)
+        cold = (Assign(layout.dissipated.ref, sp.Integer(0)),) if layout.dissipated else ()
+        sections = (
+            combined.section,
+            *builder.sections(),
+            *((start_places(layout),) if layout.places else ()),
+            Section("older history of the hub", older),
+            *hold(layout, 1),
+            Section("nothing has turned to heat yet", cold),
+        )
+        return Routine(
+            "initialise",
+            "Start from given angles and rates with the acceleration that satisfies the equations of motion.",
+            tuple(s for s in sections if s.statements),
+        )
+
+
+def hold(layout: Layout, stages: int) -> tuple[Section, ...]:
+    """Remember inputs for outputs that need them."""
+    by_name = {v.name: v for v in layout.inputs}
+    assigns = tuple(Assign(v.ref, by_name[name].entry(stages - 1)) for name, v in layout.held.items())
+    return (Section("forces as they last acted", assigns),) if assigns else ()

@@ -1,0 +1,118 @@
+"""From the symbols of a derivation to variables at a place of the row."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+
+import sympy as sp
+
+from tmm_gen.derive.station.law import KINDS
+from tmm_gen.derive.station.lets import Let, Line, Pivot, Update
+from tmm_gen.program.statements import Assign, Require
+from tmm_gen.program.variables import Ref, Variable, local, refs_in
+
+
+@dataclass
+class Scratch:
+    """Scratch scalars by name, each with one description.
+
+    Parameters
+    ----------
+    described : dict from str to (str, str)
+        What a name means, and its unit.
+    """
+
+    described: dict[str, tuple[str, str]] = field(default_factory=dict)
+    lets: set[str] = field(default_factory=set)
+    """Names that are set once at a station, which may be kept for a later walk."""
+
+    def describe(self, lets: Iterable[Let]) -> None:
+        """Take over the words of lets."""
+        for let in lets:
+            self.described.setdefault(let.symbol.name, (let.doc, let.unit))
+            self.lets.add(let.symbol.name)
+
+    def ref(self, name: str) -> Ref:
+        """Return the scratch scalar of a name."""
+        doc, unit = self.described.get(name, ("", "1"))
+        return local(name, doc, unit)
+
+
+class Binding:
+    """Writes derived lines as statements at one place.
+
+    Parameters
+    ----------
+    scratch : Scratch
+        Names of what is computed on the way.
+    values : mapping from sympy.Symbol to sympy.Expr
+        What else stands at that place: parameters, motion, loads, gains.
+    """
+
+    def __init__(self, scratch: Scratch, values: Mapping[sp.Symbol, sp.Expr]) -> None:
+        self._scratch = scratch
+        self.values = values
+
+    def value(self, expression: sp.Expr) -> sp.Expr:
+        """Write an expression by variables."""
+        names: dict[sp.Symbol, sp.Expr] = {}
+        for symbol in sp.sympify(expression).free_symbols:
+            if not isinstance(symbol, Ref):
+                names[symbol] = self.values.get(symbol, None) if symbol in self.values else self._scratch.ref(symbol.name)
+        return sp.sympify(expression).xreplace(names)
+
+    def target(self, symbol: sp.Symbol) -> Ref:
+        """Return the variable a symbol is assigned to."""
+        found = self.values.get(symbol)
+        return found if isinstance(found, Ref) else self._scratch.ref(symbol.name)
+
+    def lines(self, lines: Iterable[Line]) -> list[Assign | Require]:
+        """Write lines as statements, in an order in which nothing is overwritten before it is read."""
+        found: list[Assign | Require] = []
+        for line in lines:
+            if isinstance(line, Let):
+                self._scratch.describe([line])
+                found.append(Assign(self.target(line.symbol), self.value(line.value)))
+            elif isinstance(line, Pivot):
+                found.append(Require(self.value(line.value)))
+            else:
+                found += in_order([Assign(self.target(s), self.value(v)) for s, v in line.values.items()])
+        return found
+
+
+def in_order(pending: list[Assign], prefix: str = "new_") -> list[Assign]:
+    """Order assignments that take effect at once so that nothing is overwritten before it is read."""
+    pending = list(pending)
+    ordered: list[Assign] = []
+    while pending:
+        for index, candidate in enumerate(pending):
+            others = pending[:index] + pending[index + 1 :]
+            if all(candidate.target not in refs_in(other.value) for other in others):
+                ordered.append(pending.pop(index))
+                break
+        else:  # a cycle: compute the first new value aside
+            first = pending[0]
+            aside = local(f"{prefix}{first.target.variable.name}", unit=first.target.variable.unit)
+            ordered.append(Assign(aside, first.value))
+            pending[0] = Assign(first.target, aside)
+            pending.append(pending.pop(0))
+    return ordered
+
+
+def composed(lines: Iterable[Line]) -> dict[sp.Symbol, sp.Expr]:
+    """Return what a straight sequence of lines leaves of what it carries, by what was there before."""
+    found: dict[sp.Symbol, sp.Expr] = {}
+    for line in lines:
+        if isinstance(line, Let):
+            found[line.symbol] = line.value.subs(found, simultaneous=True)
+        elif isinstance(line, Update):
+            found |= {s: sp.sympify(v).subs(found, simultaneous=True) for s, v in line.values.items()}
+    return found
+
+
+def motion_symbols(
+    symbols: Mapping[str, sp.Symbol], variables: Mapping[str, Variable], read: object
+) -> dict[sp.Symbol, sp.Expr]:
+    """Map the symbols of motion to where it is held."""
+    return {symbols[k]: read(variables[k]) for k in KINDS if k in variables}  # type: ignore[operator]

@@ -1,0 +1,65 @@
+"""Combinations of parameters that a sweep needs at each station: masses that meet at a node, inertias left over."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from tmm_gen.program.arm.layout import Layout
+from tmm_gen.program.statements import Assign, Loop, Order, Section, Statement
+from tmm_gen.program.variables import Ref, Role, Variable, refs_in
+from tmm_gen.row.row import Combination
+
+
+class Combinations:
+    """Variables for a row's combinations, and the statements that compute them.
+
+    Parameters
+    ----------
+    layout : Layout
+        The row's variables.
+    role : Role
+        Kept in the model, or scratch of the start.
+    """
+
+    def __init__(self, layout: Layout, role: Role) -> None:
+        self._layout = layout
+        self.variables: dict[str, Variable] = {}
+        self._statements: list[Statement] = []
+        for combination in layout.row.combinations:
+            self._add(combination, role)
+
+    @property
+    def section(self) -> Section:
+        """What computes them."""
+        return Section("masses at the nodes between links, and what they leave over", tuple(self._statements))
+
+    def _add(self, found: Combination, role: Role) -> None:
+        n = self._layout.stations
+        own, beyond = self._at(found.own, 0), self._at(found.beyond, 1)
+        alike = beyond == 0 and found.last == 0 and not any(r.offset is not None for r in refs_in(own))
+        kept = role if role is not Role.WORK or not alike else Role.LOCAL
+        variable = Variable(found.name, kept, None if alike else n, found.doc, found.unit)
+        self.variables[found.name] = variable
+        if alike:
+            self._statements.append(Assign(variable.ref, own))
+            return
+        if beyond == 0:
+            self._statements.append(Loop(Order.OUTWARD, 0, n, (Assign(variable.at(), own),)))
+            return
+        if n > 1:
+            self._statements.append(Loop(Order.OUTWARD, 0, n - 1, (Assign(variable.at(), own + beyond),)))
+        last = self._entry(found.own, n - 1) + self._entry(found.last, n - 1)
+        self._statements.append(Assign(variable.entry(n - 1), last))
+
+    def _at(self, value: sp.Expr, offset: int) -> sp.Expr:
+        return _bound(value, {s: v.at(offset) for s, v in self._symbols().items()})
+
+    def _entry(self, value: sp.Expr, index: int) -> sp.Expr:
+        return _bound(value, {s: v.entry(index) for s, v in self._symbols().items()})
+
+    def _symbols(self) -> dict[sp.Symbol, Variable]:
+        return {sp.Symbol(name): variable for name, variable in self._layout.parameters.items()}
+
+
+def _bound(value: sp.Expr, refs: dict[sp.Symbol, Ref]) -> sp.Expr:
+    return sp.sympify(value).xreplace(refs)

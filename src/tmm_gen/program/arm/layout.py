@@ -1,0 +1,114 @@
+"""Which variables a row needs: only those its elements, its readings and its integrator ask for."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from tmm_gen.derive.integrators.declaration import KINDS, Integrator, Past
+from tmm_gen.derive.integrators.history import history
+from tmm_gen.derive.integrators.relations import Unknown
+from tmm_gen.program.fields import state_variable
+from tmm_gen.program.variables import Role, Variable
+from tmm_gen.row.row import Parameter, Row
+
+
+@dataclass(frozen=True)
+class Layout:
+    """The variables of a row.
+
+    Parameters
+    ----------
+    parameters : dict from str to Variable
+        By the names of the symbols that stand for them.
+    state, hub : dict from Past to Variable
+        History of the stations' motion and of the base's, newest first.
+    places : dict from str to dict from Past to Variable
+        History of the nodes' places by coordinate, only where a linearisation integrates them.
+    held : dict from str to Variable
+        Inputs as they last acted, kept where a reading needs them.
+    dissipated : Variable or None
+        Energy turned to heat, where it is counted.
+    """
+
+    row: Row
+    step: Variable
+    parameters: dict[str, Variable]
+    state: dict[Past, Variable]
+    hub: dict[Past, Variable]
+    places: dict[str, dict[Past, Variable]]
+    held: dict[str, Variable]
+    dissipated: Variable | None
+    inputs: tuple[Variable, ...]
+    outputs: tuple[Variable, ...]
+    given: tuple[Variable, ...]
+
+    @property
+    def stations(self) -> int:
+        """Number of stations."""
+        return len(self.row.stations)
+
+    @property
+    def all_state(self) -> tuple[Variable, ...]:
+        """State variables, hub first."""
+        places = (v for kept in self.places.values() for v in kept.values())
+        counted = (self.dissipated,) if self.dissipated else ()
+        return (*self.hub.values(), *self.state.values(), *places, *self.held.values(), *counted)
+
+
+def layout_of(row: Row, integrator: Integrator, step: float, unknown: Unknown, *, places: bool) -> Layout:
+    """Choose the variables of a row.
+
+    Parameters
+    ----------
+    step : float
+        The scene's.
+    places : bool
+        Whether the nodes' places are integrated too.
+    """
+    n = len(row.stations)
+    # the newest motion predicts the next; what nothing reads is dropped later
+    kept = set(history(integrator, unknown)) | {Past(kind, 0) for kind in KINDS}
+    ordered = sorted(kept, key=lambda p: (p.lag, KINDS.index(p.kind)))
+    stages = max(len(scheme.stages) for scheme in integrator.schemes)
+    also = ", at each stage of the step" if stages > 1 else ""
+    carried = [c.name for c in row.coordinates if not c.integrated]
+    return Layout(
+        row=row,
+        step=Variable("step", Role.STEP, doc="time step", unit="s", default=step),
+        parameters={p.name: _parameter(p) for p in row.parameters},
+        state={p: state_variable(p, "", n) for p in ordered},
+        hub={p: state_variable(p, "hub_", None) for p in ordered} if row.boundary != "held" else {},
+        places={axis: {p: _place(axis, p, n) for p in ordered} for axis in carried} if places else {},
+        held={name: Variable(s.name, Role.STATE, doc=s.doc, unit=s.unit) for name, s in row.held.items()},
+        dissipated=Variable("dissipated", Role.STATE, doc="energy turned to heat since the start", unit="J")
+        if row.counts_heat
+        else None,
+        inputs=tuple(
+            Variable(s.name, Role.INPUT, stages if stages > 1 else None, s.doc + also, s.unit)
+            for s in row.inputs
+        ),
+        outputs=tuple(
+            Variable(s.name, Role.OUTPUT, doc=s.doc, unit=s.unit) for r in row.readings for s in r.targets
+        ),
+        given=(
+            Variable("initial_angle", Role.GIVEN, n, "angles to start from", "rad", row.angles),
+            Variable("initial_rate", Role.GIVEN, n, "rates to start from", "rad/s", row.rates),
+        ),
+    )
+
+
+def _parameter(found: Parameter) -> Variable:
+    """Return a scalar where all values are alike, an array otherwise."""
+    if len(set(found.values)) == 1:
+        doc = found.doc + (", the same everywhere" if len(found.values) > 1 else "")
+        return Variable(found.name, Role.PARAMETER, None, doc, found.unit, found.values[0])
+    doc = found.doc + ", base to tip"
+    return Variable(found.name, Role.PARAMETER, len(found.values), doc, found.unit, found.values)
+
+
+def _place(axis: str, past: Past, length: int) -> Variable:
+    suffix = {"q": "", "v": "_rate", "a": "_acceleration"}[past.kind]
+    unit = {"q": "m", "v": "m/s", "a": "m/s^2"}[past.kind]
+    age = f"_{past.lag}_ago" if past.lag else ""
+    doc = f"place of each link's outer end along {axis}{suffix.replace('_', ', ')}"
+    return Variable(f"place_{axis}{suffix}{age}", Role.STATE, length, doc, unit)

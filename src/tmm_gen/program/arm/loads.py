@@ -1,0 +1,46 @@
+"""Where a row's inputs act, at one stage of a step."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from tmm_gen.program.arm.layout import Layout
+from tmm_gen.program.statements import Assign, Loop, Order, Statement
+from tmm_gen.program.variables import Role, Variable
+from tmm_gen.row.row import Load
+
+
+class Loads:
+    """Loads by the symbols that stand for them in elements.
+
+    Parameters
+    ----------
+    layout : Layout
+        The row's variables.
+    stage : int
+        Of the step, from 0: inputs are read there.
+    """
+
+    def __init__(self, layout: Layout, stage: int) -> None:
+        self._n = layout.stations
+        self._inputs = {v.name: v.entry(stage) for v in layout.inputs}
+        self._loads = layout.row.loads
+        self.prescribed: sp.Expr = sp.Add(*(self._inputs[name] for name in layout.row.prescribed))
+        self.values: dict[sp.Symbol, sp.Expr] = {}
+        self.fill: list[Statement] = []
+        """Statements that fill the arrays of loads on stations."""
+        for load in self._loads:
+            self._add(load)
+
+    def _add(self, load: Load) -> None:
+        if all(index is None for index, _ in load.places):
+            self.values[load.symbol] = sp.Add(*(self._inputs[name] for _, name in load.places))
+            return
+        array = Variable(load.symbol.name.rstrip("_"), Role.WORK, self._n, load.doc, load.unit)
+        self.values[load.symbol] = array.at()
+        self.fill.append(Loop(Order.OUTWARD, 0, self._n, (Assign(array.at(), sp.Integer(0)),)))
+        sums: dict[int, sp.Expr] = {}
+        for index, name in load.places:
+            assert index is not None
+            sums[index] = sums.get(index, sp.Integer(0)) + self._inputs[name]
+        self.fill += [Assign(array.entry(index), value) for index, value in sums.items()]

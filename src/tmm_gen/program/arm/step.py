@@ -1,0 +1,187 @@
+"""One step of a row: per stage, the motion before the sweep, the sweep, and what it has found taken up."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import sympy as sp
+
+from tmm_gen.derive.integrators.declaration import KINDS, STEP, Kind, Scheme, stage
+from tmm_gen.derive.integrators.relations import AffineMotion, Unknown, affine_motion
+from tmm_gen.derive.station.frame import GAINS, Frame
+from tmm_gen.program.arm.layout import Layout
+from tmm_gen.program.arm.loads import Loads
+from tmm_gen.program.arm.motion import KNOWN_RATE, StartingPoint, motion_variable, starting_point
+from tmm_gen.program.arm.walks import BASE, StageOf, Walks, hub_unknown, solved_variable
+from tmm_gen.program.motion import kept_stage_values, stage_variable, update_assignments
+from tmm_gen.program.statements import Assign, Loop, Order, Section, Statement
+from tmm_gen.program.variables import Variable
+
+MakeWalks = Callable[..., Walks]
+
+
+@dataclass(frozen=True)
+class StepBuilder:
+    """Builds the sections of one scheme's step.
+
+    Parameters
+    ----------
+    layout : Layout
+        The row's variables.
+    prepared : mapping from str to Variable
+        Combinations of parameters.
+    scheme : Scheme
+        What to step with.
+    unknown : str
+        What the sweep solves for.
+    sources, hub_sources : mapping from sympy.Symbol to sympy.Expr
+        Where history is read from.
+    iterations : int
+        Sweeps per stage.
+    split : callable
+        Takes from a sweep's sections what is bound early.
+    walks : callable
+        Makes the walks of a sweep.
+    """
+
+    layout: Layout
+    prepared: Mapping[str, Variable]
+    scheme: Scheme
+    unknown: Unknown
+    sources: Mapping[sp.Symbol, sp.Expr]
+    hub_sources: Mapping[sp.Symbol, sp.Expr]
+    iterations: int = 1
+    split: Callable[[list[Section]], list[Section]] = list
+    walks: MakeWalks = Walks
+
+    def sections(self) -> tuple[Section, ...]:
+        """Return the whole step."""
+        count, about = len(self.scheme.stages), self.layout.row.about
+        motions = [affine_motion(self.scheme, i + 1, self.unknown) for i in range(count)]
+        points = [starting_point(motion, i, about) for i, motion in enumerate(motions)]
+        kept = kept_stage_values(
+            self.scheme, {(i, k): p.values[k] for i, p in enumerate(points) for k in KINDS}
+        )
+        sections: list[Section] = []
+        for index, (motion, point) in enumerate(zip(motions, points, strict=True), start=1):
+            title = f"Stage {index} of {count}: " if count > 1 else ""
+            walks = self._walks(index, motion, point)
+            before = "predicted motion" if about == "prediction" else "motion known before the sweep"
+            sections.append(Section(title + before, tuple(self._begin(point))))
+            for iteration in range(self.iterations):
+                again = f"iteration {iteration + 1}: " if self.iterations > 1 else ""
+                sections += [
+                    Section(title + again + s.title, s.statements) for s in self.split(walks.sections())
+                ]
+                if iteration + 1 < self.iterations:
+                    sections.append(
+                        Section(title + again + "improved prediction", tuple(self._improve(motion)))
+                    )
+            sections.append(self._finish(title, index, motion, point, walks, kept, last=index == count))
+        return tuple(s for s in sections if s.statements)
+
+    # -- before the sweep --------------------------------------------------------------------------------------
+
+    def _walks(self, index: int, motion: AffineMotion, point: StartingPoint) -> Walks:
+        row = self.layout.row
+        gain = tuple(motion.gain[k] if motion.gain[k].is_number else GAINS[k] for k in KINDS)
+        frame = Frame(row.coordinates, gain, point.still, row.about, row.sign)  # type: ignore[arg-type]
+        gains = {GAINS[k]: self._gain(motion, k) for k in KINDS}
+        known = {k: self._motion(k) for k in KINDS if k not in point.still}
+        stage_of = StageOf(self.scheme, index, motion, self.sources)
+        loads = Loads(self.layout, index - 1)
+        return self.walks(self.layout, self.prepared, frame, gains, known, loads, stage_of)
+
+    def _gain(self, motion: AffineMotion, kind: Kind) -> sp.Expr:
+        return motion.gain[kind].xreplace({STEP: self.layout.step.ref})
+
+    def _motion(self, kind: Kind) -> Variable:
+        return motion_variable(kind, self.layout.row.about, self.layout.stations)
+
+    def _begin(self, point: StartingPoint) -> list[Statement]:
+        n = self.layout.stations
+        at_links, at_hub = self._values("", n), self._values("hub_", None)
+        rate = self._motion("v")
+        body, base = [], []
+        for kind in ("v", "q", "a"):  # rates first: displacements may be written by them
+            value = point.values[kind]
+            if value == 0:
+                continue
+            variable = self._motion(kind)
+            body.append(Assign(variable.at(1), value.xreplace({**at_links, KNOWN_RATE: rate.at(1)})))
+            moved = value.xreplace({**at_hub, KNOWN_RATE: rate.entry(BASE)})
+            base.append(Assign(variable.entry(BASE), sp.Integer(0) if self._held else moved))
+        return [*base, Loop(Order.OUTWARD, 0, n, tuple(body))] if body else []
+
+    @property
+    def _held(self) -> bool:
+        return self.layout.row.boundary == "held"
+
+    def _improve(self, motion: AffineMotion) -> list[Statement]:
+        n = self.layout.stations
+        solved, hub = solved_variable(n), hub_unknown()
+        body, base = [], []
+        for kind in KINDS:
+            gain = self._gain(motion, kind)
+            ref, entry = self._motion(kind).at(1), self._motion(kind).entry(BASE)
+            body.append(Assign(ref, ref + gain * solved.at()))
+            base.append(Assign(entry, entry + gain * hub))
+        moved = [] if self._held else base
+        return [*moved, Loop(Order.OUTWARD, 0, n, tuple(a for a in body if a.value != a.target))]
+
+    def _values(self, prefix: str, length: int | None) -> dict[sp.Symbol, sp.Expr]:
+        earlier = range(1, len(self.scheme.stages))
+        stages = {stage(k, i): stage_variable(k, i, prefix, length).at() for k in KINDS for i in earlier}
+        return {STEP: self.layout.step.ref, **(self.hub_sources if prefix else self.sources), **stages}
+
+    # -- after the sweep ---------------------------------------------------------------------------------------
+
+    def _finish(
+        self,
+        title: str,
+        index: int,
+        motion: AffineMotion,
+        point: StartingPoint,
+        walks: Walks,
+        kept: frozenset[tuple[Kind, int]],
+        *,
+        last: bool,
+    ) -> Section:
+        n = self.layout.stations
+        zero = sp.Integer(0)
+        links = {
+            k: (zero if k in point.still else self._motion(k).at(1)) + self._gain(motion, k) * solved_variable(n).at()
+            for k in KINDS
+        }
+        hub = {
+            k: (zero if k in point.still else self._motion(k).entry(BASE))
+            + self._gain(motion, k) * hub_unknown()
+            for k in KINDS
+        }
+        statements: list[Statement] = []
+        if not last:
+            mine = sorted((k, i) for k, i in kept if i == index)
+            if not self._held:
+                statements += [Assign(stage_variable(k, i, "hub_", None).ref, hub[k]) for k, i in mine]
+            if mine:
+                body = tuple(Assign(stage_variable(k, i, "", n).at(), links[k]) for k, i in mine)
+                statements.append(Loop(Order.OUTWARD, 0, n, body))
+            return Section(title + "motion at this stage", tuple(statements))
+        if not self._held:
+            new = self._new_values(index, hub, self._values("hub_", None))
+            statements += update_assignments(self.layout.hub, new, lambda v: v.ref, "")
+        new = self._new_values(index, links, self._values("", n))
+        statements.append(
+            Loop(
+                Order.OUTWARD, 0, n, tuple(update_assignments(self.layout.state, new, lambda v: v.at(), ""))
+            )
+        )
+        places = walks.after_update()
+        return Section(title + "motion at the end of the step", (*places, *statements))
+
+    def _new_values(
+        self, index: int, values: Mapping[Kind, sp.Expr], at: Mapping[sp.Symbol, sp.Expr]
+    ) -> dict[Kind, sp.Expr]:
+        own = {stage(k, index): values[k] for k in KINDS}
+        return {k: sp.expand(sp.sympify(self.scheme.update[k]).xreplace({**own, **at})) for k in KINDS}

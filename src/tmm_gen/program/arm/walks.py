@@ -1,0 +1,352 @@
+"""The walks of one sweep, as sections: out with motion, in with forces, the base, out with the answers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import sympy as sp
+
+from tmm_gen.derive.integrators.declaration import Scheme
+from tmm_gen.derive.integrators.relations import AffineMotion
+from tmm_gen.derive.station.frame import COSINE, INNER, OUTER, SINE, Frame, change, force, impedance, node
+from tmm_gen.derive.station.inward import Inward, back
+from tmm_gen.derive.station.law import KINDS
+from tmm_gen.derive.station.lets import Let, Line, Pivot, Update
+from tmm_gen.derive.station.station import everything, inward, outward, recurring
+from tmm_gen.program.arm.binding import Binding, Scratch, composed
+from tmm_gen.program.arm.layout import Layout
+from tmm_gen.program.arm.loads import Loads
+from tmm_gen.program.statements import Assign, Loop, Order, Require, Section, Statement
+from tmm_gen.program.variables import Ref, Role, Variable, local, refs_in
+
+BASE = 0
+"""Index of the base among nodes; station j lies between nodes j and j + 1."""
+UNKNOWN = sp.Symbol("unknown", real=True)
+
+
+@dataclass(frozen=True)
+class StageOf:
+    """A stage of a scheme.
+
+    Parameters
+    ----------
+    scheme : Scheme
+    index : int
+        From 1.
+    motion : AffineMotion
+        By its unknown.
+    sources : mapping from sympy.Symbol to sympy.Expr
+        Where the history of stations is read from.
+    """
+
+    scheme: Scheme
+    index: int
+    motion: AffineMotion
+    sources: Mapping[sp.Symbol, sp.Expr]
+
+
+class Walks:
+    """Builds the sections of one sweep.
+
+    Parameters
+    ----------
+    layout : Layout
+        The row's variables.
+    prepared : mapping from str to Variable
+        Combinations of parameters.
+    frame : Frame
+        What the recursion is derived for.
+    gains : mapping from sympy.Symbol to sympy.Expr
+        Values of the frame's symbols for gains.
+    motion : mapping from "q", "v", "a" to Variable
+        Motion about which it is linearised, base first.
+    loads : Loads
+        What acts.
+    stage : StageOf
+        Which stage of which scheme it is.
+    """
+
+    def __init__(
+        self,
+        layout: Layout,
+        prepared: Mapping[str, Variable],
+        frame: Frame,
+        gains: Mapping[sp.Symbol, sp.Expr],
+        motion: Mapping[str, Variable],
+        loads: Loads,
+        stage: StageOf,
+    ) -> None:
+        self.stage = stage
+        self.layout, self.frame, self.motion, self.loads = layout, frame, motion, loads
+        self.gains = gains
+        self.scratch = Scratch(dict(_described(frame)))
+        self._parameters = {sp.Symbol(name): v for name, v in {**layout.parameters, **prepared}.items()}
+        self.nodes = {
+            c.name: Variable(
+                f"acceleration_{c.name}",
+                Role.WORK,
+                layout.stations + 1,
+                f"acceleration of the nodes along {c.name}",
+                c.unit,
+            )
+            for c in frame.coordinates
+            if not c.integrated
+        }
+        self.solved = solved_variable(layout.stations)
+        self.runs = layout.row.runs()
+        self._inwards = self._derive()
+
+    def sections(self) -> list[Section]:
+        """Return the whole sweep."""
+        falling = ", seen from a falling frame: gravity is the base's own" if self.layout.row.fall != 0 else ""
+        found = [
+            Section("accelerations of the nodes" + falling, tuple(self.outward_motion())),
+            Section("forces of the joints at the motion so far", tuple(self.joint_forces())),
+            Section(
+                "sweep inward: force beyond each joint as an affine function of the motion at it",
+                tuple(self.inward_forces()),
+            ),
+            Section("the base", tuple(self.base())),
+            Section("sweep outward: the unknown of each station", tuple(self.answers())),
+        ]
+        return spread([s for s in found if s.statements], self.scratch, self.layout.stations)
+
+    # -- places --------------------------------------------------------------------------------------------
+
+    def at_station(self) -> Binding:
+        """Return what symbols stand for at station j of a loop."""
+        values = self._values(lambda v: v.at(), lambda v: v.at(0), lambda v: v.at(1))
+        for name, variable in self.nodes.items():
+            values[sp.Symbol(f"node_{name}", real=True)] = variable.at(0)
+            values[sp.Symbol(f"node_{name}_outer", real=True)] = variable.at(1)
+        return Binding(self.scratch, values)
+
+    def at_node(self, index: int) -> Binding:
+        """Return what symbols stand for at a node, counted from the base."""
+        last = max(min(index, self.layout.stations) - 1, 0)
+        values = self._values(lambda v: v.entry(last), lambda v: v.entry(index), lambda v: v.entry(index))
+        for name, variable in self.nodes.items():
+            values[sp.Symbol(f"node_{name}", real=True)] = variable.entry(index)
+        return Binding(self.scratch, values)
+
+    def _values(self, parameter: object, inner: object, outer: object) -> dict[sp.Symbol, sp.Expr]:
+        values: dict[sp.Symbol, sp.Expr] = {s: parameter(v) for s, v in self._parameters.items()}  # type: ignore[operator]
+        values |= self.gains | self.loads.values
+        for kind in KINDS:
+            if kind in self.motion:
+                values[INNER[kind]] = inner(self.motion[kind])  # type: ignore[operator]
+                values[OUTER[kind]] = outer(self.motion[kind])  # type: ignore[operator]
+        if self.frame.followed is None and "q" in self.motion:
+            values[SINE], values[COSINE] = sp.sin(values[OUTER["q"]]), sp.cos(values[OUTER["q"]])
+        return values
+
+    # -- walks ---------------------------------------------------------------------------------------------
+
+    def outward_motion(self) -> list[Statement]:
+        """Walk out with the motion of nodes, and with how they answer to the unknowns."""
+        here = self.at_station()
+        first: list[Statement] = []
+        walk: list[Statement] = []
+        carried = {sp.Symbol(f"node_{name}", real=True): self.scratch.ref(f"node_{name}") for name in self.nodes}
+        moving = {sp.Symbol(f"node_{name}_outer", real=True): ref for name, ref in zip(self.nodes, carried.values(), strict=True)}
+        along = Binding(self.scratch, {**here.values, **carried, **moving})
+        for start, stop, elements in self.runs:
+            lets = outward(elements, self.frame).lets
+            self.scratch.describe(let for let in lets if let.symbol not in moving)
+            at_nodes = _depending(lets, set(carried))
+            still = [let for let in lets if let not in at_nodes]
+            if still:
+                first.append(Loop(Order.OUTWARD, start, stop, tuple(here.lines(still))))
+            if at_nodes:
+                body = [Assign(along.target(let.symbol), along.value(let.value)) for let in at_nodes]
+                body += [Assign(v.at(1), self.scratch.ref(f"node_{name}")) for name, v in self.nodes.items()]
+                walk.append(Loop(Order.OUTWARD, start, stop, tuple(body)))
+        return [*first, *self._start_nodes(), *walk] if walk else first
+
+    def _start_nodes(self) -> list[Statement]:
+        falls = dict.fromkeys(self.nodes, sp.Integer(0))
+        if self.nodes:
+            falls[list(self.nodes)[-1]] = self.at_node(BASE).value(self.layout.row.fall)
+        begin = [Assign(self.scratch.ref(f"node_{name}"), value) for name, value in falls.items()]
+        kept = [Assign(v.entry(BASE), self.scratch.ref(f"node_{name}")) for name, v in self.nodes.items()]
+        return [*begin, *kept]
+
+    def joint_forces(self) -> list[Statement]:
+        """Return the forces of elements that give way, at the motion about which it is linearised."""
+        here = self.at_station()
+        found: list[Statement] = []
+        for (start, stop, _), derived in zip(self.runs, self._inwards, strict=True):
+            if derived.known:
+                found.append(Loop(Order.OUTWARD, start, stop, tuple(here.lines(derived.known))))
+        return found
+
+    def inward_forces(self) -> list[Statement]:
+        """Walk in with the force beyond each place as an affine function of the motion there."""
+        here = self.at_station()
+        found: list[Statement] = [*self.loads.fill, *self.tail()]
+        arriving = self._tail.zero
+        for (start, stop, _), derived in reversed(list(zip(self.runs, self._inwards, strict=True))):
+            for symbol in sorted(arriving - derived.arriving, key=str):
+                found.append(Assign(self.scratch.ref(symbol.name), sp.Integer(0)))
+            found.append(Loop(Order.INWARD, start, stop, tuple(here.lines(derived.lines))))
+            arriving = derived.zero
+        return found
+
+    def tail(self) -> list[Statement]:
+        """Return what stands beyond the last station, as forces there."""
+        at_tip = self.at_node(self.layout.stations)
+        left = composed(self._tail.lines)
+        kept = [*_entries(self.frame)]
+        return [Assign(self.scratch.ref(s.name), at_tip.value(left[s])) for s in kept if s in left]
+
+    def base(self) -> list[Statement]:
+        """Solve for the unknown of the base."""
+        here, unknown = self.at_node(BASE), self.scratch.ref("unknown")
+        boundary = self.layout.row.boundary
+        if boundary == "held":
+            return [Assign(unknown, sp.Integer(0))]
+        hub = Assign(hub_unknown(), unknown)
+        if boundary == "prescribed":
+            gain = here.value(self.frame.gains["q"])
+            angle = self.motion["q"].entry(BASE) if "q" in self.motion else sp.Integer(0)
+            value = (self.loads.prescribed - angle) / gain if gain != 0 else sp.Integer(0)
+            return [Assign(unknown, value), hub]
+        return [*here.lines(self._free_base()), hub]
+
+    def _free_base(self) -> list[Line]:
+        frame = self.frame
+        own = frame.coordinates[frame.own]
+        derived = inward(self.layout.row.base, frame, self._inwards[0].zero, moved=True)
+        left = composed(derived.lines)
+        stiffness, bias = left.get(impedance(own, own), impedance(own, own)), left.get(force(own), force(own))
+        if impedance(own, own) in self._inwards[0].zero:
+            stiffness = stiffness.subs(impedance(own, own), 0)
+        sign = sp.Integer(frame.sign)
+        constant = sp.expand(sign * (stiffness - stiffness.coeff(impedance(own, own)) * impedance(own, own)))
+        lines: list[Line] = []
+        if not constant.is_Atom:
+            named = sp.Symbol("hub_impedance", real=True)
+            lines.append(Let(named, constant, "torque of the hub per unknown", "kg m^2"))
+            constant = named
+        pivot = sp.Symbol("hub_pivot", real=True)
+        carried = sign * impedance(own, own) if stiffness.has(impedance(own, own)) else sp.Integer(0)
+        lines += [Let(pivot, carried + constant, "pivot of the hub"), Pivot(pivot)]
+        known = sp.expand(-sign * bias)
+        if frame.about == "known":
+            admittance = sp.Symbol("hub_admittance", real=True)
+            lines.append(Let(admittance, 1 / pivot, "inverse pivot of the hub"))
+            return [*lines, Update({UNKNOWN: admittance * known})]
+        return [*lines, Update({UNKNOWN: known / pivot})]
+
+    def answers(self) -> list[Statement]:
+        """Walk out with the unknowns."""
+        here, unknown = self.at_station(), self.scratch.ref("unknown")
+        moved = [change(c) for c in self.frame.coordinates if not c.integrated]
+        found: list[Statement] = [Assign(self.scratch.ref(s.name), sp.Integer(0)) for s in moved]
+        for (start, stop, _), derived in zip(self.runs, self._inwards, strict=True):
+            body = [*here.lines(back(derived)), Assign(self.solved.at(), unknown), *self.after_answer()]
+            found.append(Loop(Order.OUTWARD, start, stop, tuple(body)))
+        return found
+
+    def after_update(self) -> list[Statement]:
+        """Return updates of other states than motion of stations; they read the history before it ages."""
+        return []
+
+    def after_answer(self) -> list[Assign]:
+        """Return what else to keep at each station."""
+        return []
+
+    # -- derivation ----------------------------------------------------------------------------------------
+
+    def _derive(self) -> list[Inward]:
+        self._tail = inward(self.layout.row.tail, self.frame, everything(self.frame), moved=True)
+        zero = self._tail.zero
+        found: list[Inward] = []
+        for start, stop, elements in reversed(self.runs):
+            derived = recurring(elements, self.frame, zero, stop - start)
+            zero = derived.zero
+            found.insert(0, derived)
+        return found
+
+
+def solved_variable(stations: int) -> Variable:
+    """Return the scratch array of what a sweep has found."""
+    return Variable("solved", Role.WORK, stations, "unknown of each station")
+
+
+def hub_unknown() -> Ref:
+    """Return what a sweep has found of the base."""
+    return local("hub_unknown", "unknown of the hub")
+
+
+def spread(sections: list[Section], scratch: Scratch, n: int) -> list[Section]:
+    """Keep in arrays what one loop sets at each station and another reads."""
+    names: set[Variable] = set()
+    for section in sections:
+        for statement in section.statements:
+            written: set[Variable] = set()
+            for inner in statement.body if isinstance(statement, Loop) else (statement,):
+                for ref in refs_in(inner.value):
+                    if ref.variable.name in scratch.lets and ref.variable not in written:
+                        if ref.variable.role is Role.LOCAL:
+                            names.add(ref.variable)
+                if isinstance(inner, Assign):
+                    written.add(inner.target.variable)
+    set_in_loops = {
+        inner.target.variable
+        for section in sections
+        for statement in section.statements
+        if isinstance(statement, Loop)
+        for inner in statement.body
+        if isinstance(inner, Assign)
+    }
+    kept = {v.ref: replace(v, role=Role.WORK, length=n).at() for v in names & set_in_loops}
+
+    def changed(statement: Assign | Require) -> Assign | Require:
+        value = statement.value.xreplace(kept)
+        if isinstance(statement, Require):
+            return Require(value)
+        return Assign(kept.get(statement.target, statement.target), value)
+
+    return [
+        replace(
+            section,
+            statements=tuple(
+                replace(s, body=tuple(changed(x) for x in s.body)) if isinstance(s, Loop) else changed(s)
+                for s in section.statements
+            ),
+        )
+        for section in sections
+    ]
+
+
+def _depending(lets: list[Let], on: set[sp.Symbol]) -> list[Let]:
+    found: list[Let] = []
+    reached = set(on)
+    for let in lets:
+        if let.value.free_symbols & reached:
+            found.append(let)
+            reached.add(let.symbol)
+    return found
+
+
+def _entries(frame: Frame) -> list[sp.Symbol]:
+    c = frame.coordinates
+    return [*(impedance(a, b) for a in c for b in c), *(force(a) for a in c)]
+
+
+def _described(frame: Frame) -> dict[str, tuple[str, str]]:
+    """Return words for what the walks carry."""
+    found = {
+        "unknown": ("unknown of a station", "1"),
+    }
+    for c in frame.coordinates:
+        found[c.force] = ("force beyond this joint", c.force_unit)
+        if not c.integrated:
+            found[node(c).name] = (f"acceleration of a node along {c.name}", c.unit)
+            found[change(c).name] = (f"change of a node's acceleration along {c.name}", c.unit)
+    return found
+
+
+__all__ = ["BASE", "Walks"]

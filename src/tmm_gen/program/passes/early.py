@@ -1,0 +1,231 @@
+"""Binding time over whole loops: what depends on parameters and the step alone leaves the step.
+
+A recursion over stations that nothing changing enters (the impedances of a linear row) moves to prepare with its loop
+and its pivots; what later statements read of it is kept in the model, one value a station or one for all.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field, replace
+
+import sympy as sp
+
+from tmm_gen.program.statements import Assign, Loop, Require, Section, Statement
+from tmm_gen.program.variables import Ref, Role, Variable, refs_in
+
+SCRATCH = (Role.LOCAL, Role.WORK)
+
+
+@dataclass
+class EarlySets:
+    """What has left steps for prepare; sweeps whose early parts are alike share it."""
+
+    _sets: dict[tuple[Statement, ...], dict[Ref, Ref]] = field(default_factory=dict)
+    _sections: list[Section] = field(default_factory=list)
+    _coefficients: list[Variable] = field(default_factory=list)
+
+    def split(self, sections: list[Section]) -> list[Section]:
+        """Return the sections of a sweep without what is bound early."""
+        early = _early(sections)
+        taken, left = _divided(sections, early)
+        if not any(taken):
+            return sections
+        statements = tuple(_lifted([s for group in taken for s in group]))
+        if statements not in self._sets:
+            self._sets[statements] = self._keep(statements, left)
+        kept = self._sets[statements]
+        return [_renamed(section, kept) for section in left]
+
+    @property
+    def sections(self) -> tuple[Section, ...]:
+        """Statements of prepare."""
+        return tuple(self._sections)
+
+    @property
+    def coefficients(self) -> tuple[Variable, ...]:
+        """What is kept in the model."""
+        return tuple(self._coefficients)
+
+    def _keep(self, statements: tuple[Statement, ...], left: list[Section]) -> dict[Ref, Ref]:
+        crossing = {
+            ref.variable for section in left for s in section.statements for ref in _read(s)
+        } & {a.target.variable for a in _assigns(statements)}
+        kept: dict[Ref, Ref] = {}
+        for statement in statements:
+            looped = isinstance(statement, Loop)
+            for assign in _assigns((statement,)):
+                variable = assign.target.variable
+                if variable not in crossing:
+                    continue
+                length = variable.length if variable.length is not None or not looped else statement.stop  # type: ignore[union-attr]
+                kept[assign.target] = self._variable(variable, length).at(assign.target.offset or 0)
+        for assign in _assigns(statements):  # loops over parts of the row write the same array
+            if assign.target in kept:
+                longest = max((r.variable for t, r in kept.items() if t.variable == assign.target.variable), key=lambda v: v.length or 0)
+                kept[assign.target] = longest.at(assign.target.offset or 0)
+        self._coefficients += dict.fromkeys(ref.variable for ref in kept.values())
+        self._sections.append(
+            _renamed(Section("factors of the sweep that do not change from step to step", statements), kept)
+        )
+        return kept
+
+    def _variable(self, variable: Variable, length: int | None) -> Variable:
+        names = {v.name for v in self._coefficients}
+        name, number = variable.name, 2
+        while name in names:
+            name, number = f"{variable.name}_{number}", number + 1
+        return replace(variable, name=name, role=Role.COEFFICIENT, length=length)
+
+
+def _early(sections: list[Section]) -> set[Variable]:
+    """Return the scratch that depends on what is bound early alone."""
+    statements = [s for section in sections for s in section.statements]
+    assigns = list(_assigns(statements))
+    early = {a.target.variable for a in assigns if a.target.variable.role in SCRATCH}
+    while True:
+        late = {
+            a.target.variable
+            for a in assigns
+            if a.target.variable in early
+            and any(not r.variable.role.bound_at_prepare and r.variable not in early for r in refs_in(a.value))
+        }
+        # what a late statement reads must have one value: a recursion's own variable has many
+        for section in sections:
+            for statement in section.statements:
+                inside = statement.body if isinstance(statement, Loop) else (statement,)
+                for inner in inside:
+                    if isinstance(inner, Assign) and inner.target.variable in early - late:
+                        continue
+                    if isinstance(inner, Require) and _is_early(inner.value, early - late):
+                        continue
+                    for ref in refs_in(inner.value):
+                        if ref.variable in early and sum(a.target.variable == ref.variable for a in assigns) > 1:
+                            if not _same_value(ref.variable, assigns):
+                                late.add(ref.variable)
+        if not late:
+            return {v for v in early if any(not _trivial(a) for a in assigns if a.target.variable == v)}
+        early -= late
+
+
+def _same_value(variable: Variable, assigns: list[Assign]) -> bool:
+    """Whether a variable is set alike wherever it is set, and never from itself: runs of unlike stations."""
+    mine = [a for a in assigns if a.target.variable == variable]
+    return all(variable not in {r.variable for r in refs_in(a.value)} for a in mine) and len(
+        {a.target for a in mine}
+    ) == 1
+
+
+def _trivial(assign: Assign) -> bool:
+    """Whether an assignment takes no arithmetic and says nothing: zeros that walks begin with."""
+    return bool(assign.value.is_number)
+
+
+def _is_early(value: sp.Expr, early: set[Variable]) -> bool:
+    return all(r.variable.role.bound_at_prepare or r.variable in early for r in refs_in(value))
+
+
+def _divided(
+    sections: list[Section], early: set[Variable]
+) -> tuple[list[list[Statement]], list[Section]]:
+    taken: list[list[Statement]] = []
+    left: list[Section] = []
+    for section in sections:
+        mine: list[Statement] = []
+        kept: list[Statement] = []
+        for statement in section.statements:
+            inside = statement.body if isinstance(statement, Loop) else (statement,)
+            soon = tuple(
+                s
+                for s in inside
+                if (isinstance(s, Assign) and s.target.variable in early)
+                or (isinstance(s, Require) and refs_in(s.value) and _is_early(s.value, early))
+            )
+            late = tuple(s for s in inside if s not in soon)
+            for part, into in ((soon, mine), (late, kept)):
+                if part:
+                    into += [replace(statement, body=part)] if isinstance(statement, Loop) else list(part)
+        taken.append(mine)
+        if kept:
+            left.append(replace(section, statements=tuple(kept)))
+    return taken, left
+
+
+def _lifted(statements: list[Statement]) -> list[Statement]:
+    """Take out of loops what is the same at every station."""
+    assigns = list(_assigns(statements))
+    once = {v for v in (a.target.variable for a in assigns) if sum(a.target.variable == v for a in assigns) == 1}
+    alike: dict[Ref, Ref] = {}
+    found: list[Statement] = []
+    for statement in statements:
+        if not isinstance(statement, Loop):
+            found.append(statement)
+            continue
+        body: list[Assign | Require] = []
+        for inner in statement.body:
+            value = inner.value.xreplace(alike)
+            uniform = isinstance(inner, Assign) and inner.target.variable in once
+            uniform = uniform and all(
+                r.variable.length is None
+                and (r.variable.role.bound_at_prepare or r in alike.values() or _set_outside(r, statements, once))
+                for r in refs_in(value)
+            )
+            if uniform:
+                assert isinstance(inner, Assign)
+                scalar = replace(inner.target.variable, role=Role.LOCAL, length=None).ref
+                if scalar != inner.target:
+                    alike[inner.target] = scalar
+                else:
+                    alike[scalar] = scalar
+                found.append(Assign(scalar, value))
+            else:
+                body.append(replace(inner, value=value))
+        if body:
+            found.append(replace(statement, body=tuple(body)))
+    return found
+
+
+def _set_outside(ref: Ref, statements: list[Statement], once: set[Variable]) -> bool:
+    return ref.variable in once and any(isinstance(s, Assign) and s.target == ref for s in statements)
+
+
+def _assigns(statements: Iterable[Statement]) -> Iterable[Assign]:
+    for statement in statements:
+        for inner in statement.body if isinstance(statement, Loop) else (statement,):
+            if isinstance(inner, Assign):
+                yield inner
+
+
+def _read(statement: Statement) -> set[Ref]:
+    inside = statement.body if isinstance(statement, Loop) else (statement,)
+    return {ref for inner in inside for ref in refs_in(inner.value)}
+
+
+def _renamed(section: Section, names: dict[Ref, Ref]) -> Section:
+    every = dict(names)
+
+    def value(e: sp.Expr) -> sp.Expr:
+        found = {r: _moved(r, every) for r in refs_in(e)}
+        return e.xreplace({r: f for r, f in found.items() if f is not None})
+
+    def changed(s: Assign | Require) -> Assign | Require:
+        if isinstance(s, Require):
+            return Require(value(s.value))
+        moved = _moved(s.target, every)
+        return Assign(moved if moved is not None else s.target, value(s.value))
+
+    return replace(
+        section,
+        statements=tuple(
+            replace(s, body=tuple(changed(x) for x in s.body)) if isinstance(s, Loop) else changed(s)
+            for s in section.statements
+        ),
+    )
+
+
+def _moved(ref: Ref, names: dict[Ref, Ref]) -> Ref | None:
+    """Return where a value is kept: arrays that turned out alike at every station became scalars."""
+    if ref in names:
+        return names[ref]
+    scalar = replace(ref.variable, role=Role.LOCAL, length=None).ref if ref.variable.role is Role.WORK else None
+    return names.get(scalar) if scalar is not None else None

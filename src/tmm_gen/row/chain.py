@@ -1,0 +1,94 @@
+"""A torsional chain as a row: springs with dampers, inertias, torques."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from tmm_gen.derive.elements import torsion as element
+from tmm_gen.derive.elements.declaration import Element
+from tmm_gen.derive.station.lets import Coordinate
+from tmm_gen.row.row import Load, Reading, Row, Signal
+from tmm_gen.row.words import BOUNDARIES, UNITS, facts_of, loads_of, optional, parameter, place, signal_of, symbol
+from tmm_gen.scene import Scene, station_of
+
+ANGLE = Coordinate("", "torque", True, "rad/s^2", "N m")
+KINDS = {"angle": "q", "velocity": "v", "acceleration": "a"}
+_OUTPUT_UNITS = {"q": "rad", "v": "rad/s", "a": "rad/s^2"}
+
+
+def chain_row(scene: Scene, integrator: str) -> Row:
+    """Return a chain's row.
+
+    Parameters
+    ----------
+    integrator : str
+        Title of the integrator, for headers.
+    """
+    stiffness = parameter("stiffness", "joint stiffness", "N m/rad", [j.stiffness for j in scene.joints])
+    damping = (
+        parameter("damping", "joint damping", "N m s/rad", [j.damping for j in scene.joints])
+        if any(j.damping for j in scene.joints)
+        else None
+    )
+    inertia = parameter("inertia", "link inertia", "kg m^2", [link.inertia for link in scene.links])
+    moved = scene.base.kind == "motor"
+    hub_inertia = parameter("hub_inertia", "hub inertia", "kg m^2", [scene.base.inertia]) if moved else None
+    hub_damping = optional(
+        "hub_damping",
+        "viscous damping of the hub to ground",
+        "N m s/rad",
+        scene.base.damping if moved else None,
+    )
+    loads = loads_of(scene, ("torque",))
+    joint = element.JOINT.with_values(
+        {element.STIFFNESS: stiffness.symbol, element.DAMPING: symbol(damping)}
+    )
+    link = element.LINK.with_values({element.INERTIA: inertia.symbol})
+    base: tuple[Element, ...] = ()
+    if hub_inertia is not None:
+        base = (element.LINK.with_values({element.INERTIA: hub_inertia.symbol}),)
+        if hub_damping is not None:
+            base += (element.GROUND_DAMPER.with_values({element.GROUND_DAMPING: hub_damping.symbol}),)
+    base += _torque(loads["base"])
+    station = (joint, link, *_torque(loads["station"]))
+    stations = (station,) * scene.stations
+    tail = _torque(loads["tail"])
+    found = (stiffness, damping, inertia, hub_inertia, hub_damping)
+    return Row(
+        name=scene.name,
+        title=scene.title,
+        coordinates=(ANGLE,),
+        about="known",
+        sign=-1,
+        base=base,
+        boundary=BOUNDARIES[scene.base.kind],  # type: ignore[arg-type]
+        stations=stations,
+        tail=tail,
+        detail=stations,
+        detail_tail=tail,
+        parameters=tuple(p for p in found if p is not None),
+        combinations=(),
+        inputs=tuple(signal_of(i) for i in scene.inputs),
+        loads=tuple(load for group in loads.values() for load in group.values()),
+        prescribed=tuple(i.name for i in scene.inputs if i.acts == "angle"),
+        readings=tuple(_reading(scene, index) for index in range(len(scene.outputs))),
+        facts=facts_of(scene, "torsional chain (linear)", integrator),
+        angles=tuple(scene.initial.angles),
+        rates=tuple(scene.initial.rates),
+    )
+
+
+def _torque(loads: dict[str, Load]) -> tuple[Element, ...]:
+    return tuple(element.TORQUE.with_values({element.LOAD: load.symbol}) for load in loads.values())
+
+
+def _reading(scene: Scene, index: int) -> Reading:
+    output = scene.outputs[index]
+    station = station_of(output.at, scene.stations)
+    doc = f"{output.of} at {place(output.at)}"
+    if output.of == "torque":
+        return Reading("outputs", (Signal(output.name, doc, UNITS["torque"]),), "own", max(station, 1))
+    kind = KINDS[output.of]
+    return Reading("outputs", (Signal(output.name, doc, _OUTPUT_UNITS[kind]),), "motion", station, kind)
+
+

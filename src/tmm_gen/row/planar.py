@@ -1,0 +1,203 @@
+"""A planar arm as a row: pins, massless rods, point masses at the nodes between them, loads."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from tmm_gen.derive.elements import nodes as element
+from tmm_gen.derive.elements.declaration import Element
+from tmm_gen.derive.station.lets import Coordinate
+from tmm_gen.row.row import Combination, Elements, Load, Parameter, Reading, Row, Signal
+from tmm_gen.row.words import BOUNDARIES, UNITS, facts_of, loads_of, optional, parameter, place, signal_of, symbol
+from tmm_gen.scene import Output, Scene, station_of
+from tmm_gen.scene.quantity import PLANAR
+
+ALONG_X = Coordinate("x", "force_x", False, "m/s^2", "N")
+ALONG_Y = Coordinate("y", "force_y", False, "m/s^2", "N")
+ANGLE = Coordinate("u", "torque", True, "rad/s^2", "N m")
+
+COMPONENTS = ("force_x", "force_y", "torque")
+_LOADS = dict(zip(COMPONENTS, (element.LOAD_X, element.LOAD_Y, element.LOAD_TORQUE), strict=True))
+_MOTIONS = {"angle": "q", "rate": "v"}
+_PLACES = {"position": "q", "velocity": "v", "acceleration": "a"}
+
+
+def planar_row(scene: Scene, integrator: str) -> Row:
+    """Return a planar arm's row.
+
+    Parameters
+    ----------
+    integrator : str
+        Title of the integrator, for headers.
+    """
+    named = _parameters(scene)
+    loads = loads_of(scene, COMPONENTS)
+    damping = symbol(named["damping"])
+    length, mass, inertia, center = (symbol(named[k]) for k in ("length", "mass", "inertia", "center"))
+    left_over = inertia - mass * center * (1 - center) * length**2
+    pin = element.PIN.with_values({element.STIFFNESS: symbol(named["stiffness"]), element.DAMPING: damping})
+    hub = _body(named["hub_inertia"])
+    if named["hub_damping"] is not None:
+        hub += (element.BEARING.with_values({element.FRICTION: symbol(named["hub_damping"])}),)
+    inner, outer = _mass(mass * (1 - center)), _mass(mass * center)
+    on_link, at_tip = _load(loads["station"]), _load(loads["tail"])
+    tip_mass, tip_body = symbol(named["tip_mass"]), _body(named["tip_inertia"])
+    detail = (pin, inner, _rod(length, left_over), outer, *on_link)
+    combinations: tuple[Combination, ...] = ()
+    if scene.model.linearisation == "newton":
+        combinations = (
+            Combination(
+                "node_mass",
+                "mass at the outer end of each link",
+                "kg",
+                center * mass,
+                (1 - center) * mass,
+                tip_mass,
+            ),
+            Combination(
+                "rod_inertia", "inertia of a link that masses at its ends leave over", "kg m^2", left_over
+            ),
+        )
+        node_mass, rod_inertia = (sp.Symbol(c.name) for c in combinations)
+        station: Elements = (pin, _rod(length, rod_inertia), _mass(node_mass), *on_link)
+        tail: Elements = (*tip_body, *at_tip)
+    else:
+        combinations = (
+            Combination("carried_mass", "mass acting at a link's outer end", "kg", center * mass),
+            Combination(
+                "pin_inertia",
+                "inertia of a link about its inner end",
+                "kg m^2",
+                inertia + center**2 * length**2 * mass,
+            ),
+        )
+        carried_mass, pin_inertia = (sp.Symbol(c.name) for c in combinations)
+        link = element.RIGID_LINK.with_values(
+            {
+                element.LENGTH: length,
+                element.MASS: mass,
+                element.CARRIED_MASS: carried_mass,
+                element.PIN_INERTIA: pin_inertia,
+            }
+        )
+        station = (pin, link, *on_link)
+        tail = (*((_mass(tip_mass),) if tip_mass != 0 else ()), *tip_body, *at_tip)
+    gravity = symbol(named["gravity"])
+    model = "planar arm, large rotations"
+    model += ", gravity" if named["gravity"] else ""
+    model += ", tip mass" if named["tip_mass"] else ""
+    iterations = f", {scene.model.iterations} iterations" if scene.model.iterations > 1 else ""
+    return Row(
+        name=scene.name,
+        title=scene.title,
+        coordinates=(ALONG_X, ALONG_Y, ANGLE),
+        about="prediction",
+        sign=1,
+        base=(*hub, *_load(loads["base"])),
+        boundary=BOUNDARIES[scene.base.kind],  # type: ignore[arg-type]
+        stations=(station,) * scene.stations,
+        tail=tail,
+        detail=(detail,) * scene.stations,
+        detail_tail=(*((_mass(tip_mass),) if tip_mass != 0 else ()), *tip_body, *at_tip),
+        parameters=tuple(p for p in named.values() if p is not None),
+        combinations=combinations,
+        inputs=tuple(signal_of(i) for i in scene.inputs),
+        loads=tuple(load for group in loads.values() for load in group.values()),
+        prescribed=tuple(i.name for i in scene.inputs if i.acts == "angle"),
+        readings=tuple(_reading(scene, output) for output in scene.outputs),
+        held=_held(scene),
+        fall=gravity,
+        counts_heat=_counts_heat(scene),
+        facts=facts_of(scene, model, integrator, linearisation=scene.model.linearisation + iterations),
+        angles=tuple(scene.initial.angles),
+        rates=tuple(scene.initial.rates),
+    )
+
+
+def _parameters(scene: Scene) -> dict[str, Parameter | None]:
+    links, joints, base, tip = scene.links, scene.joints, scene.base, scene.tip
+    moved = base.kind == "motor"
+    found = (
+        parameter("length", "link length", "m", [link.length for link in links]),
+        parameter("mass", "link mass", "kg", [link.mass for link in links]),
+        parameter("inertia", "link inertia about its centre of mass", "kg m^2", [x.inertia for x in links]),
+        parameter("center", "centre of mass along the link, 0 to 1", "1", [link.center for link in links]),
+        parameter("stiffness", "joint stiffness", "N m/rad", [j.stiffness for j in joints]),
+        parameter("damping", "joint damping", "N m s/rad", [j.damping for j in joints])
+        if any(j.damping for j in joints)
+        else None,
+        optional("gravity", "gravity along -y", "m/s^2", scene.model.gravity),
+        optional("hub_inertia", "hub inertia", "kg m^2", base.inertia if moved else None),
+        optional(
+            "hub_damping",
+            "viscous damping of the hub to ground",
+            "N m s/rad",
+            base.damping if moved else None,
+        ),
+        optional("tip_mass", "mass at the tip", "kg", tip.mass if tip else None),
+        optional("tip_inertia", "inertia at the tip", "kg m^2", tip.inertia if tip else None),
+    )
+    names = (
+        *("length", "mass", "inertia", "center", "stiffness", "damping", "gravity"),
+        *("hub_inertia", "hub_damping", "tip_mass", "tip_inertia"),
+    )
+    return dict(zip(names, found, strict=True))
+
+
+def _mass(value: sp.Expr) -> Element:
+    return element.MASS_AT_NODE.with_values({element.POINT_MASS: value, element.GRAVITY: sp.Symbol("gravity")})
+
+
+def _rod(length: sp.Expr, inertia: sp.Expr) -> Element:
+    return element.ROD.with_values({element.LENGTH: length, element.BODY_INERTIA: inertia})
+
+
+def _body(inertia: Parameter | None) -> Elements:
+    if inertia is None:
+        return ()
+    return (element.BODY.with_values({element.BODY_INERTIA: inertia.symbol}),)
+
+
+def _load(loads: dict[str, Load]) -> Elements:
+    if not loads:
+        return ()
+    values = {_LOADS[c]: loads[c].symbol if c in loads else sp.Integer(0) for c in COMPONENTS}
+    return (element.LOAD.with_values(values),)
+
+
+def _reading(scene: Scene, output: Output) -> Reading:
+    station = station_of(output.at, scene.stations)
+    quantity = PLANAR[output.of]
+    words = output.of.replace("_", " ")
+    doc = f"{words} {'of' if quantity.of_arm else 'at'} {place(output.at)}"
+    title = f"{output.name}: {words}"
+    targets = (
+        tuple(Signal(f"{output.name}_{axis}", f"{doc}, {axis}", quantity.unit) for axis in "xy")
+        if quantity.vector
+        else (Signal(output.name, doc, quantity.unit),)
+    )
+    if output.of in _MOTIONS:
+        return Reading(title, targets, "motion", station, _MOTIONS[output.of])
+    if output.of in _PLACES:
+        return Reading(title, targets, "place", station, _PLACES[output.of])
+    if quantity.of_arm:
+        return Reading(title, targets, "energy", kind=output.of.removesuffix("_energy"))
+    joint = scene.stations + 1 if output.at == "tip" else max(station, 1)
+    if output.of == "torque":
+        return Reading(title, targets, "own", joint, sign=-1)
+    return Reading(title, targets, "force", joint)
+
+
+def _held(scene: Scene) -> dict[str, Signal]:
+    """Return each load beyond a joint, or on the tip's body, whose force or torque is an output."""
+    n = scene.stations
+    inmost = min((max(station_of(o.at, n), 1) for o in scene.outputs if o.of == "force"), default=n + 1)
+    held = [i for i in scene.inputs if i.acts in ("force_x", "force_y") and station_of(i.at, n) >= inmost]
+    if any(o.of == "torque" and o.at == "tip" for o in scene.outputs):
+        held += [i for i in scene.inputs if i.acts == "torque" and station_of(i.at, n) == n]
+    return {i.name: Signal(f"held_{i.name}", f"{i.name} as it last acted", UNITS[i.acts]) for i in held}
+
+
+def _counts_heat(scene: Scene) -> bool:
+    damped = any(j.damping for j in scene.joints) or (scene.base.kind == "motor" and scene.base.damping > 0.0)
+    return damped and any(o.of == "dissipated_energy" for o in scene.outputs)

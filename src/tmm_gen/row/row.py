@@ -1,0 +1,192 @@
+"""What a row of elements is: stations that each begin with an element that gives way, a base, and what is read off."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Literal
+
+import sympy as sp
+
+from tmm_gen.derive.elements.declaration import Element
+from tmm_gen.derive.station.lets import Coordinate
+
+Elements = tuple[Element, ...]
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A physical parameter, written in elements by a symbol of its name.
+
+    Parameters
+    ----------
+    name, doc, unit : str
+        For readers of the generated code.
+    values : tuple of float
+        One for each station, or a single one.
+    """
+
+    name: str
+    doc: str
+    unit: str
+    values: tuple[float, ...]
+
+    @property
+    def symbol(self) -> sp.Symbol:
+        """What stands for it in elements."""
+        return sp.Symbol(self.name)
+
+
+@dataclass(frozen=True)
+class Combination:
+    """A combination of parameters that a sweep needs at each station, prepared once.
+
+    Parameters
+    ----------
+    own : sympy.Expr
+        What the station's own parameters contribute.
+    beyond : sympy.Expr
+        What those of the next station contribute.
+    last : sympy.Expr
+        What stands in its place at the last one.
+    """
+
+    name: str
+    doc: str
+    unit: str
+    own: sp.Expr
+    beyond: sp.Expr = sp.Integer(0)
+    last: sp.Expr = sp.Integer(0)
+
+
+@dataclass(frozen=True)
+class Load:
+    """An external force, by the symbol that stands for it in elements.
+
+    Parameters
+    ----------
+    doc, unit : str
+        For readers.
+    places : tuple of (int or None, str)
+        Index of the station, from 0, and name of the input; None where the element stands outside stations.
+    """
+
+    symbol: sp.Symbol
+    doc: str
+    unit: str
+    places: tuple[tuple[int | None, str], ...]
+
+
+@dataclass(frozen=True)
+class Signal:
+    """An input by name."""
+
+    name: str
+    doc: str
+    unit: str
+
+
+@dataclass(frozen=True)
+class Reading:
+    """What is read off the motion, and the outputs it goes to.
+
+    Parameters
+    ----------
+    title : str
+        For readers.
+    targets : tuple of Signal
+        One for each component.
+    what : str
+        "motion" of the integrated coordinate; the "own" force of the element that gives way; "place", the motion of a
+        node in the other coordinates; "force" in them beyond an element that gives way; or an "energy".
+    station : int
+        Counted from 1; 0 is the base, one more than the last is beyond it.
+    kind : str
+        "q", "v" or "a" of motions; which energy.
+    sign : int
+        Of the element's own force.
+    """
+
+    title: str
+    targets: tuple[Signal, ...]
+    what: Literal["motion", "own", "place", "force", "energy"]
+    station: int = 0
+    kind: str = ""
+    sign: int = 1
+
+
+@dataclass(frozen=True)
+class Row:
+    """An arm.
+
+    Parameters
+    ----------
+    name, title : str
+        Of the scene.
+    coordinates : tuple of Coordinate
+        Of every station.
+    about : {"prediction", "known"}
+        Whether sweeps solve for changes of predicted motion or for motion itself.
+    sign : int
+        1 where forces are those the inner side exerts on the outer one, -1 otherwise.
+    base : tuple of Element
+        Inboard of the first station.
+    boundary : {"held", "free", "prescribed"}
+        What the base does in the integrated coordinate.
+    stations : tuple of tuple of Element
+        Each begins with the element that gives way.
+    tail : tuple of Element
+        Beyond the last station.
+    detail, detail_tail : tuple of tuple of Element, tuple of Element
+        The same with nothing merged: what forces and energies are read off.
+    parameters : tuple of Parameter
+    combinations : tuple of Combination
+    inputs : tuple of Signal
+    loads : tuple of Load
+    prescribed : tuple of str
+        Inputs that move the base.
+    readings : tuple of Reading
+    held : dict from str to Signal
+        Inputs as they last acted, kept for readings.
+    fall : sympy.Expr
+        Acceleration of the base in the last of the coordinates that are not integrated, seen from a falling frame.
+    counts_heat : bool
+        Whether the energy turned to heat is counted.
+    facts : dict from str to str
+        For headers.
+    angles, rates : tuple of float
+        To start from.
+    """
+
+    name: str
+    title: str
+    coordinates: tuple[Coordinate, ...]
+    about: Literal["prediction", "known"]
+    sign: int
+    base: Elements
+    boundary: Literal["held", "free", "prescribed"]
+    stations: tuple[Elements, ...]
+    tail: Elements
+    detail: tuple[Elements, ...]
+    detail_tail: Elements
+    parameters: tuple[Parameter, ...]
+    combinations: tuple[Combination, ...]
+    inputs: tuple[Signal, ...]
+    loads: tuple[Load, ...]
+    prescribed: tuple[str, ...]
+    readings: tuple[Reading, ...]
+    held: dict[str, Signal] = field(default_factory=dict)
+    fall: sp.Expr = sp.Integer(0)
+    counts_heat: bool = False
+    facts: dict[str, str] = field(default_factory=dict)
+    angles: tuple[float, ...] = ()
+    rates: tuple[float, ...] = ()
+
+    def runs(self, stations: tuple[Elements, ...] | None = None) -> tuple[tuple[int, int, Elements], ...]:
+        """Return runs of stations of the same elements: from where to where, and which."""
+        found: list[tuple[int, int, Elements]] = []
+        for index, elements in enumerate(self.stations if stations is None else stations):
+            if found and found[-1][2] == elements:
+                found[-1] = (found[-1][0], index + 1, elements)
+            else:
+                found.append((index, index + 1, elements))
+        return tuple(found)

@@ -1,0 +1,26 @@
+"""From a scene to its row."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from tmm_gen.derive.integrators.declaration import Integrator
+from tmm_gen.row.chain import chain_row
+from tmm_gen.row.planar import planar_row
+from tmm_gen.row.row import Row
+from tmm_gen.scene import Scene
+
+ROWS: dict[str, Callable[[Scene, str], Row]] = {"chain": chain_row, "planar": planar_row}
+"""What makes the row of each kind of model."""
+
+
+def row_of(scene: Scene, integrator: Integrator) -> Row:
+    """Return the row of a scene.
+
+    Parameters
+    ----------
+    integrator : Integrator
+        Named in headers, with its parameters.
+    """
+    parameters = "".join(f", {k} = {float(v):g}" for k, v in integrator.parameters.items())
+    return ROWS[scene.model.kind](scene, integrator.title + parameters)
