@@ -85,10 +85,10 @@ def _integrator(scene: Scene) -> Any:
 
 def _outputs(scene: Scene, sweep: str, inputs: dict[str, float], steps: int) -> np.ndarray[Any, Any]:
     """Return the outputs at every step, (steps, outputs)."""
-    from tmm_gen.program.torsion.build import build_chain
+    from tmm_gen.program.build import build_unchecked
 
     chosen = scene.replace(**{"model.sweep": sweep})
-    module = numpy_module(chosen, build_chain(chosen, _integrator(chosen)))
+    module = numpy_module(chosen, build_unchecked(chosen, _integrator(chosen)))
     given = module.Input(**inputs)
     model, state = module.prepare(), module.initialise(module.Params(), given)
     rows = []

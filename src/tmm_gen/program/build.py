@@ -10,9 +10,12 @@ from tmm_gen.program.arm.assemble import Assembly, Choices
 from tmm_gen.program.arm.product import ProductWalks
 from tmm_gen.program.arm.thesis import TaylorWalks, ThesisWalks
 from tmm_gen.program.arm.walks import Walks
+from tmm_gen.program.sensitivities.refusals import require_derivatives
+from tmm_gen.program.sensitivities.walks import TangentableWalks
 from tmm_gen.program.statements import Program
 from tmm_gen.program.torsion.rounding import require_digits
 from tmm_gen.program.torsion.safety import require_safe_product
+from tmm_gen.row.row import Row
 from tmm_gen.row.scene import row_of
 from tmm_gen.scene import Scene
 
@@ -51,10 +54,11 @@ def build_unchecked(scene: Scene, chosen: Integrator) -> Program:
     chosen : Integrator
         With its parameters bound to numbers.
     """
-    from tmm_gen.program.planar.build import build_planar
-    if (scene.emit.sensitivities and scene.model.kind!='chain'): return build_planar(scene,chosen)
-    if scene.model.linearisation != 'newton': _require_one_implicit_stage(scene, chosen)
+    if scene.model.linearisation != "newton":
+        _require_one_implicit_stage(scene, chosen)
     row = row_of(scene, chosen)
+    if scene.emit.sensitivities:
+        require_derivatives(scene, chosen, row)
     return Assembly(
         row,
         chosen,
@@ -62,12 +66,21 @@ def build_unchecked(scene: Scene, chosen: Integrator) -> Program:
             step=scene.integrator.step,
             unknown=scene.model.unknown,
             iterations=scene.model.iterations,
-            walks=ProductWalks if scene.model.sweep == "product" else WALKS[scene.model.linearisation],
+            walks=_walks(scene, row),
             places=scene.model.linearisation != "newton",
             turns_apart=scene.emit.compensated and row.boundary == "free",
             sensitivities=scene.emit.sensitivities,
         ),
     ).program()
+
+
+def _walks(scene: Scene, row: Row) -> type[Walks]:
+    """Return what walks a scene's sweeps take."""
+    if scene.model.sweep == "product":
+        return ProductWalks
+    if scene.emit.sensitivities and row.about == "prediction":
+        return TangentableWalks
+    return WALKS[scene.model.linearisation]
 
 
 WALKS: dict[str, type[Walks]] = {"newton": Walks, "taylor": TaylorWalks, "frozen": ThesisWalks}

@@ -124,7 +124,10 @@ class Ref(sp.Symbol):  # type: ignore[misc]  # SymPy has no types
         # SymPy caches expressions by equality: a namesake of another program must not be equal
         default = variable.default
         held = hash(default) if isinstance(default, tuple) else default
-        symbol._content = (name, f"{variable.role.value} {variable.length} {held} {variable.doc} {variable.unit}")
+        symbol._content = (
+            name,
+            f"{variable.role.value} {variable.length} {held} {variable.doc} {variable.unit}",
+        )
         _REFS[variable, offset, entry] = symbol
         return symbol
 

@@ -2,13 +2,21 @@
 
 from __future__ import annotations
 
-import sympy as sp
-
 from tmm_gen.derive.elements import torsion as element
 from tmm_gen.derive.elements.declaration import Element
 from tmm_gen.derive.station.lets import Coordinate
 from tmm_gen.row.row import Load, Reading, Row, Signal
-from tmm_gen.row.words import BOUNDARIES, UNITS, facts_of, loads_of, optional, parameter, place, signal_of, symbol
+from tmm_gen.row.words import (
+    BOUNDARIES,
+    UNITS,
+    facts_of,
+    loads_of,
+    optional,
+    parameter,
+    place,
+    signal_of,
+    symbol,
+)
 from tmm_gen.scene import Scene, station_of
 
 ANGLE = Coordinate("", "torque", True, "rad/s^2", "N m")
@@ -40,9 +48,7 @@ def chain_row(scene: Scene, integrator: str) -> Row:
         scene.base.damping if moved else None,
     )
     loads = loads_of(scene, ("torque",))
-    joint = element.JOINT.with_values(
-        {element.STIFFNESS: stiffness.symbol, element.DAMPING: symbol(damping)}
-    )
+    joint = element.JOINT.with_values({element.STIFFNESS: stiffness.symbol, element.DAMPING: symbol(damping)})
     link = element.LINK.with_values({element.INERTIA: inertia.symbol})
     base: tuple[Element, ...] = ()
     if hub_inertia is not None:
@@ -90,5 +96,3 @@ def _reading(scene: Scene, index: int) -> Reading:
         return Reading("outputs", (Signal(output.name, doc, UNITS["torque"]),), "own", max(station, 1))
     kind = KINDS[output.of]
     return Reading("outputs", (Signal(output.name, doc, _OUTPUT_UNITS[kind]),), "motion", station, kind)
-
-

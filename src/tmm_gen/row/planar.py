@@ -6,9 +6,20 @@ import sympy as sp
 
 from tmm_gen.derive.elements import nodes as element
 from tmm_gen.derive.elements.declaration import Element
+from tmm_gen.derive.elements.planar import DAMPING, LENGTH, MASS, STIFFNESS
 from tmm_gen.derive.station.lets import Coordinate
 from tmm_gen.row.row import Combination, Elements, Load, Parameter, Reading, Row, Signal
-from tmm_gen.row.words import BOUNDARIES, UNITS, facts_of, loads_of, optional, parameter, place, signal_of, symbol
+from tmm_gen.row.words import (
+    BOUNDARIES,
+    UNITS,
+    facts_of,
+    loads_of,
+    optional,
+    parameter,
+    place,
+    signal_of,
+    symbol,
+)
 from tmm_gen.scene import Output, Scene, station_of
 from tmm_gen.scene.quantity import PLANAR
 
@@ -35,7 +46,7 @@ def planar_row(scene: Scene, integrator: str) -> Row:
     damping = symbol(named["damping"])
     length, mass, inertia, center = (symbol(named[k]) for k in ("length", "mass", "inertia", "center"))
     left_over = inertia - mass * center * (1 - center) * length**2
-    pin = element.PIN.with_values({element.STIFFNESS: symbol(named["stiffness"]), element.DAMPING: damping})
+    pin = element.PIN.with_values({STIFFNESS: symbol(named["stiffness"]), DAMPING: damping})
     hub = _body(named["hub_inertia"])
     if named["hub_damping"] is not None:
         hub += (element.BEARING.with_values({element.FRICTION: symbol(named["hub_damping"])}),)
@@ -74,8 +85,8 @@ def planar_row(scene: Scene, integrator: str) -> Row:
         carried_mass, pin_inertia = (sp.Symbol(c.name) for c in combinations)
         link = element.RIGID_LINK.with_values(
             {
-                element.LENGTH: length,
-                element.MASS: mass,
+                LENGTH: length,
+                MASS: mass,
                 element.CARRIED_MASS: carried_mass,
                 element.PIN_INERTIA: pin_inertia,
             }
@@ -145,11 +156,13 @@ def _parameters(scene: Scene) -> dict[str, Parameter | None]:
 
 
 def _mass(value: sp.Expr) -> Element:
-    return element.MASS_AT_NODE.with_values({element.POINT_MASS: value, element.GRAVITY: sp.Symbol("gravity")})
+    return element.MASS_AT_NODE.with_values(
+        {element.POINT_MASS: value, element.GRAVITY: sp.Symbol("gravity")}
+    )
 
 
 def _rod(length: sp.Expr, inertia: sp.Expr) -> Element:
-    return element.ROD.with_values({element.LENGTH: length, element.BODY_INERTIA: inertia})
+    return element.ROD.with_values({LENGTH: length, element.BODY_INERTIA: inertia})
 
 
 def _body(inertia: Parameter | None) -> Elements:

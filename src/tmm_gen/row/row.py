@@ -54,8 +54,8 @@ class Combination:
     doc: str
     unit: str
     own: sp.Expr
-    beyond: sp.Expr = sp.Integer(0)
-    last: sp.Expr = sp.Integer(0)
+    beyond: sp.Expr = sp.S.Zero
+    last: sp.Expr = sp.S.Zero
 
 
 @dataclass(frozen=True)
@@ -175,7 +175,7 @@ class Row:
     prescribed: tuple[str, ...]
     readings: tuple[Reading, ...]
     held: dict[str, Signal] = field(default_factory=dict)
-    fall: sp.Expr = sp.Integer(0)
+    fall: sp.Expr = sp.S.Zero
     counts_heat: bool = False
     facts: dict[str, str] = field(default_factory=dict)
     angles: tuple[float, ...] = ()

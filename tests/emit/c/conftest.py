@@ -19,7 +19,7 @@ from tmm_gen.emit.expressions import ExpressionPrinter
 from tmm_gen.native import NativeKernel, compile_kernel
 from tmm_gen.program.passes.dependence import SCRATCH
 from tmm_gen.program.statements import Loop, Order, Program, Require, Routine
-from tmm_gen.program.torsion.build import build_chain
+from tmm_gen.program.build import build_unchecked
 from tmm_gen.program.variables import Ref
 from tmm_gen.scene import Scene, parse_scene
 
@@ -131,7 +131,7 @@ real = "{chain.real}"
 def _program(chain: Chain) -> Program:
     # not by build_program, which refuses products of matrices that lose too many digits to be of use
     chosen = chain.scene.integrator
-    return build_chain(chain.scene, integrator(chosen.name, **chosen.parameters))
+    return build_unchecked(chain.scene, integrator(chosen.name, **chosen.parameters))
 
 
 @cache

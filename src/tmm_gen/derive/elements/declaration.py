@@ -64,8 +64,15 @@ class Element:
 
     def with_values(self, values: Mapping[sp.Symbol, sp.Expr]) -> Element:
         """Return the element with its parameters and inputs written by other symbols, or by zero."""
+
+        def written(symbols: tuple[sp.Symbol, ...]) -> tuple[sp.Symbol, ...]:
+            found = (sp.sympify(values.get(symbol, symbol)) for symbol in symbols)
+            return tuple(dict.fromkeys(s for value in found for s in sorted(value.free_symbols, key=str)))
+
         return replace(
             self,
+            parameters=written(self.parameters),
+            inputs=written(self.inputs),
             equations=tuple(equation.subs(values) for equation in self.equations),
             energies={kind: energy.subs(values) for kind, energy in self.energies.items()},
         )

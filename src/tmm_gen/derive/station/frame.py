@@ -78,7 +78,7 @@ class Frame:
     still: frozenset[str] = frozenset()
     about: str = "prediction"
     sign: int = 1
-    turning: sp.Expr = sp.Integer(1)
+    turning: sp.Expr = sp.S.One
     square_slope: sp.Expr = 2 * OUTER["v"]
     followed: sp.Expr | None = None
     predicted: bool = False

@@ -54,6 +54,7 @@ class Inward:
             for k, b in enumerate(c)
         }
         self._e = {i: ZERO if force(a) in zero else force(a) for i, a in enumerate(c)}
+        self._p = {i: ZERO if predicted_force(a) in zero else predicted_force(a) for i, a in enumerate(c)}
         for passed in reversed(out.passed):
             answers: dict[str, sp.Expr] = {}
             if passed.law.free is None:
@@ -69,6 +70,7 @@ class Inward:
         c = self.frame.coordinates
         entries = {impedance(c[i], c[k]): value for (i, k), value in self._s.items()}
         entries |= {force(c[i]): value for i, value in self._e.items()}
+        entries |= {predicted_force(c[i]): value for i, value in self._p.items()}
         return frozenset(symbol for symbol, value in entries.items() if value == 0)
 
     # -- elements with motion through them ---------------------------------------------------------------
@@ -85,7 +87,7 @@ class Inward:
         at_bias = dict(zip(outside, (self._e[i] for i in size), strict=True))
         slopes_at = at_bias
         if frame.predicted:
-            slopes_at = {f: predicted_force(c) for f, c in zip(outside, frame.coordinates, strict=True)}
+            slopes_at = dict(zip(outside, (self._p[i] for i in size), strict=True))
         impedances: dict[tuple[int, int], sp.Expr] = {}
         forces: dict[int, sp.Expr] = {}
         for i in size:
@@ -110,12 +112,33 @@ class Inward:
             biased = self._written(frame.settled(passed.at_point(law))).subs(at_bias)
             if biased != self._e[i]:
                 forces[i] = cheapest(biased, self._levers)
+        at_predicted = dict(zip(outside, (self._p[i] for i in size), strict=True))
         self._set(impedances, forces)
+        self._predict(
+            [
+                cheapest(self._written(frame.settled(passed.at_point(law))).subs(at_predicted), self._levers)
+                for law in passed.law.inner
+            ]
+        )
+
+    def _predict(self, forces: list[sp.Expr]) -> None:
+        """Carry the force as predicted, where slopes are taken at it."""
+        if not self.frame.predicted:
+            return
+        update: dict[sp.Symbol, sp.Expr] = {}
+        for i, (c, value) in enumerate(zip(self.frame.coordinates, forces, strict=True)):
+            if value != self._p[i] and value != 0:
+                update[predicted_force(c)] = value
+            self._p[i] = predicted_force(c) if value != 0 else ZERO
+        if update:
+            self.lines.append(Update(update))
 
     def _constant_named(self, passed: Passed, slope: sp.Expr) -> sp.Expr:
         """Name the part of a slope that depends on parameters and gains alone, if it takes arithmetic."""
         early = passed.constants | set(self.frame.gains.values())
-        constant = sp.Add(*(term for term in sp.Add.make_args(sp.expand(slope)) if term.free_symbols <= early))
+        constant = sp.Add(
+            *(term for term in sp.Add.make_args(sp.expand(slope)) if term.free_symbols <= early)
+        )
         if constant == 0 or constant.is_Atom or (-constant).is_Atom:
             return slope
         symbol = sp.Symbol(f"{passed.element.name}_impedance", real=True)
@@ -141,11 +164,15 @@ class Inward:
         of_inner, of_outer = self._gain(law.own, inside), self._gain(law.own, outside)
         more_inner, more_outer = self._gain(besides, inside), self._gain(besides, outside)
         known = self._known(passed, law.own, TORQUE, "torque of each joint at the point of linearisation")
-        more = self._known(passed, besides, sp.Symbol("inner_torque", real=True), "what acts on its inner side besides")
+        more = self._known(
+            passed, besides, sp.Symbol("inner_torque", real=True), "what acts on its inner side besides"
+        )
         load, bias = self._s[own, own], self._e[own]
         stiffness = -sign * of_outer
         if stiffness != 0:
-            self.lines.append(Let(STIFFNESS, stiffness, "torque of a joint per difference of unknowns", "kg m^2"))
+            self.lines.append(
+                Let(STIFFNESS, stiffness, "torque of a joint per difference of unknowns", "kg m^2")
+            )
             stiffness = STIFFNESS
         inner_stiffness = stiffness if sp.expand(of_inner + of_outer) == 0 else sign * of_inner
         self.lines += [
@@ -174,8 +201,22 @@ class Inward:
         if inner_stiffness != 0:
             answers["inner"] = TRANSMISSION
             self.lines.append(
-                Let(TRANSMISSION, ADMITTANCE * inner_stiffness, "share of motion and torque each joint passes on")
+                Let(
+                    TRANSMISSION,
+                    ADMITTANCE * inner_stiffness,
+                    "share of motion and torque each joint passes on",
+                )
             )
+        if frame.predicted:
+            self.columns = {
+                sp.Symbol(f"column_{name}", real=True): self._s[k, own]
+                for k, name in enumerate(names)
+                if k != own
+            }
+            self.lines += [
+                Let(symbol, value, "force per unknown of the link", "kg m")
+                for symbol, value in self.columns.items()
+            ]
         passes = answers.get("inner", ZERO)
         impedances: dict[tuple[int, int], sp.Expr] = {}
         forces: dict[int, sp.Expr] = {}
@@ -200,6 +241,7 @@ class Inward:
         else:
             forces[own] = ratio * known + more + (more_outer - ratio * sign * stiffness) * OWN
         self._set(impedances, forces)
+        self._predict([ratio * known + more if i == own else self._p[i] for i in range(len(names))])
         return answers
 
     def _shares(self, known: sp.Expr, bias: sp.Expr, load: sp.Expr, stiffness: sp.Expr) -> sp.Expr:
@@ -212,16 +254,16 @@ class Inward:
         )
         if passes is None:
             passes = sp.Symbol("passed_share", real=True)
-            self.lines.append(Let(passes, ADMITTANCE * stiffness, "share of the force beyond each joint passes on"))
+            self.lines.append(
+                Let(passes, ADMITTANCE * stiffness, "share of the force beyond each joint passes on")
+            )
         self.lines.append(
             Let(REFLECTION, sign * ADMITTANCE * load, "share of its own known torque each joint passes on")
         )
         return passes * bias + REFLECTION * known
 
     def _gain(self, value: sp.Expr, motion: object) -> sp.Expr:
-        return sp.expand(
-            sp.Add(*(self.frame.gains[k] * sp.diff(value, getattr(motion, k)) for k in KINDS))
-        )
+        return sp.expand(sp.Add(*(self.frame.gains[k] * sp.diff(value, getattr(motion, k)) for k in KINDS)))
 
     def _known(self, passed: Passed, value: sp.Expr, symbol: sp.Symbol, doc: str) -> sp.Expr:
         at_point = self.frame.settled(passed.at_point(value))

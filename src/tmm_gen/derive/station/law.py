@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cache
+from itertools import pairwise
 
 import sympy as sp
 
@@ -86,7 +87,7 @@ def _outer_motion(motion: Motion, geometric: list[sp.Expr], inboard: Port) -> di
             if equation.has(symbol):
                 (value,) = sp.solve(equation, symbol)
                 found = {kind: sp.expand(value)}
-                for lower, higher in zip(KINDS, KINDS[1:], strict=False):
+                for lower, higher in pairwise(KINDS):
                     if lower in found:
                         found[higher] = sp.expand(by_time(found[lower], inboard))
                 return found
@@ -99,3 +100,16 @@ def by_time(expression: sp.Expr, *ports: Port) -> sp.Expr:
         m.v: m.a for port in ports for m in port.motions
     }
     return sp.Add(*(sp.diff(expression, s) * rate for s, rate in rates.items()))
+
+
+def impedance_law(element: Element) -> sp.Expr:
+    """Return the force of an element that gives way per unknown of its outer side, by the symbols for gains."""
+    law = law_of(element)
+    assert law.free is not None
+    motion = element.outboard.motions[law.free]
+    gains = (sp.Symbol(f"P_{kind}", real=True) for kind in KINDS)
+    return sp.expand(
+        sp.Add(
+            *(gain * sp.diff(law.own, getattr(motion, kind)) for gain, kind in zip(gains, KINDS, strict=True))
+        )
+    )

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from tmm_gen.derive.elements.declaration import Element, Port
+from tmm_gen.derive.elements.declaration import Element
 from tmm_gen.derive.station.frame import COSINE, INNER, OUTER, SINE, SQUARE, Frame, node, primitive
 from tmm_gen.derive.station.law import KINDS, Law, law_of
 from tmm_gen.derive.station.lets import Let
@@ -37,8 +37,7 @@ class Passed:
     @property
     def constants(self) -> set[sp.Symbol]:
         """The row's symbols for the element's parameters."""
-        ports = {s for port in (self.element.inboard, self.element.outboard) for s in symbols_of(port)}
-        return {s for e in self.element.equations for s in e.free_symbols} - ports
+        return set(self.element.parameters)
 
     def at_point(self, value: sp.Expr) -> sp.Expr:
         """Write a value at the motion of the element's ports."""
@@ -64,8 +63,7 @@ class Outward:
         self.lets: list[Let] = []
         self.passed: list[Passed] = []
         self._at: list[dict[str, sp.Expr]] = [
-            dict(OUTER if moved else INNER) if c.integrated else {"a": node(c)}
-            for c in frame.coordinates
+            dict(OUTER if moved else INNER) if c.integrated else {"a": node(c)} for c in frame.coordinates
         ]
         laws = [law_of(element) for element in elements]
         self._name_levers(elements, laws)
@@ -94,9 +92,7 @@ class Outward:
         for length in sorted(lengths, key=str):
             suffix = "" if len(lengths) == 1 else f"_{length}"
             for name, symbol in (("cosine", COSINE), ("sine", SINE)):
-                self._let(
-                    f"lever_{name}{suffix}", length * symbol, f"length times {name} of the angle", "m"
-                )
+                self._let(f"lever_{name}{suffix}", length * symbol, f"length times {name} of the angle", "m")
 
     def _let(self, name: str, value: sp.Expr, doc: str = "", unit: str = "1") -> sp.Expr:
         before = len(self.values.lets)
@@ -123,7 +119,9 @@ class Outward:
             inner = element.inboard.motions[i]
             if coordinate.integrated:
                 if law.outer[i]["q"] != inner.q:
-                    raise ValueError(f"{element.name}: what it adds to an integrated coordinate has no form yet")
+                    raise ValueError(
+                        f"{element.name}: what it adds to an integrated coordinate has no form yet"
+                    )
                 continue
             relative = sp.expand(law.outer[i]["a"] - inner.a)
             if relative != 0:
@@ -150,7 +148,12 @@ class Outward:
         for i, name in names.items():
             moved = sp.Symbol(f"node_{name}_outer", real=True)
             self.lets.append(
-                Let(moved, self._at[i]["a"] + relative_to[i], f"acceleration of the node along {name}", "m/s^2")
+                Let(
+                    moved,
+                    self._at[i]["a"] + relative_to[i],
+                    f"acceleration of the node along {name}",
+                    "m/s^2",
+                )
             )
             self._at[i] = {"a": moved}
         return self._answers(added, names)
@@ -160,7 +163,9 @@ class Outward:
         parts: dict[int, sp.Expr] = dict.fromkeys(added, sp.Integer(0))
         for kind in KINDS:
             slopes = {i: self.frame.slope(value, kind) for i, value in added.items()}
-            written = {i: sp.expand(self.frame.gains[kind] * self.values.written(s)) for i, s in slopes.items()}
+            written = {
+                i: sp.expand(self.frame.gains[kind] * self.values.written(s)) for i, s in slopes.items()
+            }
             shared = _common(list(written.values()), set(OUTER.values()))
             if shared is not None:
                 name = self._let("turning", shared, "change of the rate's square per unknown", "1/s^2")
@@ -175,11 +180,6 @@ class Outward:
             )
             for i, value in parts.items()
         }
-
-
-def symbols_of(port: Port) -> tuple[sp.Symbol, ...]:
-    """Return every symbol of a port."""
-    return (*(getattr(m, kind) for m in port.motions for kind in KINDS), *port.forces)
 
 
 def _common(values: list[sp.Expr], motions: set[sp.Symbol]) -> sp.Expr | None:

@@ -74,9 +74,7 @@ def _through(passed: Passed, frame: Frame, gains: list[Line], known: list[Line])
         known.append(Update({FORCE: (FORCE - sp.expand(rest) - slope * MOTION) / share}))
 
 
-def _over(
-    passed: Passed, frame: Frame, names: list[sp.Symbol], gains: list[Line], known: list[Line]
-) -> bool:
+def _over(passed: Passed, frame: Frame, names: list[sp.Symbol], gains: list[Line], known: list[Line]) -> bool:
     """Solve the law of an element that gives way for the motion beyond it."""
     own, law = frame.own, passed.law
     inside, outside = passed.element.inboard.motions[own], passed.element.outboard.motions[own]
@@ -98,7 +96,9 @@ def _over(
     left = FORCE - law.ratio * at_motion - more
     known.append(Update({MOTION: share * MOTION + sign * COMPLIANCE * left}))
     if law.ratio != 1 or besides != 0:
-        raise ValueError(f"{passed.element.name}: its force has no form in a product yet; use the Riccati sweep")
+        raise ValueError(
+            f"{passed.element.name}: its force has no form in a product yet; use the Riccati sweep"
+        )
     return True
 
 

@@ -92,9 +92,9 @@ def kinds_of(elements: tuple[Element, ...], energy: str) -> frozenset[str]:
     )
 
 
-def exact_forces(out: Outward, forces: tuple[sp.Symbol, ...]) -> list[Line]:
+def exact_forces(out: Outward, forces: tuple[sp.Symbol, ...]) -> list[Update]:
     """Return what walking in over some elements changes of the forces, at the motion of the way out."""
-    lines: list[Line] = []
+    lines: list[Update] = []
     for passed in reversed(out.passed):
         law, outside = passed.law, passed.element.outboard.forces
         values = dict(zip(outside, forces, strict=True))

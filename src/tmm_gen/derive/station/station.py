@@ -7,8 +7,9 @@ from functools import cache
 import sympy as sp
 
 from tmm_gen.derive.elements.declaration import Element
-from tmm_gen.derive.station.frame import Frame, force, impedance
+from tmm_gen.derive.station.frame import Frame, force, impedance, predicted_force
 from tmm_gen.derive.station.inward import Inward
+from tmm_gen.derive.station.lets import Line, Update
 from tmm_gen.derive.station.motion import Outward
 
 
@@ -29,14 +30,25 @@ def inward(
 def everything(frame: Frame) -> frozenset[sp.Symbol]:
     """Return all entries that a sweep carries inward: at a free end they are zero."""
     c = frame.coordinates
-    return frozenset([*(impedance(a, b) for a in c for b in c), *(force(a) for a in c)])
+    forces = (*map(force, c), *map(predicted_force, c))
+    return frozenset([*(impedance(a, b) for a in c for b in c), *forces])
 
 
 @cache
-def recurring(elements: tuple[Element, ...], frame: Frame, zero: frozenset[sp.Symbol], stations: int) -> Inward:
+def recurring(
+    elements: tuple[Element, ...], frame: Frame, zero: frozenset[sp.Symbol], stations: int
+) -> Inward:
     """Derive the way in over a run of like stations: zero is what stays zero from each to the next."""
     found = inward(elements, frame, zero)
     while stations > 1 and not zero <= found.zero:
         zero = zero & found.zero
         found = inward(elements, frame, zero)
     return found
+
+
+def ceasing(found: Inward, stations: int) -> tuple[Line, ...]:
+    """Return what must be set to zero between stations of a run: it arrives at the outermost and at no other."""
+    gone = sorted(found.zero - found.arriving, key=str) if stations > 1 else []
+    if not found.frame.predicted:
+        gone = [s for s in gone if s not in set(map(predicted_force, found.frame.coordinates))]
+    return (Update(dict.fromkeys(gone, sp.Integer(0))),) if gone else ()

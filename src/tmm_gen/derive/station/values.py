@@ -38,7 +38,9 @@ class Values:
 
     def in_full(self, expression: sp.Expr) -> sp.Expr:
         """Write an expression without lets, squares of sines by those of cosines."""
-        full = sp.expand(expression.subs(self._full) if expression.free_symbols & set(self._full) else expression)
+        full = sp.expand(
+            expression.subs(self._full) if expression.free_symbols & set(self._full) else expression
+        )
         for sine, cosine in self._squares.items():
             if full.has(sine**2):
                 full = sp.expand(full.subs(sine**2, 1 - cosine**2))
@@ -74,7 +76,6 @@ class Values:
         for symbol, product in products.items():
             full = full.subs(product, symbol)
         return full
-
 
     def _by_sums(self, full: sp.Expr) -> sp.Expr:
         """Put multiples of known sums in the place of the terms that make them up."""

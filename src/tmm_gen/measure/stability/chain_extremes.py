@@ -25,7 +25,7 @@ from tmm_gen.measure.stability.extreme import ChainExtreme
 from tmm_gen.measure.stability.growth import Growth
 from tmm_gen.measure.stability.recursion import Chains, Recursion
 from tmm_gen.native import NativeKernel, NonFiniteStateError, compile_kernel
-from tmm_gen.program.torsion.build import build_chain
+from tmm_gen.program.build import build_unchecked
 from tmm_gen.program.torsion.rounding import Rounding
 from tmm_gen.program.torsion.safety import DIGITS, require_safe_product
 from tmm_gen.scene import SceneError
@@ -235,7 +235,7 @@ def compiled(extreme: ChainExtreme, method: Integrator) -> NativeKernel:
     scene = unlike.scene(
         "_".join(("extreme", str(extreme.links), extreme.real, extreme.sweep, extreme.unknown))
     )
-    return compile_kernel(build_chain(scene, method), scene)
+    return compile_kernel(build_unchecked(scene, method), scene)
 
 
 def _run(extreme: ChainExtreme, kernel: NativeKernel) -> dict[int, Array]:

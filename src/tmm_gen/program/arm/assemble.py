@@ -22,9 +22,10 @@ from tmm_gen.program.motion import history_values
 from tmm_gen.program.passes.early import EarlySets
 from tmm_gen.program.passes.hoist import Hoister
 from tmm_gen.program.passes.prune import prune
-from tmm_gen.program.sensitivities.chain import chain_sensitivities
-from tmm_gen.program.statements import Assign, Program, Routine, Section
-from tmm_gen.program.variables import Role
+from tmm_gen.program.sensitivities.linear import linear_sensitivities
+from tmm_gen.program.sensitivities.step import step_sensitivities
+from tmm_gen.program.statements import Assign, Program, Routine, Section, Sensitivities
+from tmm_gen.program.variables import Role, Variable
 from tmm_gen.row.row import Row
 
 
@@ -99,6 +100,8 @@ class Assembly:
                 split=self.early.split,
                 walks=self.choices.walks,
             )
+            if main:
+                self._main_builder = builder
             name = "step" if main else f"step_start{position + 1}"
             doc = "Advance the state by one step." if main else f"Start-up: take step {position + 1}."
             sections = (
@@ -126,7 +129,9 @@ class Assembly:
         wanted = frozenset(state)
         startup = tuple(prune(r, wanted) for r in startup)
         main, initialise = prune(main, wanted), prune(initialise, wanted)
-        used = frozenset().union(*(r.read() for r in (*startup, main, output)))
+        sensitivities = self._sensitivities(main, state)
+        derivatives = (sensitivities.linearise, sensitivities.tangent) if sensitivities else ()
+        used = frozenset().union(*(r.read() for r in (*startup, main, output, *derivatives)))
         sections = (self.combinations.section, *self.early.sections, self.hoister.section())
         doc = "Compute what depends on parameters and step alone."
         prepare = prune(Routine("prepare", doc, sections), used)
@@ -156,8 +161,16 @@ class Assembly:
                 tuple(float(stage.instant) for stage in scheme.stages) for scheme in integrator.schemes
             ),
             facts=dict(row.facts),
-            sensitivities=chain_sensitivities(main, state, layout.inputs) if self.choices.sensitivities else None,
+            sensitivities=sensitivities,
         )
+
+    def _sensitivities(self, main: Routine, state: tuple[Variable, ...]) -> Sensitivities | None:
+        if not self.choices.sensitivities:
+            return None
+        if self.row.about == "known":
+            return linear_sensitivities(main, state, self.layout.inputs)
+        held = hold(self.layout, len(self.integrator.main.stages))
+        return step_sensitivities(self._main_builder, held, state, self.layout.inputs, self.hoister)
 
     def _initialise(self) -> Routine:
         """Build the start: given motion, consistent acceleration, an older history that nothing reads yet."""

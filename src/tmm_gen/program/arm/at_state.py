@@ -33,7 +33,10 @@ class AtState:
         words = {"q": "place", "v": "velocity", "a": "acceleration"}
         for c in layout.row.coordinates:
             for kind in KINDS:
-                self.scratch.described[f"{kind}_{c.name}"] = (f"{words[kind]} of a node along {c.name}", units[kind])
+                self.scratch.described[f"{kind}_{c.name}"] = (
+                    f"{words[kind]} of a node along {c.name}",
+                    units[kind],
+                )
 
     def motion(self, station: int, kind: Kind) -> sp.Expr:
         """Return the motion of a station, counted from 1; 0 is the base."""
@@ -94,5 +97,3 @@ def _symbols(line: Line) -> set[sp.Symbol]:
     if isinstance(line, Update):
         return set().union(*(v.free_symbols for v in line.values.values()))
     return set() if isinstance(line, Pivot) else line.value.free_symbols
-
-

@@ -59,7 +59,9 @@ class Binding:
         names: dict[sp.Symbol, sp.Expr] = {}
         for symbol in sp.sympify(expression).free_symbols:
             if not isinstance(symbol, Ref):
-                names[symbol] = self.values.get(symbol, None) if symbol in self.values else self._scratch.ref(symbol.name)
+                names[symbol] = (
+                    self.values.get(symbol, None) if symbol in self.values else self._scratch.ref(symbol.name)
+                )
         return sp.sympify(expression).xreplace(names)
 
     def target(self, symbol: sp.Symbol) -> Ref:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import sympy as sp
 
+from tmm_gen.derive.elements.declaration import Element
 from tmm_gen.derive.integrators.relations import UnsuitableUnknownError
 from tmm_gen.derive.station import product as derived
 from tmm_gen.derive.station.inward import Inward
 from tmm_gen.derive.station.lets import Let, Line
 from tmm_gen.derive.station.station import outward
 from tmm_gen.program.arm.binding import composed
-from tmm_gen.program.arm.walks import BASE, Walks, hub_unknown, spread
+from tmm_gen.program.arm.walks import BASE, Walks, hub_unknown
 from tmm_gen.program.statements import Assign, Loop, Order, Section, Statement
 from tmm_gen.program.variables import Role, Variable
 
@@ -20,23 +21,24 @@ ZERO, ONE = sp.Integer(0), sp.Integer(1)
 class ProductWalks(Walks):
     """Builds the sections of one sweep by the plain product, for rows of one coordinate."""
 
-    def sections(self) -> list[Section]:
-        """Return the whole sweep."""
-        found = [
+    def plain(self) -> list[Section]:
+        """Return the whole sweep, with scratch of stations as scalars."""
+        return [
             Section("forces of the joints at the motion so far", tuple(self.joint_forces())),
             Section("product outward: motion and force per unknown of the base", tuple(self._gains())),
             Section(
                 "product outward: state of each station if the base unknown were zero", tuple(self._known())
             ),
         ]
-        return spread([s for s in found if s.statements], self.scratch, self.layout.stations)
 
     @property
     def _free(self) -> bool:
         return self.layout.row.boundary == "free"
 
-    def _product(self, elements: tuple[object, ...], known: list[Let], *, moved: bool = False) -> derived.Product:
-        out = outward(elements, self.frame, moved=moved)  # type: ignore[arg-type]
+    def _product(
+        self, elements: tuple[Element, ...], known: list[Let], *, moved: bool = False
+    ) -> derived.Product:
+        out = outward(elements, self.frame, moved=moved)
         found = derived.product(out, known)
         if not found.gives_way:
             raise UnsuitableUnknownError(
@@ -59,7 +61,10 @@ class ProductWalks(Walks):
         if self._free:
             hub = composed(self._product(self.layout.row.base, [], moved=True).gains)
             at_hub = {derived.MOTION_GAIN: ONE, derived.FORCE_GAIN: ZERO}
-            first = {derived.MOTION_GAIN: ONE, derived.FORCE_GAIN: hub.get(derived.FORCE_GAIN, ZERO).subs(at_hub)}
+            first = {
+                derived.MOTION_GAIN: ONE,
+                derived.FORCE_GAIN: hub.get(derived.FORCE_GAIN, ZERO).subs(at_hub),
+            }
         found: list[Statement] = [Assign(base.target(s), base.value(v)) for s, v in first.items()]
         for start, stop, product in self._each():
             body = here.lines([*product.gains])

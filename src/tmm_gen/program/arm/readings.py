@@ -11,6 +11,7 @@ from tmm_gen.derive.integrators.declaration import KINDS
 from tmm_gen.derive.station.frame import INNER, OUTER, Frame
 from tmm_gen.derive.station.inward import grouped
 from tmm_gen.derive.station.law import law_of
+from tmm_gen.derive.station.lets import Coordinate, Update
 from tmm_gen.derive.station.reading import exact_forces, place, walk
 from tmm_gen.derive.station.station import outward
 from tmm_gen.program.arm.at_state import AtState
@@ -69,7 +70,7 @@ class Readings:
         n = self._layout.stations
         if reading.station > n:
             forces = self._beyond()
-            own = [i for i, c in enumerate(self._row.coordinates) if c.integrated][0]
+            own = next(i for i, c in enumerate(self._row.coordinates) if c.integrated)
             return [Assign(targets[0], sp.expand(reading.sign * forces[own]))]
         element = self._row.stations[reading.station - 1][0]
         law = law_of(element)
@@ -98,7 +99,11 @@ class Readings:
         carried = [c for c in row.coordinates if not c.integrated]
         nodes = {
             c.name: Variable(
-                f"acceleration_{c.name}", Role.WORK, n + 1, f"acceleration of the nodes along {c.name}", c.unit
+                f"acceleration_{c.name}",
+                Role.WORK,
+                n + 1,
+                f"acceleration of the nodes along {c.name}",
+                c.unit,
             )
             for c in carried
         }
@@ -113,7 +118,7 @@ class Readings:
                 *self._at.at_station(None).lines(lines),
                 *(Assign(v.at(1), moving[name]) for name, v in nodes.items()),
             ]
-            found.append(Loop(Order.OUTWARD, start, stop, tuple(body)))  # type: ignore[arg-type]
+            found.append(Loop(Order.OUTWARD, start, stop, tuple(body)))
         names = dict(zip([c.name for c in carried], targets, strict=True))
         beyond = self._beyond({name: v.entry(n) for name, v in nodes.items()})
         for i, c in enumerate(row.coordinates):
@@ -121,9 +126,7 @@ class Readings:
                 found.append(Assign(names[c.name], beyond[i]))
         return [*found, *self._forces_in(reading.station, nodes, names)]
 
-    def _forces_in(
-        self, joint: int, nodes: dict[str, Variable], names: dict[str, Ref]
-    ) -> list[Statement]:
+    def _forces_in(self, joint: int, nodes: dict[str, Variable], names: dict[str, Ref]) -> list[Statement]:
         row = self._row
         forces = tuple(sp.Symbol(f"held_{c.force}", real=True) for c in row.coordinates)
         wanted = {s for s, c in zip(forces, row.coordinates, strict=True) if not c.integrated}
@@ -135,7 +138,7 @@ class Readings:
                 continue
             out = outward(elements, _plain(row.coordinates))
             lines = [
-                type(line)({s: v for s, v in line.values.items() if s in wanted})  # type: ignore[union-attr]
+                Update({s: v for s, v in line.values.items() if s in wanted})
                 for line in exact_forces(out, forces)
             ]
             values = dict(self._at.at_station(None).values) | loads
@@ -194,9 +197,7 @@ class Readings:
         return self._at.summed(reading.kind, targets[0])
 
 
-def _plain(coordinates: tuple[object, ...]) -> Frame:
+def _plain(coordinates: tuple[Coordinate, ...]) -> Frame:
     """Return a frame for exact laws alone."""
     one = sp.Integer(1)
-    return Frame(coordinates, (one, one, one))  # type: ignore[arg-type]
-
-
+    return Frame(coordinates, (one, one, one))

@@ -86,7 +86,7 @@ class StepBuilder:
     def _walks(self, index: int, motion: AffineMotion, point: StartingPoint) -> Walks:
         row = self.layout.row
         gain = tuple(motion.gain[k] if motion.gain[k].is_number else GAINS[k] for k in KINDS)
-        frame = Frame(row.coordinates, gain, point.still, row.about, row.sign)  # type: ignore[arg-type]
+        frame = Frame(row.coordinates, gain, point.still, row.about, row.sign)
         gains = {GAINS[k]: self._gain(motion, k) for k in KINDS}
         known = {k: self._motion(k) for k in KINDS if k not in point.still}
         stage_of = StageOf(self.scheme, index, motion, self.sources)
@@ -151,7 +151,8 @@ class StepBuilder:
         n = self.layout.stations
         zero = sp.Integer(0)
         links = {
-            k: (zero if k in point.still else self._motion(k).at(1)) + self._gain(motion, k) * solved_variable(n).at()
+            k: (zero if k in point.still else self._motion(k).at(1))
+            + self._gain(motion, k) * solved_variable(n).at()
             for k in KINDS
         }
         hub = {
@@ -173,9 +174,7 @@ class StepBuilder:
             statements += update_assignments(self.layout.hub, new, lambda v: v.ref, "")
         new = self._new_values(index, links, self._values("", n))
         statements.append(
-            Loop(
-                Order.OUTWARD, 0, n, tuple(update_assignments(self.layout.state, new, lambda v: v.at(), ""))
-            )
+            Loop(Order.OUTWARD, 0, n, tuple(update_assignments(self.layout.state, new, lambda v: v.at(), "")))
         )
         places = walks.after_update()
         return Section(title + "motion at the end of the step", (*places, *statements))

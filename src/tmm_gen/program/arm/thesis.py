@@ -118,9 +118,7 @@ class ThesisWalks(Walks):
             acceleration = variable.at(1) + self._moved(axis).at() - falls[axis]
             unknown = local(f"unknown_{axis}", f"unknown of the node's place along {axis}")
             value = (acceleration - self._offset(axis, "a")) / self._gain("a")
-            stages = {
-                stage(k, index): self._gain(k) * unknown + self._offset(axis, k) for k in KINDS
-            }
+            stages = {stage(k, index): self._gain(k) * unknown + self._offset(axis, k) for k in KINDS}
             at = {STEP: self.layout.step.ref, **history_values(state, lambda v: v.at()), **stages}
             new = {k: sp.expand(sp.sympify(self.stage.scheme.update[k]).subs(at)) for k in KINDS}
             body = (Assign(unknown, sp.expand(value)), *update_assignments(state, new, lambda v: v.at(), ""))
@@ -163,6 +161,3 @@ def start_places(layout: Layout) -> Section:
         body = [*at_state.at_station(None).lines(lines), *kept]
         statements.append(Loop(Order.OUTWARD, start, stop, tuple(body)))
     return Section("places of the nodes", tuple(statements))
-
-
-

@@ -9,11 +9,22 @@ import sympy as sp
 
 from tmm_gen.derive.integrators.declaration import Scheme
 from tmm_gen.derive.integrators.relations import AffineMotion
-from tmm_gen.derive.station.frame import COSINE, INNER, OUTER, SINE, Frame, change, force, impedance, node
+from tmm_gen.derive.station.frame import (
+    COSINE,
+    INNER,
+    OUTER,
+    SINE,
+    Frame,
+    change,
+    force,
+    impedance,
+    node,
+    predicted_force,
+)
 from tmm_gen.derive.station.inward import Inward, back
 from tmm_gen.derive.station.law import KINDS
 from tmm_gen.derive.station.lets import Let, Line, Pivot, Update
-from tmm_gen.derive.station.station import everything, inward, outward, recurring
+from tmm_gen.derive.station.station import ceasing, everything, inward, outward, recurring
 from tmm_gen.program.arm.binding import Binding, Scratch, composed
 from tmm_gen.program.arm.layout import Layout
 from tmm_gen.program.arm.loads import Loads
@@ -99,8 +110,14 @@ class Walks:
 
     def sections(self) -> list[Section]:
         """Return the whole sweep."""
-        falling = ", seen from a falling frame: gravity is the base's own" if self.layout.row.fall != 0 else ""
-        found = [
+        return spread([s for s in self.plain() if s.statements], self.scratch, self.layout.stations)
+
+    def plain(self) -> list[Section]:
+        """Return the whole sweep, with scratch of stations as scalars."""
+        falling = (
+            ", seen from a falling frame: gravity is the base's own" if self.layout.row.fall != 0 else ""
+        )
+        return [
             Section("accelerations of the nodes" + falling, tuple(self.outward_motion())),
             Section("forces of the joints at the motion so far", tuple(self.joint_forces())),
             Section(
@@ -110,7 +127,6 @@ class Walks:
             Section("the base", tuple(self.base())),
             Section("sweep outward: the unknown of each station", tuple(self.answers())),
         ]
-        return spread([s for s in found if s.statements], self.scratch, self.layout.stations)
 
     # -- places --------------------------------------------------------------------------------------------
 
@@ -132,7 +148,7 @@ class Walks:
 
     def _values(self, parameter: object, inner: object, outer: object) -> dict[sp.Symbol, sp.Expr]:
         values: dict[sp.Symbol, sp.Expr] = {s: parameter(v) for s, v in self._parameters.items()}  # type: ignore[operator]
-        values |= self.gains | self.loads.values
+        values |= {**self.gains, **self.loads.values}
         for kind in KINDS:
             if kind in self.motion:
                 values[INNER[kind]] = inner(self.motion[kind])  # type: ignore[operator]
@@ -148,8 +164,13 @@ class Walks:
         here = self.at_station()
         first: list[Statement] = []
         walk: list[Statement] = []
-        carried = {sp.Symbol(f"node_{name}", real=True): self.scratch.ref(f"node_{name}") for name in self.nodes}
-        moving = {sp.Symbol(f"node_{name}_outer", real=True): ref for name, ref in zip(self.nodes, carried.values(), strict=True)}
+        carried = {
+            sp.Symbol(f"node_{name}", real=True): self.scratch.ref(f"node_{name}") for name in self.nodes
+        }
+        moving = {
+            sp.Symbol(f"node_{name}_outer", real=True): ref
+            for name, ref in zip(self.nodes, carried.values(), strict=True)
+        }
         along = Binding(self.scratch, {**here.values, **carried, **moving})
         for start, stop, elements in self.runs:
             lets = outward(elements, self.frame).lets
@@ -187,9 +208,11 @@ class Walks:
         found: list[Statement] = [*self.loads.fill, *self.tail()]
         arriving = self._tail.zero
         for (start, stop, _), derived in reversed(list(zip(self.runs, self._inwards, strict=True))):
-            for symbol in sorted(arriving - derived.arriving, key=str):
+            unread = set() if self.frame.predicted else set(map(predicted_force, self.frame.coordinates))
+            for symbol in sorted(arriving - derived.arriving - unread, key=str):
                 found.append(Assign(self.scratch.ref(symbol.name), sp.Integer(0)))
-            found.append(Loop(Order.INWARD, start, stop, tuple(here.lines(derived.lines))))
+            lines = [*derived.lines, *ceasing(derived, stop - start)]
+            found.append(Loop(Order.INWARD, start, stop, tuple(here.lines(lines))))
             arriving = derived.zero
         return found
 
@@ -288,9 +311,9 @@ def spread(sections: list[Section], scratch: Scratch, n: int) -> list[Section]:
             written: set[Variable] = set()
             for inner in statement.body if isinstance(statement, Loop) else (statement,):
                 for ref in refs_in(inner.value):
-                    if ref.variable.name in scratch.lets and ref.variable not in written:
-                        if ref.variable.role is Role.LOCAL:
-                            names.add(ref.variable)
+                    kept = ref.variable.name in scratch.lets and ref.variable.role is Role.LOCAL
+                    if kept and ref.variable not in written:
+                        names.add(ref.variable)
                 if isinstance(inner, Assign):
                     written.add(inner.target.variable)
     set_in_loops = {
@@ -301,13 +324,13 @@ def spread(sections: list[Section], scratch: Scratch, n: int) -> list[Section]:
         for inner in statement.body
         if isinstance(inner, Assign)
     }
-    kept = {v.ref: replace(v, role=Role.WORK, length=n).at() for v in names & set_in_loops}
+    arrays = {v.ref: replace(v, role=Role.WORK, length=n).at() for v in names & set_in_loops}
 
     def changed(statement: Assign | Require) -> Assign | Require:
-        value = statement.value.xreplace(kept)
+        value = statement.value.xreplace(arrays)
         if isinstance(statement, Require):
             return Require(value)
-        return Assign(kept.get(statement.target, statement.target), value)
+        return Assign(arrays.get(statement.target, statement.target), value)
 
     return [
         replace(
@@ -333,7 +356,7 @@ def _depending(lets: list[Let], on: set[sp.Symbol]) -> list[Let]:
 
 def _entries(frame: Frame) -> list[sp.Symbol]:
     c = frame.coordinates
-    return [*(impedance(a, b) for a in c for b in c), *(force(a) for a in c)]
+    return [*(impedance(a, b) for a in c for b in c), *map(force, c), *map(predicted_force, c)]
 
 
 def _described(frame: Frame) -> dict[str, tuple[str, str]]:
@@ -343,6 +366,7 @@ def _described(frame: Frame) -> dict[str, tuple[str, str]]:
     }
     for c in frame.coordinates:
         found[c.force] = ("force beyond this joint", c.force_unit)
+        found[predicted_force(c).name] = ("force beyond this joint as predicted", c.force_unit)
         if not c.integrated:
             found[node(c).name] = (f"acceleration of a node along {c.name}", c.unit)
             found[change(c).name] = (f"change of a node's acceleration along {c.name}", c.unit)

@@ -48,9 +48,9 @@ class EarlySets:
         return tuple(self._coefficients)
 
     def _keep(self, statements: tuple[Statement, ...], left: list[Section]) -> dict[Ref, Ref]:
-        crossing = {
-            ref.variable for section in left for s in section.statements for ref in _read(s)
-        } & {a.target.variable for a in _assigns(statements)}
+        crossing = {ref.variable for section in left for s in section.statements for ref in _read(s)} & {
+            a.target.variable for a in _assigns(statements)
+        }
         kept: dict[Ref, Ref] = {}
         for statement in statements:
             looped = isinstance(statement, Loop)
@@ -62,7 +62,10 @@ class EarlySets:
                 kept[assign.target] = self._variable(variable, length).at(assign.target.offset or 0)
         for assign in _assigns(statements):  # loops over parts of the row write the same array
             if assign.target in kept:
-                longest = max((r.variable for t, r in kept.items() if t.variable == assign.target.variable), key=lambda v: v.length or 0)
+                longest = max(
+                    (r.variable for t, r in kept.items() if t.variable == assign.target.variable),
+                    key=lambda v: v.length or 0,
+                )
                 kept[assign.target] = longest.at(assign.target.offset or 0)
         self._coefficients += dict.fromkeys(ref.variable for ref in kept.values())
         self._sections.append(
@@ -88,7 +91,9 @@ def _early(sections: list[Section]) -> set[Variable]:
             a.target.variable
             for a in assigns
             if a.target.variable in early
-            and any(not r.variable.role.bound_at_prepare and r.variable not in early for r in refs_in(a.value))
+            and any(
+                not r.variable.role.bound_at_prepare and r.variable not in early for r in refs_in(a.value)
+            )
         }
         # what a late statement reads must have one value: a recursion's own variable has many
         for section in sections:
@@ -100,20 +105,18 @@ def _early(sections: list[Section]) -> set[Variable]:
                     if isinstance(inner, Require) and _is_early(inner.value, early - late):
                         continue
                     for ref in refs_in(inner.value):
-                        if ref.variable in early and sum(a.target.variable == ref.variable for a in assigns) > 1:
-                            if not _same_value(ref.variable, assigns):
-                                late.add(ref.variable)
+                        if ref.variable in early and not _one_value(ref.variable, assigns):
+                            late.add(ref.variable)
         if not late:
             return {v for v in early if any(not _trivial(a) for a in assigns if a.target.variable == v)}
         early -= late
 
 
-def _same_value(variable: Variable, assigns: list[Assign]) -> bool:
-    """Whether a variable is set alike wherever it is set, and never from itself: runs of unlike stations."""
+def _one_value(variable: Variable, assigns: list[Assign]) -> bool:
+    """Whether a variable is set once, or alike in every run of stations and never from itself."""
     mine = [a for a in assigns if a.target.variable == variable]
-    return all(variable not in {r.variable for r in refs_in(a.value)} for a in mine) and len(
-        {a.target for a in mine}
-    ) == 1
+    fresh = all(variable not in {r.variable for r in refs_in(a.value)} for a in mine)
+    return len(mine) == 1 or (fresh and len({a.target for a in mine}) == 1)
 
 
 def _trivial(assign: Assign) -> bool:
@@ -125,9 +128,7 @@ def _is_early(value: sp.Expr, early: set[Variable]) -> bool:
     return all(r.variable.role.bound_at_prepare or r.variable in early for r in refs_in(value))
 
 
-def _divided(
-    sections: list[Section], early: set[Variable]
-) -> tuple[list[list[Statement]], list[Section]]:
+def _divided(sections: list[Section], early: set[Variable]) -> tuple[list[list[Statement]], list[Section]]:
     taken: list[list[Statement]] = []
     left: list[Section] = []
     for section in sections:
@@ -154,7 +155,9 @@ def _divided(
 def _lifted(statements: list[Statement]) -> list[Statement]:
     """Take out of loops what is the same at every station."""
     assigns = list(_assigns(statements))
-    once = {v for v in (a.target.variable for a in assigns) if sum(a.target.variable == v for a in assigns) == 1}
+    once = {
+        v for v in (a.target.variable for a in assigns) if sum(a.target.variable == v for a in assigns) == 1
+    }
     alike: dict[Ref, Ref] = {}
     found: list[Statement] = []
     for statement in statements:
@@ -167,7 +170,11 @@ def _lifted(statements: list[Statement]) -> list[Statement]:
             uniform = isinstance(inner, Assign) and inner.target.variable in once
             uniform = uniform and all(
                 r.variable.length is None
-                and (r.variable.role.bound_at_prepare or r in alike.values() or _set_outside(r, statements, once))
+                and (
+                    r.variable.role.bound_at_prepare
+                    or r in alike.values()
+                    or _set_outside(r, statements, once)
+                )
                 for r in refs_in(value)
             )
             if uniform:
@@ -227,5 +234,7 @@ def _moved(ref: Ref, names: dict[Ref, Ref]) -> Ref | None:
     """Return where a value is kept: arrays that turned out alike at every station became scalars."""
     if ref in names:
         return names[ref]
-    scalar = replace(ref.variable, role=Role.LOCAL, length=None).ref if ref.variable.role is Role.WORK else None
+    scalar = (
+        replace(ref.variable, role=Role.LOCAL, length=None).ref if ref.variable.role is Role.WORK else None
+    )
     return names.get(scalar) if scalar is not None else None

@@ -1,13 +1,7 @@
-"""Variables a linearised step keeps for its tangents: only what takes arithmetic, and nothing twice."""
+"""Variables a linearised step keeps for its tangents."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from itertools import count
-
-import sympy as sp
-
-from tmm_gen.program.statements import Assign
 from tmm_gen.program.variables import Ref, Role, Variable
 
 
@@ -17,7 +11,7 @@ class Point:
     Parameters
     ----------
     stations : int
-        Number of links.
+        Number of stations.
     sweeps : int
         How many sweeps a step has in all: names are numbered where there are several.
     sweep : int
@@ -27,36 +21,24 @@ class Point:
     def __init__(self, stations: int, sweeps: int, sweep: int) -> None:
         self._stations = stations
         self._suffix = f"_{sweep}" if sweeps > 1 else ""
-        self._kept: dict[sp.Expr, Ref] = {}
-        self._unnamed: Iterator[int] = count(1)
+        self._kept: dict[str, Ref] = {}
 
-    def at_station(self, name: str, value: sp.Expr, doc: str, unit: str = "1") -> sp.Expr:
-        """Return what stands for a value of the loop's station: itself, what is kept of it, or its opposite."""
-        return self._keep(name, value, doc, unit, self._stations)
+    def at_station(self, name: str, doc: str, unit: str = "1") -> Ref:
+        """Return what keeps a value of every station."""
+        return self._keep(name, doc, unit, self._stations)
 
-    def scalar(self, name: str, value: sp.Expr, doc: str, unit: str = "1") -> sp.Expr:
-        """Return what stands for a value there is once."""
-        return self._keep(name, value, doc, unit, None)
+    def scalar(self, name: str, doc: str, unit: str = "1") -> Ref:
+        """Return what keeps a value there is once."""
+        return self._keep(name, doc, unit, None)
 
-    def assignments(self, of: tuple[sp.Expr, ...] = ()) -> tuple[Assign, ...]:
-        """Return the statements that keep the values of some stand-ins, in the order they were asked for."""
-        wanted = {ref for expression in of for ref in expression.free_symbols}
-        return tuple(Assign(ref, value) for value, ref in self._kept.items() if not of or ref in wanted)
+    def kept(self, name: str) -> Ref | None:
+        """Return what keeps a value, if anything does."""
+        return self._kept.get(name)
 
     @property
     def variables(self) -> tuple[Variable, ...]:
         """What is kept."""
         return tuple(ref.variable for ref in self._kept.values())
 
-    def _keep(self, name: str, value: sp.Expr, doc: str, unit: str, length: int | None) -> sp.Expr:
-        value = sp.sympify(value)
-        if all(isinstance(s, Ref) and s.variable.role.bound_at_prepare for s in value.free_symbols) and (
-            value.is_Atom
-        ):
-            return value
-        if value in self._kept:
-            return self._kept[value]
-        if -value in self._kept:
-            return -self._kept[-value]
-        self._kept[value] = Variable(name + self._suffix, Role.POINT, length, doc, unit).at()
-        return self._kept[value]
+    def _keep(self, name: str, doc: str, unit: str, length: int | None) -> Ref:
+        return self._kept.setdefault(name, Variable(name + self._suffix, Role.POINT, length, doc, unit).at())

@@ -4,17 +4,12 @@ from __future__ import annotations
 
 from tmm_gen.derive.integrators.declaration import Integrator
 from tmm_gen.errors import UserError
-from tmm_gen.program.planar.layout import PlanarLayout
+from tmm_gen.row.row import Row
 from tmm_gen.scene import Scene
 
 
-def require_derivatives(scene: Scene, integrator: Integrator, layout: PlanarLayout | None = None) -> None:
+def require_derivatives(scene: Scene, integrator: Integrator, row: Row) -> None:
     """Refuse a scene that asks for derivatives of a step that has none.
-
-    Parameters
-    ----------
-    layout : PlanarLayout, optional
-        Of a planar arm.
 
     Raises
     ------
@@ -22,7 +17,7 @@ def require_derivatives(scene: Scene, integrator: Integrator, layout: PlanarLayo
         If the step is not Newton's, needs other steps before it, or sums up energy.
     """
     what = f"scene '{scene.name}': emit.sensitivities = true"
-    if layout is not None and scene.model.linearisation != "newton":
+    if scene.model.linearisation != "newton":
         raise UserError(
             f"{what} needs model.linearisation = 'newton', not '{scene.model.linearisation}', whose step is no "
             "iteration on the exact equations"
@@ -32,5 +27,5 @@ def require_derivatives(scene: Scene, integrator: Integrator, layout: PlanarLayo
             f"{what} needs an integrator without start-up steps, such as 'newmark', 'generalized_alpha', 'bathe' or "
             f"'sdirk4', not '{scene.integrator.name}'"
         )
-    if layout is not None and layout.dissipated is not None:
+    if row.counts_heat:
         raise UserError(f"{what} does not go with an output of dissipated energy; remove one of the two")

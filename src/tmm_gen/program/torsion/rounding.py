@@ -18,11 +18,12 @@ import sys
 import numpy as np
 import sympy as sp
 
-from tmm_gen.derive import torsion_chain as chain
-from tmm_gen.derive.elements.torsion import DAMPING, STIFFNESS
+from tmm_gen.derive.elements.torsion import DAMPING, JOINT, STIFFNESS
 from tmm_gen.derive.integrators.declaration import STEP, Integrator, stage
 from tmm_gen.derive.integrators.history import history_depth
 from tmm_gen.derive.integrators.relations import affine_motion
+from tmm_gen.derive.station.frame import GAINS
+from tmm_gen.derive.station.law import impedance_law
 from tmm_gen.errors import UserError
 from tmm_gen.program.torsion.safety import DIGITS
 from tmm_gen.scene import Scene
@@ -65,12 +66,12 @@ class Rounding:
     def __init__(self, integrator: Integrator) -> None:
         self._integrator = integrator
         self.keeps_increments = _keeps_increments(integrator)
-        law = chain.joint_law().impedance
+        law = impedance_law(JOINT)
         shares = []
         for scheme in integrator.schemes:
             for index in range(1, len(scheme.stages) + 1):
                 gain = affine_motion(scheme, index, "acceleration").gain
-                impedance = law.subs({chain.GAINS[k]: value for k, value in gain.items()})
+                impedance = law.subs({GAINS[k]: value for k, value in gain.items()})
                 shares.append([impedance.coeff(STIFFNESS), impedance.coeff(DAMPING)])
         self._shares = sp.lambdify(STEP, shares, "math")
 

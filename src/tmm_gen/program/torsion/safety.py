@@ -15,11 +15,16 @@ from itertools import islice
 
 import sympy as sp
 
-from tmm_gen.derive import torsion_chain as chain
-from tmm_gen.derive.elements.torsion import DAMPING, INERTIA, STIFFNESS
+from tmm_gen.derive.elements.torsion import DAMPING, INERTIA, JOINT, LINK, STIFFNESS
 from tmm_gen.derive.integrators.declaration import STEP, Integrator
 from tmm_gen.derive.integrators.relations import affine_motion
+from tmm_gen.derive.station.frame import GAINS, Frame
+from tmm_gen.derive.station.law import KINDS
+from tmm_gen.derive.station.lets import Coordinate
+from tmm_gen.derive.station.product import FORCE_GAIN, MOTION_GAIN, product
+from tmm_gen.derive.station.station import outward
 from tmm_gen.errors import UserError
+from tmm_gen.program.arm.binding import composed
 from tmm_gen.scene import Scene
 from tmm_gen.scene.emit import Emit
 
@@ -115,9 +120,7 @@ def _gain_sets(scene: Scene, integrator: Integrator) -> list[dict[sp.Symbol, flo
     for scheme in integrator.schemes:
         for index in range(1, len(scheme.stages) + 1):
             gain = affine_motion(scheme, index, scene.model.unknown).gain
-            numbers = {
-                chain.GAINS[k]: float(value.subs(STEP, scene.integrator.step)) for k, value in gain.items()
-            }
+            numbers = {GAINS[k]: float(value.subs(STEP, scene.integrator.step)) for k, value in gain.items()}
             if numbers not in found:
                 found.append(numbers)
     return found
@@ -125,12 +128,11 @@ def _gain_sets(scene: Scene, integrator: Integrator) -> list[dict[sp.Symbol, flo
 
 def _station_law(gains: dict[sp.Symbol, float]) -> _Law:
     """Return the product over one station: joint, then link."""
-    law = chain.product_station()
-    impedance = chain.joint_law().impedance.subs(gains)
-    arguments = (chain.UNKNOWN_GAIN, chain.TORQUE_GAIN, STIFFNESS, DAMPING, INERTIA)
-    behind = law.unknown.subs(chain.COMPLIANCE, 1 / impedance)
-    beyond = law.torque.subs(gains).subs(chain.UNKNOWN_GAIN, behind)
-    return _Law(sp.lambdify(arguments, [behind, beyond], "math"))
+    arguments = (MOTION_GAIN, FORCE_GAIN, STIFFNESS, DAMPING, INERTIA)
+    q, v, a = (sp.sympify(gains[GAINS[k]]) for k in KINDS)
+    frame = Frame((Coordinate("", "torque", True, "rad/s^2", "N m"),), (q, v, a), sign=-1)
+    carried = composed(product(outward((JOINT, LINK), frame), []).gains)
+    return _Law(sp.lambdify(arguments, [carried[MOTION_GAIN], carried[FORCE_GAIN]], "math"))
 
 
 class _Law:

@@ -1,4 +1,4 @@
-"""The torsional chain is linear: its tangent is its step."""
+"""A linear row: its tangent is its step."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from tmm_gen.program.statements import Routine, Sensitivities
 from tmm_gen.program.variables import Variable
 
 
-def chain_sensitivities(
+def linear_sensitivities(
     main: Routine, state: tuple[Variable, ...], inputs: tuple[Variable, ...]
 ) -> Sensitivities:
     """Return the sensitivities of a linear step.
