@@ -28,10 +28,11 @@ test: $(TEST) compiler  ## drift of generated/, then all tests; ends with what a
 	$(TMM) build --check
 	$(PY) -m pytest $(PYTEST_FLAGS)
 
-lint: $(LINT)  ## style and types, by pinned tools in .venv-lint
+lint: $(LINT)  ## style and types of this and of generated code, by pinned tools in .venv-lint
 	.venv-lint/bin/ruff check .
 	.venv-lint/bin/ruff format --check .
 	.venv-lint/bin/mypy
+	.venv-lint/bin/python -m pytest -q -m style tests/emit
 
 format: $(LINT)  ## rewrite sources in the project's style
 	.venv-lint/bin/ruff check --fix .
