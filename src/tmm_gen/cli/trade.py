@@ -65,7 +65,12 @@ def grid_options(command: Callable[..., Any]) -> Callable[..., Any]:
         click.option(
             "--workers", type=click.IntRange(min=1), help="Compute errors in so many processes (Dask)."
         ),
-        click.option("--scheduler", metavar="ADDRESS", help="Compute errors on a running Dask cluster."),
+        click.option(
+            "--scheduler",
+            metavar="ADDRESS",
+            help="Compute errors on a running Dask cluster. Tasks are trusted code: workers run what they are sent, "
+            "and what they answer is unpickled here. Name only a cluster you trust as this machine.",
+        ),
         click.option(
             "--store",
             type=click.Path(path_type=Path),

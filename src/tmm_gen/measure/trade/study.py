@@ -15,6 +15,7 @@ from tmm_gen.measure.trade.pareto import pareto_front
 from tmm_gen.measure.trade.point import Point
 from tmm_gen.measure.trade.references import References
 from tmm_gen.measure.trade.serial import Serial
+from tmm_gen.measure.trade.store import Store
 from tmm_gen.measure.trade.tasks import Executor, make_tasks
 from tmm_gen.measure.trade.truth import Truth
 from tmm_gen.scene import Scene, SceneError
@@ -116,6 +117,9 @@ def run_study(
     UserError
         If the output does not move, there is no C compiler, or the store cannot be used.
     """
+    if store is not None:
+        with Store(store) as kept:
+            kept.inspect()
     references = References(scene, excitation, store)
     advance(0, "integrating the reference")
     travel = references.travel()
