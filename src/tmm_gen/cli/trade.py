@@ -269,13 +269,14 @@ def _finding(finding: Finding) -> dict[str, object]:
     return {
         "error": finding.level,
         "sentence": finding.sentence(),
-        "winner": best.family.label if best else None,
+        "winner": best.family.label if best and not finding.rivals else None,
         "time_factor_over_newmark": finding.factor(best) if best else None,
         "operations_factor_over_newmark": finding.operations_factor(best) if best else None,
         "ways": [
             {
                 "configuration": way.family.label,
                 "step": way.step,
+                "step_known": way.known,
                 "ns_per_simulated_second": way.ns,
                 "operations_per_simulated_second": way.operations,
                 "time_factor_over_newmark": finding.factor(way),

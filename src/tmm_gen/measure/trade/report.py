@@ -73,8 +73,12 @@ def _inline(svg: bytes) -> str:
 
 
 def _race(found: tuple[Finding, ...]) -> list[dict[str, Any]]:
-    """Return a row for each integrator: what it needs at each level, and the factor over Newmark's method."""
+    """Return a row for each integrator: what it needs at each level, and the factor over Newmark's method.
+
+    All cells are in one unit. Where a longer step than those tried may do, the cost is a bound, and there is no factor.
+    """
     families = dict.fromkeys(way.family for each in found for way in each.ways)
+    timed = all(way.ns is not None for each in found for way in each.ways)
     rows = []
     for family in families:
         cells = []
@@ -83,10 +87,11 @@ def _race(found: tuple[Finding, ...]) -> list[dict[str, Any]]:
             if way is None:
                 cells.append({"cost": "-", "factor": "", "best": False})
                 continue
-            factor = each.factor(way) or each.operations_factor(way)
-            cost = _plain(way.operations if way.ns is None else way.ns / 1e3)
-            told = "" if factor is None else f"{factor:.3g} ×"
-            cells.append({"cost": cost, "factor": told, "best": way is each.ways[0]})
+            factor = each.factor(way) if timed else each.operations_factor(way)
+            cost = way.ns / 1e3 if timed and way.ns is not None else way.operations
+            told = "-" if cost is None else f"{'' if way.known else '≤ '}{_plain(cost)}"
+            best = way is each.ways[0] and not each.rivals
+            cells.append({"cost": told, "factor": "" if factor is None else f"{factor:.3g} ×", "best": best})
         rows.append({"label": family.integrator, "cells": cells})
     return rows
 

@@ -136,8 +136,10 @@ def tune(
 
     searched = _search(scene, excitation, axes, bound, modelling, run, advance)
     original = run(mine)
-    points = _priced(scene, excitation, {found.configuration: found.result for found in searched}, rounds)
-    own_point = _priced(scene, excitation, {mine: original}, rounds)[mine]
+    # the scene as it was among them, by turns: what is compared is measured at the same time
+    tried = {found.configuration: found.result for found in searched}
+    points = _priced(scene, excitation, {mine: original, **tried}, rounds)
+    own_point = points[mine]
     good = sorted((points[f.configuration] for f in searched if f.good), key=_price)
     far = sorted((points[f.configuration] for f in searched if not f.good), key=lambda p: p.error)
     base = Tuning(scene, excitation, travel, bound, max_time, tuple(good), tuple(far), {}, own_point)
