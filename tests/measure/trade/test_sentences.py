@@ -10,8 +10,8 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from tmm_gen.measure.timing import Cost
 from tmm_gen.measure.trade.configuration import Configuration, Family, own
-from tmm_gen.measure.trade.cost import Cost
 from tmm_gen.measure.trade.excitation import Excitation
 from tmm_gen.measure.trade.explain import explained
 from tmm_gen.measure.trade.findings import findings
@@ -170,7 +170,7 @@ def test_one_step_is_no_curve(chain: Scene, chain_excitation: Excitation) -> Non
     ]
     (finding,) = findings(Study(chain, chain_excitation, 1.0, tuple(points)), (1e-2,))
     assert finding.sentence() == (
-        "At an error of 0.01, sdirk4 is the cheapest of what was tried, with steps of 0.32 s: 632 ns for a simulated "
+        "At an error of 0.01, sdirk4 is the cheapest of what was tried, with steps of 0.32 s: 0.632 µs for a simulated "
         "second; longer --steps would tell how it compares with Newmark's method. With longer --steps newmark may be "
         "cheaper."
     )

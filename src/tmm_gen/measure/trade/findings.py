@@ -107,7 +107,7 @@ class Finding:
         tried = " of what was tried" if self.rivals else ""
         text = f"At an error of {self.level:g}, {best.family.integrator} is the cheapest{tried}, with {_steps(best)}"
         if best.ns is not None:
-            text += f": {time_text(best.ns)} for a simulated second"
+            text += f": {plain_number(best.ns / 1e3)} µs for a simulated second"
         text += f"{self._compared(best)}."
         others = [way.family.integrator for way in self.rivals]
         if not others:
@@ -214,6 +214,12 @@ def _interpolated(before: Point, after: Point, level: float) -> float:
 def _time_error(point: Point) -> float:
     error = point.result.error
     return math.inf if error is None else error
+
+
+def plain_number(value: float) -> str:
+    """Return three digits, and thousands where they are."""
+    rounded = float(f"{value:.3g}")
+    return f"{rounded:g}" if rounded < 1000.0 else f"{rounded:,.0f}"
 
 
 def time_text(ns: float) -> str:

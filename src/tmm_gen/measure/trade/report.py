@@ -16,7 +16,7 @@ from tmm_gen.measure.trade.figures import (
     step_picture,
     time_picture,
 )
-from tmm_gen.measure.trade.findings import Finding, by_family, findings
+from tmm_gen.measure.trade.findings import Finding, by_family, findings, plain_number
 from tmm_gen.measure.trade.machine import machine
 from tmm_gen.measure.trade.outcome import Outcome
 from tmm_gen.measure.trade.point import Point
@@ -89,7 +89,7 @@ def _race(found: tuple[Finding, ...]) -> list[dict[str, Any]]:
                 continue
             factor = each.factor(way) if timed else each.operations_factor(way)
             cost = way.ns / 1e3 if timed and way.ns is not None else way.operations
-            told = "-" if cost is None else f"{'' if way.known else '≤ '}{_plain(cost)}"
+            told = "-" if cost is None else f"{'' if way.known else '≤ '}{plain_number(cost)}"
             best = way is each.ways[0] and not each.rivals
             cells.append({"cost": told, "factor": "" if factor is None else f"{factor:.3g} ×", "best": best})
         rows.append({"label": family.integrator, "cells": cells})
@@ -110,12 +110,6 @@ def _row(study: Study, point: Point) -> dict[str, str]:
         "state": str(result.state_bytes or ""),
         "reason": result.reason,
     }
-
-
-def _plain(value: float) -> str:
-    """Return three digits, and thousands where they are."""
-    rounded = float(f"{value:.3g}")
-    return f"{rounded:g}" if rounded < 1000.0 else f"{rounded:,.0f}"
 
 
 def _number(value: float | None) -> str:

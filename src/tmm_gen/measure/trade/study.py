@@ -6,8 +6,9 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+from tmm_gen.measure.timing import ROUNDS, Cost
 from tmm_gen.measure.trade.configuration import Configuration, Family, own
-from tmm_gen.measure.trade.cost import ROUNDS, Cost, measure_costs
+from tmm_gen.measure.trade.cost import measure_costs
 from tmm_gen.measure.trade.excitation import Excitation
 from tmm_gen.measure.trade.modelling import Modelling, depends_on_links, modelling_errors
 from tmm_gen.measure.trade.outcome import Outcome, Result

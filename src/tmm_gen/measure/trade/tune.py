@@ -7,10 +7,11 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from tmm_gen.errors import UserError
+from tmm_gen.measure.timing import ROUNDS, Cost
 from tmm_gen.measure.trade.bounds import ErrorBound
 from tmm_gen.measure.trade.budgets import Allowance
 from tmm_gen.measure.trade.configuration import Configuration, Family, own
-from tmm_gen.measure.trade.cost import ROUNDS, Cost, measure_costs, timed_step
+from tmm_gen.measure.trade.cost import measure_costs, timed_step
 from tmm_gen.measure.trade.evaluate import evaluate
 from tmm_gen.measure.trade.excitation import Excitation, unit
 from tmm_gen.measure.trade.grid import Axes, families
