@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from tmm_gen.errors import UserError
+from tmm_gen.extras import extra
 from tmm_gen.measure.trade.outcome import Outcome, Result
 from tmm_gen.measure.trade.store import Store
 from tmm_gen.measure.trade.tasks import Task, compute
@@ -77,7 +78,7 @@ class Cluster:
         if not missing:
             return
         here = None if self.address else store
-        _need_dask()
+        extra("study", "a cluster (--workers, --scheduler)")
         with _quiet(), self._client() as client, self._while_it_lives(store):
             for count, (task, result) in enumerate(_computed(client, missing, truths, here), start=1):
                 if store is not None and here is None and result.outcome is not Outcome.LOST:
@@ -123,15 +124,6 @@ class Cluster:
         cluster = _started(LocalCluster, self.workers)
         with cluster, Client(cluster, set_as_default=False) as client:
             yield client
-
-
-def _need_dask() -> None:
-    try:
-        import distributed  # noqa: F401
-    except ImportError:
-        raise UserError(
-            "--workers and --scheduler need Dask, which is not installed: pip install 'tmm-gen[study]'."
-        ) from None
 
 
 def _started(local: Any, workers: int) -> Any:

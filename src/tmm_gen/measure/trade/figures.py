@@ -24,7 +24,7 @@ _RING: dict[str, Any] = {
     "markeredgecolor": INK,
     "markeredgewidth": 0.9,
 }
-_THIN, _THICK = 1.0, 7.0
+_THIN, _THICK = 1.0, 6.0
 """Widths of lines, in points."""
 
 _SIZE = (4.4, 4.6)
@@ -138,7 +138,7 @@ def _line(
 
 
 def _width(number: int, count: int) -> float:
-    """Return the width of an integrator's line, in points: two more for each that is drawn above it, seven at most."""
+    """Return the width of an integrator's line, in points: wider, the more are drawn above it."""
     return _THIN + min(2.0, (_THICK - _THIN) / max(count - 1, 1)) * (count - 1 - number)
 
 
