@@ -132,15 +132,17 @@ def undisturbed() -> str:
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--each", type=int, default=10, help="studies for each kind")
-    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--kind", choices=KINDS, action="append", help="repeatable; by default all")
+    parser.add_argument("--seed", type=int, default=0, help="of the instants")
     parser.add_argument("--json", action="store_true", help="one JSON object instead of a table")
     chosen = parser.parse_args()
     random.seed(chosen.seed)
+    kinds = chosen.kind or KINDS
     rows: list[dict[str, object]] = []
     good = ("finished", "told in one line", "killed, went on")
     bad = 0
-    with progress("killing", total=len(KINDS) * chosen.each) as advance:
-        for kind in KINDS:
+    with progress("killing", total=len(kinds) * chosen.each) as advance:
+        for kind in kinds:
             counts: Counter[str] = Counter()
             for _ in range(chosen.each):
                 with tempfile.TemporaryDirectory() as folder:
