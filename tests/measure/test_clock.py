@@ -14,6 +14,7 @@ from tmm_gen.errors import UserError
 from tmm_gen.measure.clock import from_start, refuse_other_clock, starts_of
 from tmm_gen.measure.given import read_tables
 from tmm_gen.measure.signals import Constant, Table
+from tmm_gen.measure.trade.rise import Rise
 
 SCENE = Path(__file__).resolve().parents[2] / "scenes" / "thesis2.toml"
 
@@ -78,3 +79,11 @@ def test_empty_cells_are_missing_samples(tmp_path: Path) -> None:
     path.write_text("time,a,b\n0,1,\n1,2,\n")
     with pytest.raises(UserError, match="the column 'b' is empty"):
         read_tables(path, ("a", "b"), gaps=True)
+
+
+def test_what_cannot_be_moved_is_refused() -> None:
+    """A smooth rise has instants of its own: left where it is, it would act at another time."""
+    rise = Rise(1.0, 2.0)
+    assert from_start({"u": rise}, 0.0) == {"u": rise}
+    with pytest.raises(UserError, match="cannot be put on another clock"):
+        from_start({"u": rise}, 5.0)

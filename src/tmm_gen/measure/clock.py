@@ -89,11 +89,24 @@ def from_start(signals: Mapping[str, Signal], start: float, scale: float = 1.0) 
         On the old clock, after scaling.
     scale : float
         Seconds in a unit of the old clock.
+
+    Raises
+    ------
+    UserError
+        If a signal with instants of its own is no table.
     """
-    return {
-        name: Table(scale * signal.times - start, signal.values) if isinstance(signal, Table) else signal
-        for name, signal in signals.items()
-    }
+    return {name: _moved(name, signal, start, scale) for name, signal in signals.items()}
+
+
+def _moved(name: str, signal: Signal, start: float, scale: float) -> Signal:
+    if isinstance(signal, Table):
+        return Table(scale * signal.times - start, signal.values)
+    if len(signal.knots) and (start or scale != 1.0):
+        raise UserError(
+            f"the input '{name}' cannot be put on another clock. Let the record start at 0, in seconds: subtract the "
+            "first instant from the columns `time`."
+        )
+    return signal
 
 
 def refuse_what_is_unknown(inputs: Mapping[str, Signal], until: float, interval: float) -> None:
