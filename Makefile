@@ -2,11 +2,13 @@
 PYTHON       ?= python3
 PYTEST_FLAGS ?= -n auto --dist loadgroup
 
-VENV := .venv
+VENV ?= .venv
 PY   := $(VENV)/bin/python
 TMM  := $(VENV)/bin/tmm-gen
 CORE := $(VENV)/.installed-core
 TEST := $(VENV)/.installed-test
+# Style and type checkers are pinned, in an environment of their own: they must not change under a user's feet.
+LINT := .venv-lint/.installed
 
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 export PYTHONUNBUFFERED := 1
@@ -22,21 +24,19 @@ help:  ## list the targets
 demo: $(CORE) compiler  ## build, run and compare the example scenes: one table, one picture in out/demo
 	$(TMM) demo --out out/demo
 
-test: $(TEST) compiler  ## lint, types, tests, drift of generated/
-	$(PY) -m ruff check .
-	$(PY) -m ruff format --check .
-	$(PY) -m mypy
-	$(PY) -m pytest $(PYTEST_FLAGS)
+test: $(TEST) compiler  ## drift of generated/, then all tests; ends with what absent tools left out
 	$(TMM) build --check
+	$(PY) -m pytest $(PYTEST_FLAGS)
 
-lint: $(TEST)  ## style and types only
-	$(PY) -m ruff check .
-	$(PY) -m ruff format --check .
-	$(PY) -m mypy
+lint: $(LINT)  ## style and types of this and of generated code, by pinned tools in .venv-lint
+	.venv-lint/bin/ruff check .
+	.venv-lint/bin/ruff format --check .
+	.venv-lint/bin/mypy
+	.venv-lint/bin/python -m pytest -q -m style tests/emit
 
-format: $(TEST)  ## rewrite sources in the project's style
-	$(PY) -m ruff check --fix .
-	$(PY) -m ruff format .
+format: $(LINT)  ## rewrite sources in the project's style
+	.venv-lint/bin/ruff check --fix .
+	.venv-lint/bin/ruff format .
 
 build: $(CORE)  ## regenerate generated/ from scenes/
 	$(TMM) build
@@ -54,20 +54,24 @@ bench: $(CORE) compiler  ## run every script of benchmarks/, results in out/benc
 	done
 
 clean:  ## remove the environment, caches and all outputs
-	rm -rf $(VENV) out build dist .hypothesis .mypy_cache .pytest_cache .ruff_cache
+	rm -rf $(VENV) .venv-lint out build dist .hypothesis .mypy_cache .pytest_cache .ruff_cache
 	find src tests generated -name __pycache__ -type d -prune -exec rm -rf {} + 2>/dev/null || true
 
 compiler:
 	@command -v gcc >/dev/null || { \
 	    echo "error: gcc not found; install a C compiler (Debian, Ubuntu: apt-get install gcc libc6-dev)" >&2; exit 1; }
 
-$(PY):
+define need_python
 	@command -v $(PYTHON) >/dev/null || { \
 	    echo "error: $(PYTHON) not found; install Python 3.11 or later, or name one: make PYTHON=/path/to/python3" >&2; exit 1; }
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { \
 	    echo "error: $(PYTHON) is $$($(PYTHON) -V 2>&1); Python 3.11 or later is needed: make PYTHON=/path/to/python3.11" >&2; exit 1; }
 	@$(PYTHON) -c 'import ensurepip, venv' 2>/dev/null || { \
 	    echo "error: $(PYTHON) cannot make environments; install its venv module (Debian, Ubuntu: apt-get install python3-venv)" >&2; exit 1; }
+endef
+
+$(PY):
+	$(need_python)
 	$(PYTHON) -m venv $(VENV)
 
 # Stamps: an install happens when pyproject.toml is newer, and the larger install counts as the smaller.
@@ -78,3 +82,9 @@ $(CORE): pyproject.toml | $(PY)
 $(TEST): pyproject.toml | $(PY)
 	$(PY) -m pip install --quiet --editable '.[test]'
 	@touch $(CORE) $@
+
+$(LINT): pyproject.toml
+	$(need_python)
+	$(PYTHON) -m venv .venv-lint
+	.venv-lint/bin/python -m pip install --quiet --editable '.[lint]'
+	@touch $@

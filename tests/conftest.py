@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import os
+import re
 import shutil
 import subprocess
 import sys
 import sysconfig
 import venv
+from collections import Counter
 from collections.abc import Callable
 from pathlib import Path
 
@@ -24,6 +26,21 @@ settings.register_profile("repeatable", derandomize=True, deadline=None, databas
 settings.register_profile("explore", deadline=None, print_blob=True)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "repeatable"))
 
+OPTIONAL_TOOLS = {
+    "arm-none-eabi-gcc": "gcc-arm-none-eabi picolibc-arm-none-eabi",
+    "chromium": "chromium",
+    "clang": "clang",
+    "cmake": "cmake",
+    "cppcheck": "cppcheck",
+    "ctest": "cmake",
+    "frama-c": "frama-c-base",
+    "g++": "g++",
+    "qemu-system-arm": "qemu-system-arm",
+    "qemu-system-riscv32": "qemu-system-misc",
+    "riscv64-unknown-elf-gcc": "gcc-riscv64-unknown-elf picolibc-riscv64-unknown-elf",
+}
+"""Programs that tests use where they are there, and the packages of Debian and Ubuntu that hold them."""
+
 ROOT = Path(__file__).resolve().parents[1]
 
 
@@ -31,6 +48,12 @@ ROOT = Path(__file__).resolve().parents[1]
 def repository() -> Path:
     """Root of the source tree."""
     return ROOT
+
+
+@pytest.fixture(scope="session")
+def optional_tools() -> dict[str, str]:
+    """Programs that may be absent, and the packages that hold them."""
+    return OPTIONAL_TOOLS
 
 
 @pytest.fixture
@@ -77,20 +100,46 @@ def borrow_environment() -> Callable[[Path], Path]:
 
 
 @pytest.fixture(scope="session")
-def need_tool() -> Callable[[str, str], str]:
+def need_tool() -> Callable[..., str]:
     """Return the path of a program; without it, fail where ``CI`` is set and skip elsewhere.
 
-    The function given takes the program, as called on a command line, and the package of Debian and Ubuntu that holds
-    it, which the message names.
+    The function given takes the program, as called on a command line. What is not in `OPTIONAL_TOOLS` is needed for
+    any test at all, so its absence is a failure everywhere.
     """
 
-    def find(program: str, package: str) -> str:
+    def find(program: str, package: str = "") -> str:
         found = shutil.which(program)
         if found is not None:
             return found
-        message = f"{program} not found: apt-get install {package}"
-        if os.environ.get("CI"):
-            pytest.fail(message)
-        pytest.skip(message)
+        package = package or OPTIONAL_TOOLS.get(program, "")
+        if not package or os.environ.get("CI"):
+            pytest.fail(f"{program} not found: apt-get install {package or program}")
+        pytest.skip(f"{program} not found: apt-get install {package}")
 
     return find
+
+
+# -- what was left out, in one line at the very end ---------------------------------------------
+
+LEFT_OUT = pytest.StashKey[Counter[str]]()
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: pytest.Config) -> None:
+    """Count the tests that an absent tool left out."""
+    absent = re.compile(r"Skipped: (\S+) not found: apt-get install")
+    reasons = (str(report.longrepr) for report in terminalreporter.stats.get("skipped", []))
+    found = (absent.search(reason) for reason in reasons)
+    config.stash[LEFT_OUT] = Counter(match[1] for match in found if match)
+
+
+def pytest_unconfigure(config: pytest.Config) -> None:
+    """Say it after everything else that pytest says."""
+    if LEFT_OUT not in config.stash:
+        return
+    counts = config.stash[LEFT_OUT]
+    if not counts:
+        print("No optional tool was absent.")
+        return
+    tools = ", ".join(f"{tool} ({count})" for tool, count in sorted(counts.items()))
+    print(f"Optional tools absent (tests left out): {tools}; {counts.total()} tests left out in all.")

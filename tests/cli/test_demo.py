@@ -29,6 +29,7 @@ def test_the_demonstration(
             assert row["error"] <= bound
             assert row["c_against_numpy"] <= 1e-12
             assert row["ns_per_step"] > 0.0
+            assert 0.0 <= row["ns_spread"] < 2.0
             assert row["operations_per_station"] <= 35
             assert row["peak"] == pytest.approx(row["exact_peak"], rel=0.01)
 

@@ -9,10 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from tmm_gen.emit.package import EMITTERS, emit_package
+from tmm_gen.emit.package import emit_package
 from tmm_gen.emit.seal import is_intact
 from tmm_gen.scene import METHODS, Scene, load_scene
-from tmm_gen.scene.emit import BACKENDS
 from tmm_gen.version import __version__
 
 pytestmark = pytest.mark.xdist_group("packages")  # the printed packages are made once
@@ -28,10 +27,6 @@ PYTHON = {
 @pytest.fixture(scope="module")
 def thesis2() -> Scene:
     return load_scene(SCENES / "thesis2.toml")
-
-
-def test_every_backend_of_scenes_has_an_emitter() -> None:
-    assert set(EMITTERS) == set(BACKENDS)
 
 
 @pytest.mark.parametrize("backends", [["numpy"], ["casadi"], ["numpy", "casadi"], ["numpy", "c", "casadi"]])
@@ -86,6 +81,7 @@ def printed(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
+@pytest.mark.style
 def test_a_formatter_changes_nothing(printed: Path) -> None:
     command = [
         sys.executable,
@@ -102,6 +98,7 @@ def test_a_formatter_changes_nothing(printed: Path) -> None:
     assert done.returncode == 0, done.stdout[:3000]
 
 
+@pytest.mark.style
 def test_a_linter_finds_nothing(printed: Path) -> None:
     command = [
         sys.executable,
@@ -118,6 +115,7 @@ def test_a_linter_finds_nothing(printed: Path) -> None:
     assert done.returncode == 0, done.stdout[:3000]
 
 
+@pytest.mark.style
 @pytest.mark.parametrize("name", ["houbolt", "bathe", "odd", "planar_stages"])
 def test_a_checker_of_types_finds_nothing(printed: Path, name: str, tmp_path: Path) -> None:
     settings = tmp_path / "mypy.ini"

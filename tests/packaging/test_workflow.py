@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import re
+import shutil
 import subprocess
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -38,6 +40,8 @@ def test_ci_tests_then_shows_then_looks_for_changes(repository: Path) -> None:
     assert "set -euo pipefail" in lines
     assert script.stat().st_mode & 0o111
     order = [
+        lines.index("make lint"),
+        next(k for k, line in enumerate(lines) if 'PATH="$hidden" make test' in line),
         lines.index("make test"),
         lines.index("make demo"),
         lines.index('changes="$(git status --porcelain)"'),
@@ -58,10 +62,33 @@ def test_make_help_lists_every_target(repository: Path) -> None:
     assert sorted(re.findall(r"^make (\w+)", done.stdout, flags=re.MULTILINE)) == sorted(TARGETS)
 
 
-def test_make_test_leaves_nothing_out(repository: Path) -> None:
+def test_make_test_wants_no_style_or_type_checker(repository: Path) -> None:
     steps = _dry_run(repository, "test")
-    for step in ("ruff check", "ruff format --check", "-m mypy", "-m pytest", "tmm-gen build --check"):
+    for step in ("-m pytest", "tmm-gen build --check"):
         assert step in steps, step
+    for other in ("ruff", "mypy", "[lint]"):
+        assert other not in steps, other
+
+
+def test_make_lint_pins_its_tools(repository: Path) -> None:
+    steps = _dry_run(repository, "lint")
+    for step in ("ruff check", "ruff format --check", "bin/mypy", "[lint]"):
+        assert step in steps, step
+    extras = tomllib.loads((repository / "pyproject.toml").read_text())["project"]["optional-dependencies"]
+    assert all("==" in requirement for requirement in extras["lint"])
+
+
+def test_hiding_leaves_python_make_and_gcc(
+    repository: Path, optional_tools: dict[str, str], tmp_path: Path
+) -> None:
+    """What continuous integration takes for a stranger's machine has what the README asks for, and nothing optional."""
+    hide = [str(repository / ".ci" / "hide"), str(tmp_path / "bin")]
+    done = subprocess.run(hide, capture_output=True, text=True, check=True)
+    path = done.stdout.strip()
+    for program in ("python3", "make", "gcc", "git", "ld"):
+        assert shutil.which(program, path=path) or not shutil.which(program), program
+    for program in (*optional_tools, "clang++", "valgrind", "arm-none-eabi-size"):
+        assert shutil.which(program, path=path) is None, program
 
 
 def test_make_demo_needs_no_test_tools(repository: Path) -> None:

@@ -179,5 +179,9 @@ def test_single_precision_is_free_of_doubles_in_every_kind_of_arm(
     assert found.passed, found.said
 
 
-def test_doubles_are_not_asked_to_be_single(files: dict[str, str]) -> None:
+def test_doubles_are_not_asked_to_be_single(
+    files: dict[str, str], need_tool: Callable[[str, str], str]
+) -> None:
+    for tool in TOOLS.values():
+        need_tool(*tool)
     assert "single_precision" not in [row.check for row in lint({}, "float64")]

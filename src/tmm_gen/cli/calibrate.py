@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import csv
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import click
 
 from tmm_gen.cli.console import Column, progress, table
+from tmm_gen.cli.given import positive
 from tmm_gen.errors import UserError
 
 if TYPE_CHECKING:
@@ -36,6 +37,35 @@ if TYPE_CHECKING:
     multiple=True,
     help="An input that is not among the record's columns, as for `tmm-gen run`. Repeatable.",
 )
+@click.option(
+    "--time-unit",
+    type=click.Choice(["s", "ms", "us", "ns"]),
+    default="s",
+    show_default=True,
+    help="What the `time` columns of all files count.",
+)
+@click.option(
+    "--start",
+    type=float,
+    metavar="T",
+    help="When the arm was in the scene's initial state, in the unit of `time`; by default where the clock starts.",
+)
+@click.option(
+    "--loss",
+    type=click.Choice(["linear", "huber"]),
+    default="linear",
+    show_default=True,
+    help="Least squares, or Huber's loss, which gives single wrong samples less weight.",
+)
+@click.option(
+    "--max-misfit",
+    "most_misfit",
+    type=float,
+    default=0.5,
+    show_default=True,
+    callback=positive,
+    help="What may be left, as a share of the record's standard deviation; more is a failure (exit code 1).",
+)
 @click.option("--out", type=click.Path(dir_okay=False, path_type=Path), help="Write the calibrated scene.")
 @click.option("--json", "json_mode", is_flag=True, help="One JSON object instead of a table.")
 def calibrate(
@@ -43,25 +73,39 @@ def calibrate(
     record: Path,
     keys: tuple[str, ...],
     given: tuple[str, ...],
+    time_unit: str,
+    start: float | None,
+    loss: Literal["linear", "huber"],
+    most_misfit: float,
     out: Path | None,
     json_mode: bool,
 ) -> None:
     """Fit stiffness and damping of SCENE to a recorded response.
 
-    RECORD.csv has a `time` column (s) and columns named as the scene's inputs and outputs; the arm starts from the
-    scene's initial state. Each number is given with the uncertainty the record leaves.
+    RECORD.csv has a `time` column and columns named as the scene's inputs and outputs; an empty cell is a sample that
+    is missing. The arm starts from the scene's initial state where the clock starts, be that at zero or not; other
+    files have the same clock. Each number is given with the uncertainty the record leaves.
     """
     from tmm_gen.scene import load_scene
 
     loaded = load_scene(scene)
     with progress(f"fitting {loaded.name}"):
         from tmm_gen.control.calibration import calibrate as fit
+        from tmm_gen.measure.clock import UNITS, from_start
         from tmm_gen.measure.given import read_inputs, read_tables
 
         names = _columns(loaded, record)
         missing = tuple(item.name for item in loaded.inputs if item.name not in names)
-        signals = {**read_tables(record, names), **read_inputs(given, missing)}
-        done = fit(loaded, signals, keys or None)
+        signals = {**read_tables(record, names, gaps=True), **read_inputs(given, missing)}
+        unit = UNITS[time_unit]
+        done = fit(
+            loaded,
+            from_start(signals, 0.0, unit),
+            keys or None,
+            start=None if start is None else unit * start,
+            loss=loss,
+            most_misfit=most_misfit,
+        )
     written = _write(scene, out, done)
     _show(loaded, done, written, json_mode)
 
@@ -132,6 +176,8 @@ def _show(scene: Scene, done: Calibration, written: list[Path], json_mode: bool)
         "misfit_before": done.misfit_before,
         "misfit": done.misfit,
         "samples": done.samples,
+        "outliers": done.outliers,
+        "start": done.start,
         "correlation": done.correlation,
         "files": written,
     }
@@ -142,6 +188,10 @@ def _show(scene: Scene, done: Calibration, written: list[Path], json_mode: bool)
         f"what is left: {100 * done.misfit:.3g} % of the record's standard deviation, "
         f"{100 * done.misfit_before:.3g} % before"
     )
+    if done.outliers:
+        click.echo(f"{done.outliers} of {done.samples} samples are far off and were given less weight")
+    if done.start:
+        click.echo(f"the arm starts at {done.start:.10g} s of the record's clock")
     for path in written:
         click.echo(f"wrote {path}")
     if not written:

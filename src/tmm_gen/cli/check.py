@@ -101,7 +101,8 @@ def check(
     if not json_mode:
         if "ns_per_step" in report.facts:
             click.echo(
-                f"one step takes {report.facts['ns_per_step']:.0f} ns in C on this machine, "
+                f"one step takes {report.facts['ns_per_step']:.0f} ns in C on this machine "
+                f"(± {100 * float(str(report.facts['ns_spread'])):.0f} %), "
                 f"{report.facts['operations_per_step']} floating-point operations"
             )
         click.echo("everything holds" if report.passed else "NOT everything holds: see the rows marked 'no'")

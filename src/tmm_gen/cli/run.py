@@ -108,6 +108,7 @@ def run(
     Files of inputs have a `time` column and a column for each input; between rows values are linear, and the
     last one stays.
     """
+    from tmm_gen.measure.clock import refuse_other_clock
     from tmm_gen.measure.duration import default_duration
     from tmm_gen.measure.given import read_inputs
     from tmm_gen.measure.run import number_of_steps, simulate, traceable
@@ -121,6 +122,7 @@ def run(
         if target is not None and target.is_dir():
             raise UserError(f"{target}: is a directory. Name a file in it.")
     duration = until or default_duration(chosen)
+    refuse_other_clock(signals, duration)
     steps = number_of_steps(duration, chosen.integrator.step)
     with progress(f"simulating {chosen.name}", total=steps) as advance:
         drawn = planar and (picture is not None or animated is not None)

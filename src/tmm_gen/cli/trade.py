@@ -65,7 +65,12 @@ def grid_options(command: Callable[..., Any]) -> Callable[..., Any]:
         click.option(
             "--workers", type=click.IntRange(min=1), help="Compute errors in so many processes (Dask)."
         ),
-        click.option("--scheduler", metavar="ADDRESS", help="Compute errors on a running Dask cluster."),
+        click.option(
+            "--scheduler",
+            metavar="ADDRESS",
+            help="Compute errors on a running Dask cluster. Tasks are trusted code: workers run what they are sent, "
+            "and what they answer is unpickled here. Name only a cluster you trust as this machine.",
+        ),
         click.option(
             "--store",
             type=click.Path(path_type=Path),
@@ -264,13 +269,14 @@ def _finding(finding: Finding) -> dict[str, object]:
     return {
         "error": finding.level,
         "sentence": finding.sentence(),
-        "winner": best.family.label if best else None,
+        "winner": best.family.label if best and not finding.rivals else None,
         "time_factor_over_newmark": finding.factor(best) if best else None,
         "operations_factor_over_newmark": finding.operations_factor(best) if best else None,
         "ways": [
             {
                 "configuration": way.family.label,
                 "step": way.step,
+                "step_known": way.known,
                 "ns_per_simulated_second": way.ns,
                 "operations_per_simulated_second": way.operations,
                 "time_factor_over_newmark": finding.factor(way),

@@ -4,27 +4,40 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.errors import UserError
-from tmm_gen.measure.signals import Signal, Table
-from tmm_gen.native import NativeKernel, compile_kernel
-from tmm_gen.program.build import build_program
+from tmm_gen.control.fit import MAD, Fit, sorted_out
+from tmm_gen.control.fitted_keys import changes, default_keys, number_of, replaced
+from tmm_gen.control.uncertainty import SURE, deviations
+from tmm_gen.errors import CheckFailed, UserError
+from tmm_gen.measure.clock import starts_of
+from tmm_gen.measure.signals import Signal
 from tmm_gen.scene import Scene
 from tmm_gen.scene.problem import Path
 
 Array = NDArray[np.float64]
+Loss = Literal["linear", "huber"]
 
-STIFFNESS, DAMPING = "stiffness", "damping"
-"""Stand for all joints of a scene without a beam: a common factor."""
+MOST_MISFIT = 0.5
+"""What may be left, as a share of the record's standard deviation: more, and the model does not follow it."""
 
 _SCAN = np.geomspace(0.25, 4.0, 25)
 """Factors of the first parameter tried before the fit: the response is not convex in a frequency."""
+
+_FARTHEST = float(np.log(1e4))
+"""Of a fitted number from the given one, in logarithms."""
+
 _FLAT = 1e12
 """Condition number of the normal equations beyond which the record does not tell the parameters apart."""
+
+_HUBER = 1.345
+"""Remains beyond so many standard deviations lose weight: 95 % as efficient as least squares where all are normal."""
+
+_ROUNDS = 3
+"""Fits by Huber's loss, each with the standard deviation that the one before left."""
 
 
 @dataclass(frozen=True)
@@ -49,8 +62,8 @@ class Found:
     @property
     def interval(self) -> tuple[float, float]:
         """95 % confidence interval, of a normal distribution of the logarithm."""
-        spread = float(np.exp(1.96 * self.deviation / self.value))
-        return self.value / spread, self.value * spread
+        reach = float(np.exp(min(SURE * self.deviation / self.value, 700.0)))
+        return self.value / reach, self.value * reach
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,6 +84,10 @@ class Calibration:
         Root mean square of what the model is off, relative to the record's standard deviation.
     samples : int
         Numbers compared.
+    outliers : int
+        Of these, given less weight by Huber's loss.
+    start : float
+        When the motion started, on the clock of the record, s.
     """
 
     scene: Scene
@@ -80,188 +97,144 @@ class Calibration:
     misfit_before: float
     misfit: float
     samples: int
+    outliers: int
+    start: float
 
 
-def default_keys(scene: Scene) -> tuple[str, ...]:
-    """Return what is fitted unless told otherwise: stiffness and damping."""
-    if scene.beam is None:
-        return STIFFNESS, DAMPING
-    damped = ("beam.damping_time",) if scene.beam.damping_time else ()
-    return ("beam.bending_stiffness", *damped)
-
-
-def calibrate(scene: Scene, record: Mapping[str, Signal], keys: Sequence[str] | None = None) -> Calibration:
+def calibrate(
+    scene: Scene,
+    record: Mapping[str, Signal],
+    keys: Sequence[str] | None = None,
+    *,
+    start: float | None = None,
+    loss: Loss = "linear",
+    most_misfit: float = MOST_MISFIT,
+) -> Calibration:
     """Fit numbers of a scene to a record, by least squares on their logarithms.
 
     Outputs are simulated with the scene's kernel from its initial state under the recorded inputs, and compared at
-    the recorded instants, each relative to its own standard deviation. The covariance is that of a linearised fit,
-    ``s^2 (J'J)^-1`` with ``s^2`` the variance of what remains; remains are taken to be independent.
+    the recorded instants, each relative to its own standard deviation. For how sure the numbers are, see
+    :mod:`tmm_gen.control.uncertainty`.
 
     Parameters
     ----------
     scene : Scene
         To start from.
     record : mapping from str to Signal
-        Inputs and, as tables, at least one output by name; inputs without a record are zero.
+        Inputs and, as tables, at least one output by name; inputs without a record are zero. All tables have one
+        clock, in seconds.
     keys : sequence of str, optional
         Dotted keys of positive numbers in the scene, or ``stiffness`` and ``damping`` for factors of all joints; see
         :func:`default_keys`.
+    start : float, optional
+        When, on that clock, the arm was in the scene's initial state; see :func:`tmm_gen.measure.clock.starts_of`.
+    loss : {"linear", "huber"}
+        Least squares, or Huber's loss, by which samples that are far off count as if they were less so.
+    most_misfit : float
+        What may be left, as a share of the record's standard deviation.
 
     Raises
     ------
+    CheckFailed
+        If more than `most_misfit` is left.
     UserError
-        If nothing recorded is an output, a key is no positive number, or the record does not tell keys apart.
+        If nothing recorded is an output, the clocks do not fit, a key is no positive number, or the record does not
+        tell keys apart.
     """
-    from scipy.optimize import least_squares  # slow to import
-
     chosen = tuple(keys or default_keys(scene))
-    given = np.array([_value(scene, key) for key in chosen])
-    fit = _Fit(scene, record, chosen, given)
-    start = np.zeros(len(chosen))
-    costs = []
-    for factor in _SCAN:
-        costs.append(float(np.sum(fit.remains(np.array([np.log(factor), *start[1:]])) ** 2)))
-    start[0] = float(np.log(_SCAN[int(np.argmin(costs))]))
-    solved = least_squares(fit.remains, start, x_scale="jac", xtol=1e-10, ftol=1e-12)
-    normal = solved.jac.T @ solved.jac
+    given = np.array([number_of(scene, key) for key in chosen])
+    inputs, outputs = sorted_out(scene, record)
+    starts = starts_of(outputs, inputs) if start is None else (start,)
+    fits = [Fit(scene, record, chosen, given, each, robust=loss == "huber") for each in starts]
+    tried = [(fit, *_solved(fit, loss)) for fit in fits]
+    fit, logarithms, reach = min(tried, key=lambda each: _size(each[0].remains(each[1]), each[2]))
+    before = fit.remains(np.zeros(len(chosen)))
+    left = fit.remains(logarithms)
+    jacobian = _jacobian(fit, logarithms)
+    normal = jacobian[np.abs(left) <= reach].T @ jacobian[np.abs(left) <= reach]
     diagonal = np.sqrt(np.diag(normal))
     if np.any(diagonal == 0.0) or np.linalg.cond(normal / np.outer(diagonal, diagonal)) > _FLAT:
         raise UserError(
             f"{scene.source.origin}: the record does not tell {' and '.join(chosen)} apart. "
             "Fit fewer keys, or record a livelier motion."
         )
-    samples = len(solved.fun)
-    variance = float(solved.fun @ solved.fun) / max(samples - len(chosen), 1)
-    covariance = variance * np.linalg.inv(normal)
-    deviations = np.sqrt(np.diag(covariance))
-    values = given * np.exp(solved.x)
-    changes = _changes(scene, dict(zip(chosen, values.tolist(), strict=True)))
-    before = fit.remains(np.zeros(len(chosen)))
+    misfit = _size(left, reach)
+    if not misfit < most_misfit:
+        raise CheckFailed(_unlike(scene, fit, misfit, most_misfit, loss))
+    if (far := np.abs(logarithms) > 0.99 * _FARTHEST).any():
+        raise CheckFailed(
+            f"{scene.source.origin}: '{chosen[int(np.argmax(far))]}' leaves all bounds: the record asks for a value "
+            "ten thousand times larger or smaller than the scene's. Correct the scene first."
+        )
+    spread, correlation = deviations(jacobian, left, fit.instants, reach)
+    values = given * np.exp(logarithms)
+    changed = changes(scene, dict(zip(chosen, values.tolist(), strict=True)))
     return Calibration(
-        scene=_replaced(scene, changes),
-        changes=changes,
+        scene=replaced(scene, changed),
+        changes=changed,
         found=tuple(
             Found(key, float(old), float(new), float(new * deviation))
-            for key, old, new, deviation in zip(chosen, given, values, deviations, strict=True)
+            for key, old, new, deviation in zip(chosen, given, values, spread, strict=True)
         ),
-        correlation=covariance / np.outer(deviations, deviations),
-        misfit_before=float(np.sqrt(np.mean(before**2))),
-        misfit=float(np.sqrt(np.mean(solved.fun**2))),
-        samples=samples,
+        correlation=correlation,
+        misfit_before=_size(before, reach),
+        misfit=misfit,
+        samples=len(left),
+        outliers=int(np.sum(np.abs(left) > reach)),
+        start=fit.start,
     )
 
 
-class _Fit:
-    """Simulates a scene with changed numbers, on one compiled kernel."""
+def _solved(fit: Fit, loss: Loss) -> tuple[Array, float]:
+    """Return the fitted logarithms, and beyond what remains lost weight."""
+    from scipy.optimize import least_squares  # slow to import
 
-    def __init__(self, scene: Scene, record: Mapping[str, Signal], keys: Sequence[str], given: Array) -> None:
-        self.scene, self.keys, self.given = scene, keys, given
-        # links and joints that are alike share a number in the kernel; those to be fitted apart must not
-        apart = {
-            key: value * (1.01 + 0.01 * k) for k, (key, value) in enumerate(zip(keys, given, strict=True))
-        }
-        unlike = _replaced(scene, _changes(scene, apart))
-        self.kernel: NativeKernel = compile_kernel(build_program(unlike), unlike)
-        inputs = {item.name for item in scene.inputs}
-        self.signals: dict[str, Signal] = {name: record[name] for name in record if name in inputs}
-        self.outputs = {
-            variable.name: column
-            for variable in self.kernel.program.outputs
-            if isinstance(column := record.get(variable.name), Table)
-        }
-        if not self.outputs:
-            known = ", ".join(variable.name for variable in self.kernel.program.outputs)
-            raise UserError(
-                f"{scene.source.origin}: the record has none of the outputs {known}. Add a column."
-            )
-        self.scales = {name: float(np.std(table.values)) or 1.0 for name, table in self.outputs.items()}
-        self.until = max(float(table.times[-1]) for table in self.outputs.values())
-
-    def remains(self, logarithms: Array) -> Array:
-        """Return what the model is off at the recorded instants, relative to the record's standard deviation."""
-        values = dict(zip(self.keys, (self.given * np.exp(logarithms)).tolist(), strict=True))
-        known = parameters_of(_replaced(self.scene, _changes(self.scene, values)))
-        parameters = {
-            v.name: known[v.name] if v.length or np.ndim(known[v.name]) == 0 else known[v.name][0]
-            for v in self.kernel.program.parameters
-            if v.name in known
-        }
-        signals = {name: _caller(signal) for name, signal in self.signals.items()}
-        step = self.scene.integrator.step
-        times, found = self.kernel.simulate(self.until + step, signals, parameters)
-        return np.concatenate(
-            [
-                (np.interp(table.times, times, found[name]) - table.values) / self.scales[name]
-                for name, table in self.outputs.items()
-            ]
-        )
+    start = np.zeros(len(fit.keys))
+    tried = [fit.remains(np.array([np.log(factor), *start[1:]])) for factor in _SCAN]
+    # what is far off counts no more than what is three deviations off, whatever the loss: this is but a start
+    best = int(np.argmin([float(np.mean(np.minimum(np.abs(each), 3.0) ** 2)) for each in tried]))
+    start[0] = float(np.log(_SCAN[best]))
+    reach = np.inf
+    for _ in range(_ROUNDS if loss == "huber" else 1):
+        if loss == "huber":
+            noise = MAD * float(np.median(np.abs(fit.remains(start))))
+            reach = max(_HUBER * noise, 1e-9)
+        start = least_squares(
+            fit.remains,
+            start,
+            bounds=(-_FARTHEST, _FARTHEST),
+            x_scale="jac",
+            xtol=1e-10,
+            ftol=1e-12,
+            loss=loss,
+            f_scale=reach if np.isfinite(reach) else 1.0,
+        ).x
+    return start, reach
 
 
-def parameters_of(scene: Scene) -> dict[str, Any]:
-    """Return the physical parameters of a scene by their names in a kernel."""
-    joints, links = scene.joints, scene.links
-    found: dict[str, Any] = {
-        "stiffness": [joint.stiffness for joint in joints],
-        "damping": [joint.damping for joint in joints],
-        "inertia": [link.inertia for link in links],
-        "mass": [link.mass for link in links],
-        "length": [link.length for link in links],
-        "center": [link.center for link in links],
-        "gravity": scene.model.gravity or 0.0,
-        "hub_inertia": scene.base.inertia,
-        "hub_damping": scene.base.damping,
-    }
-    if scene.tip is not None:
-        found |= {"tip_mass": scene.tip.mass, "tip_inertia": scene.tip.inertia}
-    return found
+def _jacobian(fit: Fit, logarithms: Array) -> Array:
+    """Return the Jacobian of what remains, by central differences."""
+    nudge = 1e-5
+    columns = []
+    for k in range(len(logarithms)):
+        beside = nudge * np.eye(len(logarithms))[k]
+        columns.append((fit.remains(logarithms + beside) - fit.remains(logarithms - beside)) / (2.0 * nudge))
+    return np.array(columns).T
 
 
-def _caller(signal: Signal) -> Any:
-    return lambda time: float(signal.at(time))
+def _size(remains: Array, reach: float) -> float:
+    """Return the root mean square, of what lost weight no more than it counts."""
+    return float(np.sqrt(np.mean(np.clip(remains, -reach, reach) ** 2)))
 
 
-def _value(scene: Scene, key: str) -> float:
-    """Return a number of the scene, 1 for a factor of all joints.
-
-    Raises
-    ------
-    UserError
-        If there is none, or it is not positive.
-    """
-    if key in (STIFFNESS, DAMPING):
-        return 1.0
-    value: Any = scene.source.data
-    for part in key.split("."):
-        try:
-            value = value[int(part) - 1] if part.isdecimal() else value[part]
-        except (KeyError, IndexError, TypeError):
-            raise UserError(
-                f"{scene.source.origin}: has no number '{key}' to fit. "
-                "Name a key of the file, tables counted from 1: beam.bending_stiffness, joint.1.stiffness."
-            ) from None
-    if isinstance(value, bool) or not isinstance(value, int | float) or value <= 0:
-        raise UserError(f"{scene.source.origin}: '{key}' is {value!r}; only a positive number can be fitted.")
-    return float(value)
-
-
-def _changes(scene: Scene, values: Mapping[str, float]) -> dict[Path, float]:
-    """Return the new numbers by their places in the file."""
-    found: dict[Path, float] = {}
-    for key, value in values.items():
-        if key not in (STIFFNESS, DAMPING):
-            found[tuple(int(part) - 1 if part.isdecimal() else part for part in key.split("."))] = value
-            continue
-        entries: Any = scene.source.data.get("joint", ())
-        for number, entry in enumerate(entries):
-            if key in entry:
-                found["joint", number, key] = value * float(entry[key])
-    return found
-
-
-def _replaced(scene: Scene, changes: Mapping[Path, float]) -> Scene:
-    """Return the scene with new numbers."""
-    keys = {
-        ".".join(str(part + 1) if isinstance(part, int) else part for part in path): value
-        for path, value in changes.items()
-    }
-    return scene.replace(**keys)
+def _unlike(scene: Scene, fit: Fit, misfit: float, most: float, loss: Loss) -> str:
+    """Say that no numbers make the model follow the record, and what it may be."""
+    robust = (
+        "" if loss == "huber" else " Where single samples are wrong, --loss huber gives them less weight."
+    )
+    return (
+        f"{scene.source.origin}: the model does not follow the record: {100 * misfit:.3g} % of its standard deviation "
+        f"is left, {100 * most:.3g} % is allowed (--max-misfit). Taken was: the arm starts at {fit.start:g} s of the "
+        f"clock, and moves for {fit.until:.4g} s. Check the clock (--start, --time-unit), the inputs, units and signs "
+        f"of the columns, and the scene's initial state.{robust}"
+    )

@@ -6,6 +6,7 @@ from typing import Any
 
 from tmm_gen.control.step_model import StepModel
 from tmm_gen.errors import UserError
+from tmm_gen.extras import install
 
 
 def do_mpc_model(model: StepModel) -> Any:
@@ -27,7 +28,7 @@ def do_mpc_model(model: StepModel) -> Any:
     try:
         from do_mpc.model import Model
     except ImportError:
-        raise UserError("do-mpc is not installed: pip install do-mpc") from None
+        raise UserError(f"do-mpc is not installed: {install('do-mpc')}") from None
     import casadi as ca
 
     made = Model("discrete", "SX")

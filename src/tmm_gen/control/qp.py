@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.control.command import Status
-from tmm_gen.errors import UserError
+from tmm_gen.extras import extra
 
 Array = NDArray[np.float64]
 
@@ -63,10 +63,7 @@ class QuadraticProgram:
     """
 
     def __init__(self, hessian: Array, rows: Array, bounded: int) -> None:
-        try:
-            import daqp
-        except ImportError:
-            raise UserError("predictive control needs DAQP: pip install 'tmm-gen[mpc]'") from None
+        daqp = extra("mpc", "predictive control")
         self._rows = rows
         self._bounded = bounded
         self._solver: Any = daqp.Model()

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.errors import UserError
+from tmm_gen.extras import extra
 
 Array = NDArray[np.float64]
 Prices = Callable[[Sequence[Array], float], Sequence[float]]
@@ -128,8 +128,4 @@ def _descend(prices: Prices, begins: Array, left: int, step: float, end: float, 
 
 
 def _cma() -> Any:
-    try:
-        import cma
-    except ImportError:
-        raise UserError("tuning needs the package cma: pip install 'tmm-gen[mpc]'") from None
-    return cma
+    return extra("mpc", "tuning", "cma")

@@ -3,21 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from importlib import import_module
 
+from tmm_gen.backends import backend_named
 from tmm_gen.emit.seal import is_intact
 from tmm_gen.program.build import build_program
 from tmm_gen.program.statements import Program
 from tmm_gen.scene import Scene
 
 Emitter = Callable[[Program, Scene], dict[str, str]]
-
-EMITTERS: dict[str, str] = {
-    "numpy": "tmm_gen.emit.numpy:emit_numpy",
-    "c": "tmm_gen.emit.c:emit_c",
-    "casadi": "tmm_gen.emit.casadi:emit_casadi",
-}
-"""Where the emitter of each backend lies."""
+"""What a backend is: it prints a program as texts by path inside the package, each with its seal."""
 
 
 def emit_package(scene: Scene) -> dict[str, str]:
@@ -41,14 +35,11 @@ def emit_package(scene: Scene) -> dict[str, str]:
     program = build_program(scene)
     files: dict[str, str] = {}
     for backend in scene.emit.backends:
-        for path, text in _emitter(backend)(program, scene).items():
+        place = backend_named(backend)
+        assert place is not None  # scenes name none else
+        emitter: Emitter = place.load()
+        for path, text in emitter(program, scene).items():
             if path in files or not is_intact(text):
                 raise ValueError(f"backend {backend}: {path} is written twice or not sealed")
             files[path] = text
     return dict(sorted(files.items()))
-
-
-def _emitter(backend: str) -> Emitter:
-    module, _, name = EMITTERS[backend].partition(":")
-    emitter: Emitter = getattr(import_module(module), name)
-    return emitter

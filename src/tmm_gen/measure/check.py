@@ -32,6 +32,7 @@ from tmm_gen.measure.planar_order import planar_slope
 from tmm_gen.measure.reference import exact_response
 from tmm_gen.measure.run import simulate
 from tmm_gen.measure.signals import Constant, Signal, Sine
+from tmm_gen.measure.timing import by_turns
 from tmm_gen.scene import Scene
 
 Array = NDArray[np.float64]
@@ -71,7 +72,8 @@ class CheckReport:
     rows : tuple of CheckRow
         In the order in which they were made.
     facts : dict from str to object
-        Further figures by key: ``ns_per_step``, ``operations_per_step``, ``fitted_order``, ``derived_order``.
+        Further figures by key: ``ns_per_step``, ``ns_spread``, ``operations_per_step``, ``fitted_order``,
+        ``derived_order``.
     """
 
     rows: tuple[CheckRow, ...]
@@ -116,7 +118,8 @@ def check_scene(scene: Scene, advance: Callable[[float, str], None]) -> CheckRep
         advance(0.1, "compiling the C")
         rows.append(_host_test(program, scene))
         kernel = compile_kernel(program, scene)
-        facts["ns_per_step"] = kernel.time_step()
+        cost = by_turns({"c": kernel.timer()})["c"]
+        facts |= {"ns_per_step": cost.ns_per_step, "ns_spread": cost.spread}
         rows.append(_one_step("c", reference, native_step(kernel, program), vectors, allowed[real]))
     if "casadi" in backends:
         advance(0.2, "building the CasADi model")

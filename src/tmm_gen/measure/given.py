@@ -20,6 +20,9 @@ from tmm_gen.measure.signals import Constant, Signal, Table
 TIME = "time"
 """Name of the column of instants, s."""
 
+_MISSING = ("", "nan")
+"""What tools write for a sample that is missing."""
+
 
 def read_inputs(given: Iterable[str], names: tuple[str, ...]) -> dict[str, Signal]:
     """Return the inputs a user gives, by name.
@@ -85,7 +88,7 @@ def _once(name: str, found: dict[str, Signal], text: str) -> None:
         raise UserError(f"--input {text}: '{name}' is given twice. Give it once.")
 
 
-def read_tables(path: Path, names: tuple[str, ...]) -> dict[str, Signal]:
+def read_tables(path: Path, names: tuple[str, ...], gaps: bool = False) -> dict[str, Table]:
     """Return columns of a CSV file with a ``time`` column.
 
     Parameters
@@ -94,6 +97,8 @@ def read_tables(path: Path, names: tuple[str, ...]) -> dict[str, Signal]:
         Comma-separated, UTF-8, one line of headings.
     names : tuple of str
         Columns wanted; further ones are ignored. A single one may go by any heading if there is no other.
+    gaps : bool
+        Whether an empty cell, or one that says NaN, is a sample that is missing, as in a record; else it is an error.
 
     Raises
     ------
@@ -111,6 +116,7 @@ def read_tables(path: Path, names: tuple[str, ...]) -> dict[str, Signal]:
     columns = {name: _column(path, headings, name, names) for name in (TIME, *names)}
     times: list[float] = []
     values: dict[str, list[float]] = {name: [] for name in names}
+    known: dict[str, list[float]] = {name: [] for name in names}
     for line, row in rows:
         if len(row) != len(headings):
             raise UserError(
@@ -125,10 +131,17 @@ def read_tables(path: Path, names: tuple[str, ...]) -> dict[str, Signal]:
             )
         times.append(now)
         for name in names:
-            values[name].append(_number(path, line, name, row[columns[name]]))
+            cell = row[columns[name]]
+            if gaps and cell.strip().lower() in _MISSING:
+                continue
+            known[name].append(now)
+            values[name].append(_number(path, line, name, cell))
     if not times:
         raise UserError(f"{path}: has no rows below its headings. Add at least one.")
-    return {name: Table(np.array(times), np.array(column)) for name, column in values.items()}
+    for name in names:
+        if not known[name]:
+            raise UserError(f"{path}: the column '{name}' is empty. Fill or remove it.")
+    return {name: Table(np.array(known[name]), np.array(values[name])) for name in names}
 
 
 def _rows(path: Path) -> Iterator[tuple[int, list[str]]]:

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.native.kernel import NativeKernel
+from tmm_gen.native.layout import Value
 
 Array = NDArray[np.float64]
 
@@ -42,8 +43,13 @@ class Series:
         self._first = {name: float(signal(np.zeros(1))[0]) for name, signal in signals.items()}
         self._fill(signals)
 
-    def start(self) -> None:
+    def start(self, params: Mapping[str, Value] | None = None) -> None:
         """Prepare the kernel for the step, and go to the scene's initial motion.
+
+        Parameters
+        ----------
+        params : mapping from str, optional
+            Physical parameters that differ from the scene's.
 
         Raises
         ------
@@ -54,11 +60,16 @@ class Series:
         FloatingPointError
             If an input is not finite.
         """
-        self.kernel.prepare(step=self.step)
+        self.kernel.prepare(params, self.step)
         self.kernel.initialise(dict(self._first))
 
-    def run(self) -> dict[str, Array]:
+    def run(self, params: Mapping[str, Value] | None = None) -> dict[str, Array]:
         """Start anew and take all steps.
+
+        Parameters
+        ----------
+        params : mapping from str, optional
+            As for :meth:`start`.
 
         Returns
         -------
@@ -73,7 +84,7 @@ class Series:
             As :meth:`start`; or if the motion is not finite (NonFiniteStateError), out of range
             (OutOfRangeError), or takes a pivot to zero.
         """
-        self.start()
+        self.start(params)
         first = self.kernel.output()
         self.kernel.run(self._inputs, self._outputs)
         found = self._table(self._outputs)

@@ -4,36 +4,37 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
-from tmm_gen.scene.check import check_data
 from tmm_gen.scene.integrator import underscored
 from tmm_gen.scene.problem import Finding, Path, Problem, SceneError, show_path, show_value
-from tmm_gen.scene.scene import Scene, Source
+from tmm_gen.scene.source import Source
 
 
-def changed(scene: Scene, changes: Mapping[str, object]) -> Scene:
-    """Return a scene with keys changed; see :meth:`Scene.replace`.
+def changed(source: Source, changes: Mapping[str, object]) -> Source:
+    """Return a source with keys changed, not checked yet; see :meth:`Scene.replace`.
 
     Raises
     ------
     SceneError
-        If a key leads nowhere or the result is not a valid scene.
+        If a key leads nowhere.
     """
-    data: dict[str, Any] = copy.deepcopy(dict(scene.source.data))
+    data: dict[str, Any] = copy.deepcopy(dict(source.data))
     told = ", ".join(f"{key} = {show_value(value)}" for key, value in changes.items())
-    origin = f"{scene.source.origin} (with {told})" if changes else scene.source.origin
+    origin = f"{source.origin} (with {told})" if changes else source.origin
     name = changes.get("integrator.name")
-    if isinstance(name, str) and underscored(name) != scene.integrator.name:
-        data["integrator"] = {"name": name, "step": scene.integrator.step}
+    before: dict[str, Any] = data["integrator"]
+    if isinstance(name, str) and underscored(name) != underscored(before["name"]):
+        data["integrator"] = {"name": name, "step": before["step"]}
     for key, value in changes.items():
         path = _path(key)
         fault = _assign(data, path, _plain(value))
         if fault:
-            line = scene.source.lines.get(path[:1], 1)
+            line = source.lines.get(path[:1], 1)
             problem = Problem(origin, line, show_path(path), fault.value, fault.message, fault.remedy)
             raise SceneError([problem])
-    return check_data(Source(origin, data, scene.source.lines))
+    return replace(source, origin=origin, data=data)
 
 
 def _path(key: str) -> Path:

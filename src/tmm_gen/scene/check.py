@@ -11,7 +11,8 @@ from tmm_gen.scene.document import Document
 from tmm_gen.scene.locate import nearest_line
 from tmm_gen.scene.problem import Finding, Problem, SceneError, show_path
 from tmm_gen.scene.rules import broken_rules
-from tmm_gen.scene.scene import Scene, Source, scene_of
+from tmm_gen.scene.scene import Scene, scene_of
+from tmm_gen.scene.source import Source
 
 
 def check_data(source: Source) -> Scene:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from difflib import get_close_matches
 from typing import Any, get_args
 
@@ -12,7 +12,7 @@ from pydantic_core import ErrorDetails
 
 from tmm_gen.scene.document import Document
 from tmm_gen.scene.problem import Finding, Path, show_path
-from tmm_gen.scene.table import Table
+from tmm_gen.scene.table import Table, closest
 
 _COMPARISONS = {
     "greater_than": ("gt", "greater than"),
@@ -36,14 +36,6 @@ def findings(error: ValidationError) -> list[Finding]:
         In pydantic's order.
     """
     return [_finding(details) for details in error.errors(include_url=False)]
-
-
-def closest(word: object, choices: Sequence[str]) -> str:
-    """Return a remedy: the choice a misspelt word probably means, or all choices."""
-    near = get_close_matches(str(word).replace("-", "_"), choices, n=1, cutoff=0.6)
-    if near:
-        return f"Did you mean '{near[0]}'?"
-    return f"Choose one of {', '.join(choices)}."
 
 
 def _finding(details: ErrorDetails) -> Finding:

@@ -6,19 +6,28 @@ from typing import Annotated, Literal
 
 from pydantic import AfterValidator, Field, PlainValidator
 
-from tmm_gen.scene.table import Count, Table, fault, is_finite_number
-
-Backend = Literal["numpy", "c", "casadi"]
-BACKENDS: tuple[Backend, ...] = ("numpy", "c", "casadi")
+from tmm_gen.backends import OWN, backend_named, backend_names
+from tmm_gen.scene.table import Count, Table, closest, fault, is_finite_number
 
 
-def _distinct(backends: tuple[Backend, ...]) -> tuple[Backend, ...]:
+def _known(name: object) -> str:
+    """Return the name of a backend that is installed."""
+    if isinstance(name, str) and backend_named(name) is not None:
+        return name
+    raise fault("is not one of the choices", closest(name, backend_names()))
+
+
+def _distinct(backends: tuple[str, ...]) -> tuple[str, ...]:
     """Return the backends in one order whatever the order they are written in."""
     if not backends:
         raise fault("must name at least one backend", 'Write for example `backends = ["numpy", "c"]`.')
     if len(set(backends)) < len(backends):
         raise fault("names a backend twice", "Remove the repetition.")
-    return tuple(backend for backend in BACKENDS if backend in backends)
+    own = [each.name for each in OWN]
+    return tuple(sorted(backends, key=lambda name: (own.index(name) if name in own else len(own), name)))
+
+
+Backend = Annotated[str, PlainValidator(_known)]
 
 
 def _interval(value: object) -> tuple[float, float]:
@@ -56,8 +65,9 @@ class Emit(Table):
 
     Parameters
     ----------
-    backends : tuple of {"numpy", "c", "casadi"}
-        In this order, each at most once; all three by default.
+    backends : tuple of str
+        Names of installed backends, each at most once: "numpy", "c", "casadi" in this order, which are the default,
+        then those of other packages.
     real : {"float64", "float32"}
         Number type of the C code.
     sensitivities : bool
@@ -77,7 +87,9 @@ class Emit(Table):
     """
 
     backends: Annotated[tuple[Backend, ...], AfterValidator(_distinct)] = Field(
-        default=BACKENDS, description="languages", examples=['["numpy", "c", "casadi"]']
+        default=tuple(each.name for each in OWN),
+        description="languages",
+        examples=['["numpy", "c", "casadi"]'],
     )
     real: Literal["float64", "float32"] = Field(
         default="float64", description="number type of the C code", examples=['"float64"']

@@ -10,7 +10,8 @@ from pathlib import Path
 from tmm_gen.scene.check import check_data
 from tmm_gen.scene.locate import locate
 from tmm_gen.scene.problem import Problem, SceneError
-from tmm_gen.scene.scene import Scene, Source
+from tmm_gen.scene.scene import Scene
+from tmm_gen.scene.source import Source
 from tmm_gen.scene.syntax import syntax_problem
 
 
@@ -78,7 +79,7 @@ def parse_scene(text: str, origin: str = "<string>") -> Scene:
     """
     try:
         data = tomllib.loads(text)
-        source = Source(origin, data, locate(text))
+        source = Source(origin, data, locate(text), check_data)
     except RecursionError:
         problem = Problem(origin, 1, "", None, "is nested too deeply", "Remove superfluous brackets.")
         raise SceneError([problem]) from None

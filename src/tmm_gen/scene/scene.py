@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 
 from tmm_gen.scene.beam import Beam, Tip
+from tmm_gen.scene.change import changed
 from tmm_gen.scene.control import Control
 from tmm_gen.scene.digest import content_digest
 from tmm_gen.scene.document import Document
@@ -13,28 +13,9 @@ from tmm_gen.scene.emit import Emit
 from tmm_gen.scene.initial import Initial, broadcast
 from tmm_gen.scene.integrator import Integrator, underscored
 from tmm_gen.scene.model import Base, Model
-from tmm_gen.scene.problem import Path
 from tmm_gen.scene.signal import Input, Output
+from tmm_gen.scene.source import Source
 from tmm_gen.scene.station import Joint, Link
-
-
-@dataclass(frozen=True, eq=False)
-class Source:
-    """Where a scene came from, so that later complaints can be located.
-
-    Parameters
-    ----------
-    origin : str
-        File as the user named it.
-    data : dict
-        The TOML document as Python values; never changed in place.
-    lines : dict from path to int
-        Lines of its keys.
-    """
-
-    origin: str
-    data: Mapping[str, object]
-    lines: dict[Path, int]
 
 
 @dataclass(frozen=True, eq=False)
@@ -121,9 +102,8 @@ class Scene:
         SceneError
             If the result is not a valid scene.
         """
-        from tmm_gen.scene.change import changed
-
-        return changed(self, changes)
+        source = changed(self.source, changes)
+        return source.check(source)
 
     def __eq__(self, other: object) -> bool:
         """Compare what the scenes say."""

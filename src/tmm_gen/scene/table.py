@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from difflib import get_close_matches
 from typing import Annotated, TypeGuard
 
 from pydantic import BaseModel, ConfigDict, Field
@@ -38,3 +40,11 @@ def is_finite_number(value: object) -> TypeGuard[int | float]:
 def fault(problem: str, remedy: str) -> PydanticCustomError:
     """Return the error by which a validator rejects a value and says what to do."""
     return PydanticCustomError("scene", "{problem}", {"problem": problem, "remedy": remedy})
+
+
+def closest(word: object, choices: Sequence[str]) -> str:
+    """Return a remedy: the choice a misspelt word probably means, or all choices."""
+    near = get_close_matches(str(word).replace("-", "_"), choices, n=1, cutoff=0.6)
+    if near:
+        return f"Did you mean '{near[0]}'?"
+    return f"Choose one of {', '.join(choices)}."

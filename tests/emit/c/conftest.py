@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 import subprocess
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -156,21 +155,18 @@ def warnings() -> list[str]:
     return WARNINGS
 
 
-def run_command(*words: str | Path, cwd: Path) -> str:
-    """Run a program that must succeed; a missing one is a failure, not a reason to skip."""
-    found = shutil.which(str(words[0])) or (cwd / words[0]).exists()
-    assert found, f"{words[0]} is not installed"
-    done = subprocess.run([str(w) for w in words], cwd=cwd, capture_output=True, text=True, check=False)
-    assert done.returncode == 0, f"{' '.join(map(str, words))}\n{done.stdout}{done.stderr}"
-    return done.stdout + done.stderr
-
-
 @pytest.fixture
-def command(tmp_path: Path) -> Callable[..., str]:
-    """Run a program in an empty folder; return what it printed."""
+def command(tmp_path: Path, need_tool: Callable[..., str]) -> Callable[..., str]:
+    """Run a program that must succeed in an empty folder; return what it printed."""
 
     def call(*words: str | Path) -> str:
-        return run_command(*words, cwd=tmp_path)
+        if not (tmp_path / words[0]).exists():
+            need_tool(str(words[0]))
+        done = subprocess.run(
+            [str(w) for w in words], cwd=tmp_path, capture_output=True, text=True, check=False
+        )
+        assert done.returncode == 0, f"{' '.join(map(str, words))}\n{done.stdout}{done.stderr}"
+        return done.stdout + done.stderr
 
     return call
 

@@ -127,8 +127,9 @@ def test_steps_are_the_same_bits(
 )
 @pytest.mark.parametrize("compiler", ["gcc", "clang"])
 def test_bits_do_not_depend_on_optimisation(
-    compiler: str, flags: tuple[str, ...], kind: dict[str, Any], chain: Any
+    compiler: str, flags: tuple[str, ...], kind: dict[str, Any], chain: Any, need_tool: Any
 ) -> None:
+    need_tool(compiler)
     of = chain(**kind)
     kernels = [compile_kernel(of.program, of.scene), compile_kernel(of.program, of.scene, compiler, flags)]
     inputs = {v.name: (lambda t, k=k: np.cos(9.0 * t + k)) for k, v in enumerate(of.program.inputs)}

@@ -54,6 +54,7 @@ def ruff(*words: str | Path) -> subprocess.CompletedProcess[str]:
     return subprocess.run(command, capture_output=True, text=True, check=False)
 
 
+@pytest.mark.style
 def test_assignments_are_broken_where_a_formatter_breaks_them(tmp_path: Path) -> None:
     draw = random.Random(7)
     printer = PythonPrinter(refer, "np")
@@ -73,6 +74,7 @@ def test_assignments_are_broken_where_a_formatter_breaks_them(tmp_path: Path) ->
     assert done.returncode == 0, done.stdout
 
 
+@pytest.mark.style
 def test_calls_and_tuples_are_broken_where_a_formatter_breaks_them(tmp_path: Path) -> None:
     lines = []
     for count in range(1, 26):

@@ -92,8 +92,9 @@ def test_the_sources_compile_without_a_warning(
 
 @pytest.mark.parametrize("version", [2, 3])
 def test_fmpy_builds_the_sources_and_the_result_is_the_same(
-    version: FmiVersion, unit_of: Any, scene_named: Any, tmp_path: Path
+    version: FmiVersion, unit_of: Any, scene_named: Any, need_tool: Any, tmp_path: Path
 ) -> None:
+    need_tool("cmake")  # fmpy calls it
     path = unit_of(scene_named("thesis10"), version)
     fmpy.extract(str(path), str(tmp_path))
     (binary,) = (p for p in (tmp_path / "binaries").rglob("*") if p.is_file())

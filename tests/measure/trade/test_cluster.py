@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import os
+import random
 import signal
+import subprocess
 import sys
 from collections import Counter
 from pathlib import Path
@@ -11,8 +13,9 @@ from pathlib import Path
 import pytest
 from distributed import Client, LocalCluster
 
+from tmm_gen.cli import main
 from tmm_gen.errors import UserError
-from tmm_gen.measure.trade.cluster import Cluster
+from tmm_gen.measure.trade.cluster import Cluster, _started
 from tmm_gen.measure.trade.excitation import excitation
 from tmm_gen.measure.trade.grid import Axes, configurations
 from tmm_gen.measure.trade.outcome import Result
@@ -78,7 +81,7 @@ def test_dask_is_not_installed(chain: Scene, monkeypatch: pytest.MonkeyPatch) ->
     monkeypatch.setitem(sys.modules, "distributed", None)
     went = excitation(chain, until=1.0)
     grid = configurations(chain, Axes(integrators=("newmark",), steps=(0.1,)), 1.0)
-    with pytest.raises(UserError, match=r"pip install 'tmm-gen\[study\]'"):
+    with pytest.raises(UserError, match=r"which is not installed: "):
         run_study(chain, went, grid, Cluster(2), rounds=0)
 
 
@@ -107,3 +110,85 @@ def test_a_running_scheduler_is_used(chain: Scene, tmp_path: Path) -> None:
     assert results(study) == results(run_study(chain, went, grid, rounds=0))
     with Store(store) as kept:
         assert all(kept.result(task.key) is not None for task in make_tasks(chain, went, grid))
+
+
+ELSEWHERE = """
+import time
+from distributed import LocalCluster
+if __name__ == "__main__":
+    cluster = LocalCluster(n_workers=1, threads_per_worker=1, processes=False, protocol="tcp", host="127.0.0.1",
+                           dashboard_address="127.0.0.1:0", memory_limit=0)
+    print(cluster.scheduler_address, flush=True)
+    time.sleep(600)
+"""
+
+
+def test_a_scheduler_is_killed(chain: Scene, tmp_path: Path) -> None:
+    """Somewhere in the middle, at random; the study says so, and goes on from its store."""
+    went = excitation(chain, until=UNTIL)
+    steps = tuple(UNTIL / (20 + k) for k in range(40))
+    grid = configurations(chain, Axes(integrators=("newmark",), steps=steps), UNTIL)
+    store = tmp_path / "study.sqlite"
+    doomed = random.randrange(1, 30)
+    with subprocess.Popen([sys.executable, "-c", ELSEWHERE], stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout is not None
+        address = process.stdout.readline().strip()
+
+        def watch(client: Client, count: int) -> None:
+            if count == doomed:
+                process.kill()
+
+        with pytest.raises(UserError, match="the scheduler went away") as caught:
+            run_study(chain, went, grid, Cluster(0, address, watch=watch), store=store, rounds=0)
+        process.kill()
+    assert "it then goes on where it stopped" in str(caught.value)
+    assert "\n" not in str(caught.value)
+    with Store(store) as kept:
+        begun = len(kept.computations())
+    assert begun >= doomed
+    assert results(run_study(chain, went, grid, store=store, rounds=0)) == results(
+        run_study(chain, went, grid, rounds=0)
+    )
+
+
+def test_a_cluster_without_workers_is_given_up(
+    chain: Scene, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("tmm_gen.measure.trade.cluster._LOOK", 0.1)
+    monkeypatch.setattr("tmm_gen.measure.trade.cluster._ALONE", 0.3)
+    went = excitation(chain, until=1.0)
+    grid = configurations(chain, Axes(integrators=("newmark",), steps=(0.1,)), 1.0)
+    with (
+        LocalCluster(
+            n_workers=0,
+            host="127.0.0.1",
+            dashboard_address="127.0.0.1:0",
+            memory_limit=0,
+        ) as cluster,
+        pytest.raises(UserError, match=r"has had no workers for 0\.3 s. Start some by `dask worker tcp:"),
+    ):
+        run_study(chain, went, grid, Cluster(0, cluster.scheduler_address), rounds=0)
+
+
+@pytest.mark.parametrize("deaths", [1, 2, 3])
+def test_workers_die_as_they_start(deaths: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Dask then says that a nanny failed; `benchmarks/kill_studies.py` kills real ones."""
+    left = deaths
+
+    def local(**given: object) -> str:
+        nonlocal left
+        left -= 1
+        if left >= 0:
+            raise RuntimeError("Nanny failed to start.")
+        return "cluster"
+
+    if deaths < 3:
+        assert _started(local, 2) == "cluster"
+    else:
+        with pytest.raises(UserError, match="the processes died 3 times as they started"):
+            _started(local, 2)
+
+
+def test_help_says_that_tasks_are_trusted_code(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["trade", "--help"]) == 0
+    assert "trusted code" in " ".join(capsys.readouterr().out.split())

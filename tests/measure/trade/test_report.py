@@ -11,11 +11,13 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
+import matplotlib.colors
 import matplotlib.image
 import numpy as np
 import pytest
 
-from tmm_gen.measure.trade.figures import trade_picture
+from tmm_gen.measure.style import PALETTE
+from tmm_gen.measure.trade.figures import step_picture, trade_picture
 from tmm_gen.measure.trade.report import report
 from tmm_gen.measure.trade.study import Study
 
@@ -156,3 +158,39 @@ def test_pictures_are_the_same_every_time(chain_study: Study) -> None:
     drawn = trade_picture(chain_study, "svg")
     assert drawn.startswith(b"<?xml")
     assert drawn == trade_picture(chain_study, "svg")
+
+
+def test_no_two_figures_share_a_title(chain_study: Study, arm_study: Study) -> None:
+    """And what is timed is in one unit, in pictures, tables and prose."""
+    for study in (chain_study, arm_study):
+        page = report(study)
+        titles = [
+            tuple(re.findall(r"<!-- (.*?) -->", svg)) for svg in re.findall(r"<svg.*?</svg>", page, re.DOTALL)
+        ]
+        titles = [tuple(text for text in texts if "accuracy" in text or "step" in text) for texts in titles]
+        assert len(set(titles)) == len(titles)
+        assert "ns of computing" not in page
+        assert not re.search(r"[\d.] (ns|ms) for a simulated second", page)
+
+
+def test_series_that_agree_do_not_hide_each_other(chain_study: Study) -> None:
+    """Four methods with the same errors at the same steps: each has its colour in the picture."""
+    first = next(p for p in chain_study.points if p.finished)
+    names = ("newmark", "bathe", "park", "wilson")
+    points = tuple(
+        replace(
+            first,
+            configuration=replace(
+                first.configuration, step=step, family=replace(first.configuration.family, integrator=name)
+            ),
+            result=replace(first.result, error=step**2),
+        )
+        for name in names
+        for step in (0.1, 0.01, 0.001)
+    )
+    drawn = step_picture(replace(chain_study, points=points), "png")
+    seen = matplotlib.image.imread(io.BytesIO(drawn), format="png")[..., :3]
+    middle = seen[:, : int(0.75 * seen.shape[1])]  # the legend is beside it
+    for colour in PALETTE[: len(names)]:
+        wanted = np.array(matplotlib.colors.to_rgb(colour))
+        assert np.all(np.abs(middle - wanted) < 0.04, axis=2).sum() > 100, colour

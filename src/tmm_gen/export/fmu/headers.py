@@ -7,6 +7,7 @@ from pathlib import Path
 
 from tmm_gen.errors import UserError
 from tmm_gen.export.fmu.identity import FmiVersion
+from tmm_gen.extras import extra
 
 _NAMES: dict[FmiVersion, tuple[str, ...]] = {
     2: ("fmi2Functions.h", "fmi2FunctionTypes.h", "fmi2TypesPlatform.h"),
@@ -22,11 +23,7 @@ def require_fmpy() -> None:
     UserError
         If it is not installed.
     """
-    if find_spec("fmpy") is None:
-        raise UserError(
-            "a functional mock-up unit needs FMPy, which has the headers of FMI and validates the result. "
-            "Install it: pip install 'tmm-gen[fmu]'"
-        )
+    extra("fmu", "a functional mock-up unit, for the headers of FMI and to validate the result,")
 
 
 def fmi_headers(version: FmiVersion) -> dict[str, str]:

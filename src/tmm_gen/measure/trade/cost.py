@@ -8,22 +8,19 @@ length is the cost of a simulated second.
 
 from __future__ import annotations
 
-import statistics
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+from tmm_gen.measure.timing import ROUNDS, Cost, by_turns, cost_of
 from tmm_gen.measure.trade.configuration import Configuration, Family
 from tmm_gen.measure.trade.evaluate import family_scene, whole_steps
 from tmm_gen.measure.trade.excitation import Excitation
 from tmm_gen.measure.trade.kernels import Built, build
 from tmm_gen.native.series import Series
 from tmm_gen.scene import Scene
-
-ROUNDS = 9
 
 _STEPS = 4000
 """Steps of a timed run, about."""
@@ -32,25 +29,6 @@ _NUMPY_STEPS = 60
 
 _REPEATS = 5
 """Runs of a family in a round, of which the fastest counts: nothing makes a run faster than it is."""
-
-
-@dataclass(frozen=True)
-class Cost:
-    """Time of one step.
-
-    Parameters
-    ----------
-    ns_per_step : float
-        Median over the rounds.
-    spread : float
-        Half the distance between the quartiles, over the median.
-    rounds : int
-        How many.
-    """
-
-    ns_per_step: float
-    spread: float
-    rounds: int
 
 
 def measure_costs(
@@ -80,13 +58,7 @@ def measure_costs(
         for family, steps in finished.items()
         if steps
     }
-    found: dict[Family, list[float]] = {family: [] for family in timed}
-    for _ in range(rounds):
-        for family, seconds in timed.items():
-            found[family].append(seconds())
-        if advance is not None:
-            advance(1)
-    return {family: _cost(samples) for family, samples in found.items()}
+    return by_turns(timed, rounds, advance)
 
 
 def timer(scene: Scene, excitation: Excitation, configuration: Configuration) -> Callable[[], float]:
@@ -103,7 +75,7 @@ def timer(scene: Scene, excitation: Excitation, configuration: Configuration) ->
 
 def measured(series: Series, rounds: int) -> Cost:
     """Return what a step of one run costs."""
-    return _cost([_once(series) for _ in range(max(1, rounds))])
+    return cost_of([_once(series) for _ in range(max(1, rounds))])
 
 
 def _once(series: Series) -> float:
@@ -132,11 +104,3 @@ def _nearest(steps: Sequence[float], until: float, family: Family) -> float:
     """Return the step whose run is nearest to the wanted length, in the sense of ratios."""
     wanted = _STEPS if family.backend == "c" else _NUMPY_STEPS
     return min(steps, key=lambda step: abs(np.log(until / step / wanted)))
-
-
-def _cost(samples: list[float]) -> Cost:
-    median = statistics.median(samples)
-    if len(samples) < 2:
-        return Cost(median, 0.0, len(samples))
-    low, _, high = statistics.quantiles(samples, n=4, method="inclusive")
-    return Cost(median, 0.5 * (high - low) / median, len(samples))

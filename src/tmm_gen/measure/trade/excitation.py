@@ -12,6 +12,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from tmm_gen.errors import UserError
+from tmm_gen.measure.clock import refuse_other_clock
 from tmm_gen.measure.duration import default_duration
 from tmm_gen.measure.signals import Constant, Signal, Sine, Table
 from tmm_gen.measure.trade.rise import Rise
@@ -78,7 +79,7 @@ def excitation(
     Raises
     ------
     UserError
-        If there is no such output, nothing moves, or the time is absurd.
+        If there is no such output, nothing moves, the time is absurd, or an input has another clock.
     """
     duration = until or default_duration(scene)
     if not _SHORTEST <= duration <= _LONGEST:
@@ -86,6 +87,7 @@ def excitation(
             f"--until {duration:g}: simulate between {_SHORTEST:g} and {_LONGEST:g} s; a few slow periods tell most."
         )
     signals = dict(given) if given else _default_signals(scene, duration)
+    refuse_other_clock(signals, duration)
     chosen = Excitation(signals, duration, _output(scene, output).name)
     moving = any(not isinstance(signal, Constant) or signal.value for signal in signals.values())
     initial = any(scene.initial.angles) or any(scene.initial.rates)

@@ -50,9 +50,10 @@ def _chosen(tuning: Tuning) -> list[str]:
     ]
     others = [p for p in tuning.candidates if p.configuration.family not in tuning.over_budget]
     behind = [p for p in others if p.configuration.family != point.configuration.family and p.ns_per_second]
-    if behind:
+    if behind and point.ns_per_second:
         second = behind[0]
-        ratio = (second.ns_per_second or 0.0) / checked.ns_per_second
+        # both as measured by turns; the fresh run was at another time
+        ratio = (second.ns_per_second or 0.0) / point.ns_per_second
         lines.append(
             f"Next comes {_label(tuning, second)} with steps of {second.configuration.step:g} s, "
             f"at {ratio:.2g} times the time."
@@ -60,19 +61,30 @@ def _chosen(tuning: Tuning) -> list[str]:
     if tuning.nearest:
         failed = ", ".join(_label(tuning, p) for p in tuning.nearest)
         lines.append(f"Not accurate enough at any step worth its time: {failed}.")
-    lines.append(_before(tuning, checked.ns_per_second))
+    lines.append(_before(tuning, point))
     return lines
 
 
-def _before(tuning: Tuning, ns: float) -> str:
-    """Say how the scene as it was compares."""
+def _before(tuning: Tuning, chosen: Point) -> str:
+    """Say how the scene as it was compares: in cost only if it keeps the bound on the error too."""
     mine = tuning.own
     named = f"The scene as it was ({mine.configuration.family.integrator}, {mine.configuration.step:g} s)"
     if not mine.finished or mine.ns_per_second is None:
         return f"{named} did not finish: {mine.result.reason}."
-    ratio = mine.ns_per_second / ns
-    compared = f"takes {ratio:.3g} times as long" if ratio >= 1.0 else f"takes {1.0 / ratio:.3g} times less"
-    return f"{named} is off by {_error(tuning, mine.result.error)} in time and {compared}."
+    off = f"{named} is off by {_error(tuning, mine.result.error)} in time"
+    if not _keeps(tuning, chosen) or not chosen.ns_per_second:
+        return f"{off} and takes {time_text(mine.ns_per_second)} for a simulated second."
+    ratio = mine.ns_per_second / chosen.ns_per_second
+    compared = f"{ratio:.3g} times as long" if ratio >= 1.0 else f"{1.0 / ratio:.3g} times less"
+    return f"{off}, within the bound too, and takes {compared}."
+
+
+def _keeps(tuning: Tuning, chosen: Point) -> bool:
+    """Whether the scene as it was is known to keep the bound that the chosen one keeps."""
+    mine = tuning.own
+    if chosen.result.modelling_error is not None and mine.result.modelling_error is None:
+        return False
+    return mine.error <= tuning.max_error
 
 
 def _none(tuning: Tuning) -> list[str]:

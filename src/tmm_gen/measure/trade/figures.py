@@ -24,6 +24,9 @@ _RING: dict[str, Any] = {
     "markeredgecolor": INK,
     "markeredgewidth": 0.9,
 }
+_THIN, _THICK = 1.0, 6.0
+"""Widths of lines, in points."""
+
 _SIZE = (4.4, 4.6)
 """Inches: on a phone's screen letters are then as large as the text around."""
 
@@ -44,14 +47,19 @@ def trade_picture(study: Study, form: str = "png") -> bytes:
 
 
 def time_picture(study: Study, form: str = "svg", wide: bool = True) -> bytes:
-    """Draw error against nanoseconds for a simulated second."""
-    return _picture(study, lambda p: p.ns_per_second, "ns of computing for a simulated second", form, wide)
+    """Draw error against microseconds for a simulated second, the unit of tables and sentences."""
+    title, what = "What accuracy costs in time", "µs of computing for a simulated second"
+    return _picture(study, _microseconds, title, what, form, wide)
 
 
 def operations_picture(study: Study, form: str = "svg", wide: bool = True) -> bytes:
     """Draw error against floating-point operations for a simulated second."""
-    what = "floating-point operations for a simulated second"
-    return _picture(study, lambda p: p.operations_per_second, what, form, wide)
+    title, what = "What accuracy costs in operations", "floating-point operations for a simulated second"
+    return _picture(study, lambda p: p.operations_per_second, title, what, form, wide)
+
+
+def _microseconds(point: Point) -> float | None:
+    return None if point.ns_per_second is None else point.ns_per_second / 1e3
 
 
 def step_picture(study: Study, form: str = "svg", wide: bool = True) -> bytes:
@@ -83,7 +91,7 @@ def modelling_picture(study: Study, form: str = "svg", wide: bool = True) -> byt
         return picture(made, form)
 
 
-def _picture(study: Study, price: Price, what: str, form: str, wide: bool) -> bytes:
+def _picture(study: Study, price: Price, title: str, what: str, form: str, wide: bool) -> bytes:
     with style():
         made, axes = figure(*_size(wide))
         shown = _drawn_families(study)
@@ -94,7 +102,7 @@ def _picture(study: Study, price: Price, what: str, form: str, wide: bool) -> by
         axes.plot(*zip(*front, strict=True), "o", zorder=4, **_RING)
         whole = "time and modelling error" if study.varies_links else "time error"
         _logarithmic(axes, study, what, f"{whole}, relative to the travel")
-        subtitle(axes, "What accuracy costs", study.scene.name)
+        subtitle(axes, title, study.scene.name)
         _legend(made, shown, wide, rings=True)
         return picture(made, form)
 
@@ -110,17 +118,28 @@ def _line(
     x: list[float],
     y: list[float],
 ) -> None:
-    """Draw a family: a colour for its integrator, a line for what else tells it apart."""
+    """Draw a family: a colour for its integrator, a line for what else tells it apart.
+
+    Methods of one order have much the same errors: each is drawn thinner than the one below it, so that none is hidden.
+    """
     integrators, variants = _told_apart(shown)
+    number = integrators.index(family.integrator)
+    width = _width(number, len(integrators))
     axes.plot(
         x,
         y,
-        color=_COLOURS[integrators.index(family.integrator) % len(_COLOURS)],
+        color=_COLOURS[number % len(_COLOURS)],
         linestyle=_LINES[variants.index(family.variant) % len(_LINES)],
         marker="o" if variants.index(family.variant) == 0 else "s",
-        markersize=3.0,
-        linewidth=1.2,
+        markersize=width + 1.8,
+        linewidth=width,
+        zorder=2.0 + number / len(integrators),
     )
+
+
+def _width(number: int, count: int) -> float:
+    """Return the width of an integrator's line, in points: wider, the more are drawn above it."""
+    return _THIN + min(2.0, (_THICK - _THIN) / max(count - 1, 1)) * (count - 1 - number)
 
 
 def _told_apart(shown: list[tuple[Family, list[Point]]]) -> tuple[list[str], list[str]]:
@@ -146,7 +165,7 @@ def _legend(made: Figure, shown: list[tuple[Family, list[Point]]], wide: bool, r
 
     integrators, variants = _told_apart(shown)
     handles = [
-        Line2D([], [], color=_COLOURS[k % len(_COLOURS)], linewidth=2.5, label=name)
+        Line2D([], [], color=_COLOURS[k % len(_COLOURS)], linewidth=_width(k, len(integrators)), label=name)
         for k, name in enumerate(integrators)
     ]
     if len(variants) > 1:

@@ -1,12 +1,17 @@
-"""What a study says: the cheapest way to each error, and how many times cheaper it is than Newmark's."""
+"""What a study says: the cheapest way to each error, and how many times cheaper it is than Newmark's.
+
+Compared are costs at one and the same error, each at the longest step that keeps it. Where no step that is too long was
+tried, that step is not known but for a bound, and neither is any ratio: then none is told.
+"""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from tmm_gen.measure.trade.configuration import Family, own
+from tmm_gen.measure.trade.outcome import Outcome
 from tmm_gen.measure.trade.point import Point
 from tmm_gen.measure.trade.study import Study
 
@@ -27,25 +32,35 @@ class Way:
     family : Family
         What is generated.
     step : float
-        s, by interpolation between the steps of the study, in logarithms.
+        s, by interpolation between the steps of the study, in logarithms; the longest good one where there is nothing
+        to interpolate.
     ns : float, optional
-        Nanoseconds for a simulated second; None where times were not measured.
-    operations : float
+        Nanoseconds for a simulated second; None where times were not measured for all families.
+    operations : float, optional
         Floating-point operations for a simulated second.
-    coarsest : bool
-        Whether the coarsest step tried that does not diverge is already as accurate: a longer one may be too.
+    known : bool
+        Whether the step is interpolated; a longer one than this may be as accurate, else.
+    longer : float
+        s; the shortest step tried that is too long: the next one. Infinite where there is none.
     """
 
     family: Family
     step: float
     ns: float | None
-    operations: float
-    coarsest: bool
+    operations: float | None
+    known: bool
+    longer: float = math.inf
 
     @property
     def cost(self) -> float:
         """By which ways are ordered: time, or operations where there is none."""
-        return self.operations if self.ns is None else self.ns
+        found = self.operations if self.ns is None else self.ns
+        return math.inf if found is None else found
+
+    @property
+    def least(self) -> float:
+        """What it costs at least: with a longer step than those tried it may be less than `cost`."""
+        return self.cost if self.known else self.cost * self.step / self.longer
 
 
 @dataclass(frozen=True)
@@ -58,43 +73,76 @@ class Finding:
         The time error.
     ways : tuple of Way
         Of all families that reach it, cheapest first.
+    tried : bool
+        Whether Newmark's method was tried at all, with the same links, linearisation and number type as the scene.
     """
 
     level: float
     ways: tuple[Way, ...]
+    tried: bool = True
 
     @property
     def baseline(self) -> Way | None:
         """Newmark's way with the same links, linearisation and number type as the scene."""
         return next((way for way in self.ways if way.family.integrator == BASELINE), None)
 
+    @property
+    def rivals(self) -> tuple[Way, ...]:
+        """Ways that may be cheaper than the first, with longer steps than those tried."""
+        return tuple(way for way in self.ways[1:] if way.least < self.ways[0].cost)
+
     def factor(self, way: Way) -> float | None:
-        """Return how many times as much time Newmark's way takes."""
-        if self.baseline is None or self.baseline.ns is None or not way.ns:
-            return None
-        return self.baseline.ns / way.ns
+        """Return how many times as much time Newmark's way takes; None unless both steps are known."""
+        return _ratio(self.baseline, way, lambda each: each.ns)
 
     def operations_factor(self, way: Way) -> float | None:
-        """Return how many times as many operations Newmark's way takes."""
-        return None if self.baseline is None else self.baseline.operations / way.operations
+        """Return how many times as many operations Newmark's way takes; None unless both steps are known."""
+        return _ratio(self.baseline, way, lambda each: each.operations)
 
     def sentence(self) -> str:
         """Say it in words."""
         if not self.ways:
             return f"At an error of {self.level:g} nothing gets there."
         best = self.ways[0]
-        steps = "the longest steps tried, " if best.coarsest else "steps of "
-        text = f"At an error of {self.level:g}, {best.family.integrator} is the cheapest, with {steps}{best.step:.2g} s"
+        tried = " of what was tried" if self.rivals else ""
+        text = f"At an error of {self.level:g}, {best.family.integrator} is the cheapest{tried}, with {_steps(best)}"
         if best.ns is not None:
-            text += f": {time_text(best.ns)} for a simulated second"
-        by_time, by_count = self.factor(best), self.operations_factor(best)
+            text += f": {plain_number(best.ns / 1e3)} µs for a simulated second"
+        text += f"{self._compared(best)}."
+        others = [way.family.integrator for way in self.rivals]
+        if not others:
+            return text
+        return f"{text} With longer --steps {', '.join(others)} may be cheaper."
+
+    def _compared(self, best: Way) -> str:
+        """Say how the winner stands to Newmark's method, if that is known."""
         if best.family.integrator == BASELINE:
-            return f"{text}."
-        if by_count is None:
-            return f"{text}; Newmark's method does not get there within the grid."
+            return ""
+        if self.baseline is None:
+            return "; Newmark's method " + (
+                "does not get there within the grid" if self.tried else "was not tried"
+            )
+        by_time, by_count = self.factor(best), self.operations_factor(best)
         told = [_times(by_time, "less time", "more time")] if by_time is not None else []
-        told.append(_times(by_count, "fewer operations", "more operations"))
-        return f"{text}, {' and '.join(told)} than Newmark's method."
+        told += [_times(by_count, "fewer operations", "more operations")] if by_count is not None else []
+        if told:
+            return f", {' and '.join(told)} than Newmark's method"
+        return "; longer --steps would tell how it compares with Newmark's method"
+
+
+def _ratio(baseline: Way | None, way: Way, cost: Callable[[Way], float | None]) -> float | None:
+    if baseline is None or not (baseline.known and way.known):
+        return None
+    whole, part = cost(baseline), cost(way)
+    return whole / part if whole and part else None
+
+
+def _steps(way: Way) -> str:
+    if way.known:
+        return f"steps of {way.step:.2g} s"
+    if math.isfinite(way.longer):
+        return f"steps of {way.step:.2g} s, the longest tried that do not diverge"
+    return f"the longest steps tried, {way.step:.2g} s"
 
 
 def _times(factor: float, saved: str, spent: str) -> str:
@@ -113,10 +161,13 @@ def findings(study: Study, levels: Sequence[float] = LEVELS) -> tuple[Finding, .
         if (family.links, family.linearisation, family.iterations, family.real, family.backend)
         == (mine.links, mine.linearisation, mine.iterations, mine.real, mine.backend)
     ]
+    tried = any(family.integrator == BASELINE for family, _ in alike)
     found = []
     for level in levels:
-        ways = [way for family, points in alike if (way := _way(family, points, level)) is not None]
-        found.append(Finding(level, tuple(sorted(ways, key=lambda way: way.cost))))
+        ways = [way for family, points in alike if (way := _way(study, family, points, level)) is not None]
+        if any(way.ns is None for way in ways):  # times of some beside operations of others would be no order
+            ways = [replace(way, ns=None) for way in ways]
+        found.append(Finding(level, tuple(sorted(ways, key=lambda way: way.cost)), tried))
     return tuple(found)
 
 
@@ -127,7 +178,7 @@ def by_family(points: Sequence[Point]) -> Iterator[tuple[Family, list[Point]]]:
         yield family, sorted(members, key=lambda p: -p.configuration.step)
 
 
-def _way(family: Family, points: list[Point], level: float) -> Way | None:
+def _way(study: Study, family: Family, points: list[Point], level: float) -> Way | None:
     """Return the longest step that has, with all shorter ones, at most an error; interpolated in logarithms."""
     good = len(points)
     while good > 0 and _time_error(points[good - 1]) <= level:
@@ -136,11 +187,20 @@ def _way(family: Family, points: list[Point], level: float) -> Way | None:
         return None
     first = points[good]
     step = first.configuration.step
-    if good > 0:
-        before = points[good - 1]
-        step = _interpolated(before, first, level)
+    known = good > 0
+    longer = points[good - 1].configuration.step if known else _diverged(study, family, step)
+    if known:
+        step = _interpolated(points[good - 1], first, level)
     ns = first.cost.ns_per_step / step if first.cost else None
-    return Way(family, step, ns, (first.result.operations or 0) / step, coarsest=good == 0)
+    count = first.result.operations
+    return Way(family, step, ns, None if count is None else count / step, known, longer)
+
+
+def _diverged(study: Study, family: Family, step: float) -> float:
+    """Return the next longer step at which a family diverged; infinity if it did at none."""
+    diverged = [p for p in study.points if p.result.outcome is Outcome.DIVERGED]
+    steps = [p.configuration.step for p in diverged if p.configuration.family == family]
+    return min((longer for longer in steps if longer > step), default=math.inf)
 
 
 def _interpolated(before: Point, after: Point, level: float) -> float:
@@ -154,6 +214,12 @@ def _interpolated(before: Point, after: Point, level: float) -> float:
 def _time_error(point: Point) -> float:
     error = point.result.error
     return math.inf if error is None else error
+
+
+def plain_number(value: float) -> str:
+    """Return three digits, and thousands where they are."""
+    rounded = float(f"{value:.3g}")
+    return f"{rounded:g}" if rounded < 1000.0 else f"{rounded:,.0f}"
 
 
 def time_text(ns: float) -> str:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from tmm_gen.measure.timing import Cost
 from tmm_gen.measure.trade.configuration import Configuration
-from tmm_gen.measure.trade.cost import Cost
 from tmm_gen.measure.trade.outcome import Outcome, Result
 
 

@@ -16,7 +16,7 @@ from tmm_gen.measure.trade.figures import (
     step_picture,
     time_picture,
 )
-from tmm_gen.measure.trade.findings import Finding, by_family, findings
+from tmm_gen.measure.trade.findings import Finding, by_family, findings, plain_number
 from tmm_gen.measure.trade.machine import machine
 from tmm_gen.measure.trade.outcome import Outcome
 from tmm_gen.measure.trade.point import Point
@@ -73,8 +73,12 @@ def _inline(svg: bytes) -> str:
 
 
 def _race(found: tuple[Finding, ...]) -> list[dict[str, Any]]:
-    """Return a row for each integrator: what it needs at each level, and the factor over Newmark's method."""
+    """Return a row for each integrator: what it needs at each level, and the factor over Newmark's method.
+
+    All cells are in one unit. Where a longer step than those tried may do, the cost is a bound, and there is no factor.
+    """
     families = dict.fromkeys(way.family for each in found for way in each.ways)
+    timed = all(way.ns is not None for each in found for way in each.ways)
     rows = []
     for family in families:
         cells = []
@@ -83,10 +87,11 @@ def _race(found: tuple[Finding, ...]) -> list[dict[str, Any]]:
             if way is None:
                 cells.append({"cost": "-", "factor": "", "best": False})
                 continue
-            factor = each.factor(way) or each.operations_factor(way)
-            cost = _plain(way.operations if way.ns is None else way.ns / 1e3)
-            told = "" if factor is None else f"{factor:.3g} ×"
-            cells.append({"cost": cost, "factor": told, "best": way is each.ways[0]})
+            factor = each.factor(way) if timed else each.operations_factor(way)
+            cost = way.ns / 1e3 if timed and way.ns is not None else way.operations
+            told = "-" if cost is None else f"{'' if way.known else '≤ '}{plain_number(cost)}"
+            best = way is each.ways[0] and not each.rivals
+            cells.append({"cost": told, "factor": "" if factor is None else f"{factor:.3g} ×", "best": best})
         rows.append({"label": family.integrator, "cells": cells})
     return rows
 
@@ -105,12 +110,6 @@ def _row(study: Study, point: Point) -> dict[str, str]:
         "state": str(result.state_bytes or ""),
         "reason": result.reason,
     }
-
-
-def _plain(value: float) -> str:
-    """Return three digits, and thousands where they are."""
-    rounded = float(f"{value:.3g}")
-    return f"{rounded:g}" if rounded < 1000.0 else f"{rounded:,.0f}"
 
 
 def _number(value: float | None) -> str:

@@ -6,8 +6,9 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+from tmm_gen.measure.timing import ROUNDS, Cost
 from tmm_gen.measure.trade.configuration import Configuration, Family, own
-from tmm_gen.measure.trade.cost import ROUNDS, Cost, measure_costs
+from tmm_gen.measure.trade.cost import measure_costs
 from tmm_gen.measure.trade.excitation import Excitation
 from tmm_gen.measure.trade.modelling import Modelling, depends_on_links, modelling_errors
 from tmm_gen.measure.trade.outcome import Outcome, Result
@@ -15,6 +16,7 @@ from tmm_gen.measure.trade.pareto import pareto_front
 from tmm_gen.measure.trade.point import Point
 from tmm_gen.measure.trade.references import References
 from tmm_gen.measure.trade.serial import Serial
+from tmm_gen.measure.trade.store import Store
 from tmm_gen.measure.trade.tasks import Executor, make_tasks
 from tmm_gen.measure.trade.truth import Truth
 from tmm_gen.scene import Scene, SceneError
@@ -116,6 +118,9 @@ def run_study(
     UserError
         If the output does not move, there is no C compiler, or the store cannot be used.
     """
+    if store is not None:
+        with Store(store) as kept:
+            kept.inspect()
     references = References(scene, excitation, store)
     advance(0, "integrating the reference")
     travel = references.travel()

@@ -7,10 +7,11 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from tmm_gen.errors import UserError
+from tmm_gen.measure.timing import ROUNDS, Cost
 from tmm_gen.measure.trade.bounds import ErrorBound
 from tmm_gen.measure.trade.budgets import Allowance
 from tmm_gen.measure.trade.configuration import Configuration, Family, own
-from tmm_gen.measure.trade.cost import ROUNDS, Cost, measure_costs, timed_step
+from tmm_gen.measure.trade.cost import measure_costs, timed_step
 from tmm_gen.measure.trade.evaluate import evaluate
 from tmm_gen.measure.trade.excitation import Excitation, unit
 from tmm_gen.measure.trade.grid import Axes, families
@@ -136,8 +137,10 @@ def tune(
 
     searched = _search(scene, excitation, axes, bound, modelling, run, advance)
     original = run(mine)
-    points = _priced(scene, excitation, {found.configuration: found.result for found in searched}, rounds)
-    own_point = _priced(scene, excitation, {mine: original}, rounds)[mine]
+    # the scene as it was among them, by turns: what is compared is measured at the same time
+    tried = {found.configuration: found.result for found in searched}
+    points = _priced(scene, excitation, {mine: original, **tried}, rounds)
+    own_point = points[mine]
     good = sorted((points[f.configuration] for f in searched if f.good), key=_price)
     far = sorted((points[f.configuration] for f in searched if not f.good), key=lambda p: p.error)
     base = Tuning(scene, excitation, travel, bound, max_time, tuple(good), tuple(far), {}, own_point)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from tmm_gen.scene.complaints import closest
 from tmm_gen.scene.document import Document
 from tmm_gen.scene.emit import Budget, Emit
 from tmm_gen.scene.problem import Finding
+from tmm_gen.scene.table import closest
 
 BOX_STATES = ("angles", "rates", "accelerations", "step")
 

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from tmm_gen.scene.complaints import closest
 from tmm_gen.scene.document import Document
 from tmm_gen.scene.integrator import INTEGRATOR_NAMES, METHODS, Method, method_named
 from tmm_gen.scene.problem import Finding
-from tmm_gen.scene.table import is_finite_number
+from tmm_gen.scene.table import closest, is_finite_number
 
 
 def integrator_parameters(document: Document) -> Iterator[Finding]:
