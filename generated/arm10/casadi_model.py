@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 95c81c6eb7e0b6f1ffc37b1b0540e1023a1118b007e8b573b96cceed3f286490
-# sha256 of the rest of this file: ede0f6e5c6e1f58d0d0a86b54241f8a7d18c0f4e65b086e72ba396e66dc431fe
+# sha256 of the rest of this file: 16f9337ac227079d3eaae0e8de7813aa89c2ef1cd327a18003cfd6a06f7e01d7
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 10
@@ -11,9 +11,9 @@
 # linearisation: newton
 # sweep: riccati
 # unknown: acceleration
-# operations of a step: 1351, 135.1 per station (621 additions, 699 multiplications, 11 divisions, 20
-#     functions)
-# operations of prepare: 77, 7.7 per station (13 additions, 64 multiplications)
+# operations of a step: 1168, 116.8 per station (540 additions, 597 multiplications, 11 divisions, 20 sines
+#     and cosines)
+# operations of prepare: 112, 11.2 per station (32 additions, 80 multiplications)
 """arm10: Ten-link arm swung by a hub motor. Functions for optimisation and control.
 
 Columns: ``x`` the state (STATE_NAMES), ``u`` the inputs (INPUT_NAMES), ``p`` the step and the physical
@@ -178,37 +178,38 @@ def _prepare(p: ca.SX) -> dict[str, Any]:
     hub_damping = p[27]
     tip_mass = p[28]
     joint_impedance: list[Any] = [0.0] * STATIONS
+    node_mass: list[Any] = [0.0] * STATIONS
 
-    # Masses by the ends they act at, and joint impedances
-    carried_mass = center * mass
-    inner_mass = mass - center * mass
-    pin_inertia = inertia + center * center * (length * length) * mass
-    for j in range(STATIONS):
+    # masses at the nodes between links, and what they leave over
+    for j in range(9):
+        node_mass[j] = center * mass + mass * (1.0 - center)
+    node_mass[9] = tip_mass + center * mass
+    rod_inertia = inertia - center * (length * length) * mass * (1.0 - center)
+
+    # factors of the sweep that do not change from step to step
+    for j in reversed(range(STATIONS)):
         joint_impedance[j] = 0.5 * damping[j] * step + 0.25 * (step * step) * stiffness[j]
+    hub_impedance = hub_inertia + 0.5 * hub_damping * step
 
     # Factors of the step that depend on the time step and parameters alone
-    step2_1_over_2 = 0.5 * (step * step)
+    half_step_squared = 0.5 * (step * step)
     angle_per_acceleration = 0.25 * (step * step)
-    factor_3 = 0.5 * (2.0 * hub_inertia + hub_damping * step)
     rate_per_acceleration = 0.5 * step
     return {
         "step": step,
         "length": length,
-        "mass": mass,
         "stiffness": stiffness,
         "damping": damping,
         "gravity": gravity,
         "hub_inertia": hub_inertia,
         "hub_damping": hub_damping,
-        "tip_mass": tip_mass,
-        "step2_1_over_2": step2_1_over_2,
+        "half_step_squared": half_step_squared,
         "angle_per_acceleration": angle_per_acceleration,
-        "factor_3": factor_3,
         "rate_per_acceleration": rate_per_acceleration,
-        "carried_mass": carried_mass,
-        "inner_mass": inner_mass,
-        "pin_inertia": pin_inertia,
+        "node_mass": node_mass,
+        "rod_inertia": rod_inertia,
         "joint_impedance": joint_impedance,
+        "hub_impedance": hub_impedance,
     }
 
 
@@ -238,124 +239,104 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
     joint_torque: list[Any] = [0.0] * STATIONS
     lever_cosine: list[Any] = [0.0] * STATIONS
     lever_sine: list[Any] = [0.0] * STATIONS
+    node_mass: list[Any] = [0.0] * STATIONS
     predicted_acceleration: list[Any] = [0.0] * (STATIONS + 1)
     predicted_angle: list[Any] = [0.0] * (STATIONS + 1)
     predicted_rate: list[Any] = [0.0] * (STATIONS + 1)
     rate: list[Any] = [0.0] * STATIONS
+    relative_x: list[Any] = [0.0] * STATIONS
+    relative_y: list[Any] = [0.0] * STATIONS
     solved: list[Any] = [0.0] * STATIONS
-    swing_x: list[Any] = [0.0] * STATIONS
-    swing_y: list[Any] = [0.0] * STATIONS
+
+    # masses at the nodes between links, and what they leave over
+    for j in range(9):
+        node_mass[j] = center * mass + mass * (1.0 - center)
+    node_mass[9] = tip_mass + center * mass
+    rod_inertia = inertia - center * (length * length) * mass * (1.0 - center)
 
     # predicted motion
-    predicted_angle[0] = 0.0
     predicted_rate[0] = 0.0
+    predicted_angle[0] = 0.0
     predicted_acceleration[0] = 0.0
     for j in range(STATIONS):
-        predicted_angle[j + 1] = initial_angle[j]
         predicted_rate[j + 1] = initial_rate[j]
+        predicted_angle[j + 1] = initial_angle[j]
         predicted_acceleration[j + 1] = 0.0
 
     # accelerations of the nodes, seen from a falling frame: gravity is the base's own
     for j in range(STATIONS):
-        lever_sine[j] = length * ca.sin(predicted_angle[j + 1])
         lever_cosine[j] = length * ca.cos(predicted_angle[j + 1])
+        lever_sine[j] = length * ca.sin(predicted_angle[j + 1])
+        square = predicted_rate[j + 1] * predicted_rate[j + 1]
+        relative_x[j] = -lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1]
+        relative_y[j] = lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square
     node_x: Any = 0.0
     node_y = gravity
     acceleration_x[0] = node_x
     acceleration_y[0] = node_y
     for j in range(STATIONS):
-        square = predicted_rate[j + 1] * predicted_rate[j + 1]
-        node_x = node_x - lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1]
-        node_y = node_y + lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square
+        node_x = node_x + relative_x[j]
+        node_y = node_y + relative_y[j]
         acceleration_x[j + 1] = node_x
         acceleration_y[j + 1] = node_y
 
-    # how each link's outer end answers to its unknown, and the predicted joint torques
+    # forces of the joints at the motion so far
     for j in range(STATIONS):
-        swing_x[j] = -lever_sine[j]
-        swing_y[j] = lever_cosine[j]
         joint_torque[j] = damping[j] * (predicted_rate[j] - predicted_rate[j + 1]) + stiffness[j] * (
             predicted_angle[j] - predicted_angle[j + 1]
         )
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
-    impedance_xx = tip_mass
+    force_y = -tip_force
+    force_x: Any = 0.0
+    impedance_xx: Any = 0.0
     impedance_xy: Any = 0.0
-    impedance_xu: Any = 0.0
     impedance_yx: Any = 0.0
-    impedance_yy = tip_mass
-    impedance_yu: Any = 0.0
-    impedance_ux: Any = 0.0
-    impedance_uy: Any = 0.0
-    impedance_uu: Any = 0.0
-    force_x = acceleration_x[10] * tip_mass
-    force_y = acceleration_y[10] * tip_mass - tip_force
+    impedance_yy: Any = 0.0
     torque: Any = 0.0
     for j in reversed(range(STATIONS)):
-        outer_x = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
-        outer_y = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
-        outer_u = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
-        load_x = force_x + acceleration_x[j] * center * mass
-        load_y = force_y + acceleration_y[j] * center * mass
-        link_ux = (
-            impedance_ux + impedance_yx * lever_cosine[j] - lever_sine[j] * (impedance_xx + center * mass)
-        )
-        link_uy = (
-            impedance_uy - impedance_xy * lever_sine[j] + lever_cosine[j] * (impedance_yy + center * mass)
-        )
-        link_uu = (
-            inertia
-            + outer_u
-            + lever_cosine[j] * outer_y
-            - lever_sine[j] * outer_x
-            + center * center * (length * length) * mass
-        )
-        link_xx = impedance_xx + mass
-        link_xy = impedance_xy
-        link_xu = outer_x + center * mass * swing_x[j]
-        link_yx = impedance_yx
-        link_yy = impedance_yy + mass
-        link_yu = outer_y + center * mass * swing_y[j]
+        impedance_xx = impedance_xx + node_mass[j]
+        impedance_yy = impedance_yy + node_mass[j]
+        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
+        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
+        impedance_xu = impedance_xy * lever_cosine[j] - impedance_xx * lever_sine[j]
+        impedance_yu = impedance_yy * lever_cosine[j] - impedance_yx * lever_sine[j]
+        impedance_ux = impedance_yx * lever_cosine[j] - impedance_xx * lever_sine[j]
+        impedance_uy = impedance_yy * lever_cosine[j] - impedance_xy * lever_sine[j]
+        impedance_uu = rod_inertia - impedance_xu * lever_sine[j] + impedance_yu * lever_cosine[j]
         torque = (
             torque
-            + lever_cosine[j] * load_y
-            - lever_sine[j] * load_x
-            + predicted_acceleration[j + 1] * (inertia + center * center * (length * length) * mass)
+            - force_x * lever_sine[j]
+            + force_y * lever_cosine[j]
+            + predicted_acceleration[j + 1] * rod_inertia
         )
-        force_x = force_x + acceleration_x[j] * (mass - center * mass) + acceleration_x[j + 1] * center * mass
-        force_y = force_y + acceleration_y[j] * (mass - center * mass) + acceleration_y[j + 1] * center * mass
-        pivot = link_uu
-        inverse_pivot = 1.0 / pivot
-        answer_own[j] = inverse_pivot * (joint_torque[j] - torque)
-        answer_x[j] = inverse_pivot * link_ux
-        answer_y[j] = inverse_pivot * link_uy
-        impedance_xx = link_xx - answer_x[j] * link_xu
-        impedance_xy = link_xy - answer_y[j] * link_xu
-        impedance_xu = 0.0
-        force_x = force_x + answer_own[j] * link_xu
-        impedance_yx = link_yx - answer_x[j] * link_yu
-        impedance_yy = link_yy - answer_y[j] * link_yu
-        impedance_yu = 0.0
-        force_y = force_y + answer_own[j] * link_yu
-        impedance_ux = 0.0
-        impedance_uy = 0.0
-        impedance_uu = 0.0
+        pivot = impedance_uu
+        admittance = 1.0 / pivot
+        answer_own[j] = admittance * (joint_torque[j] - torque)
+        answer_x[j] = admittance * impedance_ux
+        answer_y[j] = admittance * impedance_uy
+        impedance_xx = impedance_xx - answer_x[j] * impedance_xu
+        impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        impedance_yx = impedance_yx - answer_x[j] * impedance_yu
+        impedance_yy = impedance_yy - answer_y[j] * impedance_yu
+        force_x = force_x + answer_own[j] * impedance_xu
+        force_y = force_y + answer_own[j] * impedance_yu
         torque = joint_torque[j]
 
-    # the hub
-    hub_pivot = hub_inertia + impedance_uu
+    # the base
+    hub_pivot = hub_inertia
     unknown = (
         hub_torque - torque - hub_damping * predicted_rate[0] - hub_inertia * predicted_acceleration[0]
     ) / hub_pivot
     hub_unknown = unknown
 
-    # sweep outward: the increment of each link's unknown
+    # sweep outward: the unknown of each station
     change_x: Any = 0.0
     change_y: Any = 0.0
     for j in range(STATIONS):
         unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y
-        change_x = change_x + swing_x[j] * unknown
-        change_y = change_y + swing_y[j] * unknown
+        change_x = change_x - lever_sine[j] * unknown
+        change_y = change_y + lever_cosine[j] * unknown
         solved[j] = unknown
 
     # motion at the end of the step
@@ -373,21 +354,18 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     """Advance the state by one step."""
     step = model["step"]
     length = model["length"]
-    mass = model["mass"]
     stiffness = model["stiffness"]
     damping = model["damping"]
     gravity = model["gravity"]
     hub_inertia = model["hub_inertia"]
     hub_damping = model["hub_damping"]
-    tip_mass = model["tip_mass"]
-    step2_1_over_2 = model["step2_1_over_2"]
+    half_step_squared = model["half_step_squared"]
     angle_per_acceleration = model["angle_per_acceleration"]
-    factor_3 = model["factor_3"]
     rate_per_acceleration = model["rate_per_acceleration"]
-    carried_mass = model["carried_mass"]
-    inner_mass = model["inner_mass"]
-    pin_inertia = model["pin_inertia"]
+    node_mass = model["node_mass"]
+    rod_inertia = model["rod_inertia"]
     joint_impedance = model["joint_impedance"]
+    hub_impedance = model["hub_impedance"]
     hub_angle = x[0]
     hub_rate = x[1]
     hub_acceleration = x[2]
@@ -398,7 +376,6 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     tip_force = stages[0][1]
     acceleration_x: list[Any] = [0.0] * (STATIONS + 1)
     acceleration_y: list[Any] = [0.0] * (STATIONS + 1)
-    answer_from_inner: list[Any] = [0.0] * STATIONS
     answer_own: list[Any] = [0.0] * STATIONS
     answer_x: list[Any] = [0.0] * STATIONS
     answer_y: list[Any] = [0.0] * STATIONS
@@ -408,123 +385,114 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     predicted_acceleration: list[Any] = [0.0] * (STATIONS + 1)
     predicted_angle: list[Any] = [0.0] * (STATIONS + 1)
     predicted_rate: list[Any] = [0.0] * (STATIONS + 1)
+    relative_x: list[Any] = [0.0] * STATIONS
+    relative_y: list[Any] = [0.0] * STATIONS
     solved: list[Any] = [0.0] * STATIONS
     swing_x: list[Any] = [0.0] * STATIONS
     swing_y: list[Any] = [0.0] * STATIONS
+    transmission: list[Any] = [0.0] * STATIONS
 
     # predicted motion
-    predicted_angle[0] = hub_angle + hub_acceleration * step2_1_over_2 + hub_rate * step
     predicted_rate[0] = hub_rate + hub_acceleration * step
+    predicted_angle[0] = hub_angle + half_step_squared * hub_acceleration + hub_rate * step
     predicted_acceleration[0] = hub_acceleration
     for j in range(STATIONS):
-        predicted_angle[j + 1] = angle[j] + acceleration[j] * step2_1_over_2 + rate[j] * step
         predicted_rate[j + 1] = rate[j] + acceleration[j] * step
+        predicted_angle[j + 1] = angle[j] + acceleration[j] * half_step_squared + rate[j] * step
         predicted_acceleration[j + 1] = acceleration[j]
 
     # accelerations of the nodes, seen from a falling frame: gravity is the base's own
     for j in range(STATIONS):
-        lever_sine[j] = length * ca.sin(predicted_angle[j + 1])
         lever_cosine[j] = length * ca.cos(predicted_angle[j + 1])
+        lever_sine[j] = length * ca.sin(predicted_angle[j + 1])
+        square = predicted_rate[j + 1] * predicted_rate[j + 1]
+        relative_x[j] = -lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1]
+        relative_y[j] = lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square
+        turning = predicted_rate[j + 1] * step
+        swing_x[j] = -lever_sine[j] - angle_per_acceleration * relative_y[j] - lever_cosine[j] * turning
+        swing_y[j] = lever_cosine[j] + angle_per_acceleration * relative_x[j] - lever_sine[j] * turning
     node_x: Any = 0.0
     node_y = gravity
     acceleration_x[0] = node_x
     acceleration_y[0] = node_y
     for j in range(STATIONS):
-        square = predicted_rate[j + 1] * predicted_rate[j + 1]
-        node_x = node_x - lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1]
-        node_y = node_y + lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square
+        node_x = node_x + relative_x[j]
+        node_y = node_y + relative_y[j]
         acceleration_x[j + 1] = node_x
         acceleration_y[j + 1] = node_y
 
-    # how each link's outer end answers to its unknown, and the predicted joint torques
+    # forces of the joints at the motion so far
     for j in range(STATIONS):
-        tangential = 1.0 - angle_per_acceleration * (predicted_rate[j + 1] * predicted_rate[j + 1])
-        turning = angle_per_acceleration * predicted_acceleration[j + 1] + predicted_rate[j + 1] * step
-        swing_x[j] = -lever_cosine[j] * turning - lever_sine[j] * tangential
-        swing_y[j] = lever_cosine[j] * tangential - lever_sine[j] * turning
         joint_torque[j] = damping[j] * (predicted_rate[j] - predicted_rate[j + 1]) + stiffness[j] * (
             predicted_angle[j] - predicted_angle[j + 1]
         )
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
-    impedance_xx = tip_mass
-    impedance_xy: Any = 0.0
-    impedance_xu: Any = 0.0
-    impedance_yx: Any = 0.0
-    impedance_yy = tip_mass
-    impedance_yu: Any = 0.0
+    force_y = -tip_force
+    force_x: Any = 0.0
+    impedance_uu: Any = 0.0
     impedance_ux: Any = 0.0
     impedance_uy: Any = 0.0
-    impedance_uu: Any = 0.0
-    force_x = acceleration_x[10] * tip_mass
-    force_y = acceleration_y[10] * tip_mass - tip_force
+    impedance_xu: Any = 0.0
+    impedance_xx: Any = 0.0
+    impedance_xy: Any = 0.0
+    impedance_yu: Any = 0.0
+    impedance_yx: Any = 0.0
+    impedance_yy: Any = 0.0
     torque: Any = 0.0
     for j in reversed(range(STATIONS)):
-        outer_x = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
-        outer_y = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
-        outer_u = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
-        load_x = force_x + acceleration_x[j] * carried_mass
-        load_y = force_y + acceleration_y[j] * carried_mass
-        link_ux = (
-            impedance_ux + impedance_yx * lever_cosine[j] - lever_sine[j] * (carried_mass + impedance_xx)
+        impedance_xx = impedance_xx + node_mass[j]
+        impedance_yy = impedance_yy + node_mass[j]
+        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
+        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
+        impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
+        impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
+        impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
+        impedance_ux = impedance_ux - impedance_xx * lever_sine[j] + impedance_yx * lever_cosine[j]
+        impedance_uy = impedance_uy - impedance_xy * lever_sine[j] + impedance_yy * lever_cosine[j]
+        impedance_uu = (
+            impedance_uu
+            + rod_inertia
+            + lever_cosine[j] * (impedance_yu - angle_per_acceleration * force_x)
+            + lever_sine[j] * (-impedance_xu - angle_per_acceleration * force_y)
         )
-        link_uy = (
-            impedance_uy - impedance_xy * lever_sine[j] + lever_cosine[j] * (carried_mass + impedance_yy)
-        )
-        link_uu = (
-            outer_u
-            + pin_inertia
-            + angle_per_acceleration * (-lever_cosine[j] * load_x - lever_sine[j] * load_y)
-            + lever_cosine[j] * outer_y
-            - lever_sine[j] * outer_x
-        )
-        link_xx = impedance_xx + mass
-        link_xy = impedance_xy
-        link_xu = outer_x + carried_mass * swing_x[j]
-        link_yx = impedance_yx
-        link_yy = impedance_yy + mass
-        link_yu = outer_y + carried_mass * swing_y[j]
         torque = (
             torque
-            + lever_cosine[j] * load_y
-            - lever_sine[j] * load_x
-            + pin_inertia * predicted_acceleration[j + 1]
+            - force_x * lever_sine[j]
+            + force_y * lever_cosine[j]
+            + predicted_acceleration[j + 1] * rod_inertia
         )
-        force_x = force_x + acceleration_x[j + 1] * carried_mass + acceleration_x[j] * inner_mass
-        force_y = force_y + acceleration_y[j + 1] * carried_mass + acceleration_y[j] * inner_mass
-        pivot = joint_impedance[j] + link_uu
-        inverse_pivot = 1.0 / pivot
-        answer_own[j] = inverse_pivot * (joint_torque[j] - torque)
-        answer_x[j] = inverse_pivot * link_ux
-        answer_y[j] = inverse_pivot * link_uy
-        answer_from_inner[j] = inverse_pivot * joint_impedance[j]
-        impedance_xx = link_xx - answer_x[j] * link_xu
-        impedance_xy = link_xy - answer_y[j] * link_xu
-        impedance_xu = answer_from_inner[j] * link_xu
-        force_x = force_x + answer_own[j] * link_xu
-        impedance_yx = link_yx - answer_x[j] * link_yu
-        impedance_yy = link_yy - answer_y[j] * link_yu
-        impedance_yu = answer_from_inner[j] * link_yu
-        force_y = force_y + answer_own[j] * link_yu
+        pivot = impedance_uu + joint_impedance[j]
+        admittance = 1.0 / pivot
+        answer_own[j] = admittance * (joint_torque[j] - torque)
+        answer_x[j] = admittance * impedance_ux
+        answer_y[j] = admittance * impedance_uy
+        transmission[j] = admittance * joint_impedance[j]
+        impedance_xx = impedance_xx - answer_x[j] * impedance_xu
+        impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        impedance_yx = impedance_yx - answer_x[j] * impedance_yu
+        impedance_yy = impedance_yy - answer_y[j] * impedance_yu
         impedance_ux = answer_x[j] * joint_impedance[j]
         impedance_uy = answer_y[j] * joint_impedance[j]
-        impedance_uu = answer_from_inner[j] * link_uu
+        impedance_uu = impedance_uu * transmission[j]
+        force_x = force_x + answer_own[j] * impedance_xu
+        impedance_xu = impedance_xu * transmission[j]
+        force_y = force_y + answer_own[j] * impedance_yu
+        impedance_yu = impedance_yu * transmission[j]
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
-    # the hub
-    hub_pivot = factor_3 + impedance_uu
+    # the base
+    hub_pivot = hub_impedance + impedance_uu
     unknown = (
         hub_torque - torque - hub_damping * predicted_rate[0] - hub_inertia * predicted_acceleration[0]
     ) / hub_pivot
     hub_unknown = unknown
 
-    # sweep outward: the increment of each link's unknown
+    # sweep outward: the unknown of each station
     change_x: Any = 0.0
     change_y: Any = 0.0
     for j in range(STATIONS):
-        unknown = (
-            answer_own[j] + answer_from_inner[j] * unknown - answer_x[j] * change_x - answer_y[j] * change_y
-        )
+        unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y + transmission[j] * unknown
         change_x = change_x + swing_x[j] * unknown
         change_y = change_y + swing_y[j] * unknown
         solved[j] = unknown

@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 95c81c6eb7e0b6f1ffc37b1b0540e1023a1118b007e8b573b96cceed3f286490
-# sha256 of the rest of this file: 7c778805018f4da7c63bc57127241f7b6e2630672535c42eb21a78f43fee4880
+# sha256 of the rest of this file: 59a0b98e91c7dd10848ba17645a8c700fa87b8ac82ac78bdca70234ed8a89db8
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 10
@@ -11,9 +11,9 @@
 # linearisation: newton
 # sweep: riccati
 # unknown: acceleration
-# operations of a step: 1351, 135.1 per station (621 additions, 699 multiplications, 11 divisions, 20
-#     functions)
-# operations of prepare: 77, 7.7 per station (13 additions, 64 multiplications)
+# operations of a step: 1168, 116.8 per station (540 additions, 597 multiplications, 11 divisions, 20 sines
+#     and cosines)
+# operations of prepare: 112, 11.2 per station (32 additions, 80 multiplications)
 """arm10: Ten-link arm swung by a hub motor.
 
 A state goes in, a new one comes out: ``model = prepare(params, step)``, ``state = initialise(params,
@@ -102,8 +102,6 @@ class Model:
         Time step (s).
     length : array, shape (*batch)
         Link length, the same everywhere (m).
-    mass : array, shape (*batch)
-        Link mass, the same everywhere (kg).
     stiffness : array, shape (10, *batch)
         Joint stiffness, base to tip (N m/rad).
     damping : array, shape (10, *batch)
@@ -114,43 +112,36 @@ class Model:
         Hub inertia (kg m^2).
     hub_damping : array, shape (*batch)
         Viscous damping of the hub to ground (N m s/rad).
-    tip_mass : array, shape (*batch)
-        Mass at the tip (kg).
-    step2_1_over_2 : array, shape (*batch)
+    half_step_squared : array, shape (*batch)
         Step**2/2 (s^2).
     angle_per_acceleration : array, shape (*batch)
-        Angle per unit of acceleration: step**2/4 (SI).
-    factor_3 : array, shape (*batch)
-        (hub_damping*step + 2*hub_inertia)/2 (SI).
+        Angle per unit of acceleration: step**2/4 (s^2).
     rate_per_acceleration : array, shape (*batch)
-        Rate per unit of acceleration: step/2 (SI).
-    carried_mass : array, shape (*batch)
-        Mass acting at a link's outer end (kg).
-    inner_mass : array, shape (*batch)
-        Mass acting at a link's inner end (kg).
-    pin_inertia : array, shape (*batch)
-        Inertia of a link about its inner end (kg m^2).
+        Rate per unit of acceleration: step/2 (s).
+    node_mass : array, shape (10, *batch)
+        Mass at the outer end of each link (kg).
+    rod_inertia : array, shape (*batch)
+        Inertia of a link that masses at its ends leave over (kg m^2).
     joint_impedance : array, shape (10, *batch)
-        Torque of a joint per difference of unknowns (SI).
+        Torque of a joint per difference of unknowns (kg m^2).
+    hub_impedance : array, shape (*batch)
+        Torque of the hub per unknown (kg m^2).
     """
 
     step: Array
     length: Array
-    mass: Array
     stiffness: Array
     damping: Array
     gravity: Array
     hub_inertia: Array
     hub_damping: Array
-    tip_mass: Array
-    step2_1_over_2: Array
+    half_step_squared: Array
     angle_per_acceleration: Array
-    factor_3: Array
     rate_per_acceleration: Array
-    carried_mass: Array
-    inner_mass: Array
-    pin_inertia: Array
+    node_mass: Array
+    rod_inertia: Array
     joint_impedance: Array
+    hub_impedance: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -270,39 +261,39 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     tip_mass = _array(params.tip_mass, None, "tip_mass")
     numbers = (step, length, mass, inertia, center, gravity, hub_inertia, hub_damping, tip_mass)
     arrays = (stiffness, damping)
-    batch, _ = _common(numbers, arrays)
+    batch, dtype = _common(numbers, arrays)
     stiffness = _align(stiffness, batch)
     damping = _align(damping, batch)
+    node_mass = np.zeros((STATIONS, *batch), dtype)
 
-    # Masses by the ends they act at, and joint impedances
-    carried_mass = center * mass
-    inner_mass = mass - center * mass
-    pin_inertia = inertia + center * center * (length * length) * mass
+    # masses at the nodes between links, and what they leave over
+    node_mass[:9] = center * mass + mass * (1.0 - center)
+    node_mass[9] = tip_mass + center * mass
+    rod_inertia = inertia - center * (length * length) * mass * (1.0 - center)
+
+    # factors of the sweep that do not change from step to step
     joint_impedance = 0.5 * damping * step + 0.25 * (step * step) * stiffness
+    hub_impedance = hub_inertia + 0.5 * hub_damping * step
 
     # Factors of the step that depend on the time step and parameters alone
-    step2_1_over_2 = 0.5 * (step * step)
+    half_step_squared = 0.5 * (step * step)
     angle_per_acceleration = 0.25 * (step * step)
-    factor_3 = 0.5 * (2.0 * hub_inertia + hub_damping * step)
     rate_per_acceleration = 0.5 * step
     return Model(
         step=step,
         length=length,
-        mass=mass,
         stiffness=stiffness,
         damping=damping,
         gravity=gravity,
         hub_inertia=hub_inertia,
         hub_damping=hub_damping,
-        tip_mass=tip_mass,
-        step2_1_over_2=step2_1_over_2,
+        half_step_squared=half_step_squared,
         angle_per_acceleration=angle_per_acceleration,
-        factor_3=factor_3,
         rate_per_acceleration=rate_per_acceleration,
-        carried_mass=carried_mass,
-        inner_mass=inner_mass,
-        pin_inertia=pin_inertia,
+        node_mass=node_mass,
+        rod_inertia=rod_inertia,
         joint_impedance=joint_impedance,
+        hub_impedance=hub_impedance,
     )
 
 
@@ -372,120 +363,99 @@ def initialise(
     answer_own = np.zeros((STATIONS, *batch), dtype)
     answer_x = np.zeros((STATIONS, *batch), dtype)
     answer_y = np.zeros((STATIONS, *batch), dtype)
+    node_mass = np.zeros((STATIONS, *batch), dtype)
     predicted_acceleration = np.zeros((STATIONS + 1, *batch), dtype)
     predicted_angle = np.zeros((STATIONS + 1, *batch), dtype)
     predicted_rate = np.zeros((STATIONS + 1, *batch), dtype)
     solved = np.zeros((STATIONS, *batch), dtype)
 
+    # masses at the nodes between links, and what they leave over
+    node_mass[:9] = center * mass + mass * (1.0 - center)
+    node_mass[9] = tip_mass + center * mass
+    rod_inertia = inertia - center * (length * length) * mass * (1.0 - center)
+
     # predicted motion
-    predicted_angle[0] = 0.0
     predicted_rate[0] = 0.0
+    predicted_angle[0] = 0.0
     predicted_acceleration[0] = 0.0
-    predicted_angle[1:] = initial_angle
     predicted_rate[1:] = initial_rate
+    predicted_angle[1:] = initial_angle
     predicted_acceleration[1:] = 0.0
 
     # accelerations of the nodes, seen from a falling frame: gravity is the base's own
-    lever_sine = length * np.sin(predicted_angle[1:])
     lever_cosine = length * np.cos(predicted_angle[1:])
+    lever_sine = length * np.sin(predicted_angle[1:])
+    square = predicted_rate[1:] * predicted_rate[1:]
+    relative_x = -lever_cosine * square - lever_sine * predicted_acceleration[1:]
+    relative_y = lever_cosine * predicted_acceleration[1:] - lever_sine * square
     node_x: Any = 0.0
     node_y = gravity
     acceleration_x[0] = node_x
     acceleration_y[0] = node_y
     for j in range(STATIONS):
-        square = predicted_rate[j + 1] * predicted_rate[j + 1]
-        node_x = node_x - lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1]
-        node_y = node_y + lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square
+        node_x = node_x + relative_x[j]
+        node_y = node_y + relative_y[j]
         acceleration_x[j + 1] = node_x
         acceleration_y[j + 1] = node_y
 
-    # how each link's outer end answers to its unknown, and the predicted joint torques
-    swing_x = -lever_sine
-    swing_y = lever_cosine
+    # forces of the joints at the motion so far
     joint_torque = damping * (predicted_rate[:10] - predicted_rate[1:]) + stiffness * (
         predicted_angle[:10] - predicted_angle[1:]
     )
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
-    impedance_xx = tip_mass
+    force_y = -tip_force
+    force_x: Any = 0.0
+    impedance_xx: Any = 0.0
     impedance_xy: Any = 0.0
-    impedance_xu: Any = 0.0
     impedance_yx: Any = 0.0
-    impedance_yy = tip_mass
-    impedance_yu: Any = 0.0
-    impedance_ux: Any = 0.0
-    impedance_uy: Any = 0.0
-    impedance_uu: Any = 0.0
-    force_x = acceleration_x[10] * tip_mass
-    force_y = acceleration_y[10] * tip_mass - tip_force
+    impedance_yy: Any = 0.0
     torque: Any = 0.0
     for j in reversed(range(STATIONS)):
-        outer_x = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
-        outer_y = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
-        outer_u = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
-        load_x = force_x + acceleration_x[j] * center * mass
-        load_y = force_y + acceleration_y[j] * center * mass
-        link_ux = (
-            impedance_ux + impedance_yx * lever_cosine[j] - lever_sine[j] * (impedance_xx + center * mass)
-        )
-        link_uy = (
-            impedance_uy - impedance_xy * lever_sine[j] + lever_cosine[j] * (impedance_yy + center * mass)
-        )
-        link_uu = (
-            inertia
-            + outer_u
-            + lever_cosine[j] * outer_y
-            - lever_sine[j] * outer_x
-            + center * center * (length * length) * mass
-        )
-        link_xx = impedance_xx + mass
-        link_xy = impedance_xy
-        link_xu = outer_x + center * mass * swing_x[j]
-        link_yx = impedance_yx
-        link_yy = impedance_yy + mass
-        link_yu = outer_y + center * mass * swing_y[j]
+        impedance_xx = impedance_xx + node_mass[j]
+        impedance_yy = impedance_yy + node_mass[j]
+        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
+        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
+        impedance_xu = impedance_xy * lever_cosine[j] - impedance_xx * lever_sine[j]
+        impedance_yu = impedance_yy * lever_cosine[j] - impedance_yx * lever_sine[j]
+        impedance_ux = impedance_yx * lever_cosine[j] - impedance_xx * lever_sine[j]
+        impedance_uy = impedance_yy * lever_cosine[j] - impedance_xy * lever_sine[j]
+        impedance_uu = rod_inertia - impedance_xu * lever_sine[j] + impedance_yu * lever_cosine[j]
         torque = (
             torque
-            + lever_cosine[j] * load_y
-            - lever_sine[j] * load_x
-            + predicted_acceleration[j + 1] * (inertia + center * center * (length * length) * mass)
+            - force_x * lever_sine[j]
+            + force_y * lever_cosine[j]
+            + predicted_acceleration[j + 1] * rod_inertia
         )
-        force_x = force_x + acceleration_x[j] * (mass - center * mass) + acceleration_x[j + 1] * center * mass
-        force_y = force_y + acceleration_y[j] * (mass - center * mass) + acceleration_y[j + 1] * center * mass
-        pivot = link_uu
+        pivot = impedance_uu
         _require_positive(pivot, "pivot", j)
-        inverse_pivot = 1.0 / pivot
-        answer_own[j] = inverse_pivot * (joint_torque[j] - torque)
-        answer_x[j] = inverse_pivot * link_ux
-        answer_y[j] = inverse_pivot * link_uy
-        impedance_xx = link_xx - answer_x[j] * link_xu
-        impedance_xy = link_xy - answer_y[j] * link_xu
-        impedance_xu = 0.0
-        force_x = force_x + answer_own[j] * link_xu
-        impedance_yx = link_yx - answer_x[j] * link_yu
-        impedance_yy = link_yy - answer_y[j] * link_yu
-        impedance_yu = 0.0
-        force_y = force_y + answer_own[j] * link_yu
-        impedance_ux = 0.0
-        impedance_uy = 0.0
-        impedance_uu = 0.0
+        admittance = 1.0 / pivot
+        answer_own[j] = admittance * (joint_torque[j] - torque)
+        answer_x[j] = admittance * impedance_ux
+        answer_y[j] = admittance * impedance_uy
+        impedance_xx = impedance_xx - answer_x[j] * impedance_xu
+        impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        impedance_yx = impedance_yx - answer_x[j] * impedance_yu
+        impedance_yy = impedance_yy - answer_y[j] * impedance_yu
+        force_x = force_x + answer_own[j] * impedance_xu
+        force_y = force_y + answer_own[j] * impedance_yu
         torque = joint_torque[j]
 
-    # the hub
-    hub_pivot = hub_inertia + impedance_uu
+    # the base
+    hub_pivot = hub_inertia
     _require_positive(hub_pivot, "hub_pivot", None)
     unknown = (
         hub_torque - torque - hub_damping * predicted_rate[0] - hub_inertia * predicted_acceleration[0]
     ) / hub_pivot
     hub_unknown = unknown
 
-    # sweep outward: the increment of each link's unknown
+    # sweep outward: the unknown of each station
     change_x: Any = 0.0
     change_y: Any = 0.0
     for j in range(STATIONS):
         unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y
-        change_x = change_x + swing_x[j] * unknown
-        change_y = change_y + swing_y[j] * unknown
+        change_x = change_x - lever_sine[j] * unknown
+        change_y = change_y + lever_cosine[j] * unknown
         solved[j] = unknown
 
     # motion at the end of the step
@@ -535,21 +505,18 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     tip_force = _array(input.tip_force, None, "input tip_force")
     step = model.step
     length = model.length
-    mass = model.mass
     stiffness = np.asarray(model.stiffness)
     damping = np.asarray(model.damping)
     gravity = model.gravity
     hub_inertia = model.hub_inertia
     hub_damping = model.hub_damping
-    tip_mass = model.tip_mass
-    step2_1_over_2 = model.step2_1_over_2
+    half_step_squared = model.half_step_squared
     angle_per_acceleration = model.angle_per_acceleration
-    factor_3 = model.factor_3
     rate_per_acceleration = model.rate_per_acceleration
-    carried_mass = model.carried_mass
-    inner_mass = model.inner_mass
-    pin_inertia = model.pin_inertia
+    node_mass = np.asarray(model.node_mass)
+    rod_inertia = model.rod_inertia
     joint_impedance = np.asarray(model.joint_impedance)
+    hub_impedance = model.hub_impedance
     hub_angle = state.hub_angle
     hub_rate = state.hub_rate
     hub_acceleration = state.hub_acceleration
@@ -561,26 +528,23 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
         tip_force,
         step,
         length,
-        mass,
         gravity,
         hub_inertia,
         hub_damping,
-        tip_mass,
-        step2_1_over_2,
+        half_step_squared,
         angle_per_acceleration,
-        factor_3,
         rate_per_acceleration,
-        carried_mass,
-        inner_mass,
-        pin_inertia,
+        rod_inertia,
+        hub_impedance,
         hub_angle,
         hub_rate,
         hub_acceleration,
     )
-    arrays = (stiffness, damping, joint_impedance, angle, rate, acceleration)
+    arrays = (stiffness, damping, node_mass, joint_impedance, angle, rate, acceleration)
     batch, dtype = _common(numbers, arrays)
     stiffness = _align(stiffness, batch)
     damping = _align(damping, batch)
+    node_mass = _align(node_mass, batch)
     joint_impedance = _align(joint_impedance, batch)
     hub_angle = _spread(hub_angle, batch, False)
     hub_rate = _spread(hub_rate, batch, False)
@@ -590,7 +554,6 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     acceleration = _spread(acceleration, batch, True)
     acceleration_x = np.zeros((STATIONS + 1, *batch), dtype)
     acceleration_y = np.zeros((STATIONS + 1, *batch), dtype)
-    answer_from_inner = np.zeros((STATIONS, *batch), dtype)
     answer_own = np.zeros((STATIONS, *batch), dtype)
     answer_x = np.zeros((STATIONS, *batch), dtype)
     answer_y = np.zeros((STATIONS, *batch), dtype)
@@ -598,119 +561,108 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     predicted_angle = np.zeros((STATIONS + 1, *batch), dtype)
     predicted_rate = np.zeros((STATIONS + 1, *batch), dtype)
     solved = np.zeros((STATIONS, *batch), dtype)
+    transmission = np.zeros((STATIONS, *batch), dtype)
 
     # predicted motion
-    predicted_angle[0] = hub_angle + hub_acceleration * step2_1_over_2 + hub_rate * step
     predicted_rate[0] = hub_rate + hub_acceleration * step
+    predicted_angle[0] = hub_angle + half_step_squared * hub_acceleration + hub_rate * step
     predicted_acceleration[0] = hub_acceleration
-    predicted_angle[1:] = angle + acceleration * step2_1_over_2 + rate * step
     predicted_rate[1:] = rate + acceleration * step
+    predicted_angle[1:] = angle + acceleration * half_step_squared + rate * step
     predicted_acceleration[1:] = acceleration
 
     # accelerations of the nodes, seen from a falling frame: gravity is the base's own
-    lever_sine = length * np.sin(predicted_angle[1:])
     lever_cosine = length * np.cos(predicted_angle[1:])
+    lever_sine = length * np.sin(predicted_angle[1:])
+    square = predicted_rate[1:] * predicted_rate[1:]
+    relative_x = -lever_cosine * square - lever_sine * predicted_acceleration[1:]
+    relative_y = lever_cosine * predicted_acceleration[1:] - lever_sine * square
+    turning = predicted_rate[1:] * step
+    swing_x = -lever_sine - angle_per_acceleration * relative_y - lever_cosine * turning
+    swing_y = lever_cosine + angle_per_acceleration * relative_x - lever_sine * turning
     node_x: Any = 0.0
     node_y = gravity
     acceleration_x[0] = node_x
     acceleration_y[0] = node_y
     for j in range(STATIONS):
-        square = predicted_rate[j + 1] * predicted_rate[j + 1]
-        node_x = node_x - lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1]
-        node_y = node_y + lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square
+        node_x = node_x + relative_x[j]
+        node_y = node_y + relative_y[j]
         acceleration_x[j + 1] = node_x
         acceleration_y[j + 1] = node_y
 
-    # how each link's outer end answers to its unknown, and the predicted joint torques
-    tangential = 1.0 - angle_per_acceleration * (predicted_rate[1:] * predicted_rate[1:])
-    turning = angle_per_acceleration * predicted_acceleration[1:] + predicted_rate[1:] * step
-    swing_x = -lever_cosine * turning - lever_sine * tangential
-    swing_y = lever_cosine * tangential - lever_sine * turning
+    # forces of the joints at the motion so far
     joint_torque = damping * (predicted_rate[:10] - predicted_rate[1:]) + stiffness * (
         predicted_angle[:10] - predicted_angle[1:]
     )
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
-    impedance_xx = tip_mass
-    impedance_xy: Any = 0.0
-    impedance_xu: Any = 0.0
-    impedance_yx: Any = 0.0
-    impedance_yy = tip_mass
-    impedance_yu: Any = 0.0
+    force_y = -tip_force
+    force_x: Any = 0.0
+    impedance_uu: Any = 0.0
     impedance_ux: Any = 0.0
     impedance_uy: Any = 0.0
-    impedance_uu: Any = 0.0
-    force_x = acceleration_x[10] * tip_mass
-    force_y = acceleration_y[10] * tip_mass - tip_force
+    impedance_xu: Any = 0.0
+    impedance_xx: Any = 0.0
+    impedance_xy: Any = 0.0
+    impedance_yu: Any = 0.0
+    impedance_yx: Any = 0.0
+    impedance_yy: Any = 0.0
     torque: Any = 0.0
     for j in reversed(range(STATIONS)):
-        outer_x = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
-        outer_y = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
-        outer_u = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
-        load_x = force_x + acceleration_x[j] * carried_mass
-        load_y = force_y + acceleration_y[j] * carried_mass
-        link_ux = (
-            impedance_ux + impedance_yx * lever_cosine[j] - lever_sine[j] * (carried_mass + impedance_xx)
+        impedance_xx = impedance_xx + node_mass[j]
+        impedance_yy = impedance_yy + node_mass[j]
+        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
+        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
+        impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
+        impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
+        impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
+        impedance_ux = impedance_ux - impedance_xx * lever_sine[j] + impedance_yx * lever_cosine[j]
+        impedance_uy = impedance_uy - impedance_xy * lever_sine[j] + impedance_yy * lever_cosine[j]
+        impedance_uu = (
+            impedance_uu
+            + rod_inertia
+            + lever_cosine[j] * (impedance_yu - angle_per_acceleration * force_x)
+            + lever_sine[j] * (-impedance_xu - angle_per_acceleration * force_y)
         )
-        link_uy = (
-            impedance_uy - impedance_xy * lever_sine[j] + lever_cosine[j] * (carried_mass + impedance_yy)
-        )
-        link_uu = (
-            outer_u
-            + pin_inertia
-            + angle_per_acceleration * (-lever_cosine[j] * load_x - lever_sine[j] * load_y)
-            + lever_cosine[j] * outer_y
-            - lever_sine[j] * outer_x
-        )
-        link_xx = impedance_xx + mass
-        link_xy = impedance_xy
-        link_xu = outer_x + carried_mass * swing_x[j]
-        link_yx = impedance_yx
-        link_yy = impedance_yy + mass
-        link_yu = outer_y + carried_mass * swing_y[j]
         torque = (
             torque
-            + lever_cosine[j] * load_y
-            - lever_sine[j] * load_x
-            + pin_inertia * predicted_acceleration[j + 1]
+            - force_x * lever_sine[j]
+            + force_y * lever_cosine[j]
+            + predicted_acceleration[j + 1] * rod_inertia
         )
-        force_x = force_x + acceleration_x[j + 1] * carried_mass + acceleration_x[j] * inner_mass
-        force_y = force_y + acceleration_y[j + 1] * carried_mass + acceleration_y[j] * inner_mass
-        pivot = joint_impedance[j] + link_uu
+        pivot = impedance_uu + joint_impedance[j]
         _require_positive(pivot, "pivot", j)
-        inverse_pivot = 1.0 / pivot
-        answer_own[j] = inverse_pivot * (joint_torque[j] - torque)
-        answer_x[j] = inverse_pivot * link_ux
-        answer_y[j] = inverse_pivot * link_uy
-        answer_from_inner[j] = inverse_pivot * joint_impedance[j]
-        impedance_xx = link_xx - answer_x[j] * link_xu
-        impedance_xy = link_xy - answer_y[j] * link_xu
-        impedance_xu = answer_from_inner[j] * link_xu
-        force_x = force_x + answer_own[j] * link_xu
-        impedance_yx = link_yx - answer_x[j] * link_yu
-        impedance_yy = link_yy - answer_y[j] * link_yu
-        impedance_yu = answer_from_inner[j] * link_yu
-        force_y = force_y + answer_own[j] * link_yu
+        admittance = 1.0 / pivot
+        answer_own[j] = admittance * (joint_torque[j] - torque)
+        answer_x[j] = admittance * impedance_ux
+        answer_y[j] = admittance * impedance_uy
+        transmission[j] = admittance * joint_impedance[j]
+        impedance_xx = impedance_xx - answer_x[j] * impedance_xu
+        impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        impedance_yx = impedance_yx - answer_x[j] * impedance_yu
+        impedance_yy = impedance_yy - answer_y[j] * impedance_yu
         impedance_ux = answer_x[j] * joint_impedance[j]
         impedance_uy = answer_y[j] * joint_impedance[j]
-        impedance_uu = answer_from_inner[j] * link_uu
+        impedance_uu = impedance_uu * transmission[j]
+        force_x = force_x + answer_own[j] * impedance_xu
+        impedance_xu = impedance_xu * transmission[j]
+        force_y = force_y + answer_own[j] * impedance_yu
+        impedance_yu = impedance_yu * transmission[j]
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
-    # the hub
-    hub_pivot = factor_3 + impedance_uu
+    # the base
+    hub_pivot = hub_impedance + impedance_uu
     _require_positive(hub_pivot, "hub_pivot", None)
     unknown = (
         hub_torque - torque - hub_damping * predicted_rate[0] - hub_inertia * predicted_acceleration[0]
     ) / hub_pivot
     hub_unknown = unknown
 
-    # sweep outward: the increment of each link's unknown
+    # sweep outward: the unknown of each station
     change_x: Any = 0.0
     change_y: Any = 0.0
     for j in range(STATIONS):
-        unknown = (
-            answer_own[j] + answer_from_inner[j] * unknown - answer_x[j] * change_x - answer_y[j] * change_y
-        )
+        unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y + transmission[j] * unknown
         change_x = change_x + swing_x[j] * unknown
         change_y = change_y + swing_y[j] * unknown
         solved[j] = unknown

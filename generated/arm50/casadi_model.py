@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
-# sha256 of the rest of this file: 25d3ce81cbe1c10c7bfbb5be9d4cdf0e53aa1d115c35faa1d177334197259ebd
+# sha256 of the rest of this file: 3bf8bb87c5bbd26fa41e60940df5148eefd1ee647dd080a46605d89749d6f656
 #
 # model: planar arm, large rotations, tip mass
 # stations: 50
@@ -11,9 +11,9 @@
 # linearisation: newton
 # sweep: riccati
 # unknown: acceleration
-# operations of a step: 35166, 703.3 per station (16203 additions, 18213 multiplications, 250 divisions, 500
-#     functions)
-# operations of prepare: 350, 7 per station (53 additions, 296 multiplications, 1 divisions)
+# operations of a step: 29534, 590.7 per station (13642 additions, 15142 multiplications, 250 divisions, 500
+#     sines and cosines)
+# operations of prepare: 526, 10.52 per station (152 additions, 373 multiplications, 1 divisions)
 """arm50: Stiff arm of fifty links on a servo. Functions for optimisation and control.
 
 Columns: ``x`` the state (STATE_NAMES), ``u`` the inputs (INPUT_NAMES), ``p`` the step and the physical
@@ -260,83 +260,65 @@ def _prepare(p: ca.SX) -> dict[str, Any]:
     tip_mass = p[105]
     tip_inertia = p[106]
     joint_impedance: list[Any] = [0.0] * STATIONS
+    node_mass: list[Any] = [0.0] * STATIONS
 
-    # Masses by the ends they act at, and joint impedances
-    carried_mass = center * mass
-    inner_mass = mass - center * mass
-    pin_inertia = inertia + center * center * (length * length) * mass
-    for j in range(STATIONS):
+    # masses at the nodes between links, and what they leave over
+    for j in range(49):
+        node_mass[j] = center * mass + mass * (1.0 - center)
+    node_mass[49] = tip_mass + center * mass
+    rod_inertia = inertia - center * (length * length) * mass * (1.0 - center)
+
+    # factors of the sweep that do not change from step to step
+    for j in reversed(range(STATIONS)):
         joint_impedance[j] = 0.25 * damping[j] * step + 0.0625 * (step * step) * stiffness[j]
 
     # Factors of the step that depend on the time step and parameters alone
-    angle_per_acceleration = 0.0625 * (step * step)
     rate_per_acceleration = 0.25 * step
-    step_1_over_2 = 0.5 * step
-    step2_inverse_16 = 16.0 / (step * step)
-    step2_3_over_16 = 0.1875 * (step * step)
-    step_3_over_4 = 0.75 * step
-    step2_17_over_200 = (17.0 / 200.0) * (step * step)
-    step_17_over_50 = (17.0 / 50.0) * step
-    step2_21_over_400 = (21.0 / 400.0) * (step * step)
-    step_1_over_25 = (1.0 / 25.0) * step
-    step_21_over_100 = (21.0 / 100.0) * step
-    step2_371_over_5440 = (371.0 / 5440.0) * (step * step)
-    step_371_over_1360 = (371.0 / 1360.0) * step
-    step2_137_over_10880 = (137.0 / 10880.0) * (step * step)
-    step_137_over_2720 = (137.0 / 2720.0) * step
-    step2_151_over_2176 = (151.0 / 2176.0) * (step * step)
-    step_15_over_544 = (15.0 / 544.0) * step
-    step_151_over_544 = (151.0 / 544.0) * step
-    step2_25_over_96 = (25.0 / 96.0) * (step * step)
-    step_25_over_24 = (25.0 / 24.0) * step
-    step2_49_over_192 = (49.0 / 192.0) * (step * step)
-    step_49_over_48 = (49.0 / 48.0) * step
-    step2_125_over_64 = 1.953125 * (step * step)
-    step_125_over_16 = 7.8125 * step
-    step2_41_over_24 = (41.0 / 24.0) * (step * step)
-    step_85_over_12 = (85.0 / 12.0) * step
-    step_41_over_6 = (41.0 / 6.0) * step
-    factor_28 = mass * (center - 1.0)
-    factor_29 = center * mass
+    half_step = 0.5 * step
+    angle_per_acceleration = 0.0625 * (step * step)
+    unknown_per_base_angle = 16.0 / (step * step)
+    three_quarters_step = 0.75 * step
+    predicted_rate_per_stage1_acceleration = (17.0 / 50.0) * step
+    predicted_rate_per_stage2_acceleration = (21.0 / 100.0) * step
+    predicted_angle_per_stage2_rate = (1.0 / 25.0) * step
+    predicted_rate_per_stage1_acceleration_2 = (371.0 / 1360.0) * step
+    predicted_rate_per_stage2_acceleration_2 = (137.0 / 2720.0) * step
+    predicted_rate_per_stage3_acceleration = (151.0 / 544.0) * step
+    predicted_angle_per_stage3_rate = (15.0 / 544.0) * step
+    predicted_rate_per_stage1_acceleration_3 = (25.0 / 24.0) * step
+    predicted_rate_per_stage2_acceleration_3 = (49.0 / 48.0) * step
+    predicted_rate_per_stage3_acceleration_2 = 7.8125 * step
+    predicted_rate_per_stage4_acceleration = (41.0 / 6.0) * step
+    predicted_angle_per_stage4_rate = (85.0 / 12.0) * step
+    reaction_x_per_acceleration_x = center * mass
+    reaction_x_per_acceleration_x_2 = mass * (center - 1.0)
     return {
         "length": length,
-        "mass": mass,
         "stiffness": stiffness,
         "damping": damping,
         "tip_mass": tip_mass,
         "tip_inertia": tip_inertia,
-        "angle_per_acceleration": angle_per_acceleration,
         "rate_per_acceleration": rate_per_acceleration,
-        "step_1_over_2": step_1_over_2,
-        "step2_inverse_16": step2_inverse_16,
-        "step2_3_over_16": step2_3_over_16,
-        "step_3_over_4": step_3_over_4,
-        "step2_17_over_200": step2_17_over_200,
-        "step_17_over_50": step_17_over_50,
-        "step2_21_over_400": step2_21_over_400,
-        "step_1_over_25": step_1_over_25,
-        "step_21_over_100": step_21_over_100,
-        "step2_371_over_5440": step2_371_over_5440,
-        "step_371_over_1360": step_371_over_1360,
-        "step2_137_over_10880": step2_137_over_10880,
-        "step_137_over_2720": step_137_over_2720,
-        "step2_151_over_2176": step2_151_over_2176,
-        "step_15_over_544": step_15_over_544,
-        "step_151_over_544": step_151_over_544,
-        "step2_25_over_96": step2_25_over_96,
-        "step_25_over_24": step_25_over_24,
-        "step2_49_over_192": step2_49_over_192,
-        "step_49_over_48": step_49_over_48,
-        "step2_125_over_64": step2_125_over_64,
-        "step_125_over_16": step_125_over_16,
-        "step2_41_over_24": step2_41_over_24,
-        "step_85_over_12": step_85_over_12,
-        "step_41_over_6": step_41_over_6,
-        "factor_28": factor_28,
-        "factor_29": factor_29,
-        "carried_mass": carried_mass,
-        "inner_mass": inner_mass,
-        "pin_inertia": pin_inertia,
+        "half_step": half_step,
+        "angle_per_acceleration": angle_per_acceleration,
+        "unknown_per_base_angle": unknown_per_base_angle,
+        "three_quarters_step": three_quarters_step,
+        "predicted_rate_per_stage1_acceleration": predicted_rate_per_stage1_acceleration,
+        "predicted_rate_per_stage2_acceleration": predicted_rate_per_stage2_acceleration,
+        "predicted_angle_per_stage2_rate": predicted_angle_per_stage2_rate,
+        "predicted_rate_per_stage1_acceleration_2": predicted_rate_per_stage1_acceleration_2,
+        "predicted_rate_per_stage2_acceleration_2": predicted_rate_per_stage2_acceleration_2,
+        "predicted_rate_per_stage3_acceleration": predicted_rate_per_stage3_acceleration,
+        "predicted_angle_per_stage3_rate": predicted_angle_per_stage3_rate,
+        "predicted_rate_per_stage1_acceleration_3": predicted_rate_per_stage1_acceleration_3,
+        "predicted_rate_per_stage2_acceleration_3": predicted_rate_per_stage2_acceleration_3,
+        "predicted_rate_per_stage3_acceleration_2": predicted_rate_per_stage3_acceleration_2,
+        "predicted_rate_per_stage4_acceleration": predicted_rate_per_stage4_acceleration,
+        "predicted_angle_per_stage4_rate": predicted_angle_per_stage4_rate,
+        "reaction_x_per_acceleration_x": reaction_x_per_acceleration_x,
+        "reaction_x_per_acceleration_x_2": reaction_x_per_acceleration_x_2,
+        "node_mass": node_mass,
+        "rod_inertia": rod_inertia,
         "joint_impedance": joint_impedance,
     }
 
@@ -364,121 +346,105 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
     joint_torque: list[Any] = [0.0] * STATIONS
     lever_cosine: list[Any] = [0.0] * STATIONS
     lever_sine: list[Any] = [0.0] * STATIONS
+    node_mass: list[Any] = [0.0] * STATIONS
     predicted_acceleration: list[Any] = [0.0] * (STATIONS + 1)
     predicted_angle: list[Any] = [0.0] * (STATIONS + 1)
     predicted_rate: list[Any] = [0.0] * (STATIONS + 1)
     rate: list[Any] = [0.0] * STATIONS
+    relative_x: list[Any] = [0.0] * STATIONS
+    relative_y: list[Any] = [0.0] * STATIONS
     solved: list[Any] = [0.0] * STATIONS
-    swing_x: list[Any] = [0.0] * STATIONS
-    swing_y: list[Any] = [0.0] * STATIONS
+
+    # masses at the nodes between links, and what they leave over
+    for j in range(49):
+        node_mass[j] = center * mass + mass * (1.0 - center)
+    node_mass[49] = tip_mass + center * mass
+    rod_inertia = inertia - center * (length * length) * mass * (1.0 - center)
 
     # predicted motion
-    predicted_angle[0] = base_angle[0]
     predicted_rate[0] = 0.0
+    predicted_angle[0] = base_angle[0]
     predicted_acceleration[0] = 0.0
     for j in range(STATIONS):
-        predicted_angle[j + 1] = initial_angle[j]
         predicted_rate[j + 1] = initial_rate[j]
+        predicted_angle[j + 1] = initial_angle[j]
         predicted_acceleration[j + 1] = 0.0
 
     # accelerations of the nodes
     for j in range(STATIONS):
-        lever_sine[j] = length * ca.sin(predicted_angle[j + 1])
         lever_cosine[j] = length * ca.cos(predicted_angle[j + 1])
+        lever_sine[j] = length * ca.sin(predicted_angle[j + 1])
+        square = predicted_rate[j + 1] * predicted_rate[j + 1]
+        relative_x[j] = -lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1]
+        relative_y[j] = lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square
     node_x: Any = 0.0
     node_y: Any = 0.0
     acceleration_x[0] = node_x
     acceleration_y[0] = node_y
     for j in range(STATIONS):
-        square = predicted_rate[j + 1] * predicted_rate[j + 1]
-        node_x = node_x - lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1]
-        node_y = node_y + lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square
+        node_x = node_x + relative_x[j]
+        node_y = node_y + relative_y[j]
         acceleration_x[j + 1] = node_x
         acceleration_y[j + 1] = node_y
 
-    # how each link's outer end answers to its unknown, and the predicted joint torques
+    # forces of the joints at the motion so far
     for j in range(STATIONS):
-        swing_x[j] = -lever_sine[j]
-        swing_y[j] = lever_cosine[j]
         joint_torque[j] = damping[j] * (predicted_rate[j] - predicted_rate[j + 1]) + stiffness[j] * (
             predicted_angle[j] - predicted_angle[j + 1]
         )
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
-    impedance_xx = tip_mass
-    impedance_xy: Any = 0.0
-    impedance_xu: Any = 0.0
-    impedance_yx: Any = 0.0
-    impedance_yy = tip_mass
-    impedance_yu: Any = 0.0
-    impedance_ux: Any = 0.0
-    impedance_uy: Any = 0.0
     impedance_uu = tip_inertia
-    force_x = acceleration_x[50] * tip_mass
-    force_y = acceleration_y[50] * tip_mass
     torque = predicted_acceleration[50] * tip_inertia
+    force_x: Any = 0.0
+    force_y: Any = 0.0
+    impedance_xx: Any = 0.0
+    impedance_xy: Any = 0.0
+    impedance_yx: Any = 0.0
+    impedance_yy: Any = 0.0
     for j in reversed(range(STATIONS)):
-        outer_x = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
-        outer_y = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
-        outer_u = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
-        load_x = force_x + acceleration_x[j] * center * mass
-        load_y = force_y + acceleration_y[j] * center * mass
-        link_ux = (
-            impedance_ux + impedance_yx * lever_cosine[j] - lever_sine[j] * (impedance_xx + center * mass)
+        impedance_xx = impedance_xx + node_mass[j]
+        impedance_yy = impedance_yy + node_mass[j]
+        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
+        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
+        impedance_xu = impedance_xy * lever_cosine[j] - impedance_xx * lever_sine[j]
+        impedance_yu = impedance_yy * lever_cosine[j] - impedance_yx * lever_sine[j]
+        impedance_ux = impedance_yx * lever_cosine[j] - impedance_xx * lever_sine[j]
+        impedance_uy = impedance_yy * lever_cosine[j] - impedance_xy * lever_sine[j]
+        impedance_uu = (
+            impedance_uu + rod_inertia - impedance_xu * lever_sine[j] + impedance_yu * lever_cosine[j]
         )
-        link_uy = (
-            impedance_uy - impedance_xy * lever_sine[j] + lever_cosine[j] * (impedance_yy + center * mass)
-        )
-        link_uu = (
-            inertia
-            + outer_u
-            + lever_cosine[j] * outer_y
-            - lever_sine[j] * outer_x
-            + center * center * (length * length) * mass
-        )
-        link_xx = impedance_xx + mass
-        link_xy = impedance_xy
-        link_xu = outer_x + center * mass * swing_x[j]
-        link_yx = impedance_yx
-        link_yy = impedance_yy + mass
-        link_yu = outer_y + center * mass * swing_y[j]
         torque = (
             torque
-            + lever_cosine[j] * load_y
-            - lever_sine[j] * load_x
-            + predicted_acceleration[j + 1] * (inertia + center * center * (length * length) * mass)
+            - force_x * lever_sine[j]
+            + force_y * lever_cosine[j]
+            + predicted_acceleration[j + 1] * rod_inertia
         )
-        force_x = force_x + acceleration_x[j] * (mass - center * mass) + acceleration_x[j + 1] * center * mass
-        force_y = force_y + acceleration_y[j] * (mass - center * mass) + acceleration_y[j + 1] * center * mass
-        pivot = link_uu
-        inverse_pivot = 1.0 / pivot
-        answer_own[j] = inverse_pivot * (joint_torque[j] - torque)
-        answer_x[j] = inverse_pivot * link_ux
-        answer_y[j] = inverse_pivot * link_uy
-        impedance_xx = link_xx - answer_x[j] * link_xu
-        impedance_xy = link_xy - answer_y[j] * link_xu
-        impedance_xu = 0.0
-        force_x = force_x + answer_own[j] * link_xu
-        impedance_yx = link_yx - answer_x[j] * link_yu
-        impedance_yy = link_yy - answer_y[j] * link_yu
-        impedance_yu = 0.0
-        force_y = force_y + answer_own[j] * link_yu
-        impedance_ux = 0.0
-        impedance_uy = 0.0
-        impedance_uu = 0.0
+        pivot = impedance_uu
+        admittance = 1.0 / pivot
+        answer_own[j] = admittance * (joint_torque[j] - torque)
+        answer_x[j] = admittance * impedance_ux
+        answer_y[j] = admittance * impedance_uy
+        impedance_xx = impedance_xx - answer_x[j] * impedance_xu
+        impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        impedance_yx = impedance_yx - answer_x[j] * impedance_yu
+        impedance_yy = impedance_yy - answer_y[j] * impedance_yu
+        force_x = force_x + answer_own[j] * impedance_xu
+        force_y = force_y + answer_own[j] * impedance_yu
         torque = joint_torque[j]
+        impedance_uu = 0.0
 
-    # the hub
+    # the base
     unknown: Any = 0.0
     hub_unknown = unknown
 
-    # sweep outward: the increment of each link's unknown
+    # sweep outward: the unknown of each station
     change_x: Any = 0.0
     change_y: Any = 0.0
     for j in range(STATIONS):
         unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y
-        change_x = change_x + swing_x[j] * unknown
-        change_y = change_y + swing_y[j] * unknown
+        change_x = change_x - lever_sine[j] * unknown
+        change_y = change_y + lever_cosine[j] * unknown
         solved[j] = unknown
 
     # motion at the end of the step
@@ -495,41 +461,28 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
 def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     """Advance the state by one step."""
     length = model["length"]
-    mass = model["mass"]
     stiffness = model["stiffness"]
     damping = model["damping"]
-    tip_mass = model["tip_mass"]
     tip_inertia = model["tip_inertia"]
-    angle_per_acceleration = model["angle_per_acceleration"]
     rate_per_acceleration = model["rate_per_acceleration"]
-    step_1_over_2 = model["step_1_over_2"]
-    step2_inverse_16 = model["step2_inverse_16"]
-    step2_3_over_16 = model["step2_3_over_16"]
-    step_3_over_4 = model["step_3_over_4"]
-    step2_17_over_200 = model["step2_17_over_200"]
-    step_17_over_50 = model["step_17_over_50"]
-    step2_21_over_400 = model["step2_21_over_400"]
-    step_1_over_25 = model["step_1_over_25"]
-    step_21_over_100 = model["step_21_over_100"]
-    step2_371_over_5440 = model["step2_371_over_5440"]
-    step_371_over_1360 = model["step_371_over_1360"]
-    step2_137_over_10880 = model["step2_137_over_10880"]
-    step_137_over_2720 = model["step_137_over_2720"]
-    step2_151_over_2176 = model["step2_151_over_2176"]
-    step_15_over_544 = model["step_15_over_544"]
-    step_151_over_544 = model["step_151_over_544"]
-    step2_25_over_96 = model["step2_25_over_96"]
-    step_25_over_24 = model["step_25_over_24"]
-    step2_49_over_192 = model["step2_49_over_192"]
-    step_49_over_48 = model["step_49_over_48"]
-    step2_125_over_64 = model["step2_125_over_64"]
-    step_125_over_16 = model["step_125_over_16"]
-    step2_41_over_24 = model["step2_41_over_24"]
-    step_85_over_12 = model["step_85_over_12"]
-    step_41_over_6 = model["step_41_over_6"]
-    carried_mass = model["carried_mass"]
-    inner_mass = model["inner_mass"]
-    pin_inertia = model["pin_inertia"]
+    half_step = model["half_step"]
+    angle_per_acceleration = model["angle_per_acceleration"]
+    unknown_per_base_angle = model["unknown_per_base_angle"]
+    three_quarters_step = model["three_quarters_step"]
+    predicted_rate_per_stage1_acceleration = model["predicted_rate_per_stage1_acceleration"]
+    predicted_rate_per_stage2_acceleration = model["predicted_rate_per_stage2_acceleration"]
+    predicted_angle_per_stage2_rate = model["predicted_angle_per_stage2_rate"]
+    predicted_rate_per_stage1_acceleration_2 = model["predicted_rate_per_stage1_acceleration_2"]
+    predicted_rate_per_stage2_acceleration_2 = model["predicted_rate_per_stage2_acceleration_2"]
+    predicted_rate_per_stage3_acceleration = model["predicted_rate_per_stage3_acceleration"]
+    predicted_angle_per_stage3_rate = model["predicted_angle_per_stage3_rate"]
+    predicted_rate_per_stage1_acceleration_3 = model["predicted_rate_per_stage1_acceleration_3"]
+    predicted_rate_per_stage2_acceleration_3 = model["predicted_rate_per_stage2_acceleration_3"]
+    predicted_rate_per_stage3_acceleration_2 = model["predicted_rate_per_stage3_acceleration_2"]
+    predicted_rate_per_stage4_acceleration = model["predicted_rate_per_stage4_acceleration"]
+    predicted_angle_per_stage4_rate = model["predicted_angle_per_stage4_rate"]
+    node_mass = model["node_mass"]
+    rod_inertia = model["rod_inertia"]
     joint_impedance = model["joint_impedance"]
     hub_angle = x[0]
     hub_rate = x[1]
@@ -540,7 +493,6 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     base_angle = [u[0] for u in stages]
     acceleration_x: list[Any] = [0.0] * (STATIONS + 1)
     acceleration_y: list[Any] = [0.0] * (STATIONS + 1)
-    answer_from_inner: list[Any] = [0.0] * STATIONS
     answer_own: list[Any] = [0.0] * STATIONS
     answer_x: list[Any] = [0.0] * STATIONS
     answer_y: list[Any] = [0.0] * STATIONS
@@ -550,6 +502,8 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     predicted_acceleration: list[Any] = [0.0] * (STATIONS + 1)
     predicted_angle: list[Any] = [0.0] * (STATIONS + 1)
     predicted_rate: list[Any] = [0.0] * (STATIONS + 1)
+    relative_x: list[Any] = [0.0] * STATIONS
+    relative_y: list[Any] = [0.0] * STATIONS
     solved: list[Any] = [0.0] * STATIONS
     stage1_acceleration: list[Any] = [0.0] * STATIONS
     stage1_rate: list[Any] = [0.0] * STATIONS
@@ -561,123 +515,106 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     stage4_rate: list[Any] = [0.0] * STATIONS
     swing_x: list[Any] = [0.0] * STATIONS
     swing_y: list[Any] = [0.0] * STATIONS
+    transmission: list[Any] = [0.0] * STATIONS
 
     # Stage 1 of 5: predicted motion
-    predicted_angle[0] = (
-        hub_angle + angle_per_acceleration * hub_acceleration + hub_rate * rate_per_acceleration
-    )
     predicted_rate[0] = hub_rate + hub_acceleration * rate_per_acceleration
+    predicted_angle[0] = hub_angle + predicted_rate[0] * rate_per_acceleration
     predicted_acceleration[0] = hub_acceleration
     for j in range(STATIONS):
-        predicted_angle[j + 1] = (
-            angle[j] + acceleration[j] * angle_per_acceleration + rate[j] * rate_per_acceleration
-        )
         predicted_rate[j + 1] = rate[j] + acceleration[j] * rate_per_acceleration
+        predicted_angle[j + 1] = angle[j] + predicted_rate[j + 1] * rate_per_acceleration
         predicted_acceleration[j + 1] = acceleration[j]
 
     # Stage 1 of 5: accelerations of the nodes
     for j in range(STATIONS):
-        lever_sine[j] = length * ca.sin(predicted_angle[j + 1])
         lever_cosine[j] = length * ca.cos(predicted_angle[j + 1])
+        lever_sine[j] = length * ca.sin(predicted_angle[j + 1])
+        square = predicted_rate[j + 1] * predicted_rate[j + 1]
+        relative_x[j] = -lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1]
+        relative_y[j] = lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square
+        turning = half_step * predicted_rate[j + 1]
+        swing_x[j] = -lever_sine[j] - angle_per_acceleration * relative_y[j] - lever_cosine[j] * turning
+        swing_y[j] = lever_cosine[j] + angle_per_acceleration * relative_x[j] - lever_sine[j] * turning
     node_x: Any = 0.0
     node_y: Any = 0.0
     acceleration_x[0] = node_x
     acceleration_y[0] = node_y
     for j in range(STATIONS):
-        square = predicted_rate[j + 1] * predicted_rate[j + 1]
-        node_x = node_x - lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1]
-        node_y = node_y + lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square
+        node_x = node_x + relative_x[j]
+        node_y = node_y + relative_y[j]
         acceleration_x[j + 1] = node_x
         acceleration_y[j + 1] = node_y
 
-    # Stage 1 of 5: how each link's outer end answers to its unknown, and the predicted joint torques
+    # Stage 1 of 5: forces of the joints at the motion so far
     for j in range(STATIONS):
-        tangential = 1.0 - angle_per_acceleration * (predicted_rate[j + 1] * predicted_rate[j + 1])
-        turning = (
-            angle_per_acceleration * predicted_acceleration[j + 1] + predicted_rate[j + 1] * step_1_over_2
-        )
-        swing_x[j] = -lever_cosine[j] * turning - lever_sine[j] * tangential
-        swing_y[j] = lever_cosine[j] * tangential - lever_sine[j] * turning
         joint_torque[j] = damping[j] * (predicted_rate[j] - predicted_rate[j + 1]) + stiffness[j] * (
             predicted_angle[j] - predicted_angle[j + 1]
         )
 
     # Stage 1 of 5: sweep inward: force beyond each joint as an affine function of the motion at it
-    impedance_xx = tip_mass
-    impedance_xy: Any = 0.0
-    impedance_xu: Any = 0.0
-    impedance_yx: Any = 0.0
-    impedance_yy = tip_mass
-    impedance_yu: Any = 0.0
+    impedance_uu = tip_inertia
+    torque = predicted_acceleration[50] * tip_inertia
+    force_x: Any = 0.0
+    force_y: Any = 0.0
     impedance_ux: Any = 0.0
     impedance_uy: Any = 0.0
-    impedance_uu = tip_inertia
-    force_x = acceleration_x[50] * tip_mass
-    force_y = acceleration_y[50] * tip_mass
-    torque = predicted_acceleration[50] * tip_inertia
+    impedance_xu: Any = 0.0
+    impedance_xx: Any = 0.0
+    impedance_xy: Any = 0.0
+    impedance_yu: Any = 0.0
+    impedance_yx: Any = 0.0
+    impedance_yy: Any = 0.0
     for j in reversed(range(STATIONS)):
-        outer_x = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
-        outer_y = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
-        outer_u = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
-        load_x = force_x + acceleration_x[j] * carried_mass
-        load_y = force_y + acceleration_y[j] * carried_mass
-        link_ux = (
-            impedance_ux + impedance_yx * lever_cosine[j] - lever_sine[j] * (carried_mass + impedance_xx)
+        impedance_xx = impedance_xx + node_mass[j]
+        impedance_yy = impedance_yy + node_mass[j]
+        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
+        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
+        impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
+        impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
+        impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
+        impedance_ux = impedance_ux - impedance_xx * lever_sine[j] + impedance_yx * lever_cosine[j]
+        impedance_uy = impedance_uy - impedance_xy * lever_sine[j] + impedance_yy * lever_cosine[j]
+        impedance_uu = (
+            impedance_uu
+            + rod_inertia
+            + lever_cosine[j] * (impedance_yu - angle_per_acceleration * force_x)
+            + lever_sine[j] * (-impedance_xu - angle_per_acceleration * force_y)
         )
-        link_uy = (
-            impedance_uy - impedance_xy * lever_sine[j] + lever_cosine[j] * (carried_mass + impedance_yy)
-        )
-        link_uu = (
-            outer_u
-            + pin_inertia
-            + angle_per_acceleration * (-lever_cosine[j] * load_x - lever_sine[j] * load_y)
-            + lever_cosine[j] * outer_y
-            - lever_sine[j] * outer_x
-        )
-        link_xx = impedance_xx + mass
-        link_xy = impedance_xy
-        link_xu = outer_x + carried_mass * swing_x[j]
-        link_yx = impedance_yx
-        link_yy = impedance_yy + mass
-        link_yu = outer_y + carried_mass * swing_y[j]
         torque = (
             torque
-            + lever_cosine[j] * load_y
-            - lever_sine[j] * load_x
-            + pin_inertia * predicted_acceleration[j + 1]
+            - force_x * lever_sine[j]
+            + force_y * lever_cosine[j]
+            + predicted_acceleration[j + 1] * rod_inertia
         )
-        force_x = force_x + acceleration_x[j + 1] * carried_mass + acceleration_x[j] * inner_mass
-        force_y = force_y + acceleration_y[j + 1] * carried_mass + acceleration_y[j] * inner_mass
-        pivot = joint_impedance[j] + link_uu
-        inverse_pivot = 1.0 / pivot
-        answer_own[j] = inverse_pivot * (joint_torque[j] - torque)
-        answer_x[j] = inverse_pivot * link_ux
-        answer_y[j] = inverse_pivot * link_uy
-        answer_from_inner[j] = inverse_pivot * joint_impedance[j]
-        impedance_xx = link_xx - answer_x[j] * link_xu
-        impedance_xy = link_xy - answer_y[j] * link_xu
-        impedance_xu = answer_from_inner[j] * link_xu
-        force_x = force_x + answer_own[j] * link_xu
-        impedance_yx = link_yx - answer_x[j] * link_yu
-        impedance_yy = link_yy - answer_y[j] * link_yu
-        impedance_yu = answer_from_inner[j] * link_yu
-        force_y = force_y + answer_own[j] * link_yu
+        pivot = impedance_uu + joint_impedance[j]
+        admittance = 1.0 / pivot
+        answer_own[j] = admittance * (joint_torque[j] - torque)
+        answer_x[j] = admittance * impedance_ux
+        answer_y[j] = admittance * impedance_uy
+        transmission[j] = admittance * joint_impedance[j]
+        impedance_xx = impedance_xx - answer_x[j] * impedance_xu
+        impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        impedance_yx = impedance_yx - answer_x[j] * impedance_yu
+        impedance_yy = impedance_yy - answer_y[j] * impedance_yu
         impedance_ux = answer_x[j] * joint_impedance[j]
         impedance_uy = answer_y[j] * joint_impedance[j]
-        impedance_uu = answer_from_inner[j] * link_uu
+        impedance_uu = impedance_uu * transmission[j]
+        force_x = force_x + answer_own[j] * impedance_xu
+        impedance_xu = impedance_xu * transmission[j]
+        force_y = force_y + answer_own[j] * impedance_yu
+        impedance_yu = impedance_yu * transmission[j]
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
-    # Stage 1 of 5: the hub
-    unknown = step2_inverse_16 * (base_angle[0] - predicted_angle[0])
+    # Stage 1 of 5: the base
+    unknown = unknown_per_base_angle * (base_angle[0] - predicted_angle[0])
     hub_unknown = unknown
 
-    # Stage 1 of 5: sweep outward: the increment of each link's unknown
+    # Stage 1 of 5: sweep outward: the unknown of each station
     change_x: Any = 0.0
     change_y: Any = 0.0
     for j in range(STATIONS):
-        unknown = (
-            answer_own[j] + answer_from_inner[j] * unknown - answer_x[j] * change_x - answer_y[j] * change_y
-        )
+        unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y + transmission[j] * unknown
         change_x = change_x + swing_x[j] * unknown
         change_y = change_y + swing_y[j] * unknown
         solved[j] = unknown
@@ -690,127 +627,105 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         stage1_rate[j] = predicted_rate[j + 1] + rate_per_acceleration * solved[j]
 
     # Stage 2 of 5: predicted motion
-    predicted_angle[0] = (
-        hub_angle
-        + hub_rate * rate_per_acceleration
-        + hub_stage1_acceleration * step2_3_over_16
-        + hub_stage1_rate * step_1_over_2
-    )
-    predicted_rate[0] = hub_rate + hub_stage1_acceleration * step_3_over_4
+    predicted_rate[0] = hub_rate + hub_stage1_acceleration * three_quarters_step
+    predicted_angle[0] = hub_angle + half_step * hub_stage1_rate + predicted_rate[0] * rate_per_acceleration
     predicted_acceleration[0] = hub_stage1_acceleration
     for j in range(STATIONS):
+        predicted_rate[j + 1] = rate[j] + stage1_acceleration[j] * three_quarters_step
         predicted_angle[j + 1] = (
-            angle[j]
-            + rate[j] * rate_per_acceleration
-            + stage1_acceleration[j] * step2_3_over_16
-            + stage1_rate[j] * step_1_over_2
+            angle[j] + half_step * stage1_rate[j] + predicted_rate[j + 1] * rate_per_acceleration
         )
-        predicted_rate[j + 1] = rate[j] + stage1_acceleration[j] * step_3_over_4
         predicted_acceleration[j + 1] = stage1_acceleration[j]
 
     # Stage 2 of 5: accelerations of the nodes
     for j in range(STATIONS):
-        lever_sine[j] = length * ca.sin(predicted_angle[j + 1])
         lever_cosine[j] = length * ca.cos(predicted_angle[j + 1])
+        lever_sine[j] = length * ca.sin(predicted_angle[j + 1])
+        square = predicted_rate[j + 1] * predicted_rate[j + 1]
+        relative_x[j] = -lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1]
+        relative_y[j] = lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square
+        turning = half_step * predicted_rate[j + 1]
+        swing_x[j] = -lever_sine[j] - angle_per_acceleration * relative_y[j] - lever_cosine[j] * turning
+        swing_y[j] = lever_cosine[j] + angle_per_acceleration * relative_x[j] - lever_sine[j] * turning
     node_x = 0.0
     node_y = 0.0
     acceleration_x[0] = node_x
     acceleration_y[0] = node_y
     for j in range(STATIONS):
-        square = predicted_rate[j + 1] * predicted_rate[j + 1]
-        node_x = node_x - lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1]
-        node_y = node_y + lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square
+        node_x = node_x + relative_x[j]
+        node_y = node_y + relative_y[j]
         acceleration_x[j + 1] = node_x
         acceleration_y[j + 1] = node_y
 
-    # Stage 2 of 5: how each link's outer end answers to its unknown, and the predicted joint torques
+    # Stage 2 of 5: forces of the joints at the motion so far
     for j in range(STATIONS):
-        tangential = 1.0 - angle_per_acceleration * (predicted_rate[j + 1] * predicted_rate[j + 1])
-        turning = (
-            angle_per_acceleration * predicted_acceleration[j + 1] + predicted_rate[j + 1] * step_1_over_2
-        )
-        swing_x[j] = -lever_cosine[j] * turning - lever_sine[j] * tangential
-        swing_y[j] = lever_cosine[j] * tangential - lever_sine[j] * turning
         joint_torque[j] = damping[j] * (predicted_rate[j] - predicted_rate[j + 1]) + stiffness[j] * (
             predicted_angle[j] - predicted_angle[j + 1]
         )
 
     # Stage 2 of 5: sweep inward: force beyond each joint as an affine function of the motion at it
-    impedance_xx = tip_mass
-    impedance_xy = 0.0
-    impedance_xu = 0.0
-    impedance_yx = 0.0
-    impedance_yy = tip_mass
-    impedance_yu = 0.0
+    impedance_uu = tip_inertia
+    torque = predicted_acceleration[50] * tip_inertia
+    force_x = 0.0
+    force_y = 0.0
     impedance_ux = 0.0
     impedance_uy = 0.0
-    impedance_uu = tip_inertia
-    force_x = acceleration_x[50] * tip_mass
-    force_y = acceleration_y[50] * tip_mass
-    torque = predicted_acceleration[50] * tip_inertia
+    impedance_xu = 0.0
+    impedance_xx = 0.0
+    impedance_xy = 0.0
+    impedance_yu = 0.0
+    impedance_yx = 0.0
+    impedance_yy = 0.0
     for j in reversed(range(STATIONS)):
-        outer_x = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
-        outer_y = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
-        outer_u = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
-        load_x = force_x + acceleration_x[j] * carried_mass
-        load_y = force_y + acceleration_y[j] * carried_mass
-        link_ux = (
-            impedance_ux + impedance_yx * lever_cosine[j] - lever_sine[j] * (carried_mass + impedance_xx)
+        impedance_xx = impedance_xx + node_mass[j]
+        impedance_yy = impedance_yy + node_mass[j]
+        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
+        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
+        impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
+        impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
+        impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
+        impedance_ux = impedance_ux - impedance_xx * lever_sine[j] + impedance_yx * lever_cosine[j]
+        impedance_uy = impedance_uy - impedance_xy * lever_sine[j] + impedance_yy * lever_cosine[j]
+        impedance_uu = (
+            impedance_uu
+            + rod_inertia
+            + lever_cosine[j] * (impedance_yu - angle_per_acceleration * force_x)
+            + lever_sine[j] * (-impedance_xu - angle_per_acceleration * force_y)
         )
-        link_uy = (
-            impedance_uy - impedance_xy * lever_sine[j] + lever_cosine[j] * (carried_mass + impedance_yy)
-        )
-        link_uu = (
-            outer_u
-            + pin_inertia
-            + angle_per_acceleration * (-lever_cosine[j] * load_x - lever_sine[j] * load_y)
-            + lever_cosine[j] * outer_y
-            - lever_sine[j] * outer_x
-        )
-        link_xx = impedance_xx + mass
-        link_xy = impedance_xy
-        link_xu = outer_x + carried_mass * swing_x[j]
-        link_yx = impedance_yx
-        link_yy = impedance_yy + mass
-        link_yu = outer_y + carried_mass * swing_y[j]
         torque = (
             torque
-            + lever_cosine[j] * load_y
-            - lever_sine[j] * load_x
-            + pin_inertia * predicted_acceleration[j + 1]
+            - force_x * lever_sine[j]
+            + force_y * lever_cosine[j]
+            + predicted_acceleration[j + 1] * rod_inertia
         )
-        force_x = force_x + acceleration_x[j + 1] * carried_mass + acceleration_x[j] * inner_mass
-        force_y = force_y + acceleration_y[j + 1] * carried_mass + acceleration_y[j] * inner_mass
-        pivot = joint_impedance[j] + link_uu
-        inverse_pivot = 1.0 / pivot
-        answer_own[j] = inverse_pivot * (joint_torque[j] - torque)
-        answer_x[j] = inverse_pivot * link_ux
-        answer_y[j] = inverse_pivot * link_uy
-        answer_from_inner[j] = inverse_pivot * joint_impedance[j]
-        impedance_xx = link_xx - answer_x[j] * link_xu
-        impedance_xy = link_xy - answer_y[j] * link_xu
-        impedance_xu = answer_from_inner[j] * link_xu
-        force_x = force_x + answer_own[j] * link_xu
-        impedance_yx = link_yx - answer_x[j] * link_yu
-        impedance_yy = link_yy - answer_y[j] * link_yu
-        impedance_yu = answer_from_inner[j] * link_yu
-        force_y = force_y + answer_own[j] * link_yu
+        pivot = impedance_uu + joint_impedance[j]
+        admittance = 1.0 / pivot
+        answer_own[j] = admittance * (joint_torque[j] - torque)
+        answer_x[j] = admittance * impedance_ux
+        answer_y[j] = admittance * impedance_uy
+        transmission[j] = admittance * joint_impedance[j]
+        impedance_xx = impedance_xx - answer_x[j] * impedance_xu
+        impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        impedance_yx = impedance_yx - answer_x[j] * impedance_yu
+        impedance_yy = impedance_yy - answer_y[j] * impedance_yu
         impedance_ux = answer_x[j] * joint_impedance[j]
         impedance_uy = answer_y[j] * joint_impedance[j]
-        impedance_uu = answer_from_inner[j] * link_uu
+        impedance_uu = impedance_uu * transmission[j]
+        force_x = force_x + answer_own[j] * impedance_xu
+        impedance_xu = impedance_xu * transmission[j]
+        force_y = force_y + answer_own[j] * impedance_yu
+        impedance_yu = impedance_yu * transmission[j]
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
-    # Stage 2 of 5: the hub
-    unknown = step2_inverse_16 * (base_angle[1] - predicted_angle[0])
+    # Stage 2 of 5: the base
+    unknown = unknown_per_base_angle * (base_angle[1] - predicted_angle[0])
     hub_unknown = unknown
 
-    # Stage 2 of 5: sweep outward: the increment of each link's unknown
+    # Stage 2 of 5: sweep outward: the unknown of each station
     change_x = 0.0
     change_y = 0.0
     for j in range(STATIONS):
-        unknown = (
-            answer_own[j] + answer_from_inner[j] * unknown - answer_x[j] * change_x - answer_y[j] * change_y
-        )
+        unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y + transmission[j] * unknown
         change_x = change_x + swing_x[j] * unknown
         change_y = change_y + swing_y[j] * unknown
         solved[j] = unknown
@@ -823,135 +738,121 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         stage2_rate[j] = predicted_rate[j + 1] + rate_per_acceleration * solved[j]
 
     # Stage 3 of 5: predicted motion
+    predicted_rate[0] = (
+        hub_rate
+        + hub_stage1_acceleration * predicted_rate_per_stage1_acceleration
+        + hub_stage2_acceleration * predicted_rate_per_stage2_acceleration
+    )
     predicted_angle[0] = (
         hub_angle
-        + hub_rate * rate_per_acceleration
-        + hub_stage1_acceleration * step2_17_over_200
-        + hub_stage1_rate * step_17_over_50
-        + hub_stage2_acceleration * step2_21_over_400
-        - hub_stage2_rate * step_1_over_25
-    )
-    predicted_rate[0] = (
-        hub_rate + hub_stage1_acceleration * step_17_over_50 + hub_stage2_acceleration * step_21_over_100
+        + hub_stage1_rate * predicted_rate_per_stage1_acceleration
+        - hub_stage2_rate * predicted_angle_per_stage2_rate
+        + predicted_rate[0] * rate_per_acceleration
     )
     predicted_acceleration[0] = hub_stage2_acceleration
     for j in range(STATIONS):
+        predicted_rate[j + 1] = (
+            rate[j]
+            + predicted_rate_per_stage1_acceleration * stage1_acceleration[j]
+            + predicted_rate_per_stage2_acceleration * stage2_acceleration[j]
+        )
         predicted_angle[j + 1] = (
             angle[j]
-            + rate[j] * rate_per_acceleration
-            + stage1_acceleration[j] * step2_17_over_200
-            + stage1_rate[j] * step_17_over_50
-            + stage2_acceleration[j] * step2_21_over_400
-            - stage2_rate[j] * step_1_over_25
-        )
-        predicted_rate[j + 1] = (
-            rate[j] + stage1_acceleration[j] * step_17_over_50 + stage2_acceleration[j] * step_21_over_100
+            - predicted_angle_per_stage2_rate * stage2_rate[j]
+            + predicted_rate[j + 1] * rate_per_acceleration
+            + predicted_rate_per_stage1_acceleration * stage1_rate[j]
         )
         predicted_acceleration[j + 1] = stage2_acceleration[j]
 
     # Stage 3 of 5: accelerations of the nodes
     for j in range(STATIONS):
-        lever_sine[j] = length * ca.sin(predicted_angle[j + 1])
         lever_cosine[j] = length * ca.cos(predicted_angle[j + 1])
+        lever_sine[j] = length * ca.sin(predicted_angle[j + 1])
+        square = predicted_rate[j + 1] * predicted_rate[j + 1]
+        relative_x[j] = -lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1]
+        relative_y[j] = lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square
+        turning = half_step * predicted_rate[j + 1]
+        swing_x[j] = -lever_sine[j] - angle_per_acceleration * relative_y[j] - lever_cosine[j] * turning
+        swing_y[j] = lever_cosine[j] + angle_per_acceleration * relative_x[j] - lever_sine[j] * turning
     node_x = 0.0
     node_y = 0.0
     acceleration_x[0] = node_x
     acceleration_y[0] = node_y
     for j in range(STATIONS):
-        square = predicted_rate[j + 1] * predicted_rate[j + 1]
-        node_x = node_x - lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1]
-        node_y = node_y + lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square
+        node_x = node_x + relative_x[j]
+        node_y = node_y + relative_y[j]
         acceleration_x[j + 1] = node_x
         acceleration_y[j + 1] = node_y
 
-    # Stage 3 of 5: how each link's outer end answers to its unknown, and the predicted joint torques
+    # Stage 3 of 5: forces of the joints at the motion so far
     for j in range(STATIONS):
-        tangential = 1.0 - angle_per_acceleration * (predicted_rate[j + 1] * predicted_rate[j + 1])
-        turning = (
-            angle_per_acceleration * predicted_acceleration[j + 1] + predicted_rate[j + 1] * step_1_over_2
-        )
-        swing_x[j] = -lever_cosine[j] * turning - lever_sine[j] * tangential
-        swing_y[j] = lever_cosine[j] * tangential - lever_sine[j] * turning
         joint_torque[j] = damping[j] * (predicted_rate[j] - predicted_rate[j + 1]) + stiffness[j] * (
             predicted_angle[j] - predicted_angle[j + 1]
         )
 
     # Stage 3 of 5: sweep inward: force beyond each joint as an affine function of the motion at it
-    impedance_xx = tip_mass
-    impedance_xy = 0.0
-    impedance_xu = 0.0
-    impedance_yx = 0.0
-    impedance_yy = tip_mass
-    impedance_yu = 0.0
+    impedance_uu = tip_inertia
+    torque = predicted_acceleration[50] * tip_inertia
+    force_x = 0.0
+    force_y = 0.0
     impedance_ux = 0.0
     impedance_uy = 0.0
-    impedance_uu = tip_inertia
-    force_x = acceleration_x[50] * tip_mass
-    force_y = acceleration_y[50] * tip_mass
-    torque = predicted_acceleration[50] * tip_inertia
+    impedance_xu = 0.0
+    impedance_xx = 0.0
+    impedance_xy = 0.0
+    impedance_yu = 0.0
+    impedance_yx = 0.0
+    impedance_yy = 0.0
     for j in reversed(range(STATIONS)):
-        outer_x = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
-        outer_y = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
-        outer_u = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
-        load_x = force_x + acceleration_x[j] * carried_mass
-        load_y = force_y + acceleration_y[j] * carried_mass
-        link_ux = (
-            impedance_ux + impedance_yx * lever_cosine[j] - lever_sine[j] * (carried_mass + impedance_xx)
+        impedance_xx = impedance_xx + node_mass[j]
+        impedance_yy = impedance_yy + node_mass[j]
+        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
+        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
+        impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
+        impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
+        impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
+        impedance_ux = impedance_ux - impedance_xx * lever_sine[j] + impedance_yx * lever_cosine[j]
+        impedance_uy = impedance_uy - impedance_xy * lever_sine[j] + impedance_yy * lever_cosine[j]
+        impedance_uu = (
+            impedance_uu
+            + rod_inertia
+            + lever_cosine[j] * (impedance_yu - angle_per_acceleration * force_x)
+            + lever_sine[j] * (-impedance_xu - angle_per_acceleration * force_y)
         )
-        link_uy = (
-            impedance_uy - impedance_xy * lever_sine[j] + lever_cosine[j] * (carried_mass + impedance_yy)
-        )
-        link_uu = (
-            outer_u
-            + pin_inertia
-            + angle_per_acceleration * (-lever_cosine[j] * load_x - lever_sine[j] * load_y)
-            + lever_cosine[j] * outer_y
-            - lever_sine[j] * outer_x
-        )
-        link_xx = impedance_xx + mass
-        link_xy = impedance_xy
-        link_xu = outer_x + carried_mass * swing_x[j]
-        link_yx = impedance_yx
-        link_yy = impedance_yy + mass
-        link_yu = outer_y + carried_mass * swing_y[j]
         torque = (
             torque
-            + lever_cosine[j] * load_y
-            - lever_sine[j] * load_x
-            + pin_inertia * predicted_acceleration[j + 1]
+            - force_x * lever_sine[j]
+            + force_y * lever_cosine[j]
+            + predicted_acceleration[j + 1] * rod_inertia
         )
-        force_x = force_x + acceleration_x[j + 1] * carried_mass + acceleration_x[j] * inner_mass
-        force_y = force_y + acceleration_y[j + 1] * carried_mass + acceleration_y[j] * inner_mass
-        pivot = joint_impedance[j] + link_uu
-        inverse_pivot = 1.0 / pivot
-        answer_own[j] = inverse_pivot * (joint_torque[j] - torque)
-        answer_x[j] = inverse_pivot * link_ux
-        answer_y[j] = inverse_pivot * link_uy
-        answer_from_inner[j] = inverse_pivot * joint_impedance[j]
-        impedance_xx = link_xx - answer_x[j] * link_xu
-        impedance_xy = link_xy - answer_y[j] * link_xu
-        impedance_xu = answer_from_inner[j] * link_xu
-        force_x = force_x + answer_own[j] * link_xu
-        impedance_yx = link_yx - answer_x[j] * link_yu
-        impedance_yy = link_yy - answer_y[j] * link_yu
-        impedance_yu = answer_from_inner[j] * link_yu
-        force_y = force_y + answer_own[j] * link_yu
+        pivot = impedance_uu + joint_impedance[j]
+        admittance = 1.0 / pivot
+        answer_own[j] = admittance * (joint_torque[j] - torque)
+        answer_x[j] = admittance * impedance_ux
+        answer_y[j] = admittance * impedance_uy
+        transmission[j] = admittance * joint_impedance[j]
+        impedance_xx = impedance_xx - answer_x[j] * impedance_xu
+        impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        impedance_yx = impedance_yx - answer_x[j] * impedance_yu
+        impedance_yy = impedance_yy - answer_y[j] * impedance_yu
         impedance_ux = answer_x[j] * joint_impedance[j]
         impedance_uy = answer_y[j] * joint_impedance[j]
-        impedance_uu = answer_from_inner[j] * link_uu
+        impedance_uu = impedance_uu * transmission[j]
+        force_x = force_x + answer_own[j] * impedance_xu
+        impedance_xu = impedance_xu * transmission[j]
+        force_y = force_y + answer_own[j] * impedance_yu
+        impedance_yu = impedance_yu * transmission[j]
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
-    # Stage 3 of 5: the hub
-    unknown = step2_inverse_16 * (base_angle[2] - predicted_angle[0])
+    # Stage 3 of 5: the base
+    unknown = unknown_per_base_angle * (base_angle[2] - predicted_angle[0])
     hub_unknown = unknown
 
-    # Stage 3 of 5: sweep outward: the increment of each link's unknown
+    # Stage 3 of 5: sweep outward: the unknown of each station
     change_x = 0.0
     change_y = 0.0
     for j in range(STATIONS):
-        unknown = (
-            answer_own[j] + answer_from_inner[j] * unknown - answer_x[j] * change_x - answer_y[j] * change_y
-        )
+        unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y + transmission[j] * unknown
         change_x = change_x + swing_x[j] * unknown
         change_y = change_y + swing_y[j] * unknown
         solved[j] = unknown
@@ -964,145 +865,125 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         stage3_rate[j] = predicted_rate[j + 1] + rate_per_acceleration * solved[j]
 
     # Stage 4 of 5: predicted motion
-    predicted_angle[0] = (
-        hub_angle
-        + hub_rate * rate_per_acceleration
-        + hub_stage1_acceleration * step2_371_over_5440
-        + hub_stage1_rate * step_371_over_1360
-        - hub_stage2_acceleration * step2_137_over_10880
-        - hub_stage2_rate * step_137_over_2720
-        + hub_stage3_acceleration * step2_151_over_2176
-        + hub_stage3_rate * step_15_over_544
-    )
     predicted_rate[0] = (
         hub_rate
-        + hub_stage1_acceleration * step_371_over_1360
-        - hub_stage2_acceleration * step_137_over_2720
-        + hub_stage3_acceleration * step_151_over_544
+        + hub_stage1_acceleration * predicted_rate_per_stage1_acceleration_2
+        - hub_stage2_acceleration * predicted_rate_per_stage2_acceleration_2
+        + hub_stage3_acceleration * predicted_rate_per_stage3_acceleration
+    )
+    predicted_angle[0] = (
+        hub_angle
+        + hub_stage1_rate * predicted_rate_per_stage1_acceleration_2
+        - hub_stage2_rate * predicted_rate_per_stage2_acceleration_2
+        + hub_stage3_rate * predicted_angle_per_stage3_rate
+        + predicted_rate[0] * rate_per_acceleration
     )
     predicted_acceleration[0] = hub_stage3_acceleration
     for j in range(STATIONS):
-        predicted_angle[j + 1] = (
-            angle[j]
-            + rate[j] * rate_per_acceleration
-            + stage1_acceleration[j] * step2_371_over_5440
-            + stage1_rate[j] * step_371_over_1360
-            - stage2_acceleration[j] * step2_137_over_10880
-            - stage2_rate[j] * step_137_over_2720
-            + stage3_acceleration[j] * step2_151_over_2176
-            + stage3_rate[j] * step_15_over_544
-        )
         predicted_rate[j + 1] = (
             rate[j]
-            + stage1_acceleration[j] * step_371_over_1360
-            - stage2_acceleration[j] * step_137_over_2720
-            + stage3_acceleration[j] * step_151_over_544
+            + predicted_rate_per_stage1_acceleration_2 * stage1_acceleration[j]
+            - predicted_rate_per_stage2_acceleration_2 * stage2_acceleration[j]
+            + predicted_rate_per_stage3_acceleration * stage3_acceleration[j]
+        )
+        predicted_angle[j + 1] = (
+            angle[j]
+            + predicted_angle_per_stage3_rate * stage3_rate[j]
+            + predicted_rate[j + 1] * rate_per_acceleration
+            + predicted_rate_per_stage1_acceleration_2 * stage1_rate[j]
+            - predicted_rate_per_stage2_acceleration_2 * stage2_rate[j]
         )
         predicted_acceleration[j + 1] = stage3_acceleration[j]
 
     # Stage 4 of 5: accelerations of the nodes
     for j in range(STATIONS):
-        lever_sine[j] = length * ca.sin(predicted_angle[j + 1])
         lever_cosine[j] = length * ca.cos(predicted_angle[j + 1])
+        lever_sine[j] = length * ca.sin(predicted_angle[j + 1])
+        square = predicted_rate[j + 1] * predicted_rate[j + 1]
+        relative_x[j] = -lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1]
+        relative_y[j] = lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square
+        turning = half_step * predicted_rate[j + 1]
+        swing_x[j] = -lever_sine[j] - angle_per_acceleration * relative_y[j] - lever_cosine[j] * turning
+        swing_y[j] = lever_cosine[j] + angle_per_acceleration * relative_x[j] - lever_sine[j] * turning
     node_x = 0.0
     node_y = 0.0
     acceleration_x[0] = node_x
     acceleration_y[0] = node_y
     for j in range(STATIONS):
-        square = predicted_rate[j + 1] * predicted_rate[j + 1]
-        node_x = node_x - lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1]
-        node_y = node_y + lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square
+        node_x = node_x + relative_x[j]
+        node_y = node_y + relative_y[j]
         acceleration_x[j + 1] = node_x
         acceleration_y[j + 1] = node_y
 
-    # Stage 4 of 5: how each link's outer end answers to its unknown, and the predicted joint torques
+    # Stage 4 of 5: forces of the joints at the motion so far
     for j in range(STATIONS):
-        tangential = 1.0 - angle_per_acceleration * (predicted_rate[j + 1] * predicted_rate[j + 1])
-        turning = (
-            angle_per_acceleration * predicted_acceleration[j + 1] + predicted_rate[j + 1] * step_1_over_2
-        )
-        swing_x[j] = -lever_cosine[j] * turning - lever_sine[j] * tangential
-        swing_y[j] = lever_cosine[j] * tangential - lever_sine[j] * turning
         joint_torque[j] = damping[j] * (predicted_rate[j] - predicted_rate[j + 1]) + stiffness[j] * (
             predicted_angle[j] - predicted_angle[j + 1]
         )
 
     # Stage 4 of 5: sweep inward: force beyond each joint as an affine function of the motion at it
-    impedance_xx = tip_mass
-    impedance_xy = 0.0
-    impedance_xu = 0.0
-    impedance_yx = 0.0
-    impedance_yy = tip_mass
-    impedance_yu = 0.0
+    impedance_uu = tip_inertia
+    torque = predicted_acceleration[50] * tip_inertia
+    force_x = 0.0
+    force_y = 0.0
     impedance_ux = 0.0
     impedance_uy = 0.0
-    impedance_uu = tip_inertia
-    force_x = acceleration_x[50] * tip_mass
-    force_y = acceleration_y[50] * tip_mass
-    torque = predicted_acceleration[50] * tip_inertia
+    impedance_xu = 0.0
+    impedance_xx = 0.0
+    impedance_xy = 0.0
+    impedance_yu = 0.0
+    impedance_yx = 0.0
+    impedance_yy = 0.0
     for j in reversed(range(STATIONS)):
-        outer_x = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
-        outer_y = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
-        outer_u = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
-        load_x = force_x + acceleration_x[j] * carried_mass
-        load_y = force_y + acceleration_y[j] * carried_mass
-        link_ux = (
-            impedance_ux + impedance_yx * lever_cosine[j] - lever_sine[j] * (carried_mass + impedance_xx)
+        impedance_xx = impedance_xx + node_mass[j]
+        impedance_yy = impedance_yy + node_mass[j]
+        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
+        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
+        impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
+        impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
+        impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
+        impedance_ux = impedance_ux - impedance_xx * lever_sine[j] + impedance_yx * lever_cosine[j]
+        impedance_uy = impedance_uy - impedance_xy * lever_sine[j] + impedance_yy * lever_cosine[j]
+        impedance_uu = (
+            impedance_uu
+            + rod_inertia
+            + lever_cosine[j] * (impedance_yu - angle_per_acceleration * force_x)
+            + lever_sine[j] * (-impedance_xu - angle_per_acceleration * force_y)
         )
-        link_uy = (
-            impedance_uy - impedance_xy * lever_sine[j] + lever_cosine[j] * (carried_mass + impedance_yy)
-        )
-        link_uu = (
-            outer_u
-            + pin_inertia
-            + angle_per_acceleration * (-lever_cosine[j] * load_x - lever_sine[j] * load_y)
-            + lever_cosine[j] * outer_y
-            - lever_sine[j] * outer_x
-        )
-        link_xx = impedance_xx + mass
-        link_xy = impedance_xy
-        link_xu = outer_x + carried_mass * swing_x[j]
-        link_yx = impedance_yx
-        link_yy = impedance_yy + mass
-        link_yu = outer_y + carried_mass * swing_y[j]
         torque = (
             torque
-            + lever_cosine[j] * load_y
-            - lever_sine[j] * load_x
-            + pin_inertia * predicted_acceleration[j + 1]
+            - force_x * lever_sine[j]
+            + force_y * lever_cosine[j]
+            + predicted_acceleration[j + 1] * rod_inertia
         )
-        force_x = force_x + acceleration_x[j + 1] * carried_mass + acceleration_x[j] * inner_mass
-        force_y = force_y + acceleration_y[j + 1] * carried_mass + acceleration_y[j] * inner_mass
-        pivot = joint_impedance[j] + link_uu
-        inverse_pivot = 1.0 / pivot
-        answer_own[j] = inverse_pivot * (joint_torque[j] - torque)
-        answer_x[j] = inverse_pivot * link_ux
-        answer_y[j] = inverse_pivot * link_uy
-        answer_from_inner[j] = inverse_pivot * joint_impedance[j]
-        impedance_xx = link_xx - answer_x[j] * link_xu
-        impedance_xy = link_xy - answer_y[j] * link_xu
-        impedance_xu = answer_from_inner[j] * link_xu
-        force_x = force_x + answer_own[j] * link_xu
-        impedance_yx = link_yx - answer_x[j] * link_yu
-        impedance_yy = link_yy - answer_y[j] * link_yu
-        impedance_yu = answer_from_inner[j] * link_yu
-        force_y = force_y + answer_own[j] * link_yu
+        pivot = impedance_uu + joint_impedance[j]
+        admittance = 1.0 / pivot
+        answer_own[j] = admittance * (joint_torque[j] - torque)
+        answer_x[j] = admittance * impedance_ux
+        answer_y[j] = admittance * impedance_uy
+        transmission[j] = admittance * joint_impedance[j]
+        impedance_xx = impedance_xx - answer_x[j] * impedance_xu
+        impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        impedance_yx = impedance_yx - answer_x[j] * impedance_yu
+        impedance_yy = impedance_yy - answer_y[j] * impedance_yu
         impedance_ux = answer_x[j] * joint_impedance[j]
         impedance_uy = answer_y[j] * joint_impedance[j]
-        impedance_uu = answer_from_inner[j] * link_uu
+        impedance_uu = impedance_uu * transmission[j]
+        force_x = force_x + answer_own[j] * impedance_xu
+        impedance_xu = impedance_xu * transmission[j]
+        force_y = force_y + answer_own[j] * impedance_yu
+        impedance_yu = impedance_yu * transmission[j]
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
-    # Stage 4 of 5: the hub
-    unknown = step2_inverse_16 * (base_angle[3] - predicted_angle[0])
+    # Stage 4 of 5: the base
+    unknown = unknown_per_base_angle * (base_angle[3] - predicted_angle[0])
     hub_unknown = unknown
 
-    # Stage 4 of 5: sweep outward: the increment of each link's unknown
+    # Stage 4 of 5: sweep outward: the unknown of each station
     change_x = 0.0
     change_y = 0.0
     for j in range(STATIONS):
-        unknown = (
-            answer_own[j] + answer_from_inner[j] * unknown - answer_x[j] * change_x - answer_y[j] * change_y
-        )
+        unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y + transmission[j] * unknown
         change_x = change_x + swing_x[j] * unknown
         change_y = change_y + swing_y[j] * unknown
         solved[j] = unknown
@@ -1115,151 +996,129 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         stage4_rate[j] = predicted_rate[j + 1] + rate_per_acceleration * solved[j]
 
     # Stage 5 of 5: predicted motion
-    predicted_angle[0] = (
-        hub_angle
-        + hub_rate * rate_per_acceleration
-        + hub_stage1_acceleration * step2_25_over_96
-        + hub_stage1_rate * step_25_over_24
-        - hub_stage2_acceleration * step2_49_over_192
-        - hub_stage2_rate * step_49_over_48
-        + hub_stage3_acceleration * step2_125_over_64
-        + hub_stage3_rate * step_125_over_16
-        - hub_stage4_acceleration * step2_41_over_24
-        - hub_stage4_rate * step_85_over_12
-    )
     predicted_rate[0] = (
         hub_rate
-        + hub_stage1_acceleration * step_25_over_24
-        - hub_stage2_acceleration * step_49_over_48
-        + hub_stage3_acceleration * step_125_over_16
-        - hub_stage4_acceleration * step_41_over_6
+        + hub_stage1_acceleration * predicted_rate_per_stage1_acceleration_3
+        - hub_stage2_acceleration * predicted_rate_per_stage2_acceleration_3
+        + hub_stage3_acceleration * predicted_rate_per_stage3_acceleration_2
+        - hub_stage4_acceleration * predicted_rate_per_stage4_acceleration
+    )
+    predicted_angle[0] = (
+        hub_angle
+        + hub_stage1_rate * predicted_rate_per_stage1_acceleration_3
+        - hub_stage2_rate * predicted_rate_per_stage2_acceleration_3
+        + hub_stage3_rate * predicted_rate_per_stage3_acceleration_2
+        - hub_stage4_rate * predicted_angle_per_stage4_rate
+        + predicted_rate[0] * rate_per_acceleration
     )
     predicted_acceleration[0] = hub_stage4_acceleration
     for j in range(STATIONS):
-        predicted_angle[j + 1] = (
-            angle[j]
-            + rate[j] * rate_per_acceleration
-            + stage1_acceleration[j] * step2_25_over_96
-            + stage1_rate[j] * step_25_over_24
-            - stage2_acceleration[j] * step2_49_over_192
-            - stage2_rate[j] * step_49_over_48
-            + stage3_acceleration[j] * step2_125_over_64
-            + stage3_rate[j] * step_125_over_16
-            - stage4_acceleration[j] * step2_41_over_24
-            - stage4_rate[j] * step_85_over_12
-        )
         predicted_rate[j + 1] = (
             rate[j]
-            + stage1_acceleration[j] * step_25_over_24
-            - stage2_acceleration[j] * step_49_over_48
-            + stage3_acceleration[j] * step_125_over_16
-            - stage4_acceleration[j] * step_41_over_6
+            + predicted_rate_per_stage1_acceleration_3 * stage1_acceleration[j]
+            - predicted_rate_per_stage2_acceleration_3 * stage2_acceleration[j]
+            + predicted_rate_per_stage3_acceleration_2 * stage3_acceleration[j]
+            - predicted_rate_per_stage4_acceleration * stage4_acceleration[j]
+        )
+        predicted_angle[j + 1] = (
+            angle[j]
+            - predicted_angle_per_stage4_rate * stage4_rate[j]
+            + predicted_rate[j + 1] * rate_per_acceleration
+            + predicted_rate_per_stage1_acceleration_3 * stage1_rate[j]
+            - predicted_rate_per_stage2_acceleration_3 * stage2_rate[j]
+            + predicted_rate_per_stage3_acceleration_2 * stage3_rate[j]
         )
         predicted_acceleration[j + 1] = stage4_acceleration[j]
 
     # Stage 5 of 5: accelerations of the nodes
     for j in range(STATIONS):
-        lever_sine[j] = length * ca.sin(predicted_angle[j + 1])
         lever_cosine[j] = length * ca.cos(predicted_angle[j + 1])
+        lever_sine[j] = length * ca.sin(predicted_angle[j + 1])
+        square = predicted_rate[j + 1] * predicted_rate[j + 1]
+        relative_x[j] = -lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1]
+        relative_y[j] = lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square
+        turning = half_step * predicted_rate[j + 1]
+        swing_x[j] = -lever_sine[j] - angle_per_acceleration * relative_y[j] - lever_cosine[j] * turning
+        swing_y[j] = lever_cosine[j] + angle_per_acceleration * relative_x[j] - lever_sine[j] * turning
     node_x = 0.0
     node_y = 0.0
     acceleration_x[0] = node_x
     acceleration_y[0] = node_y
     for j in range(STATIONS):
-        square = predicted_rate[j + 1] * predicted_rate[j + 1]
-        node_x = node_x - lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1]
-        node_y = node_y + lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square
+        node_x = node_x + relative_x[j]
+        node_y = node_y + relative_y[j]
         acceleration_x[j + 1] = node_x
         acceleration_y[j + 1] = node_y
 
-    # Stage 5 of 5: how each link's outer end answers to its unknown, and the predicted joint torques
+    # Stage 5 of 5: forces of the joints at the motion so far
     for j in range(STATIONS):
-        tangential = 1.0 - angle_per_acceleration * (predicted_rate[j + 1] * predicted_rate[j + 1])
-        turning = (
-            angle_per_acceleration * predicted_acceleration[j + 1] + predicted_rate[j + 1] * step_1_over_2
-        )
-        swing_x[j] = -lever_cosine[j] * turning - lever_sine[j] * tangential
-        swing_y[j] = lever_cosine[j] * tangential - lever_sine[j] * turning
         joint_torque[j] = damping[j] * (predicted_rate[j] - predicted_rate[j + 1]) + stiffness[j] * (
             predicted_angle[j] - predicted_angle[j + 1]
         )
 
     # Stage 5 of 5: sweep inward: force beyond each joint as an affine function of the motion at it
-    impedance_xx = tip_mass
-    impedance_xy = 0.0
-    impedance_xu = 0.0
-    impedance_yx = 0.0
-    impedance_yy = tip_mass
-    impedance_yu = 0.0
+    impedance_uu = tip_inertia
+    torque = predicted_acceleration[50] * tip_inertia
+    force_x = 0.0
+    force_y = 0.0
     impedance_ux = 0.0
     impedance_uy = 0.0
-    impedance_uu = tip_inertia
-    force_x = acceleration_x[50] * tip_mass
-    force_y = acceleration_y[50] * tip_mass
-    torque = predicted_acceleration[50] * tip_inertia
+    impedance_xu = 0.0
+    impedance_xx = 0.0
+    impedance_xy = 0.0
+    impedance_yu = 0.0
+    impedance_yx = 0.0
+    impedance_yy = 0.0
     for j in reversed(range(STATIONS)):
-        outer_x = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
-        outer_y = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
-        outer_u = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
-        load_x = force_x + acceleration_x[j] * carried_mass
-        load_y = force_y + acceleration_y[j] * carried_mass
-        link_ux = (
-            impedance_ux + impedance_yx * lever_cosine[j] - lever_sine[j] * (carried_mass + impedance_xx)
+        impedance_xx = impedance_xx + node_mass[j]
+        impedance_yy = impedance_yy + node_mass[j]
+        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
+        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
+        impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
+        impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
+        impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
+        impedance_ux = impedance_ux - impedance_xx * lever_sine[j] + impedance_yx * lever_cosine[j]
+        impedance_uy = impedance_uy - impedance_xy * lever_sine[j] + impedance_yy * lever_cosine[j]
+        impedance_uu = (
+            impedance_uu
+            + rod_inertia
+            + lever_cosine[j] * (impedance_yu - angle_per_acceleration * force_x)
+            + lever_sine[j] * (-impedance_xu - angle_per_acceleration * force_y)
         )
-        link_uy = (
-            impedance_uy - impedance_xy * lever_sine[j] + lever_cosine[j] * (carried_mass + impedance_yy)
-        )
-        link_uu = (
-            outer_u
-            + pin_inertia
-            + angle_per_acceleration * (-lever_cosine[j] * load_x - lever_sine[j] * load_y)
-            + lever_cosine[j] * outer_y
-            - lever_sine[j] * outer_x
-        )
-        link_xx = impedance_xx + mass
-        link_xy = impedance_xy
-        link_xu = outer_x + carried_mass * swing_x[j]
-        link_yx = impedance_yx
-        link_yy = impedance_yy + mass
-        link_yu = outer_y + carried_mass * swing_y[j]
         torque = (
             torque
-            + lever_cosine[j] * load_y
-            - lever_sine[j] * load_x
-            + pin_inertia * predicted_acceleration[j + 1]
+            - force_x * lever_sine[j]
+            + force_y * lever_cosine[j]
+            + predicted_acceleration[j + 1] * rod_inertia
         )
-        force_x = force_x + acceleration_x[j + 1] * carried_mass + acceleration_x[j] * inner_mass
-        force_y = force_y + acceleration_y[j + 1] * carried_mass + acceleration_y[j] * inner_mass
-        pivot = joint_impedance[j] + link_uu
-        inverse_pivot = 1.0 / pivot
-        answer_own[j] = inverse_pivot * (joint_torque[j] - torque)
-        answer_x[j] = inverse_pivot * link_ux
-        answer_y[j] = inverse_pivot * link_uy
-        answer_from_inner[j] = inverse_pivot * joint_impedance[j]
-        impedance_xx = link_xx - answer_x[j] * link_xu
-        impedance_xy = link_xy - answer_y[j] * link_xu
-        impedance_xu = answer_from_inner[j] * link_xu
-        force_x = force_x + answer_own[j] * link_xu
-        impedance_yx = link_yx - answer_x[j] * link_yu
-        impedance_yy = link_yy - answer_y[j] * link_yu
-        impedance_yu = answer_from_inner[j] * link_yu
-        force_y = force_y + answer_own[j] * link_yu
+        pivot = impedance_uu + joint_impedance[j]
+        admittance = 1.0 / pivot
+        answer_own[j] = admittance * (joint_torque[j] - torque)
+        answer_x[j] = admittance * impedance_ux
+        answer_y[j] = admittance * impedance_uy
+        transmission[j] = admittance * joint_impedance[j]
+        impedance_xx = impedance_xx - answer_x[j] * impedance_xu
+        impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        impedance_yx = impedance_yx - answer_x[j] * impedance_yu
+        impedance_yy = impedance_yy - answer_y[j] * impedance_yu
         impedance_ux = answer_x[j] * joint_impedance[j]
         impedance_uy = answer_y[j] * joint_impedance[j]
-        impedance_uu = answer_from_inner[j] * link_uu
+        impedance_uu = impedance_uu * transmission[j]
+        force_x = force_x + answer_own[j] * impedance_xu
+        impedance_xu = impedance_xu * transmission[j]
+        force_y = force_y + answer_own[j] * impedance_yu
+        impedance_yu = impedance_yu * transmission[j]
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
-    # Stage 5 of 5: the hub
-    unknown = step2_inverse_16 * (base_angle[4] - predicted_angle[0])
+    # Stage 5 of 5: the base
+    unknown = unknown_per_base_angle * (base_angle[4] - predicted_angle[0])
     hub_unknown = unknown
 
-    # Stage 5 of 5: sweep outward: the increment of each link's unknown
+    # Stage 5 of 5: sweep outward: the unknown of each station
     change_x = 0.0
     change_y = 0.0
     for j in range(STATIONS):
-        unknown = (
-            answer_own[j] + answer_from_inner[j] * unknown - answer_x[j] * change_x - answer_y[j] * change_y
-        )
+        unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y + transmission[j] * unknown
         change_x = change_x + swing_x[j] * unknown
         change_y = change_y + swing_y[j] * unknown
         solved[j] = unknown
@@ -1281,13 +1140,15 @@ def _output(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     stiffness = model["stiffness"]
     damping = model["damping"]
     tip_mass = model["tip_mass"]
-    factor_28 = model["factor_28"]
-    factor_29 = model["factor_29"]
+    reaction_x_per_acceleration_x = model["reaction_x_per_acceleration_x"]
+    reaction_x_per_acceleration_x_2 = model["reaction_x_per_acceleration_x_2"]
     hub_angle = x[0]
     hub_rate = x[1]
     angle = ca.vertsplit(x[3:53])
     rate = ca.vertsplit(x[53:103])
     acceleration = ca.vertsplit(x[103:153])
+    acceleration_x: list[Any] = [0.0] * (STATIONS + 1)
+    acceleration_y: list[Any] = [0.0] * (STATIONS + 1)
 
     # tip: position
     tip_x: Any = 0.0
@@ -1300,27 +1161,30 @@ def _output(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     tip_angle = angle[49]
 
     # reaction: force
-    node_x: Any = 0.0
-    node_y: Any = 0.0
-    reaction_x: Any = 0.0
-    reaction_y: Any = 0.0
+    a_x: Any = 0.0
+    a_y: Any = 0.0
+    acceleration_x[0] = a_x
+    acceleration_y[0] = a_y
     for j in range(STATIONS):
-        inner_x = node_x
-        inner_y = node_y
-        node_x = (
-            node_x
+        a_x = (
+            a_x
             - acceleration[j] * length * ca.sin(angle[j])
             - length * (rate[j] * rate[j]) * ca.cos(angle[j])
         )
-        node_y = (
-            node_y
+        a_y = (
+            a_y
             + acceleration[j] * length * ca.cos(angle[j])
             - length * (rate[j] * rate[j]) * ca.sin(angle[j])
         )
-        reaction_x = reaction_x - factor_28 * inner_x + factor_29 * node_x
-        reaction_y = reaction_y - factor_28 * inner_y + factor_29 * node_y
-    reaction_x = reaction_x + node_x * tip_mass
-    reaction_y = reaction_y + node_y * tip_mass
+        acceleration_x[j + 1] = a_x
+        acceleration_y[j + 1] = a_y
+    reaction_x = acceleration_x[50] * tip_mass
+    reaction_y = acceleration_y[50] * tip_mass
+    for j in reversed(range(STATIONS)):
+        reaction_x = reaction_x + acceleration_x[j + 1] * reaction_x_per_acceleration_x
+        reaction_y = reaction_y + acceleration_y[j + 1] * reaction_x_per_acceleration_x
+        reaction_x = reaction_x - acceleration_x[j] * reaction_x_per_acceleration_x_2
+        reaction_y = reaction_y - acceleration_y[j] * reaction_x_per_acceleration_x_2
 
     # drive: torque
     drive = damping[0] * (rate[0] - hub_rate) + stiffness[0] * (angle[0] - hub_angle)

@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
-# sha256 of the rest of this file: 0c1b0c38bf145025abd941eb9aa3af67bba9b0a7dba7077c0eb25e70cabf758e
+# sha256 of the rest of this file: 7edab6052079784116b785507852c3c74e3b57bd713338ceec74c4da0a9aca99
 #
 # model: planar arm, large rotations, tip mass
 # stations: 50
@@ -11,9 +11,9 @@
 # linearisation: newton
 # sweep: riccati
 # unknown: acceleration
-# operations of a step: 35166, 703.3 per station (16203 additions, 18213 multiplications, 250 divisions, 500
-#     functions)
-# operations of prepare: 350, 7 per station (53 additions, 296 multiplications, 1 divisions)
+# operations of a step: 29534, 590.7 per station (13642 additions, 15142 multiplications, 250 divisions, 500
+#     sines and cosines)
+# operations of prepare: 526, 10.52 per station (152 additions, 373 multiplications, 1 divisions)
 """arm50: Stiff arm of fifty links on a servo.
 
 A state goes in, a new one comes out: ``model = prepare(params, step)``, ``state = initialise(params,
@@ -196,8 +196,6 @@ class Model:
     ----------
     length : array, shape (*batch)
         Link length, the same everywhere (m).
-    mass : array, shape (*batch)
-        Link mass, the same everywhere (kg).
     stiffness : array, shape (50, *batch)
         Joint stiffness, base to tip (N m/rad).
     damping : array, shape (50, *batch)
@@ -206,112 +204,78 @@ class Model:
         Mass at the tip (kg).
     tip_inertia : array, shape (*batch)
         Inertia at the tip (kg m^2).
-    angle_per_acceleration : array, shape (*batch)
-        Angle per unit of acceleration: step**2/16 (SI).
     rate_per_acceleration : array, shape (*batch)
-        Rate per unit of acceleration: step/4 (SI).
-    step_1_over_2 : array, shape (*batch)
+        Rate per unit of acceleration: step/4 (s).
+    half_step : array, shape (*batch)
         Step/2 (s).
-    step2_inverse_16 : array, shape (*batch)
-        16/step**2 (s^-2).
-    step2_3_over_16 : array, shape (*batch)
-        3*step**2/16 (s^2).
-    step_3_over_4 : array, shape (*batch)
+    angle_per_acceleration : array, shape (*batch)
+        Angle per unit of acceleration: step**2/16 (s^2).
+    unknown_per_base_angle : array, shape (*batch)
+        16/step**2 (1/rad).
+    three_quarters_step : array, shape (*batch)
         3*step/4 (s).
-    step2_17_over_200 : array, shape (*batch)
-        17*step**2/200 (s^2).
-    step_17_over_50 : array, shape (*batch)
+    predicted_rate_per_stage1_acceleration : array, shape (*batch)
         17*step/50 (s).
-    step2_21_over_400 : array, shape (*batch)
-        21*step**2/400 (s^2).
-    step_1_over_25 : array, shape (*batch)
-        Step/25 (s).
-    step_21_over_100 : array, shape (*batch)
+    predicted_rate_per_stage2_acceleration : array, shape (*batch)
         21*step/100 (s).
-    step2_371_over_5440 : array, shape (*batch)
-        371*step**2/5440 (s^2).
-    step_371_over_1360 : array, shape (*batch)
+    predicted_angle_per_stage2_rate : array, shape (*batch)
+        Step/25 (s).
+    predicted_rate_per_stage1_acceleration_2 : array, shape (*batch)
         371*step/1360 (s).
-    step2_137_over_10880 : array, shape (*batch)
-        137*step**2/10880 (s^2).
-    step_137_over_2720 : array, shape (*batch)
+    predicted_rate_per_stage2_acceleration_2 : array, shape (*batch)
         137*step/2720 (s).
-    step2_151_over_2176 : array, shape (*batch)
-        151*step**2/2176 (s^2).
-    step_15_over_544 : array, shape (*batch)
-        15*step/544 (s).
-    step_151_over_544 : array, shape (*batch)
+    predicted_rate_per_stage3_acceleration : array, shape (*batch)
         151*step/544 (s).
-    step2_25_over_96 : array, shape (*batch)
-        25*step**2/96 (s^2).
-    step_25_over_24 : array, shape (*batch)
+    predicted_angle_per_stage3_rate : array, shape (*batch)
+        15*step/544 (s).
+    predicted_rate_per_stage1_acceleration_3 : array, shape (*batch)
         25*step/24 (s).
-    step2_49_over_192 : array, shape (*batch)
-        49*step**2/192 (s^2).
-    step_49_over_48 : array, shape (*batch)
+    predicted_rate_per_stage2_acceleration_3 : array, shape (*batch)
         49*step/48 (s).
-    step2_125_over_64 : array, shape (*batch)
-        125*step**2/64 (s^2).
-    step_125_over_16 : array, shape (*batch)
+    predicted_rate_per_stage3_acceleration_2 : array, shape (*batch)
         125*step/16 (s).
-    step2_41_over_24 : array, shape (*batch)
-        41*step**2/24 (s^2).
-    step_85_over_12 : array, shape (*batch)
-        85*step/12 (s).
-    step_41_over_6 : array, shape (*batch)
+    predicted_rate_per_stage4_acceleration : array, shape (*batch)
         41*step/6 (s).
-    factor_28 : array, shape (*batch)
-        Mass*(center - 1) (SI).
-    factor_29 : array, shape (*batch)
-        Center*mass (SI).
-    carried_mass : array, shape (*batch)
-        Mass acting at a link's outer end (kg).
-    inner_mass : array, shape (*batch)
-        Mass acting at a link's inner end (kg).
-    pin_inertia : array, shape (*batch)
-        Inertia of a link about its inner end (kg m^2).
+    predicted_angle_per_stage4_rate : array, shape (*batch)
+        85*step/12 (s).
+    reaction_x_per_acceleration_x : array, shape (*batch)
+        Center*mass (N s^2/m).
+    reaction_x_per_acceleration_x_2 : array, shape (*batch)
+        Mass*(center - 1) (N s^2/m).
+    node_mass : array, shape (50, *batch)
+        Mass at the outer end of each link (kg).
+    rod_inertia : array, shape (*batch)
+        Inertia of a link that masses at its ends leave over (kg m^2).
     joint_impedance : array, shape (50, *batch)
-        Torque of a joint per difference of unknowns (SI).
+        Torque of a joint per difference of unknowns (kg m^2).
     """
 
     length: Array
-    mass: Array
     stiffness: Array
     damping: Array
     tip_mass: Array
     tip_inertia: Array
-    angle_per_acceleration: Array
     rate_per_acceleration: Array
-    step_1_over_2: Array
-    step2_inverse_16: Array
-    step2_3_over_16: Array
-    step_3_over_4: Array
-    step2_17_over_200: Array
-    step_17_over_50: Array
-    step2_21_over_400: Array
-    step_1_over_25: Array
-    step_21_over_100: Array
-    step2_371_over_5440: Array
-    step_371_over_1360: Array
-    step2_137_over_10880: Array
-    step_137_over_2720: Array
-    step2_151_over_2176: Array
-    step_15_over_544: Array
-    step_151_over_544: Array
-    step2_25_over_96: Array
-    step_25_over_24: Array
-    step2_49_over_192: Array
-    step_49_over_48: Array
-    step2_125_over_64: Array
-    step_125_over_16: Array
-    step2_41_over_24: Array
-    step_85_over_12: Array
-    step_41_over_6: Array
-    factor_28: Array
-    factor_29: Array
-    carried_mass: Array
-    inner_mass: Array
-    pin_inertia: Array
+    half_step: Array
+    angle_per_acceleration: Array
+    unknown_per_base_angle: Array
+    three_quarters_step: Array
+    predicted_rate_per_stage1_acceleration: Array
+    predicted_rate_per_stage2_acceleration: Array
+    predicted_angle_per_stage2_rate: Array
+    predicted_rate_per_stage1_acceleration_2: Array
+    predicted_rate_per_stage2_acceleration_2: Array
+    predicted_rate_per_stage3_acceleration: Array
+    predicted_angle_per_stage3_rate: Array
+    predicted_rate_per_stage1_acceleration_3: Array
+    predicted_rate_per_stage2_acceleration_3: Array
+    predicted_rate_per_stage3_acceleration_2: Array
+    predicted_rate_per_stage4_acceleration: Array
+    predicted_angle_per_stage4_rate: Array
+    reaction_x_per_acceleration_x: Array
+    reaction_x_per_acceleration_x_2: Array
+    node_mass: Array
+    rod_inertia: Array
     joint_impedance: Array
 
 
@@ -433,85 +397,66 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     tip_inertia = _array(params.tip_inertia, None, "tip_inertia")
     numbers = (step, length, mass, inertia, center, tip_mass, tip_inertia)
     arrays = (stiffness, damping)
-    batch, _ = _common(numbers, arrays)
+    batch, dtype = _common(numbers, arrays)
     stiffness = _align(stiffness, batch)
     damping = _align(damping, batch)
+    node_mass = np.zeros((STATIONS, *batch), dtype)
 
-    # Masses by the ends they act at, and joint impedances
-    carried_mass = center * mass
-    inner_mass = mass - center * mass
-    pin_inertia = inertia + center * center * (length * length) * mass
+    # masses at the nodes between links, and what they leave over
+    node_mass[:49] = center * mass + mass * (1.0 - center)
+    node_mass[49] = tip_mass + center * mass
+    rod_inertia = inertia - center * (length * length) * mass * (1.0 - center)
+
+    # factors of the sweep that do not change from step to step
     joint_impedance = 0.25 * damping * step + 0.0625 * (step * step) * stiffness
 
     # Factors of the step that depend on the time step and parameters alone
-    angle_per_acceleration = 0.0625 * (step * step)
     rate_per_acceleration = 0.25 * step
-    step_1_over_2 = 0.5 * step
-    step2_inverse_16 = 16.0 / (step * step)
-    step2_3_over_16 = 0.1875 * (step * step)
-    step_3_over_4 = 0.75 * step
-    step2_17_over_200 = (17.0 / 200.0) * (step * step)
-    step_17_over_50 = (17.0 / 50.0) * step
-    step2_21_over_400 = (21.0 / 400.0) * (step * step)
-    step_1_over_25 = (1.0 / 25.0) * step
-    step_21_over_100 = (21.0 / 100.0) * step
-    step2_371_over_5440 = (371.0 / 5440.0) * (step * step)
-    step_371_over_1360 = (371.0 / 1360.0) * step
-    step2_137_over_10880 = (137.0 / 10880.0) * (step * step)
-    step_137_over_2720 = (137.0 / 2720.0) * step
-    step2_151_over_2176 = (151.0 / 2176.0) * (step * step)
-    step_15_over_544 = (15.0 / 544.0) * step
-    step_151_over_544 = (151.0 / 544.0) * step
-    step2_25_over_96 = (25.0 / 96.0) * (step * step)
-    step_25_over_24 = (25.0 / 24.0) * step
-    step2_49_over_192 = (49.0 / 192.0) * (step * step)
-    step_49_over_48 = (49.0 / 48.0) * step
-    step2_125_over_64 = 1.953125 * (step * step)
-    step_125_over_16 = 7.8125 * step
-    step2_41_over_24 = (41.0 / 24.0) * (step * step)
-    step_85_over_12 = (85.0 / 12.0) * step
-    step_41_over_6 = (41.0 / 6.0) * step
-    factor_28 = mass * (center - 1.0)
-    factor_29 = center * mass
+    half_step = 0.5 * step
+    angle_per_acceleration = 0.0625 * (step * step)
+    unknown_per_base_angle = 16.0 / (step * step)
+    three_quarters_step = 0.75 * step
+    predicted_rate_per_stage1_acceleration = (17.0 / 50.0) * step
+    predicted_rate_per_stage2_acceleration = (21.0 / 100.0) * step
+    predicted_angle_per_stage2_rate = (1.0 / 25.0) * step
+    predicted_rate_per_stage1_acceleration_2 = (371.0 / 1360.0) * step
+    predicted_rate_per_stage2_acceleration_2 = (137.0 / 2720.0) * step
+    predicted_rate_per_stage3_acceleration = (151.0 / 544.0) * step
+    predicted_angle_per_stage3_rate = (15.0 / 544.0) * step
+    predicted_rate_per_stage1_acceleration_3 = (25.0 / 24.0) * step
+    predicted_rate_per_stage2_acceleration_3 = (49.0 / 48.0) * step
+    predicted_rate_per_stage3_acceleration_2 = 7.8125 * step
+    predicted_rate_per_stage4_acceleration = (41.0 / 6.0) * step
+    predicted_angle_per_stage4_rate = (85.0 / 12.0) * step
+    reaction_x_per_acceleration_x = center * mass
+    reaction_x_per_acceleration_x_2 = mass * (center - 1.0)
     return Model(
         length=length,
-        mass=mass,
         stiffness=stiffness,
         damping=damping,
         tip_mass=tip_mass,
         tip_inertia=tip_inertia,
-        angle_per_acceleration=angle_per_acceleration,
         rate_per_acceleration=rate_per_acceleration,
-        step_1_over_2=step_1_over_2,
-        step2_inverse_16=step2_inverse_16,
-        step2_3_over_16=step2_3_over_16,
-        step_3_over_4=step_3_over_4,
-        step2_17_over_200=step2_17_over_200,
-        step_17_over_50=step_17_over_50,
-        step2_21_over_400=step2_21_over_400,
-        step_1_over_25=step_1_over_25,
-        step_21_over_100=step_21_over_100,
-        step2_371_over_5440=step2_371_over_5440,
-        step_371_over_1360=step_371_over_1360,
-        step2_137_over_10880=step2_137_over_10880,
-        step_137_over_2720=step_137_over_2720,
-        step2_151_over_2176=step2_151_over_2176,
-        step_15_over_544=step_15_over_544,
-        step_151_over_544=step_151_over_544,
-        step2_25_over_96=step2_25_over_96,
-        step_25_over_24=step_25_over_24,
-        step2_49_over_192=step2_49_over_192,
-        step_49_over_48=step_49_over_48,
-        step2_125_over_64=step2_125_over_64,
-        step_125_over_16=step_125_over_16,
-        step2_41_over_24=step2_41_over_24,
-        step_85_over_12=step_85_over_12,
-        step_41_over_6=step_41_over_6,
-        factor_28=factor_28,
-        factor_29=factor_29,
-        carried_mass=carried_mass,
-        inner_mass=inner_mass,
-        pin_inertia=pin_inertia,
+        half_step=half_step,
+        angle_per_acceleration=angle_per_acceleration,
+        unknown_per_base_angle=unknown_per_base_angle,
+        three_quarters_step=three_quarters_step,
+        predicted_rate_per_stage1_acceleration=predicted_rate_per_stage1_acceleration,
+        predicted_rate_per_stage2_acceleration=predicted_rate_per_stage2_acceleration,
+        predicted_angle_per_stage2_rate=predicted_angle_per_stage2_rate,
+        predicted_rate_per_stage1_acceleration_2=predicted_rate_per_stage1_acceleration_2,
+        predicted_rate_per_stage2_acceleration_2=predicted_rate_per_stage2_acceleration_2,
+        predicted_rate_per_stage3_acceleration=predicted_rate_per_stage3_acceleration,
+        predicted_angle_per_stage3_rate=predicted_angle_per_stage3_rate,
+        predicted_rate_per_stage1_acceleration_3=predicted_rate_per_stage1_acceleration_3,
+        predicted_rate_per_stage2_acceleration_3=predicted_rate_per_stage2_acceleration_3,
+        predicted_rate_per_stage3_acceleration_2=predicted_rate_per_stage3_acceleration_2,
+        predicted_rate_per_stage4_acceleration=predicted_rate_per_stage4_acceleration,
+        predicted_angle_per_stage4_rate=predicted_angle_per_stage4_rate,
+        reaction_x_per_acceleration_x=reaction_x_per_acceleration_x,
+        reaction_x_per_acceleration_x_2=reaction_x_per_acceleration_x_2,
+        node_mass=node_mass,
+        rod_inertia=rod_inertia,
         joint_impedance=joint_impedance,
     )
 
@@ -569,116 +514,99 @@ def initialise(
     answer_own = np.zeros((STATIONS, *batch), dtype)
     answer_x = np.zeros((STATIONS, *batch), dtype)
     answer_y = np.zeros((STATIONS, *batch), dtype)
+    node_mass = np.zeros((STATIONS, *batch), dtype)
     predicted_acceleration = np.zeros((STATIONS + 1, *batch), dtype)
     predicted_angle = np.zeros((STATIONS + 1, *batch), dtype)
     predicted_rate = np.zeros((STATIONS + 1, *batch), dtype)
     solved = np.zeros((STATIONS, *batch), dtype)
 
+    # masses at the nodes between links, and what they leave over
+    node_mass[:49] = center * mass + mass * (1.0 - center)
+    node_mass[49] = tip_mass + center * mass
+    rod_inertia = inertia - center * (length * length) * mass * (1.0 - center)
+
     # predicted motion
-    predicted_angle[0] = base_angle[0]
     predicted_rate[0] = 0.0
+    predicted_angle[0] = base_angle[0]
     predicted_acceleration[0] = 0.0
-    predicted_angle[1:] = initial_angle
     predicted_rate[1:] = initial_rate
+    predicted_angle[1:] = initial_angle
     predicted_acceleration[1:] = 0.0
 
     # accelerations of the nodes
-    lever_sine = length * np.sin(predicted_angle[1:])
     lever_cosine = length * np.cos(predicted_angle[1:])
+    lever_sine = length * np.sin(predicted_angle[1:])
+    square = predicted_rate[1:] * predicted_rate[1:]
+    relative_x = -lever_cosine * square - lever_sine * predicted_acceleration[1:]
+    relative_y = lever_cosine * predicted_acceleration[1:] - lever_sine * square
     node_x: Any = 0.0
     node_y: Any = 0.0
     acceleration_x[0] = node_x
     acceleration_y[0] = node_y
     for j in range(STATIONS):
-        square = predicted_rate[j + 1] * predicted_rate[j + 1]
-        node_x = node_x - lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1]
-        node_y = node_y + lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square
+        node_x = node_x + relative_x[j]
+        node_y = node_y + relative_y[j]
         acceleration_x[j + 1] = node_x
         acceleration_y[j + 1] = node_y
 
-    # how each link's outer end answers to its unknown, and the predicted joint torques
-    swing_x = -lever_sine
-    swing_y = lever_cosine
+    # forces of the joints at the motion so far
     joint_torque = damping * (predicted_rate[:50] - predicted_rate[1:]) + stiffness * (
         predicted_angle[:50] - predicted_angle[1:]
     )
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
-    impedance_xx = tip_mass
-    impedance_xy: Any = 0.0
-    impedance_xu: Any = 0.0
-    impedance_yx: Any = 0.0
-    impedance_yy = tip_mass
-    impedance_yu: Any = 0.0
-    impedance_ux: Any = 0.0
-    impedance_uy: Any = 0.0
     impedance_uu = tip_inertia
-    force_x = acceleration_x[50] * tip_mass
-    force_y = acceleration_y[50] * tip_mass
     torque = predicted_acceleration[50] * tip_inertia
+    force_x: Any = 0.0
+    force_y: Any = 0.0
+    impedance_xx: Any = 0.0
+    impedance_xy: Any = 0.0
+    impedance_yx: Any = 0.0
+    impedance_yy: Any = 0.0
     for j in reversed(range(STATIONS)):
-        outer_x = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
-        outer_y = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
-        outer_u = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
-        load_x = force_x + acceleration_x[j] * center * mass
-        load_y = force_y + acceleration_y[j] * center * mass
-        link_ux = (
-            impedance_ux + impedance_yx * lever_cosine[j] - lever_sine[j] * (impedance_xx + center * mass)
+        impedance_xx = impedance_xx + node_mass[j]
+        impedance_yy = impedance_yy + node_mass[j]
+        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
+        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
+        impedance_xu = impedance_xy * lever_cosine[j] - impedance_xx * lever_sine[j]
+        impedance_yu = impedance_yy * lever_cosine[j] - impedance_yx * lever_sine[j]
+        impedance_ux = impedance_yx * lever_cosine[j] - impedance_xx * lever_sine[j]
+        impedance_uy = impedance_yy * lever_cosine[j] - impedance_xy * lever_sine[j]
+        impedance_uu = (
+            impedance_uu + rod_inertia - impedance_xu * lever_sine[j] + impedance_yu * lever_cosine[j]
         )
-        link_uy = (
-            impedance_uy - impedance_xy * lever_sine[j] + lever_cosine[j] * (impedance_yy + center * mass)
-        )
-        link_uu = (
-            inertia
-            + outer_u
-            + lever_cosine[j] * outer_y
-            - lever_sine[j] * outer_x
-            + center * center * (length * length) * mass
-        )
-        link_xx = impedance_xx + mass
-        link_xy = impedance_xy
-        link_xu = outer_x + center * mass * swing_x[j]
-        link_yx = impedance_yx
-        link_yy = impedance_yy + mass
-        link_yu = outer_y + center * mass * swing_y[j]
         torque = (
             torque
-            + lever_cosine[j] * load_y
-            - lever_sine[j] * load_x
-            + predicted_acceleration[j + 1] * (inertia + center * center * (length * length) * mass)
+            - force_x * lever_sine[j]
+            + force_y * lever_cosine[j]
+            + predicted_acceleration[j + 1] * rod_inertia
         )
-        force_x = force_x + acceleration_x[j] * (mass - center * mass) + acceleration_x[j + 1] * center * mass
-        force_y = force_y + acceleration_y[j] * (mass - center * mass) + acceleration_y[j + 1] * center * mass
-        pivot = link_uu
+        pivot = impedance_uu
         _require_positive(pivot, "pivot", j)
-        inverse_pivot = 1.0 / pivot
-        answer_own[j] = inverse_pivot * (joint_torque[j] - torque)
-        answer_x[j] = inverse_pivot * link_ux
-        answer_y[j] = inverse_pivot * link_uy
-        impedance_xx = link_xx - answer_x[j] * link_xu
-        impedance_xy = link_xy - answer_y[j] * link_xu
-        impedance_xu = 0.0
-        force_x = force_x + answer_own[j] * link_xu
-        impedance_yx = link_yx - answer_x[j] * link_yu
-        impedance_yy = link_yy - answer_y[j] * link_yu
-        impedance_yu = 0.0
-        force_y = force_y + answer_own[j] * link_yu
-        impedance_ux = 0.0
-        impedance_uy = 0.0
-        impedance_uu = 0.0
+        admittance = 1.0 / pivot
+        answer_own[j] = admittance * (joint_torque[j] - torque)
+        answer_x[j] = admittance * impedance_ux
+        answer_y[j] = admittance * impedance_uy
+        impedance_xx = impedance_xx - answer_x[j] * impedance_xu
+        impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        impedance_yx = impedance_yx - answer_x[j] * impedance_yu
+        impedance_yy = impedance_yy - answer_y[j] * impedance_yu
+        force_x = force_x + answer_own[j] * impedance_xu
+        force_y = force_y + answer_own[j] * impedance_yu
         torque = joint_torque[j]
+        impedance_uu = 0.0
 
-    # the hub
+    # the base
     unknown: Any = 0.0
     hub_unknown = unknown
 
-    # sweep outward: the increment of each link's unknown
+    # sweep outward: the unknown of each station
     change_x: Any = 0.0
     change_y: Any = 0.0
     for j in range(STATIONS):
         unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y
-        change_x = change_x + swing_x[j] * unknown
-        change_y = change_y + swing_y[j] * unknown
+        change_x = change_x - lever_sine[j] * unknown
+        change_y = change_y + lever_cosine[j] * unknown
         solved[j] = unknown
 
     # motion at the end of the step
@@ -727,41 +655,28 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
     stages = _stages(input, 5)
     base_angle = _at_stages(stages, "base_angle")
     length = model.length
-    mass = model.mass
     stiffness = np.asarray(model.stiffness)
     damping = np.asarray(model.damping)
-    tip_mass = model.tip_mass
     tip_inertia = model.tip_inertia
-    angle_per_acceleration = model.angle_per_acceleration
     rate_per_acceleration = model.rate_per_acceleration
-    step_1_over_2 = model.step_1_over_2
-    step2_inverse_16 = model.step2_inverse_16
-    step2_3_over_16 = model.step2_3_over_16
-    step_3_over_4 = model.step_3_over_4
-    step2_17_over_200 = model.step2_17_over_200
-    step_17_over_50 = model.step_17_over_50
-    step2_21_over_400 = model.step2_21_over_400
-    step_1_over_25 = model.step_1_over_25
-    step_21_over_100 = model.step_21_over_100
-    step2_371_over_5440 = model.step2_371_over_5440
-    step_371_over_1360 = model.step_371_over_1360
-    step2_137_over_10880 = model.step2_137_over_10880
-    step_137_over_2720 = model.step_137_over_2720
-    step2_151_over_2176 = model.step2_151_over_2176
-    step_15_over_544 = model.step_15_over_544
-    step_151_over_544 = model.step_151_over_544
-    step2_25_over_96 = model.step2_25_over_96
-    step_25_over_24 = model.step_25_over_24
-    step2_49_over_192 = model.step2_49_over_192
-    step_49_over_48 = model.step_49_over_48
-    step2_125_over_64 = model.step2_125_over_64
-    step_125_over_16 = model.step_125_over_16
-    step2_41_over_24 = model.step2_41_over_24
-    step_85_over_12 = model.step_85_over_12
-    step_41_over_6 = model.step_41_over_6
-    carried_mass = model.carried_mass
-    inner_mass = model.inner_mass
-    pin_inertia = model.pin_inertia
+    half_step = model.half_step
+    angle_per_acceleration = model.angle_per_acceleration
+    unknown_per_base_angle = model.unknown_per_base_angle
+    three_quarters_step = model.three_quarters_step
+    predicted_rate_per_stage1_acceleration = model.predicted_rate_per_stage1_acceleration
+    predicted_rate_per_stage2_acceleration = model.predicted_rate_per_stage2_acceleration
+    predicted_angle_per_stage2_rate = model.predicted_angle_per_stage2_rate
+    predicted_rate_per_stage1_acceleration_2 = model.predicted_rate_per_stage1_acceleration_2
+    predicted_rate_per_stage2_acceleration_2 = model.predicted_rate_per_stage2_acceleration_2
+    predicted_rate_per_stage3_acceleration = model.predicted_rate_per_stage3_acceleration
+    predicted_angle_per_stage3_rate = model.predicted_angle_per_stage3_rate
+    predicted_rate_per_stage1_acceleration_3 = model.predicted_rate_per_stage1_acceleration_3
+    predicted_rate_per_stage2_acceleration_3 = model.predicted_rate_per_stage2_acceleration_3
+    predicted_rate_per_stage3_acceleration_2 = model.predicted_rate_per_stage3_acceleration_2
+    predicted_rate_per_stage4_acceleration = model.predicted_rate_per_stage4_acceleration
+    predicted_angle_per_stage4_rate = model.predicted_angle_per_stage4_rate
+    node_mass = np.asarray(model.node_mass)
+    rod_inertia = model.rod_inertia
     joint_impedance = np.asarray(model.joint_impedance)
     hub_angle = state.hub_angle
     hub_rate = state.hub_rate
@@ -772,47 +687,34 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
     numbers = (
         *base_angle,
         length,
-        mass,
-        tip_mass,
         tip_inertia,
-        angle_per_acceleration,
         rate_per_acceleration,
-        step_1_over_2,
-        step2_inverse_16,
-        step2_3_over_16,
-        step_3_over_4,
-        step2_17_over_200,
-        step_17_over_50,
-        step2_21_over_400,
-        step_1_over_25,
-        step_21_over_100,
-        step2_371_over_5440,
-        step_371_over_1360,
-        step2_137_over_10880,
-        step_137_over_2720,
-        step2_151_over_2176,
-        step_15_over_544,
-        step_151_over_544,
-        step2_25_over_96,
-        step_25_over_24,
-        step2_49_over_192,
-        step_49_over_48,
-        step2_125_over_64,
-        step_125_over_16,
-        step2_41_over_24,
-        step_85_over_12,
-        step_41_over_6,
-        carried_mass,
-        inner_mass,
-        pin_inertia,
+        half_step,
+        angle_per_acceleration,
+        unknown_per_base_angle,
+        three_quarters_step,
+        predicted_rate_per_stage1_acceleration,
+        predicted_rate_per_stage2_acceleration,
+        predicted_angle_per_stage2_rate,
+        predicted_rate_per_stage1_acceleration_2,
+        predicted_rate_per_stage2_acceleration_2,
+        predicted_rate_per_stage3_acceleration,
+        predicted_angle_per_stage3_rate,
+        predicted_rate_per_stage1_acceleration_3,
+        predicted_rate_per_stage2_acceleration_3,
+        predicted_rate_per_stage3_acceleration_2,
+        predicted_rate_per_stage4_acceleration,
+        predicted_angle_per_stage4_rate,
+        rod_inertia,
         hub_angle,
         hub_rate,
         hub_acceleration,
     )
-    arrays = (stiffness, damping, joint_impedance, angle, rate, acceleration)
+    arrays = (stiffness, damping, node_mass, joint_impedance, angle, rate, acceleration)
     batch, dtype = _common(numbers, arrays)
     stiffness = _align(stiffness, batch)
     damping = _align(damping, batch)
+    node_mass = _align(node_mass, batch)
     joint_impedance = _align(joint_impedance, batch)
     hub_angle = _spread(hub_angle, batch, False)
     hub_rate = _spread(hub_rate, batch, False)
@@ -822,7 +724,6 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
     acceleration = _spread(acceleration, batch, True)
     acceleration_x = np.zeros((STATIONS + 1, *batch), dtype)
     acceleration_y = np.zeros((STATIONS + 1, *batch), dtype)
-    answer_from_inner = np.zeros((STATIONS, *batch), dtype)
     answer_own = np.zeros((STATIONS, *batch), dtype)
     answer_x = np.zeros((STATIONS, *batch), dtype)
     answer_y = np.zeros((STATIONS, *batch), dtype)
@@ -830,117 +731,104 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
     predicted_angle = np.zeros((STATIONS + 1, *batch), dtype)
     predicted_rate = np.zeros((STATIONS + 1, *batch), dtype)
     solved = np.zeros((STATIONS, *batch), dtype)
+    transmission = np.zeros((STATIONS, *batch), dtype)
 
     # Stage 1 of 5: predicted motion
-    predicted_angle[0] = (
-        hub_angle + angle_per_acceleration * hub_acceleration + hub_rate * rate_per_acceleration
-    )
     predicted_rate[0] = hub_rate + hub_acceleration * rate_per_acceleration
+    predicted_angle[0] = hub_angle + predicted_rate[0] * rate_per_acceleration
     predicted_acceleration[0] = hub_acceleration
-    predicted_angle[1:] = angle + acceleration * angle_per_acceleration + rate * rate_per_acceleration
     predicted_rate[1:] = rate + acceleration * rate_per_acceleration
+    predicted_angle[1:] = angle + predicted_rate[1:] * rate_per_acceleration
     predicted_acceleration[1:] = acceleration
 
     # Stage 1 of 5: accelerations of the nodes
-    lever_sine = length * np.sin(predicted_angle[1:])
     lever_cosine = length * np.cos(predicted_angle[1:])
+    lever_sine = length * np.sin(predicted_angle[1:])
+    square = predicted_rate[1:] * predicted_rate[1:]
+    relative_x = -lever_cosine * square - lever_sine * predicted_acceleration[1:]
+    relative_y = lever_cosine * predicted_acceleration[1:] - lever_sine * square
+    turning = half_step * predicted_rate[1:]
+    swing_x = -lever_sine - angle_per_acceleration * relative_y - lever_cosine * turning
+    swing_y = lever_cosine + angle_per_acceleration * relative_x - lever_sine * turning
     node_x: Any = 0.0
     node_y: Any = 0.0
     acceleration_x[0] = node_x
     acceleration_y[0] = node_y
     for j in range(STATIONS):
-        square = predicted_rate[j + 1] * predicted_rate[j + 1]
-        node_x = node_x - lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1]
-        node_y = node_y + lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square
+        node_x = node_x + relative_x[j]
+        node_y = node_y + relative_y[j]
         acceleration_x[j + 1] = node_x
         acceleration_y[j + 1] = node_y
 
-    # Stage 1 of 5: how each link's outer end answers to its unknown, and the predicted joint torques
-    tangential = 1.0 - angle_per_acceleration * (predicted_rate[1:] * predicted_rate[1:])
-    turning = angle_per_acceleration * predicted_acceleration[1:] + predicted_rate[1:] * step_1_over_2
-    swing_x = -lever_cosine * turning - lever_sine * tangential
-    swing_y = lever_cosine * tangential - lever_sine * turning
+    # Stage 1 of 5: forces of the joints at the motion so far
     joint_torque = damping * (predicted_rate[:50] - predicted_rate[1:]) + stiffness * (
         predicted_angle[:50] - predicted_angle[1:]
     )
 
     # Stage 1 of 5: sweep inward: force beyond each joint as an affine function of the motion at it
-    impedance_xx = tip_mass
-    impedance_xy: Any = 0.0
-    impedance_xu: Any = 0.0
-    impedance_yx: Any = 0.0
-    impedance_yy = tip_mass
-    impedance_yu: Any = 0.0
+    impedance_uu = tip_inertia
+    torque = predicted_acceleration[50] * tip_inertia
+    force_x: Any = 0.0
+    force_y: Any = 0.0
     impedance_ux: Any = 0.0
     impedance_uy: Any = 0.0
-    impedance_uu = tip_inertia
-    force_x = acceleration_x[50] * tip_mass
-    force_y = acceleration_y[50] * tip_mass
-    torque = predicted_acceleration[50] * tip_inertia
+    impedance_xu: Any = 0.0
+    impedance_xx: Any = 0.0
+    impedance_xy: Any = 0.0
+    impedance_yu: Any = 0.0
+    impedance_yx: Any = 0.0
+    impedance_yy: Any = 0.0
     for j in reversed(range(STATIONS)):
-        outer_x = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
-        outer_y = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
-        outer_u = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
-        load_x = force_x + acceleration_x[j] * carried_mass
-        load_y = force_y + acceleration_y[j] * carried_mass
-        link_ux = (
-            impedance_ux + impedance_yx * lever_cosine[j] - lever_sine[j] * (carried_mass + impedance_xx)
+        impedance_xx = impedance_xx + node_mass[j]
+        impedance_yy = impedance_yy + node_mass[j]
+        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
+        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
+        impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
+        impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
+        impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
+        impedance_ux = impedance_ux - impedance_xx * lever_sine[j] + impedance_yx * lever_cosine[j]
+        impedance_uy = impedance_uy - impedance_xy * lever_sine[j] + impedance_yy * lever_cosine[j]
+        impedance_uu = (
+            impedance_uu
+            + rod_inertia
+            + lever_cosine[j] * (impedance_yu - angle_per_acceleration * force_x)
+            + lever_sine[j] * (-impedance_xu - angle_per_acceleration * force_y)
         )
-        link_uy = (
-            impedance_uy - impedance_xy * lever_sine[j] + lever_cosine[j] * (carried_mass + impedance_yy)
-        )
-        link_uu = (
-            outer_u
-            + pin_inertia
-            + angle_per_acceleration * (-lever_cosine[j] * load_x - lever_sine[j] * load_y)
-            + lever_cosine[j] * outer_y
-            - lever_sine[j] * outer_x
-        )
-        link_xx = impedance_xx + mass
-        link_xy = impedance_xy
-        link_xu = outer_x + carried_mass * swing_x[j]
-        link_yx = impedance_yx
-        link_yy = impedance_yy + mass
-        link_yu = outer_y + carried_mass * swing_y[j]
         torque = (
             torque
-            + lever_cosine[j] * load_y
-            - lever_sine[j] * load_x
-            + pin_inertia * predicted_acceleration[j + 1]
+            - force_x * lever_sine[j]
+            + force_y * lever_cosine[j]
+            + predicted_acceleration[j + 1] * rod_inertia
         )
-        force_x = force_x + acceleration_x[j + 1] * carried_mass + acceleration_x[j] * inner_mass
-        force_y = force_y + acceleration_y[j + 1] * carried_mass + acceleration_y[j] * inner_mass
-        pivot = joint_impedance[j] + link_uu
+        pivot = impedance_uu + joint_impedance[j]
         _require_positive(pivot, "pivot", j)
-        inverse_pivot = 1.0 / pivot
-        answer_own[j] = inverse_pivot * (joint_torque[j] - torque)
-        answer_x[j] = inverse_pivot * link_ux
-        answer_y[j] = inverse_pivot * link_uy
-        answer_from_inner[j] = inverse_pivot * joint_impedance[j]
-        impedance_xx = link_xx - answer_x[j] * link_xu
-        impedance_xy = link_xy - answer_y[j] * link_xu
-        impedance_xu = answer_from_inner[j] * link_xu
-        force_x = force_x + answer_own[j] * link_xu
-        impedance_yx = link_yx - answer_x[j] * link_yu
-        impedance_yy = link_yy - answer_y[j] * link_yu
-        impedance_yu = answer_from_inner[j] * link_yu
-        force_y = force_y + answer_own[j] * link_yu
+        admittance = 1.0 / pivot
+        answer_own[j] = admittance * (joint_torque[j] - torque)
+        answer_x[j] = admittance * impedance_ux
+        answer_y[j] = admittance * impedance_uy
+        transmission[j] = admittance * joint_impedance[j]
+        impedance_xx = impedance_xx - answer_x[j] * impedance_xu
+        impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        impedance_yx = impedance_yx - answer_x[j] * impedance_yu
+        impedance_yy = impedance_yy - answer_y[j] * impedance_yu
         impedance_ux = answer_x[j] * joint_impedance[j]
         impedance_uy = answer_y[j] * joint_impedance[j]
-        impedance_uu = answer_from_inner[j] * link_uu
+        impedance_uu = impedance_uu * transmission[j]
+        force_x = force_x + answer_own[j] * impedance_xu
+        impedance_xu = impedance_xu * transmission[j]
+        force_y = force_y + answer_own[j] * impedance_yu
+        impedance_yu = impedance_yu * transmission[j]
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
-    # Stage 1 of 5: the hub
-    unknown = step2_inverse_16 * (base_angle[0] - predicted_angle[0])
+    # Stage 1 of 5: the base
+    unknown = unknown_per_base_angle * (base_angle[0] - predicted_angle[0])
     hub_unknown = unknown
 
-    # Stage 1 of 5: sweep outward: the increment of each link's unknown
+    # Stage 1 of 5: sweep outward: the unknown of each station
     change_x: Any = 0.0
     change_y: Any = 0.0
     for j in range(STATIONS):
-        unknown = (
-            answer_own[j] + answer_from_inner[j] * unknown - answer_x[j] * change_x - answer_y[j] * change_y
-        )
+        unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y + transmission[j] * unknown
         change_x = change_x + swing_x[j] * unknown
         change_y = change_y + swing_y[j] * unknown
         solved[j] = unknown
@@ -952,123 +840,101 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
     stage1_rate = predicted_rate[1:] + rate_per_acceleration * solved
 
     # Stage 2 of 5: predicted motion
-    predicted_angle[0] = (
-        hub_angle
-        + hub_rate * rate_per_acceleration
-        + hub_stage1_acceleration * step2_3_over_16
-        + hub_stage1_rate * step_1_over_2
-    )
-    predicted_rate[0] = hub_rate + hub_stage1_acceleration * step_3_over_4
+    predicted_rate[0] = hub_rate + hub_stage1_acceleration * three_quarters_step
+    predicted_angle[0] = hub_angle + half_step * hub_stage1_rate + predicted_rate[0] * rate_per_acceleration
     predicted_acceleration[0] = hub_stage1_acceleration
-    predicted_angle[1:] = (
-        angle
-        + rate * rate_per_acceleration
-        + stage1_acceleration * step2_3_over_16
-        + stage1_rate * step_1_over_2
-    )
-    predicted_rate[1:] = rate + stage1_acceleration * step_3_over_4
+    predicted_rate[1:] = rate + stage1_acceleration * three_quarters_step
+    predicted_angle[1:] = angle + half_step * stage1_rate + predicted_rate[1:] * rate_per_acceleration
     predicted_acceleration[1:] = stage1_acceleration
 
     # Stage 2 of 5: accelerations of the nodes
-    lever_sine = length * np.sin(predicted_angle[1:])
     lever_cosine = length * np.cos(predicted_angle[1:])
+    lever_sine = length * np.sin(predicted_angle[1:])
+    square = predicted_rate[1:] * predicted_rate[1:]
+    relative_x = -lever_cosine * square - lever_sine * predicted_acceleration[1:]
+    relative_y = lever_cosine * predicted_acceleration[1:] - lever_sine * square
+    turning = half_step * predicted_rate[1:]
+    swing_x = -lever_sine - angle_per_acceleration * relative_y - lever_cosine * turning
+    swing_y = lever_cosine + angle_per_acceleration * relative_x - lever_sine * turning
     node_x = 0.0
     node_y = 0.0
     acceleration_x[0] = node_x
     acceleration_y[0] = node_y
     for j in range(STATIONS):
-        square = predicted_rate[j + 1] * predicted_rate[j + 1]
-        node_x = node_x - lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1]
-        node_y = node_y + lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square
+        node_x = node_x + relative_x[j]
+        node_y = node_y + relative_y[j]
         acceleration_x[j + 1] = node_x
         acceleration_y[j + 1] = node_y
 
-    # Stage 2 of 5: how each link's outer end answers to its unknown, and the predicted joint torques
-    tangential = 1.0 - angle_per_acceleration * (predicted_rate[1:] * predicted_rate[1:])
-    turning = angle_per_acceleration * predicted_acceleration[1:] + predicted_rate[1:] * step_1_over_2
-    swing_x = -lever_cosine * turning - lever_sine * tangential
-    swing_y = lever_cosine * tangential - lever_sine * turning
+    # Stage 2 of 5: forces of the joints at the motion so far
     joint_torque = damping * (predicted_rate[:50] - predicted_rate[1:]) + stiffness * (
         predicted_angle[:50] - predicted_angle[1:]
     )
 
     # Stage 2 of 5: sweep inward: force beyond each joint as an affine function of the motion at it
-    impedance_xx = tip_mass
-    impedance_xy = 0.0
-    impedance_xu = 0.0
-    impedance_yx = 0.0
-    impedance_yy = tip_mass
-    impedance_yu = 0.0
+    impedance_uu = tip_inertia
+    torque = predicted_acceleration[50] * tip_inertia
+    force_x = 0.0
+    force_y = 0.0
     impedance_ux = 0.0
     impedance_uy = 0.0
-    impedance_uu = tip_inertia
-    force_x = acceleration_x[50] * tip_mass
-    force_y = acceleration_y[50] * tip_mass
-    torque = predicted_acceleration[50] * tip_inertia
+    impedance_xu = 0.0
+    impedance_xx = 0.0
+    impedance_xy = 0.0
+    impedance_yu = 0.0
+    impedance_yx = 0.0
+    impedance_yy = 0.0
     for j in reversed(range(STATIONS)):
-        outer_x = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
-        outer_y = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
-        outer_u = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
-        load_x = force_x + acceleration_x[j] * carried_mass
-        load_y = force_y + acceleration_y[j] * carried_mass
-        link_ux = (
-            impedance_ux + impedance_yx * lever_cosine[j] - lever_sine[j] * (carried_mass + impedance_xx)
+        impedance_xx = impedance_xx + node_mass[j]
+        impedance_yy = impedance_yy + node_mass[j]
+        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
+        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
+        impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
+        impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
+        impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
+        impedance_ux = impedance_ux - impedance_xx * lever_sine[j] + impedance_yx * lever_cosine[j]
+        impedance_uy = impedance_uy - impedance_xy * lever_sine[j] + impedance_yy * lever_cosine[j]
+        impedance_uu = (
+            impedance_uu
+            + rod_inertia
+            + lever_cosine[j] * (impedance_yu - angle_per_acceleration * force_x)
+            + lever_sine[j] * (-impedance_xu - angle_per_acceleration * force_y)
         )
-        link_uy = (
-            impedance_uy - impedance_xy * lever_sine[j] + lever_cosine[j] * (carried_mass + impedance_yy)
-        )
-        link_uu = (
-            outer_u
-            + pin_inertia
-            + angle_per_acceleration * (-lever_cosine[j] * load_x - lever_sine[j] * load_y)
-            + lever_cosine[j] * outer_y
-            - lever_sine[j] * outer_x
-        )
-        link_xx = impedance_xx + mass
-        link_xy = impedance_xy
-        link_xu = outer_x + carried_mass * swing_x[j]
-        link_yx = impedance_yx
-        link_yy = impedance_yy + mass
-        link_yu = outer_y + carried_mass * swing_y[j]
         torque = (
             torque
-            + lever_cosine[j] * load_y
-            - lever_sine[j] * load_x
-            + pin_inertia * predicted_acceleration[j + 1]
+            - force_x * lever_sine[j]
+            + force_y * lever_cosine[j]
+            + predicted_acceleration[j + 1] * rod_inertia
         )
-        force_x = force_x + acceleration_x[j + 1] * carried_mass + acceleration_x[j] * inner_mass
-        force_y = force_y + acceleration_y[j + 1] * carried_mass + acceleration_y[j] * inner_mass
-        pivot = joint_impedance[j] + link_uu
+        pivot = impedance_uu + joint_impedance[j]
         _require_positive(pivot, "pivot", j)
-        inverse_pivot = 1.0 / pivot
-        answer_own[j] = inverse_pivot * (joint_torque[j] - torque)
-        answer_x[j] = inverse_pivot * link_ux
-        answer_y[j] = inverse_pivot * link_uy
-        answer_from_inner[j] = inverse_pivot * joint_impedance[j]
-        impedance_xx = link_xx - answer_x[j] * link_xu
-        impedance_xy = link_xy - answer_y[j] * link_xu
-        impedance_xu = answer_from_inner[j] * link_xu
-        force_x = force_x + answer_own[j] * link_xu
-        impedance_yx = link_yx - answer_x[j] * link_yu
-        impedance_yy = link_yy - answer_y[j] * link_yu
-        impedance_yu = answer_from_inner[j] * link_yu
-        force_y = force_y + answer_own[j] * link_yu
+        admittance = 1.0 / pivot
+        answer_own[j] = admittance * (joint_torque[j] - torque)
+        answer_x[j] = admittance * impedance_ux
+        answer_y[j] = admittance * impedance_uy
+        transmission[j] = admittance * joint_impedance[j]
+        impedance_xx = impedance_xx - answer_x[j] * impedance_xu
+        impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        impedance_yx = impedance_yx - answer_x[j] * impedance_yu
+        impedance_yy = impedance_yy - answer_y[j] * impedance_yu
         impedance_ux = answer_x[j] * joint_impedance[j]
         impedance_uy = answer_y[j] * joint_impedance[j]
-        impedance_uu = answer_from_inner[j] * link_uu
+        impedance_uu = impedance_uu * transmission[j]
+        force_x = force_x + answer_own[j] * impedance_xu
+        impedance_xu = impedance_xu * transmission[j]
+        force_y = force_y + answer_own[j] * impedance_yu
+        impedance_yu = impedance_yu * transmission[j]
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
-    # Stage 2 of 5: the hub
-    unknown = step2_inverse_16 * (base_angle[1] - predicted_angle[0])
+    # Stage 2 of 5: the base
+    unknown = unknown_per_base_angle * (base_angle[1] - predicted_angle[0])
     hub_unknown = unknown
 
-    # Stage 2 of 5: sweep outward: the increment of each link's unknown
+    # Stage 2 of 5: sweep outward: the unknown of each station
     change_x = 0.0
     change_y = 0.0
     for j in range(STATIONS):
-        unknown = (
-            answer_own[j] + answer_from_inner[j] * unknown - answer_x[j] * change_x - answer_y[j] * change_y
-        )
+        unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y + transmission[j] * unknown
         change_x = change_x + swing_x[j] * unknown
         change_y = change_y + swing_y[j] * unknown
         solved[j] = unknown
@@ -1080,129 +946,119 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
     stage2_rate = predicted_rate[1:] + rate_per_acceleration * solved
 
     # Stage 3 of 5: predicted motion
+    predicted_rate[0] = (
+        hub_rate
+        + hub_stage1_acceleration * predicted_rate_per_stage1_acceleration
+        + hub_stage2_acceleration * predicted_rate_per_stage2_acceleration
+    )
     predicted_angle[0] = (
         hub_angle
-        + hub_rate * rate_per_acceleration
-        + hub_stage1_acceleration * step2_17_over_200
-        + hub_stage1_rate * step_17_over_50
-        + hub_stage2_acceleration * step2_21_over_400
-        - hub_stage2_rate * step_1_over_25
-    )
-    predicted_rate[0] = (
-        hub_rate + hub_stage1_acceleration * step_17_over_50 + hub_stage2_acceleration * step_21_over_100
+        + hub_stage1_rate * predicted_rate_per_stage1_acceleration
+        - hub_stage2_rate * predicted_angle_per_stage2_rate
+        + predicted_rate[0] * rate_per_acceleration
     )
     predicted_acceleration[0] = hub_stage2_acceleration
+    predicted_rate[1:] = (
+        rate
+        + predicted_rate_per_stage1_acceleration * stage1_acceleration
+        + predicted_rate_per_stage2_acceleration * stage2_acceleration
+    )
     predicted_angle[1:] = (
         angle
-        + rate * rate_per_acceleration
-        + stage1_acceleration * step2_17_over_200
-        + stage1_rate * step_17_over_50
-        + stage2_acceleration * step2_21_over_400
-        - stage2_rate * step_1_over_25
+        - predicted_angle_per_stage2_rate * stage2_rate
+        + predicted_rate[1:] * rate_per_acceleration
+        + predicted_rate_per_stage1_acceleration * stage1_rate
     )
-    predicted_rate[1:] = rate + stage1_acceleration * step_17_over_50 + stage2_acceleration * step_21_over_100
     predicted_acceleration[1:] = stage2_acceleration
 
     # Stage 3 of 5: accelerations of the nodes
-    lever_sine = length * np.sin(predicted_angle[1:])
     lever_cosine = length * np.cos(predicted_angle[1:])
+    lever_sine = length * np.sin(predicted_angle[1:])
+    square = predicted_rate[1:] * predicted_rate[1:]
+    relative_x = -lever_cosine * square - lever_sine * predicted_acceleration[1:]
+    relative_y = lever_cosine * predicted_acceleration[1:] - lever_sine * square
+    turning = half_step * predicted_rate[1:]
+    swing_x = -lever_sine - angle_per_acceleration * relative_y - lever_cosine * turning
+    swing_y = lever_cosine + angle_per_acceleration * relative_x - lever_sine * turning
     node_x = 0.0
     node_y = 0.0
     acceleration_x[0] = node_x
     acceleration_y[0] = node_y
     for j in range(STATIONS):
-        square = predicted_rate[j + 1] * predicted_rate[j + 1]
-        node_x = node_x - lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1]
-        node_y = node_y + lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square
+        node_x = node_x + relative_x[j]
+        node_y = node_y + relative_y[j]
         acceleration_x[j + 1] = node_x
         acceleration_y[j + 1] = node_y
 
-    # Stage 3 of 5: how each link's outer end answers to its unknown, and the predicted joint torques
-    tangential = 1.0 - angle_per_acceleration * (predicted_rate[1:] * predicted_rate[1:])
-    turning = angle_per_acceleration * predicted_acceleration[1:] + predicted_rate[1:] * step_1_over_2
-    swing_x = -lever_cosine * turning - lever_sine * tangential
-    swing_y = lever_cosine * tangential - lever_sine * turning
+    # Stage 3 of 5: forces of the joints at the motion so far
     joint_torque = damping * (predicted_rate[:50] - predicted_rate[1:]) + stiffness * (
         predicted_angle[:50] - predicted_angle[1:]
     )
 
     # Stage 3 of 5: sweep inward: force beyond each joint as an affine function of the motion at it
-    impedance_xx = tip_mass
-    impedance_xy = 0.0
-    impedance_xu = 0.0
-    impedance_yx = 0.0
-    impedance_yy = tip_mass
-    impedance_yu = 0.0
+    impedance_uu = tip_inertia
+    torque = predicted_acceleration[50] * tip_inertia
+    force_x = 0.0
+    force_y = 0.0
     impedance_ux = 0.0
     impedance_uy = 0.0
-    impedance_uu = tip_inertia
-    force_x = acceleration_x[50] * tip_mass
-    force_y = acceleration_y[50] * tip_mass
-    torque = predicted_acceleration[50] * tip_inertia
+    impedance_xu = 0.0
+    impedance_xx = 0.0
+    impedance_xy = 0.0
+    impedance_yu = 0.0
+    impedance_yx = 0.0
+    impedance_yy = 0.0
     for j in reversed(range(STATIONS)):
-        outer_x = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
-        outer_y = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
-        outer_u = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
-        load_x = force_x + acceleration_x[j] * carried_mass
-        load_y = force_y + acceleration_y[j] * carried_mass
-        link_ux = (
-            impedance_ux + impedance_yx * lever_cosine[j] - lever_sine[j] * (carried_mass + impedance_xx)
+        impedance_xx = impedance_xx + node_mass[j]
+        impedance_yy = impedance_yy + node_mass[j]
+        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
+        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
+        impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
+        impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
+        impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
+        impedance_ux = impedance_ux - impedance_xx * lever_sine[j] + impedance_yx * lever_cosine[j]
+        impedance_uy = impedance_uy - impedance_xy * lever_sine[j] + impedance_yy * lever_cosine[j]
+        impedance_uu = (
+            impedance_uu
+            + rod_inertia
+            + lever_cosine[j] * (impedance_yu - angle_per_acceleration * force_x)
+            + lever_sine[j] * (-impedance_xu - angle_per_acceleration * force_y)
         )
-        link_uy = (
-            impedance_uy - impedance_xy * lever_sine[j] + lever_cosine[j] * (carried_mass + impedance_yy)
-        )
-        link_uu = (
-            outer_u
-            + pin_inertia
-            + angle_per_acceleration * (-lever_cosine[j] * load_x - lever_sine[j] * load_y)
-            + lever_cosine[j] * outer_y
-            - lever_sine[j] * outer_x
-        )
-        link_xx = impedance_xx + mass
-        link_xy = impedance_xy
-        link_xu = outer_x + carried_mass * swing_x[j]
-        link_yx = impedance_yx
-        link_yy = impedance_yy + mass
-        link_yu = outer_y + carried_mass * swing_y[j]
         torque = (
             torque
-            + lever_cosine[j] * load_y
-            - lever_sine[j] * load_x
-            + pin_inertia * predicted_acceleration[j + 1]
+            - force_x * lever_sine[j]
+            + force_y * lever_cosine[j]
+            + predicted_acceleration[j + 1] * rod_inertia
         )
-        force_x = force_x + acceleration_x[j + 1] * carried_mass + acceleration_x[j] * inner_mass
-        force_y = force_y + acceleration_y[j + 1] * carried_mass + acceleration_y[j] * inner_mass
-        pivot = joint_impedance[j] + link_uu
+        pivot = impedance_uu + joint_impedance[j]
         _require_positive(pivot, "pivot", j)
-        inverse_pivot = 1.0 / pivot
-        answer_own[j] = inverse_pivot * (joint_torque[j] - torque)
-        answer_x[j] = inverse_pivot * link_ux
-        answer_y[j] = inverse_pivot * link_uy
-        answer_from_inner[j] = inverse_pivot * joint_impedance[j]
-        impedance_xx = link_xx - answer_x[j] * link_xu
-        impedance_xy = link_xy - answer_y[j] * link_xu
-        impedance_xu = answer_from_inner[j] * link_xu
-        force_x = force_x + answer_own[j] * link_xu
-        impedance_yx = link_yx - answer_x[j] * link_yu
-        impedance_yy = link_yy - answer_y[j] * link_yu
-        impedance_yu = answer_from_inner[j] * link_yu
-        force_y = force_y + answer_own[j] * link_yu
+        admittance = 1.0 / pivot
+        answer_own[j] = admittance * (joint_torque[j] - torque)
+        answer_x[j] = admittance * impedance_ux
+        answer_y[j] = admittance * impedance_uy
+        transmission[j] = admittance * joint_impedance[j]
+        impedance_xx = impedance_xx - answer_x[j] * impedance_xu
+        impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        impedance_yx = impedance_yx - answer_x[j] * impedance_yu
+        impedance_yy = impedance_yy - answer_y[j] * impedance_yu
         impedance_ux = answer_x[j] * joint_impedance[j]
         impedance_uy = answer_y[j] * joint_impedance[j]
-        impedance_uu = answer_from_inner[j] * link_uu
+        impedance_uu = impedance_uu * transmission[j]
+        force_x = force_x + answer_own[j] * impedance_xu
+        impedance_xu = impedance_xu * transmission[j]
+        force_y = force_y + answer_own[j] * impedance_yu
+        impedance_yu = impedance_yu * transmission[j]
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
-    # Stage 3 of 5: the hub
-    unknown = step2_inverse_16 * (base_angle[2] - predicted_angle[0])
+    # Stage 3 of 5: the base
+    unknown = unknown_per_base_angle * (base_angle[2] - predicted_angle[0])
     hub_unknown = unknown
 
-    # Stage 3 of 5: sweep outward: the increment of each link's unknown
+    # Stage 3 of 5: sweep outward: the unknown of each station
     change_x = 0.0
     change_y = 0.0
     for j in range(STATIONS):
-        unknown = (
-            answer_own[j] + answer_from_inner[j] * unknown - answer_x[j] * change_x - answer_y[j] * change_y
-        )
+        unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y + transmission[j] * unknown
         change_x = change_x + swing_x[j] * unknown
         change_y = change_y + swing_y[j] * unknown
         solved[j] = unknown
@@ -1214,141 +1070,123 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
     stage3_rate = predicted_rate[1:] + rate_per_acceleration * solved
 
     # Stage 4 of 5: predicted motion
-    predicted_angle[0] = (
-        hub_angle
-        + hub_rate * rate_per_acceleration
-        + hub_stage1_acceleration * step2_371_over_5440
-        + hub_stage1_rate * step_371_over_1360
-        - hub_stage2_acceleration * step2_137_over_10880
-        - hub_stage2_rate * step_137_over_2720
-        + hub_stage3_acceleration * step2_151_over_2176
-        + hub_stage3_rate * step_15_over_544
-    )
     predicted_rate[0] = (
         hub_rate
-        + hub_stage1_acceleration * step_371_over_1360
-        - hub_stage2_acceleration * step_137_over_2720
-        + hub_stage3_acceleration * step_151_over_544
+        + hub_stage1_acceleration * predicted_rate_per_stage1_acceleration_2
+        - hub_stage2_acceleration * predicted_rate_per_stage2_acceleration_2
+        + hub_stage3_acceleration * predicted_rate_per_stage3_acceleration
+    )
+    predicted_angle[0] = (
+        hub_angle
+        + hub_stage1_rate * predicted_rate_per_stage1_acceleration_2
+        - hub_stage2_rate * predicted_rate_per_stage2_acceleration_2
+        + hub_stage3_rate * predicted_angle_per_stage3_rate
+        + predicted_rate[0] * rate_per_acceleration
     )
     predicted_acceleration[0] = hub_stage3_acceleration
-    predicted_angle[1:] = (
-        angle
-        + rate * rate_per_acceleration
-        + stage1_acceleration * step2_371_over_5440
-        + stage1_rate * step_371_over_1360
-        - stage2_acceleration * step2_137_over_10880
-        - stage2_rate * step_137_over_2720
-        + stage3_acceleration * step2_151_over_2176
-        + stage3_rate * step_15_over_544
-    )
     predicted_rate[1:] = (
         rate
-        + stage1_acceleration * step_371_over_1360
-        - stage2_acceleration * step_137_over_2720
-        + stage3_acceleration * step_151_over_544
+        + predicted_rate_per_stage1_acceleration_2 * stage1_acceleration
+        - predicted_rate_per_stage2_acceleration_2 * stage2_acceleration
+        + predicted_rate_per_stage3_acceleration * stage3_acceleration
+    )
+    predicted_angle[1:] = (
+        angle
+        + predicted_angle_per_stage3_rate * stage3_rate
+        + predicted_rate[1:] * rate_per_acceleration
+        + predicted_rate_per_stage1_acceleration_2 * stage1_rate
+        - predicted_rate_per_stage2_acceleration_2 * stage2_rate
     )
     predicted_acceleration[1:] = stage3_acceleration
 
     # Stage 4 of 5: accelerations of the nodes
-    lever_sine = length * np.sin(predicted_angle[1:])
     lever_cosine = length * np.cos(predicted_angle[1:])
+    lever_sine = length * np.sin(predicted_angle[1:])
+    square = predicted_rate[1:] * predicted_rate[1:]
+    relative_x = -lever_cosine * square - lever_sine * predicted_acceleration[1:]
+    relative_y = lever_cosine * predicted_acceleration[1:] - lever_sine * square
+    turning = half_step * predicted_rate[1:]
+    swing_x = -lever_sine - angle_per_acceleration * relative_y - lever_cosine * turning
+    swing_y = lever_cosine + angle_per_acceleration * relative_x - lever_sine * turning
     node_x = 0.0
     node_y = 0.0
     acceleration_x[0] = node_x
     acceleration_y[0] = node_y
     for j in range(STATIONS):
-        square = predicted_rate[j + 1] * predicted_rate[j + 1]
-        node_x = node_x - lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1]
-        node_y = node_y + lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square
+        node_x = node_x + relative_x[j]
+        node_y = node_y + relative_y[j]
         acceleration_x[j + 1] = node_x
         acceleration_y[j + 1] = node_y
 
-    # Stage 4 of 5: how each link's outer end answers to its unknown, and the predicted joint torques
-    tangential = 1.0 - angle_per_acceleration * (predicted_rate[1:] * predicted_rate[1:])
-    turning = angle_per_acceleration * predicted_acceleration[1:] + predicted_rate[1:] * step_1_over_2
-    swing_x = -lever_cosine * turning - lever_sine * tangential
-    swing_y = lever_cosine * tangential - lever_sine * turning
+    # Stage 4 of 5: forces of the joints at the motion so far
     joint_torque = damping * (predicted_rate[:50] - predicted_rate[1:]) + stiffness * (
         predicted_angle[:50] - predicted_angle[1:]
     )
 
     # Stage 4 of 5: sweep inward: force beyond each joint as an affine function of the motion at it
-    impedance_xx = tip_mass
-    impedance_xy = 0.0
-    impedance_xu = 0.0
-    impedance_yx = 0.0
-    impedance_yy = tip_mass
-    impedance_yu = 0.0
+    impedance_uu = tip_inertia
+    torque = predicted_acceleration[50] * tip_inertia
+    force_x = 0.0
+    force_y = 0.0
     impedance_ux = 0.0
     impedance_uy = 0.0
-    impedance_uu = tip_inertia
-    force_x = acceleration_x[50] * tip_mass
-    force_y = acceleration_y[50] * tip_mass
-    torque = predicted_acceleration[50] * tip_inertia
+    impedance_xu = 0.0
+    impedance_xx = 0.0
+    impedance_xy = 0.0
+    impedance_yu = 0.0
+    impedance_yx = 0.0
+    impedance_yy = 0.0
     for j in reversed(range(STATIONS)):
-        outer_x = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
-        outer_y = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
-        outer_u = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
-        load_x = force_x + acceleration_x[j] * carried_mass
-        load_y = force_y + acceleration_y[j] * carried_mass
-        link_ux = (
-            impedance_ux + impedance_yx * lever_cosine[j] - lever_sine[j] * (carried_mass + impedance_xx)
+        impedance_xx = impedance_xx + node_mass[j]
+        impedance_yy = impedance_yy + node_mass[j]
+        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
+        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
+        impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
+        impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
+        impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
+        impedance_ux = impedance_ux - impedance_xx * lever_sine[j] + impedance_yx * lever_cosine[j]
+        impedance_uy = impedance_uy - impedance_xy * lever_sine[j] + impedance_yy * lever_cosine[j]
+        impedance_uu = (
+            impedance_uu
+            + rod_inertia
+            + lever_cosine[j] * (impedance_yu - angle_per_acceleration * force_x)
+            + lever_sine[j] * (-impedance_xu - angle_per_acceleration * force_y)
         )
-        link_uy = (
-            impedance_uy - impedance_xy * lever_sine[j] + lever_cosine[j] * (carried_mass + impedance_yy)
-        )
-        link_uu = (
-            outer_u
-            + pin_inertia
-            + angle_per_acceleration * (-lever_cosine[j] * load_x - lever_sine[j] * load_y)
-            + lever_cosine[j] * outer_y
-            - lever_sine[j] * outer_x
-        )
-        link_xx = impedance_xx + mass
-        link_xy = impedance_xy
-        link_xu = outer_x + carried_mass * swing_x[j]
-        link_yx = impedance_yx
-        link_yy = impedance_yy + mass
-        link_yu = outer_y + carried_mass * swing_y[j]
         torque = (
             torque
-            + lever_cosine[j] * load_y
-            - lever_sine[j] * load_x
-            + pin_inertia * predicted_acceleration[j + 1]
+            - force_x * lever_sine[j]
+            + force_y * lever_cosine[j]
+            + predicted_acceleration[j + 1] * rod_inertia
         )
-        force_x = force_x + acceleration_x[j + 1] * carried_mass + acceleration_x[j] * inner_mass
-        force_y = force_y + acceleration_y[j + 1] * carried_mass + acceleration_y[j] * inner_mass
-        pivot = joint_impedance[j] + link_uu
+        pivot = impedance_uu + joint_impedance[j]
         _require_positive(pivot, "pivot", j)
-        inverse_pivot = 1.0 / pivot
-        answer_own[j] = inverse_pivot * (joint_torque[j] - torque)
-        answer_x[j] = inverse_pivot * link_ux
-        answer_y[j] = inverse_pivot * link_uy
-        answer_from_inner[j] = inverse_pivot * joint_impedance[j]
-        impedance_xx = link_xx - answer_x[j] * link_xu
-        impedance_xy = link_xy - answer_y[j] * link_xu
-        impedance_xu = answer_from_inner[j] * link_xu
-        force_x = force_x + answer_own[j] * link_xu
-        impedance_yx = link_yx - answer_x[j] * link_yu
-        impedance_yy = link_yy - answer_y[j] * link_yu
-        impedance_yu = answer_from_inner[j] * link_yu
-        force_y = force_y + answer_own[j] * link_yu
+        admittance = 1.0 / pivot
+        answer_own[j] = admittance * (joint_torque[j] - torque)
+        answer_x[j] = admittance * impedance_ux
+        answer_y[j] = admittance * impedance_uy
+        transmission[j] = admittance * joint_impedance[j]
+        impedance_xx = impedance_xx - answer_x[j] * impedance_xu
+        impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        impedance_yx = impedance_yx - answer_x[j] * impedance_yu
+        impedance_yy = impedance_yy - answer_y[j] * impedance_yu
         impedance_ux = answer_x[j] * joint_impedance[j]
         impedance_uy = answer_y[j] * joint_impedance[j]
-        impedance_uu = answer_from_inner[j] * link_uu
+        impedance_uu = impedance_uu * transmission[j]
+        force_x = force_x + answer_own[j] * impedance_xu
+        impedance_xu = impedance_xu * transmission[j]
+        force_y = force_y + answer_own[j] * impedance_yu
+        impedance_yu = impedance_yu * transmission[j]
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
-    # Stage 4 of 5: the hub
-    unknown = step2_inverse_16 * (base_angle[3] - predicted_angle[0])
+    # Stage 4 of 5: the base
+    unknown = unknown_per_base_angle * (base_angle[3] - predicted_angle[0])
     hub_unknown = unknown
 
-    # Stage 4 of 5: sweep outward: the increment of each link's unknown
+    # Stage 4 of 5: sweep outward: the unknown of each station
     change_x = 0.0
     change_y = 0.0
     for j in range(STATIONS):
-        unknown = (
-            answer_own[j] + answer_from_inner[j] * unknown - answer_x[j] * change_x - answer_y[j] * change_y
-        )
+        unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y + transmission[j] * unknown
         change_x = change_x + swing_x[j] * unknown
         change_y = change_y + swing_y[j] * unknown
         solved[j] = unknown
@@ -1360,147 +1198,127 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
     stage4_rate = predicted_rate[1:] + rate_per_acceleration * solved
 
     # Stage 5 of 5: predicted motion
-    predicted_angle[0] = (
-        hub_angle
-        + hub_rate * rate_per_acceleration
-        + hub_stage1_acceleration * step2_25_over_96
-        + hub_stage1_rate * step_25_over_24
-        - hub_stage2_acceleration * step2_49_over_192
-        - hub_stage2_rate * step_49_over_48
-        + hub_stage3_acceleration * step2_125_over_64
-        + hub_stage3_rate * step_125_over_16
-        - hub_stage4_acceleration * step2_41_over_24
-        - hub_stage4_rate * step_85_over_12
-    )
     predicted_rate[0] = (
         hub_rate
-        + hub_stage1_acceleration * step_25_over_24
-        - hub_stage2_acceleration * step_49_over_48
-        + hub_stage3_acceleration * step_125_over_16
-        - hub_stage4_acceleration * step_41_over_6
+        + hub_stage1_acceleration * predicted_rate_per_stage1_acceleration_3
+        - hub_stage2_acceleration * predicted_rate_per_stage2_acceleration_3
+        + hub_stage3_acceleration * predicted_rate_per_stage3_acceleration_2
+        - hub_stage4_acceleration * predicted_rate_per_stage4_acceleration
+    )
+    predicted_angle[0] = (
+        hub_angle
+        + hub_stage1_rate * predicted_rate_per_stage1_acceleration_3
+        - hub_stage2_rate * predicted_rate_per_stage2_acceleration_3
+        + hub_stage3_rate * predicted_rate_per_stage3_acceleration_2
+        - hub_stage4_rate * predicted_angle_per_stage4_rate
+        + predicted_rate[0] * rate_per_acceleration
     )
     predicted_acceleration[0] = hub_stage4_acceleration
-    predicted_angle[1:] = (
-        angle
-        + rate * rate_per_acceleration
-        + stage1_acceleration * step2_25_over_96
-        + stage1_rate * step_25_over_24
-        - stage2_acceleration * step2_49_over_192
-        - stage2_rate * step_49_over_48
-        + stage3_acceleration * step2_125_over_64
-        + stage3_rate * step_125_over_16
-        - stage4_acceleration * step2_41_over_24
-        - stage4_rate * step_85_over_12
-    )
     predicted_rate[1:] = (
         rate
-        + stage1_acceleration * step_25_over_24
-        - stage2_acceleration * step_49_over_48
-        + stage3_acceleration * step_125_over_16
-        - stage4_acceleration * step_41_over_6
+        + predicted_rate_per_stage1_acceleration_3 * stage1_acceleration
+        - predicted_rate_per_stage2_acceleration_3 * stage2_acceleration
+        + predicted_rate_per_stage3_acceleration_2 * stage3_acceleration
+        - predicted_rate_per_stage4_acceleration * stage4_acceleration
+    )
+    predicted_angle[1:] = (
+        angle
+        - predicted_angle_per_stage4_rate * stage4_rate
+        + predicted_rate[1:] * rate_per_acceleration
+        + predicted_rate_per_stage1_acceleration_3 * stage1_rate
+        - predicted_rate_per_stage2_acceleration_3 * stage2_rate
+        + predicted_rate_per_stage3_acceleration_2 * stage3_rate
     )
     predicted_acceleration[1:] = stage4_acceleration
 
     # Stage 5 of 5: accelerations of the nodes
-    lever_sine = length * np.sin(predicted_angle[1:])
     lever_cosine = length * np.cos(predicted_angle[1:])
+    lever_sine = length * np.sin(predicted_angle[1:])
+    square = predicted_rate[1:] * predicted_rate[1:]
+    relative_x = -lever_cosine * square - lever_sine * predicted_acceleration[1:]
+    relative_y = lever_cosine * predicted_acceleration[1:] - lever_sine * square
+    turning = half_step * predicted_rate[1:]
+    swing_x = -lever_sine - angle_per_acceleration * relative_y - lever_cosine * turning
+    swing_y = lever_cosine + angle_per_acceleration * relative_x - lever_sine * turning
     node_x = 0.0
     node_y = 0.0
     acceleration_x[0] = node_x
     acceleration_y[0] = node_y
     for j in range(STATIONS):
-        square = predicted_rate[j + 1] * predicted_rate[j + 1]
-        node_x = node_x - lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1]
-        node_y = node_y + lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square
+        node_x = node_x + relative_x[j]
+        node_y = node_y + relative_y[j]
         acceleration_x[j + 1] = node_x
         acceleration_y[j + 1] = node_y
 
-    # Stage 5 of 5: how each link's outer end answers to its unknown, and the predicted joint torques
-    tangential = 1.0 - angle_per_acceleration * (predicted_rate[1:] * predicted_rate[1:])
-    turning = angle_per_acceleration * predicted_acceleration[1:] + predicted_rate[1:] * step_1_over_2
-    swing_x = -lever_cosine * turning - lever_sine * tangential
-    swing_y = lever_cosine * tangential - lever_sine * turning
+    # Stage 5 of 5: forces of the joints at the motion so far
     joint_torque = damping * (predicted_rate[:50] - predicted_rate[1:]) + stiffness * (
         predicted_angle[:50] - predicted_angle[1:]
     )
 
     # Stage 5 of 5: sweep inward: force beyond each joint as an affine function of the motion at it
-    impedance_xx = tip_mass
-    impedance_xy = 0.0
-    impedance_xu = 0.0
-    impedance_yx = 0.0
-    impedance_yy = tip_mass
-    impedance_yu = 0.0
+    impedance_uu = tip_inertia
+    torque = predicted_acceleration[50] * tip_inertia
+    force_x = 0.0
+    force_y = 0.0
     impedance_ux = 0.0
     impedance_uy = 0.0
-    impedance_uu = tip_inertia
-    force_x = acceleration_x[50] * tip_mass
-    force_y = acceleration_y[50] * tip_mass
-    torque = predicted_acceleration[50] * tip_inertia
+    impedance_xu = 0.0
+    impedance_xx = 0.0
+    impedance_xy = 0.0
+    impedance_yu = 0.0
+    impedance_yx = 0.0
+    impedance_yy = 0.0
     for j in reversed(range(STATIONS)):
-        outer_x = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
-        outer_y = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
-        outer_u = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
-        load_x = force_x + acceleration_x[j] * carried_mass
-        load_y = force_y + acceleration_y[j] * carried_mass
-        link_ux = (
-            impedance_ux + impedance_yx * lever_cosine[j] - lever_sine[j] * (carried_mass + impedance_xx)
+        impedance_xx = impedance_xx + node_mass[j]
+        impedance_yy = impedance_yy + node_mass[j]
+        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
+        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
+        impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
+        impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
+        impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
+        impedance_ux = impedance_ux - impedance_xx * lever_sine[j] + impedance_yx * lever_cosine[j]
+        impedance_uy = impedance_uy - impedance_xy * lever_sine[j] + impedance_yy * lever_cosine[j]
+        impedance_uu = (
+            impedance_uu
+            + rod_inertia
+            + lever_cosine[j] * (impedance_yu - angle_per_acceleration * force_x)
+            + lever_sine[j] * (-impedance_xu - angle_per_acceleration * force_y)
         )
-        link_uy = (
-            impedance_uy - impedance_xy * lever_sine[j] + lever_cosine[j] * (carried_mass + impedance_yy)
-        )
-        link_uu = (
-            outer_u
-            + pin_inertia
-            + angle_per_acceleration * (-lever_cosine[j] * load_x - lever_sine[j] * load_y)
-            + lever_cosine[j] * outer_y
-            - lever_sine[j] * outer_x
-        )
-        link_xx = impedance_xx + mass
-        link_xy = impedance_xy
-        link_xu = outer_x + carried_mass * swing_x[j]
-        link_yx = impedance_yx
-        link_yy = impedance_yy + mass
-        link_yu = outer_y + carried_mass * swing_y[j]
         torque = (
             torque
-            + lever_cosine[j] * load_y
-            - lever_sine[j] * load_x
-            + pin_inertia * predicted_acceleration[j + 1]
+            - force_x * lever_sine[j]
+            + force_y * lever_cosine[j]
+            + predicted_acceleration[j + 1] * rod_inertia
         )
-        force_x = force_x + acceleration_x[j + 1] * carried_mass + acceleration_x[j] * inner_mass
-        force_y = force_y + acceleration_y[j + 1] * carried_mass + acceleration_y[j] * inner_mass
-        pivot = joint_impedance[j] + link_uu
+        pivot = impedance_uu + joint_impedance[j]
         _require_positive(pivot, "pivot", j)
-        inverse_pivot = 1.0 / pivot
-        answer_own[j] = inverse_pivot * (joint_torque[j] - torque)
-        answer_x[j] = inverse_pivot * link_ux
-        answer_y[j] = inverse_pivot * link_uy
-        answer_from_inner[j] = inverse_pivot * joint_impedance[j]
-        impedance_xx = link_xx - answer_x[j] * link_xu
-        impedance_xy = link_xy - answer_y[j] * link_xu
-        impedance_xu = answer_from_inner[j] * link_xu
-        force_x = force_x + answer_own[j] * link_xu
-        impedance_yx = link_yx - answer_x[j] * link_yu
-        impedance_yy = link_yy - answer_y[j] * link_yu
-        impedance_yu = answer_from_inner[j] * link_yu
-        force_y = force_y + answer_own[j] * link_yu
+        admittance = 1.0 / pivot
+        answer_own[j] = admittance * (joint_torque[j] - torque)
+        answer_x[j] = admittance * impedance_ux
+        answer_y[j] = admittance * impedance_uy
+        transmission[j] = admittance * joint_impedance[j]
+        impedance_xx = impedance_xx - answer_x[j] * impedance_xu
+        impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        impedance_yx = impedance_yx - answer_x[j] * impedance_yu
+        impedance_yy = impedance_yy - answer_y[j] * impedance_yu
         impedance_ux = answer_x[j] * joint_impedance[j]
         impedance_uy = answer_y[j] * joint_impedance[j]
-        impedance_uu = answer_from_inner[j] * link_uu
+        impedance_uu = impedance_uu * transmission[j]
+        force_x = force_x + answer_own[j] * impedance_xu
+        impedance_xu = impedance_xu * transmission[j]
+        force_y = force_y + answer_own[j] * impedance_yu
+        impedance_yu = impedance_yu * transmission[j]
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
-    # Stage 5 of 5: the hub
-    unknown = step2_inverse_16 * (base_angle[4] - predicted_angle[0])
+    # Stage 5 of 5: the base
+    unknown = unknown_per_base_angle * (base_angle[4] - predicted_angle[0])
     hub_unknown = unknown
 
-    # Stage 5 of 5: sweep outward: the increment of each link's unknown
+    # Stage 5 of 5: sweep outward: the unknown of each station
     change_x = 0.0
     change_y = 0.0
     for j in range(STATIONS):
-        unknown = (
-            answer_own[j] + answer_from_inner[j] * unknown - answer_x[j] * change_x - answer_y[j] * change_y
-        )
+        unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y + transmission[j] * unknown
         change_x = change_x + swing_x[j] * unknown
         change_y = change_y + swing_y[j] * unknown
         solved[j] = unknown
@@ -1536,17 +1354,25 @@ def output(model: Model, state: State) -> Output:
     stiffness = np.asarray(model.stiffness)
     damping = np.asarray(model.damping)
     tip_mass = model.tip_mass
-    factor_28 = model.factor_28
-    factor_29 = model.factor_29
+    reaction_x_per_acceleration_x = model.reaction_x_per_acceleration_x
+    reaction_x_per_acceleration_x_2 = model.reaction_x_per_acceleration_x_2
     hub_angle = state.hub_angle
     hub_rate = state.hub_rate
     hub_acceleration = state.hub_acceleration
     angle = np.asarray(state.angle)
     rate = np.asarray(state.rate)
     acceleration = np.asarray(state.acceleration)
-    numbers = (length, tip_mass, factor_28, factor_29, hub_angle, hub_rate, hub_acceleration)
+    numbers = (
+        length,
+        tip_mass,
+        reaction_x_per_acceleration_x,
+        reaction_x_per_acceleration_x_2,
+        hub_angle,
+        hub_rate,
+        hub_acceleration,
+    )
     arrays = (stiffness, damping, angle, rate, acceleration)
-    batch, _ = _common(numbers, arrays)
+    batch, dtype = _common(numbers, arrays)
     stiffness = _align(stiffness, batch)
     damping = _align(damping, batch)
     hub_angle = _spread(hub_angle, batch, False)
@@ -1555,6 +1381,8 @@ def output(model: Model, state: State) -> Output:
     angle = _spread(angle, batch, True)
     rate = _spread(rate, batch, True)
     acceleration = _spread(acceleration, batch, True)
+    acceleration_x = np.zeros((STATIONS + 1, *batch), dtype)
+    acceleration_y = np.zeros((STATIONS + 1, *batch), dtype)
 
     # tip: position
     tip_x: Any = 0.0
@@ -1567,27 +1395,30 @@ def output(model: Model, state: State) -> Output:
     tip_angle = angle[49]
 
     # reaction: force
-    node_x: Any = 0.0
-    node_y: Any = 0.0
-    reaction_x: Any = 0.0
-    reaction_y: Any = 0.0
+    a_x: Any = 0.0
+    a_y: Any = 0.0
+    acceleration_x[0] = a_x
+    acceleration_y[0] = a_y
     for j in range(STATIONS):
-        inner_x = node_x
-        inner_y = node_y
-        node_x = (
-            node_x
+        a_x = (
+            a_x
             - acceleration[j] * length * np.sin(angle[j])
             - length * (rate[j] * rate[j]) * np.cos(angle[j])
         )
-        node_y = (
-            node_y
+        a_y = (
+            a_y
             + acceleration[j] * length * np.cos(angle[j])
             - length * (rate[j] * rate[j]) * np.sin(angle[j])
         )
-        reaction_x = reaction_x - factor_28 * inner_x + factor_29 * node_x
-        reaction_y = reaction_y - factor_28 * inner_y + factor_29 * node_y
-    reaction_x = reaction_x + node_x * tip_mass
-    reaction_y = reaction_y + node_y * tip_mass
+        acceleration_x[j + 1] = a_x
+        acceleration_y[j + 1] = a_y
+    reaction_x = acceleration_x[50] * tip_mass
+    reaction_y = acceleration_y[50] * tip_mass
+    for j in reversed(range(STATIONS)):
+        reaction_x = reaction_x + acceleration_x[j + 1] * reaction_x_per_acceleration_x
+        reaction_y = reaction_y + acceleration_y[j + 1] * reaction_x_per_acceleration_x
+        reaction_x = reaction_x - acceleration_x[j] * reaction_x_per_acceleration_x_2
+        reaction_y = reaction_y - acceleration_y[j] * reaction_x_per_acceleration_x_2
 
     # drive: torque
     drive = damping[0] * (rate[0] - hub_rate) + stiffness[0] * (angle[0] - hub_angle)

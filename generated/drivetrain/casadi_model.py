@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 260c88ca5ffe6b93ea5946fad67187e547942573db1dc2f710bcd9a0610b8738
-# sha256 of the rest of this file: a2fccfd0b68d5f66e3f7641985c09c8cb96399d4d8ce41594a6baea080fbba4d
+# sha256 of the rest of this file: be7edf3bbee45eb716ad5d81eac457ecab2e9ff99b985c8be9374910defcfa4f
 #
 # model: torsional chain (linear)
 # stations: 6
@@ -161,40 +161,41 @@ def _prepare(p: ca.SX) -> dict[str, Any]:
     reflection: list[Any] = [0.0] * STATIONS
     transmission: list[Any] = [0.0] * STATIONS
 
-    # Riccati factors, swept from tip to base
+    # factors of the sweep that do not change from step to step
     impedance: Any = 0.0
     for j in reversed(range(STATIONS)):
-        joint_impedance = (55.0 / 108.0) * damping[j] * step + (125.0 / 486.0) * (step * step) * stiffness[j]
         impedance = impedance - inertia[j]
+        joint_impedance = (55.0 / 108.0) * damping[j] * step + (125.0 / 486.0) * (step * step) * stiffness[j]
         pivot = joint_impedance - impedance
         admittance[j] = 1.0 / pivot
         transmission[j] = admittance[j] * joint_impedance
         reflection[j] = -admittance[j] * impedance
         impedance = impedance * transmission[j]
-    hub_pivot = hub_inertia - impedance + (55.0 / 108.0) * hub_damping * step
+    hub_impedance = hub_inertia + (55.0 / 108.0) * hub_damping * step
+    hub_pivot = hub_impedance - impedance
     hub_admittance = 1.0 / hub_pivot
 
     # Factors of the step that depend on the time step and parameters alone
-    step_5_over_108 = (5.0 / 108.0) * step
-    step2_5_over_243 = (5.0 / 243.0) * (step * step)
-    step_5_over_9 = (5.0 / 9.0) * step
-    factor_4 = hub_admittance * hub_damping
-    step2_1_over_27 = (1.0 / 27.0) * (step * step)
-    step2_25_over_54 = (25.0 / 54.0) * (step * step)
-    step_1_over_12 = (1.0 / 12.0) * step
-    step_11_over_12 = (11.0 / 12.0) * step
+    known_rate_per_acceleration = (5.0 / 108.0) * step
+    known_angle_per_acceleration = (5.0 / 243.0) * (step * step)
+    five_ninths_step = (5.0 / 9.0) * step
+    unknown_per_known_rate = hub_admittance * hub_damping
+    angle_per_acceleration_2 = (1.0 / 27.0) * (step * step)
+    angle_per_unknown = (25.0 / 54.0) * (step * step)
+    twelfth_step = (1.0 / 12.0) * step
+    eleven_twelfths_step = (11.0 / 12.0) * step
     return {
         "step": step,
         "stiffness": stiffness,
         "damping": damping,
-        "step_5_over_108": step_5_over_108,
-        "step2_5_over_243": step2_5_over_243,
-        "step_5_over_9": step_5_over_9,
-        "factor_4": factor_4,
-        "step2_1_over_27": step2_1_over_27,
-        "step2_25_over_54": step2_25_over_54,
-        "step_1_over_12": step_1_over_12,
-        "step_11_over_12": step_11_over_12,
+        "known_rate_per_acceleration": known_rate_per_acceleration,
+        "known_angle_per_acceleration": known_angle_per_acceleration,
+        "five_ninths_step": five_ninths_step,
+        "unknown_per_known_rate": unknown_per_known_rate,
+        "angle_per_acceleration_2": angle_per_acceleration_2,
+        "angle_per_unknown": angle_per_unknown,
+        "twelfth_step": twelfth_step,
+        "eleven_twelfths_step": eleven_twelfths_step,
         "admittance": admittance,
         "transmission": transmission,
         "reflection": reflection,
@@ -212,14 +213,14 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
     initial_angle = ca.vertsplit(given["initial_angle"])
     initial_rate = ca.vertsplit(given["initial_rate"])
     motor_torque = stages[0][0]
-    load_torque = stages[0][1]
+    load_torque_ = stages[0][1]
     acceleration: list[Any] = [0.0] * STATIONS
     angle: list[Any] = [0.0] * STATIONS
-    correction: list[Any] = [0.0] * STATIONS
+    answer_own: list[Any] = [0.0] * STATIONS
     joint_torque: list[Any] = [0.0] * STATIONS
     known_angle: list[Any] = [0.0] * (STATIONS + 1)
     known_rate: list[Any] = [0.0] * (STATIONS + 1)
-    load: list[Any] = [0.0] * STATIONS
+    load_torque: list[Any] = [0.0] * STATIONS
     rate: list[Any] = [0.0] * STATIONS
     solved: list[Any] = [0.0] * STATIONS
 
@@ -230,29 +231,34 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
         known_rate[j + 1] = initial_rate[j]
         known_angle[j + 1] = initial_angle[j]
 
-    # torque of each joint at the known motion
+    # forces of the joints at the motion so far
     for j in range(STATIONS):
         joint_torque[j] = damping[j] * (known_rate[j + 1] - known_rate[j]) + stiffness[j] * (
             known_angle[j + 1] - known_angle[j]
         )
 
-    # sweep inward: torque beyond each joint as if its inner side did not move
+    # sweep inward: force beyond each joint as an affine function of the motion at it
     for j in range(STATIONS):
-        load[j] = 0.0
-    load[3] = load_torque
-    bias: Any = 0.0
+        load_torque[j] = 0.0
+    load_torque[3] = load_torque_
+    torque: Any = 0.0
     for j in reversed(range(STATIONS)):
-        bias = bias + load[j]
-        correction[j] = (bias - joint_torque[j]) / inertia[j]
-        bias = joint_torque[j]
+        torque = load_torque[j] + torque
+        impedance = -inertia[j]
+        pivot = -impedance
+        admittance = 1.0 / pivot
+        answer_own[j] = admittance * (torque - joint_torque[j])
+        torque = joint_torque[j]
 
     # the base
-    unknown = (bias + motor_torque - hub_damping * known_rate[0]) / hub_inertia
+    hub_pivot = hub_inertia
+    hub_admittance = 1.0 / hub_pivot
+    unknown = hub_admittance * (motor_torque + torque - hub_damping * known_rate[0])
     hub_unknown = unknown
 
     # sweep outward: the unknown of each station
     for j in range(STATIONS):
-        unknown = correction[j]
+        unknown = answer_own[j]
         solved[j] = unknown
 
     # motion at the end of the step
@@ -271,14 +277,14 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     step = model["step"]
     stiffness = model["stiffness"]
     damping = model["damping"]
-    step_5_over_108 = model["step_5_over_108"]
-    step2_5_over_243 = model["step2_5_over_243"]
-    step_5_over_9 = model["step_5_over_9"]
-    factor_4 = model["factor_4"]
-    step2_1_over_27 = model["step2_1_over_27"]
-    step2_25_over_54 = model["step2_25_over_54"]
-    step_1_over_12 = model["step_1_over_12"]
-    step_11_over_12 = model["step_11_over_12"]
+    known_rate_per_acceleration = model["known_rate_per_acceleration"]
+    known_angle_per_acceleration = model["known_angle_per_acceleration"]
+    five_ninths_step = model["five_ninths_step"]
+    unknown_per_known_rate = model["unknown_per_known_rate"]
+    angle_per_acceleration_2 = model["angle_per_acceleration_2"]
+    angle_per_unknown = model["angle_per_unknown"]
+    twelfth_step = model["twelfth_step"]
+    eleven_twelfths_step = model["eleven_twelfths_step"]
     admittance = model["admittance"]
     transmission = model["transmission"]
     reflection = model["reflection"]
@@ -290,57 +296,65 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     rate = ca.vertsplit(x[9:15])
     acceleration = ca.vertsplit(x[15:21])
     motor_torque = stages[0][0]
-    load_torque = stages[0][1]
-    correction: list[Any] = [0.0] * STATIONS
+    load_torque_ = stages[0][1]
+    answer_own: list[Any] = [0.0] * STATIONS
     joint_torque: list[Any] = [0.0] * STATIONS
     known_angle: list[Any] = [0.0] * (STATIONS + 1)
     known_rate: list[Any] = [0.0] * (STATIONS + 1)
-    load: list[Any] = [0.0] * STATIONS
+    load_torque: list[Any] = [0.0] * STATIONS
     solved: list[Any] = [0.0] * STATIONS
 
     # motion known before the sweep
-    known_rate[0] = hub_rate + hub_acceleration * step_5_over_108
-    known_angle[0] = hub_angle + hub_acceleration * step2_5_over_243 + hub_rate * step_5_over_9
+    known_rate[0] = hub_rate + hub_acceleration * known_rate_per_acceleration
+    known_angle[0] = hub_angle + five_ninths_step * hub_rate + hub_acceleration * known_angle_per_acceleration
     for j in range(STATIONS):
-        known_rate[j + 1] = rate[j] + acceleration[j] * step_5_over_108
-        known_angle[j + 1] = angle[j] + acceleration[j] * step2_5_over_243 + rate[j] * step_5_over_9
+        known_rate[j + 1] = rate[j] + acceleration[j] * known_rate_per_acceleration
+        known_angle[j + 1] = (
+            angle[j] + acceleration[j] * known_angle_per_acceleration + five_ninths_step * rate[j]
+        )
 
-    # torque of each joint at the known motion
+    # forces of the joints at the motion so far
     for j in range(STATIONS):
         joint_torque[j] = damping[j] * (known_rate[j + 1] - known_rate[j]) + stiffness[j] * (
             known_angle[j + 1] - known_angle[j]
         )
 
-    # sweep inward: torque beyond each joint as if its inner side did not move
+    # sweep inward: force beyond each joint as an affine function of the motion at it
     for j in range(STATIONS):
-        load[j] = 0.0
-    load[3] = load_torque
-    bias: Any = 0.0
+        load_torque[j] = 0.0
+    load_torque[3] = load_torque_
+    torque: Any = 0.0
     for j in reversed(range(STATIONS)):
-        bias = bias + load[j]
-        correction[j] = admittance[j] * (bias - joint_torque[j])
-        bias = bias * transmission[j] + joint_torque[j] * reflection[j]
+        torque = load_torque[j] + torque
+        answer_own[j] = admittance[j] * (torque - joint_torque[j])
+        torque = joint_torque[j] * reflection[j] + torque * transmission[j]
 
     # the base
-    unknown = hub_admittance * (bias + motor_torque) - factor_4 * known_rate[0]
+    unknown = hub_admittance * (motor_torque + torque) - known_rate[0] * unknown_per_known_rate
     hub_unknown = unknown
 
     # sweep outward: the unknown of each station
     for j in range(STATIONS):
-        unknown = correction[j] + transmission[j] * unknown
+        unknown = answer_own[j] + transmission[j] * unknown
         solved[j] = unknown
 
     # motion at the end of the step
     hub_angle = (
-        hub_angle + hub_acceleration * step2_1_over_27 + hub_rate * step + hub_unknown * step2_25_over_54
+        hub_angle
+        + angle_per_acceleration_2 * hub_acceleration
+        + angle_per_unknown * hub_unknown
+        + hub_rate * step
     )
-    hub_rate = hub_rate + hub_acceleration * step_1_over_12 + hub_unknown * step_11_over_12
+    hub_rate = hub_rate + eleven_twelfths_step * hub_unknown + hub_acceleration * twelfth_step
     hub_acceleration = 1.5 * hub_unknown - 0.5 * hub_acceleration
     for j in range(STATIONS):
         angle[j] = (
-            angle[j] + acceleration[j] * step2_1_over_27 + rate[j] * step + solved[j] * step2_25_over_54
+            angle[j]
+            + acceleration[j] * angle_per_acceleration_2
+            + angle_per_unknown * solved[j]
+            + rate[j] * step
         )
-        rate[j] = rate[j] + acceleration[j] * step_1_over_12 + solved[j] * step_11_over_12
+        rate[j] = rate[j] + acceleration[j] * twelfth_step + eleven_twelfths_step * solved[j]
         acceleration[j] = 1.5 * solved[j] - 0.5 * acceleration[j]
     return _column(hub_angle, hub_rate, hub_acceleration, *angle, *rate, *acceleration)
 

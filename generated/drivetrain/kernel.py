@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 260c88ca5ffe6b93ea5946fad67187e547942573db1dc2f710bcd9a0610b8738
-# sha256 of the rest of this file: 3d38372eb5b5ff8e4ab4442736b78b519d220998dbf8a85e620c69c0fb771d3e
+# sha256 of the rest of this file: df30198a955af74560bbc77fefa7c55a913b8a6207e98a5545fd5cebc506204e
 #
 # model: torsional chain (linear)
 # stations: 6
@@ -87,26 +87,26 @@ class Model:
         Joint stiffness, base to tip (N m/rad).
     damping : array, shape (6, *batch)
         Joint damping, base to tip (N m s/rad).
-    step_5_over_108 : array, shape (*batch)
+    known_rate_per_acceleration : array, shape (*batch)
         5*step/108 (s).
-    step2_5_over_243 : array, shape (*batch)
+    known_angle_per_acceleration : array, shape (*batch)
         5*step**2/243 (s^2).
-    step_5_over_9 : array, shape (*batch)
+    five_ninths_step : array, shape (*batch)
         5*step/9 (s).
-    factor_4 : array, shape (*batch)
-        Hub_admittance*hub_damping (SI).
-    step2_1_over_27 : array, shape (*batch)
+    unknown_per_known_rate : array, shape (*batch)
+        Hub_admittance*hub_damping (s/rad).
+    angle_per_acceleration_2 : array, shape (*batch)
         Step**2/27 (s^2).
-    step2_25_over_54 : array, shape (*batch)
-        25*step**2/54 (s^2).
-    step_1_over_12 : array, shape (*batch)
+    angle_per_unknown : array, shape (*batch)
+        25*step**2/54 (rad).
+    twelfth_step : array, shape (*batch)
         Step/12 (s).
-    step_11_over_12 : array, shape (*batch)
+    eleven_twelfths_step : array, shape (*batch)
         11*step/12 (s).
     admittance : array, shape (6, *batch)
         Inverse pivot of each joint.
     transmission : array, shape (6, *batch)
-        Share of torque and motion each joint passes on.
+        Share of motion and torque each joint passes on.
     reflection : array, shape (6, *batch)
         Share of its own known torque each joint passes on.
     hub_admittance : array, shape (*batch)
@@ -116,14 +116,14 @@ class Model:
     step: Array
     stiffness: Array
     damping: Array
-    step_5_over_108: Array
-    step2_5_over_243: Array
-    step_5_over_9: Array
-    factor_4: Array
-    step2_1_over_27: Array
-    step2_25_over_54: Array
-    step_1_over_12: Array
-    step_11_over_12: Array
+    known_rate_per_acceleration: Array
+    known_angle_per_acceleration: Array
+    five_ninths_step: Array
+    unknown_per_known_rate: Array
+    angle_per_acceleration_2: Array
+    angle_per_unknown: Array
+    twelfth_step: Array
+    eleven_twelfths_step: Array
     admittance: Array
     transmission: Array
     reflection: Array
@@ -250,42 +250,43 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     reflection = np.zeros((STATIONS, *batch), dtype)
     transmission = np.zeros((STATIONS, *batch), dtype)
 
-    # Riccati factors, swept from tip to base
+    # factors of the sweep that do not change from step to step
     impedance: Any = 0.0
     for j in reversed(range(STATIONS)):
-        joint_impedance = (55.0 / 108.0) * damping[j] * step + (125.0 / 486.0) * (step * step) * stiffness[j]
         impedance = impedance - inertia[j]
+        joint_impedance = (55.0 / 108.0) * damping[j] * step + (125.0 / 486.0) * (step * step) * stiffness[j]
         pivot = joint_impedance - impedance
         _require_positive(pivot, "pivot", j)
         admittance[j] = 1.0 / pivot
         transmission[j] = admittance[j] * joint_impedance
         reflection[j] = -admittance[j] * impedance
         impedance = impedance * transmission[j]
-    hub_pivot = hub_inertia - impedance + (55.0 / 108.0) * hub_damping * step
+    hub_impedance = hub_inertia + (55.0 / 108.0) * hub_damping * step
+    hub_pivot = hub_impedance - impedance
     _require_positive(hub_pivot, "hub_pivot", None)
     hub_admittance = 1.0 / hub_pivot
 
     # Factors of the step that depend on the time step and parameters alone
-    step_5_over_108 = (5.0 / 108.0) * step
-    step2_5_over_243 = (5.0 / 243.0) * (step * step)
-    step_5_over_9 = (5.0 / 9.0) * step
-    factor_4 = hub_admittance * hub_damping
-    step2_1_over_27 = (1.0 / 27.0) * (step * step)
-    step2_25_over_54 = (25.0 / 54.0) * (step * step)
-    step_1_over_12 = (1.0 / 12.0) * step
-    step_11_over_12 = (11.0 / 12.0) * step
+    known_rate_per_acceleration = (5.0 / 108.0) * step
+    known_angle_per_acceleration = (5.0 / 243.0) * (step * step)
+    five_ninths_step = (5.0 / 9.0) * step
+    unknown_per_known_rate = hub_admittance * hub_damping
+    angle_per_acceleration_2 = (1.0 / 27.0) * (step * step)
+    angle_per_unknown = (25.0 / 54.0) * (step * step)
+    twelfth_step = (1.0 / 12.0) * step
+    eleven_twelfths_step = (11.0 / 12.0) * step
     return Model(
         step=step,
         stiffness=stiffness,
         damping=damping,
-        step_5_over_108=step_5_over_108,
-        step2_5_over_243=step2_5_over_243,
-        step_5_over_9=step_5_over_9,
-        factor_4=factor_4,
-        step2_1_over_27=step2_1_over_27,
-        step2_25_over_54=step2_25_over_54,
-        step_1_over_12=step_1_over_12,
-        step_11_over_12=step_11_over_12,
+        known_rate_per_acceleration=known_rate_per_acceleration,
+        known_angle_per_acceleration=known_angle_per_acceleration,
+        five_ninths_step=five_ninths_step,
+        unknown_per_known_rate=unknown_per_known_rate,
+        angle_per_acceleration_2=angle_per_acceleration_2,
+        angle_per_unknown=angle_per_unknown,
+        twelfth_step=twelfth_step,
+        eleven_twelfths_step=eleven_twelfths_step,
         admittance=admittance,
         transmission=transmission,
         reflection=reflection,
@@ -319,9 +320,11 @@ def initialise(
         If an argument is not finite.
     ValueError
         If shapes do not fit.
+    VanishingPivotError
+        If parameters leave a pivot that is not positive.
     """
     motor_torque = _array(input.motor_torque, None, "input motor_torque")
-    load_torque = _array(input.load_torque, None, "input load_torque")
+    load_torque_ = _array(input.load_torque, None, "input load_torque")
     stiffness = _array(params.stiffness, STATIONS, "stiffness")
     damping = _array(params.damping, STATIONS, "damping")
     inertia = _array(params.inertia, STATIONS, "inertia")
@@ -329,7 +332,7 @@ def initialise(
     hub_damping = _array(params.hub_damping, None, "hub_damping")
     initial_angle = _array(initial_angle, STATIONS, "initial_angle")
     initial_rate = _array(initial_rate, STATIONS, "initial_rate")
-    numbers = (motor_torque, load_torque, hub_inertia, hub_damping)
+    numbers = (motor_torque, load_torque_, hub_inertia, hub_damping)
     arrays = (stiffness, damping, inertia, initial_angle, initial_rate)
     batch, dtype = _common(numbers, arrays)
     stiffness = _align(stiffness, batch)
@@ -337,10 +340,10 @@ def initialise(
     inertia = _align(inertia, batch)
     initial_angle = _align(initial_angle, batch)
     initial_rate = _align(initial_rate, batch)
-    correction = np.zeros((STATIONS, *batch), dtype)
+    answer_own = np.zeros((STATIONS, *batch), dtype)
     known_angle = np.zeros((STATIONS + 1, *batch), dtype)
     known_rate = np.zeros((STATIONS + 1, *batch), dtype)
-    load = np.zeros((STATIONS, *batch), dtype)
+    load_torque = np.zeros((STATIONS, *batch), dtype)
 
     # motion known before the sweep
     known_rate[0] = 0.0
@@ -348,26 +351,33 @@ def initialise(
     known_rate[1:] = initial_rate
     known_angle[1:] = initial_angle
 
-    # torque of each joint at the known motion
+    # forces of the joints at the motion so far
     joint_torque = damping * (known_rate[1:] - known_rate[:6]) + stiffness * (
         known_angle[1:] - known_angle[:6]
     )
 
-    # sweep inward: torque beyond each joint as if its inner side did not move
-    load[:] = 0.0
-    load[3] = load_torque
-    bias: Any = 0.0
+    # sweep inward: force beyond each joint as an affine function of the motion at it
+    load_torque[:] = 0.0
+    load_torque[3] = load_torque_
+    torque: Any = 0.0
     for j in reversed(range(STATIONS)):
-        bias = bias + load[j]
-        correction[j] = (bias - joint_torque[j]) / inertia[j]
-        bias = joint_torque[j]
+        torque = load_torque[j] + torque
+        impedance = -inertia[j]
+        pivot = -impedance
+        _require_positive(pivot, "pivot", j)
+        admittance = 1.0 / pivot
+        answer_own[j] = admittance * (torque - joint_torque[j])
+        torque = joint_torque[j]
 
     # the base
-    unknown = (bias + motor_torque - hub_damping * known_rate[0]) / hub_inertia
+    hub_pivot = hub_inertia
+    _require_positive(hub_pivot, "hub_pivot", None)
+    hub_admittance = 1.0 / hub_pivot
+    unknown = hub_admittance * (motor_torque + torque - hub_damping * known_rate[0])
     hub_unknown = unknown
 
     # sweep outward: the unknown of each station
-    unknown = correction
+    unknown = answer_own
     solved = unknown
 
     # motion at the end of the step
@@ -412,18 +422,18 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
         If shapes do not fit.
     """
     motor_torque = _array(input.motor_torque, None, "input motor_torque")
-    load_torque = _array(input.load_torque, None, "input load_torque")
+    load_torque_ = _array(input.load_torque, None, "input load_torque")
     step = model.step
     stiffness = np.asarray(model.stiffness)
     damping = np.asarray(model.damping)
-    step_5_over_108 = model.step_5_over_108
-    step2_5_over_243 = model.step2_5_over_243
-    step_5_over_9 = model.step_5_over_9
-    factor_4 = model.factor_4
-    step2_1_over_27 = model.step2_1_over_27
-    step2_25_over_54 = model.step2_25_over_54
-    step_1_over_12 = model.step_1_over_12
-    step_11_over_12 = model.step_11_over_12
+    known_rate_per_acceleration = model.known_rate_per_acceleration
+    known_angle_per_acceleration = model.known_angle_per_acceleration
+    five_ninths_step = model.five_ninths_step
+    unknown_per_known_rate = model.unknown_per_known_rate
+    angle_per_acceleration_2 = model.angle_per_acceleration_2
+    angle_per_unknown = model.angle_per_unknown
+    twelfth_step = model.twelfth_step
+    eleven_twelfths_step = model.eleven_twelfths_step
     admittance = np.asarray(model.admittance)
     transmission = np.asarray(model.transmission)
     reflection = np.asarray(model.reflection)
@@ -436,16 +446,16 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     acceleration = np.asarray(state.acceleration)
     numbers = (
         motor_torque,
-        load_torque,
+        load_torque_,
         step,
-        step_5_over_108,
-        step2_5_over_243,
-        step_5_over_9,
-        factor_4,
-        step2_1_over_27,
-        step2_25_over_54,
-        step_1_over_12,
-        step_11_over_12,
+        known_rate_per_acceleration,
+        known_angle_per_acceleration,
+        five_ninths_step,
+        unknown_per_known_rate,
+        angle_per_acceleration_2,
+        angle_per_unknown,
+        twelfth_step,
+        eleven_twelfths_step,
         hub_admittance,
         hub_angle,
         hub_rate,
@@ -464,49 +474,52 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     angle = _spread(angle, batch, True)
     rate = _spread(rate, batch, True)
     acceleration = _spread(acceleration, batch, True)
-    correction = np.zeros((STATIONS, *batch), dtype)
+    answer_own = np.zeros((STATIONS, *batch), dtype)
     known_angle = np.zeros((STATIONS + 1, *batch), dtype)
     known_rate = np.zeros((STATIONS + 1, *batch), dtype)
-    load = np.zeros((STATIONS, *batch), dtype)
+    load_torque = np.zeros((STATIONS, *batch), dtype)
     solved = np.zeros((STATIONS, *batch), dtype)
 
     # motion known before the sweep
-    known_rate[0] = hub_rate + hub_acceleration * step_5_over_108
-    known_angle[0] = hub_angle + hub_acceleration * step2_5_over_243 + hub_rate * step_5_over_9
-    known_rate[1:] = rate + acceleration * step_5_over_108
-    known_angle[1:] = angle + acceleration * step2_5_over_243 + rate * step_5_over_9
+    known_rate[0] = hub_rate + hub_acceleration * known_rate_per_acceleration
+    known_angle[0] = hub_angle + five_ninths_step * hub_rate + hub_acceleration * known_angle_per_acceleration
+    known_rate[1:] = rate + acceleration * known_rate_per_acceleration
+    known_angle[1:] = angle + acceleration * known_angle_per_acceleration + five_ninths_step * rate
 
-    # torque of each joint at the known motion
+    # forces of the joints at the motion so far
     joint_torque = damping * (known_rate[1:] - known_rate[:6]) + stiffness * (
         known_angle[1:] - known_angle[:6]
     )
 
-    # sweep inward: torque beyond each joint as if its inner side did not move
-    load[:] = 0.0
-    load[3] = load_torque
-    bias: Any = 0.0
+    # sweep inward: force beyond each joint as an affine function of the motion at it
+    load_torque[:] = 0.0
+    load_torque[3] = load_torque_
+    torque: Any = 0.0
     for j in reversed(range(STATIONS)):
-        bias = bias + load[j]
-        correction[j] = admittance[j] * (bias - joint_torque[j])
-        bias = bias * transmission[j] + joint_torque[j] * reflection[j]
+        torque = load_torque[j] + torque
+        answer_own[j] = admittance[j] * (torque - joint_torque[j])
+        torque = joint_torque[j] * reflection[j] + torque * transmission[j]
 
     # the base
-    unknown = hub_admittance * (bias + motor_torque) - factor_4 * known_rate[0]
+    unknown = hub_admittance * (motor_torque + torque) - known_rate[0] * unknown_per_known_rate
     hub_unknown = unknown
 
     # sweep outward: the unknown of each station
     for j in range(STATIONS):
-        unknown = correction[j] + transmission[j] * unknown
+        unknown = answer_own[j] + transmission[j] * unknown
         solved[j] = unknown
 
     # motion at the end of the step
     hub_angle = (
-        hub_angle + hub_acceleration * step2_1_over_27 + hub_rate * step + hub_unknown * step2_25_over_54
+        hub_angle
+        + angle_per_acceleration_2 * hub_acceleration
+        + angle_per_unknown * hub_unknown
+        + hub_rate * step
     )
-    hub_rate = hub_rate + hub_acceleration * step_1_over_12 + hub_unknown * step_11_over_12
+    hub_rate = hub_rate + eleven_twelfths_step * hub_unknown + hub_acceleration * twelfth_step
     hub_acceleration = 1.5 * hub_unknown - 0.5 * hub_acceleration
-    angle = angle + acceleration * step2_1_over_27 + rate * step + solved * step2_25_over_54
-    rate = rate + acceleration * step_1_over_12 + solved * step_11_over_12
+    angle = angle + acceleration * angle_per_acceleration_2 + angle_per_unknown * solved + rate * step
+    rate = rate + acceleration * twelfth_step + eleven_twelfths_step * solved
     acceleration = 1.5 * solved - 0.5 * acceleration
     return State(
         hub_angle=_spread(hub_angle, batch, False),

@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 225557ccb20983327784b6fc8326b9127fb185b183a5e99d150385ab258b9303
-# sha256 of the rest of this file: d07e25e0a0c6627bc6b0fe056c5a0e3059ee601df81f12b44904f897628085f9
+# sha256 of the rest of this file: f02a7c111e0cded5b1badaf1e56c5e64ad63fb2c61cda6f50efc25b5f4e554f5
 #
 # model: planar arm, large rotations, gravity
 # stations: 10
@@ -11,8 +11,9 @@
 # linearisation: newton
 # sweep: riccati
 # unknown: acceleration
-# operations of a step: 1330, 133 per station (610 additions, 690 multiplications, 10 divisions, 20 functions)
-# operations of prepare: 73, 7.3 per station (12 additions, 61 multiplications)
+# operations of a step: 1150, 115 per station (530 additions, 590 multiplications, 10 divisions, 20 sines and
+#     cosines)
+# operations of prepare: 108, 10.8 per station (30 additions, 78 multiplications)
 """fall10: Soft clamped beam falling under its own weight.
 
 A state goes in, a new one comes out: ``model = prepare(params, step)``, ``state = initialise(params,
@@ -92,42 +93,36 @@ class Model:
         Time step (s).
     length : array, shape (*batch)
         Link length, the same everywhere (m).
-    mass : array, shape (*batch)
-        Link mass, the same everywhere (kg).
     stiffness : array, shape (10, *batch)
         Joint stiffness, base to tip (N m/rad).
     damping : array, shape (10, *batch)
         Joint damping, base to tip (N m s/rad).
     gravity : array, shape (*batch)
         Gravity along -y (m/s^2).
-    step2_1_over_2 : array, shape (*batch)
+    half_step_squared : array, shape (*batch)
         Step**2/2 (s^2).
     angle_per_acceleration : array, shape (*batch)
-        Angle per unit of acceleration: step**2/4 (SI).
+        Angle per unit of acceleration: step**2/4 (s^2).
     rate_per_acceleration : array, shape (*batch)
-        Rate per unit of acceleration: step/2 (SI).
-    carried_mass : array, shape (*batch)
-        Mass acting at a link's outer end (kg).
-    inner_mass : array, shape (*batch)
-        Mass acting at a link's inner end (kg).
-    pin_inertia : array, shape (*batch)
-        Inertia of a link about its inner end (kg m^2).
+        Rate per unit of acceleration: step/2 (s).
+    node_mass : array, shape (10, *batch)
+        Mass at the outer end of each link (kg).
+    rod_inertia : array, shape (*batch)
+        Inertia of a link that masses at its ends leave over (kg m^2).
     joint_impedance : array, shape (10, *batch)
-        Torque of a joint per difference of unknowns (SI).
+        Torque of a joint per difference of unknowns (kg m^2).
     """
 
     step: Array
     length: Array
-    mass: Array
     stiffness: Array
     damping: Array
     gravity: Array
-    step2_1_over_2: Array
+    half_step_squared: Array
     angle_per_acceleration: Array
     rate_per_acceleration: Array
-    carried_mass: Array
-    inner_mass: Array
-    pin_inertia: Array
+    node_mass: Array
+    rod_inertia: Array
     joint_impedance: Array
 
 
@@ -228,33 +223,34 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     gravity = _array(params.gravity, None, "gravity")
     numbers = (step, length, mass, inertia, center, gravity)
     arrays = (stiffness, damping)
-    batch, _ = _common(numbers, arrays)
+    batch, dtype = _common(numbers, arrays)
     stiffness = _align(stiffness, batch)
     damping = _align(damping, batch)
+    node_mass = np.zeros((STATIONS, *batch), dtype)
 
-    # Masses by the ends they act at, and joint impedances
-    carried_mass = center * mass
-    inner_mass = mass - center * mass
-    pin_inertia = inertia + center * center * (length * length) * mass
+    # masses at the nodes between links, and what they leave over
+    node_mass[:9] = center * mass + mass * (1.0 - center)
+    node_mass[9] = center * mass
+    rod_inertia = inertia - center * (length * length) * mass * (1.0 - center)
+
+    # factors of the sweep that do not change from step to step
     joint_impedance = 0.5 * damping * step + 0.25 * (step * step) * stiffness
 
     # Factors of the step that depend on the time step and parameters alone
-    step2_1_over_2 = 0.5 * (step * step)
+    half_step_squared = 0.5 * (step * step)
     angle_per_acceleration = 0.25 * (step * step)
     rate_per_acceleration = 0.5 * step
     return Model(
         step=step,
         length=length,
-        mass=mass,
         stiffness=stiffness,
         damping=damping,
         gravity=gravity,
-        step2_1_over_2=step2_1_over_2,
+        half_step_squared=half_step_squared,
         angle_per_acceleration=angle_per_acceleration,
         rate_per_acceleration=rate_per_acceleration,
-        carried_mass=carried_mass,
-        inner_mass=inner_mass,
-        pin_inertia=pin_inertia,
+        node_mass=node_mass,
+        rod_inertia=rod_inertia,
         joint_impedance=joint_impedance,
     )
 
@@ -309,115 +305,94 @@ def initialise(
     answer_own = np.zeros((STATIONS, *batch), dtype)
     answer_x = np.zeros((STATIONS, *batch), dtype)
     answer_y = np.zeros((STATIONS, *batch), dtype)
+    node_mass = np.zeros((STATIONS, *batch), dtype)
     predicted_acceleration = np.zeros((STATIONS + 1, *batch), dtype)
     predicted_angle = np.zeros((STATIONS + 1, *batch), dtype)
     predicted_rate = np.zeros((STATIONS + 1, *batch), dtype)
     solved = np.zeros((STATIONS, *batch), dtype)
 
+    # masses at the nodes between links, and what they leave over
+    node_mass[:9] = center * mass + mass * (1.0 - center)
+    node_mass[9] = center * mass
+    rod_inertia = inertia - center * (length * length) * mass * (1.0 - center)
+
     # predicted motion
-    predicted_angle[0] = 0.0
     predicted_rate[0] = 0.0
+    predicted_angle[0] = 0.0
     predicted_acceleration[0] = 0.0
-    predicted_angle[1:] = initial_angle
     predicted_rate[1:] = initial_rate
+    predicted_angle[1:] = initial_angle
     predicted_acceleration[1:] = 0.0
 
     # accelerations of the nodes, seen from a falling frame: gravity is the base's own
-    lever_sine = length * np.sin(predicted_angle[1:])
     lever_cosine = length * np.cos(predicted_angle[1:])
+    lever_sine = length * np.sin(predicted_angle[1:])
+    square = predicted_rate[1:] * predicted_rate[1:]
+    relative_x = -lever_cosine * square - lever_sine * predicted_acceleration[1:]
+    relative_y = lever_cosine * predicted_acceleration[1:] - lever_sine * square
     node_x: Any = 0.0
     node_y = gravity
     acceleration_x[0] = node_x
     acceleration_y[0] = node_y
     for j in range(STATIONS):
-        square = predicted_rate[j + 1] * predicted_rate[j + 1]
-        node_x = node_x - lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1]
-        node_y = node_y + lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square
+        node_x = node_x + relative_x[j]
+        node_y = node_y + relative_y[j]
         acceleration_x[j + 1] = node_x
         acceleration_y[j + 1] = node_y
 
-    # how each link's outer end answers to its unknown, and the predicted joint torques
-    swing_x = -lever_sine
-    swing_y = lever_cosine
+    # forces of the joints at the motion so far
     joint_torque = damping * (predicted_rate[:10] - predicted_rate[1:]) + stiffness * (
         predicted_angle[:10] - predicted_angle[1:]
     )
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
-    impedance_xx: Any = 0.0
-    impedance_xy: Any = 0.0
-    impedance_xu: Any = 0.0
-    impedance_yx: Any = 0.0
-    impedance_yy: Any = 0.0
-    impedance_yu: Any = 0.0
-    impedance_ux: Any = 0.0
-    impedance_uy: Any = 0.0
-    impedance_uu: Any = 0.0
     force_x: Any = 0.0
     force_y: Any = 0.0
+    impedance_xx: Any = 0.0
+    impedance_xy: Any = 0.0
+    impedance_yx: Any = 0.0
+    impedance_yy: Any = 0.0
     torque: Any = 0.0
     for j in reversed(range(STATIONS)):
-        outer_x = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
-        outer_y = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
-        outer_u = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
-        load_x = force_x + acceleration_x[j] * center * mass
-        load_y = force_y + acceleration_y[j] * center * mass
-        link_ux = (
-            impedance_ux + impedance_yx * lever_cosine[j] - lever_sine[j] * (impedance_xx + center * mass)
-        )
-        link_uy = (
-            impedance_uy - impedance_xy * lever_sine[j] + lever_cosine[j] * (impedance_yy + center * mass)
-        )
-        link_uu = (
-            inertia
-            + outer_u
-            + lever_cosine[j] * outer_y
-            - lever_sine[j] * outer_x
-            + center * center * (length * length) * mass
-        )
-        link_xx = impedance_xx + mass
-        link_xy = impedance_xy
-        link_xu = outer_x + center * mass * swing_x[j]
-        link_yx = impedance_yx
-        link_yy = impedance_yy + mass
-        link_yu = outer_y + center * mass * swing_y[j]
+        impedance_xx = impedance_xx + node_mass[j]
+        impedance_yy = impedance_yy + node_mass[j]
+        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
+        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
+        impedance_xu = impedance_xy * lever_cosine[j] - impedance_xx * lever_sine[j]
+        impedance_yu = impedance_yy * lever_cosine[j] - impedance_yx * lever_sine[j]
+        impedance_ux = impedance_yx * lever_cosine[j] - impedance_xx * lever_sine[j]
+        impedance_uy = impedance_yy * lever_cosine[j] - impedance_xy * lever_sine[j]
+        impedance_uu = rod_inertia - impedance_xu * lever_sine[j] + impedance_yu * lever_cosine[j]
         torque = (
             torque
-            + lever_cosine[j] * load_y
-            - lever_sine[j] * load_x
-            + predicted_acceleration[j + 1] * (inertia + center * center * (length * length) * mass)
+            - force_x * lever_sine[j]
+            + force_y * lever_cosine[j]
+            + predicted_acceleration[j + 1] * rod_inertia
         )
-        force_x = force_x + acceleration_x[j] * (mass - center * mass) + acceleration_x[j + 1] * center * mass
-        force_y = force_y + acceleration_y[j] * (mass - center * mass) + acceleration_y[j + 1] * center * mass
-        pivot = link_uu
+        pivot = impedance_uu
         _require_positive(pivot, "pivot", j)
-        inverse_pivot = 1.0 / pivot
-        answer_own[j] = inverse_pivot * (joint_torque[j] - torque)
-        answer_x[j] = inverse_pivot * link_ux
-        answer_y[j] = inverse_pivot * link_uy
-        impedance_xx = link_xx - answer_x[j] * link_xu
-        impedance_xy = link_xy - answer_y[j] * link_xu
-        impedance_xu = 0.0
-        force_x = force_x + answer_own[j] * link_xu
-        impedance_yx = link_yx - answer_x[j] * link_yu
-        impedance_yy = link_yy - answer_y[j] * link_yu
-        impedance_yu = 0.0
-        force_y = force_y + answer_own[j] * link_yu
-        impedance_ux = 0.0
-        impedance_uy = 0.0
-        impedance_uu = 0.0
+        admittance = 1.0 / pivot
+        answer_own[j] = admittance * (joint_torque[j] - torque)
+        answer_x[j] = admittance * impedance_ux
+        answer_y[j] = admittance * impedance_uy
+        impedance_xx = impedance_xx - answer_x[j] * impedance_xu
+        impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        impedance_yx = impedance_yx - answer_x[j] * impedance_yu
+        impedance_yy = impedance_yy - answer_y[j] * impedance_yu
+        force_x = force_x + answer_own[j] * impedance_xu
+        force_y = force_y + answer_own[j] * impedance_yu
         torque = joint_torque[j]
 
-    # the base does not move
+    # the base
     unknown: Any = 0.0
 
-    # sweep outward: the increment of each link's unknown
+    # sweep outward: the unknown of each station
     change_x: Any = 0.0
     change_y: Any = 0.0
     for j in range(STATIONS):
         unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y
-        change_x = change_x + swing_x[j] * unknown
-        change_y = change_y + swing_y[j] * unknown
+        change_x = change_x - lever_sine[j] * unknown
+        change_y = change_y + lever_cosine[j] * unknown
         solved[j] = unknown
 
     # motion at the end of the step
@@ -459,16 +434,14 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     """
     step = model.step
     length = model.length
-    mass = model.mass
     stiffness = np.asarray(model.stiffness)
     damping = np.asarray(model.damping)
     gravity = model.gravity
-    step2_1_over_2 = model.step2_1_over_2
+    half_step_squared = model.half_step_squared
     angle_per_acceleration = model.angle_per_acceleration
     rate_per_acceleration = model.rate_per_acceleration
-    carried_mass = model.carried_mass
-    inner_mass = model.inner_mass
-    pin_inertia = model.pin_inertia
+    node_mass = np.asarray(model.node_mass)
+    rod_inertia = model.rod_inertia
     joint_impedance = np.asarray(model.joint_impedance)
     angle = np.asarray(state.angle)
     rate = np.asarray(state.rate)
@@ -476,26 +449,23 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     numbers = (
         step,
         length,
-        mass,
         gravity,
-        step2_1_over_2,
+        half_step_squared,
         angle_per_acceleration,
         rate_per_acceleration,
-        carried_mass,
-        inner_mass,
-        pin_inertia,
+        rod_inertia,
     )
-    arrays = (stiffness, damping, joint_impedance, angle, rate, acceleration)
+    arrays = (stiffness, damping, node_mass, joint_impedance, angle, rate, acceleration)
     batch, dtype = _common(numbers, arrays)
     stiffness = _align(stiffness, batch)
     damping = _align(damping, batch)
+    node_mass = _align(node_mass, batch)
     joint_impedance = _align(joint_impedance, batch)
     angle = _spread(angle, batch, True)
     rate = _spread(rate, batch, True)
     acceleration = _spread(acceleration, batch, True)
     acceleration_x = np.zeros((STATIONS + 1, *batch), dtype)
     acceleration_y = np.zeros((STATIONS + 1, *batch), dtype)
-    answer_from_inner = np.zeros((STATIONS, *batch), dtype)
     answer_own = np.zeros((STATIONS, *batch), dtype)
     answer_x = np.zeros((STATIONS, *batch), dtype)
     answer_y = np.zeros((STATIONS, *batch), dtype)
@@ -503,114 +473,103 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     predicted_angle = np.zeros((STATIONS + 1, *batch), dtype)
     predicted_rate = np.zeros((STATIONS + 1, *batch), dtype)
     solved = np.zeros((STATIONS, *batch), dtype)
+    transmission = np.zeros((STATIONS, *batch), dtype)
 
     # predicted motion
-    predicted_angle[0] = 0.0
     predicted_rate[0] = 0.0
+    predicted_angle[0] = 0.0
     predicted_acceleration[0] = 0.0
-    predicted_angle[1:] = angle + acceleration * step2_1_over_2 + rate * step
     predicted_rate[1:] = rate + acceleration * step
+    predicted_angle[1:] = angle + acceleration * half_step_squared + rate * step
     predicted_acceleration[1:] = acceleration
 
     # accelerations of the nodes, seen from a falling frame: gravity is the base's own
-    lever_sine = length * np.sin(predicted_angle[1:])
     lever_cosine = length * np.cos(predicted_angle[1:])
+    lever_sine = length * np.sin(predicted_angle[1:])
+    square = predicted_rate[1:] * predicted_rate[1:]
+    relative_x = -lever_cosine * square - lever_sine * predicted_acceleration[1:]
+    relative_y = lever_cosine * predicted_acceleration[1:] - lever_sine * square
+    turning = predicted_rate[1:] * step
+    swing_x = -lever_sine - angle_per_acceleration * relative_y - lever_cosine * turning
+    swing_y = lever_cosine + angle_per_acceleration * relative_x - lever_sine * turning
     node_x: Any = 0.0
     node_y = gravity
     acceleration_x[0] = node_x
     acceleration_y[0] = node_y
     for j in range(STATIONS):
-        square = predicted_rate[j + 1] * predicted_rate[j + 1]
-        node_x = node_x - lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1]
-        node_y = node_y + lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square
+        node_x = node_x + relative_x[j]
+        node_y = node_y + relative_y[j]
         acceleration_x[j + 1] = node_x
         acceleration_y[j + 1] = node_y
 
-    # how each link's outer end answers to its unknown, and the predicted joint torques
-    tangential = 1.0 - angle_per_acceleration * (predicted_rate[1:] * predicted_rate[1:])
-    turning = angle_per_acceleration * predicted_acceleration[1:] + predicted_rate[1:] * step
-    swing_x = -lever_cosine * turning - lever_sine * tangential
-    swing_y = lever_cosine * tangential - lever_sine * turning
+    # forces of the joints at the motion so far
     joint_torque = damping * (predicted_rate[:10] - predicted_rate[1:]) + stiffness * (
         predicted_angle[:10] - predicted_angle[1:]
     )
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
-    impedance_xx: Any = 0.0
-    impedance_xy: Any = 0.0
-    impedance_xu: Any = 0.0
-    impedance_yx: Any = 0.0
-    impedance_yy: Any = 0.0
-    impedance_yu: Any = 0.0
-    impedance_ux: Any = 0.0
-    impedance_uy: Any = 0.0
-    impedance_uu: Any = 0.0
     force_x: Any = 0.0
     force_y: Any = 0.0
+    impedance_uu: Any = 0.0
+    impedance_ux: Any = 0.0
+    impedance_uy: Any = 0.0
+    impedance_xu: Any = 0.0
+    impedance_xx: Any = 0.0
+    impedance_xy: Any = 0.0
+    impedance_yu: Any = 0.0
+    impedance_yx: Any = 0.0
+    impedance_yy: Any = 0.0
     torque: Any = 0.0
     for j in reversed(range(STATIONS)):
-        outer_x = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
-        outer_y = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
-        outer_u = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
-        load_x = force_x + acceleration_x[j] * carried_mass
-        load_y = force_y + acceleration_y[j] * carried_mass
-        link_ux = (
-            impedance_ux + impedance_yx * lever_cosine[j] - lever_sine[j] * (carried_mass + impedance_xx)
+        impedance_xx = impedance_xx + node_mass[j]
+        impedance_yy = impedance_yy + node_mass[j]
+        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
+        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
+        impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
+        impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
+        impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
+        impedance_ux = impedance_ux - impedance_xx * lever_sine[j] + impedance_yx * lever_cosine[j]
+        impedance_uy = impedance_uy - impedance_xy * lever_sine[j] + impedance_yy * lever_cosine[j]
+        impedance_uu = (
+            impedance_uu
+            + rod_inertia
+            + lever_cosine[j] * (impedance_yu - angle_per_acceleration * force_x)
+            + lever_sine[j] * (-impedance_xu - angle_per_acceleration * force_y)
         )
-        link_uy = (
-            impedance_uy - impedance_xy * lever_sine[j] + lever_cosine[j] * (carried_mass + impedance_yy)
-        )
-        link_uu = (
-            outer_u
-            + pin_inertia
-            + angle_per_acceleration * (-lever_cosine[j] * load_x - lever_sine[j] * load_y)
-            + lever_cosine[j] * outer_y
-            - lever_sine[j] * outer_x
-        )
-        link_xx = impedance_xx + mass
-        link_xy = impedance_xy
-        link_xu = outer_x + carried_mass * swing_x[j]
-        link_yx = impedance_yx
-        link_yy = impedance_yy + mass
-        link_yu = outer_y + carried_mass * swing_y[j]
         torque = (
             torque
-            + lever_cosine[j] * load_y
-            - lever_sine[j] * load_x
-            + pin_inertia * predicted_acceleration[j + 1]
+            - force_x * lever_sine[j]
+            + force_y * lever_cosine[j]
+            + predicted_acceleration[j + 1] * rod_inertia
         )
-        force_x = force_x + acceleration_x[j + 1] * carried_mass + acceleration_x[j] * inner_mass
-        force_y = force_y + acceleration_y[j + 1] * carried_mass + acceleration_y[j] * inner_mass
-        pivot = joint_impedance[j] + link_uu
+        pivot = impedance_uu + joint_impedance[j]
         _require_positive(pivot, "pivot", j)
-        inverse_pivot = 1.0 / pivot
-        answer_own[j] = inverse_pivot * (joint_torque[j] - torque)
-        answer_x[j] = inverse_pivot * link_ux
-        answer_y[j] = inverse_pivot * link_uy
-        answer_from_inner[j] = inverse_pivot * joint_impedance[j]
-        impedance_xx = link_xx - answer_x[j] * link_xu
-        impedance_xy = link_xy - answer_y[j] * link_xu
-        impedance_xu = answer_from_inner[j] * link_xu
-        force_x = force_x + answer_own[j] * link_xu
-        impedance_yx = link_yx - answer_x[j] * link_yu
-        impedance_yy = link_yy - answer_y[j] * link_yu
-        impedance_yu = answer_from_inner[j] * link_yu
-        force_y = force_y + answer_own[j] * link_yu
+        admittance = 1.0 / pivot
+        answer_own[j] = admittance * (joint_torque[j] - torque)
+        answer_x[j] = admittance * impedance_ux
+        answer_y[j] = admittance * impedance_uy
+        transmission[j] = admittance * joint_impedance[j]
+        impedance_xx = impedance_xx - answer_x[j] * impedance_xu
+        impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        impedance_yx = impedance_yx - answer_x[j] * impedance_yu
+        impedance_yy = impedance_yy - answer_y[j] * impedance_yu
         impedance_ux = answer_x[j] * joint_impedance[j]
         impedance_uy = answer_y[j] * joint_impedance[j]
-        impedance_uu = answer_from_inner[j] * link_uu
+        impedance_uu = impedance_uu * transmission[j]
+        force_x = force_x + answer_own[j] * impedance_xu
+        impedance_xu = impedance_xu * transmission[j]
+        force_y = force_y + answer_own[j] * impedance_yu
+        impedance_yu = impedance_yu * transmission[j]
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
-    # the base does not move
+    # the base
     unknown: Any = 0.0
 
-    # sweep outward: the increment of each link's unknown
+    # sweep outward: the unknown of each station
     change_x: Any = 0.0
     change_y: Any = 0.0
     for j in range(STATIONS):
-        unknown = (
-            answer_own[j] + answer_from_inner[j] * unknown - answer_x[j] * change_x - answer_y[j] * change_y
-        )
+        unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y + transmission[j] * unknown
         change_x = change_x + swing_x[j] * unknown
         change_y = change_y + swing_y[j] * unknown
         solved[j] = unknown

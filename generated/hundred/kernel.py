@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 1ec2a071f5720229c3b5c9d847fa0a44d6fa112015051ca13c1d73444e6eb10a
-# sha256 of the rest of this file: e6c0d97b9bdc9f11c6a8e03f70858dda7faf151d7c086c1bdad1ff4722868b79
+# sha256 of the rest of this file: f1b6be6c19befe9575ccfbdfc9c834d6de9fadd886979829b7b568a9cb1cdabb
 #
 # model: torsional chain (linear)
 # stations: 100
@@ -82,13 +82,13 @@ class Model:
     damping : array, shape (*batch)
         Joint damping, the same everywhere (N m s/rad).
     rate_per_acceleration : array, shape (*batch)
-        Rate per unit of acceleration: step/2 (SI).
+        Rate per unit of acceleration: step/2 (s).
     angle_per_acceleration : array, shape (*batch)
-        Angle per unit of acceleration: step**2/4 (SI).
+        Angle per unit of acceleration: step**2/4 (s^2).
     admittance : array, shape (100, *batch)
         Inverse pivot of each joint.
     transmission : array, shape (100, *batch)
-        Share of torque and motion each joint passes on.
+        Share of motion and torque each joint passes on.
     reflection : array, shape (100, *batch)
         Share of its own known torque each joint passes on.
     """
@@ -203,7 +203,7 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     reflection = np.zeros((STATIONS, *batch), dtype)
     transmission = np.zeros((STATIONS, *batch), dtype)
 
-    # Riccati factors, swept from tip to base
+    # factors of the sweep that do not change from step to step
     impedance: Any = 0.0
     joint_impedance = 0.5 * damping * step + 0.25 * (step * step) * stiffness
     for j in reversed(range(STATIONS)):
@@ -256,6 +256,8 @@ def initialise(
         If an argument is not finite.
     ValueError
         If shapes do not fit.
+    VanishingPivotError
+        If parameters leave a pivot that is not positive.
     """
     tip_torque = _array(input.tip_torque, None, "input tip_torque")
     stiffness = _array(params.stiffness, None, "stiffness")
@@ -268,7 +270,7 @@ def initialise(
     batch, dtype = _common(numbers, arrays)
     initial_angle = _align(initial_angle, batch)
     initial_rate = _align(initial_rate, batch)
-    correction = np.zeros((STATIONS, *batch), dtype)
+    answer_own = np.zeros((STATIONS, *batch), dtype)
     known_angle = np.zeros((STATIONS + 1, *batch), dtype)
     known_rate = np.zeros((STATIONS + 1, *batch), dtype)
 
@@ -278,22 +280,26 @@ def initialise(
     known_rate[1:] = initial_rate
     known_angle[1:] = initial_angle
 
-    # torque of each joint at the known motion
+    # forces of the joints at the motion so far
     joint_torque = damping * (known_rate[1:] - known_rate[:100]) + stiffness * (
         known_angle[1:] - known_angle[:100]
     )
 
-    # sweep inward: torque beyond each joint as if its inner side did not move
-    bias = tip_torque
+    # sweep inward: force beyond each joint as an affine function of the motion at it
+    torque = tip_torque
     for j in reversed(range(STATIONS)):
-        correction[j] = (bias - joint_torque[j]) / inertia
-        bias = joint_torque[j]
+        impedance = -inertia
+        pivot = -impedance
+        _require_positive(pivot, "pivot", j)
+        admittance = 1.0 / pivot
+        answer_own[j] = admittance * (torque - joint_torque[j])
+        torque = joint_torque[j]
 
     # the base
     unknown: Any = 0.0
 
     # sweep outward: the unknown of each station
-    unknown = correction
+    unknown = answer_own
     solved = unknown
 
     # motion at the end of the step
@@ -352,7 +358,7 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     angle = _spread(angle, batch, True)
     rate = _spread(rate, batch, True)
     acceleration = _spread(acceleration, batch, True)
-    correction = np.zeros((STATIONS, *batch), dtype)
+    answer_own = np.zeros((STATIONS, *batch), dtype)
     known_angle = np.zeros((STATIONS + 1, *batch), dtype)
     known_rate = np.zeros((STATIONS + 1, *batch), dtype)
     solved = np.zeros((STATIONS, *batch), dtype)
@@ -363,23 +369,23 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     known_rate[1:] = rate + acceleration * rate_per_acceleration
     known_angle[1:] = angle + acceleration * angle_per_acceleration + rate * step
 
-    # torque of each joint at the known motion
+    # forces of the joints at the motion so far
     joint_torque = damping * (known_rate[1:] - known_rate[:100]) + stiffness * (
         known_angle[1:] - known_angle[:100]
     )
 
-    # sweep inward: torque beyond each joint as if its inner side did not move
-    bias = tip_torque
+    # sweep inward: force beyond each joint as an affine function of the motion at it
+    torque = tip_torque
     for j in reversed(range(STATIONS)):
-        correction[j] = admittance[j] * (bias - joint_torque[j])
-        bias = bias * transmission[j] + joint_torque[j] * reflection[j]
+        answer_own[j] = admittance[j] * (torque - joint_torque[j])
+        torque = joint_torque[j] * reflection[j] + torque * transmission[j]
 
     # the base
     unknown: Any = 0.0
 
     # sweep outward: the unknown of each station
     for j in range(STATIONS):
-        unknown = correction[j] + transmission[j] * unknown
+        unknown = answer_own[j] + transmission[j] * unknown
         solved[j] = unknown
 
     # motion at the end of the step

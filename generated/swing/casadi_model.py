@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 1d772428e2d772ebb733ea95a16abbe042281079aa7667facf050e2b156d94bf
-# sha256 of the rest of this file: 1d9d632bfda2c88c93fc1a885b627084a29821b52acf8b0bb4863481f7dbebb8
+# sha256 of the rest of this file: 449ccee16cddcf61aa902e29d508aa720d4a46885cf83db35dc71af883c98e03
 #
 # model: planar arm, large rotations, tip mass
 # stations: 5
@@ -11,8 +11,9 @@
 # linearisation: newton
 # sweep: riccati
 # unknown: acceleration
-# operations of a step: 685, 137 per station (315 additions, 354 multiplications, 6 divisions, 10 functions)
-# operations of prepare: 47, 9.4 per station (8 additions, 39 multiplications)
+# operations of a step: 593, 118.6 per station (275 additions, 302 multiplications, 6 divisions, 10 sines and
+#     cosines)
+# operations of prepare: 62, 12.4 per station (17 additions, 45 multiplications)
 """swing: Flexible arm swung by one radian. Functions for optimisation and control.
 
 Columns: ``x`` the state (STATE_NAMES), ``u`` the inputs (INPUT_NAMES), ``p`` the step and the physical
@@ -164,36 +165,37 @@ def _prepare(p: ca.SX) -> dict[str, Any]:
     hub_damping = p[16]
     tip_mass = p[17]
     joint_impedance: list[Any] = [0.0] * STATIONS
+    node_mass: list[Any] = [0.0] * STATIONS
 
-    # Masses by the ends they act at, and joint impedances
-    carried_mass = center * mass
-    inner_mass = mass - center * mass
-    pin_inertia = inertia + center * center * (length * length) * mass
-    for j in range(STATIONS):
+    # masses at the nodes between links, and what they leave over
+    for j in range(4):
+        node_mass[j] = center * mass + mass * (1.0 - center)
+    node_mass[4] = tip_mass + center * mass
+    rod_inertia = inertia - center * (length * length) * mass * (1.0 - center)
+
+    # factors of the sweep that do not change from step to step
+    for j in reversed(range(STATIONS)):
         joint_impedance[j] = 0.5 * damping[j] * step + 0.25 * (step * step) * stiffness[j]
+    hub_impedance = hub_inertia + 0.5 * hub_damping * step
 
     # Factors of the step that depend on the time step and parameters alone
-    step2_1_over_2 = 0.5 * (step * step)
+    half_step_squared = 0.5 * (step * step)
     angle_per_acceleration = 0.25 * (step * step)
-    factor_3 = 0.5 * (2.0 * hub_inertia + hub_damping * step)
     rate_per_acceleration = 0.5 * step
     return {
         "step": step,
         "length": length,
-        "mass": mass,
         "stiffness": stiffness,
         "damping": damping,
         "hub_inertia": hub_inertia,
         "hub_damping": hub_damping,
-        "tip_mass": tip_mass,
-        "step2_1_over_2": step2_1_over_2,
+        "half_step_squared": half_step_squared,
         "angle_per_acceleration": angle_per_acceleration,
-        "factor_3": factor_3,
         "rate_per_acceleration": rate_per_acceleration,
-        "carried_mass": carried_mass,
-        "inner_mass": inner_mass,
-        "pin_inertia": pin_inertia,
+        "node_mass": node_mass,
+        "rod_inertia": rod_inertia,
         "joint_impedance": joint_impedance,
+        "hub_impedance": hub_impedance,
     }
 
 
@@ -221,124 +223,104 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
     joint_torque: list[Any] = [0.0] * STATIONS
     lever_cosine: list[Any] = [0.0] * STATIONS
     lever_sine: list[Any] = [0.0] * STATIONS
+    node_mass: list[Any] = [0.0] * STATIONS
     predicted_acceleration: list[Any] = [0.0] * (STATIONS + 1)
     predicted_angle: list[Any] = [0.0] * (STATIONS + 1)
     predicted_rate: list[Any] = [0.0] * (STATIONS + 1)
     rate: list[Any] = [0.0] * STATIONS
+    relative_x: list[Any] = [0.0] * STATIONS
+    relative_y: list[Any] = [0.0] * STATIONS
     solved: list[Any] = [0.0] * STATIONS
-    swing_x: list[Any] = [0.0] * STATIONS
-    swing_y: list[Any] = [0.0] * STATIONS
+
+    # masses at the nodes between links, and what they leave over
+    for j in range(4):
+        node_mass[j] = center * mass + mass * (1.0 - center)
+    node_mass[4] = tip_mass + center * mass
+    rod_inertia = inertia - center * (length * length) * mass * (1.0 - center)
 
     # predicted motion
-    predicted_angle[0] = 0.0
     predicted_rate[0] = 0.0
+    predicted_angle[0] = 0.0
     predicted_acceleration[0] = 0.0
     for j in range(STATIONS):
-        predicted_angle[j + 1] = initial_angle[j]
         predicted_rate[j + 1] = initial_rate[j]
+        predicted_angle[j + 1] = initial_angle[j]
         predicted_acceleration[j + 1] = 0.0
 
     # accelerations of the nodes
     for j in range(STATIONS):
-        lever_sine[j] = length * ca.sin(predicted_angle[j + 1])
         lever_cosine[j] = length * ca.cos(predicted_angle[j + 1])
+        lever_sine[j] = length * ca.sin(predicted_angle[j + 1])
+        square = predicted_rate[j + 1] * predicted_rate[j + 1]
+        relative_x[j] = -lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1]
+        relative_y[j] = lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square
     node_x: Any = 0.0
     node_y: Any = 0.0
     acceleration_x[0] = node_x
     acceleration_y[0] = node_y
     for j in range(STATIONS):
-        square = predicted_rate[j + 1] * predicted_rate[j + 1]
-        node_x = node_x - lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1]
-        node_y = node_y + lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square
+        node_x = node_x + relative_x[j]
+        node_y = node_y + relative_y[j]
         acceleration_x[j + 1] = node_x
         acceleration_y[j + 1] = node_y
 
-    # how each link's outer end answers to its unknown, and the predicted joint torques
+    # forces of the joints at the motion so far
     for j in range(STATIONS):
-        swing_x[j] = -lever_sine[j]
-        swing_y[j] = lever_cosine[j]
         joint_torque[j] = damping[j] * (predicted_rate[j] - predicted_rate[j + 1]) + stiffness[j] * (
             predicted_angle[j] - predicted_angle[j + 1]
         )
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
-    impedance_xx = tip_mass
+    force_x: Any = 0.0
+    force_y: Any = 0.0
+    impedance_xx: Any = 0.0
     impedance_xy: Any = 0.0
-    impedance_xu: Any = 0.0
     impedance_yx: Any = 0.0
-    impedance_yy = tip_mass
-    impedance_yu: Any = 0.0
-    impedance_ux: Any = 0.0
-    impedance_uy: Any = 0.0
-    impedance_uu: Any = 0.0
-    force_x = acceleration_x[5] * tip_mass
-    force_y = acceleration_y[5] * tip_mass
+    impedance_yy: Any = 0.0
     torque: Any = 0.0
     for j in reversed(range(STATIONS)):
-        outer_x = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
-        outer_y = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
-        outer_u = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
-        load_x = force_x + acceleration_x[j] * center * mass
-        load_y = force_y + acceleration_y[j] * center * mass
-        link_ux = (
-            impedance_ux + impedance_yx * lever_cosine[j] - lever_sine[j] * (impedance_xx + center * mass)
-        )
-        link_uy = (
-            impedance_uy - impedance_xy * lever_sine[j] + lever_cosine[j] * (impedance_yy + center * mass)
-        )
-        link_uu = (
-            inertia
-            + outer_u
-            + lever_cosine[j] * outer_y
-            - lever_sine[j] * outer_x
-            + center * center * (length * length) * mass
-        )
-        link_xx = impedance_xx + mass
-        link_xy = impedance_xy
-        link_xu = outer_x + center * mass * swing_x[j]
-        link_yx = impedance_yx
-        link_yy = impedance_yy + mass
-        link_yu = outer_y + center * mass * swing_y[j]
+        impedance_xx = impedance_xx + node_mass[j]
+        impedance_yy = impedance_yy + node_mass[j]
+        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
+        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
+        impedance_xu = impedance_xy * lever_cosine[j] - impedance_xx * lever_sine[j]
+        impedance_yu = impedance_yy * lever_cosine[j] - impedance_yx * lever_sine[j]
+        impedance_ux = impedance_yx * lever_cosine[j] - impedance_xx * lever_sine[j]
+        impedance_uy = impedance_yy * lever_cosine[j] - impedance_xy * lever_sine[j]
+        impedance_uu = rod_inertia - impedance_xu * lever_sine[j] + impedance_yu * lever_cosine[j]
         torque = (
             torque
-            + lever_cosine[j] * load_y
-            - lever_sine[j] * load_x
-            + predicted_acceleration[j + 1] * (inertia + center * center * (length * length) * mass)
+            - force_x * lever_sine[j]
+            + force_y * lever_cosine[j]
+            + predicted_acceleration[j + 1] * rod_inertia
         )
-        force_x = force_x + acceleration_x[j] * (mass - center * mass) + acceleration_x[j + 1] * center * mass
-        force_y = force_y + acceleration_y[j] * (mass - center * mass) + acceleration_y[j + 1] * center * mass
-        pivot = link_uu
-        inverse_pivot = 1.0 / pivot
-        answer_own[j] = inverse_pivot * (joint_torque[j] - torque)
-        answer_x[j] = inverse_pivot * link_ux
-        answer_y[j] = inverse_pivot * link_uy
-        impedance_xx = link_xx - answer_x[j] * link_xu
-        impedance_xy = link_xy - answer_y[j] * link_xu
-        impedance_xu = 0.0
-        force_x = force_x + answer_own[j] * link_xu
-        impedance_yx = link_yx - answer_x[j] * link_yu
-        impedance_yy = link_yy - answer_y[j] * link_yu
-        impedance_yu = 0.0
-        force_y = force_y + answer_own[j] * link_yu
-        impedance_ux = 0.0
-        impedance_uy = 0.0
-        impedance_uu = 0.0
+        pivot = impedance_uu
+        admittance = 1.0 / pivot
+        answer_own[j] = admittance * (joint_torque[j] - torque)
+        answer_x[j] = admittance * impedance_ux
+        answer_y[j] = admittance * impedance_uy
+        impedance_xx = impedance_xx - answer_x[j] * impedance_xu
+        impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        impedance_yx = impedance_yx - answer_x[j] * impedance_yu
+        impedance_yy = impedance_yy - answer_y[j] * impedance_yu
+        force_x = force_x + answer_own[j] * impedance_xu
+        force_y = force_y + answer_own[j] * impedance_yu
         torque = joint_torque[j]
 
-    # the hub
-    hub_pivot = hub_inertia + impedance_uu
+    # the base
+    hub_pivot = hub_inertia
     unknown = (
         hub_torque - torque - hub_damping * predicted_rate[0] - hub_inertia * predicted_acceleration[0]
     ) / hub_pivot
     hub_unknown = unknown
 
-    # sweep outward: the increment of each link's unknown
+    # sweep outward: the unknown of each station
     change_x: Any = 0.0
     change_y: Any = 0.0
     for j in range(STATIONS):
         unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y
-        change_x = change_x + swing_x[j] * unknown
-        change_y = change_y + swing_y[j] * unknown
+        change_x = change_x - lever_sine[j] * unknown
+        change_y = change_y + lever_cosine[j] * unknown
         solved[j] = unknown
 
     # motion at the end of the step
@@ -356,20 +338,17 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     """Advance the state by one step."""
     step = model["step"]
     length = model["length"]
-    mass = model["mass"]
     stiffness = model["stiffness"]
     damping = model["damping"]
     hub_inertia = model["hub_inertia"]
     hub_damping = model["hub_damping"]
-    tip_mass = model["tip_mass"]
-    step2_1_over_2 = model["step2_1_over_2"]
+    half_step_squared = model["half_step_squared"]
     angle_per_acceleration = model["angle_per_acceleration"]
-    factor_3 = model["factor_3"]
     rate_per_acceleration = model["rate_per_acceleration"]
-    carried_mass = model["carried_mass"]
-    inner_mass = model["inner_mass"]
-    pin_inertia = model["pin_inertia"]
+    node_mass = model["node_mass"]
+    rod_inertia = model["rod_inertia"]
     joint_impedance = model["joint_impedance"]
+    hub_impedance = model["hub_impedance"]
     hub_angle = x[0]
     hub_rate = x[1]
     hub_acceleration = x[2]
@@ -379,7 +358,6 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     hub_torque = stages[0][0]
     acceleration_x: list[Any] = [0.0] * (STATIONS + 1)
     acceleration_y: list[Any] = [0.0] * (STATIONS + 1)
-    answer_from_inner: list[Any] = [0.0] * STATIONS
     answer_own: list[Any] = [0.0] * STATIONS
     answer_x: list[Any] = [0.0] * STATIONS
     answer_y: list[Any] = [0.0] * STATIONS
@@ -389,123 +367,114 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     predicted_acceleration: list[Any] = [0.0] * (STATIONS + 1)
     predicted_angle: list[Any] = [0.0] * (STATIONS + 1)
     predicted_rate: list[Any] = [0.0] * (STATIONS + 1)
+    relative_x: list[Any] = [0.0] * STATIONS
+    relative_y: list[Any] = [0.0] * STATIONS
     solved: list[Any] = [0.0] * STATIONS
     swing_x: list[Any] = [0.0] * STATIONS
     swing_y: list[Any] = [0.0] * STATIONS
+    transmission: list[Any] = [0.0] * STATIONS
 
     # predicted motion
-    predicted_angle[0] = hub_angle + hub_acceleration * step2_1_over_2 + hub_rate * step
     predicted_rate[0] = hub_rate + hub_acceleration * step
+    predicted_angle[0] = hub_angle + half_step_squared * hub_acceleration + hub_rate * step
     predicted_acceleration[0] = hub_acceleration
     for j in range(STATIONS):
-        predicted_angle[j + 1] = angle[j] + acceleration[j] * step2_1_over_2 + rate[j] * step
         predicted_rate[j + 1] = rate[j] + acceleration[j] * step
+        predicted_angle[j + 1] = angle[j] + acceleration[j] * half_step_squared + rate[j] * step
         predicted_acceleration[j + 1] = acceleration[j]
 
     # accelerations of the nodes
     for j in range(STATIONS):
-        lever_sine[j] = length * ca.sin(predicted_angle[j + 1])
         lever_cosine[j] = length * ca.cos(predicted_angle[j + 1])
+        lever_sine[j] = length * ca.sin(predicted_angle[j + 1])
+        square = predicted_rate[j + 1] * predicted_rate[j + 1]
+        relative_x[j] = -lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1]
+        relative_y[j] = lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square
+        turning = predicted_rate[j + 1] * step
+        swing_x[j] = -lever_sine[j] - angle_per_acceleration * relative_y[j] - lever_cosine[j] * turning
+        swing_y[j] = lever_cosine[j] + angle_per_acceleration * relative_x[j] - lever_sine[j] * turning
     node_x: Any = 0.0
     node_y: Any = 0.0
     acceleration_x[0] = node_x
     acceleration_y[0] = node_y
     for j in range(STATIONS):
-        square = predicted_rate[j + 1] * predicted_rate[j + 1]
-        node_x = node_x - lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1]
-        node_y = node_y + lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square
+        node_x = node_x + relative_x[j]
+        node_y = node_y + relative_y[j]
         acceleration_x[j + 1] = node_x
         acceleration_y[j + 1] = node_y
 
-    # how each link's outer end answers to its unknown, and the predicted joint torques
+    # forces of the joints at the motion so far
     for j in range(STATIONS):
-        tangential = 1.0 - angle_per_acceleration * (predicted_rate[j + 1] * predicted_rate[j + 1])
-        turning = angle_per_acceleration * predicted_acceleration[j + 1] + predicted_rate[j + 1] * step
-        swing_x[j] = -lever_cosine[j] * turning - lever_sine[j] * tangential
-        swing_y[j] = lever_cosine[j] * tangential - lever_sine[j] * turning
         joint_torque[j] = damping[j] * (predicted_rate[j] - predicted_rate[j + 1]) + stiffness[j] * (
             predicted_angle[j] - predicted_angle[j + 1]
         )
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
-    impedance_xx = tip_mass
-    impedance_xy: Any = 0.0
-    impedance_xu: Any = 0.0
-    impedance_yx: Any = 0.0
-    impedance_yy = tip_mass
-    impedance_yu: Any = 0.0
+    force_x: Any = 0.0
+    force_y: Any = 0.0
+    impedance_uu: Any = 0.0
     impedance_ux: Any = 0.0
     impedance_uy: Any = 0.0
-    impedance_uu: Any = 0.0
-    force_x = acceleration_x[5] * tip_mass
-    force_y = acceleration_y[5] * tip_mass
+    impedance_xu: Any = 0.0
+    impedance_xx: Any = 0.0
+    impedance_xy: Any = 0.0
+    impedance_yu: Any = 0.0
+    impedance_yx: Any = 0.0
+    impedance_yy: Any = 0.0
     torque: Any = 0.0
     for j in reversed(range(STATIONS)):
-        outer_x = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
-        outer_y = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
-        outer_u = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
-        load_x = force_x + acceleration_x[j] * carried_mass
-        load_y = force_y + acceleration_y[j] * carried_mass
-        link_ux = (
-            impedance_ux + impedance_yx * lever_cosine[j] - lever_sine[j] * (carried_mass + impedance_xx)
+        impedance_xx = impedance_xx + node_mass[j]
+        impedance_yy = impedance_yy + node_mass[j]
+        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
+        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
+        impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
+        impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
+        impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
+        impedance_ux = impedance_ux - impedance_xx * lever_sine[j] + impedance_yx * lever_cosine[j]
+        impedance_uy = impedance_uy - impedance_xy * lever_sine[j] + impedance_yy * lever_cosine[j]
+        impedance_uu = (
+            impedance_uu
+            + rod_inertia
+            + lever_cosine[j] * (impedance_yu - angle_per_acceleration * force_x)
+            + lever_sine[j] * (-impedance_xu - angle_per_acceleration * force_y)
         )
-        link_uy = (
-            impedance_uy - impedance_xy * lever_sine[j] + lever_cosine[j] * (carried_mass + impedance_yy)
-        )
-        link_uu = (
-            outer_u
-            + pin_inertia
-            + angle_per_acceleration * (-lever_cosine[j] * load_x - lever_sine[j] * load_y)
-            + lever_cosine[j] * outer_y
-            - lever_sine[j] * outer_x
-        )
-        link_xx = impedance_xx + mass
-        link_xy = impedance_xy
-        link_xu = outer_x + carried_mass * swing_x[j]
-        link_yx = impedance_yx
-        link_yy = impedance_yy + mass
-        link_yu = outer_y + carried_mass * swing_y[j]
         torque = (
             torque
-            + lever_cosine[j] * load_y
-            - lever_sine[j] * load_x
-            + pin_inertia * predicted_acceleration[j + 1]
+            - force_x * lever_sine[j]
+            + force_y * lever_cosine[j]
+            + predicted_acceleration[j + 1] * rod_inertia
         )
-        force_x = force_x + acceleration_x[j + 1] * carried_mass + acceleration_x[j] * inner_mass
-        force_y = force_y + acceleration_y[j + 1] * carried_mass + acceleration_y[j] * inner_mass
-        pivot = joint_impedance[j] + link_uu
-        inverse_pivot = 1.0 / pivot
-        answer_own[j] = inverse_pivot * (joint_torque[j] - torque)
-        answer_x[j] = inverse_pivot * link_ux
-        answer_y[j] = inverse_pivot * link_uy
-        answer_from_inner[j] = inverse_pivot * joint_impedance[j]
-        impedance_xx = link_xx - answer_x[j] * link_xu
-        impedance_xy = link_xy - answer_y[j] * link_xu
-        impedance_xu = answer_from_inner[j] * link_xu
-        force_x = force_x + answer_own[j] * link_xu
-        impedance_yx = link_yx - answer_x[j] * link_yu
-        impedance_yy = link_yy - answer_y[j] * link_yu
-        impedance_yu = answer_from_inner[j] * link_yu
-        force_y = force_y + answer_own[j] * link_yu
+        pivot = impedance_uu + joint_impedance[j]
+        admittance = 1.0 / pivot
+        answer_own[j] = admittance * (joint_torque[j] - torque)
+        answer_x[j] = admittance * impedance_ux
+        answer_y[j] = admittance * impedance_uy
+        transmission[j] = admittance * joint_impedance[j]
+        impedance_xx = impedance_xx - answer_x[j] * impedance_xu
+        impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        impedance_yx = impedance_yx - answer_x[j] * impedance_yu
+        impedance_yy = impedance_yy - answer_y[j] * impedance_yu
         impedance_ux = answer_x[j] * joint_impedance[j]
         impedance_uy = answer_y[j] * joint_impedance[j]
-        impedance_uu = answer_from_inner[j] * link_uu
+        impedance_uu = impedance_uu * transmission[j]
+        force_x = force_x + answer_own[j] * impedance_xu
+        impedance_xu = impedance_xu * transmission[j]
+        force_y = force_y + answer_own[j] * impedance_yu
+        impedance_yu = impedance_yu * transmission[j]
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
-    # the hub
-    hub_pivot = factor_3 + impedance_uu
+    # the base
+    hub_pivot = hub_impedance + impedance_uu
     unknown = (
         hub_torque - torque - hub_damping * predicted_rate[0] - hub_inertia * predicted_acceleration[0]
     ) / hub_pivot
     hub_unknown = unknown
 
-    # sweep outward: the increment of each link's unknown
+    # sweep outward: the unknown of each station
     change_x: Any = 0.0
     change_y: Any = 0.0
     for j in range(STATIONS):
-        unknown = (
-            answer_own[j] + answer_from_inner[j] * unknown - answer_x[j] * change_x - answer_y[j] * change_y
-        )
+        unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y + transmission[j] * unknown
         change_x = change_x + swing_x[j] * unknown
         change_y = change_y + swing_y[j] * unknown
         solved[j] = unknown

@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: ee57f7952242f19cc6be0f26d3460a304cc65a1747711d25b990a158587c6f1f
-# sha256 of the rest of this file: 9bb4c8d7ba44f2c4105d0bab089d4ae3279389459ab70d981ff8d2e386c7b357
+# sha256 of the rest of this file: ce334a292e7d2bfe27f7ac6241ce23da97576ddd22e441652af62b190c46bfd0
 #
 # model: torsional chain (linear)
 # stations: 10
@@ -128,7 +128,7 @@ def _prepare(p: ca.SX) -> dict[str, Any]:
     reflection: list[Any] = [0.0] * STATIONS
     transmission: list[Any] = [0.0] * STATIONS
 
-    # Riccati factors, swept from tip to base
+    # factors of the sweep that do not change from step to step
     impedance: Any = 0.0
     joint_impedance = 0.5 * damping * step + 0.25 * (step * step) * stiffness
     for j in reversed(range(STATIONS)):
@@ -164,7 +164,7 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
     tip_torque = stages[0][0]
     acceleration: list[Any] = [0.0] * STATIONS
     angle: list[Any] = [0.0] * STATIONS
-    correction: list[Any] = [0.0] * STATIONS
+    answer_own: list[Any] = [0.0] * STATIONS
     joint_torque: list[Any] = [0.0] * STATIONS
     known_angle: list[Any] = [0.0] * (STATIONS + 1)
     known_rate: list[Any] = [0.0] * (STATIONS + 1)
@@ -178,24 +178,27 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
         known_rate[j + 1] = initial_rate[j]
         known_angle[j + 1] = initial_angle[j]
 
-    # torque of each joint at the known motion
+    # forces of the joints at the motion so far
     for j in range(STATIONS):
         joint_torque[j] = damping * (known_rate[j + 1] - known_rate[j]) + stiffness * (
             known_angle[j + 1] - known_angle[j]
         )
 
-    # sweep inward: torque beyond each joint as if its inner side did not move
-    bias = tip_torque
+    # sweep inward: force beyond each joint as an affine function of the motion at it
+    torque = tip_torque
     for j in reversed(range(STATIONS)):
-        correction[j] = (bias - joint_torque[j]) / inertia
-        bias = joint_torque[j]
+        impedance = -inertia
+        pivot = -impedance
+        admittance = 1.0 / pivot
+        answer_own[j] = admittance * (torque - joint_torque[j])
+        torque = joint_torque[j]
 
     # the base
     unknown: Any = 0.0
 
     # sweep outward: the unknown of each station
     for j in range(STATIONS):
-        unknown = correction[j]
+        unknown = answer_own[j]
         solved[j] = unknown
 
     # motion at the end of the step
@@ -220,7 +223,7 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     rate = ca.vertsplit(x[10:20])
     acceleration = ca.vertsplit(x[20:30])
     tip_torque = stages[0][0]
-    correction: list[Any] = [0.0] * STATIONS
+    answer_own: list[Any] = [0.0] * STATIONS
     joint_torque: list[Any] = [0.0] * STATIONS
     known_angle: list[Any] = [0.0] * (STATIONS + 1)
     known_rate: list[Any] = [0.0] * (STATIONS + 1)
@@ -233,24 +236,24 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         known_rate[j + 1] = rate[j] + acceleration[j] * rate_per_acceleration
         known_angle[j + 1] = angle[j] + acceleration[j] * angle_per_acceleration + rate[j] * step
 
-    # torque of each joint at the known motion
+    # forces of the joints at the motion so far
     for j in range(STATIONS):
         joint_torque[j] = damping * (known_rate[j + 1] - known_rate[j]) + stiffness * (
             known_angle[j + 1] - known_angle[j]
         )
 
-    # sweep inward: torque beyond each joint as if its inner side did not move
-    bias = tip_torque
+    # sweep inward: force beyond each joint as an affine function of the motion at it
+    torque = tip_torque
     for j in reversed(range(STATIONS)):
-        correction[j] = admittance[j] * (bias - joint_torque[j])
-        bias = bias * transmission[j] + joint_torque[j] * reflection[j]
+        answer_own[j] = admittance[j] * (torque - joint_torque[j])
+        torque = joint_torque[j] * reflection[j] + torque * transmission[j]
 
     # the base
     unknown: Any = 0.0
 
     # sweep outward: the unknown of each station
     for j in range(STATIONS):
-        unknown = correction[j] + transmission[j] * unknown
+        unknown = answer_own[j] + transmission[j] * unknown
         solved[j] = unknown
 
     # motion at the end of the step

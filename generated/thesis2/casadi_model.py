@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 8302c2fdab02afb73919e09c91c3abafc3d83d0760e2c0e63be40bfdc341e62e
-# sha256 of the rest of this file: 7141c4a880c18c4dd58d52d65cc890eec1cc8cf2a394bc1c0c870a6d709ba8d6
+# sha256 of the rest of this file: 35aea0af38429a1de7b3c69246a1ac96407c9743399b44c5da5b01aee7324a5a
 #
 # model: torsional chain (linear)
 # stations: 2
@@ -123,7 +123,7 @@ def _prepare(p: ca.SX) -> dict[str, Any]:
     reflection: list[Any] = [0.0] * STATIONS
     transmission: list[Any] = [0.0] * STATIONS
 
-    # Riccati factors, swept from tip to base
+    # factors of the sweep that do not change from step to step
     impedance: Any = 0.0
     joint_impedance = 0.5 * damping * step + 0.25 * (step * step) * stiffness
     for j in reversed(range(STATIONS)):
@@ -159,7 +159,7 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
     tip_torque = stages[0][0]
     acceleration: list[Any] = [0.0] * STATIONS
     angle: list[Any] = [0.0] * STATIONS
-    correction: list[Any] = [0.0] * STATIONS
+    answer_own: list[Any] = [0.0] * STATIONS
     joint_torque: list[Any] = [0.0] * STATIONS
     known_angle: list[Any] = [0.0] * (STATIONS + 1)
     known_rate: list[Any] = [0.0] * (STATIONS + 1)
@@ -173,24 +173,27 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
         known_rate[j + 1] = initial_rate[j]
         known_angle[j + 1] = initial_angle[j]
 
-    # torque of each joint at the known motion
+    # forces of the joints at the motion so far
     for j in range(STATIONS):
         joint_torque[j] = damping * (known_rate[j + 1] - known_rate[j]) + stiffness * (
             known_angle[j + 1] - known_angle[j]
         )
 
-    # sweep inward: torque beyond each joint as if its inner side did not move
-    bias = tip_torque
+    # sweep inward: force beyond each joint as an affine function of the motion at it
+    torque = tip_torque
     for j in reversed(range(STATIONS)):
-        correction[j] = (bias - joint_torque[j]) / inertia
-        bias = joint_torque[j]
+        impedance = -inertia
+        pivot = -impedance
+        admittance = 1.0 / pivot
+        answer_own[j] = admittance * (torque - joint_torque[j])
+        torque = joint_torque[j]
 
     # the base
     unknown: Any = 0.0
 
     # sweep outward: the unknown of each station
     for j in range(STATIONS):
-        unknown = correction[j]
+        unknown = answer_own[j]
         solved[j] = unknown
 
     # motion at the end of the step
@@ -215,7 +218,7 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     rate = ca.vertsplit(x[2:4])
     acceleration = ca.vertsplit(x[4:6])
     tip_torque = stages[0][0]
-    correction: list[Any] = [0.0] * STATIONS
+    answer_own: list[Any] = [0.0] * STATIONS
     joint_torque: list[Any] = [0.0] * STATIONS
     known_angle: list[Any] = [0.0] * (STATIONS + 1)
     known_rate: list[Any] = [0.0] * (STATIONS + 1)
@@ -228,24 +231,24 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         known_rate[j + 1] = rate[j] + acceleration[j] * rate_per_acceleration
         known_angle[j + 1] = angle[j] + acceleration[j] * angle_per_acceleration + rate[j] * step
 
-    # torque of each joint at the known motion
+    # forces of the joints at the motion so far
     for j in range(STATIONS):
         joint_torque[j] = damping * (known_rate[j + 1] - known_rate[j]) + stiffness * (
             known_angle[j + 1] - known_angle[j]
         )
 
-    # sweep inward: torque beyond each joint as if its inner side did not move
-    bias = tip_torque
+    # sweep inward: force beyond each joint as an affine function of the motion at it
+    torque = tip_torque
     for j in reversed(range(STATIONS)):
-        correction[j] = admittance[j] * (bias - joint_torque[j])
-        bias = bias * transmission[j] + joint_torque[j] * reflection[j]
+        answer_own[j] = admittance[j] * (torque - joint_torque[j])
+        torque = joint_torque[j] * reflection[j] + torque * transmission[j]
 
     # the base
     unknown: Any = 0.0
 
     # sweep outward: the unknown of each station
     for j in range(STATIONS):
-        unknown = correction[j] + transmission[j] * unknown
+        unknown = answer_own[j] + transmission[j] * unknown
         solved[j] = unknown
 
     # motion at the end of the step

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 import sympy as sp
 
-from tmm_gen.derive import planar_energy as energy
 from tmm_gen.derive.integrators.declaration import STEP
+from tmm_gen.derive.station import reading as energy
 from tmm_gen.measure.metrics import convergence_slope
 from tmm_gen.measure.planar_reference import planar_response
 from tmm_gen.program.build import build_program

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: c5e09abbb61734735cef8cfddf39dd959eb5765da3ad6484bed2957b4fdf212c
- * sha256 of the rest of this file: 9f116839781faaf696e10e67341278933f9b02f11ff935c06118a2b3b0a0ef58
+ * sha256 of the rest of this file: 8bc31ff8c7a3fd5a0e5ba4e9e1d287fcfc17ed2c7f87d72c3b88458a51e0bb68
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 2
@@ -12,10 +12,11 @@
  * linearisation: newton
  * sweep: riccati
  * unknown: acceleration
- * operations of a step: 287, 143.5 per station (132 additions, 148 multiplications, 3 divisions, 4 functions)
- * operations of prepare: 37, 18.5 per station (7 additions, 30 multiplications)
+ * operations of a step: 249, 124.5 per station (116 additions, 126 multiplications, 3 divisions, 4 sines and
+ *     cosines)
+ * operations of prepare: 38, 19 per station (10 additions, 28 multiplications)
  * number type: double
- * bytes of the structs: params 136, model 208, state 72, inputs 8, outputs 32
+ * bytes of the structs: params 136, model 168, state 72, inputs 8, outputs 32
  *
  * @file arm2.c
  */
@@ -98,30 +99,31 @@ arm2_status arm2_prepare(
         return ARM2_NON_FINITE_INPUT;
     }
 
-    /* Masses by the ends they act at, and joint impedances. */
-    for (int j = 0; j < ARM2_STATIONS; ++j) {
-        model->carried_mass[j] = params->center[j] * params->mass[j];
-        model->inner_mass[j] = params->mass[j] - params->center[j] * params->mass[j];
-        model->pin_inertia[j] = params->inertia[j]
-            + params->center[j] * params->center[j] * (params->length[j] * params->length[j])
-            * params->mass[j];
+    /* Masses at the nodes between links, and what they leave over; factors of the sweep that do not change
+     * from step to step. */
+    for (int j = 0; j < 1; ++j) {
+        model->node_mass[j] = params->center[j] * params->mass[j]
+            + params->mass[j + 1] * (1.0 - params->center[j + 1]);
+    }
+    model->node_mass[1] = params->tip_mass + params->center[1] * params->mass[1];
+    for (int j = ARM2_STATIONS - 1; j >= 0; --j) {
+        model->rod_inertia[j] = params->inertia[j]
+            - params->center[j] * (params->length[j] * params->length[j]) * params->mass[j]
+            * (1.0 - params->center[j]);
         model->joint_impedance[j] = 0.5 * params->damping[j] * step
             + 0.25 * (step * step) * params->stiffness[j];
     }
+    model->hub_impedance = params->hub_inertia + 0.5 * params->hub_damping * step;
 
     /* Factors of the step that depend on the time step and parameters alone. */
-    model->step2_1_over_2 = 0.5 * (step * step);
+    model->half_step_squared = 0.5 * (step * step);
     model->angle_per_acceleration = 0.25 * (step * step);
-    model->factor_3 = 0.5 * (2.0 * params->hub_inertia + params->hub_damping * step);
     model->rate_per_acceleration = 0.5 * step;
 
     /* What the step needs as it is. */
     model->step = step;
     for (int j = 0; j < ARM2_STATIONS; ++j) {
         model->length[j] = params->length[j];
-    }
-    for (int j = 0; j < ARM2_STATIONS; ++j) {
-        model->mass[j] = params->mass[j];
     }
     for (int j = 0; j < ARM2_STATIONS; ++j) {
         model->stiffness[j] = params->stiffness[j];
@@ -132,7 +134,6 @@ arm2_status arm2_prepare(
     model->gravity = params->gravity;
     model->hub_inertia = params->hub_inertia;
     model->hub_damping = params->hub_damping;
-    model->tip_mass = params->tip_mass;
     model->tip_inertia = params->tip_inertia;
     return ARM2_OK;
 }
@@ -155,21 +156,27 @@ arm2_status arm2_initialise(
 
     real acceleration_x[ARM2_STATIONS + 1]; /* acceleration of the nodes along x [m/s^2] */
     real acceleration_y[ARM2_STATIONS + 1]; /* acceleration of the nodes along y [m/s^2] */
-    real answer_own[ARM2_STATIONS]; /* increment of the unknown if the inner side kept its motion */
-    real answer_x[ARM2_STATIONS]; /* answer to the joint's acceleration along x */
-    real answer_y[ARM2_STATIONS]; /* answer to the joint's acceleration along y */
-    real lever_cosine[ARM2_STATIONS]; /* length times cosine of the predicted angle [m] */
-    real lever_sine[ARM2_STATIONS]; /* length times sine of the predicted angle [m] */
+    real answer_own[ARM2_STATIONS]; /* unknown of a station if its inner side kept its motion */
+    real answer_x[ARM2_STATIONS]; /* answer of the unknown to the joint's acceleration along x */
+    real answer_y[ARM2_STATIONS]; /* answer of the unknown to the joint's acceleration along y */
+    real lever_cosine[ARM2_STATIONS]; /* length times cosine of the angle [m] */
+    real lever_sine[ARM2_STATIONS]; /* length times sine of the angle [m] */
+    real node_mass[ARM2_STATIONS]; /* mass at the outer end of each link [kg] */
     /* acceleration of base and links as predicted [rad/s^2] */
     real predicted_acceleration[ARM2_STATIONS + 1];
     real predicted_angle[ARM2_STATIONS + 1]; /* angle of base and links as predicted [rad] */
     real predicted_rate[ARM2_STATIONS + 1]; /* rate of base and links as predicted [rad/s] */
-    real swing_x[ARM2_STATIONS]; /* change of the outer end's acceleration along x per unknown [m] */
-    real swing_y[ARM2_STATIONS]; /* change of the outer end's acceleration along y per unknown [m] */
+
+    /* Masses at the nodes between links, and what they leave over. */
+    for (int j = 0; j < 1; ++j) {
+        node_mass[j] = params->center[j] * params->mass[j]
+            + params->mass[j + 1] * (1.0 - params->center[j + 1]);
+    }
+    node_mass[1] = params->tip_mass + params->center[1] * params->mass[1];
 
     /* Predicted motion. */
-    predicted_angle[0] = 0.0;
     predicted_rate[0] = 0.0;
+    predicted_angle[0] = 0.0;
     predicted_acceleration[0] = 0.0;
 
     /* Predicted motion; accelerations of the nodes, seen from a falling frame: gravity is the base's own. */
@@ -178,105 +185,85 @@ arm2_status arm2_initialise(
     acceleration_x[0] = node_x;
     acceleration_y[0] = params->gravity;
     for (int j = 0; j < ARM2_STATIONS; ++j) {
-        predicted_angle[j + 1] = initial_angle[j];
         predicted_rate[j + 1] = initial_rate[j];
+        predicted_angle[j + 1] = initial_angle[j];
         predicted_acceleration[j + 1] = 0.0;
-        lever_sine[j] = params->length[j] * sin(predicted_angle[j + 1]);
         lever_cosine[j] = params->length[j] * cos(predicted_angle[j + 1]);
+        lever_sine[j] = params->length[j] * sin(predicted_angle[j + 1]);
         const real square = predicted_rate[j + 1] * predicted_rate[j + 1];
-        node_x = node_x - lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1];
-        node_y = node_y + lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square;
+        const real relative_x = -lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1];
+        const real relative_y = lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square;
+        node_x = node_x + relative_x;
+        node_y = node_y + relative_y;
         acceleration_x[j + 1] = node_x;
         acceleration_y[j + 1] = node_y;
     }
 
-    /* How each link's outer end answers to its unknown, and the predicted joint torques; sweep inward: force
-     * beyond each joint as an affine function of the motion at it. */
-    real impedance_xx = params->tip_mass;
-    real impedance_xy = 0.0;
-    real impedance_xu = 0.0;
-    real impedance_yx = 0.0;
-    real impedance_yy = params->tip_mass;
-    real impedance_yu = 0.0;
-    real impedance_ux = 0.0;
-    real impedance_uy = 0.0;
+    /* Masses at the nodes between links, and what they leave over; forces of the joints at the motion so far;
+     * sweep inward: force beyond each joint as an affine function of the motion at it. */
     real impedance_uu = params->tip_inertia;
-    real force_x = acceleration_x[2] * params->tip_mass;
-    real force_y = acceleration_y[2] * params->tip_mass;
     real torque = predicted_acceleration[2] * params->tip_inertia;
+    real force_x = 0.0;
+    real force_y = 0.0;
+    real impedance_xx = 0.0;
+    real impedance_xy = 0.0;
+    real impedance_yx = 0.0;
+    real impedance_yy = 0.0;
     for (int j = ARM2_STATIONS - 1; j >= 0; --j) {
-        swing_x[j] = -lever_sine[j];
-        swing_y[j] = lever_cosine[j];
+        const real rod_inertia = params->inertia[j]
+            - params->center[j] * (params->length[j] * params->length[j]) * params->mass[j]
+            * (1.0 - params->center[j]);
         const real joint_torque = params->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + params->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
-        const real outer_x = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j];
-        const real outer_y = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j];
-        const real outer_u = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j];
-        const real load_x = force_x + acceleration_x[j] * params->center[j] * params->mass[j];
-        const real load_y = force_y + acceleration_y[j] * params->center[j] * params->mass[j];
-        const real link_ux = impedance_ux + impedance_yx * lever_cosine[j]
-            - lever_sine[j] * (impedance_xx + params->center[j] * params->mass[j]);
-        const real link_uy = impedance_uy - impedance_xy * lever_sine[j]
-            + lever_cosine[j] * (impedance_yy + params->center[j] * params->mass[j]);
-        const real link_uu = params->inertia[j] + outer_u + lever_cosine[j] * outer_y
-            - lever_sine[j] * outer_x
-            + params->center[j] * params->center[j] * (params->length[j] * params->length[j])
-            * params->mass[j];
-        const real link_xx = impedance_xx + params->mass[j];
-        const real link_xu = outer_x + params->center[j] * params->mass[j] * swing_x[j];
-        const real link_yy = impedance_yy + params->mass[j];
-        const real link_yu = outer_y + params->center[j] * params->mass[j] * swing_y[j];
-        torque = torque + lever_cosine[j] * load_y - lever_sine[j] * load_x
-            + predicted_acceleration[j + 1]
-            * (params->inertia[j]
-            + params->center[j] * params->center[j] * (params->length[j] * params->length[j])
-            * params->mass[j]);
-        force_x = force_x + acceleration_x[j] * (params->mass[j] - params->center[j] * params->mass[j])
-            + acceleration_x[j + 1] * params->center[j] * params->mass[j];
-        force_y = force_y + acceleration_y[j] * (params->mass[j] - params->center[j] * params->mass[j])
-            + acceleration_y[j + 1] * params->center[j] * params->mass[j];
-        if (!(link_uu > 0.0) || !isfinite(link_uu)) {
+        impedance_xx = impedance_xx + node_mass[j];
+        impedance_yy = impedance_yy + node_mass[j];
+        force_x = force_x + acceleration_x[j + 1] * node_mass[j];
+        force_y = force_y + acceleration_y[j + 1] * node_mass[j];
+        const real impedance_xu = impedance_xy * lever_cosine[j] - impedance_xx * lever_sine[j];
+        const real impedance_yu = impedance_yy * lever_cosine[j] - impedance_yx * lever_sine[j];
+        const real impedance_ux = impedance_yx * lever_cosine[j] - impedance_xx * lever_sine[j];
+        const real impedance_uy = impedance_yy * lever_cosine[j] - impedance_xy * lever_sine[j];
+        impedance_uu = impedance_uu + rod_inertia - impedance_xu * lever_sine[j]
+            + impedance_yu * lever_cosine[j];
+        torque = torque - force_x * lever_sine[j] + force_y * lever_cosine[j]
+            + predicted_acceleration[j + 1] * rod_inertia;
+        if (!(impedance_uu > 0.0) || !isfinite(impedance_uu)) {
             return ARM2_VANISHING_PIVOT;
         }
-        const real inverse_pivot = 1.0 / link_uu;
-        answer_own[j] = inverse_pivot * (joint_torque - torque);
-        answer_x[j] = inverse_pivot * link_ux;
-        answer_y[j] = inverse_pivot * link_uy;
-        impedance_xx = link_xx - answer_x[j] * link_xu;
-        impedance_xy = impedance_xy - answer_y[j] * link_xu;
-        impedance_xu = 0.0;
-        force_x = force_x + answer_own[j] * link_xu;
-        impedance_yx = impedance_yx - answer_x[j] * link_yu;
-        impedance_yy = link_yy - answer_y[j] * link_yu;
-        impedance_yu = 0.0;
-        force_y = force_y + answer_own[j] * link_yu;
-        impedance_ux = 0.0;
-        impedance_uy = 0.0;
-        impedance_uu = 0.0;
+        const real admittance = 1.0 / impedance_uu;
+        answer_own[j] = admittance * (joint_torque - torque);
+        answer_x[j] = admittance * impedance_ux;
+        answer_y[j] = admittance * impedance_uy;
+        impedance_xx = impedance_xx - answer_x[j] * impedance_xu;
+        impedance_xy = impedance_xy - answer_y[j] * impedance_xu;
+        impedance_yx = impedance_yx - answer_x[j] * impedance_yu;
+        impedance_yy = impedance_yy - answer_y[j] * impedance_yu;
+        force_x = force_x + answer_own[j] * impedance_xu;
+        force_y = force_y + answer_own[j] * impedance_yu;
         torque = joint_torque;
+        impedance_uu = 0.0;
     }
 
-    /* The hub. */
-    const real hub_pivot = params->hub_inertia + impedance_uu;
-    if (!(hub_pivot > 0.0) || !isfinite(hub_pivot)) {
+    /* The base. */
+    if (!(params->hub_inertia > 0.0) || !isfinite(params->hub_inertia)) {
         return ARM2_VANISHING_PIVOT;
     }
     real unknown = (inputs->hub_torque - torque - params->hub_damping * predicted_rate[0]
-        - params->hub_inertia * predicted_acceleration[0]) / hub_pivot;
+        - params->hub_inertia * predicted_acceleration[0]) / params->hub_inertia;
     const real hub_unknown = unknown;
 
-    /* Sweep outward: the increment of each link's unknown. */
+    /* Sweep outward: the unknown of each station. */
     real change_x = 0.0;
     real change_y = 0.0;
 
-    /* Sweep outward: the increment of each link's unknown; motion at the end of the step. */
+    /* Sweep outward: the unknown of each station; motion at the end of the step. */
     state->hub_angle = predicted_angle[0];
     state->hub_rate = predicted_rate[0];
     state->hub_acceleration = hub_unknown + predicted_acceleration[0];
     for (int j = 0; j < ARM2_STATIONS; ++j) {
         unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y;
-        change_x = change_x + swing_x[j] * unknown;
-        change_y = change_y + swing_y[j] * unknown;
+        change_x = change_x - lever_sine[j] * unknown;
+        change_y = change_y + lever_cosine[j] * unknown;
         state->angle[j] = predicted_angle[j + 1];
         state->rate[j] = predicted_rate[j + 1];
         state->acceleration[j] = predicted_acceleration[j + 1] + unknown;
@@ -303,27 +290,28 @@ arm2_status arm2_step(
     }
 
     const real step = model->step;
-    const real step2_1_over_2 = model->step2_1_over_2;
+    const real half_step_squared = model->half_step_squared;
     const real angle_per_acceleration = model->angle_per_acceleration;
     const real rate_per_acceleration = model->rate_per_acceleration;
     real acceleration_x[ARM2_STATIONS + 1]; /* acceleration of the nodes along x [m/s^2] */
     real acceleration_y[ARM2_STATIONS + 1]; /* acceleration of the nodes along y [m/s^2] */
-    real answer_from_inner[ARM2_STATIONS]; /* answer to the inner link's unknown */
-    real answer_own[ARM2_STATIONS]; /* increment of the unknown if the inner side kept its motion */
-    real answer_x[ARM2_STATIONS]; /* answer to the joint's acceleration along x */
-    real answer_y[ARM2_STATIONS]; /* answer to the joint's acceleration along y */
-    real lever_cosine[ARM2_STATIONS]; /* length times cosine of the predicted angle [m] */
-    real lever_sine[ARM2_STATIONS]; /* length times sine of the predicted angle [m] */
+    real answer_own[ARM2_STATIONS]; /* unknown of a station if its inner side kept its motion */
+    real answer_x[ARM2_STATIONS]; /* answer of the unknown to the joint's acceleration along x */
+    real answer_y[ARM2_STATIONS]; /* answer of the unknown to the joint's acceleration along y */
+    real lever_cosine[ARM2_STATIONS]; /* length times cosine of the angle [m] */
+    real lever_sine[ARM2_STATIONS]; /* length times sine of the angle [m] */
     /* acceleration of base and links as predicted [rad/s^2] */
     real predicted_acceleration[ARM2_STATIONS + 1];
     real predicted_angle[ARM2_STATIONS + 1]; /* angle of base and links as predicted [rad] */
     real predicted_rate[ARM2_STATIONS + 1]; /* rate of base and links as predicted [rad/s] */
     real swing_x[ARM2_STATIONS]; /* change of the outer end's acceleration along x per unknown [m] */
     real swing_y[ARM2_STATIONS]; /* change of the outer end's acceleration along y per unknown [m] */
+    real transmission[ARM2_STATIONS]; /* share of motion and torque each joint passes on */
 
     /* Predicted motion. */
-    predicted_angle[0] = state->hub_angle + state->hub_acceleration * step2_1_over_2 + state->hub_rate * step;
     predicted_rate[0] = state->hub_rate + state->hub_acceleration * step;
+    predicted_angle[0] = state->hub_angle + half_step_squared * state->hub_acceleration
+        + state->hub_rate * step;
     predicted_acceleration[0] = state->hub_acceleration;
 
     /* Predicted motion; accelerations of the nodes, seen from a falling frame: gravity is the base's own. */
@@ -332,89 +320,80 @@ arm2_status arm2_step(
     acceleration_x[0] = node_x;
     acceleration_y[0] = model->gravity;
     for (int j = 0; j < ARM2_STATIONS; ++j) {
-        predicted_angle[j + 1] = state->angle[j] + state->acceleration[j] * step2_1_over_2
-            + state->rate[j] * step;
         predicted_rate[j + 1] = state->rate[j] + state->acceleration[j] * step;
+        predicted_angle[j + 1] = state->angle[j] + state->acceleration[j] * half_step_squared
+            + state->rate[j] * step;
         predicted_acceleration[j + 1] = state->acceleration[j];
-        lever_sine[j] = model->length[j] * sin(predicted_angle[j + 1]);
         lever_cosine[j] = model->length[j] * cos(predicted_angle[j + 1]);
+        lever_sine[j] = model->length[j] * sin(predicted_angle[j + 1]);
         const real square = predicted_rate[j + 1] * predicted_rate[j + 1];
-        node_x = node_x - lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1];
-        node_y = node_y + lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square;
+        const real relative_x = -lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1];
+        const real relative_y = lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square;
+        const real turning = predicted_rate[j + 1] * step;
+        swing_x[j] = -lever_sine[j] - angle_per_acceleration * relative_y - lever_cosine[j] * turning;
+        swing_y[j] = lever_cosine[j] + angle_per_acceleration * relative_x - lever_sine[j] * turning;
+        node_x = node_x + relative_x;
+        node_y = node_y + relative_y;
         acceleration_x[j + 1] = node_x;
         acceleration_y[j + 1] = node_y;
     }
 
-    /* How each link's outer end answers to its unknown, and the predicted joint torques; sweep inward: force
-     * beyond each joint as an affine function of the motion at it. */
-    real impedance_xx = model->tip_mass;
-    real impedance_xy = 0.0;
-    real impedance_xu = 0.0;
-    real impedance_yx = 0.0;
-    real impedance_yy = model->tip_mass;
-    real impedance_yu = 0.0;
+    /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
+     * of the motion at it. */
+    real impedance_uu = model->tip_inertia;
+    real torque = predicted_acceleration[2] * model->tip_inertia;
+    real force_x = 0.0;
+    real force_y = 0.0;
     real impedance_ux = 0.0;
     real impedance_uy = 0.0;
-    real impedance_uu = model->tip_inertia;
-    real force_x = acceleration_x[2] * model->tip_mass;
-    real force_y = acceleration_y[2] * model->tip_mass;
-    real torque = predicted_acceleration[2] * model->tip_inertia;
+    real impedance_xu = 0.0;
+    real impedance_xx = 0.0;
+    real impedance_xy = 0.0;
+    real impedance_yu = 0.0;
+    real impedance_yx = 0.0;
+    real impedance_yy = 0.0;
     for (int j = ARM2_STATIONS - 1; j >= 0; --j) {
-        const real tangential = 1.0
-            - angle_per_acceleration * (predicted_rate[j + 1] * predicted_rate[j + 1]);
-        const real turning = angle_per_acceleration * predicted_acceleration[j + 1]
-            + predicted_rate[j + 1] * step;
-        swing_x[j] = -lever_cosine[j] * turning - lever_sine[j] * tangential;
-        swing_y[j] = lever_cosine[j] * tangential - lever_sine[j] * turning;
         const real joint_torque = model->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + model->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
-        const real outer_x = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j];
-        const real outer_y = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j];
-        const real outer_u = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j];
-        const real load_x = force_x + acceleration_x[j] * model->carried_mass[j];
-        const real load_y = force_y + acceleration_y[j] * model->carried_mass[j];
-        const real link_ux = impedance_ux + impedance_yx * lever_cosine[j]
-            - lever_sine[j] * (model->carried_mass[j] + impedance_xx);
-        const real link_uy = impedance_uy - impedance_xy * lever_sine[j]
-            + lever_cosine[j] * (model->carried_mass[j] + impedance_yy);
-        const real link_uu = outer_u + model->pin_inertia[j]
-            + angle_per_acceleration * (-lever_cosine[j] * load_x - lever_sine[j] * load_y)
-            + lever_cosine[j] * outer_y - lever_sine[j] * outer_x;
-        const real link_xx = impedance_xx + model->mass[j];
-        const real link_xu = outer_x + model->carried_mass[j] * swing_x[j];
-        const real link_yy = impedance_yy + model->mass[j];
-        const real link_yu = outer_y + model->carried_mass[j] * swing_y[j];
-        torque = torque + lever_cosine[j] * load_y - lever_sine[j] * load_x
-            + model->pin_inertia[j] * predicted_acceleration[j + 1];
-        force_x = force_x + acceleration_x[j + 1] * model->carried_mass[j]
-            + acceleration_x[j] * model->inner_mass[j];
-        force_y = force_y + acceleration_y[j + 1] * model->carried_mass[j]
-            + acceleration_y[j] * model->inner_mass[j];
-        const real pivot = model->joint_impedance[j] + link_uu;
+        impedance_xx = impedance_xx + model->node_mass[j];
+        impedance_yy = impedance_yy + model->node_mass[j];
+        force_x = force_x + acceleration_x[j + 1] * model->node_mass[j];
+        force_y = force_y + acceleration_y[j + 1] * model->node_mass[j];
+        impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j];
+        impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j];
+        impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j];
+        impedance_ux = impedance_ux - impedance_xx * lever_sine[j] + impedance_yx * lever_cosine[j];
+        impedance_uy = impedance_uy - impedance_xy * lever_sine[j] + impedance_yy * lever_cosine[j];
+        impedance_uu = impedance_uu + model->rod_inertia[j]
+            + lever_cosine[j] * (impedance_yu - angle_per_acceleration * force_x)
+            + lever_sine[j] * (-impedance_xu - angle_per_acceleration * force_y);
+        torque = torque - force_x * lever_sine[j] + force_y * lever_cosine[j]
+            + predicted_acceleration[j + 1] * model->rod_inertia[j];
+        const real pivot = impedance_uu + model->joint_impedance[j];
         if (!(pivot > 0.0) || !isfinite(pivot)) {
             return ARM2_VANISHING_PIVOT;
         }
-        const real inverse_pivot = 1.0 / pivot;
-        answer_own[j] = inverse_pivot * (joint_torque - torque);
-        answer_x[j] = inverse_pivot * link_ux;
-        answer_y[j] = inverse_pivot * link_uy;
-        answer_from_inner[j] = inverse_pivot * model->joint_impedance[j];
-        impedance_xx = link_xx - answer_x[j] * link_xu;
-        impedance_xy = impedance_xy - answer_y[j] * link_xu;
-        impedance_xu = answer_from_inner[j] * link_xu;
-        force_x = force_x + answer_own[j] * link_xu;
-        impedance_yx = impedance_yx - answer_x[j] * link_yu;
-        impedance_yy = link_yy - answer_y[j] * link_yu;
-        impedance_yu = answer_from_inner[j] * link_yu;
-        force_y = force_y + answer_own[j] * link_yu;
+        const real admittance = 1.0 / pivot;
+        answer_own[j] = admittance * (joint_torque - torque);
+        answer_x[j] = admittance * impedance_ux;
+        answer_y[j] = admittance * impedance_uy;
+        transmission[j] = admittance * model->joint_impedance[j];
+        impedance_xx = impedance_xx - answer_x[j] * impedance_xu;
+        impedance_xy = impedance_xy - answer_y[j] * impedance_xu;
+        impedance_yx = impedance_yx - answer_x[j] * impedance_yu;
+        impedance_yy = impedance_yy - answer_y[j] * impedance_yu;
         impedance_ux = answer_x[j] * model->joint_impedance[j];
         impedance_uy = answer_y[j] * model->joint_impedance[j];
-        impedance_uu = answer_from_inner[j] * link_uu;
+        impedance_uu = impedance_uu * transmission[j];
+        force_x = force_x + answer_own[j] * impedance_xu;
+        impedance_xu = impedance_xu * transmission[j];
+        force_y = force_y + answer_own[j] * impedance_yu;
+        impedance_yu = impedance_yu * transmission[j];
         torque = joint_torque - answer_own[j] * model->joint_impedance[j];
     }
 
-    /* The hub. */
-    const real hub_pivot = model->factor_3 + impedance_uu;
+    /* The base. */
+    const real hub_pivot = model->hub_impedance + impedance_uu;
     if (!(hub_pivot > 0.0) || !isfinite(hub_pivot)) {
         return ARM2_VANISHING_PIVOT;
     }
@@ -422,17 +401,16 @@ arm2_status arm2_step(
         - model->hub_inertia * predicted_acceleration[0]) / hub_pivot;
     const real hub_unknown = unknown;
 
-    /* Sweep outward: the increment of each link's unknown. */
+    /* Sweep outward: the unknown of each station. */
     real change_x = 0.0;
     real change_y = 0.0;
 
-    /* Sweep outward: the increment of each link's unknown; motion at the end of the step. */
+    /* Sweep outward: the unknown of each station; motion at the end of the step. */
     state->hub_angle = predicted_angle[0] + angle_per_acceleration * hub_unknown;
     state->hub_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration;
     state->hub_acceleration = hub_unknown + predicted_acceleration[0];
     for (int j = 0; j < ARM2_STATIONS; ++j) {
-        unknown = answer_own[j] + answer_from_inner[j] * unknown - answer_x[j] * change_x
-            - answer_y[j] * change_y;
+        unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y + transmission[j] * unknown;
         change_x = change_x + swing_x[j] * unknown;
         change_y = change_y + swing_y[j] * unknown;
         state->angle[j] = predicted_angle[j + 1] + angle_per_acceleration * unknown;

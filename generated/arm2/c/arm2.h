@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: c5e09abbb61734735cef8cfddf39dd959eb5765da3ad6484bed2957b4fdf212c
- * sha256 of the rest of this file: 59ad755ba64096b6995ad0574a1f7c89dc23742859b642201dc7ba0fe04b681b
+ * sha256 of the rest of this file: 735407acf1e47e01d3af7d8b5624e8bd92709d08574bfb011c67caa630344800
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 2
@@ -12,10 +12,11 @@
  * linearisation: newton
  * sweep: riccati
  * unknown: acceleration
- * operations of a step: 287, 143.5 per station (132 additions, 148 multiplications, 3 divisions, 4 functions)
- * operations of prepare: 37, 18.5 per station (7 additions, 30 multiplications)
+ * operations of a step: 249, 124.5 per station (116 additions, 126 multiplications, 3 divisions, 4 sines and
+ *     cosines)
+ * operations of prepare: 38, 19 per station (10 additions, 28 multiplications)
  * number type: double
- * bytes of the structs: params 136, model 208, state 72, inputs 8, outputs 32
+ * bytes of the structs: params 136, model 168, state 72, inputs 8, outputs 32
  *
  * Call arm2_default_params() and arm2_prepare() once, arm2_initialise() to put the arm somewhere, then
  * arm2_step() at every tick of the clock and arm2_output() to know. All memory is the caller's; nothing is
@@ -70,24 +71,36 @@ typedef struct {
 
 /** What prepare() derives from the parameters and the time step. */
 typedef struct {
-    arm2_real step; /**< time step [s] */
-    arm2_real length[ARM2_STATIONS]; /**< link length, base to tip [m] */
-    arm2_real mass[ARM2_STATIONS]; /**< link mass, base to tip [kg] */
-    arm2_real stiffness[ARM2_STATIONS]; /**< joint stiffness, base to tip [N m/rad] */
-    arm2_real damping[ARM2_STATIONS]; /**< joint damping, base to tip [N m s/rad] */
-    arm2_real gravity; /**< gravity along -y [m/s^2] */
-    arm2_real hub_inertia; /**< hub inertia [kg m^2] */
-    arm2_real hub_damping; /**< viscous damping of the hub to ground [N m s/rad] */
-    arm2_real tip_mass; /**< mass at the tip [kg] */
-    arm2_real tip_inertia; /**< inertia at the tip [kg m^2] */
-    arm2_real step2_1_over_2; /**< step**2/2 [s^2] */
-    arm2_real angle_per_acceleration; /**< angle per unit of acceleration: step**2/4 [SI] */
-    arm2_real factor_3; /**< (hub_damping*step + 2*hub_inertia)/2 [SI] */
-    arm2_real rate_per_acceleration; /**< rate per unit of acceleration: step/2 [SI] */
-    arm2_real carried_mass[ARM2_STATIONS]; /**< mass acting at a link's outer end [kg] */
-    arm2_real inner_mass[ARM2_STATIONS]; /**< mass acting at a link's inner end [kg] */
-    arm2_real pin_inertia[ARM2_STATIONS]; /**< inertia of a link about its inner end [kg m^2] */
-    arm2_real joint_impedance[ARM2_STATIONS]; /**< torque of a joint per difference of unknowns [SI] */
+    /** time step [s] */
+    arm2_real step;
+    /** link length, base to tip [m] */
+    arm2_real length[ARM2_STATIONS];
+    /** joint stiffness, base to tip [N m/rad] */
+    arm2_real stiffness[ARM2_STATIONS];
+    /** joint damping, base to tip [N m s/rad] */
+    arm2_real damping[ARM2_STATIONS];
+    /** gravity along -y [m/s^2] */
+    arm2_real gravity;
+    /** hub inertia [kg m^2] */
+    arm2_real hub_inertia;
+    /** viscous damping of the hub to ground [N m s/rad] */
+    arm2_real hub_damping;
+    /** inertia at the tip [kg m^2] */
+    arm2_real tip_inertia;
+    /** step**2/2 [s^2] */
+    arm2_real half_step_squared;
+    /** angle per unit of acceleration: step**2/4 [s^2] */
+    arm2_real angle_per_acceleration;
+    /** rate per unit of acceleration: step/2 [s] */
+    arm2_real rate_per_acceleration;
+    /** mass at the outer end of each link [kg] */
+    arm2_real node_mass[ARM2_STATIONS];
+    /** inertia of a link that masses at its ends leave over [kg m^2] */
+    arm2_real rod_inertia[ARM2_STATIONS];
+    /** torque of a joint per difference of unknowns [kg m^2] */
+    arm2_real joint_impedance[ARM2_STATIONS];
+    /** torque of the hub per unknown [kg m^2] */
+    arm2_real hub_impedance;
 } arm2_model;
 
 /** Motion of the arm, and the history its integrator needs. */

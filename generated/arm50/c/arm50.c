@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
- * sha256 of the rest of this file: 4c63d04dee3bc40c9f8f236b0471ed5ea51b923750401c6a05bf35da7b4d73b4
+ * sha256 of the rest of this file: b2362efc29e194af9efa1f7931a80059eb3016e904db83a0e7fc748625118d92
  *
  * model: planar arm, large rotations, tip mass
  * stations: 50
@@ -12,11 +12,11 @@
  * linearisation: newton
  * sweep: riccati
  * unknown: acceleration
- * operations of a step: 35166, 703.3 per station (16203 additions, 18213 multiplications, 250 divisions, 500
- *     functions)
- * operations of prepare: 350, 7 per station (53 additions, 296 multiplications, 1 divisions)
+ * operations of a step: 29534, 590.7 per station (13642 additions, 15142 multiplications, 250 divisions, 500
+ *     sines and cosines)
+ * operations of prepare: 526, 10.52 per station (152 additions, 373 multiplications, 1 divisions)
  * number type: double
- * bytes of the structs: params 848, model 1488, state 1224, inputs 40, outputs 48
+ * bytes of the structs: params 848, model 1784, state 1224, inputs 40, outputs 48
  *
  * @file arm50.c
  */
@@ -83,50 +83,45 @@ arm50_status arm50_prepare(
         }
     }
 
-    /* Masses by the ends they act at, and joint impedances. */
-    model->carried_mass = params->center * params->mass;
-    model->inner_mass = params->mass - params->center * params->mass;
-    model->pin_inertia = params->inertia
-        + params->center * params->center * (params->length * params->length) * params->mass;
-    for (int j = 0; j < ARM50_STATIONS; ++j) {
+    const real mass = params->mass;
+    const real center = params->center;
+
+    /* Masses at the nodes between links, and what they leave over. */
+    for (int j = 0; j < 49; ++j) {
+        model->node_mass[j] = center * mass + mass * (1.0 - center);
+    }
+    model->node_mass[49] = params->tip_mass + center * mass;
+    model->rod_inertia = params->inertia - center * (params->length * params->length) * mass * (1.0 - center);
+
+    /* Factors of the sweep that do not change from step to step. */
+    for (int j = ARM50_STATIONS - 1; j >= 0; --j) {
         model->joint_impedance[j] = 0.25 * params->damping[j] * step
             + 0.0625 * (step * step) * params->stiffness[j];
     }
 
     /* Factors of the step that depend on the time step and parameters alone. */
-    model->angle_per_acceleration = 0.0625 * (step * step);
     model->rate_per_acceleration = 0.25 * step;
-    model->step_1_over_2 = 0.5 * step;
-    model->step2_inverse_16 = 16.0 / (step * step);
-    model->step2_3_over_16 = 0.1875 * (step * step);
-    model->step_3_over_4 = 0.75 * step;
-    model->step2_17_over_200 = (17.0 / 200.0) * (step * step);
-    model->step_17_over_50 = (17.0 / 50.0) * step;
-    model->step2_21_over_400 = (21.0 / 400.0) * (step * step);
-    model->step_1_over_25 = (1.0 / 25.0) * step;
-    model->step_21_over_100 = (21.0 / 100.0) * step;
-    model->step2_371_over_5440 = (371.0 / 5440.0) * (step * step);
-    model->step_371_over_1360 = (371.0 / 1360.0) * step;
-    model->step2_137_over_10880 = (137.0 / 10880.0) * (step * step);
-    model->step_137_over_2720 = (137.0 / 2720.0) * step;
-    model->step2_151_over_2176 = (151.0 / 2176.0) * (step * step);
-    model->step_15_over_544 = (15.0 / 544.0) * step;
-    model->step_151_over_544 = (151.0 / 544.0) * step;
-    model->step2_25_over_96 = (25.0 / 96.0) * (step * step);
-    model->step_25_over_24 = (25.0 / 24.0) * step;
-    model->step2_49_over_192 = (49.0 / 192.0) * (step * step);
-    model->step_49_over_48 = (49.0 / 48.0) * step;
-    model->step2_125_over_64 = 1.953125 * (step * step);
-    model->step_125_over_16 = 7.8125 * step;
-    model->step2_41_over_24 = (41.0 / 24.0) * (step * step);
-    model->step_85_over_12 = (85.0 / 12.0) * step;
-    model->step_41_over_6 = (41.0 / 6.0) * step;
-    model->factor_28 = params->mass * (params->center - 1.0);
-    model->factor_29 = params->center * params->mass;
+    model->half_step = 0.5 * step;
+    model->angle_per_acceleration = 0.0625 * (step * step);
+    model->unknown_per_base_angle = 16.0 / (step * step);
+    model->three_quarters_step = 0.75 * step;
+    model->predicted_rate_per_stage1_acceleration = (17.0 / 50.0) * step;
+    model->predicted_rate_per_stage2_acceleration = (21.0 / 100.0) * step;
+    model->predicted_angle_per_stage2_rate = (1.0 / 25.0) * step;
+    model->predicted_rate_per_stage1_acceleration_2 = (371.0 / 1360.0) * step;
+    model->predicted_rate_per_stage2_acceleration_2 = (137.0 / 2720.0) * step;
+    model->predicted_rate_per_stage3_acceleration = (151.0 / 544.0) * step;
+    model->predicted_angle_per_stage3_rate = (15.0 / 544.0) * step;
+    model->predicted_rate_per_stage1_acceleration_3 = (25.0 / 24.0) * step;
+    model->predicted_rate_per_stage2_acceleration_3 = (49.0 / 48.0) * step;
+    model->predicted_rate_per_stage3_acceleration_2 = 7.8125 * step;
+    model->predicted_rate_per_stage4_acceleration = (41.0 / 6.0) * step;
+    model->predicted_angle_per_stage4_rate = (85.0 / 12.0) * step;
+    model->reaction_x_per_acceleration_x = center * mass;
+    model->reaction_x_per_acceleration_x_2 = mass * (center - 1.0);
 
     /* What the step needs as it is. */
     model->length = params->length;
-    model->mass = params->mass;
     for (int j = 0; j < ARM50_STATIONS; ++j) {
         model->stiffness[j] = params->stiffness[j];
     }
@@ -156,25 +151,30 @@ arm50_status arm50_initialise(
 
     const real length = params->length;
     const real mass = params->mass;
-    const real inertia = params->inertia;
     const real center = params->center;
     real acceleration_x[ARM50_STATIONS + 1]; /* acceleration of the nodes along x [m/s^2] */
     real acceleration_y[ARM50_STATIONS + 1]; /* acceleration of the nodes along y [m/s^2] */
-    real answer_own[ARM50_STATIONS]; /* increment of the unknown if the inner side kept its motion */
-    real answer_x[ARM50_STATIONS]; /* answer to the joint's acceleration along x */
-    real answer_y[ARM50_STATIONS]; /* answer to the joint's acceleration along y */
-    real lever_cosine[ARM50_STATIONS]; /* length times cosine of the predicted angle [m] */
-    real lever_sine[ARM50_STATIONS]; /* length times sine of the predicted angle [m] */
+    real answer_own[ARM50_STATIONS]; /* unknown of a station if its inner side kept its motion */
+    real answer_x[ARM50_STATIONS]; /* answer of the unknown to the joint's acceleration along x */
+    real answer_y[ARM50_STATIONS]; /* answer of the unknown to the joint's acceleration along y */
+    real lever_cosine[ARM50_STATIONS]; /* length times cosine of the angle [m] */
+    real lever_sine[ARM50_STATIONS]; /* length times sine of the angle [m] */
+    real node_mass[ARM50_STATIONS]; /* mass at the outer end of each link [kg] */
     /* acceleration of base and links as predicted [rad/s^2] */
     real predicted_acceleration[ARM50_STATIONS + 1];
     real predicted_angle[ARM50_STATIONS + 1]; /* angle of base and links as predicted [rad] */
     real predicted_rate[ARM50_STATIONS + 1]; /* rate of base and links as predicted [rad/s] */
-    real swing_x[ARM50_STATIONS]; /* change of the outer end's acceleration along x per unknown [m] */
-    real swing_y[ARM50_STATIONS]; /* change of the outer end's acceleration along y per unknown [m] */
+
+    /* Masses at the nodes between links, and what they leave over. */
+    for (int j = 0; j < 49; ++j) {
+        node_mass[j] = center * mass + mass * (1.0 - center);
+    }
+    node_mass[49] = params->tip_mass + center * mass;
+    const real rod_inertia = params->inertia - center * (length * length) * mass * (1.0 - center);
 
     /* Predicted motion. */
-    predicted_angle[0] = inputs->base_angle[0];
     predicted_rate[0] = 0.0;
+    predicted_angle[0] = inputs->base_angle[0];
     predicted_acceleration[0] = 0.0;
 
     /* Predicted motion; accelerations of the nodes. */
@@ -183,95 +183,78 @@ arm50_status arm50_initialise(
     acceleration_x[0] = node_x;
     acceleration_y[0] = node_y;
     for (int j = 0; j < ARM50_STATIONS; ++j) {
-        predicted_angle[j + 1] = initial_angle[j];
         predicted_rate[j + 1] = initial_rate[j];
+        predicted_angle[j + 1] = initial_angle[j];
         predicted_acceleration[j + 1] = 0.0;
-        lever_sine[j] = length * sin(predicted_angle[j + 1]);
         lever_cosine[j] = length * cos(predicted_angle[j + 1]);
+        lever_sine[j] = length * sin(predicted_angle[j + 1]);
         const real square = predicted_rate[j + 1] * predicted_rate[j + 1];
-        node_x = node_x - lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1];
-        node_y = node_y + lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square;
+        const real relative_x = -lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1];
+        const real relative_y = lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square;
+        node_x = node_x + relative_x;
+        node_y = node_y + relative_y;
         acceleration_x[j + 1] = node_x;
         acceleration_y[j + 1] = node_y;
     }
 
-    /* How each link's outer end answers to its unknown, and the predicted joint torques; sweep inward: force
-     * beyond each joint as an affine function of the motion at it. */
-    real impedance_xx = params->tip_mass;
-    real impedance_xy = 0.0;
-    real impedance_xu = 0.0;
-    real impedance_yx = 0.0;
-    real impedance_yy = params->tip_mass;
-    real impedance_yu = 0.0;
-    real impedance_ux = 0.0;
-    real impedance_uy = 0.0;
+    /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
+     * of the motion at it. */
     real impedance_uu = params->tip_inertia;
-    real force_x = acceleration_x[50] * params->tip_mass;
-    real force_y = acceleration_y[50] * params->tip_mass;
     real torque = predicted_acceleration[50] * params->tip_inertia;
+    real force_x = 0.0;
+    real force_y = 0.0;
+    real impedance_xx = 0.0;
+    real impedance_xy = 0.0;
+    real impedance_yx = 0.0;
+    real impedance_yy = 0.0;
     for (int j = ARM50_STATIONS - 1; j >= 0; --j) {
-        swing_x[j] = -lever_sine[j];
-        swing_y[j] = lever_cosine[j];
         const real joint_torque = params->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + params->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
-        const real outer_x = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j];
-        const real outer_y = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j];
-        const real outer_u = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j];
-        const real load_x = force_x + acceleration_x[j] * center * mass;
-        const real load_y = force_y + acceleration_y[j] * center * mass;
-        const real link_ux = impedance_ux + impedance_yx * lever_cosine[j]
-            - lever_sine[j] * (impedance_xx + center * mass);
-        const real link_uy = impedance_uy - impedance_xy * lever_sine[j]
-            + lever_cosine[j] * (impedance_yy + center * mass);
-        const real link_uu = inertia + outer_u + lever_cosine[j] * outer_y - lever_sine[j] * outer_x
-            + center * center * (length * length) * mass;
-        const real link_xx = impedance_xx + mass;
-        const real link_xu = outer_x + center * mass * swing_x[j];
-        const real link_yy = impedance_yy + mass;
-        const real link_yu = outer_y + center * mass * swing_y[j];
-        torque = torque + lever_cosine[j] * load_y - lever_sine[j] * load_x
-            + predicted_acceleration[j + 1] * (inertia + center * center * (length * length) * mass);
-        force_x = force_x + acceleration_x[j] * (mass - center * mass)
-            + acceleration_x[j + 1] * center * mass;
-        force_y = force_y + acceleration_y[j] * (mass - center * mass)
-            + acceleration_y[j + 1] * center * mass;
-        if (!(link_uu > 0.0) || !isfinite(link_uu)) {
+        impedance_xx = impedance_xx + node_mass[j];
+        impedance_yy = impedance_yy + node_mass[j];
+        force_x = force_x + acceleration_x[j + 1] * node_mass[j];
+        force_y = force_y + acceleration_y[j + 1] * node_mass[j];
+        const real impedance_xu = impedance_xy * lever_cosine[j] - impedance_xx * lever_sine[j];
+        const real impedance_yu = impedance_yy * lever_cosine[j] - impedance_yx * lever_sine[j];
+        const real impedance_ux = impedance_yx * lever_cosine[j] - impedance_xx * lever_sine[j];
+        const real impedance_uy = impedance_yy * lever_cosine[j] - impedance_xy * lever_sine[j];
+        impedance_uu = impedance_uu + rod_inertia - impedance_xu * lever_sine[j]
+            + impedance_yu * lever_cosine[j];
+        torque = torque - force_x * lever_sine[j] + force_y * lever_cosine[j]
+            + predicted_acceleration[j + 1] * rod_inertia;
+        if (!(impedance_uu > 0.0) || !isfinite(impedance_uu)) {
             return ARM50_VANISHING_PIVOT;
         }
-        const real inverse_pivot = 1.0 / link_uu;
-        answer_own[j] = inverse_pivot * (joint_torque - torque);
-        answer_x[j] = inverse_pivot * link_ux;
-        answer_y[j] = inverse_pivot * link_uy;
-        impedance_xx = link_xx - answer_x[j] * link_xu;
-        impedance_xy = impedance_xy - answer_y[j] * link_xu;
-        impedance_xu = 0.0;
-        force_x = force_x + answer_own[j] * link_xu;
-        impedance_yx = impedance_yx - answer_x[j] * link_yu;
-        impedance_yy = link_yy - answer_y[j] * link_yu;
-        impedance_yu = 0.0;
-        force_y = force_y + answer_own[j] * link_yu;
-        impedance_ux = 0.0;
-        impedance_uy = 0.0;
-        impedance_uu = 0.0;
+        const real admittance = 1.0 / impedance_uu;
+        answer_own[j] = admittance * (joint_torque - torque);
+        answer_x[j] = admittance * impedance_ux;
+        answer_y[j] = admittance * impedance_uy;
+        impedance_xx = impedance_xx - answer_x[j] * impedance_xu;
+        impedance_xy = impedance_xy - answer_y[j] * impedance_xu;
+        impedance_yx = impedance_yx - answer_x[j] * impedance_yu;
+        impedance_yy = impedance_yy - answer_y[j] * impedance_yu;
+        force_x = force_x + answer_own[j] * impedance_xu;
+        force_y = force_y + answer_own[j] * impedance_yu;
         torque = joint_torque;
+        impedance_uu = 0.0;
     }
 
-    /* The hub. */
+    /* The base. */
     real unknown = 0.0;
     const real hub_unknown = unknown;
 
-    /* Sweep outward: the increment of each link's unknown. */
+    /* Sweep outward: the unknown of each station. */
     real change_x = 0.0;
     real change_y = 0.0;
 
-    /* Sweep outward: the increment of each link's unknown; motion at the end of the step. */
+    /* Sweep outward: the unknown of each station; motion at the end of the step. */
     state->hub_angle = predicted_angle[0];
     state->hub_rate = predicted_rate[0];
     state->hub_acceleration = hub_unknown + predicted_acceleration[0];
     for (int j = 0; j < ARM50_STATIONS; ++j) {
         unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y;
-        change_x = change_x + swing_x[j] * unknown;
-        change_y = change_y + swing_y[j] * unknown;
+        change_x = change_x - lever_sine[j] * unknown;
+        change_y = change_y + lever_cosine[j] * unknown;
         state->angle[j] = predicted_angle[j + 1];
         state->rate[j] = predicted_rate[j + 1];
         state->acceleration[j] = predicted_acceleration[j + 1] + unknown;
@@ -298,44 +281,30 @@ arm50_status arm50_step(
     }
 
     const real length = model->length;
-    const real mass = model->mass;
-    const real angle_per_acceleration = model->angle_per_acceleration;
     const real rate_per_acceleration = model->rate_per_acceleration;
-    const real step_1_over_2 = model->step_1_over_2;
-    const real step2_3_over_16 = model->step2_3_over_16;
-    const real step_3_over_4 = model->step_3_over_4;
-    const real step2_17_over_200 = model->step2_17_over_200;
-    const real step_17_over_50 = model->step_17_over_50;
-    const real step2_21_over_400 = model->step2_21_over_400;
-    const real step_1_over_25 = model->step_1_over_25;
-    const real step_21_over_100 = model->step_21_over_100;
-    const real step2_371_over_5440 = model->step2_371_over_5440;
-    const real step_371_over_1360 = model->step_371_over_1360;
-    const real step2_137_over_10880 = model->step2_137_over_10880;
-    const real step_137_over_2720 = model->step_137_over_2720;
-    const real step2_151_over_2176 = model->step2_151_over_2176;
-    const real step_15_over_544 = model->step_15_over_544;
-    const real step_151_over_544 = model->step_151_over_544;
-    const real step2_25_over_96 = model->step2_25_over_96;
-    const real step_25_over_24 = model->step_25_over_24;
-    const real step2_49_over_192 = model->step2_49_over_192;
-    const real step_49_over_48 = model->step_49_over_48;
-    const real step2_125_over_64 = model->step2_125_over_64;
-    const real step_125_over_16 = model->step_125_over_16;
-    const real step2_41_over_24 = model->step2_41_over_24;
-    const real step_85_over_12 = model->step_85_over_12;
-    const real step_41_over_6 = model->step_41_over_6;
-    const real carried_mass = model->carried_mass;
-    const real inner_mass = model->inner_mass;
-    const real pin_inertia = model->pin_inertia;
+    const real half_step = model->half_step;
+    const real angle_per_acceleration = model->angle_per_acceleration;
+    const real three_quarters_step = model->three_quarters_step;
+    const real predicted_rate_per_stage1_acceleration = model->predicted_rate_per_stage1_acceleration;
+    const real predicted_rate_per_stage2_acceleration = model->predicted_rate_per_stage2_acceleration;
+    const real predicted_angle_per_stage2_rate = model->predicted_angle_per_stage2_rate;
+    const real predicted_rate_per_stage1_acceleration_2 = model->predicted_rate_per_stage1_acceleration_2;
+    const real predicted_rate_per_stage2_acceleration_2 = model->predicted_rate_per_stage2_acceleration_2;
+    const real predicted_rate_per_stage3_acceleration = model->predicted_rate_per_stage3_acceleration;
+    const real predicted_angle_per_stage3_rate = model->predicted_angle_per_stage3_rate;
+    const real predicted_rate_per_stage1_acceleration_3 = model->predicted_rate_per_stage1_acceleration_3;
+    const real predicted_rate_per_stage2_acceleration_3 = model->predicted_rate_per_stage2_acceleration_3;
+    const real predicted_rate_per_stage3_acceleration_2 = model->predicted_rate_per_stage3_acceleration_2;
+    const real predicted_rate_per_stage4_acceleration = model->predicted_rate_per_stage4_acceleration;
+    const real predicted_angle_per_stage4_rate = model->predicted_angle_per_stage4_rate;
+    const real rod_inertia = model->rod_inertia;
     real acceleration_x[ARM50_STATIONS + 1]; /* acceleration of the nodes along x [m/s^2] */
     real acceleration_y[ARM50_STATIONS + 1]; /* acceleration of the nodes along y [m/s^2] */
-    real answer_from_inner[ARM50_STATIONS]; /* answer to the inner link's unknown */
-    real answer_own[ARM50_STATIONS]; /* increment of the unknown if the inner side kept its motion */
-    real answer_x[ARM50_STATIONS]; /* answer to the joint's acceleration along x */
-    real answer_y[ARM50_STATIONS]; /* answer to the joint's acceleration along y */
-    real lever_cosine[ARM50_STATIONS]; /* length times cosine of the predicted angle [m] */
-    real lever_sine[ARM50_STATIONS]; /* length times sine of the predicted angle [m] */
+    real answer_own[ARM50_STATIONS]; /* unknown of a station if its inner side kept its motion */
+    real answer_x[ARM50_STATIONS]; /* answer of the unknown to the joint's acceleration along x */
+    real answer_y[ARM50_STATIONS]; /* answer of the unknown to the joint's acceleration along y */
+    real lever_cosine[ARM50_STATIONS]; /* length times cosine of the angle [m] */
+    real lever_sine[ARM50_STATIONS]; /* length times sine of the angle [m] */
     /* acceleration of base and links as predicted [rad/s^2] */
     real predicted_acceleration[ARM50_STATIONS + 1];
     real predicted_angle[ARM50_STATIONS + 1]; /* angle of base and links as predicted [rad] */
@@ -348,11 +317,11 @@ arm50_status arm50_step(
     real stage3_rate[ARM50_STATIONS]; /* rate at stage 3 [rad/s] */
     real swing_x[ARM50_STATIONS]; /* change of the outer end's acceleration along x per unknown [m] */
     real swing_y[ARM50_STATIONS]; /* change of the outer end's acceleration along y per unknown [m] */
+    real transmission[ARM50_STATIONS]; /* share of motion and torque each joint passes on */
 
     /* Stage 1 of 5: predicted motion. */
-    predicted_angle[0] = state->hub_angle + angle_per_acceleration * state->hub_acceleration
-        + state->hub_rate * rate_per_acceleration;
     predicted_rate[0] = state->hub_rate + state->hub_acceleration * rate_per_acceleration;
+    predicted_angle[0] = state->hub_angle + predicted_rate[0] * rate_per_acceleration;
     predicted_acceleration[0] = state->hub_acceleration;
 
     /* Stage 1 of 5: predicted motion; accelerations of the nodes. */
@@ -361,90 +330,82 @@ arm50_status arm50_step(
     acceleration_x[0] = node_x;
     acceleration_y[0] = node_y;
     for (int j = 0; j < ARM50_STATIONS; ++j) {
-        predicted_angle[j + 1] = state->angle[j] + state->acceleration[j] * angle_per_acceleration
-            + state->rate[j] * rate_per_acceleration;
         predicted_rate[j + 1] = state->rate[j] + state->acceleration[j] * rate_per_acceleration;
+        predicted_angle[j + 1] = state->angle[j] + predicted_rate[j + 1] * rate_per_acceleration;
         predicted_acceleration[j + 1] = state->acceleration[j];
-        lever_sine[j] = length * sin(predicted_angle[j + 1]);
         lever_cosine[j] = length * cos(predicted_angle[j + 1]);
+        lever_sine[j] = length * sin(predicted_angle[j + 1]);
         const real square = predicted_rate[j + 1] * predicted_rate[j + 1];
-        node_x = node_x - lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1];
-        node_y = node_y + lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square;
+        const real relative_x = -lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1];
+        const real relative_y = lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square;
+        const real turning = half_step * predicted_rate[j + 1];
+        swing_x[j] = -lever_sine[j] - angle_per_acceleration * relative_y - lever_cosine[j] * turning;
+        swing_y[j] = lever_cosine[j] + angle_per_acceleration * relative_x - lever_sine[j] * turning;
+        node_x = node_x + relative_x;
+        node_y = node_y + relative_y;
         acceleration_x[j + 1] = node_x;
         acceleration_y[j + 1] = node_y;
     }
 
-    /* Stage 1 of 5: how each link's outer end answers to its unknown, and the predicted joint torques; sweep
-     * inward: force beyond each joint as an affine function of the motion at it. */
-    real impedance_xx = model->tip_mass;
-    real impedance_xy = 0.0;
-    real impedance_xu = 0.0;
-    real impedance_yx = 0.0;
-    real impedance_yy = model->tip_mass;
-    real impedance_yu = 0.0;
+    /* Stage 1 of 5: forces of the joints at the motion so far; sweep inward: force beyond each joint as an
+     * affine function of the motion at it. */
+    real impedance_uu = model->tip_inertia;
+    real torque = predicted_acceleration[50] * model->tip_inertia;
+    real force_x = 0.0;
+    real force_y = 0.0;
     real impedance_ux = 0.0;
     real impedance_uy = 0.0;
-    real impedance_uu = model->tip_inertia;
-    real force_x = acceleration_x[50] * model->tip_mass;
-    real force_y = acceleration_y[50] * model->tip_mass;
-    real torque = predicted_acceleration[50] * model->tip_inertia;
+    real impedance_xu = 0.0;
+    real impedance_xx = 0.0;
+    real impedance_xy = 0.0;
+    real impedance_yu = 0.0;
+    real impedance_yx = 0.0;
+    real impedance_yy = 0.0;
     for (int j = ARM50_STATIONS - 1; j >= 0; --j) {
-        const real tangential = 1.0
-            - angle_per_acceleration * (predicted_rate[j + 1] * predicted_rate[j + 1]);
-        const real turning = angle_per_acceleration * predicted_acceleration[j + 1]
-            + predicted_rate[j + 1] * step_1_over_2;
-        swing_x[j] = -lever_cosine[j] * turning - lever_sine[j] * tangential;
-        swing_y[j] = lever_cosine[j] * tangential - lever_sine[j] * turning;
         const real joint_torque = model->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + model->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
-        const real outer_x = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j];
-        const real outer_y = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j];
-        const real outer_u = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j];
-        const real load_x = force_x + acceleration_x[j] * carried_mass;
-        const real load_y = force_y + acceleration_y[j] * carried_mass;
-        const real link_ux = impedance_ux + impedance_yx * lever_cosine[j]
-            - lever_sine[j] * (carried_mass + impedance_xx);
-        const real link_uy = impedance_uy - impedance_xy * lever_sine[j]
-            + lever_cosine[j] * (carried_mass + impedance_yy);
-        const real link_uu = outer_u + pin_inertia
-            + angle_per_acceleration * (-lever_cosine[j] * load_x - lever_sine[j] * load_y)
-            + lever_cosine[j] * outer_y - lever_sine[j] * outer_x;
-        const real link_xx = impedance_xx + mass;
-        const real link_xu = outer_x + carried_mass * swing_x[j];
-        const real link_yy = impedance_yy + mass;
-        const real link_yu = outer_y + carried_mass * swing_y[j];
-        torque = torque + lever_cosine[j] * load_y - lever_sine[j] * load_x
-            + pin_inertia * predicted_acceleration[j + 1];
-        force_x = force_x + acceleration_x[j + 1] * carried_mass + acceleration_x[j] * inner_mass;
-        force_y = force_y + acceleration_y[j + 1] * carried_mass + acceleration_y[j] * inner_mass;
-        const real pivot = model->joint_impedance[j] + link_uu;
+        impedance_xx = impedance_xx + model->node_mass[j];
+        impedance_yy = impedance_yy + model->node_mass[j];
+        force_x = force_x + acceleration_x[j + 1] * model->node_mass[j];
+        force_y = force_y + acceleration_y[j + 1] * model->node_mass[j];
+        impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j];
+        impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j];
+        impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j];
+        impedance_ux = impedance_ux - impedance_xx * lever_sine[j] + impedance_yx * lever_cosine[j];
+        impedance_uy = impedance_uy - impedance_xy * lever_sine[j] + impedance_yy * lever_cosine[j];
+        impedance_uu = impedance_uu + rod_inertia
+            + lever_cosine[j] * (impedance_yu - angle_per_acceleration * force_x)
+            + lever_sine[j] * (-impedance_xu - angle_per_acceleration * force_y);
+        torque = torque - force_x * lever_sine[j] + force_y * lever_cosine[j]
+            + predicted_acceleration[j + 1] * rod_inertia;
+        const real pivot = impedance_uu + model->joint_impedance[j];
         if (!(pivot > 0.0) || !isfinite(pivot)) {
             return ARM50_VANISHING_PIVOT;
         }
-        const real inverse_pivot = 1.0 / pivot;
-        answer_own[j] = inverse_pivot * (joint_torque - torque);
-        answer_x[j] = inverse_pivot * link_ux;
-        answer_y[j] = inverse_pivot * link_uy;
-        answer_from_inner[j] = inverse_pivot * model->joint_impedance[j];
-        impedance_xx = link_xx - answer_x[j] * link_xu;
-        impedance_xy = impedance_xy - answer_y[j] * link_xu;
-        impedance_xu = answer_from_inner[j] * link_xu;
-        force_x = force_x + answer_own[j] * link_xu;
-        impedance_yx = impedance_yx - answer_x[j] * link_yu;
-        impedance_yy = link_yy - answer_y[j] * link_yu;
-        impedance_yu = answer_from_inner[j] * link_yu;
-        force_y = force_y + answer_own[j] * link_yu;
+        const real admittance = 1.0 / pivot;
+        answer_own[j] = admittance * (joint_torque - torque);
+        answer_x[j] = admittance * impedance_ux;
+        answer_y[j] = admittance * impedance_uy;
+        transmission[j] = admittance * model->joint_impedance[j];
+        impedance_xx = impedance_xx - answer_x[j] * impedance_xu;
+        impedance_xy = impedance_xy - answer_y[j] * impedance_xu;
+        impedance_yx = impedance_yx - answer_x[j] * impedance_yu;
+        impedance_yy = impedance_yy - answer_y[j] * impedance_yu;
         impedance_ux = answer_x[j] * model->joint_impedance[j];
         impedance_uy = answer_y[j] * model->joint_impedance[j];
-        impedance_uu = answer_from_inner[j] * link_uu;
+        impedance_uu = impedance_uu * transmission[j];
+        force_x = force_x + answer_own[j] * impedance_xu;
+        impedance_xu = impedance_xu * transmission[j];
+        force_y = force_y + answer_own[j] * impedance_yu;
+        impedance_yu = impedance_yu * transmission[j];
         torque = joint_torque - answer_own[j] * model->joint_impedance[j];
     }
 
-    /* Stage 1 of 5: the hub. */
-    real unknown = model->step2_inverse_16 * (inputs->base_angle[0] - predicted_angle[0]);
+    /* Stage 1 of 5: the base. */
+    real unknown = model->unknown_per_base_angle * (inputs->base_angle[0] - predicted_angle[0]);
     real hub_unknown = unknown;
 
-    /* Stage 1 of 5: sweep outward: the increment of each link's unknown. */
+    /* Stage 1 of 5: sweep outward: the unknown of each station. */
     real change_x = 0.0;
     real change_y = 0.0;
 
@@ -453,108 +414,100 @@ arm50_status arm50_step(
     const real hub_stage1_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration;
 
     /* Stage 2 of 5: predicted motion. */
-    predicted_angle[0] = state->hub_angle + state->hub_rate * rate_per_acceleration
-        + hub_stage1_acceleration * step2_3_over_16 + hub_stage1_rate * step_1_over_2;
-    predicted_rate[0] = state->hub_rate + hub_stage1_acceleration * step_3_over_4;
+    predicted_rate[0] = state->hub_rate + hub_stage1_acceleration * three_quarters_step;
+    predicted_angle[0] = state->hub_angle + half_step * hub_stage1_rate
+        + predicted_rate[0] * rate_per_acceleration;
     predicted_acceleration[0] = hub_stage1_acceleration;
 
-    /* Stage 1 of 5: sweep outward: the increment of each link's unknown; motion at this stage. Stage 2 of 5:
-     * predicted motion; accelerations of the nodes. */
+    /* Stage 1 of 5: sweep outward: the unknown of each station; motion at this stage. Stage 2 of 5: predicted
+     * motion; accelerations of the nodes. */
     node_x = 0.0;
     node_y = 0.0;
     acceleration_x[0] = node_x;
     acceleration_y[0] = node_y;
     for (int j = 0; j < ARM50_STATIONS; ++j) {
-        unknown = answer_own[j] + answer_from_inner[j] * unknown - answer_x[j] * change_x
-            - answer_y[j] * change_y;
+        unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y + transmission[j] * unknown;
         change_x = change_x + swing_x[j] * unknown;
         change_y = change_y + swing_y[j] * unknown;
         stage1_acceleration[j] = predicted_acceleration[j + 1] + unknown;
         stage1_rate[j] = predicted_rate[j + 1] + rate_per_acceleration * unknown;
-        predicted_angle[j + 1] = state->angle[j] + state->rate[j] * rate_per_acceleration
-            + stage1_acceleration[j] * step2_3_over_16 + stage1_rate[j] * step_1_over_2;
-        predicted_rate[j + 1] = state->rate[j] + stage1_acceleration[j] * step_3_over_4;
+        predicted_rate[j + 1] = state->rate[j] + stage1_acceleration[j] * three_quarters_step;
+        predicted_angle[j + 1] = state->angle[j] + half_step * stage1_rate[j]
+            + predicted_rate[j + 1] * rate_per_acceleration;
         predicted_acceleration[j + 1] = stage1_acceleration[j];
-        lever_sine[j] = length * sin(predicted_angle[j + 1]);
         lever_cosine[j] = length * cos(predicted_angle[j + 1]);
+        lever_sine[j] = length * sin(predicted_angle[j + 1]);
         const real square = predicted_rate[j + 1] * predicted_rate[j + 1];
-        node_x = node_x - lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1];
-        node_y = node_y + lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square;
+        const real relative_x = -lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1];
+        const real relative_y = lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square;
+        const real turning = half_step * predicted_rate[j + 1];
+        swing_x[j] = -lever_sine[j] - angle_per_acceleration * relative_y - lever_cosine[j] * turning;
+        swing_y[j] = lever_cosine[j] + angle_per_acceleration * relative_x - lever_sine[j] * turning;
+        node_x = node_x + relative_x;
+        node_y = node_y + relative_y;
         acceleration_x[j + 1] = node_x;
         acceleration_y[j + 1] = node_y;
     }
 
-    /* Stage 2 of 5: how each link's outer end answers to its unknown, and the predicted joint torques; sweep
-     * inward: force beyond each joint as an affine function of the motion at it. */
-    impedance_xx = model->tip_mass;
-    impedance_xy = 0.0;
-    impedance_xu = 0.0;
-    impedance_yx = 0.0;
-    impedance_yy = model->tip_mass;
-    impedance_yu = 0.0;
+    /* Stage 2 of 5: forces of the joints at the motion so far; sweep inward: force beyond each joint as an
+     * affine function of the motion at it. */
+    impedance_uu = model->tip_inertia;
+    torque = predicted_acceleration[50] * model->tip_inertia;
+    force_x = 0.0;
+    force_y = 0.0;
     impedance_ux = 0.0;
     impedance_uy = 0.0;
-    impedance_uu = model->tip_inertia;
-    force_x = acceleration_x[50] * model->tip_mass;
-    force_y = acceleration_y[50] * model->tip_mass;
-    torque = predicted_acceleration[50] * model->tip_inertia;
+    impedance_xu = 0.0;
+    impedance_xx = 0.0;
+    impedance_xy = 0.0;
+    impedance_yu = 0.0;
+    impedance_yx = 0.0;
+    impedance_yy = 0.0;
     for (int j = ARM50_STATIONS - 1; j >= 0; --j) {
-        const real tangential = 1.0
-            - angle_per_acceleration * (predicted_rate[j + 1] * predicted_rate[j + 1]);
-        const real turning = angle_per_acceleration * predicted_acceleration[j + 1]
-            + predicted_rate[j + 1] * step_1_over_2;
-        swing_x[j] = -lever_cosine[j] * turning - lever_sine[j] * tangential;
-        swing_y[j] = lever_cosine[j] * tangential - lever_sine[j] * turning;
         const real joint_torque = model->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + model->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
-        const real outer_x = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j];
-        const real outer_y = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j];
-        const real outer_u = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j];
-        const real load_x = force_x + acceleration_x[j] * carried_mass;
-        const real load_y = force_y + acceleration_y[j] * carried_mass;
-        const real link_ux = impedance_ux + impedance_yx * lever_cosine[j]
-            - lever_sine[j] * (carried_mass + impedance_xx);
-        const real link_uy = impedance_uy - impedance_xy * lever_sine[j]
-            + lever_cosine[j] * (carried_mass + impedance_yy);
-        const real link_uu = outer_u + pin_inertia
-            + angle_per_acceleration * (-lever_cosine[j] * load_x - lever_sine[j] * load_y)
-            + lever_cosine[j] * outer_y - lever_sine[j] * outer_x;
-        const real link_xx = impedance_xx + mass;
-        const real link_xu = outer_x + carried_mass * swing_x[j];
-        const real link_yy = impedance_yy + mass;
-        const real link_yu = outer_y + carried_mass * swing_y[j];
-        torque = torque + lever_cosine[j] * load_y - lever_sine[j] * load_x
-            + pin_inertia * predicted_acceleration[j + 1];
-        force_x = force_x + acceleration_x[j + 1] * carried_mass + acceleration_x[j] * inner_mass;
-        force_y = force_y + acceleration_y[j + 1] * carried_mass + acceleration_y[j] * inner_mass;
-        const real pivot = model->joint_impedance[j] + link_uu;
+        impedance_xx = impedance_xx + model->node_mass[j];
+        impedance_yy = impedance_yy + model->node_mass[j];
+        force_x = force_x + acceleration_x[j + 1] * model->node_mass[j];
+        force_y = force_y + acceleration_y[j + 1] * model->node_mass[j];
+        impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j];
+        impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j];
+        impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j];
+        impedance_ux = impedance_ux - impedance_xx * lever_sine[j] + impedance_yx * lever_cosine[j];
+        impedance_uy = impedance_uy - impedance_xy * lever_sine[j] + impedance_yy * lever_cosine[j];
+        impedance_uu = impedance_uu + rod_inertia
+            + lever_cosine[j] * (impedance_yu - angle_per_acceleration * force_x)
+            + lever_sine[j] * (-impedance_xu - angle_per_acceleration * force_y);
+        torque = torque - force_x * lever_sine[j] + force_y * lever_cosine[j]
+            + predicted_acceleration[j + 1] * rod_inertia;
+        const real pivot = impedance_uu + model->joint_impedance[j];
         if (!(pivot > 0.0) || !isfinite(pivot)) {
             return ARM50_VANISHING_PIVOT;
         }
-        const real inverse_pivot = 1.0 / pivot;
-        answer_own[j] = inverse_pivot * (joint_torque - torque);
-        answer_x[j] = inverse_pivot * link_ux;
-        answer_y[j] = inverse_pivot * link_uy;
-        answer_from_inner[j] = inverse_pivot * model->joint_impedance[j];
-        impedance_xx = link_xx - answer_x[j] * link_xu;
-        impedance_xy = impedance_xy - answer_y[j] * link_xu;
-        impedance_xu = answer_from_inner[j] * link_xu;
-        force_x = force_x + answer_own[j] * link_xu;
-        impedance_yx = impedance_yx - answer_x[j] * link_yu;
-        impedance_yy = link_yy - answer_y[j] * link_yu;
-        impedance_yu = answer_from_inner[j] * link_yu;
-        force_y = force_y + answer_own[j] * link_yu;
+        const real admittance = 1.0 / pivot;
+        answer_own[j] = admittance * (joint_torque - torque);
+        answer_x[j] = admittance * impedance_ux;
+        answer_y[j] = admittance * impedance_uy;
+        transmission[j] = admittance * model->joint_impedance[j];
+        impedance_xx = impedance_xx - answer_x[j] * impedance_xu;
+        impedance_xy = impedance_xy - answer_y[j] * impedance_xu;
+        impedance_yx = impedance_yx - answer_x[j] * impedance_yu;
+        impedance_yy = impedance_yy - answer_y[j] * impedance_yu;
         impedance_ux = answer_x[j] * model->joint_impedance[j];
         impedance_uy = answer_y[j] * model->joint_impedance[j];
-        impedance_uu = answer_from_inner[j] * link_uu;
+        impedance_uu = impedance_uu * transmission[j];
+        force_x = force_x + answer_own[j] * impedance_xu;
+        impedance_xu = impedance_xu * transmission[j];
+        force_y = force_y + answer_own[j] * impedance_yu;
+        impedance_yu = impedance_yu * transmission[j];
         torque = joint_torque - answer_own[j] * model->joint_impedance[j];
     }
 
-    /* Stage 2 of 5: the hub. */
-    unknown = model->step2_inverse_16 * (inputs->base_angle[1] - predicted_angle[0]);
+    /* Stage 2 of 5: the base. */
+    unknown = model->unknown_per_base_angle * (inputs->base_angle[1] - predicted_angle[0]);
     hub_unknown = unknown;
 
-    /* Stage 2 of 5: sweep outward: the increment of each link's unknown. */
+    /* Stage 2 of 5: sweep outward: the unknown of each station. */
     change_x = 0.0;
     change_y = 0.0;
 
@@ -563,112 +516,104 @@ arm50_status arm50_step(
     const real hub_stage2_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration;
 
     /* Stage 3 of 5: predicted motion. */
-    predicted_angle[0] = state->hub_angle + state->hub_rate * rate_per_acceleration
-        + hub_stage1_acceleration * step2_17_over_200 + hub_stage1_rate * step_17_over_50
-        + hub_stage2_acceleration * step2_21_over_400 - hub_stage2_rate * step_1_over_25;
-    predicted_rate[0] = state->hub_rate + hub_stage1_acceleration * step_17_over_50
-        + hub_stage2_acceleration * step_21_over_100;
+    predicted_rate[0] = state->hub_rate + hub_stage1_acceleration * predicted_rate_per_stage1_acceleration
+        + hub_stage2_acceleration * predicted_rate_per_stage2_acceleration;
+    predicted_angle[0] = state->hub_angle + hub_stage1_rate * predicted_rate_per_stage1_acceleration
+        - hub_stage2_rate * predicted_angle_per_stage2_rate + predicted_rate[0] * rate_per_acceleration;
     predicted_acceleration[0] = hub_stage2_acceleration;
 
-    /* Stage 2 of 5: sweep outward: the increment of each link's unknown; motion at this stage. Stage 3 of 5:
-     * predicted motion; accelerations of the nodes. */
+    /* Stage 2 of 5: sweep outward: the unknown of each station; motion at this stage. Stage 3 of 5: predicted
+     * motion; accelerations of the nodes. */
     node_x = 0.0;
     node_y = 0.0;
     acceleration_x[0] = node_x;
     acceleration_y[0] = node_y;
     for (int j = 0; j < ARM50_STATIONS; ++j) {
-        unknown = answer_own[j] + answer_from_inner[j] * unknown - answer_x[j] * change_x
-            - answer_y[j] * change_y;
+        unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y + transmission[j] * unknown;
         change_x = change_x + swing_x[j] * unknown;
         change_y = change_y + swing_y[j] * unknown;
         stage2_acceleration[j] = predicted_acceleration[j + 1] + unknown;
         stage2_rate[j] = predicted_rate[j + 1] + rate_per_acceleration * unknown;
-        predicted_angle[j + 1] = state->angle[j] + state->rate[j] * rate_per_acceleration
-            + stage1_acceleration[j] * step2_17_over_200 + stage1_rate[j] * step_17_over_50
-            + stage2_acceleration[j] * step2_21_over_400 - stage2_rate[j] * step_1_over_25;
-        predicted_rate[j + 1] = state->rate[j] + stage1_acceleration[j] * step_17_over_50
-            + stage2_acceleration[j] * step_21_over_100;
+        predicted_rate[j + 1] = state->rate[j]
+            + predicted_rate_per_stage1_acceleration * stage1_acceleration[j]
+            + predicted_rate_per_stage2_acceleration * stage2_acceleration[j];
+        predicted_angle[j + 1] = state->angle[j] - predicted_angle_per_stage2_rate * stage2_rate[j]
+            + predicted_rate[j + 1] * rate_per_acceleration
+            + predicted_rate_per_stage1_acceleration * stage1_rate[j];
         predicted_acceleration[j + 1] = stage2_acceleration[j];
-        lever_sine[j] = length * sin(predicted_angle[j + 1]);
         lever_cosine[j] = length * cos(predicted_angle[j + 1]);
+        lever_sine[j] = length * sin(predicted_angle[j + 1]);
         const real square = predicted_rate[j + 1] * predicted_rate[j + 1];
-        node_x = node_x - lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1];
-        node_y = node_y + lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square;
+        const real relative_x = -lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1];
+        const real relative_y = lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square;
+        const real turning = half_step * predicted_rate[j + 1];
+        swing_x[j] = -lever_sine[j] - angle_per_acceleration * relative_y - lever_cosine[j] * turning;
+        swing_y[j] = lever_cosine[j] + angle_per_acceleration * relative_x - lever_sine[j] * turning;
+        node_x = node_x + relative_x;
+        node_y = node_y + relative_y;
         acceleration_x[j + 1] = node_x;
         acceleration_y[j + 1] = node_y;
     }
 
-    /* Stage 3 of 5: how each link's outer end answers to its unknown, and the predicted joint torques; sweep
-     * inward: force beyond each joint as an affine function of the motion at it. */
-    impedance_xx = model->tip_mass;
-    impedance_xy = 0.0;
-    impedance_xu = 0.0;
-    impedance_yx = 0.0;
-    impedance_yy = model->tip_mass;
-    impedance_yu = 0.0;
+    /* Stage 3 of 5: forces of the joints at the motion so far; sweep inward: force beyond each joint as an
+     * affine function of the motion at it. */
+    impedance_uu = model->tip_inertia;
+    torque = predicted_acceleration[50] * model->tip_inertia;
+    force_x = 0.0;
+    force_y = 0.0;
     impedance_ux = 0.0;
     impedance_uy = 0.0;
-    impedance_uu = model->tip_inertia;
-    force_x = acceleration_x[50] * model->tip_mass;
-    force_y = acceleration_y[50] * model->tip_mass;
-    torque = predicted_acceleration[50] * model->tip_inertia;
+    impedance_xu = 0.0;
+    impedance_xx = 0.0;
+    impedance_xy = 0.0;
+    impedance_yu = 0.0;
+    impedance_yx = 0.0;
+    impedance_yy = 0.0;
     for (int j = ARM50_STATIONS - 1; j >= 0; --j) {
-        const real tangential = 1.0
-            - angle_per_acceleration * (predicted_rate[j + 1] * predicted_rate[j + 1]);
-        const real turning = angle_per_acceleration * predicted_acceleration[j + 1]
-            + predicted_rate[j + 1] * step_1_over_2;
-        swing_x[j] = -lever_cosine[j] * turning - lever_sine[j] * tangential;
-        swing_y[j] = lever_cosine[j] * tangential - lever_sine[j] * turning;
         const real joint_torque = model->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + model->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
-        const real outer_x = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j];
-        const real outer_y = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j];
-        const real outer_u = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j];
-        const real load_x = force_x + acceleration_x[j] * carried_mass;
-        const real load_y = force_y + acceleration_y[j] * carried_mass;
-        const real link_ux = impedance_ux + impedance_yx * lever_cosine[j]
-            - lever_sine[j] * (carried_mass + impedance_xx);
-        const real link_uy = impedance_uy - impedance_xy * lever_sine[j]
-            + lever_cosine[j] * (carried_mass + impedance_yy);
-        const real link_uu = outer_u + pin_inertia
-            + angle_per_acceleration * (-lever_cosine[j] * load_x - lever_sine[j] * load_y)
-            + lever_cosine[j] * outer_y - lever_sine[j] * outer_x;
-        const real link_xx = impedance_xx + mass;
-        const real link_xu = outer_x + carried_mass * swing_x[j];
-        const real link_yy = impedance_yy + mass;
-        const real link_yu = outer_y + carried_mass * swing_y[j];
-        torque = torque + lever_cosine[j] * load_y - lever_sine[j] * load_x
-            + pin_inertia * predicted_acceleration[j + 1];
-        force_x = force_x + acceleration_x[j + 1] * carried_mass + acceleration_x[j] * inner_mass;
-        force_y = force_y + acceleration_y[j + 1] * carried_mass + acceleration_y[j] * inner_mass;
-        const real pivot = model->joint_impedance[j] + link_uu;
+        impedance_xx = impedance_xx + model->node_mass[j];
+        impedance_yy = impedance_yy + model->node_mass[j];
+        force_x = force_x + acceleration_x[j + 1] * model->node_mass[j];
+        force_y = force_y + acceleration_y[j + 1] * model->node_mass[j];
+        impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j];
+        impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j];
+        impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j];
+        impedance_ux = impedance_ux - impedance_xx * lever_sine[j] + impedance_yx * lever_cosine[j];
+        impedance_uy = impedance_uy - impedance_xy * lever_sine[j] + impedance_yy * lever_cosine[j];
+        impedance_uu = impedance_uu + rod_inertia
+            + lever_cosine[j] * (impedance_yu - angle_per_acceleration * force_x)
+            + lever_sine[j] * (-impedance_xu - angle_per_acceleration * force_y);
+        torque = torque - force_x * lever_sine[j] + force_y * lever_cosine[j]
+            + predicted_acceleration[j + 1] * rod_inertia;
+        const real pivot = impedance_uu + model->joint_impedance[j];
         if (!(pivot > 0.0) || !isfinite(pivot)) {
             return ARM50_VANISHING_PIVOT;
         }
-        const real inverse_pivot = 1.0 / pivot;
-        answer_own[j] = inverse_pivot * (joint_torque - torque);
-        answer_x[j] = inverse_pivot * link_ux;
-        answer_y[j] = inverse_pivot * link_uy;
-        answer_from_inner[j] = inverse_pivot * model->joint_impedance[j];
-        impedance_xx = link_xx - answer_x[j] * link_xu;
-        impedance_xy = impedance_xy - answer_y[j] * link_xu;
-        impedance_xu = answer_from_inner[j] * link_xu;
-        force_x = force_x + answer_own[j] * link_xu;
-        impedance_yx = impedance_yx - answer_x[j] * link_yu;
-        impedance_yy = link_yy - answer_y[j] * link_yu;
-        impedance_yu = answer_from_inner[j] * link_yu;
-        force_y = force_y + answer_own[j] * link_yu;
+        const real admittance = 1.0 / pivot;
+        answer_own[j] = admittance * (joint_torque - torque);
+        answer_x[j] = admittance * impedance_ux;
+        answer_y[j] = admittance * impedance_uy;
+        transmission[j] = admittance * model->joint_impedance[j];
+        impedance_xx = impedance_xx - answer_x[j] * impedance_xu;
+        impedance_xy = impedance_xy - answer_y[j] * impedance_xu;
+        impedance_yx = impedance_yx - answer_x[j] * impedance_yu;
+        impedance_yy = impedance_yy - answer_y[j] * impedance_yu;
         impedance_ux = answer_x[j] * model->joint_impedance[j];
         impedance_uy = answer_y[j] * model->joint_impedance[j];
-        impedance_uu = answer_from_inner[j] * link_uu;
+        impedance_uu = impedance_uu * transmission[j];
+        force_x = force_x + answer_own[j] * impedance_xu;
+        impedance_xu = impedance_xu * transmission[j];
+        force_y = force_y + answer_own[j] * impedance_yu;
+        impedance_yu = impedance_yu * transmission[j];
         torque = joint_torque - answer_own[j] * model->joint_impedance[j];
     }
 
-    /* Stage 3 of 5: the hub. */
-    unknown = model->step2_inverse_16 * (inputs->base_angle[2] - predicted_angle[0]);
+    /* Stage 3 of 5: the base. */
+    unknown = model->unknown_per_base_angle * (inputs->base_angle[2] - predicted_angle[0]);
     hub_unknown = unknown;
 
-    /* Stage 3 of 5: sweep outward: the increment of each link's unknown. */
+    /* Stage 3 of 5: sweep outward: the unknown of each station. */
     change_x = 0.0;
     change_y = 0.0;
 
@@ -677,114 +622,108 @@ arm50_status arm50_step(
     const real hub_stage3_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration;
 
     /* Stage 4 of 5: predicted motion. */
-    predicted_angle[0] = state->hub_angle + state->hub_rate * rate_per_acceleration
-        + hub_stage1_acceleration * step2_371_over_5440 + hub_stage1_rate * step_371_over_1360
-        - hub_stage2_acceleration * step2_137_over_10880 - hub_stage2_rate * step_137_over_2720
-        + hub_stage3_acceleration * step2_151_over_2176 + hub_stage3_rate * step_15_over_544;
-    predicted_rate[0] = state->hub_rate + hub_stage1_acceleration * step_371_over_1360
-        - hub_stage2_acceleration * step_137_over_2720 + hub_stage3_acceleration * step_151_over_544;
+    predicted_rate[0] = state->hub_rate + hub_stage1_acceleration * predicted_rate_per_stage1_acceleration_2
+        - hub_stage2_acceleration * predicted_rate_per_stage2_acceleration_2
+        + hub_stage3_acceleration * predicted_rate_per_stage3_acceleration;
+    predicted_angle[0] = state->hub_angle + hub_stage1_rate * predicted_rate_per_stage1_acceleration_2
+        - hub_stage2_rate * predicted_rate_per_stage2_acceleration_2
+        + hub_stage3_rate * predicted_angle_per_stage3_rate + predicted_rate[0] * rate_per_acceleration;
     predicted_acceleration[0] = hub_stage3_acceleration;
 
-    /* Stage 3 of 5: sweep outward: the increment of each link's unknown; motion at this stage. Stage 4 of 5:
-     * predicted motion; accelerations of the nodes. */
+    /* Stage 3 of 5: sweep outward: the unknown of each station; motion at this stage. Stage 4 of 5: predicted
+     * motion; accelerations of the nodes. */
     node_x = 0.0;
     node_y = 0.0;
     acceleration_x[0] = node_x;
     acceleration_y[0] = node_y;
     for (int j = 0; j < ARM50_STATIONS; ++j) {
-        unknown = answer_own[j] + answer_from_inner[j] * unknown - answer_x[j] * change_x
-            - answer_y[j] * change_y;
+        unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y + transmission[j] * unknown;
         change_x = change_x + swing_x[j] * unknown;
         change_y = change_y + swing_y[j] * unknown;
         stage3_acceleration[j] = predicted_acceleration[j + 1] + unknown;
         stage3_rate[j] = predicted_rate[j + 1] + rate_per_acceleration * unknown;
-        predicted_angle[j + 1] = state->angle[j] + state->rate[j] * rate_per_acceleration
-            + stage1_acceleration[j] * step2_371_over_5440 + stage1_rate[j] * step_371_over_1360
-            - stage2_acceleration[j] * step2_137_over_10880 - stage2_rate[j] * step_137_over_2720
-            + stage3_acceleration[j] * step2_151_over_2176 + stage3_rate[j] * step_15_over_544;
-        predicted_rate[j + 1] = state->rate[j] + stage1_acceleration[j] * step_371_over_1360
-            - stage2_acceleration[j] * step_137_over_2720 + stage3_acceleration[j] * step_151_over_544;
+        predicted_rate[j + 1] = state->rate[j]
+            + predicted_rate_per_stage1_acceleration_2 * stage1_acceleration[j]
+            - predicted_rate_per_stage2_acceleration_2 * stage2_acceleration[j]
+            + predicted_rate_per_stage3_acceleration * stage3_acceleration[j];
+        predicted_angle[j + 1] = state->angle[j] + predicted_angle_per_stage3_rate * stage3_rate[j]
+            + predicted_rate[j + 1] * rate_per_acceleration
+            + predicted_rate_per_stage1_acceleration_2 * stage1_rate[j]
+            - predicted_rate_per_stage2_acceleration_2 * stage2_rate[j];
         predicted_acceleration[j + 1] = stage3_acceleration[j];
-        lever_sine[j] = length * sin(predicted_angle[j + 1]);
         lever_cosine[j] = length * cos(predicted_angle[j + 1]);
+        lever_sine[j] = length * sin(predicted_angle[j + 1]);
         const real square = predicted_rate[j + 1] * predicted_rate[j + 1];
-        node_x = node_x - lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1];
-        node_y = node_y + lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square;
+        const real relative_x = -lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1];
+        const real relative_y = lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square;
+        const real turning = half_step * predicted_rate[j + 1];
+        swing_x[j] = -lever_sine[j] - angle_per_acceleration * relative_y - lever_cosine[j] * turning;
+        swing_y[j] = lever_cosine[j] + angle_per_acceleration * relative_x - lever_sine[j] * turning;
+        node_x = node_x + relative_x;
+        node_y = node_y + relative_y;
         acceleration_x[j + 1] = node_x;
         acceleration_y[j + 1] = node_y;
     }
 
-    /* Stage 4 of 5: how each link's outer end answers to its unknown, and the predicted joint torques; sweep
-     * inward: force beyond each joint as an affine function of the motion at it. */
-    impedance_xx = model->tip_mass;
-    impedance_xy = 0.0;
-    impedance_xu = 0.0;
-    impedance_yx = 0.0;
-    impedance_yy = model->tip_mass;
-    impedance_yu = 0.0;
+    /* Stage 4 of 5: forces of the joints at the motion so far; sweep inward: force beyond each joint as an
+     * affine function of the motion at it. */
+    impedance_uu = model->tip_inertia;
+    torque = predicted_acceleration[50] * model->tip_inertia;
+    force_x = 0.0;
+    force_y = 0.0;
     impedance_ux = 0.0;
     impedance_uy = 0.0;
-    impedance_uu = model->tip_inertia;
-    force_x = acceleration_x[50] * model->tip_mass;
-    force_y = acceleration_y[50] * model->tip_mass;
-    torque = predicted_acceleration[50] * model->tip_inertia;
+    impedance_xu = 0.0;
+    impedance_xx = 0.0;
+    impedance_xy = 0.0;
+    impedance_yu = 0.0;
+    impedance_yx = 0.0;
+    impedance_yy = 0.0;
     for (int j = ARM50_STATIONS - 1; j >= 0; --j) {
-        const real tangential = 1.0
-            - angle_per_acceleration * (predicted_rate[j + 1] * predicted_rate[j + 1]);
-        const real turning = angle_per_acceleration * predicted_acceleration[j + 1]
-            + predicted_rate[j + 1] * step_1_over_2;
-        swing_x[j] = -lever_cosine[j] * turning - lever_sine[j] * tangential;
-        swing_y[j] = lever_cosine[j] * tangential - lever_sine[j] * turning;
         const real joint_torque = model->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + model->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
-        const real outer_x = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j];
-        const real outer_y = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j];
-        const real outer_u = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j];
-        const real load_x = force_x + acceleration_x[j] * carried_mass;
-        const real load_y = force_y + acceleration_y[j] * carried_mass;
-        const real link_ux = impedance_ux + impedance_yx * lever_cosine[j]
-            - lever_sine[j] * (carried_mass + impedance_xx);
-        const real link_uy = impedance_uy - impedance_xy * lever_sine[j]
-            + lever_cosine[j] * (carried_mass + impedance_yy);
-        const real link_uu = outer_u + pin_inertia
-            + angle_per_acceleration * (-lever_cosine[j] * load_x - lever_sine[j] * load_y)
-            + lever_cosine[j] * outer_y - lever_sine[j] * outer_x;
-        const real link_xx = impedance_xx + mass;
-        const real link_xu = outer_x + carried_mass * swing_x[j];
-        const real link_yy = impedance_yy + mass;
-        const real link_yu = outer_y + carried_mass * swing_y[j];
-        torque = torque + lever_cosine[j] * load_y - lever_sine[j] * load_x
-            + pin_inertia * predicted_acceleration[j + 1];
-        force_x = force_x + acceleration_x[j + 1] * carried_mass + acceleration_x[j] * inner_mass;
-        force_y = force_y + acceleration_y[j + 1] * carried_mass + acceleration_y[j] * inner_mass;
-        const real pivot = model->joint_impedance[j] + link_uu;
+        impedance_xx = impedance_xx + model->node_mass[j];
+        impedance_yy = impedance_yy + model->node_mass[j];
+        force_x = force_x + acceleration_x[j + 1] * model->node_mass[j];
+        force_y = force_y + acceleration_y[j + 1] * model->node_mass[j];
+        impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j];
+        impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j];
+        impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j];
+        impedance_ux = impedance_ux - impedance_xx * lever_sine[j] + impedance_yx * lever_cosine[j];
+        impedance_uy = impedance_uy - impedance_xy * lever_sine[j] + impedance_yy * lever_cosine[j];
+        impedance_uu = impedance_uu + rod_inertia
+            + lever_cosine[j] * (impedance_yu - angle_per_acceleration * force_x)
+            + lever_sine[j] * (-impedance_xu - angle_per_acceleration * force_y);
+        torque = torque - force_x * lever_sine[j] + force_y * lever_cosine[j]
+            + predicted_acceleration[j + 1] * rod_inertia;
+        const real pivot = impedance_uu + model->joint_impedance[j];
         if (!(pivot > 0.0) || !isfinite(pivot)) {
             return ARM50_VANISHING_PIVOT;
         }
-        const real inverse_pivot = 1.0 / pivot;
-        answer_own[j] = inverse_pivot * (joint_torque - torque);
-        answer_x[j] = inverse_pivot * link_ux;
-        answer_y[j] = inverse_pivot * link_uy;
-        answer_from_inner[j] = inverse_pivot * model->joint_impedance[j];
-        impedance_xx = link_xx - answer_x[j] * link_xu;
-        impedance_xy = impedance_xy - answer_y[j] * link_xu;
-        impedance_xu = answer_from_inner[j] * link_xu;
-        force_x = force_x + answer_own[j] * link_xu;
-        impedance_yx = impedance_yx - answer_x[j] * link_yu;
-        impedance_yy = link_yy - answer_y[j] * link_yu;
-        impedance_yu = answer_from_inner[j] * link_yu;
-        force_y = force_y + answer_own[j] * link_yu;
+        const real admittance = 1.0 / pivot;
+        answer_own[j] = admittance * (joint_torque - torque);
+        answer_x[j] = admittance * impedance_ux;
+        answer_y[j] = admittance * impedance_uy;
+        transmission[j] = admittance * model->joint_impedance[j];
+        impedance_xx = impedance_xx - answer_x[j] * impedance_xu;
+        impedance_xy = impedance_xy - answer_y[j] * impedance_xu;
+        impedance_yx = impedance_yx - answer_x[j] * impedance_yu;
+        impedance_yy = impedance_yy - answer_y[j] * impedance_yu;
         impedance_ux = answer_x[j] * model->joint_impedance[j];
         impedance_uy = answer_y[j] * model->joint_impedance[j];
-        impedance_uu = answer_from_inner[j] * link_uu;
+        impedance_uu = impedance_uu * transmission[j];
+        force_x = force_x + answer_own[j] * impedance_xu;
+        impedance_xu = impedance_xu * transmission[j];
+        force_y = force_y + answer_own[j] * impedance_yu;
+        impedance_yu = impedance_yu * transmission[j];
         torque = joint_torque - answer_own[j] * model->joint_impedance[j];
     }
 
-    /* Stage 4 of 5: the hub. */
-    unknown = model->step2_inverse_16 * (inputs->base_angle[3] - predicted_angle[0]);
+    /* Stage 4 of 5: the base. */
+    unknown = model->unknown_per_base_angle * (inputs->base_angle[3] - predicted_angle[0]);
     hub_unknown = unknown;
 
-    /* Stage 4 of 5: sweep outward: the increment of each link's unknown. */
+    /* Stage 4 of 5: sweep outward: the unknown of each station. */
     change_x = 0.0;
     change_y = 0.0;
 
@@ -793,128 +732,121 @@ arm50_status arm50_step(
     const real hub_stage4_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration;
 
     /* Stage 5 of 5: predicted motion. */
-    predicted_angle[0] = state->hub_angle + state->hub_rate * rate_per_acceleration
-        + hub_stage1_acceleration * step2_25_over_96 + hub_stage1_rate * step_25_over_24
-        - hub_stage2_acceleration * step2_49_over_192 - hub_stage2_rate * step_49_over_48
-        + hub_stage3_acceleration * step2_125_over_64 + hub_stage3_rate * step_125_over_16
-        - hub_stage4_acceleration * step2_41_over_24 - hub_stage4_rate * step_85_over_12;
-    predicted_rate[0] = state->hub_rate + hub_stage1_acceleration * step_25_over_24
-        - hub_stage2_acceleration * step_49_over_48 + hub_stage3_acceleration * step_125_over_16
-        - hub_stage4_acceleration * step_41_over_6;
+    predicted_rate[0] = state->hub_rate + hub_stage1_acceleration * predicted_rate_per_stage1_acceleration_3
+        - hub_stage2_acceleration * predicted_rate_per_stage2_acceleration_3
+        + hub_stage3_acceleration * predicted_rate_per_stage3_acceleration_2
+        - hub_stage4_acceleration * predicted_rate_per_stage4_acceleration;
+    predicted_angle[0] = state->hub_angle + hub_stage1_rate * predicted_rate_per_stage1_acceleration_3
+        - hub_stage2_rate * predicted_rate_per_stage2_acceleration_3
+        + hub_stage3_rate * predicted_rate_per_stage3_acceleration_2
+        - hub_stage4_rate * predicted_angle_per_stage4_rate + predicted_rate[0] * rate_per_acceleration;
     predicted_acceleration[0] = hub_stage4_acceleration;
 
-    /* Stage 4 of 5: sweep outward: the increment of each link's unknown; motion at this stage. Stage 5 of 5:
-     * predicted motion; accelerations of the nodes. */
+    /* Stage 4 of 5: sweep outward: the unknown of each station; motion at this stage. Stage 5 of 5: predicted
+     * motion; accelerations of the nodes. */
     node_x = 0.0;
     node_y = 0.0;
     acceleration_x[0] = node_x;
     acceleration_y[0] = node_y;
     for (int j = 0; j < ARM50_STATIONS; ++j) {
-        unknown = answer_own[j] + answer_from_inner[j] * unknown - answer_x[j] * change_x
-            - answer_y[j] * change_y;
+        unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y + transmission[j] * unknown;
         change_x = change_x + swing_x[j] * unknown;
         change_y = change_y + swing_y[j] * unknown;
         const real stage4_acceleration = predicted_acceleration[j + 1] + unknown;
         const real stage4_rate = predicted_rate[j + 1] + rate_per_acceleration * unknown;
-        predicted_angle[j + 1] = state->angle[j] + state->rate[j] * rate_per_acceleration
-            + stage1_acceleration[j] * step2_25_over_96 + stage1_rate[j] * step_25_over_24
-            - stage2_acceleration[j] * step2_49_over_192 - stage2_rate[j] * step_49_over_48
-            + stage3_acceleration[j] * step2_125_over_64 + stage3_rate[j] * step_125_over_16
-            - stage4_acceleration * step2_41_over_24 - stage4_rate * step_85_over_12;
-        predicted_rate[j + 1] = state->rate[j] + stage1_acceleration[j] * step_25_over_24
-            - stage2_acceleration[j] * step_49_over_48 + stage3_acceleration[j] * step_125_over_16
-            - stage4_acceleration * step_41_over_6;
+        predicted_rate[j + 1] = state->rate[j]
+            + predicted_rate_per_stage1_acceleration_3 * stage1_acceleration[j]
+            - predicted_rate_per_stage2_acceleration_3 * stage2_acceleration[j]
+            + predicted_rate_per_stage3_acceleration_2 * stage3_acceleration[j]
+            - predicted_rate_per_stage4_acceleration * stage4_acceleration;
+        predicted_angle[j + 1] = state->angle[j] - predicted_angle_per_stage4_rate * stage4_rate
+            + predicted_rate[j + 1] * rate_per_acceleration
+            + predicted_rate_per_stage1_acceleration_3 * stage1_rate[j]
+            - predicted_rate_per_stage2_acceleration_3 * stage2_rate[j]
+            + predicted_rate_per_stage3_acceleration_2 * stage3_rate[j];
         predicted_acceleration[j + 1] = stage4_acceleration;
-        lever_sine[j] = length * sin(predicted_angle[j + 1]);
         lever_cosine[j] = length * cos(predicted_angle[j + 1]);
+        lever_sine[j] = length * sin(predicted_angle[j + 1]);
         const real square = predicted_rate[j + 1] * predicted_rate[j + 1];
-        node_x = node_x - lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1];
-        node_y = node_y + lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square;
+        const real relative_x = -lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1];
+        const real relative_y = lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square;
+        const real turning = half_step * predicted_rate[j + 1];
+        swing_x[j] = -lever_sine[j] - angle_per_acceleration * relative_y - lever_cosine[j] * turning;
+        swing_y[j] = lever_cosine[j] + angle_per_acceleration * relative_x - lever_sine[j] * turning;
+        node_x = node_x + relative_x;
+        node_y = node_y + relative_y;
         acceleration_x[j + 1] = node_x;
         acceleration_y[j + 1] = node_y;
     }
 
-    /* Stage 5 of 5: how each link's outer end answers to its unknown, and the predicted joint torques; sweep
-     * inward: force beyond each joint as an affine function of the motion at it. */
-    impedance_xx = model->tip_mass;
-    impedance_xy = 0.0;
-    impedance_xu = 0.0;
-    impedance_yx = 0.0;
-    impedance_yy = model->tip_mass;
-    impedance_yu = 0.0;
+    /* Stage 5 of 5: forces of the joints at the motion so far; sweep inward: force beyond each joint as an
+     * affine function of the motion at it. */
+    impedance_uu = model->tip_inertia;
+    torque = predicted_acceleration[50] * model->tip_inertia;
+    force_x = 0.0;
+    force_y = 0.0;
     impedance_ux = 0.0;
     impedance_uy = 0.0;
-    impedance_uu = model->tip_inertia;
-    force_x = acceleration_x[50] * model->tip_mass;
-    force_y = acceleration_y[50] * model->tip_mass;
-    torque = predicted_acceleration[50] * model->tip_inertia;
+    impedance_xu = 0.0;
+    impedance_xx = 0.0;
+    impedance_xy = 0.0;
+    impedance_yu = 0.0;
+    impedance_yx = 0.0;
+    impedance_yy = 0.0;
     for (int j = ARM50_STATIONS - 1; j >= 0; --j) {
-        const real tangential = 1.0
-            - angle_per_acceleration * (predicted_rate[j + 1] * predicted_rate[j + 1]);
-        const real turning = angle_per_acceleration * predicted_acceleration[j + 1]
-            + predicted_rate[j + 1] * step_1_over_2;
-        swing_x[j] = -lever_cosine[j] * turning - lever_sine[j] * tangential;
-        swing_y[j] = lever_cosine[j] * tangential - lever_sine[j] * turning;
         const real joint_torque = model->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + model->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
-        const real outer_x = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j];
-        const real outer_y = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j];
-        const real outer_u = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j];
-        const real load_x = force_x + acceleration_x[j] * carried_mass;
-        const real load_y = force_y + acceleration_y[j] * carried_mass;
-        const real link_ux = impedance_ux + impedance_yx * lever_cosine[j]
-            - lever_sine[j] * (carried_mass + impedance_xx);
-        const real link_uy = impedance_uy - impedance_xy * lever_sine[j]
-            + lever_cosine[j] * (carried_mass + impedance_yy);
-        const real link_uu = outer_u + pin_inertia
-            + angle_per_acceleration * (-lever_cosine[j] * load_x - lever_sine[j] * load_y)
-            + lever_cosine[j] * outer_y - lever_sine[j] * outer_x;
-        const real link_xx = impedance_xx + mass;
-        const real link_xu = outer_x + carried_mass * swing_x[j];
-        const real link_yy = impedance_yy + mass;
-        const real link_yu = outer_y + carried_mass * swing_y[j];
-        torque = torque + lever_cosine[j] * load_y - lever_sine[j] * load_x
-            + pin_inertia * predicted_acceleration[j + 1];
-        force_x = force_x + acceleration_x[j + 1] * carried_mass + acceleration_x[j] * inner_mass;
-        force_y = force_y + acceleration_y[j + 1] * carried_mass + acceleration_y[j] * inner_mass;
-        const real pivot = model->joint_impedance[j] + link_uu;
+        impedance_xx = impedance_xx + model->node_mass[j];
+        impedance_yy = impedance_yy + model->node_mass[j];
+        force_x = force_x + acceleration_x[j + 1] * model->node_mass[j];
+        force_y = force_y + acceleration_y[j + 1] * model->node_mass[j];
+        impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j];
+        impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j];
+        impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j];
+        impedance_ux = impedance_ux - impedance_xx * lever_sine[j] + impedance_yx * lever_cosine[j];
+        impedance_uy = impedance_uy - impedance_xy * lever_sine[j] + impedance_yy * lever_cosine[j];
+        impedance_uu = impedance_uu + rod_inertia
+            + lever_cosine[j] * (impedance_yu - angle_per_acceleration * force_x)
+            + lever_sine[j] * (-impedance_xu - angle_per_acceleration * force_y);
+        torque = torque - force_x * lever_sine[j] + force_y * lever_cosine[j]
+            + predicted_acceleration[j + 1] * rod_inertia;
+        const real pivot = impedance_uu + model->joint_impedance[j];
         if (!(pivot > 0.0) || !isfinite(pivot)) {
             return ARM50_VANISHING_PIVOT;
         }
-        const real inverse_pivot = 1.0 / pivot;
-        answer_own[j] = inverse_pivot * (joint_torque - torque);
-        answer_x[j] = inverse_pivot * link_ux;
-        answer_y[j] = inverse_pivot * link_uy;
-        answer_from_inner[j] = inverse_pivot * model->joint_impedance[j];
-        impedance_xx = link_xx - answer_x[j] * link_xu;
-        impedance_xy = impedance_xy - answer_y[j] * link_xu;
-        impedance_xu = answer_from_inner[j] * link_xu;
-        force_x = force_x + answer_own[j] * link_xu;
-        impedance_yx = impedance_yx - answer_x[j] * link_yu;
-        impedance_yy = link_yy - answer_y[j] * link_yu;
-        impedance_yu = answer_from_inner[j] * link_yu;
-        force_y = force_y + answer_own[j] * link_yu;
+        const real admittance = 1.0 / pivot;
+        answer_own[j] = admittance * (joint_torque - torque);
+        answer_x[j] = admittance * impedance_ux;
+        answer_y[j] = admittance * impedance_uy;
+        transmission[j] = admittance * model->joint_impedance[j];
+        impedance_xx = impedance_xx - answer_x[j] * impedance_xu;
+        impedance_xy = impedance_xy - answer_y[j] * impedance_xu;
+        impedance_yx = impedance_yx - answer_x[j] * impedance_yu;
+        impedance_yy = impedance_yy - answer_y[j] * impedance_yu;
         impedance_ux = answer_x[j] * model->joint_impedance[j];
         impedance_uy = answer_y[j] * model->joint_impedance[j];
-        impedance_uu = answer_from_inner[j] * link_uu;
+        impedance_uu = impedance_uu * transmission[j];
+        force_x = force_x + answer_own[j] * impedance_xu;
+        impedance_xu = impedance_xu * transmission[j];
+        force_y = force_y + answer_own[j] * impedance_yu;
+        impedance_yu = impedance_yu * transmission[j];
         torque = joint_torque - answer_own[j] * model->joint_impedance[j];
     }
 
-    /* Stage 5 of 5: the hub. */
-    unknown = model->step2_inverse_16 * (inputs->base_angle[4] - predicted_angle[0]);
+    /* Stage 5 of 5: the base. */
+    unknown = model->unknown_per_base_angle * (inputs->base_angle[4] - predicted_angle[0]);
     hub_unknown = unknown;
 
-    /* Stage 5 of 5: sweep outward: the increment of each link's unknown. */
+    /* Stage 5 of 5: sweep outward: the unknown of each station. */
     change_x = 0.0;
     change_y = 0.0;
 
-    /* Stage 5 of 5: sweep outward: the increment of each link's unknown; motion at the end of the step. */
+    /* Stage 5 of 5: sweep outward: the unknown of each station; motion at the end of the step. */
     state->hub_angle = predicted_angle[0] + angle_per_acceleration * hub_unknown;
     state->hub_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration;
     state->hub_acceleration = hub_unknown + predicted_acceleration[0];
     for (int j = 0; j < ARM50_STATIONS; ++j) {
-        unknown = answer_own[j] + answer_from_inner[j] * unknown - answer_x[j] * change_x
-            - answer_y[j] * change_y;
+        unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y + transmission[j] * unknown;
         change_x = change_x + swing_x[j] * unknown;
         change_y = change_y + swing_y[j] * unknown;
         state->angle[j] = predicted_angle[j + 1] + angle_per_acceleration * unknown;
@@ -935,8 +867,10 @@ void arm50_output(
     arm50_outputs *outputs)
 {
     const real length = model->length;
-    const real factor_28 = model->factor_28;
-    const real factor_29 = model->factor_29;
+    const real reaction_x_per_acceleration_x = model->reaction_x_per_acceleration_x;
+    const real reaction_x_per_acceleration_x_2 = model->reaction_x_per_acceleration_x_2;
+    real acceleration_x[ARM50_STATIONS + 1]; /* acceleration of the nodes along x [m/s^2] */
+    real acceleration_y[ARM50_STATIONS + 1]; /* acceleration of the nodes along y [m/s^2] */
 
     /* Tip: position. */
     outputs->tip_x = 0.0;
@@ -946,24 +880,28 @@ void arm50_output(
     outputs->tip_angle = state->angle[49];
 
     /* Tip: position; reaction: force. */
-    real node_x = 0.0;
-    real node_y = 0.0;
-    outputs->reaction_x = 0.0;
-    outputs->reaction_y = 0.0;
+    real a_x = 0.0;
+    real a_y = 0.0;
+    acceleration_x[0] = a_x;
+    acceleration_y[0] = a_y;
     for (int j = 0; j < ARM50_STATIONS; ++j) {
         outputs->tip_x = outputs->tip_x + length * cos(state->angle[j]);
         outputs->tip_y = outputs->tip_y + length * sin(state->angle[j]);
-        const real inner_x = node_x;
-        const real inner_y = node_y;
-        node_x = node_x - state->acceleration[j] * length * sin(state->angle[j])
+        a_x = a_x - state->acceleration[j] * length * sin(state->angle[j])
             - length * (state->rate[j] * state->rate[j]) * cos(state->angle[j]);
-        node_y = node_y + state->acceleration[j] * length * cos(state->angle[j])
+        a_y = a_y + state->acceleration[j] * length * cos(state->angle[j])
             - length * (state->rate[j] * state->rate[j]) * sin(state->angle[j]);
-        outputs->reaction_x = outputs->reaction_x - factor_28 * inner_x + factor_29 * node_x;
-        outputs->reaction_y = outputs->reaction_y - factor_28 * inner_y + factor_29 * node_y;
+        acceleration_x[j + 1] = a_x;
+        acceleration_y[j + 1] = a_y;
     }
-    outputs->reaction_x = outputs->reaction_x + node_x * model->tip_mass;
-    outputs->reaction_y = outputs->reaction_y + node_y * model->tip_mass;
+    outputs->reaction_x = acceleration_x[50] * model->tip_mass;
+    outputs->reaction_y = acceleration_y[50] * model->tip_mass;
+    for (int j = ARM50_STATIONS - 1; j >= 0; --j) {
+        outputs->reaction_x = outputs->reaction_x + acceleration_x[j + 1] * reaction_x_per_acceleration_x;
+        outputs->reaction_y = outputs->reaction_y + acceleration_y[j + 1] * reaction_x_per_acceleration_x;
+        outputs->reaction_x = outputs->reaction_x - acceleration_x[j] * reaction_x_per_acceleration_x_2;
+        outputs->reaction_y = outputs->reaction_y - acceleration_y[j] * reaction_x_per_acceleration_x_2;
+    }
 
     /* Drive: torque. */
     outputs->drive = model->damping[0] * (state->rate[0] - state->hub_rate)

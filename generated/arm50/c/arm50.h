@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
- * sha256 of the rest of this file: 59f88805c2a6caeb07330d762aab54ce6214f03b677ad11248cc230f32e533aa
+ * sha256 of the rest of this file: 54e05c19e98043dd9a7855d407f856abb27a0ce7330b49d5e7d9b170c5f7441f
  *
  * model: planar arm, large rotations, tip mass
  * stations: 50
@@ -12,11 +12,11 @@
  * linearisation: newton
  * sweep: riccati
  * unknown: acceleration
- * operations of a step: 35166, 703.3 per station (16203 additions, 18213 multiplications, 250 divisions, 500
- *     functions)
- * operations of prepare: 350, 7 per station (53 additions, 296 multiplications, 1 divisions)
+ * operations of a step: 29534, 590.7 per station (13642 additions, 15142 multiplications, 250 divisions, 500
+ *     sines and cosines)
+ * operations of prepare: 526, 10.52 per station (152 additions, 373 multiplications, 1 divisions)
  * number type: double
- * bytes of the structs: params 848, model 1488, state 1224, inputs 40, outputs 48
+ * bytes of the structs: params 848, model 1784, state 1224, inputs 40, outputs 48
  *
  * Call arm50_default_params() and arm50_prepare() once, arm50_initialise() to put the arm somewhere, then
  * arm50_step() at every tick of the clock and arm50_output() to know. All memory is the caller's; nothing is
@@ -73,44 +73,32 @@ typedef struct {
 /** What prepare() derives from the parameters and the time step. */
 typedef struct {
     arm50_real length; /**< link length, the same everywhere [m] */
-    arm50_real mass; /**< link mass, the same everywhere [kg] */
     arm50_real stiffness[ARM50_STATIONS]; /**< joint stiffness, base to tip [N m/rad] */
     arm50_real damping[ARM50_STATIONS]; /**< joint damping, base to tip [N m s/rad] */
     arm50_real tip_mass; /**< mass at the tip [kg] */
     arm50_real tip_inertia; /**< inertia at the tip [kg m^2] */
-    arm50_real angle_per_acceleration; /**< angle per unit of acceleration: step**2/16 [SI] */
-    arm50_real rate_per_acceleration; /**< rate per unit of acceleration: step/4 [SI] */
-    arm50_real step_1_over_2; /**< step/2 [s] */
-    arm50_real step2_inverse_16; /**< 16/step**2 [s^-2] */
-    arm50_real step2_3_over_16; /**< 3*step**2/16 [s^2] */
-    arm50_real step_3_over_4; /**< 3*step/4 [s] */
-    arm50_real step2_17_over_200; /**< 17*step**2/200 [s^2] */
-    arm50_real step_17_over_50; /**< 17*step/50 [s] */
-    arm50_real step2_21_over_400; /**< 21*step**2/400 [s^2] */
-    arm50_real step_1_over_25; /**< step/25 [s] */
-    arm50_real step_21_over_100; /**< 21*step/100 [s] */
-    arm50_real step2_371_over_5440; /**< 371*step**2/5440 [s^2] */
-    arm50_real step_371_over_1360; /**< 371*step/1360 [s] */
-    arm50_real step2_137_over_10880; /**< 137*step**2/10880 [s^2] */
-    arm50_real step_137_over_2720; /**< 137*step/2720 [s] */
-    arm50_real step2_151_over_2176; /**< 151*step**2/2176 [s^2] */
-    arm50_real step_15_over_544; /**< 15*step/544 [s] */
-    arm50_real step_151_over_544; /**< 151*step/544 [s] */
-    arm50_real step2_25_over_96; /**< 25*step**2/96 [s^2] */
-    arm50_real step_25_over_24; /**< 25*step/24 [s] */
-    arm50_real step2_49_over_192; /**< 49*step**2/192 [s^2] */
-    arm50_real step_49_over_48; /**< 49*step/48 [s] */
-    arm50_real step2_125_over_64; /**< 125*step**2/64 [s^2] */
-    arm50_real step_125_over_16; /**< 125*step/16 [s] */
-    arm50_real step2_41_over_24; /**< 41*step**2/24 [s^2] */
-    arm50_real step_85_over_12; /**< 85*step/12 [s] */
-    arm50_real step_41_over_6; /**< 41*step/6 [s] */
-    arm50_real factor_28; /**< mass*(center - 1) [SI] */
-    arm50_real factor_29; /**< center*mass [SI] */
-    arm50_real carried_mass; /**< mass acting at a link's outer end [kg] */
-    arm50_real inner_mass; /**< mass acting at a link's inner end [kg] */
-    arm50_real pin_inertia; /**< inertia of a link about its inner end [kg m^2] */
-    arm50_real joint_impedance[ARM50_STATIONS]; /**< torque of a joint per difference of unknowns [SI] */
+    arm50_real rate_per_acceleration; /**< rate per unit of acceleration: step/4 [s] */
+    arm50_real half_step; /**< step/2 [s] */
+    arm50_real angle_per_acceleration; /**< angle per unit of acceleration: step**2/16 [s^2] */
+    arm50_real unknown_per_base_angle; /**< 16/step**2 [1/rad] */
+    arm50_real three_quarters_step; /**< 3*step/4 [s] */
+    arm50_real predicted_rate_per_stage1_acceleration; /**< 17*step/50 [s] */
+    arm50_real predicted_rate_per_stage2_acceleration; /**< 21*step/100 [s] */
+    arm50_real predicted_angle_per_stage2_rate; /**< step/25 [s] */
+    arm50_real predicted_rate_per_stage1_acceleration_2; /**< 371*step/1360 [s] */
+    arm50_real predicted_rate_per_stage2_acceleration_2; /**< 137*step/2720 [s] */
+    arm50_real predicted_rate_per_stage3_acceleration; /**< 151*step/544 [s] */
+    arm50_real predicted_angle_per_stage3_rate; /**< 15*step/544 [s] */
+    arm50_real predicted_rate_per_stage1_acceleration_3; /**< 25*step/24 [s] */
+    arm50_real predicted_rate_per_stage2_acceleration_3; /**< 49*step/48 [s] */
+    arm50_real predicted_rate_per_stage3_acceleration_2; /**< 125*step/16 [s] */
+    arm50_real predicted_rate_per_stage4_acceleration; /**< 41*step/6 [s] */
+    arm50_real predicted_angle_per_stage4_rate; /**< 85*step/12 [s] */
+    arm50_real reaction_x_per_acceleration_x; /**< center*mass [N s^2/m] */
+    arm50_real reaction_x_per_acceleration_x_2; /**< mass*(center - 1) [N s^2/m] */
+    arm50_real node_mass[ARM50_STATIONS]; /**< mass at the outer end of each link [kg] */
+    arm50_real rod_inertia; /**< inertia of a link that masses at its ends leave over [kg m^2] */
+    arm50_real joint_impedance[ARM50_STATIONS]; /**< torque of a joint per difference of unknowns [kg m^2] */
 } arm50_model;
 
 /** Motion of the arm, and the history its integrator needs. */

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
- * sha256 of the rest of this file: 84fee3526f4457d969abc33243d38e62837316018d7d75ec6340ad0d7e099db4
+ * sha256 of the rest of this file: 067a8e3691accfe8b03acb2ce08263c4d7c40396e5317bd87253a293aea148ca
  *
  * model: planar arm, large rotations, tip mass
  * stations: 50
@@ -12,11 +12,11 @@
  * linearisation: newton
  * sweep: riccati
  * unknown: acceleration
- * operations of a step: 35166, 703.3 per station (16203 additions, 18213 multiplications, 250 divisions, 500
- *     functions)
- * operations of prepare: 350, 7 per station (53 additions, 296 multiplications, 1 divisions)
+ * operations of a step: 29534, 590.7 per station (13642 additions, 15142 multiplications, 250 divisions, 500
+ *     sines and cosines)
+ * operations of prepare: 526, 10.52 per station (152 additions, 373 multiplications, 1 divisions)
  * number type: double
- * bytes of the structs: params 848, model 1488, state 1224, inputs 40, outputs 48
+ * bytes of the structs: params 848, model 1784, state 1224, inputs 40, outputs 48
  *
  * A test for any machine: the kernel against 30 digits, within what rounding explains.
  *
@@ -98,10 +98,10 @@ static void test_motion(tally *count)
     arm50_output(&model, &state, &outputs);
     expect(count, "tip_x", outputs.tip_x, 0.7999999999936437, 5.2e-15);
     expect(count, "tip_y", outputs.tip_y, -2.9246799722947642e-08, 1.6e-16);
-    expect(count, "tip_angle", outputs.tip_angle, -3.133217657302007e-08, 1.9e-15);
-    expect(count, "reaction_x", outputs.reaction_x, -0.0003276465637738733, 8.4e-15);
-    expect(count, "reaction_y", outputs.reaction_y, 2.5796813386601256, 4.3e-11);
-    expect(count, "drive", outputs.drive, -0.1589352020161569, 3.9e-12);
+    expect(count, "tip_angle", outputs.tip_angle, -3.133217657302007e-08, 1.6e-15);
+    expect(count, "reaction_x", outputs.reaction_x, -0.0003276465637738733, 1.3e-14);
+    expect(count, "reaction_y", outputs.reaction_y, 2.5796813386601256, 3.7e-11);
+    expect(count, "drive", outputs.drive, -0.1589352020161569, 3.1e-12);
 
     /* Step 2. */
     inputs.base_angle[0] = -9.5367431640625e-07;
@@ -114,10 +114,10 @@ static void test_motion(tally *count)
     arm50_output(&model, &state, &outputs);
     expect(count, "tip_x", outputs.tip_x, 0.7999999999930091, 5.2e-15);
     expect(count, "tip_y", outputs.tip_y, 1.4754792375597243e-08, 1.6e-16);
-    expect(count, "tip_angle", outputs.tip_angle, -3.974691784563144e-06, 1.9e-15);
-    expect(count, "reaction_x", outputs.reaction_x, -6.965293798188813e-06, 8.4e-15);
-    expect(count, "reaction_y", outputs.reaction_y, 0.4174345325587483, 4.3e-11);
-    expect(count, "drive", outputs.drive, -0.053923043942192495, 3.9e-12);
+    expect(count, "tip_angle", outputs.tip_angle, -3.974691784563144e-06, 1.6e-15);
+    expect(count, "reaction_x", outputs.reaction_x, -6.965293798188813e-06, 1.3e-14);
+    expect(count, "reaction_y", outputs.reaction_y, 0.4174345325587483, 3.7e-11);
+    expect(count, "drive", outputs.drive, -0.053923043942192495, 3.1e-12);
 
     /* Step 3. */
     inputs.base_angle[0] = 1.430511474609375e-06;
@@ -130,25 +130,25 @@ static void test_motion(tally *count)
     arm50_output(&model, &state, &outputs);
     expect(count, "tip_x", outputs.tip_x, 0.7999999999907428, 5.2e-15);
     expect(count, "tip_y", outputs.tip_y, 4.2879698427023643e-07, 1.6e-16);
-    expect(count, "tip_angle", outputs.tip_angle, 1.2390017072473374e-05, 1.9e-15);
-    expect(count, "reaction_x", outputs.reaction_x, -0.00015577557233715532, 8.4e-15);
-    expect(count, "reaction_y", outputs.reaction_y, 1.6692356643512634, 4.3e-11);
-    expect(count, "drive", outputs.drive, -0.10696685184478559, 3.9e-12);
+    expect(count, "tip_angle", outputs.tip_angle, 1.2390017072473374e-05, 1.6e-15);
+    expect(count, "reaction_x", outputs.reaction_x, -0.00015577557233715532, 1.3e-14);
+    expect(count, "reaction_y", outputs.reaction_y, 1.6692356643512634, 3.7e-11);
+    expect(count, "drive", outputs.drive, -0.10696685184478559, 3.1e-12);
 
     /* State after the last step. */
     expect(count, "hub_angle", state.hub_angle, 9.5367431640625e-07, 7.1e-19);
-    expect(count, "hub_rate", state.hub_rate, 0.06659825642903645, 2.6e-14);
-    expect(count, "hub_acceleration", state.hub_acceleration, 242.49818589952255, 1.3e-10);
-    expect(count, "angle[0]", state.angle[0], -1.0715716706486423e-06, 1.9e-15);
-    expect(count, "angle[5]", state.angle[5], -5.596620999212178e-06, 1.9e-15);
-    expect(count, "angle[11]", state.angle[11], -1.1226625847505054e-07, 1.9e-15);
-    expect(count, "angle[16]", state.angle[16], -1.7223089690140633e-06, 1.9e-15);
-    expect(count, "angle[22]", state.angle[22], -3.597797178410893e-06, 1.9e-15);
-    expect(count, "angle[27]", state.angle[27], -1.4665219751599584e-06, 1.9e-15);
-    expect(count, "angle[33]", state.angle[33], 1.1586895291698052e-06, 1.9e-15);
-    expect(count, "angle[38]", state.angle[38], 3.3114150741598068e-06, 1.9e-15);
-    expect(count, "angle[44]", state.angle[44], 8.2295661034435e-06, 1.9e-15);
-    expect(count, "angle[49]", state.angle[49], 1.2390017072473374e-05, 1.9e-15);
+    expect(count, "hub_rate", state.hub_rate, 0.06659825642903645, 1.1e-14);
+    expect(count, "hub_acceleration", state.hub_acceleration, 242.49818589952255, 9.8e-11);
+    expect(count, "angle[0]", state.angle[0], -1.0715716706486423e-06, 1.6e-15);
+    expect(count, "angle[5]", state.angle[5], -5.596620999212178e-06, 1.6e-15);
+    expect(count, "angle[11]", state.angle[11], -1.1226625847505054e-07, 1.6e-15);
+    expect(count, "angle[16]", state.angle[16], -1.7223089690140633e-06, 1.6e-15);
+    expect(count, "angle[22]", state.angle[22], -3.597797178410893e-06, 1.6e-15);
+    expect(count, "angle[27]", state.angle[27], -1.4665219751599584e-06, 1.6e-15);
+    expect(count, "angle[33]", state.angle[33], 1.1586895291698052e-06, 1.6e-15);
+    expect(count, "angle[38]", state.angle[38], 3.3114150741598068e-06, 1.6e-15);
+    expect(count, "angle[44]", state.angle[44], 8.2295661034435e-06, 1.6e-15);
+    expect(count, "angle[49]", state.angle[49], 1.2390017072473374e-05, 1.6e-15);
     expect(count, "rate[0]", state.rate[0], 0.05262132370925399, 1.1e-12);
     expect(count, "rate[5]", state.rate[5], -0.019272102720093526, 1.1e-12);
     expect(count, "rate[11]", state.rate[11], -0.0036431037420894216, 1.1e-12);
@@ -159,16 +159,16 @@ static void test_motion(tally *count)
     expect(count, "rate[38]", state.rate[38], 0.00425563200198166, 1.1e-12);
     expect(count, "rate[44]", state.rate[44], 0.0026872350313206367, 1.1e-12);
     expect(count, "rate[49]", state.rate[49], 0.002471919458275861, 1.1e-12);
-    expect(count, "acceleration[0]", state.acceleration[0], 203.42734809856154, 4.4e-09);
-    expect(count, "acceleration[5]", state.acceleration[5], -7.374863719365523, 4.4e-09);
-    expect(count, "acceleration[11]", state.acceleration[11], -97.27579413583985, 4.4e-09);
-    expect(count, "acceleration[16]", state.acceleration[16], -3.2824580946006523, 4.4e-09);
-    expect(count, "acceleration[22]", state.acceleration[22], 38.29813233681261, 4.4e-09);
-    expect(count, "acceleration[27]", state.acceleration[27], -9.751238233099807, 4.4e-09);
-    expect(count, "acceleration[33]", state.acceleration[33], -12.188916728360537, 4.4e-09);
-    expect(count, "acceleration[38]", state.acceleration[38], 12.978056275350609, 4.4e-09);
-    expect(count, "acceleration[44]", state.acceleration[44], 3.649853966054123, 4.4e-09);
-    expect(count, "acceleration[49]", state.acceleration[49], -23.66535405132707, 4.4e-09);
+    expect(count, "acceleration[0]", state.acceleration[0], 203.42734809856154, 3.6e-09);
+    expect(count, "acceleration[5]", state.acceleration[5], -7.374863719365523, 3.6e-09);
+    expect(count, "acceleration[11]", state.acceleration[11], -97.27579413583985, 3.6e-09);
+    expect(count, "acceleration[16]", state.acceleration[16], -3.2824580946006523, 3.6e-09);
+    expect(count, "acceleration[22]", state.acceleration[22], 38.29813233681261, 3.6e-09);
+    expect(count, "acceleration[27]", state.acceleration[27], -9.751238233099807, 3.6e-09);
+    expect(count, "acceleration[33]", state.acceleration[33], -12.188916728360537, 3.6e-09);
+    expect(count, "acceleration[38]", state.acceleration[38], 12.978056275350609, 3.6e-09);
+    expect(count, "acceleration[44]", state.acceleration[44], 3.649853966054123, 3.6e-09);
+    expect(count, "acceleration[49]", state.acceleration[49], -23.66535405132707, 3.6e-09);
 
     /* Bad input is refused and leaves the state alone. */
     arm50_state before;

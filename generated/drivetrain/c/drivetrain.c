@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 260c88ca5ffe6b93ea5946fad67187e547942573db1dc2f710bcd9a0610b8738
- * sha256 of the rest of this file: c01fc0ead76b77f3b7fbd0e9c240857b98487621ff0fe7abc69f52e6ff599be9
+ * sha256 of the rest of this file: 1c2f6774aa3991b428bb06b479fe9ae2b8e193c08a2b1153bfe758d8e84a4a0f
  *
  * model: torsional chain (linear)
  * stations: 6
@@ -74,12 +74,12 @@ drivetrain_status drivetrain_prepare(
         return DRIVETRAIN_NON_FINITE_INPUT;
     }
 
-    /* Riccati factors, swept from tip to base. */
+    /* Factors of the sweep that do not change from step to step. */
     real impedance = 0.0;
     for (int j = DRIVETRAIN_STATIONS - 1; j >= 0; --j) {
+        impedance = impedance - params->inertia[j];
         const real joint_impedance = (55.0 / 108.0) * params->damping[j] * step
             + (125.0 / 486.0) * (step * step) * params->stiffness[j];
-        impedance = impedance - params->inertia[j];
         const real pivot = joint_impedance - impedance;
         if (!(pivot > 0.0) || !isfinite(pivot)) {
             return DRIVETRAIN_VANISHING_PIVOT;
@@ -89,21 +89,22 @@ drivetrain_status drivetrain_prepare(
         model->reflection[j] = -model->admittance[j] * impedance;
         impedance = impedance * model->transmission[j];
     }
-    const real hub_pivot = params->hub_inertia - impedance + (55.0 / 108.0) * params->hub_damping * step;
+    const real hub_impedance = params->hub_inertia + (55.0 / 108.0) * params->hub_damping * step;
+    const real hub_pivot = hub_impedance - impedance;
     if (!(hub_pivot > 0.0) || !isfinite(hub_pivot)) {
         return DRIVETRAIN_VANISHING_PIVOT;
     }
     model->hub_admittance = 1.0 / hub_pivot;
 
     /* Factors of the step that depend on the time step and parameters alone. */
-    model->step_5_over_108 = (5.0 / 108.0) * step;
-    model->step2_5_over_243 = (5.0 / 243.0) * (step * step);
-    model->step_5_over_9 = (5.0 / 9.0) * step;
-    model->factor_4 = model->hub_admittance * params->hub_damping;
-    model->step2_1_over_27 = (1.0 / 27.0) * (step * step);
-    model->step2_25_over_54 = (25.0 / 54.0) * (step * step);
-    model->step_1_over_12 = (1.0 / 12.0) * step;
-    model->step_11_over_12 = (11.0 / 12.0) * step;
+    model->known_rate_per_acceleration = (5.0 / 108.0) * step;
+    model->known_angle_per_acceleration = (5.0 / 243.0) * (step * step);
+    model->five_ninths_step = (5.0 / 9.0) * step;
+    model->unknown_per_known_rate = model->hub_admittance * params->hub_damping;
+    model->angle_per_acceleration_2 = (1.0 / 27.0) * (step * step);
+    model->angle_per_unknown = (25.0 / 54.0) * (step * step);
+    model->twelfth_step = (1.0 / 12.0) * step;
+    model->eleven_twelfths_step = (11.0 / 12.0) * step;
 
     /* What the step needs as it is. */
     model->step = step;
@@ -132,38 +133,46 @@ drivetrain_status drivetrain_initialise(
         }
     }
 
-    real correction[DRIVETRAIN_STATIONS]; /* unknown of each station if its inner neighbour's were zero */
-    /* angle of each node without the unknown's share, base first [rad] */
-    real known_angle[DRIVETRAIN_STATIONS + 1];
-    /* rate of each node without the unknown's share, base first [rad/s] */
-    real known_rate[DRIVETRAIN_STATIONS + 1];
-    real load[DRIVETRAIN_STATIONS]; /* external torque on each link but the last [N m] */
+    real answer_own[DRIVETRAIN_STATIONS]; /* unknown of a station if its inner side kept its motion */
+    real known_angle[DRIVETRAIN_STATIONS + 1]; /* angle of base and links without the unknown's share [rad] */
+    real known_rate[DRIVETRAIN_STATIONS + 1]; /* rate of base and links without the unknown's share [rad/s] */
+    real load_torque[DRIVETRAIN_STATIONS]; /* external torque on each link [N m] */
 
-    /* Motion known before the sweep; sweep inward: torque beyond each joint as if its inner side did not
-     * move. */
+    /* Motion known before the sweep; sweep inward: force beyond each joint as an affine function of the
+     * motion at it. */
     known_rate[0] = 0.0;
     known_angle[0] = 0.0;
     for (int j = 0; j < DRIVETRAIN_STATIONS; ++j) {
         known_rate[j + 1] = initial_rate[j];
         known_angle[j + 1] = initial_angle[j];
-        load[j] = 0.0;
+        load_torque[j] = 0.0;
     }
-    load[3] = inputs->load_torque;
-    real bias = 0.0;
+    load_torque[3] = inputs->load_torque;
+    real torque = 0.0;
 
-    /* Torque of each joint at the known motion; sweep inward: torque beyond each joint as if its inner side
-     * did not move. */
+    /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
+     * of the motion at it. */
     for (int j = DRIVETRAIN_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = params->damping[j] * (known_rate[j + 1] - known_rate[j])
             + params->stiffness[j] * (known_angle[j + 1] - known_angle[j]);
-        bias = bias + load[j];
-        correction[j] = (bias - joint_torque) / params->inertia[j];
-        bias = joint_torque;
+        torque = load_torque[j] + torque;
+        const real impedance = -params->inertia[j];
+        const real pivot = -impedance;
+        if (!(pivot > 0.0) || !isfinite(pivot)) {
+            return DRIVETRAIN_VANISHING_PIVOT;
+        }
+        const real admittance = 1.0 / pivot;
+        answer_own[j] = admittance * (torque - joint_torque);
+        torque = joint_torque;
     }
 
     /* The base. */
-    const real unknown = (bias + inputs->motor_torque - params->hub_damping * known_rate[0])
-        / params->hub_inertia;
+    if (!(params->hub_inertia > 0.0) || !isfinite(params->hub_inertia)) {
+        return DRIVETRAIN_VANISHING_PIVOT;
+    }
+    const real hub_admittance = 1.0 / params->hub_inertia;
+    const real unknown = hub_admittance
+        * (inputs->motor_torque + torque - params->hub_damping * known_rate[0]);
     const real hub_unknown = unknown;
 
     /* Sweep outward: the unknown of each station; motion at the end of the step. */
@@ -173,7 +182,7 @@ drivetrain_status drivetrain_initialise(
     for (int j = 0; j < DRIVETRAIN_STATIONS; ++j) {
         state->angle[j] = known_angle[j + 1];
         state->rate[j] = known_rate[j + 1];
-        state->acceleration[j] = correction[j];
+        state->acceleration[j] = answer_own[j];
     }
 
     if (!isfinite(state->hub_angle) || !isfinite(state->hub_rate) || !isfinite(state->hub_acceleration)) {
@@ -197,60 +206,59 @@ drivetrain_status drivetrain_step(
     }
 
     const real step = model->step;
-    const real step_5_over_108 = model->step_5_over_108;
-    const real step2_5_over_243 = model->step2_5_over_243;
-    const real step_5_over_9 = model->step_5_over_9;
-    const real step2_1_over_27 = model->step2_1_over_27;
-    const real step2_25_over_54 = model->step2_25_over_54;
-    const real step_1_over_12 = model->step_1_over_12;
-    const real step_11_over_12 = model->step_11_over_12;
-    real correction[DRIVETRAIN_STATIONS]; /* unknown of each station if its inner neighbour's were zero */
-    /* angle of each node without the unknown's share, base first [rad] */
-    real known_angle[DRIVETRAIN_STATIONS + 1];
-    /* rate of each node without the unknown's share, base first [rad/s] */
-    real known_rate[DRIVETRAIN_STATIONS + 1];
-    real load[DRIVETRAIN_STATIONS]; /* external torque on each link but the last [N m] */
+    const real known_rate_per_acceleration = model->known_rate_per_acceleration;
+    const real known_angle_per_acceleration = model->known_angle_per_acceleration;
+    const real five_ninths_step = model->five_ninths_step;
+    const real angle_per_acceleration_2 = model->angle_per_acceleration_2;
+    const real angle_per_unknown = model->angle_per_unknown;
+    const real twelfth_step = model->twelfth_step;
+    const real eleven_twelfths_step = model->eleven_twelfths_step;
+    real answer_own[DRIVETRAIN_STATIONS]; /* unknown of a station if its inner side kept its motion */
+    real known_angle[DRIVETRAIN_STATIONS + 1]; /* angle of base and links without the unknown's share [rad] */
+    real known_rate[DRIVETRAIN_STATIONS + 1]; /* rate of base and links without the unknown's share [rad/s] */
+    real load_torque[DRIVETRAIN_STATIONS]; /* external torque on each link [N m] */
 
-    /* Motion known before the sweep; sweep inward: torque beyond each joint as if its inner side did not
-     * move. */
-    known_rate[0] = state->hub_rate + state->hub_acceleration * step_5_over_108;
-    known_angle[0] = state->hub_angle + state->hub_acceleration * step2_5_over_243
-        + state->hub_rate * step_5_over_9;
+    /* Motion known before the sweep; sweep inward: force beyond each joint as an affine function of the
+     * motion at it. */
+    known_rate[0] = state->hub_rate + state->hub_acceleration * known_rate_per_acceleration;
+    known_angle[0] = state->hub_angle + five_ninths_step * state->hub_rate
+        + state->hub_acceleration * known_angle_per_acceleration;
     for (int j = 0; j < DRIVETRAIN_STATIONS; ++j) {
-        known_rate[j + 1] = state->rate[j] + state->acceleration[j] * step_5_over_108;
-        known_angle[j + 1] = state->angle[j] + state->acceleration[j] * step2_5_over_243
-            + state->rate[j] * step_5_over_9;
-        load[j] = 0.0;
+        known_rate[j + 1] = state->rate[j] + state->acceleration[j] * known_rate_per_acceleration;
+        known_angle[j + 1] = state->angle[j] + state->acceleration[j] * known_angle_per_acceleration
+            + five_ninths_step * state->rate[j];
+        load_torque[j] = 0.0;
     }
-    load[3] = inputs->load_torque;
-    real bias = 0.0;
+    load_torque[3] = inputs->load_torque;
+    real torque = 0.0;
 
-    /* Torque of each joint at the known motion; sweep inward: torque beyond each joint as if its inner side
-     * did not move. */
+    /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
+     * of the motion at it. */
     for (int j = DRIVETRAIN_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = model->damping[j] * (known_rate[j + 1] - known_rate[j])
             + model->stiffness[j] * (known_angle[j + 1] - known_angle[j]);
-        bias = bias + load[j];
-        correction[j] = model->admittance[j] * (bias - joint_torque);
-        bias = bias * model->transmission[j] + joint_torque * model->reflection[j];
+        torque = load_torque[j] + torque;
+        answer_own[j] = model->admittance[j] * (torque - joint_torque);
+        torque = joint_torque * model->reflection[j] + torque * model->transmission[j];
     }
 
     /* The base. */
-    real unknown = model->hub_admittance * (bias + inputs->motor_torque) - model->factor_4 * known_rate[0];
+    real unknown = model->hub_admittance * (inputs->motor_torque + torque)
+        - known_rate[0] * model->unknown_per_known_rate;
     const real hub_unknown = unknown;
 
     /* Sweep outward: the unknown of each station; motion at the end of the step. */
-    state->hub_angle = state->hub_angle + state->hub_acceleration * step2_1_over_27 + state->hub_rate * step
-        + hub_unknown * step2_25_over_54;
-    state->hub_rate = state->hub_rate + state->hub_acceleration * step_1_over_12
-        + hub_unknown * step_11_over_12;
+    state->hub_angle = state->hub_angle + angle_per_acceleration_2 * state->hub_acceleration
+        + angle_per_unknown * hub_unknown + state->hub_rate * step;
+    state->hub_rate = state->hub_rate + eleven_twelfths_step * hub_unknown
+        + state->hub_acceleration * twelfth_step;
     state->hub_acceleration = 1.5 * hub_unknown - 0.5 * state->hub_acceleration;
     for (int j = 0; j < DRIVETRAIN_STATIONS; ++j) {
-        unknown = correction[j] + model->transmission[j] * unknown;
-        const real solved = unknown;
-        state->angle[j] = state->angle[j] + state->acceleration[j] * step2_1_over_27 + state->rate[j] * step
-            + solved * step2_25_over_54;
-        state->rate[j] = state->rate[j] + state->acceleration[j] * step_1_over_12 + solved * step_11_over_12;
+        unknown = answer_own[j] + model->transmission[j] * unknown;
+        state->angle[j] = state->angle[j] + state->acceleration[j] * angle_per_acceleration_2
+            + angle_per_unknown * unknown + state->rate[j] * step;
+        state->rate[j] = state->rate[j] + state->acceleration[j] * twelfth_step
+            + eleven_twelfths_step * unknown;
         state->acceleration[j] = 1.5 * unknown - 0.5 * state->acceleration[j];
     }
 

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 260c88ca5ffe6b93ea5946fad67187e547942573db1dc2f710bcd9a0610b8738
- * sha256 of the rest of this file: e70adb07b78e2d139f6d805db43d20104ce58cd3b51b0ab0fe38b0db56e3563f
+ * sha256 of the rest of this file: 0451ed045583b1f4de75aebf4fd982ab18fe6ffdc60cd0569df6594658714c15
  *
  * model: torsional chain (linear)
  * stations: 6
@@ -70,24 +70,24 @@ typedef struct {
     /** joint damping, base to tip [N m s/rad] */
     drivetrain_real damping[DRIVETRAIN_STATIONS];
     /** 5*step/108 [s] */
-    drivetrain_real step_5_over_108;
+    drivetrain_real known_rate_per_acceleration;
     /** 5*step**2/243 [s^2] */
-    drivetrain_real step2_5_over_243;
+    drivetrain_real known_angle_per_acceleration;
     /** 5*step/9 [s] */
-    drivetrain_real step_5_over_9;
-    /** hub_admittance*hub_damping [SI] */
-    drivetrain_real factor_4;
+    drivetrain_real five_ninths_step;
+    /** hub_admittance*hub_damping [s/rad] */
+    drivetrain_real unknown_per_known_rate;
     /** step**2/27 [s^2] */
-    drivetrain_real step2_1_over_27;
-    /** 25*step**2/54 [s^2] */
-    drivetrain_real step2_25_over_54;
+    drivetrain_real angle_per_acceleration_2;
+    /** 25*step**2/54 [rad] */
+    drivetrain_real angle_per_unknown;
     /** step/12 [s] */
-    drivetrain_real step_1_over_12;
+    drivetrain_real twelfth_step;
     /** 11*step/12 [s] */
-    drivetrain_real step_11_over_12;
+    drivetrain_real eleven_twelfths_step;
     /** inverse pivot of each joint */
     drivetrain_real admittance[DRIVETRAIN_STATIONS];
-    /** share of torque and motion each joint passes on */
+    /** share of motion and torque each joint passes on */
     drivetrain_real transmission[DRIVETRAIN_STATIONS];
     /** share of its own known torque each joint passes on */
     drivetrain_real reflection[DRIVETRAIN_STATIONS];
@@ -153,7 +153,7 @@ drivetrain_status drivetrain_prepare(
  * @param[in]  initial_angle  angles to start from [rad]
  * @param[in]  initial_rate  rates to start from [rad/s]
  * @param[in]  inputs  what acts at the initial instant
- * @return OK, NON_FINITE_INPUT or NON_FINITE_STATE
+ * @return OK, NON_FINITE_INPUT, VANISHING_PIVOT or NON_FINITE_STATE
  */
 drivetrain_status drivetrain_initialise(
     drivetrain_state *state,

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 225557ccb20983327784b6fc8326b9127fb185b183a5e99d150385ab258b9303
- * sha256 of the rest of this file: 5d06ffca2997514547389a7a0cd2f744bca6d533614cb317caefb86421b9ee2a
+ * sha256 of the rest of this file: 4095b049505b0210f629ae36717edccecd88b5c4feecdced11eea5c914046658
  *
  * model: planar arm, large rotations, gravity
  * stations: 10
@@ -12,11 +12,11 @@
  * linearisation: newton
  * sweep: riccati
  * unknown: acceleration
- * operations of a step: 1330, 133 per station (610 additions, 690 multiplications, 10 divisions, 20
- *     functions)
- * operations of prepare: 73, 7.3 per station (12 additions, 61 multiplications)
+ * operations of a step: 1150, 115 per station (530 additions, 590 multiplications, 10 divisions, 20 sines and
+ *     cosines)
+ * operations of prepare: 108, 10.8 per station (30 additions, 78 multiplications)
  * number type: double
- * bytes of the structs: params 200, model 320, state 240, inputs 8, outputs 40
+ * bytes of the structs: params 200, model 376, state 240, inputs 8, outputs 40
  *
  * @file fall10.c
  */
@@ -65,25 +65,30 @@ fall10_status fall10_prepare(
         }
     }
 
-    /* Masses by the ends they act at, and joint impedances. */
-    model->carried_mass = params->center * params->mass;
-    model->inner_mass = params->mass - params->center * params->mass;
-    model->pin_inertia = params->inertia
-        + params->center * params->center * (params->length * params->length) * params->mass;
-    for (int j = 0; j < FALL10_STATIONS; ++j) {
+    const real mass = params->mass;
+    const real center = params->center;
+
+    /* Masses at the nodes between links, and what they leave over. */
+    for (int j = 0; j < 9; ++j) {
+        model->node_mass[j] = center * mass + mass * (1.0 - center);
+    }
+    model->node_mass[9] = center * mass;
+    model->rod_inertia = params->inertia - center * (params->length * params->length) * mass * (1.0 - center);
+
+    /* Factors of the sweep that do not change from step to step. */
+    for (int j = FALL10_STATIONS - 1; j >= 0; --j) {
         model->joint_impedance[j] = 0.5 * params->damping[j] * step
             + 0.25 * (step * step) * params->stiffness[j];
     }
 
     /* Factors of the step that depend on the time step and parameters alone. */
-    model->step2_1_over_2 = 0.5 * (step * step);
+    model->half_step_squared = 0.5 * (step * step);
     model->angle_per_acceleration = 0.25 * (step * step);
     model->rate_per_acceleration = 0.5 * step;
 
     /* What the step needs as it is. */
     model->step = step;
     model->length = params->length;
-    model->mass = params->mass;
     for (int j = 0; j < FALL10_STATIONS; ++j) {
         model->stiffness[j] = params->stiffness[j];
     }
@@ -110,25 +115,30 @@ fall10_status fall10_initialise(
 
     const real length = params->length;
     const real mass = params->mass;
-    const real inertia = params->inertia;
     const real center = params->center;
     real acceleration_x[FALL10_STATIONS + 1]; /* acceleration of the nodes along x [m/s^2] */
     real acceleration_y[FALL10_STATIONS + 1]; /* acceleration of the nodes along y [m/s^2] */
-    real answer_own[FALL10_STATIONS]; /* increment of the unknown if the inner side kept its motion */
-    real answer_x[FALL10_STATIONS]; /* answer to the joint's acceleration along x */
-    real answer_y[FALL10_STATIONS]; /* answer to the joint's acceleration along y */
-    real lever_cosine[FALL10_STATIONS]; /* length times cosine of the predicted angle [m] */
-    real lever_sine[FALL10_STATIONS]; /* length times sine of the predicted angle [m] */
+    real answer_own[FALL10_STATIONS]; /* unknown of a station if its inner side kept its motion */
+    real answer_x[FALL10_STATIONS]; /* answer of the unknown to the joint's acceleration along x */
+    real answer_y[FALL10_STATIONS]; /* answer of the unknown to the joint's acceleration along y */
+    real lever_cosine[FALL10_STATIONS]; /* length times cosine of the angle [m] */
+    real lever_sine[FALL10_STATIONS]; /* length times sine of the angle [m] */
+    real node_mass[FALL10_STATIONS]; /* mass at the outer end of each link [kg] */
     /* acceleration of base and links as predicted [rad/s^2] */
     real predicted_acceleration[FALL10_STATIONS + 1];
     real predicted_angle[FALL10_STATIONS + 1]; /* angle of base and links as predicted [rad] */
     real predicted_rate[FALL10_STATIONS + 1]; /* rate of base and links as predicted [rad/s] */
-    real swing_x[FALL10_STATIONS]; /* change of the outer end's acceleration along x per unknown [m] */
-    real swing_y[FALL10_STATIONS]; /* change of the outer end's acceleration along y per unknown [m] */
+
+    /* Masses at the nodes between links, and what they leave over. */
+    for (int j = 0; j < 9; ++j) {
+        node_mass[j] = center * mass + mass * (1.0 - center);
+    }
+    node_mass[9] = center * mass;
+    const real rod_inertia = params->inertia - center * (length * length) * mass * (1.0 - center);
 
     /* Predicted motion. */
-    predicted_angle[0] = 0.0;
     predicted_rate[0] = 0.0;
+    predicted_angle[0] = 0.0;
     predicted_acceleration[0] = 0.0;
 
     /* Predicted motion; accelerations of the nodes, seen from a falling frame: gravity is the base's own. */
@@ -137,89 +147,69 @@ fall10_status fall10_initialise(
     acceleration_x[0] = node_x;
     acceleration_y[0] = params->gravity;
     for (int j = 0; j < FALL10_STATIONS; ++j) {
-        predicted_angle[j + 1] = initial_angle[j];
         predicted_rate[j + 1] = initial_rate[j];
+        predicted_angle[j + 1] = initial_angle[j];
         predicted_acceleration[j + 1] = 0.0;
-        lever_sine[j] = length * sin(predicted_angle[j + 1]);
         lever_cosine[j] = length * cos(predicted_angle[j + 1]);
+        lever_sine[j] = length * sin(predicted_angle[j + 1]);
         const real square = predicted_rate[j + 1] * predicted_rate[j + 1];
-        node_x = node_x - lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1];
-        node_y = node_y + lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square;
+        const real relative_x = -lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1];
+        const real relative_y = lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square;
+        node_x = node_x + relative_x;
+        node_y = node_y + relative_y;
         acceleration_x[j + 1] = node_x;
         acceleration_y[j + 1] = node_y;
     }
 
-    /* How each link's outer end answers to its unknown, and the predicted joint torques; sweep inward: force
-     * beyond each joint as an affine function of the motion at it. */
-    real impedance_xx = 0.0;
-    real impedance_xy = 0.0;
-    real impedance_xu = 0.0;
-    real impedance_yx = 0.0;
-    real impedance_yy = 0.0;
-    real impedance_yu = 0.0;
-    real impedance_ux = 0.0;
-    real impedance_uy = 0.0;
-    real impedance_uu = 0.0;
+    /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
+     * of the motion at it. */
     real force_x = 0.0;
     real force_y = 0.0;
+    real impedance_xx = 0.0;
+    real impedance_xy = 0.0;
+    real impedance_yx = 0.0;
+    real impedance_yy = 0.0;
     real torque = 0.0;
     for (int j = FALL10_STATIONS - 1; j >= 0; --j) {
-        swing_x[j] = -lever_sine[j];
-        swing_y[j] = lever_cosine[j];
         const real joint_torque = params->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + params->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
-        const real outer_x = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j];
-        const real outer_y = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j];
-        const real outer_u = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j];
-        const real load_x = force_x + acceleration_x[j] * center * mass;
-        const real load_y = force_y + acceleration_y[j] * center * mass;
-        const real link_ux = impedance_ux + impedance_yx * lever_cosine[j]
-            - lever_sine[j] * (impedance_xx + center * mass);
-        const real link_uy = impedance_uy - impedance_xy * lever_sine[j]
-            + lever_cosine[j] * (impedance_yy + center * mass);
-        const real link_uu = inertia + outer_u + lever_cosine[j] * outer_y - lever_sine[j] * outer_x
-            + center * center * (length * length) * mass;
-        const real link_xx = impedance_xx + mass;
-        const real link_xu = outer_x + center * mass * swing_x[j];
-        const real link_yy = impedance_yy + mass;
-        const real link_yu = outer_y + center * mass * swing_y[j];
-        torque = torque + lever_cosine[j] * load_y - lever_sine[j] * load_x
-            + predicted_acceleration[j + 1] * (inertia + center * center * (length * length) * mass);
-        force_x = force_x + acceleration_x[j] * (mass - center * mass)
-            + acceleration_x[j + 1] * center * mass;
-        force_y = force_y + acceleration_y[j] * (mass - center * mass)
-            + acceleration_y[j + 1] * center * mass;
-        if (!(link_uu > 0.0) || !isfinite(link_uu)) {
+        impedance_xx = impedance_xx + node_mass[j];
+        impedance_yy = impedance_yy + node_mass[j];
+        force_x = force_x + acceleration_x[j + 1] * node_mass[j];
+        force_y = force_y + acceleration_y[j + 1] * node_mass[j];
+        const real impedance_xu = impedance_xy * lever_cosine[j] - impedance_xx * lever_sine[j];
+        const real impedance_yu = impedance_yy * lever_cosine[j] - impedance_yx * lever_sine[j];
+        const real impedance_ux = impedance_yx * lever_cosine[j] - impedance_xx * lever_sine[j];
+        const real impedance_uy = impedance_yy * lever_cosine[j] - impedance_xy * lever_sine[j];
+        const real impedance_uu = rod_inertia - impedance_xu * lever_sine[j] + impedance_yu * lever_cosine[j];
+        torque = torque - force_x * lever_sine[j] + force_y * lever_cosine[j]
+            + predicted_acceleration[j + 1] * rod_inertia;
+        if (!(impedance_uu > 0.0) || !isfinite(impedance_uu)) {
             return FALL10_VANISHING_PIVOT;
         }
-        const real inverse_pivot = 1.0 / link_uu;
-        answer_own[j] = inverse_pivot * (joint_torque - torque);
-        answer_x[j] = inverse_pivot * link_ux;
-        answer_y[j] = inverse_pivot * link_uy;
-        impedance_xx = link_xx - answer_x[j] * link_xu;
-        impedance_xy = impedance_xy - answer_y[j] * link_xu;
-        impedance_xu = 0.0;
-        force_x = force_x + answer_own[j] * link_xu;
-        impedance_yx = impedance_yx - answer_x[j] * link_yu;
-        impedance_yy = link_yy - answer_y[j] * link_yu;
-        impedance_yu = 0.0;
-        force_y = force_y + answer_own[j] * link_yu;
-        impedance_ux = 0.0;
-        impedance_uy = 0.0;
-        impedance_uu = 0.0;
+        const real admittance = 1.0 / impedance_uu;
+        answer_own[j] = admittance * (joint_torque - torque);
+        answer_x[j] = admittance * impedance_ux;
+        answer_y[j] = admittance * impedance_uy;
+        impedance_xx = impedance_xx - answer_x[j] * impedance_xu;
+        impedance_xy = impedance_xy - answer_y[j] * impedance_xu;
+        impedance_yx = impedance_yx - answer_x[j] * impedance_yu;
+        impedance_yy = impedance_yy - answer_y[j] * impedance_yu;
+        force_x = force_x + answer_own[j] * impedance_xu;
+        force_y = force_y + answer_own[j] * impedance_yu;
         torque = joint_torque;
     }
 
-    /* The base does not move. */
+    /* The base. */
     real unknown = 0.0;
 
-    /* Sweep outward: the increment of each link's unknown; motion at the end of the step. */
+    /* Sweep outward: the unknown of each station; motion at the end of the step. */
     real change_x = 0.0;
     real change_y = 0.0;
     for (int j = 0; j < FALL10_STATIONS; ++j) {
         unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y;
-        change_x = change_x + swing_x[j] * unknown;
-        change_y = change_y + swing_y[j] * unknown;
+        change_x = change_x - lever_sine[j] * unknown;
+        change_y = change_y + lever_cosine[j] * unknown;
         state->angle[j] = predicted_angle[j + 1];
         state->rate[j] = predicted_rate[j + 1];
         state->acceleration[j] = predicted_acceleration[j + 1] + unknown;
@@ -242,31 +232,28 @@ fall10_status fall10_step(
 
     const real step = model->step;
     const real length = model->length;
-    const real mass = model->mass;
-    const real step2_1_over_2 = model->step2_1_over_2;
+    const real half_step_squared = model->half_step_squared;
     const real angle_per_acceleration = model->angle_per_acceleration;
     const real rate_per_acceleration = model->rate_per_acceleration;
-    const real carried_mass = model->carried_mass;
-    const real inner_mass = model->inner_mass;
-    const real pin_inertia = model->pin_inertia;
+    const real rod_inertia = model->rod_inertia;
     real acceleration_x[FALL10_STATIONS + 1]; /* acceleration of the nodes along x [m/s^2] */
     real acceleration_y[FALL10_STATIONS + 1]; /* acceleration of the nodes along y [m/s^2] */
-    real answer_from_inner[FALL10_STATIONS]; /* answer to the inner link's unknown */
-    real answer_own[FALL10_STATIONS]; /* increment of the unknown if the inner side kept its motion */
-    real answer_x[FALL10_STATIONS]; /* answer to the joint's acceleration along x */
-    real answer_y[FALL10_STATIONS]; /* answer to the joint's acceleration along y */
-    real lever_cosine[FALL10_STATIONS]; /* length times cosine of the predicted angle [m] */
-    real lever_sine[FALL10_STATIONS]; /* length times sine of the predicted angle [m] */
+    real answer_own[FALL10_STATIONS]; /* unknown of a station if its inner side kept its motion */
+    real answer_x[FALL10_STATIONS]; /* answer of the unknown to the joint's acceleration along x */
+    real answer_y[FALL10_STATIONS]; /* answer of the unknown to the joint's acceleration along y */
+    real lever_cosine[FALL10_STATIONS]; /* length times cosine of the angle [m] */
+    real lever_sine[FALL10_STATIONS]; /* length times sine of the angle [m] */
     /* acceleration of base and links as predicted [rad/s^2] */
     real predicted_acceleration[FALL10_STATIONS + 1];
     real predicted_angle[FALL10_STATIONS + 1]; /* angle of base and links as predicted [rad] */
     real predicted_rate[FALL10_STATIONS + 1]; /* rate of base and links as predicted [rad/s] */
     real swing_x[FALL10_STATIONS]; /* change of the outer end's acceleration along x per unknown [m] */
     real swing_y[FALL10_STATIONS]; /* change of the outer end's acceleration along y per unknown [m] */
+    real transmission[FALL10_STATIONS]; /* share of motion and torque each joint passes on */
 
     /* Predicted motion. */
-    predicted_angle[0] = 0.0;
     predicted_rate[0] = 0.0;
+    predicted_angle[0] = 0.0;
     predicted_acceleration[0] = 0.0;
 
     /* Predicted motion; accelerations of the nodes, seen from a falling frame: gravity is the base's own. */
@@ -275,94 +262,86 @@ fall10_status fall10_step(
     acceleration_x[0] = node_x;
     acceleration_y[0] = model->gravity;
     for (int j = 0; j < FALL10_STATIONS; ++j) {
-        predicted_angle[j + 1] = state->angle[j] + state->acceleration[j] * step2_1_over_2
-            + state->rate[j] * step;
         predicted_rate[j + 1] = state->rate[j] + state->acceleration[j] * step;
+        predicted_angle[j + 1] = state->angle[j] + state->acceleration[j] * half_step_squared
+            + state->rate[j] * step;
         predicted_acceleration[j + 1] = state->acceleration[j];
-        lever_sine[j] = length * sin(predicted_angle[j + 1]);
         lever_cosine[j] = length * cos(predicted_angle[j + 1]);
+        lever_sine[j] = length * sin(predicted_angle[j + 1]);
         const real square = predicted_rate[j + 1] * predicted_rate[j + 1];
-        node_x = node_x - lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1];
-        node_y = node_y + lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square;
+        const real relative_x = -lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1];
+        const real relative_y = lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square;
+        const real turning = predicted_rate[j + 1] * step;
+        swing_x[j] = -lever_sine[j] - angle_per_acceleration * relative_y - lever_cosine[j] * turning;
+        swing_y[j] = lever_cosine[j] + angle_per_acceleration * relative_x - lever_sine[j] * turning;
+        node_x = node_x + relative_x;
+        node_y = node_y + relative_y;
         acceleration_x[j + 1] = node_x;
         acceleration_y[j + 1] = node_y;
     }
 
-    /* How each link's outer end answers to its unknown, and the predicted joint torques; sweep inward: force
-     * beyond each joint as an affine function of the motion at it. */
-    real impedance_xx = 0.0;
-    real impedance_xy = 0.0;
-    real impedance_xu = 0.0;
-    real impedance_yx = 0.0;
-    real impedance_yy = 0.0;
-    real impedance_yu = 0.0;
-    real impedance_ux = 0.0;
-    real impedance_uy = 0.0;
-    real impedance_uu = 0.0;
+    /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
+     * of the motion at it. */
     real force_x = 0.0;
     real force_y = 0.0;
+    real impedance_uu = 0.0;
+    real impedance_ux = 0.0;
+    real impedance_uy = 0.0;
+    real impedance_xu = 0.0;
+    real impedance_xx = 0.0;
+    real impedance_xy = 0.0;
+    real impedance_yu = 0.0;
+    real impedance_yx = 0.0;
+    real impedance_yy = 0.0;
     real torque = 0.0;
     for (int j = FALL10_STATIONS - 1; j >= 0; --j) {
-        const real tangential = 1.0
-            - angle_per_acceleration * (predicted_rate[j + 1] * predicted_rate[j + 1]);
-        const real turning = angle_per_acceleration * predicted_acceleration[j + 1]
-            + predicted_rate[j + 1] * step;
-        swing_x[j] = -lever_cosine[j] * turning - lever_sine[j] * tangential;
-        swing_y[j] = lever_cosine[j] * tangential - lever_sine[j] * turning;
         const real joint_torque = model->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + model->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
-        const real outer_x = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j];
-        const real outer_y = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j];
-        const real outer_u = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j];
-        const real load_x = force_x + acceleration_x[j] * carried_mass;
-        const real load_y = force_y + acceleration_y[j] * carried_mass;
-        const real link_ux = impedance_ux + impedance_yx * lever_cosine[j]
-            - lever_sine[j] * (carried_mass + impedance_xx);
-        const real link_uy = impedance_uy - impedance_xy * lever_sine[j]
-            + lever_cosine[j] * (carried_mass + impedance_yy);
-        const real link_uu = outer_u + pin_inertia
-            + angle_per_acceleration * (-lever_cosine[j] * load_x - lever_sine[j] * load_y)
-            + lever_cosine[j] * outer_y - lever_sine[j] * outer_x;
-        const real link_xx = impedance_xx + mass;
-        const real link_xu = outer_x + carried_mass * swing_x[j];
-        const real link_yy = impedance_yy + mass;
-        const real link_yu = outer_y + carried_mass * swing_y[j];
-        torque = torque + lever_cosine[j] * load_y - lever_sine[j] * load_x
-            + pin_inertia * predicted_acceleration[j + 1];
-        force_x = force_x + acceleration_x[j + 1] * carried_mass + acceleration_x[j] * inner_mass;
-        force_y = force_y + acceleration_y[j + 1] * carried_mass + acceleration_y[j] * inner_mass;
-        const real pivot = model->joint_impedance[j] + link_uu;
+        impedance_xx = impedance_xx + model->node_mass[j];
+        impedance_yy = impedance_yy + model->node_mass[j];
+        force_x = force_x + acceleration_x[j + 1] * model->node_mass[j];
+        force_y = force_y + acceleration_y[j + 1] * model->node_mass[j];
+        impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j];
+        impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j];
+        impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j];
+        impedance_ux = impedance_ux - impedance_xx * lever_sine[j] + impedance_yx * lever_cosine[j];
+        impedance_uy = impedance_uy - impedance_xy * lever_sine[j] + impedance_yy * lever_cosine[j];
+        impedance_uu = impedance_uu + rod_inertia
+            + lever_cosine[j] * (impedance_yu - angle_per_acceleration * force_x)
+            + lever_sine[j] * (-impedance_xu - angle_per_acceleration * force_y);
+        torque = torque - force_x * lever_sine[j] + force_y * lever_cosine[j]
+            + predicted_acceleration[j + 1] * rod_inertia;
+        const real pivot = impedance_uu + model->joint_impedance[j];
         if (!(pivot > 0.0) || !isfinite(pivot)) {
             return FALL10_VANISHING_PIVOT;
         }
-        const real inverse_pivot = 1.0 / pivot;
-        answer_own[j] = inverse_pivot * (joint_torque - torque);
-        answer_x[j] = inverse_pivot * link_ux;
-        answer_y[j] = inverse_pivot * link_uy;
-        answer_from_inner[j] = inverse_pivot * model->joint_impedance[j];
-        impedance_xx = link_xx - answer_x[j] * link_xu;
-        impedance_xy = impedance_xy - answer_y[j] * link_xu;
-        impedance_xu = answer_from_inner[j] * link_xu;
-        force_x = force_x + answer_own[j] * link_xu;
-        impedance_yx = impedance_yx - answer_x[j] * link_yu;
-        impedance_yy = link_yy - answer_y[j] * link_yu;
-        impedance_yu = answer_from_inner[j] * link_yu;
-        force_y = force_y + answer_own[j] * link_yu;
+        const real admittance = 1.0 / pivot;
+        answer_own[j] = admittance * (joint_torque - torque);
+        answer_x[j] = admittance * impedance_ux;
+        answer_y[j] = admittance * impedance_uy;
+        transmission[j] = admittance * model->joint_impedance[j];
+        impedance_xx = impedance_xx - answer_x[j] * impedance_xu;
+        impedance_xy = impedance_xy - answer_y[j] * impedance_xu;
+        impedance_yx = impedance_yx - answer_x[j] * impedance_yu;
+        impedance_yy = impedance_yy - answer_y[j] * impedance_yu;
         impedance_ux = answer_x[j] * model->joint_impedance[j];
         impedance_uy = answer_y[j] * model->joint_impedance[j];
-        impedance_uu = answer_from_inner[j] * link_uu;
+        impedance_uu = impedance_uu * transmission[j];
+        force_x = force_x + answer_own[j] * impedance_xu;
+        impedance_xu = impedance_xu * transmission[j];
+        force_y = force_y + answer_own[j] * impedance_yu;
+        impedance_yu = impedance_yu * transmission[j];
         torque = joint_torque - answer_own[j] * model->joint_impedance[j];
     }
 
-    /* The base does not move. */
+    /* The base. */
     real unknown = 0.0;
 
-    /* Sweep outward: the increment of each link's unknown; motion at the end of the step. */
+    /* Sweep outward: the unknown of each station; motion at the end of the step. */
     real change_x = 0.0;
     real change_y = 0.0;
     for (int j = 0; j < FALL10_STATIONS; ++j) {
-        unknown = answer_own[j] + answer_from_inner[j] * unknown - answer_x[j] * change_x
-            - answer_y[j] * change_y;
+        unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y + transmission[j] * unknown;
         change_x = change_x + swing_x[j] * unknown;
         change_y = change_y + swing_y[j] * unknown;
         state->angle[j] = predicted_angle[j + 1] + angle_per_acceleration * unknown;

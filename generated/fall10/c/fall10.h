@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 225557ccb20983327784b6fc8326b9127fb185b183a5e99d150385ab258b9303
- * sha256 of the rest of this file: a816e0a8872b3ddb02c65d9d25e6eb405ef5cc7e940570c71d22d02c0756673b
+ * sha256 of the rest of this file: 9a90619a48a8672d741c861f18a252117b629e571cdfa43243e9efdfa377c21b
  *
  * model: planar arm, large rotations, gravity
  * stations: 10
@@ -12,11 +12,11 @@
  * linearisation: newton
  * sweep: riccati
  * unknown: acceleration
- * operations of a step: 1330, 133 per station (610 additions, 690 multiplications, 10 divisions, 20
- *     functions)
- * operations of prepare: 73, 7.3 per station (12 additions, 61 multiplications)
+ * operations of a step: 1150, 115 per station (530 additions, 590 multiplications, 10 divisions, 20 sines and
+ *     cosines)
+ * operations of prepare: 108, 10.8 per station (30 additions, 78 multiplications)
  * number type: double
- * bytes of the structs: params 200, model 320, state 240, inputs 8, outputs 40
+ * bytes of the structs: params 200, model 376, state 240, inputs 8, outputs 40
  *
  * Call fall10_default_params() and fall10_prepare() once, fall10_initialise() to put the arm somewhere, then
  * fall10_step() at every tick of the clock and fall10_output() to know. All memory is the caller's; nothing
@@ -67,19 +67,28 @@ typedef struct {
 
 /** What prepare() derives from the parameters and the time step. */
 typedef struct {
-    fall10_real step; /**< time step [s] */
-    fall10_real length; /**< link length, the same everywhere [m] */
-    fall10_real mass; /**< link mass, the same everywhere [kg] */
-    fall10_real stiffness[FALL10_STATIONS]; /**< joint stiffness, base to tip [N m/rad] */
-    fall10_real damping[FALL10_STATIONS]; /**< joint damping, base to tip [N m s/rad] */
-    fall10_real gravity; /**< gravity along -y [m/s^2] */
-    fall10_real step2_1_over_2; /**< step**2/2 [s^2] */
-    fall10_real angle_per_acceleration; /**< angle per unit of acceleration: step**2/4 [SI] */
-    fall10_real rate_per_acceleration; /**< rate per unit of acceleration: step/2 [SI] */
-    fall10_real carried_mass; /**< mass acting at a link's outer end [kg] */
-    fall10_real inner_mass; /**< mass acting at a link's inner end [kg] */
-    fall10_real pin_inertia; /**< inertia of a link about its inner end [kg m^2] */
-    fall10_real joint_impedance[FALL10_STATIONS]; /**< torque of a joint per difference of unknowns [SI] */
+    /** time step [s] */
+    fall10_real step;
+    /** link length, the same everywhere [m] */
+    fall10_real length;
+    /** joint stiffness, base to tip [N m/rad] */
+    fall10_real stiffness[FALL10_STATIONS];
+    /** joint damping, base to tip [N m s/rad] */
+    fall10_real damping[FALL10_STATIONS];
+    /** gravity along -y [m/s^2] */
+    fall10_real gravity;
+    /** step**2/2 [s^2] */
+    fall10_real half_step_squared;
+    /** angle per unit of acceleration: step**2/4 [s^2] */
+    fall10_real angle_per_acceleration;
+    /** rate per unit of acceleration: step/2 [s] */
+    fall10_real rate_per_acceleration;
+    /** mass at the outer end of each link [kg] */
+    fall10_real node_mass[FALL10_STATIONS];
+    /** inertia of a link that masses at its ends leave over [kg m^2] */
+    fall10_real rod_inertia;
+    /** torque of a joint per difference of unknowns [kg m^2] */
+    fall10_real joint_impedance[FALL10_STATIONS];
 } fall10_model;
 
 /** Motion of the arm, and the history its integrator needs. */

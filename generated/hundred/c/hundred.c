@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 1ec2a071f5720229c3b5c9d847fa0a44d6fa112015051ca13c1d73444e6eb10a
- * sha256 of the rest of this file: 1e21c045c11fc73eeffac3b3f0ca5c1f91dc13aafa9cd54564d35f959f525f98
+ * sha256 of the rest of this file: 075847bed0c39ecf955bcd15221c67bfbbbc2fcc7258e21af600098253796d2d
  *
  * model: torsional chain (linear)
  * stations: 100
@@ -53,7 +53,7 @@ hundred_status hundred_prepare(
 
     const real inertia = params->inertia;
 
-    /* Riccati factors, swept from tip to base. */
+    /* Factors of the sweep that do not change from step to step. */
     real impedance = 0.0;
     const real joint_impedance = 0.5 * params->damping * step + 0.25 * (step * step) * params->stiffness;
     for (int j = HUNDRED_STATIONS - 1; j >= 0; --j) {
@@ -98,10 +98,8 @@ hundred_status hundred_initialise(
     const real stiffness = params->stiffness;
     const real damping = params->damping;
     const real inertia = params->inertia;
-    /* angle of each node without the unknown's share, base first [rad] */
-    real known_angle[HUNDRED_STATIONS + 1];
-    /* rate of each node without the unknown's share, base first [rad/s] */
-    real known_rate[HUNDRED_STATIONS + 1];
+    real known_angle[HUNDRED_STATIONS + 1]; /* angle of base and links without the unknown's share [rad] */
+    real known_rate[HUNDRED_STATIONS + 1]; /* rate of base and links without the unknown's share [rad/s] */
 
     /* Motion known before the sweep. */
     known_rate[0] = 0.0;
@@ -111,19 +109,25 @@ hundred_status hundred_initialise(
         known_angle[j + 1] = initial_angle[j];
     }
 
-    /* Sweep inward: torque beyond each joint as if its inner side did not move. */
-    real bias = inputs->tip_torque;
+    /* Sweep inward: force beyond each joint as an affine function of the motion at it. */
+    real torque = inputs->tip_torque;
 
-    /* Torque of each joint at the known motion; sweep inward: torque beyond each joint as if its inner side
-     * did not move; sweep outward: the unknown of each station; motion at the end of the step. */
+    /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
+     * of the motion at it; sweep outward: the unknown of each station; motion at the end of the step. */
     for (int j = HUNDRED_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = damping * (known_rate[j + 1] - known_rate[j])
             + stiffness * (known_angle[j + 1] - known_angle[j]);
-        const real correction = (bias - joint_torque) / inertia;
-        bias = joint_torque;
+        const real impedance = -inertia;
+        const real pivot = -impedance;
+        if (!(pivot > 0.0) || !isfinite(pivot)) {
+            return HUNDRED_VANISHING_PIVOT;
+        }
+        const real admittance = 1.0 / pivot;
+        const real answer_own = admittance * (torque - joint_torque);
+        torque = joint_torque;
         state->angle[j] = known_angle[j + 1];
         state->rate[j] = known_rate[j + 1];
-        state->acceleration[j] = correction;
+        state->acceleration[j] = answer_own;
     }
 
     for (int j = 0; j < HUNDRED_STATIONS; ++j) {
@@ -148,11 +152,9 @@ hundred_status hundred_step(
     const real damping = model->damping;
     const real rate_per_acceleration = model->rate_per_acceleration;
     const real angle_per_acceleration = model->angle_per_acceleration;
-    real correction[HUNDRED_STATIONS]; /* unknown of each station if its inner neighbour's were zero */
-    /* angle of each node without the unknown's share, base first [rad] */
-    real known_angle[HUNDRED_STATIONS + 1];
-    /* rate of each node without the unknown's share, base first [rad/s] */
-    real known_rate[HUNDRED_STATIONS + 1];
+    real answer_own[HUNDRED_STATIONS]; /* unknown of a station if its inner side kept its motion */
+    real known_angle[HUNDRED_STATIONS + 1]; /* angle of base and links without the unknown's share [rad] */
+    real known_rate[HUNDRED_STATIONS + 1]; /* rate of base and links without the unknown's share [rad/s] */
 
     /* Motion known before the sweep. */
     known_rate[0] = 0.0;
@@ -163,14 +165,14 @@ hundred_status hundred_step(
             + state->rate[j] * step;
     }
 
-    /* Torque of each joint at the known motion; sweep inward: torque beyond each joint as if its inner side
-     * did not move. */
-    real bias = inputs->tip_torque;
+    /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
+     * of the motion at it. */
+    real torque = inputs->tip_torque;
     for (int j = HUNDRED_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = damping * (known_rate[j + 1] - known_rate[j])
             + stiffness * (known_angle[j + 1] - known_angle[j]);
-        correction[j] = model->admittance[j] * (bias - joint_torque);
-        bias = bias * model->transmission[j] + joint_torque * model->reflection[j];
+        answer_own[j] = model->admittance[j] * (torque - joint_torque);
+        torque = joint_torque * model->reflection[j] + torque * model->transmission[j];
     }
 
     /* The base. */
@@ -178,7 +180,7 @@ hundred_status hundred_step(
 
     /* Sweep outward: the unknown of each station; motion at the end of the step. */
     for (int j = 0; j < HUNDRED_STATIONS; ++j) {
-        unknown = correction[j] + model->transmission[j] * unknown;
+        unknown = answer_own[j] + model->transmission[j] * unknown;
         state->angle[j] = known_angle[j + 1] + angle_per_acceleration * unknown;
         state->rate[j] = known_rate[j + 1] + rate_per_acceleration * unknown;
         state->acceleration[j] = unknown;

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 1ec2a071f5720229c3b5c9d847fa0a44d6fa112015051ca13c1d73444e6eb10a
- * sha256 of the rest of this file: 2745826968c76c0abc720b337d18328b46ae93949909938471ca6c62cfcc13cc
+ * sha256 of the rest of this file: 26d75378ce67ed7900e07bfb4e901872c5c328d888bbfc59d06476e195994902
  *
  * model: torsional chain (linear)
  * stations: 100
@@ -64,10 +64,10 @@ typedef struct {
     hundred_real step; /**< time step [s] */
     hundred_real stiffness; /**< joint stiffness, the same everywhere [N m/rad] */
     hundred_real damping; /**< joint damping, the same everywhere [N m s/rad] */
-    hundred_real rate_per_acceleration; /**< rate per unit of acceleration: step/2 [SI] */
-    hundred_real angle_per_acceleration; /**< angle per unit of acceleration: step**2/4 [SI] */
+    hundred_real rate_per_acceleration; /**< rate per unit of acceleration: step/2 [s] */
+    hundred_real angle_per_acceleration; /**< angle per unit of acceleration: step**2/4 [s^2] */
     hundred_real admittance[HUNDRED_STATIONS]; /**< inverse pivot of each joint */
-    hundred_real transmission[HUNDRED_STATIONS]; /**< share of torque and motion each joint passes on */
+    hundred_real transmission[HUNDRED_STATIONS]; /**< share of motion and torque each joint passes on */
     hundred_real reflection[HUNDRED_STATIONS]; /**< share of its own known torque each joint passes on */
 } hundred_model;
 
@@ -118,7 +118,7 @@ hundred_status hundred_prepare(
  * @param[in]  initial_angle  angles to start from [rad]
  * @param[in]  initial_rate  rates to start from [rad/s]
  * @param[in]  inputs  what acts at the initial instant
- * @return OK, NON_FINITE_INPUT or NON_FINITE_STATE
+ * @return OK, NON_FINITE_INPUT, VANISHING_PIVOT or NON_FINITE_STATE
  */
 hundred_status hundred_initialise(
     hundred_state *state,

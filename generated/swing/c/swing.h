@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 1d772428e2d772ebb733ea95a16abbe042281079aa7667facf050e2b156d94bf
- * sha256 of the rest of this file: da18a58803a4215cfc602735d3bc4b3d9e2cf25fc269af6e67683d09057ca822
+ * sha256 of the rest of this file: 82f3bd6546a7563a5d604f097c901175242aaa0bd252e89ca049939a7f7fc385
  *
  * model: planar arm, large rotations, tip mass
  * stations: 5
@@ -12,10 +12,11 @@
  * linearisation: newton
  * sweep: riccati
  * unknown: acceleration
- * operations of a step: 685, 137 per station (315 additions, 354 multiplications, 6 divisions, 10 functions)
- * operations of prepare: 47, 9.4 per station (8 additions, 39 multiplications)
+ * operations of a step: 593, 118.6 per station (275 additions, 302 multiplications, 6 divisions, 10 sines and
+ *     cosines)
+ * operations of prepare: 62, 12.4 per station (17 additions, 45 multiplications)
  * number type: double
- * bytes of the structs: params 136, model 224, state 144, inputs 8, outputs 24
+ * bytes of the structs: params 136, model 232, state 144, inputs 8, outputs 24
  *
  * Call swing_default_params() and swing_prepare() once, swing_initialise() to put the arm somewhere, then
  * swing_step() at every tick of the clock and swing_output() to know. All memory is the caller's; nothing is
@@ -70,20 +71,17 @@ typedef struct {
 typedef struct {
     swing_real step; /**< time step [s] */
     swing_real length; /**< link length, the same everywhere [m] */
-    swing_real mass; /**< link mass, the same everywhere [kg] */
     swing_real stiffness[SWING_STATIONS]; /**< joint stiffness, base to tip [N m/rad] */
     swing_real damping[SWING_STATIONS]; /**< joint damping, base to tip [N m s/rad] */
     swing_real hub_inertia; /**< hub inertia [kg m^2] */
     swing_real hub_damping; /**< viscous damping of the hub to ground [N m s/rad] */
-    swing_real tip_mass; /**< mass at the tip [kg] */
-    swing_real step2_1_over_2; /**< step**2/2 [s^2] */
-    swing_real angle_per_acceleration; /**< angle per unit of acceleration: step**2/4 [SI] */
-    swing_real factor_3; /**< (hub_damping*step + 2*hub_inertia)/2 [SI] */
-    swing_real rate_per_acceleration; /**< rate per unit of acceleration: step/2 [SI] */
-    swing_real carried_mass; /**< mass acting at a link's outer end [kg] */
-    swing_real inner_mass; /**< mass acting at a link's inner end [kg] */
-    swing_real pin_inertia; /**< inertia of a link about its inner end [kg m^2] */
-    swing_real joint_impedance[SWING_STATIONS]; /**< torque of a joint per difference of unknowns [SI] */
+    swing_real half_step_squared; /**< step**2/2 [s^2] */
+    swing_real angle_per_acceleration; /**< angle per unit of acceleration: step**2/4 [s^2] */
+    swing_real rate_per_acceleration; /**< rate per unit of acceleration: step/2 [s] */
+    swing_real node_mass[SWING_STATIONS]; /**< mass at the outer end of each link [kg] */
+    swing_real rod_inertia; /**< inertia of a link that masses at its ends leave over [kg m^2] */
+    swing_real joint_impedance[SWING_STATIONS]; /**< torque of a joint per difference of unknowns [kg m^2] */
+    swing_real hub_impedance; /**< torque of the hub per unknown [kg m^2] */
 } swing_model;
 
 /** Motion of the arm, and the history its integrator needs. */

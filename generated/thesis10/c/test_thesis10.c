@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: ee57f7952242f19cc6be0f26d3460a304cc65a1747711d25b990a158587c6f1f
- * sha256 of the rest of this file: c269f5493f4764942e156ec8a435bc6b8284abde52e23466ec7b67afc5fc82bc
+ * sha256 of the rest of this file: 3dfe171edc3485a179aecbe9c76e6080876ddbb9d0b1165c84ccc81d7db04884
  *
  * model: torsional chain (linear)
  * stations: 10
@@ -87,7 +87,7 @@ static void test_motion(tally *count)
     expect_status(count, "step 1", status, THESIS10_OK);
     thesis10_output(&model, &state, &outputs);
     expect(count, "tip", outputs.tip, -0.0945256050708355, 5.9e-16);
-    expect(count, "base_torque", outputs.base_torque, -1.747460724485656, 7.7e-15);
+    expect(count, "base_torque", outputs.base_torque, -1.747460724485656, 7.8e-15);
 
     /* Step 2. */
     inputs.tip_torque = -0.25;
@@ -95,7 +95,7 @@ static void test_motion(tally *count)
     expect_status(count, "step 2", status, THESIS10_OK);
     thesis10_output(&model, &state, &outputs);
     expect(count, "tip", outputs.tip, -0.09499464236192906, 5.9e-16);
-    expect(count, "base_torque", outputs.base_torque, -1.5664174789772825, 7.7e-15);
+    expect(count, "base_torque", outputs.base_torque, -1.5664174789772825, 7.8e-15);
 
     /* Step 3. */
     inputs.tip_torque = 0.375;
@@ -103,7 +103,7 @@ static void test_motion(tally *count)
     expect_status(count, "step 3", status, THESIS10_OK);
     thesis10_output(&model, &state, &outputs);
     expect(count, "tip", outputs.tip, -0.09518934630032247, 5.9e-16);
-    expect(count, "base_torque", outputs.base_torque, -1.4070661368892177, 7.7e-15);
+    expect(count, "base_torque", outputs.base_torque, -1.4070661368892177, 7.8e-15);
 
     /* State after the last step. */
     expect(count, "angle[0]", state.angle[0], -0.07867527622852927, 5.9e-16);
@@ -116,26 +116,26 @@ static void test_motion(tally *count)
     expect(count, "angle[7]", state.angle[7], -0.06206445914441922, 5.9e-16);
     expect(count, "angle[8]", state.angle[8], 0.04591874119299722, 5.9e-16);
     expect(count, "angle[9]", state.angle[9], -0.09518934630032247, 5.9e-16);
-    expect(count, "rate[0]", state.rate[0], 0.03328787753627354, 9.5e-16);
-    expect(count, "rate[1]", state.rate[1], -0.11208736324706997, 9.5e-16);
-    expect(count, "rate[2]", state.rate[2], 0.04281981437912253, 9.5e-16);
-    expect(count, "rate[3]", state.rate[3], -5.638250851579959e-06, 9.5e-16);
-    expect(count, "rate[4]", state.rate[4], -0.04295063126817839, 9.5e-16);
-    expect(count, "rate[5]", state.rate[5], 0.10965298883340945, 9.5e-16);
-    expect(count, "rate[6]", state.rate[6], -0.063383115067775, 9.5e-16);
-    expect(count, "rate[7]", state.rate[7], 0.07873619635327264, 9.5e-16);
-    expect(count, "rate[8]", state.rate[8], -0.0990010479220592, 9.5e-16);
-    expect(count, "rate[9]", state.rate[9], -0.006504343627068539, 9.5e-16);
-    expect(count, "acceleration[0]", state.acceleration[0], 2.8507433736163277, 4.3e-14);
-    expect(count, "acceleration[1]", state.acceleration[1], -3.470682462917863, 4.3e-14);
-    expect(count, "acceleration[2]", state.acceleration[2], 4.017370265851703, 4.3e-14);
-    expect(count, "acceleration[3]", state.acceleration[3], -0.0006195589053884478, 4.3e-14);
-    expect(count, "acceleration[4]", state.acceleration[4], -4.028795282460635, 4.3e-14);
-    expect(count, "acceleration[5]", state.acceleration[5], 3.334583446054241, 4.3e-14);
-    expect(count, "acceleration[6]", state.acceleration[6], -3.3893420821789366, 4.3e-14);
-    expect(count, "acceleration[7]", state.acceleration[7], 3.3647862232014383, 4.3e-14);
-    expect(count, "acceleration[8]", state.acceleration[8], -3.6306560137631103, 4.3e-14);
-    expect(count, "acceleration[9]", state.acceleration[9], 2.7346782283914406, 4.3e-14);
+    expect(count, "rate[0]", state.rate[0], 0.03328787753627354, 9.4e-16);
+    expect(count, "rate[1]", state.rate[1], -0.11208736324706997, 9.4e-16);
+    expect(count, "rate[2]", state.rate[2], 0.04281981437912253, 9.4e-16);
+    expect(count, "rate[3]", state.rate[3], -5.638250851579959e-06, 9.4e-16);
+    expect(count, "rate[4]", state.rate[4], -0.04295063126817839, 9.4e-16);
+    expect(count, "rate[5]", state.rate[5], 0.10965298883340945, 9.4e-16);
+    expect(count, "rate[6]", state.rate[6], -0.063383115067775, 9.4e-16);
+    expect(count, "rate[7]", state.rate[7], 0.07873619635327264, 9.4e-16);
+    expect(count, "rate[8]", state.rate[8], -0.0990010479220592, 9.4e-16);
+    expect(count, "rate[9]", state.rate[9], -0.006504343627068539, 9.4e-16);
+    expect(count, "acceleration[0]", state.acceleration[0], 2.8507433736163277, 4.4e-14);
+    expect(count, "acceleration[1]", state.acceleration[1], -3.470682462917863, 4.4e-14);
+    expect(count, "acceleration[2]", state.acceleration[2], 4.017370265851703, 4.4e-14);
+    expect(count, "acceleration[3]", state.acceleration[3], -0.0006195589053884478, 4.4e-14);
+    expect(count, "acceleration[4]", state.acceleration[4], -4.028795282460635, 4.4e-14);
+    expect(count, "acceleration[5]", state.acceleration[5], 3.334583446054241, 4.4e-14);
+    expect(count, "acceleration[6]", state.acceleration[6], -3.3893420821789366, 4.4e-14);
+    expect(count, "acceleration[7]", state.acceleration[7], 3.3647862232014383, 4.4e-14);
+    expect(count, "acceleration[8]", state.acceleration[8], -3.6306560137631103, 4.4e-14);
+    expect(count, "acceleration[9]", state.acceleration[9], 2.7346782283914406, 4.4e-14);
 
     /* Bad input is refused and leaves the state alone. */
     thesis10_state before;

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: ee57f7952242f19cc6be0f26d3460a304cc65a1747711d25b990a158587c6f1f
- * sha256 of the rest of this file: 5684f682f49e73c3f03ae3c46c376cf3f383614c1e76def010e3e5042fa15939
+ * sha256 of the rest of this file: 67ba62fa13ff511198d15c7f9a6fd3f7e182d4a8b7c246cd1f53f6ba7b818fbf
  *
  * model: torsional chain (linear)
  * stations: 10
@@ -64,10 +64,10 @@ typedef struct {
     thesis10_real step; /**< time step [s] */
     thesis10_real stiffness; /**< joint stiffness, the same everywhere [N m/rad] */
     thesis10_real damping; /**< joint damping, the same everywhere [N m s/rad] */
-    thesis10_real rate_per_acceleration; /**< rate per unit of acceleration: step/2 [SI] */
-    thesis10_real angle_per_acceleration; /**< angle per unit of acceleration: step**2/4 [SI] */
+    thesis10_real rate_per_acceleration; /**< rate per unit of acceleration: step/2 [s] */
+    thesis10_real angle_per_acceleration; /**< angle per unit of acceleration: step**2/4 [s^2] */
     thesis10_real admittance[THESIS10_STATIONS]; /**< inverse pivot of each joint */
-    thesis10_real transmission[THESIS10_STATIONS]; /**< share of torque and motion each joint passes on */
+    thesis10_real transmission[THESIS10_STATIONS]; /**< share of motion and torque each joint passes on */
     thesis10_real reflection[THESIS10_STATIONS]; /**< share of its own known torque each joint passes on */
 } thesis10_model;
 
@@ -117,7 +117,7 @@ thesis10_status thesis10_prepare(
  * @param[in]  initial_angle  angles to start from [rad]
  * @param[in]  initial_rate  rates to start from [rad/s]
  * @param[in]  inputs  what acts at the initial instant
- * @return OK, NON_FINITE_INPUT or NON_FINITE_STATE
+ * @return OK, NON_FINITE_INPUT, VANISHING_PIVOT or NON_FINITE_STATE
  */
 thesis10_status thesis10_initialise(
     thesis10_state *state,

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 8302c2fdab02afb73919e09c91c3abafc3d83d0760e2c0e63be40bfdc341e62e
- * sha256 of the rest of this file: d6751623d7ce7e55e491b5b3bc489cc6b5cd3b09b52a074fc952e6c0bab0c88b
+ * sha256 of the rest of this file: 2d4e0a4dce0f6bed2aceda6318c0a91428b3bba59a313acfd4766251d50df075
  *
  * model: torsional chain (linear)
  * stations: 2
@@ -53,7 +53,7 @@ thesis2_status thesis2_prepare(
 
     const real inertia = params->inertia;
 
-    /* Riccati factors, swept from tip to base. */
+    /* Factors of the sweep that do not change from step to step. */
     real impedance = 0.0;
     const real joint_impedance = 0.5 * params->damping * step + 0.25 * (step * step) * params->stiffness;
     for (int j = THESIS2_STATIONS - 1; j >= 0; --j) {
@@ -98,10 +98,8 @@ thesis2_status thesis2_initialise(
     const real stiffness = params->stiffness;
     const real damping = params->damping;
     const real inertia = params->inertia;
-    /* angle of each node without the unknown's share, base first [rad] */
-    real known_angle[THESIS2_STATIONS + 1];
-    /* rate of each node without the unknown's share, base first [rad/s] */
-    real known_rate[THESIS2_STATIONS + 1];
+    real known_angle[THESIS2_STATIONS + 1]; /* angle of base and links without the unknown's share [rad] */
+    real known_rate[THESIS2_STATIONS + 1]; /* rate of base and links without the unknown's share [rad/s] */
 
     /* Motion known before the sweep. */
     known_rate[0] = 0.0;
@@ -111,19 +109,25 @@ thesis2_status thesis2_initialise(
         known_angle[j + 1] = initial_angle[j];
     }
 
-    /* Sweep inward: torque beyond each joint as if its inner side did not move. */
-    real bias = inputs->tip_torque;
+    /* Sweep inward: force beyond each joint as an affine function of the motion at it. */
+    real torque = inputs->tip_torque;
 
-    /* Torque of each joint at the known motion; sweep inward: torque beyond each joint as if its inner side
-     * did not move; sweep outward: the unknown of each station; motion at the end of the step. */
+    /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
+     * of the motion at it; sweep outward: the unknown of each station; motion at the end of the step. */
     for (int j = THESIS2_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = damping * (known_rate[j + 1] - known_rate[j])
             + stiffness * (known_angle[j + 1] - known_angle[j]);
-        const real correction = (bias - joint_torque) / inertia;
-        bias = joint_torque;
+        const real impedance = -inertia;
+        const real pivot = -impedance;
+        if (!(pivot > 0.0) || !isfinite(pivot)) {
+            return THESIS2_VANISHING_PIVOT;
+        }
+        const real admittance = 1.0 / pivot;
+        const real answer_own = admittance * (torque - joint_torque);
+        torque = joint_torque;
         state->angle[j] = known_angle[j + 1];
         state->rate[j] = known_rate[j + 1];
-        state->acceleration[j] = correction;
+        state->acceleration[j] = answer_own;
     }
 
     for (int j = 0; j < THESIS2_STATIONS; ++j) {
@@ -148,11 +152,9 @@ thesis2_status thesis2_step(
     const real damping = model->damping;
     const real rate_per_acceleration = model->rate_per_acceleration;
     const real angle_per_acceleration = model->angle_per_acceleration;
-    real correction[THESIS2_STATIONS]; /* unknown of each station if its inner neighbour's were zero */
-    /* angle of each node without the unknown's share, base first [rad] */
-    real known_angle[THESIS2_STATIONS + 1];
-    /* rate of each node without the unknown's share, base first [rad/s] */
-    real known_rate[THESIS2_STATIONS + 1];
+    real answer_own[THESIS2_STATIONS]; /* unknown of a station if its inner side kept its motion */
+    real known_angle[THESIS2_STATIONS + 1]; /* angle of base and links without the unknown's share [rad] */
+    real known_rate[THESIS2_STATIONS + 1]; /* rate of base and links without the unknown's share [rad/s] */
 
     /* Motion known before the sweep. */
     known_rate[0] = 0.0;
@@ -163,14 +165,14 @@ thesis2_status thesis2_step(
             + state->rate[j] * step;
     }
 
-    /* Torque of each joint at the known motion; sweep inward: torque beyond each joint as if its inner side
-     * did not move. */
-    real bias = inputs->tip_torque;
+    /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
+     * of the motion at it. */
+    real torque = inputs->tip_torque;
     for (int j = THESIS2_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = damping * (known_rate[j + 1] - known_rate[j])
             + stiffness * (known_angle[j + 1] - known_angle[j]);
-        correction[j] = model->admittance[j] * (bias - joint_torque);
-        bias = bias * model->transmission[j] + joint_torque * model->reflection[j];
+        answer_own[j] = model->admittance[j] * (torque - joint_torque);
+        torque = joint_torque * model->reflection[j] + torque * model->transmission[j];
     }
 
     /* The base. */
@@ -178,7 +180,7 @@ thesis2_status thesis2_step(
 
     /* Sweep outward: the unknown of each station; motion at the end of the step. */
     for (int j = 0; j < THESIS2_STATIONS; ++j) {
-        unknown = correction[j] + model->transmission[j] * unknown;
+        unknown = answer_own[j] + model->transmission[j] * unknown;
         state->angle[j] = known_angle[j + 1] + angle_per_acceleration * unknown;
         state->rate[j] = known_rate[j + 1] + rate_per_acceleration * unknown;
         state->acceleration[j] = unknown;

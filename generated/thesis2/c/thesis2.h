@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 8302c2fdab02afb73919e09c91c3abafc3d83d0760e2c0e63be40bfdc341e62e
- * sha256 of the rest of this file: edb03bd87424044eebac981681dfdb4aa7e84aa13c5c7354e2c7d1eebd7f17c1
+ * sha256 of the rest of this file: 96d5507a20134861949e4714570a090e59a2b4dbbd1dbebf042500d508f05bdd
  *
  * model: torsional chain (linear)
  * stations: 2
@@ -64,10 +64,10 @@ typedef struct {
     thesis2_real step; /**< time step [s] */
     thesis2_real stiffness; /**< joint stiffness, the same everywhere [N m/rad] */
     thesis2_real damping; /**< joint damping, the same everywhere [N m s/rad] */
-    thesis2_real rate_per_acceleration; /**< rate per unit of acceleration: step/2 [SI] */
-    thesis2_real angle_per_acceleration; /**< angle per unit of acceleration: step**2/4 [SI] */
+    thesis2_real rate_per_acceleration; /**< rate per unit of acceleration: step/2 [s] */
+    thesis2_real angle_per_acceleration; /**< angle per unit of acceleration: step**2/4 [s^2] */
     thesis2_real admittance[THESIS2_STATIONS]; /**< inverse pivot of each joint */
-    thesis2_real transmission[THESIS2_STATIONS]; /**< share of torque and motion each joint passes on */
+    thesis2_real transmission[THESIS2_STATIONS]; /**< share of motion and torque each joint passes on */
     thesis2_real reflection[THESIS2_STATIONS]; /**< share of its own known torque each joint passes on */
 } thesis2_model;
 
@@ -117,7 +117,7 @@ thesis2_status thesis2_prepare(
  * @param[in]  initial_angle  angles to start from [rad]
  * @param[in]  initial_rate  rates to start from [rad/s]
  * @param[in]  inputs  what acts at the initial instant
- * @return OK, NON_FINITE_INPUT or NON_FINITE_STATE
+ * @return OK, NON_FINITE_INPUT, VANISHING_PIVOT or NON_FINITE_STATE
  */
 thesis2_status thesis2_initialise(
     thesis2_state *state,

@@ -34,7 +34,7 @@ def _cost(operations: Operations, stations: int) -> str:
         "additions": operations.additions,
         "multiplications": operations.multiplications,
         "divisions": operations.divisions,
-        "functions": operations.functions,
+        "sines and cosines": operations.functions,
     }
     parts = ", ".join(f"{count} {kind}" for kind, count in kinds.items() if count) or "none"
     return f"{operations.total}, {operations.total / stations:.4g} per station ({parts})"

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import sympy as sp
 
 from tmm_gen.derive.integrators.declaration import STEP, Integrator, Kind, Past
 from tmm_gen.derive.integrators.relations import Unknown, affine_motion
 from tmm_gen.program.passes.prune import prune
 from tmm_gen.program.statements import Routine
+from tmm_gen.program.units import quotient
 from tmm_gen.program.variables import Role, Variable
 
 MOTION_NAMES: dict[Kind, tuple[str, str]] = {
@@ -18,20 +17,6 @@ MOTION_NAMES: dict[Kind, tuple[str, str]] = {
     "a": ("acceleration", "rad/s^2"),
 }
 _AGO = {1: "one step", 2: "two steps", 3: "three steps"}
-
-
-def parameter(name: str, doc: str, unit: str, values: Sequence[float]) -> Variable:
-    """Return a scalar where all values are alike, an array otherwise."""
-    if len(set(values)) == 1:
-        return Variable(
-            name,
-            Role.PARAMETER,
-            None,
-            doc + (", the same everywhere" if len(values) > 1 else ""),
-            unit,
-            values[0],
-        )
-    return Variable(name, Role.PARAMETER, len(values), doc + ", base to tip", unit, tuple(values))
 
 
 def state_variable(past: Past, prefix: str, length: int | None) -> Variable:
@@ -49,10 +34,11 @@ def gain_names(
     """Name the gains of the main scheme after what they do."""
     names: dict[sp.Expr, tuple[str, str, str]] = {}
     gains = affine_motion(integrator.main, 1, unknown).gain
-    for kind, (word, _) in MOTION_NAMES.items():
+    for kind, (word, unit) in MOTION_NAMES.items():
         value = sp.factor(gains[kind].subs(STEP, step.ref))
         doc = f"{word} per unit of {unknown}: {value}"
-        names.setdefault(value, (f"{word}_per_{unknown}", doc, "SI"))
+        known = "rad/s^2" if unknown == "acceleration" else "rad"
+        names.setdefault(value, (f"{word}_per_{unknown}", doc, quotient(unit, known)))
     return names
 
 

@@ -94,6 +94,16 @@ class Frame:
         (index,) = [i for i, c in enumerate(self.coordinates) if c.integrated]
         return index
 
+    @property
+    def impedance_unit(self) -> str:
+        """Unit of a torque per unknown."""
+        return "kg m^2" if self.gain[2] == 1 else "N m/rad"
+
+    @property
+    def swing_unit(self) -> str:
+        """Unit of an acceleration of a node per unknown."""
+        return "m" if self.gain[2] == 1 else "m/s^2"
+
     def slope(self, value: sp.Expr, kind: str) -> sp.Expr:
         """Differentiate by displacement, rate or acceleration of the station."""
         if kind == "q":

@@ -142,7 +142,9 @@ class Inward:
         if constant == 0 or constant.is_Atom or (-constant).is_Atom:
             return slope
         symbol = sp.Symbol(f"{passed.element.name}_impedance", real=True)
-        self.lines.append(Let(symbol, constant, "force of its inertia or friction per unknown", "kg m^2"))
+        self.lines.append(
+            Let(symbol, constant, "force of its inertia or friction per unknown", self.frame.impedance_unit)
+        )
         return sp.expand(slope - constant) + symbol
 
     @property
@@ -171,7 +173,9 @@ class Inward:
         stiffness = -sign * of_outer
         if stiffness != 0:
             self.lines.append(
-                Let(STIFFNESS, stiffness, "torque of a joint per difference of unknowns", "kg m^2")
+                Let(
+                    STIFFNESS, stiffness, "torque of a joint per difference of unknowns", frame.impedance_unit
+                )
             )
             stiffness = STIFFNESS
         inner_stiffness = stiffness if sp.expand(of_inner + of_outer) == 0 else sign * of_inner
@@ -214,7 +218,12 @@ class Inward:
                 if k != own
             }
             self.lines += [
-                Let(symbol, value, "force per unknown of the link", "kg m")
+                Let(
+                    symbol,
+                    value,
+                    "force per unknown of the link",
+                    frame.impedance_unit.replace("kg m^2", "kg m"),
+                )
                 for symbol, value in self.columns.items()
             ]
         passes = answers.get("inner", ZERO)

@@ -176,7 +176,7 @@ class Outward:
                 f"swing_{names[i]}",
                 value,
                 f"change of the outer end's acceleration along {names[i]} per unknown",
-                "m",
+                self.frame.swing_unit,
             )
             for i, value in parts.items()
         }

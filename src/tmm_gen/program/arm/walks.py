@@ -250,7 +250,7 @@ class Walks:
         lines: list[Line] = []
         if not constant.is_Atom:
             named = sp.Symbol("hub_impedance", real=True)
-            lines.append(Let(named, constant, "torque of the hub per unknown", "kg m^2"))
+            lines.append(Let(named, constant, "torque of the hub per unknown", frame.impedance_unit))
             constant = named
         pivot = sp.Symbol("hub_pivot", real=True)
         carried = sign * impedance(own, own) if stiffness.has(impedance(own, own)) else sp.Integer(0)

@@ -12,7 +12,8 @@ from dataclasses import dataclass, field
 
 import sympy as sp
 
-from tmm_gen.program.passes.rewrite import map_values
+from tmm_gen.program.passes.naming import name_of
+from tmm_gen.program.passes.rewrite import map_assigned
 from tmm_gen.program.statements import Assign, Routine, Section
 from tmm_gen.program.variables import Ref, Role, Variable, refs_in
 
@@ -24,15 +25,21 @@ class Hoister:
     Parameters
     ----------
     names : dict from sympy.Expr to (name, doc, unit)
-        How to call factors that have a physical meaning; others are numbered.
+        How to call factors that have a physical meaning; others are called after what they do.
     """
 
     names: dict[sp.Expr, tuple[str, str, str]] = field(default_factory=dict)
     _found: dict[sp.Expr, Variable] = field(default_factory=dict)
+    _target: Ref | None = None
 
     def hoist(self, routine: Routine) -> Routine:
         """Return the routine with factors replaced by coefficients."""
-        return map_values(routine, self._rewrite)
+
+        def hoisted(value: sp.Expr, target: Ref | None) -> sp.Expr:
+            self._target = target
+            return self._rewrite(value)
+
+        return map_assigned(routine, hoisted)
 
     @property
     def coefficients(self) -> tuple[Variable, ...]:
@@ -58,7 +65,7 @@ class Hoister:
         by_factor: dict[sp.Expr, list[sp.Expr]] = {}
         for powers, factor in polynomial.terms():
             monomial = sp.Mul(*(ref**power for ref, power in zip(changing, powers, strict=True)))
-            held, sign = self._factor(sp.factor(factor))
+            held, sign = self._factor(sp.factor(factor), monomial if monomial != 1 else None)
             by_factor.setdefault(held, []).append(sign * monomial)
         terms = [
             sp.Mul(factor, sp.Add(*monomials), evaluate=factor.is_Number or len(monomials) == 1)
@@ -79,7 +86,7 @@ class Hoister:
         held, sign = self._factor(sp.factor(value.func(*early))) if early else (value.func(), 1)
         return value.func(sign * held, *late)
 
-    def _factor(self, factor: sp.Expr) -> tuple[sp.Expr, int]:
+    def _factor(self, factor: sp.Expr, of: sp.Expr | None = None) -> tuple[sp.Expr, int]:
         """Return what stands for a factor, and its sign."""
         sign = -1 if factor.could_extract_minus_sign() else 1
         factor = sign * factor
@@ -88,27 +95,20 @@ class Hoister:
         if factor not in self._found:
             if any(ref.offset is not None for ref in refs_in(factor)):
                 return factor, sign  # per-station factors are named by whoever builds the sweep
-            name, doc, unit = self.names.get(factor) or self._name(factor)
+            name, doc, unit = self._name(factor, of)
             self._found[factor] = Variable(name, Role.COEFFICIENT, doc=doc, unit=unit)
         return self._found[factor].ref, sign
 
-    def _name(self, factor: sp.Expr) -> tuple[str, str, str]:
-        """Name a power of the step after what it is, anything else by a number."""
-        numbers, rest = factor.as_coeff_Mul()
-        base, power = rest.as_base_exp()
-        if (
-            isinstance(base, Ref)
-            and base.variable.role is Role.STEP
-            and numbers.is_Rational
-            and power.is_Integer
+    def _name(self, factor: sp.Expr, of: sp.Expr | None) -> tuple[str, str, str]:
+        """Return a name that no other factor has, a description and a unit."""
+        name, doc, unit = self.names.get(factor) or name_of(factor, self._target, of)
+        taken = {v.name for v in self._found.values()} | {n for n, _, _ in self.names.values()} - {name}
+        unique, number = name, 2
+        while unique in taken or (
+            unique in {n for n, _, _ in self.names.values()} and factor not in self.names
         ):
-            over = f"_over_{numbers.q}" if numbers.q != 1 else ""
-            times = f"_{numbers.p}" if numbers.p != 1 or over else ""
-            exponent = {1: "", -1: "_inverse"}.get(
-                int(power), f"{abs(int(power))}" + ("_inverse" if power < 0 else "")
-            )
-            return f"step{exponent}{times}{over}", str(factor), f"s^{power}" if power != 1 else "s"
-        return f"factor_{len(self._found) + 1}", str(factor), "SI"
+            unique, number = f"{name}_{number}", number + 1
+        return unique, doc, unit
 
 
 def _bound_early(expression: sp.Expr) -> bool:

@@ -8,6 +8,7 @@ from dataclasses import replace
 import sympy as sp
 
 from tmm_gen.program.statements import Assign, Loop, Require, Routine, Section
+from tmm_gen.program.variables import Ref
 
 
 def map_values(routine: Routine, change: Callable[[sp.Expr], sp.Expr]) -> Routine:
@@ -17,6 +18,22 @@ def map_values(routine: Routine, change: Callable[[sp.Expr], sp.Expr]) -> Routin
         if isinstance(statement, Loop):
             return replace(statement, body=tuple(changed(s) for s in statement.body))  # type: ignore[misc]
         return replace(statement, value=change(statement.value))
+
+    sections = tuple(
+        replace(section, statements=tuple(changed(s) for s in section.statements))
+        for section in routine.sections
+    )
+    return replace(routine, sections=sections)
+
+
+def map_assigned(routine: Routine, change: Callable[[sp.Expr, Ref | None], sp.Expr]) -> Routine:
+    """Return the routine with every expression changed, told what it is assigned to."""
+
+    def changed(statement: Assign | Require | Loop) -> Assign | Require | Loop:
+        if isinstance(statement, Loop):
+            return replace(statement, body=tuple(changed(s) for s in statement.body))  # type: ignore[misc]
+        target = statement.target if isinstance(statement, Assign) else None
+        return replace(statement, value=change(statement.value, target))
 
     sections = tuple(
         replace(section, statements=tuple(changed(s) for s in section.statements))

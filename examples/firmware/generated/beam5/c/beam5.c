@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 2aa7477fe5a1cf796a596a84ffa48c892dc54bfd3ece90a5d25a43813cf34ab5
- * sha256 of the rest of this file: 242b90a151b1d304329c7d5377db42cf2cca8f63980aea64e310627f42b5a1ac
+ * sha256 of the rest of this file: 190cf71a1141f8e0aeea1824932400c50a451e8504990f092884df45ebce7033
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 5
@@ -12,8 +12,9 @@
  * linearisation: newton
  * sweep: riccati
  * unknown: acceleration
- * operations of a step: 685, 137 per station (315 additions, 354 multiplications, 6 divisions, 10 functions)
- * operations of prepare: 47, 9.4 per station (8 additions, 39 multiplications)
+ * operations of a step: 593, 118.6 per station (275 additions, 302 multiplications, 6 divisions, 10 sines and
+ *     cosines)
+ * operations of prepare: 62, 12.4 per station (17 additions, 45 multiplications)
  * number type: float
  * bytes of the structs: state 72, inputs 4, outputs 12
  *
@@ -101,18 +102,21 @@ static const real gravity = 9.81f; /* gravity along -y [m/s^2] */
 static const real hub_inertia = 0.05f; /* hub inertia [kg m^2] */
 static const real hub_damping = 0.01f; /* viscous damping of the hub to ground [N m s/rad] */
 static const real tip_mass = 0.1f; /* mass at the tip [kg] */
-static const real step2_1_over_2 = 5.0000006e-07f; /* step**2/2 [s^2] */
-/* angle per unit of acceleration: step**2/4 [SI] */
+static const real half_step_squared = 5.0000006e-07f; /* step**2/2 [s^2] */
+/* angle per unit of acceleration: step**2/4 [s^2] */
 static const real angle_per_acceleration = 2.5000003e-07f;
-static const real factor_3 = 0.050005f; /* (hub_damping*step + 2*hub_inertia)/2 [SI] */
-static const real rate_per_acceleration = 0.0005f; /* rate per unit of acceleration: step/2 [SI] */
-static const real carried_mass = 0.05f; /* mass acting at a link's outer end [kg] */
-static const real inner_mass = 0.05f; /* mass acting at a link's inner end [kg] */
-static const real pin_inertia = 0.0013333333f; /* inertia of a link about its inner end [kg m^2] */
-/* torque of a joint per difference of unknowns [SI] */
+static const real rate_per_acceleration = 0.0005f; /* rate per unit of acceleration: step/2 [s] */
+/* mass at the outer end of each link [kg] */
+static const real node_mass[BEAM5_STATIONS] = {
+    0.1f, 0.1f, 0.1f, 0.1f, 0.15f
+};
+/* inertia of a link that masses at its ends leave over [kg m^2] */
+static const real rod_inertia = -0.0006666667f;
+/* torque of a joint per difference of unknowns [kg m^2] */
 static const real joint_impedance[BEAM5_STATIONS] = {
     4.0000006e-05f, 2.0000003e-05f, 2.0000003e-05f, 2.0000003e-05f, 2.0000003e-05f
 };
+static const real hub_impedance = 0.050005f; /* torque of the hub per unknown [kg m^2] */
 
 beam5_status beam5_initialise(
     beam5_state *state,
@@ -131,21 +135,27 @@ beam5_status beam5_initialise(
 
     real acceleration_x[BEAM5_STATIONS + 1]; /* acceleration of the nodes along x [m/s^2] */
     real acceleration_y[BEAM5_STATIONS + 1]; /* acceleration of the nodes along y [m/s^2] */
-    real answer_own[BEAM5_STATIONS]; /* increment of the unknown if the inner side kept its motion */
-    real answer_x[BEAM5_STATIONS]; /* answer to the joint's acceleration along x */
-    real answer_y[BEAM5_STATIONS]; /* answer to the joint's acceleration along y */
-    real lever_cosine[BEAM5_STATIONS]; /* length times cosine of the predicted angle [m] */
-    real lever_sine[BEAM5_STATIONS]; /* length times sine of the predicted angle [m] */
+    real answer_own[BEAM5_STATIONS]; /* unknown of a station if its inner side kept its motion */
+    real answer_x[BEAM5_STATIONS]; /* answer of the unknown to the joint's acceleration along x */
+    real answer_y[BEAM5_STATIONS]; /* answer of the unknown to the joint's acceleration along y */
+    real lever_cosine[BEAM5_STATIONS]; /* length times cosine of the angle [m] */
+    real lever_sine[BEAM5_STATIONS]; /* length times sine of the angle [m] */
+    real node_mass[BEAM5_STATIONS]; /* mass at the outer end of each link [kg] */
     /* acceleration of base and links as predicted [rad/s^2] */
     real predicted_acceleration[BEAM5_STATIONS + 1];
     real predicted_angle[BEAM5_STATIONS + 1]; /* angle of base and links as predicted [rad] */
     real predicted_rate[BEAM5_STATIONS + 1]; /* rate of base and links as predicted [rad/s] */
-    real swing_x[BEAM5_STATIONS]; /* change of the outer end's acceleration along x per unknown [m] */
-    real swing_y[BEAM5_STATIONS]; /* change of the outer end's acceleration along y per unknown [m] */
+
+    /* Masses at the nodes between links, and what they leave over. */
+    for (int j = 0; j < 4; ++j) {
+        node_mass[j] = center * mass + mass * (1.0f - center);
+    }
+    node_mass[4] = tip_mass + center * mass;
+    const real rod_inertia = inertia - center * (length * length) * mass * (1.0f - center);
 
     /* Predicted motion. */
-    predicted_angle[0] = 0.0f;
     predicted_rate[0] = 0.0f;
+    predicted_angle[0] = 0.0f;
     predicted_acceleration[0] = 0.0f;
 
     /* Predicted motion; accelerations of the nodes, seen from a falling frame: gravity is the base's own. */
@@ -154,105 +164,84 @@ beam5_status beam5_initialise(
     acceleration_x[0] = node_x;
     acceleration_y[0] = gravity;
     for (int j = 0; j < BEAM5_STATIONS; ++j) {
-        predicted_angle[j + 1] = initial_angle[j];
         predicted_rate[j + 1] = initial_rate[j];
+        predicted_angle[j + 1] = initial_angle[j];
         predicted_acceleration[j + 1] = 0.0f;
         if (!(predicted_angle[j + 1] >= -BEAM5_LARGEST_ANGLE)
             || !(predicted_angle[j + 1] <= BEAM5_LARGEST_ANGLE)) {
             return BEAM5_OUT_OF_RANGE;
         }
         const circle turn_1 = circle_of(predicted_angle[j + 1]);
-        lever_sine[j] = length * turn_1.sine;
         lever_cosine[j] = length * turn_1.cosine;
+        lever_sine[j] = length * turn_1.sine;
         const real square = predicted_rate[j + 1] * predicted_rate[j + 1];
-        node_x = node_x - lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1];
-        node_y = node_y + lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square;
+        const real relative_x = -lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1];
+        const real relative_y = lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square;
+        node_x = node_x + relative_x;
+        node_y = node_y + relative_y;
         acceleration_x[j + 1] = node_x;
         acceleration_y[j + 1] = node_y;
     }
 
-    /* How each link's outer end answers to its unknown, and the predicted joint torques; sweep inward: force
-     * beyond each joint as an affine function of the motion at it. */
-    real impedance_xx = tip_mass;
+    /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
+     * of the motion at it. */
+    real force_x = 0.0f;
+    real force_y = 0.0f;
+    real impedance_xx = 0.0f;
     real impedance_xy = 0.0f;
-    real impedance_xu = 0.0f;
     real impedance_yx = 0.0f;
-    real impedance_yy = tip_mass;
-    real impedance_yu = 0.0f;
-    real impedance_ux = 0.0f;
-    real impedance_uy = 0.0f;
-    real impedance_uu = 0.0f;
-    real force_x = acceleration_x[5] * tip_mass;
-    real force_y = acceleration_y[5] * tip_mass;
+    real impedance_yy = 0.0f;
     real torque = 0.0f;
     for (int j = BEAM5_STATIONS - 1; j >= 0; --j) {
-        swing_x[j] = -lever_sine[j];
-        swing_y[j] = lever_cosine[j];
         const real joint_torque = damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
-        const real outer_x = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j];
-        const real outer_y = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j];
-        const real outer_u = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j];
-        const real load_x = force_x + acceleration_x[j] * center * mass;
-        const real load_y = force_y + acceleration_y[j] * center * mass;
-        const real link_ux = impedance_ux + impedance_yx * lever_cosine[j]
-            - lever_sine[j] * (impedance_xx + center * mass);
-        const real link_uy = impedance_uy - impedance_xy * lever_sine[j]
-            + lever_cosine[j] * (impedance_yy + center * mass);
-        const real link_uu = inertia + outer_u + lever_cosine[j] * outer_y - lever_sine[j] * outer_x
-            + center * center * (length * length) * mass;
-        const real link_xx = impedance_xx + mass;
-        const real link_xu = outer_x + center * mass * swing_x[j];
-        const real link_yy = impedance_yy + mass;
-        const real link_yu = outer_y + center * mass * swing_y[j];
-        torque = torque + lever_cosine[j] * load_y - lever_sine[j] * load_x
-            + predicted_acceleration[j + 1] * (inertia + center * center * (length * length) * mass);
-        force_x = force_x + acceleration_x[j] * (mass - center * mass)
-            + acceleration_x[j + 1] * center * mass;
-        force_y = force_y + acceleration_y[j] * (mass - center * mass)
-            + acceleration_y[j + 1] * center * mass;
-        if (!(link_uu > 0.0f) || !isfinite(link_uu)) {
+        impedance_xx = impedance_xx + node_mass[j];
+        impedance_yy = impedance_yy + node_mass[j];
+        force_x = force_x + acceleration_x[j + 1] * node_mass[j];
+        force_y = force_y + acceleration_y[j + 1] * node_mass[j];
+        const real impedance_xu = impedance_xy * lever_cosine[j] - impedance_xx * lever_sine[j];
+        const real impedance_yu = impedance_yy * lever_cosine[j] - impedance_yx * lever_sine[j];
+        const real impedance_ux = impedance_yx * lever_cosine[j] - impedance_xx * lever_sine[j];
+        const real impedance_uy = impedance_yy * lever_cosine[j] - impedance_xy * lever_sine[j];
+        const real impedance_uu = rod_inertia - impedance_xu * lever_sine[j] + impedance_yu * lever_cosine[j];
+        torque = torque - force_x * lever_sine[j] + force_y * lever_cosine[j]
+            + predicted_acceleration[j + 1] * rod_inertia;
+        if (!(impedance_uu > 0.0f) || !isfinite(impedance_uu)) {
             return BEAM5_VANISHING_PIVOT;
         }
-        const real inverse_pivot = 1.0f / link_uu;
-        answer_own[j] = inverse_pivot * (joint_torque - torque);
-        answer_x[j] = inverse_pivot * link_ux;
-        answer_y[j] = inverse_pivot * link_uy;
-        impedance_xx = link_xx - answer_x[j] * link_xu;
-        impedance_xy = impedance_xy - answer_y[j] * link_xu;
-        impedance_xu = 0.0f;
-        force_x = force_x + answer_own[j] * link_xu;
-        impedance_yx = impedance_yx - answer_x[j] * link_yu;
-        impedance_yy = link_yy - answer_y[j] * link_yu;
-        impedance_yu = 0.0f;
-        force_y = force_y + answer_own[j] * link_yu;
-        impedance_ux = 0.0f;
-        impedance_uy = 0.0f;
-        impedance_uu = 0.0f;
+        const real admittance = 1.0f / impedance_uu;
+        answer_own[j] = admittance * (joint_torque - torque);
+        answer_x[j] = admittance * impedance_ux;
+        answer_y[j] = admittance * impedance_uy;
+        impedance_xx = impedance_xx - answer_x[j] * impedance_xu;
+        impedance_xy = impedance_xy - answer_y[j] * impedance_xu;
+        impedance_yx = impedance_yx - answer_x[j] * impedance_yu;
+        impedance_yy = impedance_yy - answer_y[j] * impedance_yu;
+        force_x = force_x + answer_own[j] * impedance_xu;
+        force_y = force_y + answer_own[j] * impedance_yu;
         torque = joint_torque;
     }
 
-    /* The hub. */
-    const real hub_pivot = hub_inertia + impedance_uu;
-    if (!(hub_pivot > 0.0f) || !isfinite(hub_pivot)) {
+    /* The base. */
+    if (!(hub_inertia > 0.0f) || !isfinite(hub_inertia)) {
         return BEAM5_VANISHING_PIVOT;
     }
     real unknown = (inputs->hub_torque - torque - hub_damping * predicted_rate[0]
-        - hub_inertia * predicted_acceleration[0]) / hub_pivot;
+        - hub_inertia * predicted_acceleration[0]) / hub_inertia;
     const real hub_unknown = unknown;
 
-    /* Sweep outward: the increment of each link's unknown. */
+    /* Sweep outward: the unknown of each station. */
     real change_x = 0.0f;
     real change_y = 0.0f;
 
-    /* Sweep outward: the increment of each link's unknown; motion at the end of the step. */
+    /* Sweep outward: the unknown of each station; motion at the end of the step. */
     state->hub_angle = predicted_angle[0];
     state->hub_rate = predicted_rate[0];
     state->hub_acceleration = hub_unknown + predicted_acceleration[0];
     for (int j = 0; j < BEAM5_STATIONS; ++j) {
         unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y;
-        change_x = change_x + swing_x[j] * unknown;
-        change_y = change_y + swing_y[j] * unknown;
+        change_x = change_x - lever_sine[j] * unknown;
+        change_y = change_y + lever_cosine[j] * unknown;
         state->angle[j] = predicted_angle[j + 1];
         state->rate[j] = predicted_rate[j + 1];
         state->acceleration[j] = predicted_acceleration[j + 1] + unknown;
@@ -279,22 +268,23 @@ beam5_status beam5_step(
 
     real acceleration_x[BEAM5_STATIONS + 1]; /* acceleration of the nodes along x [m/s^2] */
     real acceleration_y[BEAM5_STATIONS + 1]; /* acceleration of the nodes along y [m/s^2] */
-    real answer_from_inner[BEAM5_STATIONS]; /* answer to the inner link's unknown */
-    real answer_own[BEAM5_STATIONS]; /* increment of the unknown if the inner side kept its motion */
-    real answer_x[BEAM5_STATIONS]; /* answer to the joint's acceleration along x */
-    real answer_y[BEAM5_STATIONS]; /* answer to the joint's acceleration along y */
-    real lever_cosine[BEAM5_STATIONS]; /* length times cosine of the predicted angle [m] */
-    real lever_sine[BEAM5_STATIONS]; /* length times sine of the predicted angle [m] */
+    real answer_own[BEAM5_STATIONS]; /* unknown of a station if its inner side kept its motion */
+    real answer_x[BEAM5_STATIONS]; /* answer of the unknown to the joint's acceleration along x */
+    real answer_y[BEAM5_STATIONS]; /* answer of the unknown to the joint's acceleration along y */
+    real lever_cosine[BEAM5_STATIONS]; /* length times cosine of the angle [m] */
+    real lever_sine[BEAM5_STATIONS]; /* length times sine of the angle [m] */
     /* acceleration of base and links as predicted [rad/s^2] */
     real predicted_acceleration[BEAM5_STATIONS + 1];
     real predicted_angle[BEAM5_STATIONS + 1]; /* angle of base and links as predicted [rad] */
     real predicted_rate[BEAM5_STATIONS + 1]; /* rate of base and links as predicted [rad/s] */
     real swing_x[BEAM5_STATIONS]; /* change of the outer end's acceleration along x per unknown [m] */
     real swing_y[BEAM5_STATIONS]; /* change of the outer end's acceleration along y per unknown [m] */
+    real transmission[BEAM5_STATIONS]; /* share of motion and torque each joint passes on */
 
     /* Predicted motion. */
-    predicted_angle[0] = state->hub_angle + state->hub_acceleration * step2_1_over_2 + state->hub_rate * step;
     predicted_rate[0] = state->hub_rate + state->hub_acceleration * step;
+    predicted_angle[0] = state->hub_angle + half_step_squared * state->hub_acceleration
+        + state->hub_rate * step;
     predicted_acceleration[0] = state->hub_acceleration;
 
     /* Predicted motion; accelerations of the nodes, seen from a falling frame: gravity is the base's own. */
@@ -303,92 +293,85 @@ beam5_status beam5_step(
     acceleration_x[0] = node_x;
     acceleration_y[0] = gravity;
     for (int j = 0; j < BEAM5_STATIONS; ++j) {
-        predicted_angle[j + 1] = state->angle[j] + state->acceleration[j] * step2_1_over_2
-            + state->rate[j] * step;
         predicted_rate[j + 1] = state->rate[j] + state->acceleration[j] * step;
+        predicted_angle[j + 1] = state->angle[j] + state->acceleration[j] * half_step_squared
+            + state->rate[j] * step;
         predicted_acceleration[j + 1] = state->acceleration[j];
         if (!(predicted_angle[j + 1] >= -BEAM5_LARGEST_ANGLE)
             || !(predicted_angle[j + 1] <= BEAM5_LARGEST_ANGLE)) {
             return BEAM5_OUT_OF_RANGE;
         }
         const circle turn_1 = circle_of(predicted_angle[j + 1]);
-        lever_sine[j] = length * turn_1.sine;
         lever_cosine[j] = length * turn_1.cosine;
+        lever_sine[j] = length * turn_1.sine;
         const real square = predicted_rate[j + 1] * predicted_rate[j + 1];
-        node_x = node_x - lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1];
-        node_y = node_y + lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square;
+        const real relative_x = -lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1];
+        const real relative_y = lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square;
+        const real turning = predicted_rate[j + 1] * step;
+        swing_x[j] = -lever_sine[j] - angle_per_acceleration * relative_y - lever_cosine[j] * turning;
+        swing_y[j] = lever_cosine[j] + angle_per_acceleration * relative_x - lever_sine[j] * turning;
+        node_x = node_x + relative_x;
+        node_y = node_y + relative_y;
         acceleration_x[j + 1] = node_x;
         acceleration_y[j + 1] = node_y;
     }
 
-    /* How each link's outer end answers to its unknown, and the predicted joint torques; sweep inward: force
-     * beyond each joint as an affine function of the motion at it. */
-    real impedance_xx = tip_mass;
-    real impedance_xy = 0.0f;
-    real impedance_xu = 0.0f;
-    real impedance_yx = 0.0f;
-    real impedance_yy = tip_mass;
-    real impedance_yu = 0.0f;
+    /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
+     * of the motion at it. */
+    real force_x = 0.0f;
+    real force_y = 0.0f;
+    real impedance_uu = 0.0f;
     real impedance_ux = 0.0f;
     real impedance_uy = 0.0f;
-    real impedance_uu = 0.0f;
-    real force_x = acceleration_x[5] * tip_mass;
-    real force_y = acceleration_y[5] * tip_mass;
+    real impedance_xu = 0.0f;
+    real impedance_xx = 0.0f;
+    real impedance_xy = 0.0f;
+    real impedance_yu = 0.0f;
+    real impedance_yx = 0.0f;
+    real impedance_yy = 0.0f;
     real torque = 0.0f;
     for (int j = BEAM5_STATIONS - 1; j >= 0; --j) {
-        const real tangential = 1.0f
-            - angle_per_acceleration * (predicted_rate[j + 1] * predicted_rate[j + 1]);
-        const real turning = angle_per_acceleration * predicted_acceleration[j + 1]
-            + predicted_rate[j + 1] * step;
-        swing_x[j] = -lever_cosine[j] * turning - lever_sine[j] * tangential;
-        swing_y[j] = lever_cosine[j] * tangential - lever_sine[j] * turning;
         const real joint_torque = damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
-        const real outer_x = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j];
-        const real outer_y = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j];
-        const real outer_u = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j];
-        const real load_x = force_x + acceleration_x[j] * carried_mass;
-        const real load_y = force_y + acceleration_y[j] * carried_mass;
-        const real link_ux = impedance_ux + impedance_yx * lever_cosine[j]
-            - lever_sine[j] * (carried_mass + impedance_xx);
-        const real link_uy = impedance_uy - impedance_xy * lever_sine[j]
-            + lever_cosine[j] * (carried_mass + impedance_yy);
-        const real link_uu = outer_u + pin_inertia
-            + angle_per_acceleration * (-lever_cosine[j] * load_x - lever_sine[j] * load_y)
-            + lever_cosine[j] * outer_y - lever_sine[j] * outer_x;
-        const real link_xx = impedance_xx + mass;
-        const real link_xu = outer_x + carried_mass * swing_x[j];
-        const real link_yy = impedance_yy + mass;
-        const real link_yu = outer_y + carried_mass * swing_y[j];
-        torque = torque + lever_cosine[j] * load_y - lever_sine[j] * load_x
-            + pin_inertia * predicted_acceleration[j + 1];
-        force_x = force_x + acceleration_x[j + 1] * carried_mass + acceleration_x[j] * inner_mass;
-        force_y = force_y + acceleration_y[j + 1] * carried_mass + acceleration_y[j] * inner_mass;
-        const real pivot = joint_impedance[j] + link_uu;
+        impedance_xx = impedance_xx + node_mass[j];
+        impedance_yy = impedance_yy + node_mass[j];
+        force_x = force_x + acceleration_x[j + 1] * node_mass[j];
+        force_y = force_y + acceleration_y[j + 1] * node_mass[j];
+        impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j];
+        impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j];
+        impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j];
+        impedance_ux = impedance_ux - impedance_xx * lever_sine[j] + impedance_yx * lever_cosine[j];
+        impedance_uy = impedance_uy - impedance_xy * lever_sine[j] + impedance_yy * lever_cosine[j];
+        impedance_uu = impedance_uu + rod_inertia
+            + lever_cosine[j] * (impedance_yu - angle_per_acceleration * force_x)
+            + lever_sine[j] * (-impedance_xu - angle_per_acceleration * force_y);
+        torque = torque - force_x * lever_sine[j] + force_y * lever_cosine[j]
+            + predicted_acceleration[j + 1] * rod_inertia;
+        const real pivot = impedance_uu + joint_impedance[j];
         if (!(pivot > 0.0f) || !isfinite(pivot)) {
             return BEAM5_VANISHING_PIVOT;
         }
-        const real inverse_pivot = 1.0f / pivot;
-        answer_own[j] = inverse_pivot * (joint_torque - torque);
-        answer_x[j] = inverse_pivot * link_ux;
-        answer_y[j] = inverse_pivot * link_uy;
-        answer_from_inner[j] = inverse_pivot * joint_impedance[j];
-        impedance_xx = link_xx - answer_x[j] * link_xu;
-        impedance_xy = impedance_xy - answer_y[j] * link_xu;
-        impedance_xu = answer_from_inner[j] * link_xu;
-        force_x = force_x + answer_own[j] * link_xu;
-        impedance_yx = impedance_yx - answer_x[j] * link_yu;
-        impedance_yy = link_yy - answer_y[j] * link_yu;
-        impedance_yu = answer_from_inner[j] * link_yu;
-        force_y = force_y + answer_own[j] * link_yu;
+        const real admittance = 1.0f / pivot;
+        answer_own[j] = admittance * (joint_torque - torque);
+        answer_x[j] = admittance * impedance_ux;
+        answer_y[j] = admittance * impedance_uy;
+        transmission[j] = admittance * joint_impedance[j];
+        impedance_xx = impedance_xx - answer_x[j] * impedance_xu;
+        impedance_xy = impedance_xy - answer_y[j] * impedance_xu;
+        impedance_yx = impedance_yx - answer_x[j] * impedance_yu;
+        impedance_yy = impedance_yy - answer_y[j] * impedance_yu;
         impedance_ux = answer_x[j] * joint_impedance[j];
         impedance_uy = answer_y[j] * joint_impedance[j];
-        impedance_uu = answer_from_inner[j] * link_uu;
+        impedance_uu = impedance_uu * transmission[j];
+        force_x = force_x + answer_own[j] * impedance_xu;
+        impedance_xu = impedance_xu * transmission[j];
+        force_y = force_y + answer_own[j] * impedance_yu;
+        impedance_yu = impedance_yu * transmission[j];
         torque = joint_torque - answer_own[j] * joint_impedance[j];
     }
 
-    /* The hub. */
-    const real hub_pivot = factor_3 + impedance_uu;
+    /* The base. */
+    const real hub_pivot = hub_impedance + impedance_uu;
     if (!(hub_pivot > 0.0f) || !isfinite(hub_pivot)) {
         return BEAM5_VANISHING_PIVOT;
     }
@@ -396,17 +379,16 @@ beam5_status beam5_step(
         - hub_inertia * predicted_acceleration[0]) / hub_pivot;
     const real hub_unknown = unknown;
 
-    /* Sweep outward: the increment of each link's unknown. */
+    /* Sweep outward: the unknown of each station. */
     real change_x = 0.0f;
     real change_y = 0.0f;
 
-    /* Sweep outward: the increment of each link's unknown; motion at the end of the step. */
+    /* Sweep outward: the unknown of each station; motion at the end of the step. */
     state->hub_angle = predicted_angle[0] + angle_per_acceleration * hub_unknown;
     state->hub_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration;
     state->hub_acceleration = hub_unknown + predicted_acceleration[0];
     for (int j = 0; j < BEAM5_STATIONS; ++j) {
-        unknown = answer_own[j] + answer_from_inner[j] * unknown - answer_x[j] * change_x
-            - answer_y[j] * change_y;
+        unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y + transmission[j] * unknown;
         change_x = change_x + swing_x[j] * unknown;
         change_y = change_y + swing_y[j] * unknown;
         state->angle[j] = predicted_angle[j + 1] + angle_per_acceleration * unknown;

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 2aa7477fe5a1cf796a596a84ffa48c892dc54bfd3ece90a5d25a43813cf34ab5
- * sha256 of the rest of this file: 41c5f32ac29f36a681075736bac0c87a367ee14056fdcc59dd42d76eac3d64e9
+ * sha256 of the rest of this file: 2d1e80ddc8fe92ab692d5c38006b83a2b42daf5f06794b46afe2279be1daf2c0
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 5
@@ -12,8 +12,9 @@
  * linearisation: newton
  * sweep: riccati
  * unknown: acceleration
- * operations of a step: 685, 137 per station (315 additions, 354 multiplications, 6 divisions, 10 functions)
- * operations of prepare: 47, 9.4 per station (8 additions, 39 multiplications)
+ * operations of a step: 593, 118.6 per station (275 additions, 302 multiplications, 6 divisions, 10 sines and
+ *     cosines)
+ * operations of prepare: 62, 12.4 per station (17 additions, 45 multiplications)
  * number type: float
  * bytes of the structs: state 72, inputs 4, outputs 12
  *
