@@ -67,7 +67,7 @@ class Counting:
         return self.value < Counting(other).value
 
     def call(self, function: Callable[[float], float]) -> Any:
-        return self._do("functions", function, self)
+        return self._do("sines and cosines", function, self)
 
 
 FUNCTIONS = {

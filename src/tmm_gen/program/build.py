@@ -6,7 +6,7 @@ from tmm_gen.derive.integrators.declaration import Integrator
 from tmm_gen.derive.integrators.registry import integrator
 from tmm_gen.derive.integrators.relations import UnsuitableUnknownError, affine_motion
 from tmm_gen.errors import UserError
-from tmm_gen.program.arm.assemble import Assembly, Choices
+from tmm_gen.program.arm.assemble import Choices, build
 from tmm_gen.program.arm.product import ProductWalks
 from tmm_gen.program.arm.thesis import TaylorWalks, ThesisWalks
 from tmm_gen.program.arm.walks import Walks
@@ -59,7 +59,7 @@ def build_unchecked(scene: Scene, chosen: Integrator) -> Program:
     row = row_of(scene, chosen)
     if scene.emit.sensitivities:
         require_derivatives(scene, chosen, row)
-    return Assembly(
+    return build(
         row,
         chosen,
         Choices(
@@ -71,7 +71,7 @@ def build_unchecked(scene: Scene, chosen: Integrator) -> Program:
             turns_apart=scene.emit.compensated and row.boundary == "free",
             sensitivities=scene.emit.sensitivities,
         ),
-    ).program()
+    )
 
 
 def _walks(scene: Scene, row: Row) -> type[Walks]:

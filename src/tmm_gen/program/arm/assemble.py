@@ -60,6 +60,21 @@ class Choices:
     sensitivities: bool = False
 
 
+def build(row: Row, integrator: Integrator, choices: Choices) -> Program:
+    """Build the program of a row.
+
+    Parameters
+    ----------
+    row : Row
+        The arm.
+    integrator : Integrator
+        With its parameters bound to numbers.
+    choices : Choices
+        How it is solved.
+    """
+    return Assembly(row, integrator, choices).program()
+
+
 class Assembly:
     """Gathers the routines of a row's program.
 

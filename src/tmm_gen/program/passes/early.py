@@ -51,22 +51,20 @@ class EarlySets:
         crossing = {ref.variable for section in left for s in section.statements for ref in _read(s)} & {
             a.target.variable for a in _assigns(statements)
         }
-        kept: dict[Ref, Ref] = {}
+        lengths: dict[Ref, int | None] = {}
         for statement in statements:
-            looped = isinstance(statement, Loop)
             for assign in _assigns((statement,)):
                 variable = assign.target.variable
                 if variable not in crossing:
                     continue
-                length = variable.length if variable.length is not None or not looped else statement.stop  # type: ignore[union-attr]
-                kept[assign.target] = self._variable(variable, length).at(assign.target.offset or 0)
-        for assign in _assigns(statements):  # loops over parts of the row write the same array
-            if assign.target in kept:
-                longest = max(
-                    (r.variable for t, r in kept.items() if t.variable == assign.target.variable),
-                    key=lambda v: v.length or 0,
-                )
-                kept[assign.target] = longest.at(assign.target.offset or 0)
+                length = variable.length
+                if length is None and isinstance(statement, Loop):  # runs of unlike stations share an array
+                    length = max(statement.stop, lengths.get(assign.target) or 0)
+                lengths[assign.target] = length
+        kept = {
+            target: self._variable(target.variable, length).at(target.offset or 0)
+            for target, length in lengths.items()
+        }
         self._coefficients += dict.fromkeys(ref.variable for ref in kept.values())
         self._sections.append(
             _renamed(Section("factors of the sweep that do not change from step to step", statements), kept)
