@@ -76,7 +76,7 @@ of = "position"
 def scene_of(name: str) -> Scene:
     stations = "".join(f"[[joint]]\nstiffness = {k}\ndamping = {c}\n" for k, c in JOINTS)
     stations += "".join(
-        f"[[link]]\nmass = {m}\nlength = {l}\ninertia = {i}\ncenter = {c}\n" for m, l, i, c in LINKS
+        f"[[link]]\nmass = {m}\nlength = {length}\ninertia = {i}\ncenter = {c}\n" for m, length, i, c in LINKS
     )
     return parse_scene(SCENE.format(gravity=GRAVITY, integrator=name, stations=stations, tip=TIP))
 
@@ -121,9 +121,7 @@ def exact() -> np.ndarray:
         cross = coupling * np.cos(a - b) + R * (1 - R) * J
         mass = np.array([[first, cross], [cross, second]])
         swing = coupling * np.sin(a - b)
-        pull = GRAVITY * np.array(
-            [(m1 * k1 + m2 + TIP) * l1 * np.cos(a), (m2 * k2 + TIP) * l2 * np.cos(b)]
-        )
+        pull = GRAVITY * np.array([(m1 * k1 + m2 + TIP) * l1 * np.cos(a), (m2 * k2 + TIP) * l2 * np.cos(b)])
         root = -JOINTS[0][0] * a - JOINTS[0][1] * u
         bent = JOINTS[1][0] * (b - a) + JOINTS[1][1] * (v - u)
         force = np.array([root + bent - R * TORQUE - swing * v**2, -bent + R * TORQUE + swing * u**2]) - pull

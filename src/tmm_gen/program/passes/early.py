@@ -165,7 +165,7 @@ def _lifted(statements: list[Statement]) -> list[Statement]:
         body: list[Assign | Require] = []
         for inner in statement.body:
             value = inner.value.xreplace(alike)
-            uniform = isinstance(inner, Assign) and inner.target.variable in once
+            uniform = not isinstance(inner, Assign) or inner.target.variable in once
             uniform = uniform and all(
                 r.variable.length is None
                 and (
@@ -175,6 +175,9 @@ def _lifted(statements: list[Statement]) -> list[Statement]:
                 )
                 for r in refs_in(value)
             )
+            if uniform and isinstance(inner, Require):
+                found.append(Require(value))
+                continue
             if uniform:
                 assert isinstance(inner, Assign)
                 scalar = replace(inner.target.variable, role=Role.LOCAL, length=None).ref

@@ -22,7 +22,7 @@ from tmm_gen.derive.station.frame import GAINS, Frame
 from tmm_gen.derive.station.law import KINDS
 from tmm_gen.derive.station.lets import Coordinate
 from tmm_gen.derive.station.product import FORCE_GAIN, MOTION_GAIN, product
-from tmm_gen.derive.station.station import outward
+from tmm_gen.derive.station.station import inward, outward
 from tmm_gen.errors import UserError
 from tmm_gen.program.arm.binding import composed
 from tmm_gen.scene import Scene
@@ -131,7 +131,9 @@ def _station_law(gains: dict[sp.Symbol, float]) -> _Law:
     arguments = (MOTION_GAIN, FORCE_GAIN, STIFFNESS, DAMPING, INERTIA)
     q, v, a = (sp.sympify(gains[GAINS[k]]) for k in KINDS)
     frame = Frame((Coordinate("", "torque", True, "rad/s^2", "N m"),), (q, v, a), sign=-1)
-    carried = composed(product(outward((JOINT, LINK), frame), []).gains)
+    station = (JOINT, LINK)
+    known = inward(station, frame, frozenset()).known
+    carried = composed(product(outward(station, frame), known).gains)
     return _Law(sp.lambdify(arguments, [carried[MOTION_GAIN], carried[FORCE_GAIN]], "math"))
 
 
