@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 95c81c6eb7e0b6f1ffc37b1b0540e1023a1118b007e8b573b96cceed3f286490
-# sha256 of the rest of this file: 16f9337ac227079d3eaae0e8de7813aa89c2ef1cd327a18003cfd6a06f7e01d7
+# sha256 of the rest of this file: 791d2f9d254257d3f073b7043a93092b190c97c065d249b25bf14cf52e68be2b
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 10
@@ -11,9 +11,9 @@
 # linearisation: newton
 # sweep: riccati
 # unknown: acceleration
-# operations of a step: 1168, 116.8 per station (540 additions, 597 multiplications, 11 divisions, 20 sines
+# operations of a step: 1171, 117.1 per station (541 additions, 599 multiplications, 11 divisions, 20 sines
 #     and cosines)
-# operations of prepare: 112, 11.2 per station (32 additions, 80 multiplications)
+# operations of prepare: 77, 7.7 per station (15 additions, 62 multiplications)
 """arm10: Ten-link arm swung by a hub motor. Functions for optimisation and control.
 
 Columns: ``x`` the state (STATE_NAMES), ``u`` the inputs (INPUT_NAMES), ``p`` the step and the physical
@@ -178,12 +178,9 @@ def _prepare(p: ca.SX) -> dict[str, Any]:
     hub_damping = p[27]
     tip_mass = p[28]
     joint_impedance: list[Any] = [0.0] * STATIONS
-    node_mass: list[Any] = [0.0] * STATIONS
 
     # masses at the nodes between links, and what they leave over
-    for j in range(9):
-        node_mass[j] = center * mass + mass * (1.0 - center)
-    node_mass[9] = tip_mass + center * mass
+    end_mass = tip_mass - mass * (1.0 - center)
     rod_inertia = inertia - center * (length * length) * mass * (1.0 - center)
 
     # factors of the sweep that do not change from step to step
@@ -198,6 +195,7 @@ def _prepare(p: ca.SX) -> dict[str, Any]:
     return {
         "step": step,
         "length": length,
+        "mass": mass,
         "stiffness": stiffness,
         "damping": damping,
         "gravity": gravity,
@@ -206,7 +204,7 @@ def _prepare(p: ca.SX) -> dict[str, Any]:
         "half_step_squared": half_step_squared,
         "angle_per_acceleration": angle_per_acceleration,
         "rate_per_acceleration": rate_per_acceleration,
-        "node_mass": node_mass,
+        "end_mass": end_mass,
         "rod_inertia": rod_inertia,
         "joint_impedance": joint_impedance,
         "hub_impedance": hub_impedance,
@@ -239,7 +237,6 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
     joint_torque: list[Any] = [0.0] * STATIONS
     lever_cosine: list[Any] = [0.0] * STATIONS
     lever_sine: list[Any] = [0.0] * STATIONS
-    node_mass: list[Any] = [0.0] * STATIONS
     predicted_acceleration: list[Any] = [0.0] * (STATIONS + 1)
     predicted_angle: list[Any] = [0.0] * (STATIONS + 1)
     predicted_rate: list[Any] = [0.0] * (STATIONS + 1)
@@ -249,10 +246,11 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
     solved: list[Any] = [0.0] * STATIONS
 
     # masses at the nodes between links, and what they leave over
-    for j in range(9):
-        node_mass[j] = center * mass + mass * (1.0 - center)
-    node_mass[9] = tip_mass + center * mass
+    end_mass = tip_mass - mass * (1.0 - center)
     rod_inertia = inertia - center * (length * length) * mass * (1.0 - center)
+
+    # what is the same at every station
+    hub_pivot = hub_inertia
 
     # predicted motion
     predicted_rate[0] = 0.0
@@ -287,18 +285,18 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
         )
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
-    force_y = -tip_force
-    force_x: Any = 0.0
-    impedance_xx: Any = 0.0
+    impedance_xx = end_mass
+    impedance_yy = end_mass
+    force_x = acceleration_x[10] * end_mass
+    force_y = acceleration_y[10] * end_mass - tip_force
     impedance_xy: Any = 0.0
     impedance_yx: Any = 0.0
-    impedance_yy: Any = 0.0
     torque: Any = 0.0
     for j in reversed(range(STATIONS)):
-        impedance_xx = impedance_xx + node_mass[j]
-        impedance_yy = impedance_yy + node_mass[j]
-        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
-        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
+        impedance_xx = impedance_xx + mass
+        force_x = force_x + acceleration_x[j + 1] * mass
+        impedance_yy = impedance_yy + mass
+        force_y = force_y + acceleration_y[j + 1] * mass
         impedance_xu = impedance_xy * lever_cosine[j] - impedance_xx * lever_sine[j]
         impedance_yu = impedance_yy * lever_cosine[j] - impedance_yx * lever_sine[j]
         impedance_ux = impedance_yx * lever_cosine[j] - impedance_xx * lever_sine[j]
@@ -317,14 +315,13 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
         answer_y[j] = admittance * impedance_uy
         impedance_xx = impedance_xx - answer_x[j] * impedance_xu
         impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        force_x = force_x + answer_own[j] * impedance_xu
         impedance_yx = impedance_yx - answer_x[j] * impedance_yu
         impedance_yy = impedance_yy - answer_y[j] * impedance_yu
-        force_x = force_x + answer_own[j] * impedance_xu
         force_y = force_y + answer_own[j] * impedance_yu
         torque = joint_torque[j]
 
     # the base
-    hub_pivot = hub_inertia
     unknown = (
         hub_torque - torque - hub_damping * predicted_rate[0] - hub_inertia * predicted_acceleration[0]
     ) / hub_pivot
@@ -354,6 +351,7 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     """Advance the state by one step."""
     step = model["step"]
     length = model["length"]
+    mass = model["mass"]
     stiffness = model["stiffness"]
     damping = model["damping"]
     gravity = model["gravity"]
@@ -362,7 +360,7 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     half_step_squared = model["half_step_squared"]
     angle_per_acceleration = model["angle_per_acceleration"]
     rate_per_acceleration = model["rate_per_acceleration"]
-    node_mass = model["node_mass"]
+    end_mass = model["end_mass"]
     rod_inertia = model["rod_inertia"]
     joint_impedance = model["joint_impedance"]
     hub_impedance = model["hub_impedance"]
@@ -382,7 +380,6 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     joint_torque: list[Any] = [0.0] * STATIONS
     lever_cosine: list[Any] = [0.0] * STATIONS
     lever_sine: list[Any] = [0.0] * STATIONS
-    predicted_acceleration: list[Any] = [0.0] * (STATIONS + 1)
     predicted_angle: list[Any] = [0.0] * (STATIONS + 1)
     predicted_rate: list[Any] = [0.0] * (STATIONS + 1)
     relative_x: list[Any] = [0.0] * STATIONS
@@ -395,19 +392,17 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     # predicted motion
     predicted_rate[0] = hub_rate + hub_acceleration * step
     predicted_angle[0] = hub_angle + half_step_squared * hub_acceleration + hub_rate * step
-    predicted_acceleration[0] = hub_acceleration
     for j in range(STATIONS):
         predicted_rate[j + 1] = rate[j] + acceleration[j] * step
         predicted_angle[j + 1] = angle[j] + acceleration[j] * half_step_squared + rate[j] * step
-        predicted_acceleration[j + 1] = acceleration[j]
 
     # accelerations of the nodes, seen from a falling frame: gravity is the base's own
     for j in range(STATIONS):
         lever_cosine[j] = length * ca.cos(predicted_angle[j + 1])
         lever_sine[j] = length * ca.sin(predicted_angle[j + 1])
         square = predicted_rate[j + 1] * predicted_rate[j + 1]
-        relative_x[j] = -lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1]
-        relative_y[j] = lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square
+        relative_x[j] = -acceleration[j] * lever_sine[j] - lever_cosine[j] * square
+        relative_y[j] = acceleration[j] * lever_cosine[j] - lever_sine[j] * square
         turning = predicted_rate[j + 1] * step
         swing_x[j] = -lever_sine[j] - angle_per_acceleration * relative_y[j] - lever_cosine[j] * turning
         swing_y[j] = lever_cosine[j] + angle_per_acceleration * relative_x[j] - lever_sine[j] * turning
@@ -428,23 +423,23 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         )
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
-    force_y = -tip_force
-    force_x: Any = 0.0
+    impedance_xx = end_mass
+    impedance_yy = end_mass
+    force_x = acceleration_x[10] * end_mass
+    force_y = acceleration_y[10] * end_mass - tip_force
     impedance_uu: Any = 0.0
     impedance_ux: Any = 0.0
     impedance_uy: Any = 0.0
     impedance_xu: Any = 0.0
-    impedance_xx: Any = 0.0
     impedance_xy: Any = 0.0
     impedance_yu: Any = 0.0
     impedance_yx: Any = 0.0
-    impedance_yy: Any = 0.0
     torque: Any = 0.0
     for j in reversed(range(STATIONS)):
-        impedance_xx = impedance_xx + node_mass[j]
-        impedance_yy = impedance_yy + node_mass[j]
-        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
-        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
+        impedance_xx = impedance_xx + mass
+        force_x = force_x + acceleration_x[j + 1] * mass
+        impedance_yy = impedance_yy + mass
+        force_y = force_y + acceleration_y[j + 1] * mass
         impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
         impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
         impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
@@ -456,12 +451,7 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
             + lever_cosine[j] * (impedance_yu - angle_per_acceleration * force_x)
             + lever_sine[j] * (-impedance_xu - angle_per_acceleration * force_y)
         )
-        torque = (
-            torque
-            - force_x * lever_sine[j]
-            + force_y * lever_cosine[j]
-            + predicted_acceleration[j + 1] * rod_inertia
-        )
+        torque = torque + acceleration[j] * rod_inertia - force_x * lever_sine[j] + force_y * lever_cosine[j]
         pivot = impedance_uu + joint_impedance[j]
         admittance = 1.0 / pivot
         answer_own[j] = admittance * (joint_torque[j] - torque)
@@ -470,21 +460,21 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         transmission[j] = admittance * joint_impedance[j]
         impedance_xx = impedance_xx - answer_x[j] * impedance_xu
         impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        force_x = force_x + answer_own[j] * impedance_xu
+        impedance_xu = impedance_xu * transmission[j]
         impedance_yx = impedance_yx - answer_x[j] * impedance_yu
         impedance_yy = impedance_yy - answer_y[j] * impedance_yu
+        force_y = force_y + answer_own[j] * impedance_yu
+        impedance_yu = impedance_yu * transmission[j]
         impedance_ux = answer_x[j] * joint_impedance[j]
         impedance_uy = answer_y[j] * joint_impedance[j]
         impedance_uu = impedance_uu * transmission[j]
-        force_x = force_x + answer_own[j] * impedance_xu
-        impedance_xu = impedance_xu * transmission[j]
-        force_y = force_y + answer_own[j] * impedance_yu
-        impedance_yu = impedance_yu * transmission[j]
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
     # the base
     hub_pivot = hub_impedance + impedance_uu
     unknown = (
-        hub_torque - torque - hub_damping * predicted_rate[0] - hub_inertia * predicted_acceleration[0]
+        hub_torque - torque - hub_acceleration * hub_inertia - hub_damping * predicted_rate[0]
     ) / hub_pivot
     hub_unknown = unknown
 
@@ -500,11 +490,11 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     # motion at the end of the step
     hub_angle = predicted_angle[0] + angle_per_acceleration * hub_unknown
     hub_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration
-    hub_acceleration = hub_unknown + predicted_acceleration[0]
+    hub_acceleration = hub_acceleration + hub_unknown
     for j in range(STATIONS):
         angle[j] = predicted_angle[j + 1] + angle_per_acceleration * solved[j]
         rate[j] = predicted_rate[j + 1] + rate_per_acceleration * solved[j]
-        acceleration[j] = predicted_acceleration[j + 1] + solved[j]
+        acceleration[j] = acceleration[j] + solved[j]
     return _column(hub_angle, hub_rate, hub_acceleration, *angle, *rate, *acceleration)
 
 

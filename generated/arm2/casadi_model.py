@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: c5e09abbb61734735cef8cfddf39dd959eb5765da3ad6484bed2957b4fdf212c
-# sha256 of the rest of this file: 5b772b2afa54efbbbe46d29de5677e8c3ed940d600c614a8fe3d495457247249
+# sha256 of the rest of this file: 325a8e6c3680f090b41b2c6feccc8ab3cafcdd606c485447b8e0d82203b61b95
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 2
@@ -250,6 +250,9 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
     for j in range(STATIONS):
         rod_inertia[j] = inertia[j] - center[j] * (length[j] * length[j]) * mass[j] * (1.0 - center[j])
 
+    # what is the same at every station
+    hub_pivot = hub_inertia
+
     # predicted motion
     predicted_rate[0] = 0.0
     predicted_angle[0] = 0.0
@@ -293,8 +296,8 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
     impedance_yy: Any = 0.0
     for j in reversed(range(STATIONS)):
         impedance_xx = impedance_xx + node_mass[j]
-        impedance_yy = impedance_yy + node_mass[j]
         force_x = force_x + acceleration_x[j + 1] * node_mass[j]
+        impedance_yy = impedance_yy + node_mass[j]
         force_y = force_y + acceleration_y[j + 1] * node_mass[j]
         impedance_xu = impedance_xy * lever_cosine[j] - impedance_xx * lever_sine[j]
         impedance_yu = impedance_yy * lever_cosine[j] - impedance_yx * lever_sine[j]
@@ -316,15 +319,14 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
         answer_y[j] = admittance * impedance_uy
         impedance_xx = impedance_xx - answer_x[j] * impedance_xu
         impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        force_x = force_x + answer_own[j] * impedance_xu
         impedance_yx = impedance_yx - answer_x[j] * impedance_yu
         impedance_yy = impedance_yy - answer_y[j] * impedance_yu
-        force_x = force_x + answer_own[j] * impedance_xu
         force_y = force_y + answer_own[j] * impedance_yu
         torque = joint_torque[j]
         impedance_uu = 0.0
 
     # the base
-    hub_pivot = hub_inertia
     unknown = (
         hub_torque - torque - hub_damping * predicted_rate[0] - hub_inertia * predicted_acceleration[0]
     ) / hub_pivot
@@ -382,7 +384,6 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     joint_torque: list[Any] = [0.0] * STATIONS
     lever_cosine: list[Any] = [0.0] * STATIONS
     lever_sine: list[Any] = [0.0] * STATIONS
-    predicted_acceleration: list[Any] = [0.0] * (STATIONS + 1)
     predicted_angle: list[Any] = [0.0] * (STATIONS + 1)
     predicted_rate: list[Any] = [0.0] * (STATIONS + 1)
     relative_x: list[Any] = [0.0] * STATIONS
@@ -395,19 +396,17 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     # predicted motion
     predicted_rate[0] = hub_rate + hub_acceleration * step
     predicted_angle[0] = hub_angle + half_step_squared * hub_acceleration + hub_rate * step
-    predicted_acceleration[0] = hub_acceleration
     for j in range(STATIONS):
         predicted_rate[j + 1] = rate[j] + acceleration[j] * step
         predicted_angle[j + 1] = angle[j] + acceleration[j] * half_step_squared + rate[j] * step
-        predicted_acceleration[j + 1] = acceleration[j]
 
     # accelerations of the nodes, seen from a falling frame: gravity is the base's own
     for j in range(STATIONS):
         lever_cosine[j] = length[j] * ca.cos(predicted_angle[j + 1])
         lever_sine[j] = length[j] * ca.sin(predicted_angle[j + 1])
         square = predicted_rate[j + 1] * predicted_rate[j + 1]
-        relative_x[j] = -lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1]
-        relative_y[j] = lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square
+        relative_x[j] = -acceleration[j] * lever_sine[j] - lever_cosine[j] * square
+        relative_y[j] = acceleration[j] * lever_cosine[j] - lever_sine[j] * square
         turning = predicted_rate[j + 1] * step
         swing_x[j] = -lever_sine[j] - angle_per_acceleration * relative_y[j] - lever_cosine[j] * turning
         swing_y[j] = lever_cosine[j] + angle_per_acceleration * relative_x[j] - lever_sine[j] * turning
@@ -429,7 +428,7 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
     impedance_uu = tip_inertia
-    torque = predicted_acceleration[2] * tip_inertia
+    torque = acceleration[1] * tip_inertia
     force_x: Any = 0.0
     force_y: Any = 0.0
     impedance_ux: Any = 0.0
@@ -442,8 +441,8 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     impedance_yy: Any = 0.0
     for j in reversed(range(STATIONS)):
         impedance_xx = impedance_xx + node_mass[j]
-        impedance_yy = impedance_yy + node_mass[j]
         force_x = force_x + acceleration_x[j + 1] * node_mass[j]
+        impedance_yy = impedance_yy + node_mass[j]
         force_y = force_y + acceleration_y[j + 1] * node_mass[j]
         impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
         impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
@@ -457,10 +456,7 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
             + lever_sine[j] * (-impedance_xu - angle_per_acceleration * force_y)
         )
         torque = (
-            torque
-            - force_x * lever_sine[j]
-            + force_y * lever_cosine[j]
-            + predicted_acceleration[j + 1] * rod_inertia[j]
+            torque + acceleration[j] * rod_inertia[j] - force_x * lever_sine[j] + force_y * lever_cosine[j]
         )
         pivot = impedance_uu + joint_impedance[j]
         admittance = 1.0 / pivot
@@ -470,21 +466,21 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         transmission[j] = admittance * joint_impedance[j]
         impedance_xx = impedance_xx - answer_x[j] * impedance_xu
         impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        force_x = force_x + answer_own[j] * impedance_xu
+        impedance_xu = impedance_xu * transmission[j]
         impedance_yx = impedance_yx - answer_x[j] * impedance_yu
         impedance_yy = impedance_yy - answer_y[j] * impedance_yu
+        force_y = force_y + answer_own[j] * impedance_yu
+        impedance_yu = impedance_yu * transmission[j]
         impedance_ux = answer_x[j] * joint_impedance[j]
         impedance_uy = answer_y[j] * joint_impedance[j]
         impedance_uu = impedance_uu * transmission[j]
-        force_x = force_x + answer_own[j] * impedance_xu
-        impedance_xu = impedance_xu * transmission[j]
-        force_y = force_y + answer_own[j] * impedance_yu
-        impedance_yu = impedance_yu * transmission[j]
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
     # the base
     hub_pivot = hub_impedance + impedance_uu
     unknown = (
-        hub_torque - torque - hub_damping * predicted_rate[0] - hub_inertia * predicted_acceleration[0]
+        hub_torque - torque - hub_acceleration * hub_inertia - hub_damping * predicted_rate[0]
     ) / hub_pivot
     hub_unknown = unknown
 
@@ -500,11 +496,11 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     # motion at the end of the step
     hub_angle = predicted_angle[0] + angle_per_acceleration * hub_unknown
     hub_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration
-    hub_acceleration = hub_unknown + predicted_acceleration[0]
+    hub_acceleration = hub_acceleration + hub_unknown
     for j in range(STATIONS):
         angle[j] = predicted_angle[j + 1] + angle_per_acceleration * solved[j]
         rate[j] = predicted_rate[j + 1] + rate_per_acceleration * solved[j]
-        acceleration[j] = predicted_acceleration[j + 1] + solved[j]
+        acceleration[j] = acceleration[j] + solved[j]
     return _column(hub_angle, hub_rate, hub_acceleration, *angle, *rate, *acceleration)
 
 

@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: c5e09abbb61734735cef8cfddf39dd959eb5765da3ad6484bed2957b4fdf212c
-# sha256 of the rest of this file: c87d4df1ca97cdcec76f54d7880a3e6f20446d2f7da551fcaa4f35a70be4656d
+# sha256 of the rest of this file: 6c615cc81b782422552199818e276adbef732908289345a9d670cd6d2db7660b
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 2
@@ -376,6 +376,10 @@ def initialise(
     node_mass[1] = tip_mass + center[1] * mass[1]
     rod_inertia = inertia - center * (length * length) * mass * (1.0 - center)
 
+    # what is the same at every station
+    hub_pivot = hub_inertia
+    _require_positive(hub_pivot, "hub_pivot", None)
+
     # predicted motion
     predicted_rate[0] = 0.0
     predicted_angle[0] = 0.0
@@ -416,8 +420,8 @@ def initialise(
     impedance_yy: Any = 0.0
     for j in reversed(range(STATIONS)):
         impedance_xx = impedance_xx + node_mass[j]
-        impedance_yy = impedance_yy + node_mass[j]
         force_x = force_x + acceleration_x[j + 1] * node_mass[j]
+        impedance_yy = impedance_yy + node_mass[j]
         force_y = force_y + acceleration_y[j + 1] * node_mass[j]
         impedance_xu = impedance_xy * lever_cosine[j] - impedance_xx * lever_sine[j]
         impedance_yu = impedance_yy * lever_cosine[j] - impedance_yx * lever_sine[j]
@@ -440,16 +444,14 @@ def initialise(
         answer_y[j] = admittance * impedance_uy
         impedance_xx = impedance_xx - answer_x[j] * impedance_xu
         impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        force_x = force_x + answer_own[j] * impedance_xu
         impedance_yx = impedance_yx - answer_x[j] * impedance_yu
         impedance_yy = impedance_yy - answer_y[j] * impedance_yu
-        force_x = force_x + answer_own[j] * impedance_xu
         force_y = force_y + answer_own[j] * impedance_yu
         torque = joint_torque[j]
         impedance_uu = 0.0
 
     # the base
-    hub_pivot = hub_inertia
-    _require_positive(hub_pivot, "hub_pivot", None)
     unknown = (
         hub_torque - torque - hub_damping * predicted_rate[0] - hub_inertia * predicted_acceleration[0]
     ) / hub_pivot
@@ -563,7 +565,6 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     answer_own = np.zeros((STATIONS, *batch), dtype)
     answer_x = np.zeros((STATIONS, *batch), dtype)
     answer_y = np.zeros((STATIONS, *batch), dtype)
-    predicted_acceleration = np.zeros((STATIONS + 1, *batch), dtype)
     predicted_angle = np.zeros((STATIONS + 1, *batch), dtype)
     predicted_rate = np.zeros((STATIONS + 1, *batch), dtype)
     solved = np.zeros((STATIONS, *batch), dtype)
@@ -572,17 +573,15 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     # predicted motion
     predicted_rate[0] = hub_rate + hub_acceleration * step
     predicted_angle[0] = hub_angle + half_step_squared * hub_acceleration + hub_rate * step
-    predicted_acceleration[0] = hub_acceleration
     predicted_rate[1:] = rate + acceleration * step
     predicted_angle[1:] = angle + acceleration * half_step_squared + rate * step
-    predicted_acceleration[1:] = acceleration
 
     # accelerations of the nodes, seen from a falling frame: gravity is the base's own
     lever_cosine = length * np.cos(predicted_angle[1:])
     lever_sine = length * np.sin(predicted_angle[1:])
     square = predicted_rate[1:] * predicted_rate[1:]
-    relative_x = -lever_cosine * square - lever_sine * predicted_acceleration[1:]
-    relative_y = lever_cosine * predicted_acceleration[1:] - lever_sine * square
+    relative_x = -acceleration * lever_sine - lever_cosine * square
+    relative_y = acceleration * lever_cosine - lever_sine * square
     turning = predicted_rate[1:] * step
     swing_x = -lever_sine - angle_per_acceleration * relative_y - lever_cosine * turning
     swing_y = lever_cosine + angle_per_acceleration * relative_x - lever_sine * turning
@@ -603,7 +602,7 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
     impedance_uu = tip_inertia
-    torque = predicted_acceleration[2] * tip_inertia
+    torque = acceleration[1] * tip_inertia
     force_x: Any = 0.0
     force_y: Any = 0.0
     impedance_ux: Any = 0.0
@@ -616,8 +615,8 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     impedance_yy: Any = 0.0
     for j in reversed(range(STATIONS)):
         impedance_xx = impedance_xx + node_mass[j]
-        impedance_yy = impedance_yy + node_mass[j]
         force_x = force_x + acceleration_x[j + 1] * node_mass[j]
+        impedance_yy = impedance_yy + node_mass[j]
         force_y = force_y + acceleration_y[j + 1] * node_mass[j]
         impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
         impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
@@ -631,10 +630,7 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
             + lever_sine[j] * (-impedance_xu - angle_per_acceleration * force_y)
         )
         torque = (
-            torque
-            - force_x * lever_sine[j]
-            + force_y * lever_cosine[j]
-            + predicted_acceleration[j + 1] * rod_inertia[j]
+            torque + acceleration[j] * rod_inertia[j] - force_x * lever_sine[j] + force_y * lever_cosine[j]
         )
         pivot = impedance_uu + joint_impedance[j]
         _require_positive(pivot, "pivot", j)
@@ -645,22 +641,22 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
         transmission[j] = admittance * joint_impedance[j]
         impedance_xx = impedance_xx - answer_x[j] * impedance_xu
         impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        force_x = force_x + answer_own[j] * impedance_xu
+        impedance_xu = impedance_xu * transmission[j]
         impedance_yx = impedance_yx - answer_x[j] * impedance_yu
         impedance_yy = impedance_yy - answer_y[j] * impedance_yu
+        force_y = force_y + answer_own[j] * impedance_yu
+        impedance_yu = impedance_yu * transmission[j]
         impedance_ux = answer_x[j] * joint_impedance[j]
         impedance_uy = answer_y[j] * joint_impedance[j]
         impedance_uu = impedance_uu * transmission[j]
-        force_x = force_x + answer_own[j] * impedance_xu
-        impedance_xu = impedance_xu * transmission[j]
-        force_y = force_y + answer_own[j] * impedance_yu
-        impedance_yu = impedance_yu * transmission[j]
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
     # the base
     hub_pivot = hub_impedance + impedance_uu
     _require_positive(hub_pivot, "hub_pivot", None)
     unknown = (
-        hub_torque - torque - hub_damping * predicted_rate[0] - hub_inertia * predicted_acceleration[0]
+        hub_torque - torque - hub_acceleration * hub_inertia - hub_damping * predicted_rate[0]
     ) / hub_pivot
     hub_unknown = unknown
 
@@ -676,10 +672,10 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     # motion at the end of the step
     hub_angle = predicted_angle[0] + angle_per_acceleration * hub_unknown
     hub_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration
-    hub_acceleration = hub_unknown + predicted_acceleration[0]
+    hub_acceleration = hub_acceleration + hub_unknown
     angle = predicted_angle[1:] + angle_per_acceleration * solved
     rate = predicted_rate[1:] + rate_per_acceleration * solved
-    acceleration = predicted_acceleration[1:] + solved
+    acceleration = acceleration + solved
     return State(
         hub_angle=_spread(hub_angle, batch, False),
         hub_rate=_spread(hub_rate, batch, False),

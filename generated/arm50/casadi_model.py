@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
-# sha256 of the rest of this file: 3bf8bb87c5bbd26fa41e60940df5148eefd1ee647dd080a46605d89749d6f656
+# sha256 of the rest of this file: 071a2bb08f4020e7fe6d346844fe82c1def5b64861593a02754f7950487acb3f
 #
 # model: planar arm, large rotations, tip mass
 # stations: 50
@@ -11,9 +11,9 @@
 # linearisation: newton
 # sweep: riccati
 # unknown: acceleration
-# operations of a step: 29534, 590.7 per station (13642 additions, 15142 multiplications, 250 divisions, 500
+# operations of a step: 29544, 590.9 per station (13642 additions, 15152 multiplications, 250 divisions, 500
 #     sines and cosines)
-# operations of prepare: 526, 10.52 per station (152 additions, 373 multiplications, 1 divisions)
+# operations of prepare: 331, 6.62 per station (55 additions, 275 multiplications, 1 divisions)
 """arm50: Stiff arm of fifty links on a servo. Functions for optimisation and control.
 
 Columns: ``x`` the state (STATE_NAMES), ``u`` the inputs (INPUT_NAMES), ``p`` the step and the physical
@@ -260,12 +260,9 @@ def _prepare(p: ca.SX) -> dict[str, Any]:
     tip_mass = p[105]
     tip_inertia = p[106]
     joint_impedance: list[Any] = [0.0] * STATIONS
-    node_mass: list[Any] = [0.0] * STATIONS
 
     # masses at the nodes between links, and what they leave over
-    for j in range(49):
-        node_mass[j] = center * mass + mass * (1.0 - center)
-    node_mass[49] = tip_mass + center * mass
+    end_mass = tip_mass - mass * (1.0 - center)
     rod_inertia = inertia - center * (length * length) * mass * (1.0 - center)
 
     # factors of the sweep that do not change from step to step
@@ -294,6 +291,7 @@ def _prepare(p: ca.SX) -> dict[str, Any]:
     reaction_x_per_acceleration_x_2 = mass * (center - 1.0)
     return {
         "length": length,
+        "mass": mass,
         "stiffness": stiffness,
         "damping": damping,
         "tip_mass": tip_mass,
@@ -317,7 +315,7 @@ def _prepare(p: ca.SX) -> dict[str, Any]:
         "predicted_angle_per_stage4_rate": predicted_angle_per_stage4_rate,
         "reaction_x_per_acceleration_x": reaction_x_per_acceleration_x,
         "reaction_x_per_acceleration_x_2": reaction_x_per_acceleration_x_2,
-        "node_mass": node_mass,
+        "end_mass": end_mass,
         "rod_inertia": rod_inertia,
         "joint_impedance": joint_impedance,
     }
@@ -346,7 +344,6 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
     joint_torque: list[Any] = [0.0] * STATIONS
     lever_cosine: list[Any] = [0.0] * STATIONS
     lever_sine: list[Any] = [0.0] * STATIONS
-    node_mass: list[Any] = [0.0] * STATIONS
     predicted_acceleration: list[Any] = [0.0] * (STATIONS + 1)
     predicted_angle: list[Any] = [0.0] * (STATIONS + 1)
     predicted_rate: list[Any] = [0.0] * (STATIONS + 1)
@@ -356,9 +353,7 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
     solved: list[Any] = [0.0] * STATIONS
 
     # masses at the nodes between links, and what they leave over
-    for j in range(49):
-        node_mass[j] = center * mass + mass * (1.0 - center)
-    node_mass[49] = tip_mass + center * mass
+    end_mass = tip_mass - mass * (1.0 - center)
     rod_inertia = inertia - center * (length * length) * mass * (1.0 - center)
 
     # predicted motion
@@ -394,19 +389,19 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
         )
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
+    impedance_xx = end_mass
+    impedance_yy = end_mass
     impedance_uu = tip_inertia
+    force_x = acceleration_x[50] * end_mass
+    force_y = acceleration_y[50] * end_mass
     torque = predicted_acceleration[50] * tip_inertia
-    force_x: Any = 0.0
-    force_y: Any = 0.0
-    impedance_xx: Any = 0.0
     impedance_xy: Any = 0.0
     impedance_yx: Any = 0.0
-    impedance_yy: Any = 0.0
     for j in reversed(range(STATIONS)):
-        impedance_xx = impedance_xx + node_mass[j]
-        impedance_yy = impedance_yy + node_mass[j]
-        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
-        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
+        impedance_xx = impedance_xx + mass
+        force_x = force_x + acceleration_x[j + 1] * mass
+        impedance_yy = impedance_yy + mass
+        force_y = force_y + acceleration_y[j + 1] * mass
         impedance_xu = impedance_xy * lever_cosine[j] - impedance_xx * lever_sine[j]
         impedance_yu = impedance_yy * lever_cosine[j] - impedance_yx * lever_sine[j]
         impedance_ux = impedance_yx * lever_cosine[j] - impedance_xx * lever_sine[j]
@@ -427,9 +422,9 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
         answer_y[j] = admittance * impedance_uy
         impedance_xx = impedance_xx - answer_x[j] * impedance_xu
         impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        force_x = force_x + answer_own[j] * impedance_xu
         impedance_yx = impedance_yx - answer_x[j] * impedance_yu
         impedance_yy = impedance_yy - answer_y[j] * impedance_yu
-        force_x = force_x + answer_own[j] * impedance_xu
         force_y = force_y + answer_own[j] * impedance_yu
         torque = joint_torque[j]
         impedance_uu = 0.0
@@ -461,6 +456,7 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
 def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     """Advance the state by one step."""
     length = model["length"]
+    mass = model["mass"]
     stiffness = model["stiffness"]
     damping = model["damping"]
     tip_inertia = model["tip_inertia"]
@@ -481,7 +477,7 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     predicted_rate_per_stage3_acceleration_2 = model["predicted_rate_per_stage3_acceleration_2"]
     predicted_rate_per_stage4_acceleration = model["predicted_rate_per_stage4_acceleration"]
     predicted_angle_per_stage4_rate = model["predicted_angle_per_stage4_rate"]
-    node_mass = model["node_mass"]
+    end_mass = model["end_mass"]
     rod_inertia = model["rod_inertia"]
     joint_impedance = model["joint_impedance"]
     hub_angle = x[0]
@@ -499,7 +495,6 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     joint_torque: list[Any] = [0.0] * STATIONS
     lever_cosine: list[Any] = [0.0] * STATIONS
     lever_sine: list[Any] = [0.0] * STATIONS
-    predicted_acceleration: list[Any] = [0.0] * (STATIONS + 1)
     predicted_angle: list[Any] = [0.0] * (STATIONS + 1)
     predicted_rate: list[Any] = [0.0] * (STATIONS + 1)
     relative_x: list[Any] = [0.0] * STATIONS
@@ -520,19 +515,17 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     # Stage 1 of 5: predicted motion
     predicted_rate[0] = hub_rate + hub_acceleration * rate_per_acceleration
     predicted_angle[0] = hub_angle + predicted_rate[0] * rate_per_acceleration
-    predicted_acceleration[0] = hub_acceleration
     for j in range(STATIONS):
         predicted_rate[j + 1] = rate[j] + acceleration[j] * rate_per_acceleration
         predicted_angle[j + 1] = angle[j] + predicted_rate[j + 1] * rate_per_acceleration
-        predicted_acceleration[j + 1] = acceleration[j]
 
     # Stage 1 of 5: accelerations of the nodes
     for j in range(STATIONS):
         lever_cosine[j] = length * ca.cos(predicted_angle[j + 1])
         lever_sine[j] = length * ca.sin(predicted_angle[j + 1])
         square = predicted_rate[j + 1] * predicted_rate[j + 1]
-        relative_x[j] = -lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1]
-        relative_y[j] = lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square
+        relative_x[j] = -acceleration[j] * lever_sine[j] - lever_cosine[j] * square
+        relative_y[j] = acceleration[j] * lever_cosine[j] - lever_sine[j] * square
         turning = half_step * predicted_rate[j + 1]
         swing_x[j] = -lever_sine[j] - angle_per_acceleration * relative_y[j] - lever_cosine[j] * turning
         swing_y[j] = lever_cosine[j] + angle_per_acceleration * relative_x[j] - lever_sine[j] * turning
@@ -553,23 +546,23 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         )
 
     # Stage 1 of 5: sweep inward: force beyond each joint as an affine function of the motion at it
+    impedance_xx = end_mass
+    impedance_yy = end_mass
     impedance_uu = tip_inertia
-    torque = predicted_acceleration[50] * tip_inertia
-    force_x: Any = 0.0
-    force_y: Any = 0.0
+    force_x = acceleration_x[50] * end_mass
+    force_y = acceleration_y[50] * end_mass
+    torque = acceleration[49] * tip_inertia
     impedance_ux: Any = 0.0
     impedance_uy: Any = 0.0
     impedance_xu: Any = 0.0
-    impedance_xx: Any = 0.0
     impedance_xy: Any = 0.0
     impedance_yu: Any = 0.0
     impedance_yx: Any = 0.0
-    impedance_yy: Any = 0.0
     for j in reversed(range(STATIONS)):
-        impedance_xx = impedance_xx + node_mass[j]
-        impedance_yy = impedance_yy + node_mass[j]
-        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
-        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
+        impedance_xx = impedance_xx + mass
+        force_x = force_x + acceleration_x[j + 1] * mass
+        impedance_yy = impedance_yy + mass
+        force_y = force_y + acceleration_y[j + 1] * mass
         impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
         impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
         impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
@@ -581,12 +574,7 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
             + lever_cosine[j] * (impedance_yu - angle_per_acceleration * force_x)
             + lever_sine[j] * (-impedance_xu - angle_per_acceleration * force_y)
         )
-        torque = (
-            torque
-            - force_x * lever_sine[j]
-            + force_y * lever_cosine[j]
-            + predicted_acceleration[j + 1] * rod_inertia
-        )
+        torque = torque + acceleration[j] * rod_inertia - force_x * lever_sine[j] + force_y * lever_cosine[j]
         pivot = impedance_uu + joint_impedance[j]
         admittance = 1.0 / pivot
         answer_own[j] = admittance * (joint_torque[j] - torque)
@@ -595,15 +583,15 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         transmission[j] = admittance * joint_impedance[j]
         impedance_xx = impedance_xx - answer_x[j] * impedance_xu
         impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        force_x = force_x + answer_own[j] * impedance_xu
+        impedance_xu = impedance_xu * transmission[j]
         impedance_yx = impedance_yx - answer_x[j] * impedance_yu
         impedance_yy = impedance_yy - answer_y[j] * impedance_yu
+        force_y = force_y + answer_own[j] * impedance_yu
+        impedance_yu = impedance_yu * transmission[j]
         impedance_ux = answer_x[j] * joint_impedance[j]
         impedance_uy = answer_y[j] * joint_impedance[j]
         impedance_uu = impedance_uu * transmission[j]
-        force_x = force_x + answer_own[j] * impedance_xu
-        impedance_xu = impedance_xu * transmission[j]
-        force_y = force_y + answer_own[j] * impedance_yu
-        impedance_yu = impedance_yu * transmission[j]
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
     # Stage 1 of 5: the base
@@ -620,30 +608,28 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         solved[j] = unknown
 
     # Stage 1 of 5: motion at this stage
-    hub_stage1_acceleration = hub_unknown + predicted_acceleration[0]
+    hub_stage1_acceleration = hub_acceleration + hub_unknown
     hub_stage1_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration
     for j in range(STATIONS):
-        stage1_acceleration[j] = predicted_acceleration[j + 1] + solved[j]
+        stage1_acceleration[j] = acceleration[j] + solved[j]
         stage1_rate[j] = predicted_rate[j + 1] + rate_per_acceleration * solved[j]
 
     # Stage 2 of 5: predicted motion
     predicted_rate[0] = hub_rate + hub_stage1_acceleration * three_quarters_step
     predicted_angle[0] = hub_angle + half_step * hub_stage1_rate + predicted_rate[0] * rate_per_acceleration
-    predicted_acceleration[0] = hub_stage1_acceleration
     for j in range(STATIONS):
         predicted_rate[j + 1] = rate[j] + stage1_acceleration[j] * three_quarters_step
         predicted_angle[j + 1] = (
             angle[j] + half_step * stage1_rate[j] + predicted_rate[j + 1] * rate_per_acceleration
         )
-        predicted_acceleration[j + 1] = stage1_acceleration[j]
 
     # Stage 2 of 5: accelerations of the nodes
     for j in range(STATIONS):
         lever_cosine[j] = length * ca.cos(predicted_angle[j + 1])
         lever_sine[j] = length * ca.sin(predicted_angle[j + 1])
         square = predicted_rate[j + 1] * predicted_rate[j + 1]
-        relative_x[j] = -lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1]
-        relative_y[j] = lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square
+        relative_x[j] = -lever_cosine[j] * square - lever_sine[j] * stage1_acceleration[j]
+        relative_y[j] = lever_cosine[j] * stage1_acceleration[j] - lever_sine[j] * square
         turning = half_step * predicted_rate[j + 1]
         swing_x[j] = -lever_sine[j] - angle_per_acceleration * relative_y[j] - lever_cosine[j] * turning
         swing_y[j] = lever_cosine[j] + angle_per_acceleration * relative_x[j] - lever_sine[j] * turning
@@ -664,23 +650,23 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         )
 
     # Stage 2 of 5: sweep inward: force beyond each joint as an affine function of the motion at it
+    impedance_xx = end_mass
+    impedance_yy = end_mass
     impedance_uu = tip_inertia
-    torque = predicted_acceleration[50] * tip_inertia
-    force_x = 0.0
-    force_y = 0.0
+    force_x = acceleration_x[50] * end_mass
+    force_y = acceleration_y[50] * end_mass
+    torque = stage1_acceleration[49] * tip_inertia
     impedance_ux = 0.0
     impedance_uy = 0.0
     impedance_xu = 0.0
-    impedance_xx = 0.0
     impedance_xy = 0.0
     impedance_yu = 0.0
     impedance_yx = 0.0
-    impedance_yy = 0.0
     for j in reversed(range(STATIONS)):
-        impedance_xx = impedance_xx + node_mass[j]
-        impedance_yy = impedance_yy + node_mass[j]
-        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
-        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
+        impedance_xx = impedance_xx + mass
+        force_x = force_x + acceleration_x[j + 1] * mass
+        impedance_yy = impedance_yy + mass
+        force_y = force_y + acceleration_y[j + 1] * mass
         impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
         impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
         impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
@@ -696,7 +682,7 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
             torque
             - force_x * lever_sine[j]
             + force_y * lever_cosine[j]
-            + predicted_acceleration[j + 1] * rod_inertia
+            + rod_inertia * stage1_acceleration[j]
         )
         pivot = impedance_uu + joint_impedance[j]
         admittance = 1.0 / pivot
@@ -706,15 +692,15 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         transmission[j] = admittance * joint_impedance[j]
         impedance_xx = impedance_xx - answer_x[j] * impedance_xu
         impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        force_x = force_x + answer_own[j] * impedance_xu
+        impedance_xu = impedance_xu * transmission[j]
         impedance_yx = impedance_yx - answer_x[j] * impedance_yu
         impedance_yy = impedance_yy - answer_y[j] * impedance_yu
+        force_y = force_y + answer_own[j] * impedance_yu
+        impedance_yu = impedance_yu * transmission[j]
         impedance_ux = answer_x[j] * joint_impedance[j]
         impedance_uy = answer_y[j] * joint_impedance[j]
         impedance_uu = impedance_uu * transmission[j]
-        force_x = force_x + answer_own[j] * impedance_xu
-        impedance_xu = impedance_xu * transmission[j]
-        force_y = force_y + answer_own[j] * impedance_yu
-        impedance_yu = impedance_yu * transmission[j]
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
     # Stage 2 of 5: the base
@@ -731,10 +717,10 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         solved[j] = unknown
 
     # Stage 2 of 5: motion at this stage
-    hub_stage2_acceleration = hub_unknown + predicted_acceleration[0]
+    hub_stage2_acceleration = hub_stage1_acceleration + hub_unknown
     hub_stage2_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration
     for j in range(STATIONS):
-        stage2_acceleration[j] = predicted_acceleration[j + 1] + solved[j]
+        stage2_acceleration[j] = solved[j] + stage1_acceleration[j]
         stage2_rate[j] = predicted_rate[j + 1] + rate_per_acceleration * solved[j]
 
     # Stage 3 of 5: predicted motion
@@ -749,7 +735,6 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         - hub_stage2_rate * predicted_angle_per_stage2_rate
         + predicted_rate[0] * rate_per_acceleration
     )
-    predicted_acceleration[0] = hub_stage2_acceleration
     for j in range(STATIONS):
         predicted_rate[j + 1] = (
             rate[j]
@@ -762,15 +747,14 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
             + predicted_rate[j + 1] * rate_per_acceleration
             + predicted_rate_per_stage1_acceleration * stage1_rate[j]
         )
-        predicted_acceleration[j + 1] = stage2_acceleration[j]
 
     # Stage 3 of 5: accelerations of the nodes
     for j in range(STATIONS):
         lever_cosine[j] = length * ca.cos(predicted_angle[j + 1])
         lever_sine[j] = length * ca.sin(predicted_angle[j + 1])
         square = predicted_rate[j + 1] * predicted_rate[j + 1]
-        relative_x[j] = -lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1]
-        relative_y[j] = lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square
+        relative_x[j] = -lever_cosine[j] * square - lever_sine[j] * stage2_acceleration[j]
+        relative_y[j] = lever_cosine[j] * stage2_acceleration[j] - lever_sine[j] * square
         turning = half_step * predicted_rate[j + 1]
         swing_x[j] = -lever_sine[j] - angle_per_acceleration * relative_y[j] - lever_cosine[j] * turning
         swing_y[j] = lever_cosine[j] + angle_per_acceleration * relative_x[j] - lever_sine[j] * turning
@@ -791,23 +775,23 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         )
 
     # Stage 3 of 5: sweep inward: force beyond each joint as an affine function of the motion at it
+    impedance_xx = end_mass
+    impedance_yy = end_mass
     impedance_uu = tip_inertia
-    torque = predicted_acceleration[50] * tip_inertia
-    force_x = 0.0
-    force_y = 0.0
+    force_x = acceleration_x[50] * end_mass
+    force_y = acceleration_y[50] * end_mass
+    torque = stage2_acceleration[49] * tip_inertia
     impedance_ux = 0.0
     impedance_uy = 0.0
     impedance_xu = 0.0
-    impedance_xx = 0.0
     impedance_xy = 0.0
     impedance_yu = 0.0
     impedance_yx = 0.0
-    impedance_yy = 0.0
     for j in reversed(range(STATIONS)):
-        impedance_xx = impedance_xx + node_mass[j]
-        impedance_yy = impedance_yy + node_mass[j]
-        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
-        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
+        impedance_xx = impedance_xx + mass
+        force_x = force_x + acceleration_x[j + 1] * mass
+        impedance_yy = impedance_yy + mass
+        force_y = force_y + acceleration_y[j + 1] * mass
         impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
         impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
         impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
@@ -823,7 +807,7 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
             torque
             - force_x * lever_sine[j]
             + force_y * lever_cosine[j]
-            + predicted_acceleration[j + 1] * rod_inertia
+            + rod_inertia * stage2_acceleration[j]
         )
         pivot = impedance_uu + joint_impedance[j]
         admittance = 1.0 / pivot
@@ -833,15 +817,15 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         transmission[j] = admittance * joint_impedance[j]
         impedance_xx = impedance_xx - answer_x[j] * impedance_xu
         impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        force_x = force_x + answer_own[j] * impedance_xu
+        impedance_xu = impedance_xu * transmission[j]
         impedance_yx = impedance_yx - answer_x[j] * impedance_yu
         impedance_yy = impedance_yy - answer_y[j] * impedance_yu
+        force_y = force_y + answer_own[j] * impedance_yu
+        impedance_yu = impedance_yu * transmission[j]
         impedance_ux = answer_x[j] * joint_impedance[j]
         impedance_uy = answer_y[j] * joint_impedance[j]
         impedance_uu = impedance_uu * transmission[j]
-        force_x = force_x + answer_own[j] * impedance_xu
-        impedance_xu = impedance_xu * transmission[j]
-        force_y = force_y + answer_own[j] * impedance_yu
-        impedance_yu = impedance_yu * transmission[j]
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
     # Stage 3 of 5: the base
@@ -858,10 +842,10 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         solved[j] = unknown
 
     # Stage 3 of 5: motion at this stage
-    hub_stage3_acceleration = hub_unknown + predicted_acceleration[0]
+    hub_stage3_acceleration = hub_stage2_acceleration + hub_unknown
     hub_stage3_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration
     for j in range(STATIONS):
-        stage3_acceleration[j] = predicted_acceleration[j + 1] + solved[j]
+        stage3_acceleration[j] = solved[j] + stage2_acceleration[j]
         stage3_rate[j] = predicted_rate[j + 1] + rate_per_acceleration * solved[j]
 
     # Stage 4 of 5: predicted motion
@@ -878,7 +862,6 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         + hub_stage3_rate * predicted_angle_per_stage3_rate
         + predicted_rate[0] * rate_per_acceleration
     )
-    predicted_acceleration[0] = hub_stage3_acceleration
     for j in range(STATIONS):
         predicted_rate[j + 1] = (
             rate[j]
@@ -893,15 +876,14 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
             + predicted_rate_per_stage1_acceleration_2 * stage1_rate[j]
             - predicted_rate_per_stage2_acceleration_2 * stage2_rate[j]
         )
-        predicted_acceleration[j + 1] = stage3_acceleration[j]
 
     # Stage 4 of 5: accelerations of the nodes
     for j in range(STATIONS):
         lever_cosine[j] = length * ca.cos(predicted_angle[j + 1])
         lever_sine[j] = length * ca.sin(predicted_angle[j + 1])
         square = predicted_rate[j + 1] * predicted_rate[j + 1]
-        relative_x[j] = -lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1]
-        relative_y[j] = lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square
+        relative_x[j] = -lever_cosine[j] * square - lever_sine[j] * stage3_acceleration[j]
+        relative_y[j] = lever_cosine[j] * stage3_acceleration[j] - lever_sine[j] * square
         turning = half_step * predicted_rate[j + 1]
         swing_x[j] = -lever_sine[j] - angle_per_acceleration * relative_y[j] - lever_cosine[j] * turning
         swing_y[j] = lever_cosine[j] + angle_per_acceleration * relative_x[j] - lever_sine[j] * turning
@@ -922,23 +904,23 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         )
 
     # Stage 4 of 5: sweep inward: force beyond each joint as an affine function of the motion at it
+    impedance_xx = end_mass
+    impedance_yy = end_mass
     impedance_uu = tip_inertia
-    torque = predicted_acceleration[50] * tip_inertia
-    force_x = 0.0
-    force_y = 0.0
+    force_x = acceleration_x[50] * end_mass
+    force_y = acceleration_y[50] * end_mass
+    torque = stage3_acceleration[49] * tip_inertia
     impedance_ux = 0.0
     impedance_uy = 0.0
     impedance_xu = 0.0
-    impedance_xx = 0.0
     impedance_xy = 0.0
     impedance_yu = 0.0
     impedance_yx = 0.0
-    impedance_yy = 0.0
     for j in reversed(range(STATIONS)):
-        impedance_xx = impedance_xx + node_mass[j]
-        impedance_yy = impedance_yy + node_mass[j]
-        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
-        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
+        impedance_xx = impedance_xx + mass
+        force_x = force_x + acceleration_x[j + 1] * mass
+        impedance_yy = impedance_yy + mass
+        force_y = force_y + acceleration_y[j + 1] * mass
         impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
         impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
         impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
@@ -954,7 +936,7 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
             torque
             - force_x * lever_sine[j]
             + force_y * lever_cosine[j]
-            + predicted_acceleration[j + 1] * rod_inertia
+            + rod_inertia * stage3_acceleration[j]
         )
         pivot = impedance_uu + joint_impedance[j]
         admittance = 1.0 / pivot
@@ -964,15 +946,15 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         transmission[j] = admittance * joint_impedance[j]
         impedance_xx = impedance_xx - answer_x[j] * impedance_xu
         impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        force_x = force_x + answer_own[j] * impedance_xu
+        impedance_xu = impedance_xu * transmission[j]
         impedance_yx = impedance_yx - answer_x[j] * impedance_yu
         impedance_yy = impedance_yy - answer_y[j] * impedance_yu
+        force_y = force_y + answer_own[j] * impedance_yu
+        impedance_yu = impedance_yu * transmission[j]
         impedance_ux = answer_x[j] * joint_impedance[j]
         impedance_uy = answer_y[j] * joint_impedance[j]
         impedance_uu = impedance_uu * transmission[j]
-        force_x = force_x + answer_own[j] * impedance_xu
-        impedance_xu = impedance_xu * transmission[j]
-        force_y = force_y + answer_own[j] * impedance_yu
-        impedance_yu = impedance_yu * transmission[j]
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
     # Stage 4 of 5: the base
@@ -989,10 +971,10 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         solved[j] = unknown
 
     # Stage 4 of 5: motion at this stage
-    hub_stage4_acceleration = hub_unknown + predicted_acceleration[0]
+    hub_stage4_acceleration = hub_stage3_acceleration + hub_unknown
     hub_stage4_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration
     for j in range(STATIONS):
-        stage4_acceleration[j] = predicted_acceleration[j + 1] + solved[j]
+        stage4_acceleration[j] = solved[j] + stage3_acceleration[j]
         stage4_rate[j] = predicted_rate[j + 1] + rate_per_acceleration * solved[j]
 
     # Stage 5 of 5: predicted motion
@@ -1011,7 +993,6 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         - hub_stage4_rate * predicted_angle_per_stage4_rate
         + predicted_rate[0] * rate_per_acceleration
     )
-    predicted_acceleration[0] = hub_stage4_acceleration
     for j in range(STATIONS):
         predicted_rate[j + 1] = (
             rate[j]
@@ -1028,15 +1009,14 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
             - predicted_rate_per_stage2_acceleration_3 * stage2_rate[j]
             + predicted_rate_per_stage3_acceleration_2 * stage3_rate[j]
         )
-        predicted_acceleration[j + 1] = stage4_acceleration[j]
 
     # Stage 5 of 5: accelerations of the nodes
     for j in range(STATIONS):
         lever_cosine[j] = length * ca.cos(predicted_angle[j + 1])
         lever_sine[j] = length * ca.sin(predicted_angle[j + 1])
         square = predicted_rate[j + 1] * predicted_rate[j + 1]
-        relative_x[j] = -lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1]
-        relative_y[j] = lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square
+        relative_x[j] = -lever_cosine[j] * square - lever_sine[j] * stage4_acceleration[j]
+        relative_y[j] = lever_cosine[j] * stage4_acceleration[j] - lever_sine[j] * square
         turning = half_step * predicted_rate[j + 1]
         swing_x[j] = -lever_sine[j] - angle_per_acceleration * relative_y[j] - lever_cosine[j] * turning
         swing_y[j] = lever_cosine[j] + angle_per_acceleration * relative_x[j] - lever_sine[j] * turning
@@ -1057,23 +1037,23 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         )
 
     # Stage 5 of 5: sweep inward: force beyond each joint as an affine function of the motion at it
+    impedance_xx = end_mass
+    impedance_yy = end_mass
     impedance_uu = tip_inertia
-    torque = predicted_acceleration[50] * tip_inertia
-    force_x = 0.0
-    force_y = 0.0
+    force_x = acceleration_x[50] * end_mass
+    force_y = acceleration_y[50] * end_mass
+    torque = stage4_acceleration[49] * tip_inertia
     impedance_ux = 0.0
     impedance_uy = 0.0
     impedance_xu = 0.0
-    impedance_xx = 0.0
     impedance_xy = 0.0
     impedance_yu = 0.0
     impedance_yx = 0.0
-    impedance_yy = 0.0
     for j in reversed(range(STATIONS)):
-        impedance_xx = impedance_xx + node_mass[j]
-        impedance_yy = impedance_yy + node_mass[j]
-        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
-        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
+        impedance_xx = impedance_xx + mass
+        force_x = force_x + acceleration_x[j + 1] * mass
+        impedance_yy = impedance_yy + mass
+        force_y = force_y + acceleration_y[j + 1] * mass
         impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
         impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
         impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
@@ -1089,7 +1069,7 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
             torque
             - force_x * lever_sine[j]
             + force_y * lever_cosine[j]
-            + predicted_acceleration[j + 1] * rod_inertia
+            + rod_inertia * stage4_acceleration[j]
         )
         pivot = impedance_uu + joint_impedance[j]
         admittance = 1.0 / pivot
@@ -1099,15 +1079,15 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         transmission[j] = admittance * joint_impedance[j]
         impedance_xx = impedance_xx - answer_x[j] * impedance_xu
         impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        force_x = force_x + answer_own[j] * impedance_xu
+        impedance_xu = impedance_xu * transmission[j]
         impedance_yx = impedance_yx - answer_x[j] * impedance_yu
         impedance_yy = impedance_yy - answer_y[j] * impedance_yu
+        force_y = force_y + answer_own[j] * impedance_yu
+        impedance_yu = impedance_yu * transmission[j]
         impedance_ux = answer_x[j] * joint_impedance[j]
         impedance_uy = answer_y[j] * joint_impedance[j]
         impedance_uu = impedance_uu * transmission[j]
-        force_x = force_x + answer_own[j] * impedance_xu
-        impedance_xu = impedance_xu * transmission[j]
-        force_y = force_y + answer_own[j] * impedance_yu
-        impedance_yu = impedance_yu * transmission[j]
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
     # Stage 5 of 5: the base
@@ -1126,11 +1106,11 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     # Stage 5 of 5: motion at the end of the step
     hub_angle = predicted_angle[0] + angle_per_acceleration * hub_unknown
     hub_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration
-    hub_acceleration = hub_unknown + predicted_acceleration[0]
+    hub_acceleration = hub_stage4_acceleration + hub_unknown
     for j in range(STATIONS):
         angle[j] = predicted_angle[j + 1] + angle_per_acceleration * solved[j]
         rate[j] = predicted_rate[j + 1] + rate_per_acceleration * solved[j]
-        acceleration[j] = predicted_acceleration[j + 1] + solved[j]
+        acceleration[j] = solved[j] + stage4_acceleration[j]
     return _column(hub_angle, hub_rate, hub_acceleration, *angle, *rate, *acceleration)
 
 

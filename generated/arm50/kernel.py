@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
-# sha256 of the rest of this file: 7edab6052079784116b785507852c3c74e3b57bd713338ceec74c4da0a9aca99
+# sha256 of the rest of this file: 8d4ad59ca5afa92b0b97e91bc444686e52fd1d2036ceb690e9691e63e921ab5d
 #
 # model: planar arm, large rotations, tip mass
 # stations: 50
@@ -11,9 +11,9 @@
 # linearisation: newton
 # sweep: riccati
 # unknown: acceleration
-# operations of a step: 29534, 590.7 per station (13642 additions, 15142 multiplications, 250 divisions, 500
+# operations of a step: 29544, 590.9 per station (13642 additions, 15152 multiplications, 250 divisions, 500
 #     sines and cosines)
-# operations of prepare: 526, 10.52 per station (152 additions, 373 multiplications, 1 divisions)
+# operations of prepare: 331, 6.62 per station (55 additions, 275 multiplications, 1 divisions)
 """arm50: Stiff arm of fifty links on a servo.
 
 A state goes in, a new one comes out: ``model = prepare(params, step)``, ``state = initialise(params,
@@ -196,6 +196,8 @@ class Model:
     ----------
     length : array, shape (*batch)
         Link length, the same everywhere (m).
+    mass : array, shape (*batch)
+        Link mass, the same everywhere (kg).
     stiffness : array, shape (50, *batch)
         Joint stiffness, base to tip (N m/rad).
     damping : array, shape (50, *batch)
@@ -242,8 +244,8 @@ class Model:
         Center*mass (N s^2/m).
     reaction_x_per_acceleration_x_2 : array, shape (*batch)
         Mass*(center - 1) (N s^2/m).
-    node_mass : array, shape (50, *batch)
-        Mass at the outer end of each link (kg).
+    end_mass : array, shape (*batch)
+        Mass at the tip less the share of a link beyond it (kg).
     rod_inertia : array, shape (*batch)
         Inertia of a link that masses at its ends leave over (kg m^2).
     joint_impedance : array, shape (50, *batch)
@@ -251,6 +253,7 @@ class Model:
     """
 
     length: Array
+    mass: Array
     stiffness: Array
     damping: Array
     tip_mass: Array
@@ -274,7 +277,7 @@ class Model:
     predicted_angle_per_stage4_rate: Array
     reaction_x_per_acceleration_x: Array
     reaction_x_per_acceleration_x_2: Array
-    node_mass: Array
+    end_mass: Array
     rod_inertia: Array
     joint_impedance: Array
 
@@ -397,14 +400,12 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     tip_inertia = _array(params.tip_inertia, None, "tip_inertia")
     numbers = (step, length, mass, inertia, center, tip_mass, tip_inertia)
     arrays = (stiffness, damping)
-    batch, dtype = _common(numbers, arrays)
+    batch, _ = _common(numbers, arrays)
     stiffness = _align(stiffness, batch)
     damping = _align(damping, batch)
-    node_mass = np.zeros((STATIONS, *batch), dtype)
 
     # masses at the nodes between links, and what they leave over
-    node_mass[:49] = center * mass + mass * (1.0 - center)
-    node_mass[49] = tip_mass + center * mass
+    end_mass = tip_mass - mass * (1.0 - center)
     rod_inertia = inertia - center * (length * length) * mass * (1.0 - center)
 
     # factors of the sweep that do not change from step to step
@@ -432,6 +433,7 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     reaction_x_per_acceleration_x_2 = mass * (center - 1.0)
     return Model(
         length=length,
+        mass=mass,
         stiffness=stiffness,
         damping=damping,
         tip_mass=tip_mass,
@@ -455,7 +457,7 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
         predicted_angle_per_stage4_rate=predicted_angle_per_stage4_rate,
         reaction_x_per_acceleration_x=reaction_x_per_acceleration_x,
         reaction_x_per_acceleration_x_2=reaction_x_per_acceleration_x_2,
-        node_mass=node_mass,
+        end_mass=end_mass,
         rod_inertia=rod_inertia,
         joint_impedance=joint_impedance,
     )
@@ -514,15 +516,13 @@ def initialise(
     answer_own = np.zeros((STATIONS, *batch), dtype)
     answer_x = np.zeros((STATIONS, *batch), dtype)
     answer_y = np.zeros((STATIONS, *batch), dtype)
-    node_mass = np.zeros((STATIONS, *batch), dtype)
     predicted_acceleration = np.zeros((STATIONS + 1, *batch), dtype)
     predicted_angle = np.zeros((STATIONS + 1, *batch), dtype)
     predicted_rate = np.zeros((STATIONS + 1, *batch), dtype)
     solved = np.zeros((STATIONS, *batch), dtype)
 
     # masses at the nodes between links, and what they leave over
-    node_mass[:49] = center * mass + mass * (1.0 - center)
-    node_mass[49] = tip_mass + center * mass
+    end_mass = tip_mass - mass * (1.0 - center)
     rod_inertia = inertia - center * (length * length) * mass * (1.0 - center)
 
     # predicted motion
@@ -555,19 +555,19 @@ def initialise(
     )
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
+    impedance_xx = end_mass
+    impedance_yy = end_mass
     impedance_uu = tip_inertia
+    force_x = acceleration_x[50] * end_mass
+    force_y = acceleration_y[50] * end_mass
     torque = predicted_acceleration[50] * tip_inertia
-    force_x: Any = 0.0
-    force_y: Any = 0.0
-    impedance_xx: Any = 0.0
     impedance_xy: Any = 0.0
     impedance_yx: Any = 0.0
-    impedance_yy: Any = 0.0
     for j in reversed(range(STATIONS)):
-        impedance_xx = impedance_xx + node_mass[j]
-        impedance_yy = impedance_yy + node_mass[j]
-        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
-        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
+        impedance_xx = impedance_xx + mass
+        force_x = force_x + acceleration_x[j + 1] * mass
+        impedance_yy = impedance_yy + mass
+        force_y = force_y + acceleration_y[j + 1] * mass
         impedance_xu = impedance_xy * lever_cosine[j] - impedance_xx * lever_sine[j]
         impedance_yu = impedance_yy * lever_cosine[j] - impedance_yx * lever_sine[j]
         impedance_ux = impedance_yx * lever_cosine[j] - impedance_xx * lever_sine[j]
@@ -589,9 +589,9 @@ def initialise(
         answer_y[j] = admittance * impedance_uy
         impedance_xx = impedance_xx - answer_x[j] * impedance_xu
         impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        force_x = force_x + answer_own[j] * impedance_xu
         impedance_yx = impedance_yx - answer_x[j] * impedance_yu
         impedance_yy = impedance_yy - answer_y[j] * impedance_yu
-        force_x = force_x + answer_own[j] * impedance_xu
         force_y = force_y + answer_own[j] * impedance_yu
         torque = joint_torque[j]
         impedance_uu = 0.0
@@ -655,6 +655,7 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
     stages = _stages(input, 5)
     base_angle = _at_stages(stages, "base_angle")
     length = model.length
+    mass = model.mass
     stiffness = np.asarray(model.stiffness)
     damping = np.asarray(model.damping)
     tip_inertia = model.tip_inertia
@@ -675,7 +676,7 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
     predicted_rate_per_stage3_acceleration_2 = model.predicted_rate_per_stage3_acceleration_2
     predicted_rate_per_stage4_acceleration = model.predicted_rate_per_stage4_acceleration
     predicted_angle_per_stage4_rate = model.predicted_angle_per_stage4_rate
-    node_mass = np.asarray(model.node_mass)
+    end_mass = model.end_mass
     rod_inertia = model.rod_inertia
     joint_impedance = np.asarray(model.joint_impedance)
     hub_angle = state.hub_angle
@@ -687,6 +688,7 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
     numbers = (
         *base_angle,
         length,
+        mass,
         tip_inertia,
         rate_per_acceleration,
         half_step,
@@ -705,16 +707,16 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
         predicted_rate_per_stage3_acceleration_2,
         predicted_rate_per_stage4_acceleration,
         predicted_angle_per_stage4_rate,
+        end_mass,
         rod_inertia,
         hub_angle,
         hub_rate,
         hub_acceleration,
     )
-    arrays = (stiffness, damping, node_mass, joint_impedance, angle, rate, acceleration)
+    arrays = (stiffness, damping, joint_impedance, angle, rate, acceleration)
     batch, dtype = _common(numbers, arrays)
     stiffness = _align(stiffness, batch)
     damping = _align(damping, batch)
-    node_mass = _align(node_mass, batch)
     joint_impedance = _align(joint_impedance, batch)
     hub_angle = _spread(hub_angle, batch, False)
     hub_rate = _spread(hub_rate, batch, False)
@@ -727,7 +729,6 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
     answer_own = np.zeros((STATIONS, *batch), dtype)
     answer_x = np.zeros((STATIONS, *batch), dtype)
     answer_y = np.zeros((STATIONS, *batch), dtype)
-    predicted_acceleration = np.zeros((STATIONS + 1, *batch), dtype)
     predicted_angle = np.zeros((STATIONS + 1, *batch), dtype)
     predicted_rate = np.zeros((STATIONS + 1, *batch), dtype)
     solved = np.zeros((STATIONS, *batch), dtype)
@@ -736,17 +737,15 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
     # Stage 1 of 5: predicted motion
     predicted_rate[0] = hub_rate + hub_acceleration * rate_per_acceleration
     predicted_angle[0] = hub_angle + predicted_rate[0] * rate_per_acceleration
-    predicted_acceleration[0] = hub_acceleration
     predicted_rate[1:] = rate + acceleration * rate_per_acceleration
     predicted_angle[1:] = angle + predicted_rate[1:] * rate_per_acceleration
-    predicted_acceleration[1:] = acceleration
 
     # Stage 1 of 5: accelerations of the nodes
     lever_cosine = length * np.cos(predicted_angle[1:])
     lever_sine = length * np.sin(predicted_angle[1:])
     square = predicted_rate[1:] * predicted_rate[1:]
-    relative_x = -lever_cosine * square - lever_sine * predicted_acceleration[1:]
-    relative_y = lever_cosine * predicted_acceleration[1:] - lever_sine * square
+    relative_x = -acceleration * lever_sine - lever_cosine * square
+    relative_y = acceleration * lever_cosine - lever_sine * square
     turning = half_step * predicted_rate[1:]
     swing_x = -lever_sine - angle_per_acceleration * relative_y - lever_cosine * turning
     swing_y = lever_cosine + angle_per_acceleration * relative_x - lever_sine * turning
@@ -766,23 +765,23 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
     )
 
     # Stage 1 of 5: sweep inward: force beyond each joint as an affine function of the motion at it
+    impedance_xx = end_mass
+    impedance_yy = end_mass
     impedance_uu = tip_inertia
-    torque = predicted_acceleration[50] * tip_inertia
-    force_x: Any = 0.0
-    force_y: Any = 0.0
+    force_x = acceleration_x[50] * end_mass
+    force_y = acceleration_y[50] * end_mass
+    torque = acceleration[49] * tip_inertia
     impedance_ux: Any = 0.0
     impedance_uy: Any = 0.0
     impedance_xu: Any = 0.0
-    impedance_xx: Any = 0.0
     impedance_xy: Any = 0.0
     impedance_yu: Any = 0.0
     impedance_yx: Any = 0.0
-    impedance_yy: Any = 0.0
     for j in reversed(range(STATIONS)):
-        impedance_xx = impedance_xx + node_mass[j]
-        impedance_yy = impedance_yy + node_mass[j]
-        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
-        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
+        impedance_xx = impedance_xx + mass
+        force_x = force_x + acceleration_x[j + 1] * mass
+        impedance_yy = impedance_yy + mass
+        force_y = force_y + acceleration_y[j + 1] * mass
         impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
         impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
         impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
@@ -794,12 +793,7 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
             + lever_cosine[j] * (impedance_yu - angle_per_acceleration * force_x)
             + lever_sine[j] * (-impedance_xu - angle_per_acceleration * force_y)
         )
-        torque = (
-            torque
-            - force_x * lever_sine[j]
-            + force_y * lever_cosine[j]
-            + predicted_acceleration[j + 1] * rod_inertia
-        )
+        torque = torque + acceleration[j] * rod_inertia - force_x * lever_sine[j] + force_y * lever_cosine[j]
         pivot = impedance_uu + joint_impedance[j]
         _require_positive(pivot, "pivot", j)
         admittance = 1.0 / pivot
@@ -809,15 +803,15 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
         transmission[j] = admittance * joint_impedance[j]
         impedance_xx = impedance_xx - answer_x[j] * impedance_xu
         impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        force_x = force_x + answer_own[j] * impedance_xu
+        impedance_xu = impedance_xu * transmission[j]
         impedance_yx = impedance_yx - answer_x[j] * impedance_yu
         impedance_yy = impedance_yy - answer_y[j] * impedance_yu
+        force_y = force_y + answer_own[j] * impedance_yu
+        impedance_yu = impedance_yu * transmission[j]
         impedance_ux = answer_x[j] * joint_impedance[j]
         impedance_uy = answer_y[j] * joint_impedance[j]
         impedance_uu = impedance_uu * transmission[j]
-        force_x = force_x + answer_own[j] * impedance_xu
-        impedance_xu = impedance_xu * transmission[j]
-        force_y = force_y + answer_own[j] * impedance_yu
-        impedance_yu = impedance_yu * transmission[j]
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
     # Stage 1 of 5: the base
@@ -834,25 +828,23 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
         solved[j] = unknown
 
     # Stage 1 of 5: motion at this stage
-    hub_stage1_acceleration = hub_unknown + predicted_acceleration[0]
+    hub_stage1_acceleration = hub_acceleration + hub_unknown
     hub_stage1_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration
-    stage1_acceleration = predicted_acceleration[1:] + solved
+    stage1_acceleration = acceleration + solved
     stage1_rate = predicted_rate[1:] + rate_per_acceleration * solved
 
     # Stage 2 of 5: predicted motion
     predicted_rate[0] = hub_rate + hub_stage1_acceleration * three_quarters_step
     predicted_angle[0] = hub_angle + half_step * hub_stage1_rate + predicted_rate[0] * rate_per_acceleration
-    predicted_acceleration[0] = hub_stage1_acceleration
     predicted_rate[1:] = rate + stage1_acceleration * three_quarters_step
     predicted_angle[1:] = angle + half_step * stage1_rate + predicted_rate[1:] * rate_per_acceleration
-    predicted_acceleration[1:] = stage1_acceleration
 
     # Stage 2 of 5: accelerations of the nodes
     lever_cosine = length * np.cos(predicted_angle[1:])
     lever_sine = length * np.sin(predicted_angle[1:])
     square = predicted_rate[1:] * predicted_rate[1:]
-    relative_x = -lever_cosine * square - lever_sine * predicted_acceleration[1:]
-    relative_y = lever_cosine * predicted_acceleration[1:] - lever_sine * square
+    relative_x = -lever_cosine * square - lever_sine * stage1_acceleration
+    relative_y = lever_cosine * stage1_acceleration - lever_sine * square
     turning = half_step * predicted_rate[1:]
     swing_x = -lever_sine - angle_per_acceleration * relative_y - lever_cosine * turning
     swing_y = lever_cosine + angle_per_acceleration * relative_x - lever_sine * turning
@@ -872,23 +864,23 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
     )
 
     # Stage 2 of 5: sweep inward: force beyond each joint as an affine function of the motion at it
+    impedance_xx = end_mass
+    impedance_yy = end_mass
     impedance_uu = tip_inertia
-    torque = predicted_acceleration[50] * tip_inertia
-    force_x = 0.0
-    force_y = 0.0
+    force_x = acceleration_x[50] * end_mass
+    force_y = acceleration_y[50] * end_mass
+    torque = stage1_acceleration[49] * tip_inertia
     impedance_ux = 0.0
     impedance_uy = 0.0
     impedance_xu = 0.0
-    impedance_xx = 0.0
     impedance_xy = 0.0
     impedance_yu = 0.0
     impedance_yx = 0.0
-    impedance_yy = 0.0
     for j in reversed(range(STATIONS)):
-        impedance_xx = impedance_xx + node_mass[j]
-        impedance_yy = impedance_yy + node_mass[j]
-        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
-        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
+        impedance_xx = impedance_xx + mass
+        force_x = force_x + acceleration_x[j + 1] * mass
+        impedance_yy = impedance_yy + mass
+        force_y = force_y + acceleration_y[j + 1] * mass
         impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
         impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
         impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
@@ -904,7 +896,7 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
             torque
             - force_x * lever_sine[j]
             + force_y * lever_cosine[j]
-            + predicted_acceleration[j + 1] * rod_inertia
+            + rod_inertia * stage1_acceleration[j]
         )
         pivot = impedance_uu + joint_impedance[j]
         _require_positive(pivot, "pivot", j)
@@ -915,15 +907,15 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
         transmission[j] = admittance * joint_impedance[j]
         impedance_xx = impedance_xx - answer_x[j] * impedance_xu
         impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        force_x = force_x + answer_own[j] * impedance_xu
+        impedance_xu = impedance_xu * transmission[j]
         impedance_yx = impedance_yx - answer_x[j] * impedance_yu
         impedance_yy = impedance_yy - answer_y[j] * impedance_yu
+        force_y = force_y + answer_own[j] * impedance_yu
+        impedance_yu = impedance_yu * transmission[j]
         impedance_ux = answer_x[j] * joint_impedance[j]
         impedance_uy = answer_y[j] * joint_impedance[j]
         impedance_uu = impedance_uu * transmission[j]
-        force_x = force_x + answer_own[j] * impedance_xu
-        impedance_xu = impedance_xu * transmission[j]
-        force_y = force_y + answer_own[j] * impedance_yu
-        impedance_yu = impedance_yu * transmission[j]
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
     # Stage 2 of 5: the base
@@ -940,9 +932,9 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
         solved[j] = unknown
 
     # Stage 2 of 5: motion at this stage
-    hub_stage2_acceleration = hub_unknown + predicted_acceleration[0]
+    hub_stage2_acceleration = hub_stage1_acceleration + hub_unknown
     hub_stage2_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration
-    stage2_acceleration = predicted_acceleration[1:] + solved
+    stage2_acceleration = solved + stage1_acceleration
     stage2_rate = predicted_rate[1:] + rate_per_acceleration * solved
 
     # Stage 3 of 5: predicted motion
@@ -957,7 +949,6 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
         - hub_stage2_rate * predicted_angle_per_stage2_rate
         + predicted_rate[0] * rate_per_acceleration
     )
-    predicted_acceleration[0] = hub_stage2_acceleration
     predicted_rate[1:] = (
         rate
         + predicted_rate_per_stage1_acceleration * stage1_acceleration
@@ -969,14 +960,13 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
         + predicted_rate[1:] * rate_per_acceleration
         + predicted_rate_per_stage1_acceleration * stage1_rate
     )
-    predicted_acceleration[1:] = stage2_acceleration
 
     # Stage 3 of 5: accelerations of the nodes
     lever_cosine = length * np.cos(predicted_angle[1:])
     lever_sine = length * np.sin(predicted_angle[1:])
     square = predicted_rate[1:] * predicted_rate[1:]
-    relative_x = -lever_cosine * square - lever_sine * predicted_acceleration[1:]
-    relative_y = lever_cosine * predicted_acceleration[1:] - lever_sine * square
+    relative_x = -lever_cosine * square - lever_sine * stage2_acceleration
+    relative_y = lever_cosine * stage2_acceleration - lever_sine * square
     turning = half_step * predicted_rate[1:]
     swing_x = -lever_sine - angle_per_acceleration * relative_y - lever_cosine * turning
     swing_y = lever_cosine + angle_per_acceleration * relative_x - lever_sine * turning
@@ -996,23 +986,23 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
     )
 
     # Stage 3 of 5: sweep inward: force beyond each joint as an affine function of the motion at it
+    impedance_xx = end_mass
+    impedance_yy = end_mass
     impedance_uu = tip_inertia
-    torque = predicted_acceleration[50] * tip_inertia
-    force_x = 0.0
-    force_y = 0.0
+    force_x = acceleration_x[50] * end_mass
+    force_y = acceleration_y[50] * end_mass
+    torque = stage2_acceleration[49] * tip_inertia
     impedance_ux = 0.0
     impedance_uy = 0.0
     impedance_xu = 0.0
-    impedance_xx = 0.0
     impedance_xy = 0.0
     impedance_yu = 0.0
     impedance_yx = 0.0
-    impedance_yy = 0.0
     for j in reversed(range(STATIONS)):
-        impedance_xx = impedance_xx + node_mass[j]
-        impedance_yy = impedance_yy + node_mass[j]
-        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
-        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
+        impedance_xx = impedance_xx + mass
+        force_x = force_x + acceleration_x[j + 1] * mass
+        impedance_yy = impedance_yy + mass
+        force_y = force_y + acceleration_y[j + 1] * mass
         impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
         impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
         impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
@@ -1028,7 +1018,7 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
             torque
             - force_x * lever_sine[j]
             + force_y * lever_cosine[j]
-            + predicted_acceleration[j + 1] * rod_inertia
+            + rod_inertia * stage2_acceleration[j]
         )
         pivot = impedance_uu + joint_impedance[j]
         _require_positive(pivot, "pivot", j)
@@ -1039,15 +1029,15 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
         transmission[j] = admittance * joint_impedance[j]
         impedance_xx = impedance_xx - answer_x[j] * impedance_xu
         impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        force_x = force_x + answer_own[j] * impedance_xu
+        impedance_xu = impedance_xu * transmission[j]
         impedance_yx = impedance_yx - answer_x[j] * impedance_yu
         impedance_yy = impedance_yy - answer_y[j] * impedance_yu
+        force_y = force_y + answer_own[j] * impedance_yu
+        impedance_yu = impedance_yu * transmission[j]
         impedance_ux = answer_x[j] * joint_impedance[j]
         impedance_uy = answer_y[j] * joint_impedance[j]
         impedance_uu = impedance_uu * transmission[j]
-        force_x = force_x + answer_own[j] * impedance_xu
-        impedance_xu = impedance_xu * transmission[j]
-        force_y = force_y + answer_own[j] * impedance_yu
-        impedance_yu = impedance_yu * transmission[j]
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
     # Stage 3 of 5: the base
@@ -1064,9 +1054,9 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
         solved[j] = unknown
 
     # Stage 3 of 5: motion at this stage
-    hub_stage3_acceleration = hub_unknown + predicted_acceleration[0]
+    hub_stage3_acceleration = hub_stage2_acceleration + hub_unknown
     hub_stage3_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration
-    stage3_acceleration = predicted_acceleration[1:] + solved
+    stage3_acceleration = solved + stage2_acceleration
     stage3_rate = predicted_rate[1:] + rate_per_acceleration * solved
 
     # Stage 4 of 5: predicted motion
@@ -1083,7 +1073,6 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
         + hub_stage3_rate * predicted_angle_per_stage3_rate
         + predicted_rate[0] * rate_per_acceleration
     )
-    predicted_acceleration[0] = hub_stage3_acceleration
     predicted_rate[1:] = (
         rate
         + predicted_rate_per_stage1_acceleration_2 * stage1_acceleration
@@ -1097,14 +1086,13 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
         + predicted_rate_per_stage1_acceleration_2 * stage1_rate
         - predicted_rate_per_stage2_acceleration_2 * stage2_rate
     )
-    predicted_acceleration[1:] = stage3_acceleration
 
     # Stage 4 of 5: accelerations of the nodes
     lever_cosine = length * np.cos(predicted_angle[1:])
     lever_sine = length * np.sin(predicted_angle[1:])
     square = predicted_rate[1:] * predicted_rate[1:]
-    relative_x = -lever_cosine * square - lever_sine * predicted_acceleration[1:]
-    relative_y = lever_cosine * predicted_acceleration[1:] - lever_sine * square
+    relative_x = -lever_cosine * square - lever_sine * stage3_acceleration
+    relative_y = lever_cosine * stage3_acceleration - lever_sine * square
     turning = half_step * predicted_rate[1:]
     swing_x = -lever_sine - angle_per_acceleration * relative_y - lever_cosine * turning
     swing_y = lever_cosine + angle_per_acceleration * relative_x - lever_sine * turning
@@ -1124,23 +1112,23 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
     )
 
     # Stage 4 of 5: sweep inward: force beyond each joint as an affine function of the motion at it
+    impedance_xx = end_mass
+    impedance_yy = end_mass
     impedance_uu = tip_inertia
-    torque = predicted_acceleration[50] * tip_inertia
-    force_x = 0.0
-    force_y = 0.0
+    force_x = acceleration_x[50] * end_mass
+    force_y = acceleration_y[50] * end_mass
+    torque = stage3_acceleration[49] * tip_inertia
     impedance_ux = 0.0
     impedance_uy = 0.0
     impedance_xu = 0.0
-    impedance_xx = 0.0
     impedance_xy = 0.0
     impedance_yu = 0.0
     impedance_yx = 0.0
-    impedance_yy = 0.0
     for j in reversed(range(STATIONS)):
-        impedance_xx = impedance_xx + node_mass[j]
-        impedance_yy = impedance_yy + node_mass[j]
-        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
-        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
+        impedance_xx = impedance_xx + mass
+        force_x = force_x + acceleration_x[j + 1] * mass
+        impedance_yy = impedance_yy + mass
+        force_y = force_y + acceleration_y[j + 1] * mass
         impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
         impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
         impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
@@ -1156,7 +1144,7 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
             torque
             - force_x * lever_sine[j]
             + force_y * lever_cosine[j]
-            + predicted_acceleration[j + 1] * rod_inertia
+            + rod_inertia * stage3_acceleration[j]
         )
         pivot = impedance_uu + joint_impedance[j]
         _require_positive(pivot, "pivot", j)
@@ -1167,15 +1155,15 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
         transmission[j] = admittance * joint_impedance[j]
         impedance_xx = impedance_xx - answer_x[j] * impedance_xu
         impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        force_x = force_x + answer_own[j] * impedance_xu
+        impedance_xu = impedance_xu * transmission[j]
         impedance_yx = impedance_yx - answer_x[j] * impedance_yu
         impedance_yy = impedance_yy - answer_y[j] * impedance_yu
+        force_y = force_y + answer_own[j] * impedance_yu
+        impedance_yu = impedance_yu * transmission[j]
         impedance_ux = answer_x[j] * joint_impedance[j]
         impedance_uy = answer_y[j] * joint_impedance[j]
         impedance_uu = impedance_uu * transmission[j]
-        force_x = force_x + answer_own[j] * impedance_xu
-        impedance_xu = impedance_xu * transmission[j]
-        force_y = force_y + answer_own[j] * impedance_yu
-        impedance_yu = impedance_yu * transmission[j]
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
     # Stage 4 of 5: the base
@@ -1192,9 +1180,9 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
         solved[j] = unknown
 
     # Stage 4 of 5: motion at this stage
-    hub_stage4_acceleration = hub_unknown + predicted_acceleration[0]
+    hub_stage4_acceleration = hub_stage3_acceleration + hub_unknown
     hub_stage4_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration
-    stage4_acceleration = predicted_acceleration[1:] + solved
+    stage4_acceleration = solved + stage3_acceleration
     stage4_rate = predicted_rate[1:] + rate_per_acceleration * solved
 
     # Stage 5 of 5: predicted motion
@@ -1213,7 +1201,6 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
         - hub_stage4_rate * predicted_angle_per_stage4_rate
         + predicted_rate[0] * rate_per_acceleration
     )
-    predicted_acceleration[0] = hub_stage4_acceleration
     predicted_rate[1:] = (
         rate
         + predicted_rate_per_stage1_acceleration_3 * stage1_acceleration
@@ -1229,14 +1216,13 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
         - predicted_rate_per_stage2_acceleration_3 * stage2_rate
         + predicted_rate_per_stage3_acceleration_2 * stage3_rate
     )
-    predicted_acceleration[1:] = stage4_acceleration
 
     # Stage 5 of 5: accelerations of the nodes
     lever_cosine = length * np.cos(predicted_angle[1:])
     lever_sine = length * np.sin(predicted_angle[1:])
     square = predicted_rate[1:] * predicted_rate[1:]
-    relative_x = -lever_cosine * square - lever_sine * predicted_acceleration[1:]
-    relative_y = lever_cosine * predicted_acceleration[1:] - lever_sine * square
+    relative_x = -lever_cosine * square - lever_sine * stage4_acceleration
+    relative_y = lever_cosine * stage4_acceleration - lever_sine * square
     turning = half_step * predicted_rate[1:]
     swing_x = -lever_sine - angle_per_acceleration * relative_y - lever_cosine * turning
     swing_y = lever_cosine + angle_per_acceleration * relative_x - lever_sine * turning
@@ -1256,23 +1242,23 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
     )
 
     # Stage 5 of 5: sweep inward: force beyond each joint as an affine function of the motion at it
+    impedance_xx = end_mass
+    impedance_yy = end_mass
     impedance_uu = tip_inertia
-    torque = predicted_acceleration[50] * tip_inertia
-    force_x = 0.0
-    force_y = 0.0
+    force_x = acceleration_x[50] * end_mass
+    force_y = acceleration_y[50] * end_mass
+    torque = stage4_acceleration[49] * tip_inertia
     impedance_ux = 0.0
     impedance_uy = 0.0
     impedance_xu = 0.0
-    impedance_xx = 0.0
     impedance_xy = 0.0
     impedance_yu = 0.0
     impedance_yx = 0.0
-    impedance_yy = 0.0
     for j in reversed(range(STATIONS)):
-        impedance_xx = impedance_xx + node_mass[j]
-        impedance_yy = impedance_yy + node_mass[j]
-        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
-        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
+        impedance_xx = impedance_xx + mass
+        force_x = force_x + acceleration_x[j + 1] * mass
+        impedance_yy = impedance_yy + mass
+        force_y = force_y + acceleration_y[j + 1] * mass
         impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
         impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
         impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
@@ -1288,7 +1274,7 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
             torque
             - force_x * lever_sine[j]
             + force_y * lever_cosine[j]
-            + predicted_acceleration[j + 1] * rod_inertia
+            + rod_inertia * stage4_acceleration[j]
         )
         pivot = impedance_uu + joint_impedance[j]
         _require_positive(pivot, "pivot", j)
@@ -1299,15 +1285,15 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
         transmission[j] = admittance * joint_impedance[j]
         impedance_xx = impedance_xx - answer_x[j] * impedance_xu
         impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        force_x = force_x + answer_own[j] * impedance_xu
+        impedance_xu = impedance_xu * transmission[j]
         impedance_yx = impedance_yx - answer_x[j] * impedance_yu
         impedance_yy = impedance_yy - answer_y[j] * impedance_yu
+        force_y = force_y + answer_own[j] * impedance_yu
+        impedance_yu = impedance_yu * transmission[j]
         impedance_ux = answer_x[j] * joint_impedance[j]
         impedance_uy = answer_y[j] * joint_impedance[j]
         impedance_uu = impedance_uu * transmission[j]
-        force_x = force_x + answer_own[j] * impedance_xu
-        impedance_xu = impedance_xu * transmission[j]
-        force_y = force_y + answer_own[j] * impedance_yu
-        impedance_yu = impedance_yu * transmission[j]
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
     # Stage 5 of 5: the base
@@ -1326,10 +1312,10 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
     # Stage 5 of 5: motion at the end of the step
     hub_angle = predicted_angle[0] + angle_per_acceleration * hub_unknown
     hub_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration
-    hub_acceleration = hub_unknown + predicted_acceleration[0]
+    hub_acceleration = hub_stage4_acceleration + hub_unknown
     angle = predicted_angle[1:] + angle_per_acceleration * solved
     rate = predicted_rate[1:] + rate_per_acceleration * solved
-    acceleration = predicted_acceleration[1:] + solved
+    acceleration = solved + stage4_acceleration
     return State(
         hub_angle=_spread(hub_angle, batch, False),
         hub_rate=_spread(hub_rate, batch, False),

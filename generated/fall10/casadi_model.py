@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 225557ccb20983327784b6fc8326b9127fb185b183a5e99d150385ab258b9303
-# sha256 of the rest of this file: 0641a5b05c597dd2f782480d5f924f22a8b2378aaebd30dd8015dc75e6831a0c
+# sha256 of the rest of this file: 9832a8b4fa27b9947ba912bda0b05335f830073bbf41fad206ca53dda3eb989e
 #
 # model: planar arm, large rotations, gravity
 # stations: 10
@@ -11,9 +11,9 @@
 # linearisation: newton
 # sweep: riccati
 # unknown: acceleration
-# operations of a step: 1150, 115 per station (530 additions, 590 multiplications, 10 divisions, 20 sines and
-#     cosines)
-# operations of prepare: 108, 10.8 per station (30 additions, 78 multiplications)
+# operations of a step: 1152, 115.2 per station (530 additions, 592 multiplications, 10 divisions, 20 sines
+#     and cosines)
+# operations of prepare: 73, 7.3 per station (13 additions, 60 multiplications)
 """fall10: Soft clamped beam falling under its own weight. Functions for optimisation and control.
 
 Columns: ``x`` the state (STATE_NAMES), ``u`` the inputs (INPUT_NAMES), ``p`` the step and the physical
@@ -166,12 +166,9 @@ def _prepare(p: ca.SX) -> dict[str, Any]:
     damping = ca.vertsplit(p[15:25])
     gravity = p[25]
     joint_impedance: list[Any] = [0.0] * STATIONS
-    node_mass: list[Any] = [0.0] * STATIONS
 
     # masses at the nodes between links, and what they leave over
-    for j in range(9):
-        node_mass[j] = center * mass + mass * (1.0 - center)
-    node_mass[9] = center * mass
+    end_mass = -mass * (1.0 - center)
     rod_inertia = inertia - center * (length * length) * mass * (1.0 - center)
 
     # factors of the sweep that do not change from step to step
@@ -185,13 +182,14 @@ def _prepare(p: ca.SX) -> dict[str, Any]:
     return {
         "step": step,
         "length": length,
+        "mass": mass,
         "stiffness": stiffness,
         "damping": damping,
         "gravity": gravity,
         "half_step_squared": half_step_squared,
         "angle_per_acceleration": angle_per_acceleration,
         "rate_per_acceleration": rate_per_acceleration,
-        "node_mass": node_mass,
+        "end_mass": end_mass,
         "rod_inertia": rod_inertia,
         "joint_impedance": joint_impedance,
     }
@@ -218,7 +216,6 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
     joint_torque: list[Any] = [0.0] * STATIONS
     lever_cosine: list[Any] = [0.0] * STATIONS
     lever_sine: list[Any] = [0.0] * STATIONS
-    node_mass: list[Any] = [0.0] * STATIONS
     predicted_acceleration: list[Any] = [0.0] * (STATIONS + 1)
     predicted_angle: list[Any] = [0.0] * (STATIONS + 1)
     predicted_rate: list[Any] = [0.0] * (STATIONS + 1)
@@ -228,9 +225,7 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
     solved: list[Any] = [0.0] * STATIONS
 
     # masses at the nodes between links, and what they leave over
-    for j in range(9):
-        node_mass[j] = center * mass + mass * (1.0 - center)
-    node_mass[9] = center * mass
+    end_mass = -mass * (1.0 - center)
     rod_inertia = inertia - center * (length * length) * mass * (1.0 - center)
 
     # predicted motion
@@ -266,18 +261,18 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
         )
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
-    force_x: Any = 0.0
-    force_y: Any = 0.0
-    impedance_xx: Any = 0.0
+    impedance_xx = end_mass
+    impedance_yy = end_mass
+    force_x = acceleration_x[10] * end_mass
+    force_y = acceleration_y[10] * end_mass
     impedance_xy: Any = 0.0
     impedance_yx: Any = 0.0
-    impedance_yy: Any = 0.0
     torque: Any = 0.0
     for j in reversed(range(STATIONS)):
-        impedance_xx = impedance_xx + node_mass[j]
-        impedance_yy = impedance_yy + node_mass[j]
-        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
-        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
+        impedance_xx = impedance_xx + mass
+        force_x = force_x + acceleration_x[j + 1] * mass
+        impedance_yy = impedance_yy + mass
+        force_y = force_y + acceleration_y[j + 1] * mass
         impedance_xu = impedance_xy * lever_cosine[j] - impedance_xx * lever_sine[j]
         impedance_yu = impedance_yy * lever_cosine[j] - impedance_yx * lever_sine[j]
         impedance_ux = impedance_yx * lever_cosine[j] - impedance_xx * lever_sine[j]
@@ -296,9 +291,9 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
         answer_y[j] = admittance * impedance_uy
         impedance_xx = impedance_xx - answer_x[j] * impedance_xu
         impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        force_x = force_x + answer_own[j] * impedance_xu
         impedance_yx = impedance_yx - answer_x[j] * impedance_yu
         impedance_yy = impedance_yy - answer_y[j] * impedance_yu
-        force_x = force_x + answer_own[j] * impedance_xu
         force_y = force_y + answer_own[j] * impedance_yu
         torque = joint_torque[j]
 
@@ -326,13 +321,14 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     """Advance the state by one step."""
     step = model["step"]
     length = model["length"]
+    mass = model["mass"]
     stiffness = model["stiffness"]
     damping = model["damping"]
     gravity = model["gravity"]
     half_step_squared = model["half_step_squared"]
     angle_per_acceleration = model["angle_per_acceleration"]
     rate_per_acceleration = model["rate_per_acceleration"]
-    node_mass = model["node_mass"]
+    end_mass = model["end_mass"]
     rod_inertia = model["rod_inertia"]
     joint_impedance = model["joint_impedance"]
     angle = ca.vertsplit(x[0:10])
@@ -346,7 +342,6 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     joint_torque: list[Any] = [0.0] * STATIONS
     lever_cosine: list[Any] = [0.0] * STATIONS
     lever_sine: list[Any] = [0.0] * STATIONS
-    predicted_acceleration: list[Any] = [0.0] * (STATIONS + 1)
     predicted_angle: list[Any] = [0.0] * (STATIONS + 1)
     predicted_rate: list[Any] = [0.0] * (STATIONS + 1)
     relative_x: list[Any] = [0.0] * STATIONS
@@ -359,19 +354,17 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     # predicted motion
     predicted_rate[0] = 0.0
     predicted_angle[0] = 0.0
-    predicted_acceleration[0] = 0.0
     for j in range(STATIONS):
         predicted_rate[j + 1] = rate[j] + acceleration[j] * step
         predicted_angle[j + 1] = angle[j] + acceleration[j] * half_step_squared + rate[j] * step
-        predicted_acceleration[j + 1] = acceleration[j]
 
     # accelerations of the nodes, seen from a falling frame: gravity is the base's own
     for j in range(STATIONS):
         lever_cosine[j] = length * ca.cos(predicted_angle[j + 1])
         lever_sine[j] = length * ca.sin(predicted_angle[j + 1])
         square = predicted_rate[j + 1] * predicted_rate[j + 1]
-        relative_x[j] = -lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1]
-        relative_y[j] = lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square
+        relative_x[j] = -acceleration[j] * lever_sine[j] - lever_cosine[j] * square
+        relative_y[j] = acceleration[j] * lever_cosine[j] - lever_sine[j] * square
         turning = predicted_rate[j + 1] * step
         swing_x[j] = -lever_sine[j] - angle_per_acceleration * relative_y[j] - lever_cosine[j] * turning
         swing_y[j] = lever_cosine[j] + angle_per_acceleration * relative_x[j] - lever_sine[j] * turning
@@ -392,23 +385,23 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         )
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
-    force_x: Any = 0.0
-    force_y: Any = 0.0
+    impedance_xx = end_mass
+    impedance_yy = end_mass
+    force_x = acceleration_x[10] * end_mass
+    force_y = acceleration_y[10] * end_mass
     impedance_uu: Any = 0.0
     impedance_ux: Any = 0.0
     impedance_uy: Any = 0.0
     impedance_xu: Any = 0.0
-    impedance_xx: Any = 0.0
     impedance_xy: Any = 0.0
     impedance_yu: Any = 0.0
     impedance_yx: Any = 0.0
-    impedance_yy: Any = 0.0
     torque: Any = 0.0
     for j in reversed(range(STATIONS)):
-        impedance_xx = impedance_xx + node_mass[j]
-        impedance_yy = impedance_yy + node_mass[j]
-        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
-        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
+        impedance_xx = impedance_xx + mass
+        force_x = force_x + acceleration_x[j + 1] * mass
+        impedance_yy = impedance_yy + mass
+        force_y = force_y + acceleration_y[j + 1] * mass
         impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
         impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
         impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
@@ -420,12 +413,7 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
             + lever_cosine[j] * (impedance_yu - angle_per_acceleration * force_x)
             + lever_sine[j] * (-impedance_xu - angle_per_acceleration * force_y)
         )
-        torque = (
-            torque
-            - force_x * lever_sine[j]
-            + force_y * lever_cosine[j]
-            + predicted_acceleration[j + 1] * rod_inertia
-        )
+        torque = torque + acceleration[j] * rod_inertia - force_x * lever_sine[j] + force_y * lever_cosine[j]
         pivot = impedance_uu + joint_impedance[j]
         admittance = 1.0 / pivot
         answer_own[j] = admittance * (joint_torque[j] - torque)
@@ -434,15 +422,15 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         transmission[j] = admittance * joint_impedance[j]
         impedance_xx = impedance_xx - answer_x[j] * impedance_xu
         impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        force_x = force_x + answer_own[j] * impedance_xu
+        impedance_xu = impedance_xu * transmission[j]
         impedance_yx = impedance_yx - answer_x[j] * impedance_yu
         impedance_yy = impedance_yy - answer_y[j] * impedance_yu
+        force_y = force_y + answer_own[j] * impedance_yu
+        impedance_yu = impedance_yu * transmission[j]
         impedance_ux = answer_x[j] * joint_impedance[j]
         impedance_uy = answer_y[j] * joint_impedance[j]
         impedance_uu = impedance_uu * transmission[j]
-        force_x = force_x + answer_own[j] * impedance_xu
-        impedance_xu = impedance_xu * transmission[j]
-        force_y = force_y + answer_own[j] * impedance_yu
-        impedance_yu = impedance_yu * transmission[j]
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
     # the base
@@ -461,7 +449,7 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     for j in range(STATIONS):
         angle[j] = predicted_angle[j + 1] + angle_per_acceleration * solved[j]
         rate[j] = predicted_rate[j + 1] + rate_per_acceleration * solved[j]
-        acceleration[j] = predicted_acceleration[j + 1] + solved[j]
+        acceleration[j] = acceleration[j] + solved[j]
     return _column(*angle, *rate, *acceleration)
 
 

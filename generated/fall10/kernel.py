@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 225557ccb20983327784b6fc8326b9127fb185b183a5e99d150385ab258b9303
-# sha256 of the rest of this file: f02a7c111e0cded5b1badaf1e56c5e64ad63fb2c61cda6f50efc25b5f4e554f5
+# sha256 of the rest of this file: 123938ba7362365813454e856ce4dcd4a9dbaee28d6d58e515a59ccff36dce14
 #
 # model: planar arm, large rotations, gravity
 # stations: 10
@@ -11,9 +11,9 @@
 # linearisation: newton
 # sweep: riccati
 # unknown: acceleration
-# operations of a step: 1150, 115 per station (530 additions, 590 multiplications, 10 divisions, 20 sines and
-#     cosines)
-# operations of prepare: 108, 10.8 per station (30 additions, 78 multiplications)
+# operations of a step: 1152, 115.2 per station (530 additions, 592 multiplications, 10 divisions, 20 sines
+#     and cosines)
+# operations of prepare: 73, 7.3 per station (13 additions, 60 multiplications)
 """fall10: Soft clamped beam falling under its own weight.
 
 A state goes in, a new one comes out: ``model = prepare(params, step)``, ``state = initialise(params,
@@ -93,6 +93,8 @@ class Model:
         Time step (s).
     length : array, shape (*batch)
         Link length, the same everywhere (m).
+    mass : array, shape (*batch)
+        Link mass, the same everywhere (kg).
     stiffness : array, shape (10, *batch)
         Joint stiffness, base to tip (N m/rad).
     damping : array, shape (10, *batch)
@@ -105,8 +107,8 @@ class Model:
         Angle per unit of acceleration: step**2/4 (s^2).
     rate_per_acceleration : array, shape (*batch)
         Rate per unit of acceleration: step/2 (s).
-    node_mass : array, shape (10, *batch)
-        Mass at the outer end of each link (kg).
+    end_mass : array, shape (*batch)
+        Mass at the tip less the share of a link beyond it (kg).
     rod_inertia : array, shape (*batch)
         Inertia of a link that masses at its ends leave over (kg m^2).
     joint_impedance : array, shape (10, *batch)
@@ -115,13 +117,14 @@ class Model:
 
     step: Array
     length: Array
+    mass: Array
     stiffness: Array
     damping: Array
     gravity: Array
     half_step_squared: Array
     angle_per_acceleration: Array
     rate_per_acceleration: Array
-    node_mass: Array
+    end_mass: Array
     rod_inertia: Array
     joint_impedance: Array
 
@@ -223,14 +226,12 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     gravity = _array(params.gravity, None, "gravity")
     numbers = (step, length, mass, inertia, center, gravity)
     arrays = (stiffness, damping)
-    batch, dtype = _common(numbers, arrays)
+    batch, _ = _common(numbers, arrays)
     stiffness = _align(stiffness, batch)
     damping = _align(damping, batch)
-    node_mass = np.zeros((STATIONS, *batch), dtype)
 
     # masses at the nodes between links, and what they leave over
-    node_mass[:9] = center * mass + mass * (1.0 - center)
-    node_mass[9] = center * mass
+    end_mass = -mass * (1.0 - center)
     rod_inertia = inertia - center * (length * length) * mass * (1.0 - center)
 
     # factors of the sweep that do not change from step to step
@@ -243,13 +244,14 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     return Model(
         step=step,
         length=length,
+        mass=mass,
         stiffness=stiffness,
         damping=damping,
         gravity=gravity,
         half_step_squared=half_step_squared,
         angle_per_acceleration=angle_per_acceleration,
         rate_per_acceleration=rate_per_acceleration,
-        node_mass=node_mass,
+        end_mass=end_mass,
         rod_inertia=rod_inertia,
         joint_impedance=joint_impedance,
     )
@@ -305,15 +307,13 @@ def initialise(
     answer_own = np.zeros((STATIONS, *batch), dtype)
     answer_x = np.zeros((STATIONS, *batch), dtype)
     answer_y = np.zeros((STATIONS, *batch), dtype)
-    node_mass = np.zeros((STATIONS, *batch), dtype)
     predicted_acceleration = np.zeros((STATIONS + 1, *batch), dtype)
     predicted_angle = np.zeros((STATIONS + 1, *batch), dtype)
     predicted_rate = np.zeros((STATIONS + 1, *batch), dtype)
     solved = np.zeros((STATIONS, *batch), dtype)
 
     # masses at the nodes between links, and what they leave over
-    node_mass[:9] = center * mass + mass * (1.0 - center)
-    node_mass[9] = center * mass
+    end_mass = -mass * (1.0 - center)
     rod_inertia = inertia - center * (length * length) * mass * (1.0 - center)
 
     # predicted motion
@@ -346,18 +346,18 @@ def initialise(
     )
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
-    force_x: Any = 0.0
-    force_y: Any = 0.0
-    impedance_xx: Any = 0.0
+    impedance_xx = end_mass
+    impedance_yy = end_mass
+    force_x = acceleration_x[10] * end_mass
+    force_y = acceleration_y[10] * end_mass
     impedance_xy: Any = 0.0
     impedance_yx: Any = 0.0
-    impedance_yy: Any = 0.0
     torque: Any = 0.0
     for j in reversed(range(STATIONS)):
-        impedance_xx = impedance_xx + node_mass[j]
-        impedance_yy = impedance_yy + node_mass[j]
-        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
-        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
+        impedance_xx = impedance_xx + mass
+        force_x = force_x + acceleration_x[j + 1] * mass
+        impedance_yy = impedance_yy + mass
+        force_y = force_y + acceleration_y[j + 1] * mass
         impedance_xu = impedance_xy * lever_cosine[j] - impedance_xx * lever_sine[j]
         impedance_yu = impedance_yy * lever_cosine[j] - impedance_yx * lever_sine[j]
         impedance_ux = impedance_yx * lever_cosine[j] - impedance_xx * lever_sine[j]
@@ -377,9 +377,9 @@ def initialise(
         answer_y[j] = admittance * impedance_uy
         impedance_xx = impedance_xx - answer_x[j] * impedance_xu
         impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        force_x = force_x + answer_own[j] * impedance_xu
         impedance_yx = impedance_yx - answer_x[j] * impedance_yu
         impedance_yy = impedance_yy - answer_y[j] * impedance_yu
-        force_x = force_x + answer_own[j] * impedance_xu
         force_y = force_y + answer_own[j] * impedance_yu
         torque = joint_torque[j]
 
@@ -434,13 +434,14 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     """
     step = model.step
     length = model.length
+    mass = model.mass
     stiffness = np.asarray(model.stiffness)
     damping = np.asarray(model.damping)
     gravity = model.gravity
     half_step_squared = model.half_step_squared
     angle_per_acceleration = model.angle_per_acceleration
     rate_per_acceleration = model.rate_per_acceleration
-    node_mass = np.asarray(model.node_mass)
+    end_mass = model.end_mass
     rod_inertia = model.rod_inertia
     joint_impedance = np.asarray(model.joint_impedance)
     angle = np.asarray(state.angle)
@@ -449,17 +450,18 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     numbers = (
         step,
         length,
+        mass,
         gravity,
         half_step_squared,
         angle_per_acceleration,
         rate_per_acceleration,
+        end_mass,
         rod_inertia,
     )
-    arrays = (stiffness, damping, node_mass, joint_impedance, angle, rate, acceleration)
+    arrays = (stiffness, damping, joint_impedance, angle, rate, acceleration)
     batch, dtype = _common(numbers, arrays)
     stiffness = _align(stiffness, batch)
     damping = _align(damping, batch)
-    node_mass = _align(node_mass, batch)
     joint_impedance = _align(joint_impedance, batch)
     angle = _spread(angle, batch, True)
     rate = _spread(rate, batch, True)
@@ -469,7 +471,6 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     answer_own = np.zeros((STATIONS, *batch), dtype)
     answer_x = np.zeros((STATIONS, *batch), dtype)
     answer_y = np.zeros((STATIONS, *batch), dtype)
-    predicted_acceleration = np.zeros((STATIONS + 1, *batch), dtype)
     predicted_angle = np.zeros((STATIONS + 1, *batch), dtype)
     predicted_rate = np.zeros((STATIONS + 1, *batch), dtype)
     solved = np.zeros((STATIONS, *batch), dtype)
@@ -478,17 +479,15 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     # predicted motion
     predicted_rate[0] = 0.0
     predicted_angle[0] = 0.0
-    predicted_acceleration[0] = 0.0
     predicted_rate[1:] = rate + acceleration * step
     predicted_angle[1:] = angle + acceleration * half_step_squared + rate * step
-    predicted_acceleration[1:] = acceleration
 
     # accelerations of the nodes, seen from a falling frame: gravity is the base's own
     lever_cosine = length * np.cos(predicted_angle[1:])
     lever_sine = length * np.sin(predicted_angle[1:])
     square = predicted_rate[1:] * predicted_rate[1:]
-    relative_x = -lever_cosine * square - lever_sine * predicted_acceleration[1:]
-    relative_y = lever_cosine * predicted_acceleration[1:] - lever_sine * square
+    relative_x = -acceleration * lever_sine - lever_cosine * square
+    relative_y = acceleration * lever_cosine - lever_sine * square
     turning = predicted_rate[1:] * step
     swing_x = -lever_sine - angle_per_acceleration * relative_y - lever_cosine * turning
     swing_y = lever_cosine + angle_per_acceleration * relative_x - lever_sine * turning
@@ -508,23 +507,23 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     )
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
-    force_x: Any = 0.0
-    force_y: Any = 0.0
+    impedance_xx = end_mass
+    impedance_yy = end_mass
+    force_x = acceleration_x[10] * end_mass
+    force_y = acceleration_y[10] * end_mass
     impedance_uu: Any = 0.0
     impedance_ux: Any = 0.0
     impedance_uy: Any = 0.0
     impedance_xu: Any = 0.0
-    impedance_xx: Any = 0.0
     impedance_xy: Any = 0.0
     impedance_yu: Any = 0.0
     impedance_yx: Any = 0.0
-    impedance_yy: Any = 0.0
     torque: Any = 0.0
     for j in reversed(range(STATIONS)):
-        impedance_xx = impedance_xx + node_mass[j]
-        impedance_yy = impedance_yy + node_mass[j]
-        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
-        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
+        impedance_xx = impedance_xx + mass
+        force_x = force_x + acceleration_x[j + 1] * mass
+        impedance_yy = impedance_yy + mass
+        force_y = force_y + acceleration_y[j + 1] * mass
         impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
         impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
         impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
@@ -536,12 +535,7 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
             + lever_cosine[j] * (impedance_yu - angle_per_acceleration * force_x)
             + lever_sine[j] * (-impedance_xu - angle_per_acceleration * force_y)
         )
-        torque = (
-            torque
-            - force_x * lever_sine[j]
-            + force_y * lever_cosine[j]
-            + predicted_acceleration[j + 1] * rod_inertia
-        )
+        torque = torque + acceleration[j] * rod_inertia - force_x * lever_sine[j] + force_y * lever_cosine[j]
         pivot = impedance_uu + joint_impedance[j]
         _require_positive(pivot, "pivot", j)
         admittance = 1.0 / pivot
@@ -551,15 +545,15 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
         transmission[j] = admittance * joint_impedance[j]
         impedance_xx = impedance_xx - answer_x[j] * impedance_xu
         impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        force_x = force_x + answer_own[j] * impedance_xu
+        impedance_xu = impedance_xu * transmission[j]
         impedance_yx = impedance_yx - answer_x[j] * impedance_yu
         impedance_yy = impedance_yy - answer_y[j] * impedance_yu
+        force_y = force_y + answer_own[j] * impedance_yu
+        impedance_yu = impedance_yu * transmission[j]
         impedance_ux = answer_x[j] * joint_impedance[j]
         impedance_uy = answer_y[j] * joint_impedance[j]
         impedance_uu = impedance_uu * transmission[j]
-        force_x = force_x + answer_own[j] * impedance_xu
-        impedance_xu = impedance_xu * transmission[j]
-        force_y = force_y + answer_own[j] * impedance_yu
-        impedance_yu = impedance_yu * transmission[j]
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
     # the base
@@ -577,7 +571,7 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     # motion at the end of the step
     angle = predicted_angle[1:] + angle_per_acceleration * solved
     rate = predicted_rate[1:] + rate_per_acceleration * solved
-    acceleration = predicted_acceleration[1:] + solved
+    acceleration = acceleration + solved
     return State(
         angle=_spread(angle, batch, True),
         rate=_spread(rate, batch, True),

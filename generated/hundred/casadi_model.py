@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 1ec2a071f5720229c3b5c9d847fa0a44d6fa112015051ca13c1d73444e6eb10a
-# sha256 of the rest of this file: 18851be30fabae50e3e291ce70469c41f99382b87f2e28d3062ebcc2d01ec2d6
+# sha256 of the rest of this file: bebea2fba37fc44aa1655fc86216f8d236aea110bef81206018094d23466e72d
 #
 # model: torsional chain (linear)
 # stations: 100
@@ -170,6 +170,11 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
     rate: list[Any] = [0.0] * STATIONS
     solved: list[Any] = [0.0] * STATIONS
 
+    # what is the same at every station
+    impedance = -inertia
+    pivot = -impedance
+    admittance = 1.0 / pivot
+
     # motion known before the sweep
     known_rate[0] = 0.0
     known_angle[0] = 0.0
@@ -186,9 +191,6 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
     # sweep inward: force beyond each joint as an affine function of the motion at it
     torque = tip_torque
     for j in reversed(range(STATIONS)):
-        impedance = -inertia
-        pivot = -impedance
-        admittance = 1.0 / pivot
         answer_own[j] = admittance * (torque - joint_torque[j])
         torque = joint_torque[j]
 

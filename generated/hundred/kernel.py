@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 1ec2a071f5720229c3b5c9d847fa0a44d6fa112015051ca13c1d73444e6eb10a
-# sha256 of the rest of this file: f1b6be6c19befe9575ccfbdfc9c834d6de9fadd886979829b7b568a9cb1cdabb
+# sha256 of the rest of this file: 57043a8847a81ba9e99418d0f169112b564a151a35c1a38318b4d1645d92c9f2
 #
 # model: torsional chain (linear)
 # stations: 100
@@ -274,6 +274,12 @@ def initialise(
     known_angle = np.zeros((STATIONS + 1, *batch), dtype)
     known_rate = np.zeros((STATIONS + 1, *batch), dtype)
 
+    # what is the same at every station
+    impedance = -inertia
+    pivot = -impedance
+    _require_positive(pivot, "pivot", None)
+    admittance = 1.0 / pivot
+
     # motion known before the sweep
     known_rate[0] = 0.0
     known_angle[0] = 0.0
@@ -288,10 +294,6 @@ def initialise(
     # sweep inward: force beyond each joint as an affine function of the motion at it
     torque = tip_torque
     for j in reversed(range(STATIONS)):
-        impedance = -inertia
-        pivot = -impedance
-        _require_positive(pivot, "pivot", j)
-        admittance = 1.0 / pivot
         answer_own[j] = admittance * (torque - joint_torque[j])
         torque = joint_torque[j]
 

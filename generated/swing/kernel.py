@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 1d772428e2d772ebb733ea95a16abbe042281079aa7667facf050e2b156d94bf
-# sha256 of the rest of this file: 12faffc4aa7fa722d50a38bcf8d1c5a487dca950bf454732b0c14ca83968285b
+# sha256 of the rest of this file: b7c6e2d73f77c5ef21b044da324baa495afdc4302d009dd25cdda9abccfed220
 #
 # model: planar arm, large rotations, tip mass
 # stations: 5
@@ -11,9 +11,9 @@
 # linearisation: newton
 # sweep: riccati
 # unknown: acceleration
-# operations of a step: 593, 118.6 per station (275 additions, 302 multiplications, 6 divisions, 10 sines and
+# operations of a step: 595, 119 per station (275 additions, 304 multiplications, 6 divisions, 10 sines and
 #     cosines)
-# operations of prepare: 62, 12.4 per station (17 additions, 45 multiplications)
+# operations of prepare: 47, 9.4 per station (10 additions, 37 multiplications)
 """swing: Flexible arm swung by one radian.
 
 A state goes in, a new one comes out: ``model = prepare(params, step)``, ``state = initialise(params,
@@ -99,6 +99,8 @@ class Model:
         Time step (s).
     length : array, shape (*batch)
         Link length, the same everywhere (m).
+    mass : array, shape (*batch)
+        Link mass, the same everywhere (kg).
     stiffness : array, shape (5, *batch)
         Joint stiffness, base to tip (N m/rad).
     damping : array, shape (5, *batch)
@@ -113,8 +115,8 @@ class Model:
         Angle per unit of acceleration: step**2/4 (s^2).
     rate_per_acceleration : array, shape (*batch)
         Rate per unit of acceleration: step/2 (s).
-    node_mass : array, shape (5, *batch)
-        Mass at the outer end of each link (kg).
+    end_mass : array, shape (*batch)
+        Mass at the tip less the share of a link beyond it (kg).
     rod_inertia : array, shape (*batch)
         Inertia of a link that masses at its ends leave over (kg m^2).
     joint_impedance : array, shape (5, *batch)
@@ -125,6 +127,7 @@ class Model:
 
     step: Array
     length: Array
+    mass: Array
     stiffness: Array
     damping: Array
     hub_inertia: Array
@@ -132,7 +135,7 @@ class Model:
     half_step_squared: Array
     angle_per_acceleration: Array
     rate_per_acceleration: Array
-    node_mass: Array
+    end_mass: Array
     rod_inertia: Array
     joint_impedance: Array
     hub_impedance: Array
@@ -248,14 +251,12 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     tip_mass = _array(params.tip_mass, None, "tip_mass")
     numbers = (step, length, mass, inertia, center, hub_inertia, hub_damping, tip_mass)
     arrays = (stiffness, damping)
-    batch, dtype = _common(numbers, arrays)
+    batch, _ = _common(numbers, arrays)
     stiffness = _align(stiffness, batch)
     damping = _align(damping, batch)
-    node_mass = np.zeros((STATIONS, *batch), dtype)
 
     # masses at the nodes between links, and what they leave over
-    node_mass[:4] = center * mass + mass * (1.0 - center)
-    node_mass[4] = tip_mass + center * mass
+    end_mass = tip_mass - mass * (1.0 - center)
     rod_inertia = inertia - center * (length * length) * mass * (1.0 - center)
 
     # factors of the sweep that do not change from step to step
@@ -269,6 +270,7 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     return Model(
         step=step,
         length=length,
+        mass=mass,
         stiffness=stiffness,
         damping=damping,
         hub_inertia=hub_inertia,
@@ -276,7 +278,7 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
         half_step_squared=half_step_squared,
         angle_per_acceleration=angle_per_acceleration,
         rate_per_acceleration=rate_per_acceleration,
-        node_mass=node_mass,
+        end_mass=end_mass,
         rod_inertia=rod_inertia,
         joint_impedance=joint_impedance,
         hub_impedance=hub_impedance,
@@ -336,16 +338,18 @@ def initialise(
     answer_own = np.zeros((STATIONS, *batch), dtype)
     answer_x = np.zeros((STATIONS, *batch), dtype)
     answer_y = np.zeros((STATIONS, *batch), dtype)
-    node_mass = np.zeros((STATIONS, *batch), dtype)
     predicted_acceleration = np.zeros((STATIONS + 1, *batch), dtype)
     predicted_angle = np.zeros((STATIONS + 1, *batch), dtype)
     predicted_rate = np.zeros((STATIONS + 1, *batch), dtype)
     solved = np.zeros((STATIONS, *batch), dtype)
 
     # masses at the nodes between links, and what they leave over
-    node_mass[:4] = center * mass + mass * (1.0 - center)
-    node_mass[4] = tip_mass + center * mass
+    end_mass = tip_mass - mass * (1.0 - center)
     rod_inertia = inertia - center * (length * length) * mass * (1.0 - center)
+
+    # what is the same at every station
+    hub_pivot = hub_inertia
+    _require_positive(hub_pivot, "hub_pivot", None)
 
     # predicted motion
     predicted_rate[0] = 0.0
@@ -377,18 +381,18 @@ def initialise(
     )
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
-    force_x: Any = 0.0
-    force_y: Any = 0.0
-    impedance_xx: Any = 0.0
+    impedance_xx = end_mass
+    impedance_yy = end_mass
+    force_x = acceleration_x[5] * end_mass
+    force_y = acceleration_y[5] * end_mass
     impedance_xy: Any = 0.0
     impedance_yx: Any = 0.0
-    impedance_yy: Any = 0.0
     torque: Any = 0.0
     for j in reversed(range(STATIONS)):
-        impedance_xx = impedance_xx + node_mass[j]
-        impedance_yy = impedance_yy + node_mass[j]
-        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
-        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
+        impedance_xx = impedance_xx + mass
+        force_x = force_x + acceleration_x[j + 1] * mass
+        impedance_yy = impedance_yy + mass
+        force_y = force_y + acceleration_y[j + 1] * mass
         impedance_xu = impedance_xy * lever_cosine[j] - impedance_xx * lever_sine[j]
         impedance_yu = impedance_yy * lever_cosine[j] - impedance_yx * lever_sine[j]
         impedance_ux = impedance_yx * lever_cosine[j] - impedance_xx * lever_sine[j]
@@ -408,15 +412,13 @@ def initialise(
         answer_y[j] = admittance * impedance_uy
         impedance_xx = impedance_xx - answer_x[j] * impedance_xu
         impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        force_x = force_x + answer_own[j] * impedance_xu
         impedance_yx = impedance_yx - answer_x[j] * impedance_yu
         impedance_yy = impedance_yy - answer_y[j] * impedance_yu
-        force_x = force_x + answer_own[j] * impedance_xu
         force_y = force_y + answer_own[j] * impedance_yu
         torque = joint_torque[j]
 
     # the base
-    hub_pivot = hub_inertia
-    _require_positive(hub_pivot, "hub_pivot", None)
     unknown = (
         hub_torque - torque - hub_damping * predicted_rate[0] - hub_inertia * predicted_acceleration[0]
     ) / hub_pivot
@@ -477,6 +479,7 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     hub_torque = _array(input.hub_torque, None, "input hub_torque")
     step = model.step
     length = model.length
+    mass = model.mass
     stiffness = np.asarray(model.stiffness)
     damping = np.asarray(model.damping)
     hub_inertia = model.hub_inertia
@@ -484,7 +487,7 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     half_step_squared = model.half_step_squared
     angle_per_acceleration = model.angle_per_acceleration
     rate_per_acceleration = model.rate_per_acceleration
-    node_mass = np.asarray(model.node_mass)
+    end_mass = model.end_mass
     rod_inertia = model.rod_inertia
     joint_impedance = np.asarray(model.joint_impedance)
     hub_impedance = model.hub_impedance
@@ -498,22 +501,23 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
         hub_torque,
         step,
         length,
+        mass,
         hub_inertia,
         hub_damping,
         half_step_squared,
         angle_per_acceleration,
         rate_per_acceleration,
+        end_mass,
         rod_inertia,
         hub_impedance,
         hub_angle,
         hub_rate,
         hub_acceleration,
     )
-    arrays = (stiffness, damping, node_mass, joint_impedance, angle, rate, acceleration)
+    arrays = (stiffness, damping, joint_impedance, angle, rate, acceleration)
     batch, dtype = _common(numbers, arrays)
     stiffness = _align(stiffness, batch)
     damping = _align(damping, batch)
-    node_mass = _align(node_mass, batch)
     joint_impedance = _align(joint_impedance, batch)
     hub_angle = _spread(hub_angle, batch, False)
     hub_rate = _spread(hub_rate, batch, False)
@@ -526,7 +530,6 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     answer_own = np.zeros((STATIONS, *batch), dtype)
     answer_x = np.zeros((STATIONS, *batch), dtype)
     answer_y = np.zeros((STATIONS, *batch), dtype)
-    predicted_acceleration = np.zeros((STATIONS + 1, *batch), dtype)
     predicted_angle = np.zeros((STATIONS + 1, *batch), dtype)
     predicted_rate = np.zeros((STATIONS + 1, *batch), dtype)
     solved = np.zeros((STATIONS, *batch), dtype)
@@ -535,17 +538,15 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     # predicted motion
     predicted_rate[0] = hub_rate + hub_acceleration * step
     predicted_angle[0] = hub_angle + half_step_squared * hub_acceleration + hub_rate * step
-    predicted_acceleration[0] = hub_acceleration
     predicted_rate[1:] = rate + acceleration * step
     predicted_angle[1:] = angle + acceleration * half_step_squared + rate * step
-    predicted_acceleration[1:] = acceleration
 
     # accelerations of the nodes
     lever_cosine = length * np.cos(predicted_angle[1:])
     lever_sine = length * np.sin(predicted_angle[1:])
     square = predicted_rate[1:] * predicted_rate[1:]
-    relative_x = -lever_cosine * square - lever_sine * predicted_acceleration[1:]
-    relative_y = lever_cosine * predicted_acceleration[1:] - lever_sine * square
+    relative_x = -acceleration * lever_sine - lever_cosine * square
+    relative_y = acceleration * lever_cosine - lever_sine * square
     turning = predicted_rate[1:] * step
     swing_x = -lever_sine - angle_per_acceleration * relative_y - lever_cosine * turning
     swing_y = lever_cosine + angle_per_acceleration * relative_x - lever_sine * turning
@@ -565,23 +566,23 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     )
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
-    force_x: Any = 0.0
-    force_y: Any = 0.0
+    impedance_xx = end_mass
+    impedance_yy = end_mass
+    force_x = acceleration_x[5] * end_mass
+    force_y = acceleration_y[5] * end_mass
     impedance_uu: Any = 0.0
     impedance_ux: Any = 0.0
     impedance_uy: Any = 0.0
     impedance_xu: Any = 0.0
-    impedance_xx: Any = 0.0
     impedance_xy: Any = 0.0
     impedance_yu: Any = 0.0
     impedance_yx: Any = 0.0
-    impedance_yy: Any = 0.0
     torque: Any = 0.0
     for j in reversed(range(STATIONS)):
-        impedance_xx = impedance_xx + node_mass[j]
-        impedance_yy = impedance_yy + node_mass[j]
-        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
-        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
+        impedance_xx = impedance_xx + mass
+        force_x = force_x + acceleration_x[j + 1] * mass
+        impedance_yy = impedance_yy + mass
+        force_y = force_y + acceleration_y[j + 1] * mass
         impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
         impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
         impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
@@ -593,12 +594,7 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
             + lever_cosine[j] * (impedance_yu - angle_per_acceleration * force_x)
             + lever_sine[j] * (-impedance_xu - angle_per_acceleration * force_y)
         )
-        torque = (
-            torque
-            - force_x * lever_sine[j]
-            + force_y * lever_cosine[j]
-            + predicted_acceleration[j + 1] * rod_inertia
-        )
+        torque = torque + acceleration[j] * rod_inertia - force_x * lever_sine[j] + force_y * lever_cosine[j]
         pivot = impedance_uu + joint_impedance[j]
         _require_positive(pivot, "pivot", j)
         admittance = 1.0 / pivot
@@ -608,22 +604,22 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
         transmission[j] = admittance * joint_impedance[j]
         impedance_xx = impedance_xx - answer_x[j] * impedance_xu
         impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        force_x = force_x + answer_own[j] * impedance_xu
+        impedance_xu = impedance_xu * transmission[j]
         impedance_yx = impedance_yx - answer_x[j] * impedance_yu
         impedance_yy = impedance_yy - answer_y[j] * impedance_yu
+        force_y = force_y + answer_own[j] * impedance_yu
+        impedance_yu = impedance_yu * transmission[j]
         impedance_ux = answer_x[j] * joint_impedance[j]
         impedance_uy = answer_y[j] * joint_impedance[j]
         impedance_uu = impedance_uu * transmission[j]
-        force_x = force_x + answer_own[j] * impedance_xu
-        impedance_xu = impedance_xu * transmission[j]
-        force_y = force_y + answer_own[j] * impedance_yu
-        impedance_yu = impedance_yu * transmission[j]
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
     # the base
     hub_pivot = hub_impedance + impedance_uu
     _require_positive(hub_pivot, "hub_pivot", None)
     unknown = (
-        hub_torque - torque - hub_damping * predicted_rate[0] - hub_inertia * predicted_acceleration[0]
+        hub_torque - torque - hub_acceleration * hub_inertia - hub_damping * predicted_rate[0]
     ) / hub_pivot
     hub_unknown = unknown
 
@@ -639,10 +635,10 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     # motion at the end of the step
     hub_angle = predicted_angle[0] + angle_per_acceleration * hub_unknown
     hub_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration
-    hub_acceleration = hub_unknown + predicted_acceleration[0]
+    hub_acceleration = hub_acceleration + hub_unknown
     angle = predicted_angle[1:] + angle_per_acceleration * solved
     rate = predicted_rate[1:] + rate_per_acceleration * solved
-    acceleration = predicted_acceleration[1:] + solved
+    acceleration = acceleration + solved
     return State(
         hub_angle=_spread(hub_angle, batch, False),
         hub_rate=_spread(hub_rate, batch, False),

@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: ee57f7952242f19cc6be0f26d3460a304cc65a1747711d25b990a158587c6f1f
-# sha256 of the rest of this file: ce334a292e7d2bfe27f7ac6241ce23da97576ddd22e441652af62b190c46bfd0
+# sha256 of the rest of this file: c4719fe837dabfe2b3a05cf0bb64f0a2f415e6c343b1479b2ccad71c85b77de0
 #
 # model: torsional chain (linear)
 # stations: 10
@@ -171,6 +171,11 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
     rate: list[Any] = [0.0] * STATIONS
     solved: list[Any] = [0.0] * STATIONS
 
+    # what is the same at every station
+    impedance = -inertia
+    pivot = -impedance
+    admittance = 1.0 / pivot
+
     # motion known before the sweep
     known_rate[0] = 0.0
     known_angle[0] = 0.0
@@ -187,9 +192,6 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
     # sweep inward: force beyond each joint as an affine function of the motion at it
     torque = tip_torque
     for j in reversed(range(STATIONS)):
-        impedance = -inertia
-        pivot = -impedance
-        admittance = 1.0 / pivot
         answer_own[j] = admittance * (torque - joint_torque[j])
         torque = joint_torque[j]
 

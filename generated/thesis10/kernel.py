@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: ee57f7952242f19cc6be0f26d3460a304cc65a1747711d25b990a158587c6f1f
-# sha256 of the rest of this file: a9caadfcf76f684bfe90f9c4d8ae0e2be9c26b0fe29dd1c384efddea9641fac8
+# sha256 of the rest of this file: 5fdbd3fcd27d982dac4c1920eb46c269bc420f0bad490e97d976a3dbf4375a53
 #
 # model: torsional chain (linear)
 # stations: 10
@@ -271,6 +271,12 @@ def initialise(
     known_angle = np.zeros((STATIONS + 1, *batch), dtype)
     known_rate = np.zeros((STATIONS + 1, *batch), dtype)
 
+    # what is the same at every station
+    impedance = -inertia
+    pivot = -impedance
+    _require_positive(pivot, "pivot", None)
+    admittance = 1.0 / pivot
+
     # motion known before the sweep
     known_rate[0] = 0.0
     known_angle[0] = 0.0
@@ -285,10 +291,6 @@ def initialise(
     # sweep inward: force beyond each joint as an affine function of the motion at it
     torque = tip_torque
     for j in reversed(range(STATIONS)):
-        impedance = -inertia
-        pivot = -impedance
-        _require_positive(pivot, "pivot", j)
-        admittance = 1.0 / pivot
         answer_own[j] = admittance * (torque - joint_torque[j])
         torque = joint_torque[j]
 

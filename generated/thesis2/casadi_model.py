@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 8302c2fdab02afb73919e09c91c3abafc3d83d0760e2c0e63be40bfdc341e62e
-# sha256 of the rest of this file: 35aea0af38429a1de7b3c69246a1ac96407c9743399b44c5da5b01aee7324a5a
+# sha256 of the rest of this file: 26949e9b409cd0a45925297996148d3b78e05d6e7a288a2447c94273a5754e3e
 #
 # model: torsional chain (linear)
 # stations: 2
@@ -166,6 +166,11 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
     rate: list[Any] = [0.0] * STATIONS
     solved: list[Any] = [0.0] * STATIONS
 
+    # what is the same at every station
+    impedance = -inertia
+    pivot = -impedance
+    admittance = 1.0 / pivot
+
     # motion known before the sweep
     known_rate[0] = 0.0
     known_angle[0] = 0.0
@@ -182,9 +187,6 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
     # sweep inward: force beyond each joint as an affine function of the motion at it
     torque = tip_torque
     for j in reversed(range(STATIONS)):
-        impedance = -inertia
-        pivot = -impedance
-        admittance = 1.0 / pivot
         answer_own[j] = admittance * (torque - joint_torque[j])
         torque = joint_torque[j]
 

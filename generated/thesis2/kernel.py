@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 8302c2fdab02afb73919e09c91c3abafc3d83d0760e2c0e63be40bfdc341e62e
-# sha256 of the rest of this file: aeaa84ea24adbd0909d9b09d4bf2c09a55a6971e4761ccbb65f6a6a2afe0ee43
+# sha256 of the rest of this file: b82f6176417a9b2b7d40b29105f4f23acca6b1e5a36a02afb37535d2a333ebe1
 #
 # model: torsional chain (linear)
 # stations: 2
@@ -271,6 +271,12 @@ def initialise(
     known_angle = np.zeros((STATIONS + 1, *batch), dtype)
     known_rate = np.zeros((STATIONS + 1, *batch), dtype)
 
+    # what is the same at every station
+    impedance = -inertia
+    pivot = -impedance
+    _require_positive(pivot, "pivot", None)
+    admittance = 1.0 / pivot
+
     # motion known before the sweep
     known_rate[0] = 0.0
     known_angle[0] = 0.0
@@ -285,10 +291,6 @@ def initialise(
     # sweep inward: force beyond each joint as an affine function of the motion at it
     torque = tip_torque
     for j in reversed(range(STATIONS)):
-        impedance = -inertia
-        pivot = -impedance
-        _require_positive(pivot, "pivot", j)
-        admittance = 1.0 / pivot
         answer_own[j] = admittance * (torque - joint_torque[j])
         torque = joint_torque[j]
 

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 95c81c6eb7e0b6f1ffc37b1b0540e1023a1118b007e8b573b96cceed3f286490
- * sha256 of the rest of this file: 1f6d26159f52840589b63827e9cbcb180140709507471064bb632b081898e222
+ * sha256 of the rest of this file: c6b0bb4ff8df96e82803e2144c98881b3c5af0576d737da3454ed15b0d78ddc4
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 10
@@ -12,11 +12,11 @@
  * linearisation: newton
  * sweep: riccati
  * unknown: acceleration
- * operations of a step: 1168, 116.8 per station (540 additions, 597 multiplications, 11 divisions, 20 sines
+ * operations of a step: 1171, 117.1 per station (541 additions, 599 multiplications, 11 divisions, 20 sines
  *     and cosines)
- * operations of prepare: 112, 11.2 per station (32 additions, 80 multiplications)
+ * operations of prepare: 77, 7.7 per station (15 additions, 62 multiplications)
  * number type: double
- * bytes of the structs: params 224, model 400, state 264, inputs 16, outputs 32
+ * bytes of the structs: params 224, model 336, state 264, inputs 16, outputs 32
  *
  * Call arm10_default_params() and arm10_prepare() once, arm10_initialise() to put the arm somewhere, then
  * arm10_step() at every tick of the clock and arm10_output() to know. All memory is the caller's; nothing is
@@ -78,6 +78,7 @@ typedef struct {
 typedef struct {
     arm10_real step; /**< time step [s] */
     arm10_real length; /**< link length, the same everywhere [m] */
+    arm10_real mass; /**< link mass, the same everywhere [kg] */
     arm10_real stiffness[ARM10_STATIONS]; /**< joint stiffness, base to tip [N m/rad] */
     arm10_real damping[ARM10_STATIONS]; /**< joint damping, base to tip [N m s/rad] */
     arm10_real gravity; /**< gravity along -y [m/s^2] */
@@ -86,7 +87,7 @@ typedef struct {
     arm10_real half_step_squared; /**< step**2/2 [s^2] */
     arm10_real angle_per_acceleration; /**< angle per unit of acceleration: step**2/4 [s^2] */
     arm10_real rate_per_acceleration; /**< rate per unit of acceleration: step/2 [s] */
-    arm10_real node_mass[ARM10_STATIONS]; /**< mass at the outer end of each link [kg] */
+    arm10_real end_mass; /**< mass at the tip less the share of a link beyond it [kg] */
     arm10_real rod_inertia; /**< inertia of a link that masses at its ends leave over [kg m^2] */
     arm10_real joint_impedance[ARM10_STATIONS]; /**< torque of a joint per difference of unknowns [kg m^2] */
     arm10_real hub_impedance; /**< torque of the hub per unknown [kg m^2] */

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: c5e09abbb61734735cef8cfddf39dd959eb5765da3ad6484bed2957b4fdf212c
- * sha256 of the rest of this file: 8bc31ff8c7a3fd5a0e5ba4e9e1d287fcfc17ed2c7f87d72c3b88458a51e0bb68
+ * sha256 of the rest of this file: 400f5a5c09cc9a06922e26516d6f04d990868f9e3530bd400df9c0b597748390
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 2
@@ -174,6 +174,12 @@ arm2_status arm2_initialise(
     }
     node_mass[1] = params->tip_mass + params->center[1] * params->mass[1];
 
+    /* What is the same at every station. */
+    const real hub_pivot = params->hub_inertia;
+    if (!(params->hub_inertia > 0.0) || !isfinite(params->hub_inertia)) {
+        return ARM2_VANISHING_PIVOT;
+    }
+
     /* Predicted motion. */
     predicted_rate[0] = 0.0;
     predicted_angle[0] = 0.0;
@@ -216,8 +222,8 @@ arm2_status arm2_initialise(
         const real joint_torque = params->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + params->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
         impedance_xx = impedance_xx + node_mass[j];
-        impedance_yy = impedance_yy + node_mass[j];
         force_x = force_x + acceleration_x[j + 1] * node_mass[j];
+        impedance_yy = impedance_yy + node_mass[j];
         force_y = force_y + acceleration_y[j + 1] * node_mass[j];
         const real impedance_xu = impedance_xy * lever_cosine[j] - impedance_xx * lever_sine[j];
         const real impedance_yu = impedance_yy * lever_cosine[j] - impedance_yx * lever_sine[j];
@@ -236,20 +242,17 @@ arm2_status arm2_initialise(
         answer_y[j] = admittance * impedance_uy;
         impedance_xx = impedance_xx - answer_x[j] * impedance_xu;
         impedance_xy = impedance_xy - answer_y[j] * impedance_xu;
+        force_x = force_x + answer_own[j] * impedance_xu;
         impedance_yx = impedance_yx - answer_x[j] * impedance_yu;
         impedance_yy = impedance_yy - answer_y[j] * impedance_yu;
-        force_x = force_x + answer_own[j] * impedance_xu;
         force_y = force_y + answer_own[j] * impedance_yu;
         torque = joint_torque;
         impedance_uu = 0.0;
     }
 
     /* The base. */
-    if (!(params->hub_inertia > 0.0) || !isfinite(params->hub_inertia)) {
-        return ARM2_VANISHING_PIVOT;
-    }
     real unknown = (inputs->hub_torque - torque - params->hub_damping * predicted_rate[0]
-        - params->hub_inertia * predicted_acceleration[0]) / params->hub_inertia;
+        - params->hub_inertia * predicted_acceleration[0]) / hub_pivot;
     const real hub_unknown = unknown;
 
     /* Sweep outward: the unknown of each station. */
@@ -300,8 +303,6 @@ arm2_status arm2_step(
     real answer_y[ARM2_STATIONS]; /* answer of the unknown to the joint's acceleration along y */
     real lever_cosine[ARM2_STATIONS]; /* length times cosine of the angle [m] */
     real lever_sine[ARM2_STATIONS]; /* length times sine of the angle [m] */
-    /* acceleration of base and links as predicted [rad/s^2] */
-    real predicted_acceleration[ARM2_STATIONS + 1];
     real predicted_angle[ARM2_STATIONS + 1]; /* angle of base and links as predicted [rad] */
     real predicted_rate[ARM2_STATIONS + 1]; /* rate of base and links as predicted [rad/s] */
     real swing_x[ARM2_STATIONS]; /* change of the outer end's acceleration along x per unknown [m] */
@@ -312,7 +313,6 @@ arm2_status arm2_step(
     predicted_rate[0] = state->hub_rate + state->hub_acceleration * step;
     predicted_angle[0] = state->hub_angle + half_step_squared * state->hub_acceleration
         + state->hub_rate * step;
-    predicted_acceleration[0] = state->hub_acceleration;
 
     /* Predicted motion; accelerations of the nodes, seen from a falling frame: gravity is the base's own. */
     real node_x = 0.0;
@@ -323,12 +323,11 @@ arm2_status arm2_step(
         predicted_rate[j + 1] = state->rate[j] + state->acceleration[j] * step;
         predicted_angle[j + 1] = state->angle[j] + state->acceleration[j] * half_step_squared
             + state->rate[j] * step;
-        predicted_acceleration[j + 1] = state->acceleration[j];
         lever_cosine[j] = model->length[j] * cos(predicted_angle[j + 1]);
         lever_sine[j] = model->length[j] * sin(predicted_angle[j + 1]);
         const real square = predicted_rate[j + 1] * predicted_rate[j + 1];
-        const real relative_x = -lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1];
-        const real relative_y = lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square;
+        const real relative_x = -state->acceleration[j] * lever_sine[j] - lever_cosine[j] * square;
+        const real relative_y = state->acceleration[j] * lever_cosine[j] - lever_sine[j] * square;
         const real turning = predicted_rate[j + 1] * step;
         swing_x[j] = -lever_sine[j] - angle_per_acceleration * relative_y - lever_cosine[j] * turning;
         swing_y[j] = lever_cosine[j] + angle_per_acceleration * relative_x - lever_sine[j] * turning;
@@ -341,7 +340,7 @@ arm2_status arm2_step(
     /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
      * of the motion at it. */
     real impedance_uu = model->tip_inertia;
-    real torque = predicted_acceleration[2] * model->tip_inertia;
+    real torque = state->acceleration[1] * model->tip_inertia;
     real force_x = 0.0;
     real force_y = 0.0;
     real impedance_ux = 0.0;
@@ -356,8 +355,8 @@ arm2_status arm2_step(
         const real joint_torque = model->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + model->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
         impedance_xx = impedance_xx + model->node_mass[j];
-        impedance_yy = impedance_yy + model->node_mass[j];
         force_x = force_x + acceleration_x[j + 1] * model->node_mass[j];
+        impedance_yy = impedance_yy + model->node_mass[j];
         force_y = force_y + acceleration_y[j + 1] * model->node_mass[j];
         impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j];
         impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j];
@@ -367,8 +366,8 @@ arm2_status arm2_step(
         impedance_uu = impedance_uu + model->rod_inertia[j]
             + lever_cosine[j] * (impedance_yu - angle_per_acceleration * force_x)
             + lever_sine[j] * (-impedance_xu - angle_per_acceleration * force_y);
-        torque = torque - force_x * lever_sine[j] + force_y * lever_cosine[j]
-            + predicted_acceleration[j + 1] * model->rod_inertia[j];
+        torque = torque + state->acceleration[j] * model->rod_inertia[j] - force_x * lever_sine[j]
+            + force_y * lever_cosine[j];
         const real pivot = impedance_uu + model->joint_impedance[j];
         if (!(pivot > 0.0) || !isfinite(pivot)) {
             return ARM2_VANISHING_PIVOT;
@@ -380,15 +379,15 @@ arm2_status arm2_step(
         transmission[j] = admittance * model->joint_impedance[j];
         impedance_xx = impedance_xx - answer_x[j] * impedance_xu;
         impedance_xy = impedance_xy - answer_y[j] * impedance_xu;
+        force_x = force_x + answer_own[j] * impedance_xu;
+        impedance_xu = impedance_xu * transmission[j];
         impedance_yx = impedance_yx - answer_x[j] * impedance_yu;
         impedance_yy = impedance_yy - answer_y[j] * impedance_yu;
+        force_y = force_y + answer_own[j] * impedance_yu;
+        impedance_yu = impedance_yu * transmission[j];
         impedance_ux = answer_x[j] * model->joint_impedance[j];
         impedance_uy = answer_y[j] * model->joint_impedance[j];
         impedance_uu = impedance_uu * transmission[j];
-        force_x = force_x + answer_own[j] * impedance_xu;
-        impedance_xu = impedance_xu * transmission[j];
-        force_y = force_y + answer_own[j] * impedance_yu;
-        impedance_yu = impedance_yu * transmission[j];
         torque = joint_torque - answer_own[j] * model->joint_impedance[j];
     }
 
@@ -397,8 +396,8 @@ arm2_status arm2_step(
     if (!(hub_pivot > 0.0) || !isfinite(hub_pivot)) {
         return ARM2_VANISHING_PIVOT;
     }
-    real unknown = (inputs->hub_torque - torque - model->hub_damping * predicted_rate[0]
-        - model->hub_inertia * predicted_acceleration[0]) / hub_pivot;
+    real unknown = (inputs->hub_torque - torque - state->hub_acceleration * model->hub_inertia
+        - model->hub_damping * predicted_rate[0]) / hub_pivot;
     const real hub_unknown = unknown;
 
     /* Sweep outward: the unknown of each station. */
@@ -408,14 +407,14 @@ arm2_status arm2_step(
     /* Sweep outward: the unknown of each station; motion at the end of the step. */
     state->hub_angle = predicted_angle[0] + angle_per_acceleration * hub_unknown;
     state->hub_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration;
-    state->hub_acceleration = hub_unknown + predicted_acceleration[0];
+    state->hub_acceleration = state->hub_acceleration + hub_unknown;
     for (int j = 0; j < ARM2_STATIONS; ++j) {
         unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y + transmission[j] * unknown;
         change_x = change_x + swing_x[j] * unknown;
         change_y = change_y + swing_y[j] * unknown;
         state->angle[j] = predicted_angle[j + 1] + angle_per_acceleration * unknown;
         state->rate[j] = predicted_rate[j + 1] + rate_per_acceleration * unknown;
-        state->acceleration[j] = predicted_acceleration[j + 1] + unknown;
+        state->acceleration[j] = state->acceleration[j] + unknown;
     }
 
     /* Anything that is not a number has reached this one. */

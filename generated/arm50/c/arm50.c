@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
- * sha256 of the rest of this file: b2362efc29e194af9efa1f7931a80059eb3016e904db83a0e7fc748625118d92
+ * sha256 of the rest of this file: f1c685cc2652f6b28e9c24e89ccad005543aae3dd0e55c87bcac4e7d2cd7a672
  *
  * model: planar arm, large rotations, tip mass
  * stations: 50
@@ -12,11 +12,11 @@
  * linearisation: newton
  * sweep: riccati
  * unknown: acceleration
- * operations of a step: 29534, 590.7 per station (13642 additions, 15142 multiplications, 250 divisions, 500
+ * operations of a step: 29544, 590.9 per station (13642 additions, 15152 multiplications, 250 divisions, 500
  *     sines and cosines)
- * operations of prepare: 526, 10.52 per station (152 additions, 373 multiplications, 1 divisions)
+ * operations of prepare: 331, 6.62 per station (55 additions, 275 multiplications, 1 divisions)
  * number type: double
- * bytes of the structs: params 848, model 1784, state 1224, inputs 40, outputs 48
+ * bytes of the structs: params 848, model 1400, state 1224, inputs 40, outputs 48
  *
  * @file arm50.c
  */
@@ -83,15 +83,10 @@ arm50_status arm50_prepare(
         }
     }
 
-    const real mass = params->mass;
-    const real center = params->center;
-
     /* Masses at the nodes between links, and what they leave over. */
-    for (int j = 0; j < 49; ++j) {
-        model->node_mass[j] = center * mass + mass * (1.0 - center);
-    }
-    model->node_mass[49] = params->tip_mass + center * mass;
-    model->rod_inertia = params->inertia - center * (params->length * params->length) * mass * (1.0 - center);
+    model->end_mass = params->tip_mass - params->mass * (1.0 - params->center);
+    model->rod_inertia = params->inertia
+        - params->center * (params->length * params->length) * params->mass * (1.0 - params->center);
 
     /* Factors of the sweep that do not change from step to step. */
     for (int j = ARM50_STATIONS - 1; j >= 0; --j) {
@@ -117,11 +112,12 @@ arm50_status arm50_prepare(
     model->predicted_rate_per_stage3_acceleration_2 = 7.8125 * step;
     model->predicted_rate_per_stage4_acceleration = (41.0 / 6.0) * step;
     model->predicted_angle_per_stage4_rate = (85.0 / 12.0) * step;
-    model->reaction_x_per_acceleration_x = center * mass;
-    model->reaction_x_per_acceleration_x_2 = mass * (center - 1.0);
+    model->reaction_x_per_acceleration_x = params->center * params->mass;
+    model->reaction_x_per_acceleration_x_2 = params->mass * (params->center - 1.0);
 
     /* What the step needs as it is. */
     model->length = params->length;
+    model->mass = params->mass;
     for (int j = 0; j < ARM50_STATIONS; ++j) {
         model->stiffness[j] = params->stiffness[j];
     }
@@ -151,7 +147,6 @@ arm50_status arm50_initialise(
 
     const real length = params->length;
     const real mass = params->mass;
-    const real center = params->center;
     real acceleration_x[ARM50_STATIONS + 1]; /* acceleration of the nodes along x [m/s^2] */
     real acceleration_y[ARM50_STATIONS + 1]; /* acceleration of the nodes along y [m/s^2] */
     real answer_own[ARM50_STATIONS]; /* unknown of a station if its inner side kept its motion */
@@ -159,18 +154,15 @@ arm50_status arm50_initialise(
     real answer_y[ARM50_STATIONS]; /* answer of the unknown to the joint's acceleration along y */
     real lever_cosine[ARM50_STATIONS]; /* length times cosine of the angle [m] */
     real lever_sine[ARM50_STATIONS]; /* length times sine of the angle [m] */
-    real node_mass[ARM50_STATIONS]; /* mass at the outer end of each link [kg] */
     /* acceleration of base and links as predicted [rad/s^2] */
     real predicted_acceleration[ARM50_STATIONS + 1];
     real predicted_angle[ARM50_STATIONS + 1]; /* angle of base and links as predicted [rad] */
     real predicted_rate[ARM50_STATIONS + 1]; /* rate of base and links as predicted [rad/s] */
 
     /* Masses at the nodes between links, and what they leave over. */
-    for (int j = 0; j < 49; ++j) {
-        node_mass[j] = center * mass + mass * (1.0 - center);
-    }
-    node_mass[49] = params->tip_mass + center * mass;
-    const real rod_inertia = params->inertia - center * (length * length) * mass * (1.0 - center);
+    const real end_mass = params->tip_mass - mass * (1.0 - params->center);
+    const real rod_inertia = params->inertia
+        - params->center * (length * length) * mass * (1.0 - params->center);
 
     /* Predicted motion. */
     predicted_rate[0] = 0.0;
@@ -199,21 +191,21 @@ arm50_status arm50_initialise(
 
     /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
      * of the motion at it. */
+    real impedance_xx = end_mass;
+    real impedance_yy = end_mass;
     real impedance_uu = params->tip_inertia;
+    real force_x = acceleration_x[50] * end_mass;
+    real force_y = acceleration_y[50] * end_mass;
     real torque = predicted_acceleration[50] * params->tip_inertia;
-    real force_x = 0.0;
-    real force_y = 0.0;
-    real impedance_xx = 0.0;
     real impedance_xy = 0.0;
     real impedance_yx = 0.0;
-    real impedance_yy = 0.0;
     for (int j = ARM50_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = params->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + params->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
-        impedance_xx = impedance_xx + node_mass[j];
-        impedance_yy = impedance_yy + node_mass[j];
-        force_x = force_x + acceleration_x[j + 1] * node_mass[j];
-        force_y = force_y + acceleration_y[j + 1] * node_mass[j];
+        impedance_xx = impedance_xx + mass;
+        force_x = force_x + acceleration_x[j + 1] * mass;
+        impedance_yy = impedance_yy + mass;
+        force_y = force_y + acceleration_y[j + 1] * mass;
         const real impedance_xu = impedance_xy * lever_cosine[j] - impedance_xx * lever_sine[j];
         const real impedance_yu = impedance_yy * lever_cosine[j] - impedance_yx * lever_sine[j];
         const real impedance_ux = impedance_yx * lever_cosine[j] - impedance_xx * lever_sine[j];
@@ -231,9 +223,9 @@ arm50_status arm50_initialise(
         answer_y[j] = admittance * impedance_uy;
         impedance_xx = impedance_xx - answer_x[j] * impedance_xu;
         impedance_xy = impedance_xy - answer_y[j] * impedance_xu;
+        force_x = force_x + answer_own[j] * impedance_xu;
         impedance_yx = impedance_yx - answer_x[j] * impedance_yu;
         impedance_yy = impedance_yy - answer_y[j] * impedance_yu;
-        force_x = force_x + answer_own[j] * impedance_xu;
         force_y = force_y + answer_own[j] * impedance_yu;
         torque = joint_torque;
         impedance_uu = 0.0;
@@ -281,6 +273,7 @@ arm50_status arm50_step(
     }
 
     const real length = model->length;
+    const real mass = model->mass;
     const real rate_per_acceleration = model->rate_per_acceleration;
     const real half_step = model->half_step;
     const real angle_per_acceleration = model->angle_per_acceleration;
@@ -305,8 +298,6 @@ arm50_status arm50_step(
     real answer_y[ARM50_STATIONS]; /* answer of the unknown to the joint's acceleration along y */
     real lever_cosine[ARM50_STATIONS]; /* length times cosine of the angle [m] */
     real lever_sine[ARM50_STATIONS]; /* length times sine of the angle [m] */
-    /* acceleration of base and links as predicted [rad/s^2] */
-    real predicted_acceleration[ARM50_STATIONS + 1];
     real predicted_angle[ARM50_STATIONS + 1]; /* angle of base and links as predicted [rad] */
     real predicted_rate[ARM50_STATIONS + 1]; /* rate of base and links as predicted [rad/s] */
     real stage1_acceleration[ARM50_STATIONS]; /* acceleration at stage 1 [rad/s^2] */
@@ -315,6 +306,7 @@ arm50_status arm50_step(
     real stage2_rate[ARM50_STATIONS]; /* rate at stage 2 [rad/s] */
     real stage3_acceleration[ARM50_STATIONS]; /* acceleration at stage 3 [rad/s^2] */
     real stage3_rate[ARM50_STATIONS]; /* rate at stage 3 [rad/s] */
+    real stage4_acceleration[ARM50_STATIONS]; /* acceleration at stage 4 [rad/s^2] */
     real swing_x[ARM50_STATIONS]; /* change of the outer end's acceleration along x per unknown [m] */
     real swing_y[ARM50_STATIONS]; /* change of the outer end's acceleration along y per unknown [m] */
     real transmission[ARM50_STATIONS]; /* share of motion and torque each joint passes on */
@@ -322,7 +314,6 @@ arm50_status arm50_step(
     /* Stage 1 of 5: predicted motion. */
     predicted_rate[0] = state->hub_rate + state->hub_acceleration * rate_per_acceleration;
     predicted_angle[0] = state->hub_angle + predicted_rate[0] * rate_per_acceleration;
-    predicted_acceleration[0] = state->hub_acceleration;
 
     /* Stage 1 of 5: predicted motion; accelerations of the nodes. */
     real node_x = 0.0;
@@ -332,12 +323,11 @@ arm50_status arm50_step(
     for (int j = 0; j < ARM50_STATIONS; ++j) {
         predicted_rate[j + 1] = state->rate[j] + state->acceleration[j] * rate_per_acceleration;
         predicted_angle[j + 1] = state->angle[j] + predicted_rate[j + 1] * rate_per_acceleration;
-        predicted_acceleration[j + 1] = state->acceleration[j];
         lever_cosine[j] = length * cos(predicted_angle[j + 1]);
         lever_sine[j] = length * sin(predicted_angle[j + 1]);
         const real square = predicted_rate[j + 1] * predicted_rate[j + 1];
-        const real relative_x = -lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1];
-        const real relative_y = lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square;
+        const real relative_x = -state->acceleration[j] * lever_sine[j] - lever_cosine[j] * square;
+        const real relative_y = state->acceleration[j] * lever_cosine[j] - lever_sine[j] * square;
         const real turning = half_step * predicted_rate[j + 1];
         swing_x[j] = -lever_sine[j] - angle_per_acceleration * relative_y - lever_cosine[j] * turning;
         swing_y[j] = lever_cosine[j] + angle_per_acceleration * relative_x - lever_sine[j] * turning;
@@ -349,25 +339,25 @@ arm50_status arm50_step(
 
     /* Stage 1 of 5: forces of the joints at the motion so far; sweep inward: force beyond each joint as an
      * affine function of the motion at it. */
+    real impedance_xx = model->end_mass;
+    real impedance_yy = model->end_mass;
     real impedance_uu = model->tip_inertia;
-    real torque = predicted_acceleration[50] * model->tip_inertia;
-    real force_x = 0.0;
-    real force_y = 0.0;
+    real force_x = acceleration_x[50] * model->end_mass;
+    real force_y = acceleration_y[50] * model->end_mass;
+    real torque = state->acceleration[49] * model->tip_inertia;
     real impedance_ux = 0.0;
     real impedance_uy = 0.0;
     real impedance_xu = 0.0;
-    real impedance_xx = 0.0;
     real impedance_xy = 0.0;
     real impedance_yu = 0.0;
     real impedance_yx = 0.0;
-    real impedance_yy = 0.0;
     for (int j = ARM50_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = model->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + model->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
-        impedance_xx = impedance_xx + model->node_mass[j];
-        impedance_yy = impedance_yy + model->node_mass[j];
-        force_x = force_x + acceleration_x[j + 1] * model->node_mass[j];
-        force_y = force_y + acceleration_y[j + 1] * model->node_mass[j];
+        impedance_xx = impedance_xx + mass;
+        force_x = force_x + acceleration_x[j + 1] * mass;
+        impedance_yy = impedance_yy + mass;
+        force_y = force_y + acceleration_y[j + 1] * mass;
         impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j];
         impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j];
         impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j];
@@ -376,8 +366,8 @@ arm50_status arm50_step(
         impedance_uu = impedance_uu + rod_inertia
             + lever_cosine[j] * (impedance_yu - angle_per_acceleration * force_x)
             + lever_sine[j] * (-impedance_xu - angle_per_acceleration * force_y);
-        torque = torque - force_x * lever_sine[j] + force_y * lever_cosine[j]
-            + predicted_acceleration[j + 1] * rod_inertia;
+        torque = torque + state->acceleration[j] * rod_inertia - force_x * lever_sine[j]
+            + force_y * lever_cosine[j];
         const real pivot = impedance_uu + model->joint_impedance[j];
         if (!(pivot > 0.0) || !isfinite(pivot)) {
             return ARM50_VANISHING_PIVOT;
@@ -389,15 +379,15 @@ arm50_status arm50_step(
         transmission[j] = admittance * model->joint_impedance[j];
         impedance_xx = impedance_xx - answer_x[j] * impedance_xu;
         impedance_xy = impedance_xy - answer_y[j] * impedance_xu;
+        force_x = force_x + answer_own[j] * impedance_xu;
+        impedance_xu = impedance_xu * transmission[j];
         impedance_yx = impedance_yx - answer_x[j] * impedance_yu;
         impedance_yy = impedance_yy - answer_y[j] * impedance_yu;
+        force_y = force_y + answer_own[j] * impedance_yu;
+        impedance_yu = impedance_yu * transmission[j];
         impedance_ux = answer_x[j] * model->joint_impedance[j];
         impedance_uy = answer_y[j] * model->joint_impedance[j];
         impedance_uu = impedance_uu * transmission[j];
-        force_x = force_x + answer_own[j] * impedance_xu;
-        impedance_xu = impedance_xu * transmission[j];
-        force_y = force_y + answer_own[j] * impedance_yu;
-        impedance_yu = impedance_yu * transmission[j];
         torque = joint_torque - answer_own[j] * model->joint_impedance[j];
     }
 
@@ -410,14 +400,13 @@ arm50_status arm50_step(
     real change_y = 0.0;
 
     /* Stage 1 of 5: motion at this stage. */
-    const real hub_stage1_acceleration = hub_unknown + predicted_acceleration[0];
+    const real hub_stage1_acceleration = state->hub_acceleration + hub_unknown;
     const real hub_stage1_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration;
 
     /* Stage 2 of 5: predicted motion. */
     predicted_rate[0] = state->hub_rate + hub_stage1_acceleration * three_quarters_step;
     predicted_angle[0] = state->hub_angle + half_step * hub_stage1_rate
         + predicted_rate[0] * rate_per_acceleration;
-    predicted_acceleration[0] = hub_stage1_acceleration;
 
     /* Stage 1 of 5: sweep outward: the unknown of each station; motion at this stage. Stage 2 of 5: predicted
      * motion; accelerations of the nodes. */
@@ -429,17 +418,16 @@ arm50_status arm50_step(
         unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y + transmission[j] * unknown;
         change_x = change_x + swing_x[j] * unknown;
         change_y = change_y + swing_y[j] * unknown;
-        stage1_acceleration[j] = predicted_acceleration[j + 1] + unknown;
+        stage1_acceleration[j] = state->acceleration[j] + unknown;
         stage1_rate[j] = predicted_rate[j + 1] + rate_per_acceleration * unknown;
         predicted_rate[j + 1] = state->rate[j] + stage1_acceleration[j] * three_quarters_step;
         predicted_angle[j + 1] = state->angle[j] + half_step * stage1_rate[j]
             + predicted_rate[j + 1] * rate_per_acceleration;
-        predicted_acceleration[j + 1] = stage1_acceleration[j];
         lever_cosine[j] = length * cos(predicted_angle[j + 1]);
         lever_sine[j] = length * sin(predicted_angle[j + 1]);
         const real square = predicted_rate[j + 1] * predicted_rate[j + 1];
-        const real relative_x = -lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1];
-        const real relative_y = lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square;
+        const real relative_x = -lever_cosine[j] * square - lever_sine[j] * stage1_acceleration[j];
+        const real relative_y = lever_cosine[j] * stage1_acceleration[j] - lever_sine[j] * square;
         const real turning = half_step * predicted_rate[j + 1];
         swing_x[j] = -lever_sine[j] - angle_per_acceleration * relative_y - lever_cosine[j] * turning;
         swing_y[j] = lever_cosine[j] + angle_per_acceleration * relative_x - lever_sine[j] * turning;
@@ -451,25 +439,25 @@ arm50_status arm50_step(
 
     /* Stage 2 of 5: forces of the joints at the motion so far; sweep inward: force beyond each joint as an
      * affine function of the motion at it. */
+    impedance_xx = model->end_mass;
+    impedance_yy = model->end_mass;
     impedance_uu = model->tip_inertia;
-    torque = predicted_acceleration[50] * model->tip_inertia;
-    force_x = 0.0;
-    force_y = 0.0;
+    force_x = acceleration_x[50] * model->end_mass;
+    force_y = acceleration_y[50] * model->end_mass;
+    torque = stage1_acceleration[49] * model->tip_inertia;
     impedance_ux = 0.0;
     impedance_uy = 0.0;
     impedance_xu = 0.0;
-    impedance_xx = 0.0;
     impedance_xy = 0.0;
     impedance_yu = 0.0;
     impedance_yx = 0.0;
-    impedance_yy = 0.0;
     for (int j = ARM50_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = model->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + model->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
-        impedance_xx = impedance_xx + model->node_mass[j];
-        impedance_yy = impedance_yy + model->node_mass[j];
-        force_x = force_x + acceleration_x[j + 1] * model->node_mass[j];
-        force_y = force_y + acceleration_y[j + 1] * model->node_mass[j];
+        impedance_xx = impedance_xx + mass;
+        force_x = force_x + acceleration_x[j + 1] * mass;
+        impedance_yy = impedance_yy + mass;
+        force_y = force_y + acceleration_y[j + 1] * mass;
         impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j];
         impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j];
         impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j];
@@ -479,7 +467,7 @@ arm50_status arm50_step(
             + lever_cosine[j] * (impedance_yu - angle_per_acceleration * force_x)
             + lever_sine[j] * (-impedance_xu - angle_per_acceleration * force_y);
         torque = torque - force_x * lever_sine[j] + force_y * lever_cosine[j]
-            + predicted_acceleration[j + 1] * rod_inertia;
+            + rod_inertia * stage1_acceleration[j];
         const real pivot = impedance_uu + model->joint_impedance[j];
         if (!(pivot > 0.0) || !isfinite(pivot)) {
             return ARM50_VANISHING_PIVOT;
@@ -491,15 +479,15 @@ arm50_status arm50_step(
         transmission[j] = admittance * model->joint_impedance[j];
         impedance_xx = impedance_xx - answer_x[j] * impedance_xu;
         impedance_xy = impedance_xy - answer_y[j] * impedance_xu;
+        force_x = force_x + answer_own[j] * impedance_xu;
+        impedance_xu = impedance_xu * transmission[j];
         impedance_yx = impedance_yx - answer_x[j] * impedance_yu;
         impedance_yy = impedance_yy - answer_y[j] * impedance_yu;
+        force_y = force_y + answer_own[j] * impedance_yu;
+        impedance_yu = impedance_yu * transmission[j];
         impedance_ux = answer_x[j] * model->joint_impedance[j];
         impedance_uy = answer_y[j] * model->joint_impedance[j];
         impedance_uu = impedance_uu * transmission[j];
-        force_x = force_x + answer_own[j] * impedance_xu;
-        impedance_xu = impedance_xu * transmission[j];
-        force_y = force_y + answer_own[j] * impedance_yu;
-        impedance_yu = impedance_yu * transmission[j];
         torque = joint_torque - answer_own[j] * model->joint_impedance[j];
     }
 
@@ -512,7 +500,7 @@ arm50_status arm50_step(
     change_y = 0.0;
 
     /* Stage 2 of 5: motion at this stage. */
-    const real hub_stage2_acceleration = hub_unknown + predicted_acceleration[0];
+    const real hub_stage2_acceleration = hub_stage1_acceleration + hub_unknown;
     const real hub_stage2_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration;
 
     /* Stage 3 of 5: predicted motion. */
@@ -520,7 +508,6 @@ arm50_status arm50_step(
         + hub_stage2_acceleration * predicted_rate_per_stage2_acceleration;
     predicted_angle[0] = state->hub_angle + hub_stage1_rate * predicted_rate_per_stage1_acceleration
         - hub_stage2_rate * predicted_angle_per_stage2_rate + predicted_rate[0] * rate_per_acceleration;
-    predicted_acceleration[0] = hub_stage2_acceleration;
 
     /* Stage 2 of 5: sweep outward: the unknown of each station; motion at this stage. Stage 3 of 5: predicted
      * motion; accelerations of the nodes. */
@@ -532,7 +519,8 @@ arm50_status arm50_step(
         unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y + transmission[j] * unknown;
         change_x = change_x + swing_x[j] * unknown;
         change_y = change_y + swing_y[j] * unknown;
-        stage2_acceleration[j] = predicted_acceleration[j + 1] + unknown;
+        const real solved = unknown;
+        stage2_acceleration[j] = solved + stage1_acceleration[j];
         stage2_rate[j] = predicted_rate[j + 1] + rate_per_acceleration * unknown;
         predicted_rate[j + 1] = state->rate[j]
             + predicted_rate_per_stage1_acceleration * stage1_acceleration[j]
@@ -540,12 +528,11 @@ arm50_status arm50_step(
         predicted_angle[j + 1] = state->angle[j] - predicted_angle_per_stage2_rate * stage2_rate[j]
             + predicted_rate[j + 1] * rate_per_acceleration
             + predicted_rate_per_stage1_acceleration * stage1_rate[j];
-        predicted_acceleration[j + 1] = stage2_acceleration[j];
         lever_cosine[j] = length * cos(predicted_angle[j + 1]);
         lever_sine[j] = length * sin(predicted_angle[j + 1]);
         const real square = predicted_rate[j + 1] * predicted_rate[j + 1];
-        const real relative_x = -lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1];
-        const real relative_y = lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square;
+        const real relative_x = -lever_cosine[j] * square - lever_sine[j] * stage2_acceleration[j];
+        const real relative_y = lever_cosine[j] * stage2_acceleration[j] - lever_sine[j] * square;
         const real turning = half_step * predicted_rate[j + 1];
         swing_x[j] = -lever_sine[j] - angle_per_acceleration * relative_y - lever_cosine[j] * turning;
         swing_y[j] = lever_cosine[j] + angle_per_acceleration * relative_x - lever_sine[j] * turning;
@@ -557,25 +544,25 @@ arm50_status arm50_step(
 
     /* Stage 3 of 5: forces of the joints at the motion so far; sweep inward: force beyond each joint as an
      * affine function of the motion at it. */
+    impedance_xx = model->end_mass;
+    impedance_yy = model->end_mass;
     impedance_uu = model->tip_inertia;
-    torque = predicted_acceleration[50] * model->tip_inertia;
-    force_x = 0.0;
-    force_y = 0.0;
+    force_x = acceleration_x[50] * model->end_mass;
+    force_y = acceleration_y[50] * model->end_mass;
+    torque = stage2_acceleration[49] * model->tip_inertia;
     impedance_ux = 0.0;
     impedance_uy = 0.0;
     impedance_xu = 0.0;
-    impedance_xx = 0.0;
     impedance_xy = 0.0;
     impedance_yu = 0.0;
     impedance_yx = 0.0;
-    impedance_yy = 0.0;
     for (int j = ARM50_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = model->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + model->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
-        impedance_xx = impedance_xx + model->node_mass[j];
-        impedance_yy = impedance_yy + model->node_mass[j];
-        force_x = force_x + acceleration_x[j + 1] * model->node_mass[j];
-        force_y = force_y + acceleration_y[j + 1] * model->node_mass[j];
+        impedance_xx = impedance_xx + mass;
+        force_x = force_x + acceleration_x[j + 1] * mass;
+        impedance_yy = impedance_yy + mass;
+        force_y = force_y + acceleration_y[j + 1] * mass;
         impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j];
         impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j];
         impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j];
@@ -585,7 +572,7 @@ arm50_status arm50_step(
             + lever_cosine[j] * (impedance_yu - angle_per_acceleration * force_x)
             + lever_sine[j] * (-impedance_xu - angle_per_acceleration * force_y);
         torque = torque - force_x * lever_sine[j] + force_y * lever_cosine[j]
-            + predicted_acceleration[j + 1] * rod_inertia;
+            + rod_inertia * stage2_acceleration[j];
         const real pivot = impedance_uu + model->joint_impedance[j];
         if (!(pivot > 0.0) || !isfinite(pivot)) {
             return ARM50_VANISHING_PIVOT;
@@ -597,15 +584,15 @@ arm50_status arm50_step(
         transmission[j] = admittance * model->joint_impedance[j];
         impedance_xx = impedance_xx - answer_x[j] * impedance_xu;
         impedance_xy = impedance_xy - answer_y[j] * impedance_xu;
+        force_x = force_x + answer_own[j] * impedance_xu;
+        impedance_xu = impedance_xu * transmission[j];
         impedance_yx = impedance_yx - answer_x[j] * impedance_yu;
         impedance_yy = impedance_yy - answer_y[j] * impedance_yu;
+        force_y = force_y + answer_own[j] * impedance_yu;
+        impedance_yu = impedance_yu * transmission[j];
         impedance_ux = answer_x[j] * model->joint_impedance[j];
         impedance_uy = answer_y[j] * model->joint_impedance[j];
         impedance_uu = impedance_uu * transmission[j];
-        force_x = force_x + answer_own[j] * impedance_xu;
-        impedance_xu = impedance_xu * transmission[j];
-        force_y = force_y + answer_own[j] * impedance_yu;
-        impedance_yu = impedance_yu * transmission[j];
         torque = joint_torque - answer_own[j] * model->joint_impedance[j];
     }
 
@@ -618,7 +605,7 @@ arm50_status arm50_step(
     change_y = 0.0;
 
     /* Stage 3 of 5: motion at this stage. */
-    const real hub_stage3_acceleration = hub_unknown + predicted_acceleration[0];
+    const real hub_stage3_acceleration = hub_stage2_acceleration + hub_unknown;
     const real hub_stage3_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration;
 
     /* Stage 4 of 5: predicted motion. */
@@ -628,7 +615,6 @@ arm50_status arm50_step(
     predicted_angle[0] = state->hub_angle + hub_stage1_rate * predicted_rate_per_stage1_acceleration_2
         - hub_stage2_rate * predicted_rate_per_stage2_acceleration_2
         + hub_stage3_rate * predicted_angle_per_stage3_rate + predicted_rate[0] * rate_per_acceleration;
-    predicted_acceleration[0] = hub_stage3_acceleration;
 
     /* Stage 3 of 5: sweep outward: the unknown of each station; motion at this stage. Stage 4 of 5: predicted
      * motion; accelerations of the nodes. */
@@ -640,7 +626,8 @@ arm50_status arm50_step(
         unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y + transmission[j] * unknown;
         change_x = change_x + swing_x[j] * unknown;
         change_y = change_y + swing_y[j] * unknown;
-        stage3_acceleration[j] = predicted_acceleration[j + 1] + unknown;
+        const real solved = unknown;
+        stage3_acceleration[j] = solved + stage2_acceleration[j];
         stage3_rate[j] = predicted_rate[j + 1] + rate_per_acceleration * unknown;
         predicted_rate[j + 1] = state->rate[j]
             + predicted_rate_per_stage1_acceleration_2 * stage1_acceleration[j]
@@ -650,12 +637,11 @@ arm50_status arm50_step(
             + predicted_rate[j + 1] * rate_per_acceleration
             + predicted_rate_per_stage1_acceleration_2 * stage1_rate[j]
             - predicted_rate_per_stage2_acceleration_2 * stage2_rate[j];
-        predicted_acceleration[j + 1] = stage3_acceleration[j];
         lever_cosine[j] = length * cos(predicted_angle[j + 1]);
         lever_sine[j] = length * sin(predicted_angle[j + 1]);
         const real square = predicted_rate[j + 1] * predicted_rate[j + 1];
-        const real relative_x = -lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1];
-        const real relative_y = lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square;
+        const real relative_x = -lever_cosine[j] * square - lever_sine[j] * stage3_acceleration[j];
+        const real relative_y = lever_cosine[j] * stage3_acceleration[j] - lever_sine[j] * square;
         const real turning = half_step * predicted_rate[j + 1];
         swing_x[j] = -lever_sine[j] - angle_per_acceleration * relative_y - lever_cosine[j] * turning;
         swing_y[j] = lever_cosine[j] + angle_per_acceleration * relative_x - lever_sine[j] * turning;
@@ -667,25 +653,25 @@ arm50_status arm50_step(
 
     /* Stage 4 of 5: forces of the joints at the motion so far; sweep inward: force beyond each joint as an
      * affine function of the motion at it. */
+    impedance_xx = model->end_mass;
+    impedance_yy = model->end_mass;
     impedance_uu = model->tip_inertia;
-    torque = predicted_acceleration[50] * model->tip_inertia;
-    force_x = 0.0;
-    force_y = 0.0;
+    force_x = acceleration_x[50] * model->end_mass;
+    force_y = acceleration_y[50] * model->end_mass;
+    torque = stage3_acceleration[49] * model->tip_inertia;
     impedance_ux = 0.0;
     impedance_uy = 0.0;
     impedance_xu = 0.0;
-    impedance_xx = 0.0;
     impedance_xy = 0.0;
     impedance_yu = 0.0;
     impedance_yx = 0.0;
-    impedance_yy = 0.0;
     for (int j = ARM50_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = model->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + model->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
-        impedance_xx = impedance_xx + model->node_mass[j];
-        impedance_yy = impedance_yy + model->node_mass[j];
-        force_x = force_x + acceleration_x[j + 1] * model->node_mass[j];
-        force_y = force_y + acceleration_y[j + 1] * model->node_mass[j];
+        impedance_xx = impedance_xx + mass;
+        force_x = force_x + acceleration_x[j + 1] * mass;
+        impedance_yy = impedance_yy + mass;
+        force_y = force_y + acceleration_y[j + 1] * mass;
         impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j];
         impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j];
         impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j];
@@ -695,7 +681,7 @@ arm50_status arm50_step(
             + lever_cosine[j] * (impedance_yu - angle_per_acceleration * force_x)
             + lever_sine[j] * (-impedance_xu - angle_per_acceleration * force_y);
         torque = torque - force_x * lever_sine[j] + force_y * lever_cosine[j]
-            + predicted_acceleration[j + 1] * rod_inertia;
+            + rod_inertia * stage3_acceleration[j];
         const real pivot = impedance_uu + model->joint_impedance[j];
         if (!(pivot > 0.0) || !isfinite(pivot)) {
             return ARM50_VANISHING_PIVOT;
@@ -707,15 +693,15 @@ arm50_status arm50_step(
         transmission[j] = admittance * model->joint_impedance[j];
         impedance_xx = impedance_xx - answer_x[j] * impedance_xu;
         impedance_xy = impedance_xy - answer_y[j] * impedance_xu;
+        force_x = force_x + answer_own[j] * impedance_xu;
+        impedance_xu = impedance_xu * transmission[j];
         impedance_yx = impedance_yx - answer_x[j] * impedance_yu;
         impedance_yy = impedance_yy - answer_y[j] * impedance_yu;
+        force_y = force_y + answer_own[j] * impedance_yu;
+        impedance_yu = impedance_yu * transmission[j];
         impedance_ux = answer_x[j] * model->joint_impedance[j];
         impedance_uy = answer_y[j] * model->joint_impedance[j];
         impedance_uu = impedance_uu * transmission[j];
-        force_x = force_x + answer_own[j] * impedance_xu;
-        impedance_xu = impedance_xu * transmission[j];
-        force_y = force_y + answer_own[j] * impedance_yu;
-        impedance_yu = impedance_yu * transmission[j];
         torque = joint_torque - answer_own[j] * model->joint_impedance[j];
     }
 
@@ -728,7 +714,7 @@ arm50_status arm50_step(
     change_y = 0.0;
 
     /* Stage 4 of 5: motion at this stage. */
-    const real hub_stage4_acceleration = hub_unknown + predicted_acceleration[0];
+    const real hub_stage4_acceleration = hub_stage3_acceleration + hub_unknown;
     const real hub_stage4_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration;
 
     /* Stage 5 of 5: predicted motion. */
@@ -740,7 +726,6 @@ arm50_status arm50_step(
         - hub_stage2_rate * predicted_rate_per_stage2_acceleration_3
         + hub_stage3_rate * predicted_rate_per_stage3_acceleration_2
         - hub_stage4_rate * predicted_angle_per_stage4_rate + predicted_rate[0] * rate_per_acceleration;
-    predicted_acceleration[0] = hub_stage4_acceleration;
 
     /* Stage 4 of 5: sweep outward: the unknown of each station; motion at this stage. Stage 5 of 5: predicted
      * motion; accelerations of the nodes. */
@@ -752,24 +737,24 @@ arm50_status arm50_step(
         unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y + transmission[j] * unknown;
         change_x = change_x + swing_x[j] * unknown;
         change_y = change_y + swing_y[j] * unknown;
-        const real stage4_acceleration = predicted_acceleration[j + 1] + unknown;
+        const real solved = unknown;
+        stage4_acceleration[j] = solved + stage3_acceleration[j];
         const real stage4_rate = predicted_rate[j + 1] + rate_per_acceleration * unknown;
         predicted_rate[j + 1] = state->rate[j]
             + predicted_rate_per_stage1_acceleration_3 * stage1_acceleration[j]
             - predicted_rate_per_stage2_acceleration_3 * stage2_acceleration[j]
             + predicted_rate_per_stage3_acceleration_2 * stage3_acceleration[j]
-            - predicted_rate_per_stage4_acceleration * stage4_acceleration;
+            - predicted_rate_per_stage4_acceleration * stage4_acceleration[j];
         predicted_angle[j + 1] = state->angle[j] - predicted_angle_per_stage4_rate * stage4_rate
             + predicted_rate[j + 1] * rate_per_acceleration
             + predicted_rate_per_stage1_acceleration_3 * stage1_rate[j]
             - predicted_rate_per_stage2_acceleration_3 * stage2_rate[j]
             + predicted_rate_per_stage3_acceleration_2 * stage3_rate[j];
-        predicted_acceleration[j + 1] = stage4_acceleration;
         lever_cosine[j] = length * cos(predicted_angle[j + 1]);
         lever_sine[j] = length * sin(predicted_angle[j + 1]);
         const real square = predicted_rate[j + 1] * predicted_rate[j + 1];
-        const real relative_x = -lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1];
-        const real relative_y = lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square;
+        const real relative_x = -lever_cosine[j] * square - lever_sine[j] * stage4_acceleration[j];
+        const real relative_y = lever_cosine[j] * stage4_acceleration[j] - lever_sine[j] * square;
         const real turning = half_step * predicted_rate[j + 1];
         swing_x[j] = -lever_sine[j] - angle_per_acceleration * relative_y - lever_cosine[j] * turning;
         swing_y[j] = lever_cosine[j] + angle_per_acceleration * relative_x - lever_sine[j] * turning;
@@ -781,25 +766,25 @@ arm50_status arm50_step(
 
     /* Stage 5 of 5: forces of the joints at the motion so far; sweep inward: force beyond each joint as an
      * affine function of the motion at it. */
+    impedance_xx = model->end_mass;
+    impedance_yy = model->end_mass;
     impedance_uu = model->tip_inertia;
-    torque = predicted_acceleration[50] * model->tip_inertia;
-    force_x = 0.0;
-    force_y = 0.0;
+    force_x = acceleration_x[50] * model->end_mass;
+    force_y = acceleration_y[50] * model->end_mass;
+    torque = stage4_acceleration[49] * model->tip_inertia;
     impedance_ux = 0.0;
     impedance_uy = 0.0;
     impedance_xu = 0.0;
-    impedance_xx = 0.0;
     impedance_xy = 0.0;
     impedance_yu = 0.0;
     impedance_yx = 0.0;
-    impedance_yy = 0.0;
     for (int j = ARM50_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = model->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + model->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
-        impedance_xx = impedance_xx + model->node_mass[j];
-        impedance_yy = impedance_yy + model->node_mass[j];
-        force_x = force_x + acceleration_x[j + 1] * model->node_mass[j];
-        force_y = force_y + acceleration_y[j + 1] * model->node_mass[j];
+        impedance_xx = impedance_xx + mass;
+        force_x = force_x + acceleration_x[j + 1] * mass;
+        impedance_yy = impedance_yy + mass;
+        force_y = force_y + acceleration_y[j + 1] * mass;
         impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j];
         impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j];
         impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j];
@@ -809,7 +794,7 @@ arm50_status arm50_step(
             + lever_cosine[j] * (impedance_yu - angle_per_acceleration * force_x)
             + lever_sine[j] * (-impedance_xu - angle_per_acceleration * force_y);
         torque = torque - force_x * lever_sine[j] + force_y * lever_cosine[j]
-            + predicted_acceleration[j + 1] * rod_inertia;
+            + rod_inertia * stage4_acceleration[j];
         const real pivot = impedance_uu + model->joint_impedance[j];
         if (!(pivot > 0.0) || !isfinite(pivot)) {
             return ARM50_VANISHING_PIVOT;
@@ -821,15 +806,15 @@ arm50_status arm50_step(
         transmission[j] = admittance * model->joint_impedance[j];
         impedance_xx = impedance_xx - answer_x[j] * impedance_xu;
         impedance_xy = impedance_xy - answer_y[j] * impedance_xu;
+        force_x = force_x + answer_own[j] * impedance_xu;
+        impedance_xu = impedance_xu * transmission[j];
         impedance_yx = impedance_yx - answer_x[j] * impedance_yu;
         impedance_yy = impedance_yy - answer_y[j] * impedance_yu;
+        force_y = force_y + answer_own[j] * impedance_yu;
+        impedance_yu = impedance_yu * transmission[j];
         impedance_ux = answer_x[j] * model->joint_impedance[j];
         impedance_uy = answer_y[j] * model->joint_impedance[j];
         impedance_uu = impedance_uu * transmission[j];
-        force_x = force_x + answer_own[j] * impedance_xu;
-        impedance_xu = impedance_xu * transmission[j];
-        force_y = force_y + answer_own[j] * impedance_yu;
-        impedance_yu = impedance_yu * transmission[j];
         torque = joint_torque - answer_own[j] * model->joint_impedance[j];
     }
 
@@ -844,14 +829,15 @@ arm50_status arm50_step(
     /* Stage 5 of 5: sweep outward: the unknown of each station; motion at the end of the step. */
     state->hub_angle = predicted_angle[0] + angle_per_acceleration * hub_unknown;
     state->hub_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration;
-    state->hub_acceleration = hub_unknown + predicted_acceleration[0];
+    state->hub_acceleration = hub_stage4_acceleration + hub_unknown;
     for (int j = 0; j < ARM50_STATIONS; ++j) {
         unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y + transmission[j] * unknown;
         change_x = change_x + swing_x[j] * unknown;
         change_y = change_y + swing_y[j] * unknown;
+        const real solved = unknown;
         state->angle[j] = predicted_angle[j + 1] + angle_per_acceleration * unknown;
         state->rate[j] = predicted_rate[j + 1] + rate_per_acceleration * unknown;
-        state->acceleration[j] = predicted_acceleration[j + 1] + unknown;
+        state->acceleration[j] = solved + stage4_acceleration[j];
     }
 
     /* Anything that is not a number has reached this one. */

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
- * sha256 of the rest of this file: 54e05c19e98043dd9a7855d407f856abb27a0ce7330b49d5e7d9b170c5f7441f
+ * sha256 of the rest of this file: 1e62c156f76497b3039b3d43ac6d7a89d022cab680b63a18307062246f5d693d
  *
  * model: planar arm, large rotations, tip mass
  * stations: 50
@@ -12,11 +12,11 @@
  * linearisation: newton
  * sweep: riccati
  * unknown: acceleration
- * operations of a step: 29534, 590.7 per station (13642 additions, 15142 multiplications, 250 divisions, 500
+ * operations of a step: 29544, 590.9 per station (13642 additions, 15152 multiplications, 250 divisions, 500
  *     sines and cosines)
- * operations of prepare: 526, 10.52 per station (152 additions, 373 multiplications, 1 divisions)
+ * operations of prepare: 331, 6.62 per station (55 additions, 275 multiplications, 1 divisions)
  * number type: double
- * bytes of the structs: params 848, model 1784, state 1224, inputs 40, outputs 48
+ * bytes of the structs: params 848, model 1400, state 1224, inputs 40, outputs 48
  *
  * Call arm50_default_params() and arm50_prepare() once, arm50_initialise() to put the arm somewhere, then
  * arm50_step() at every tick of the clock and arm50_output() to know. All memory is the caller's; nothing is
@@ -73,6 +73,7 @@ typedef struct {
 /** What prepare() derives from the parameters and the time step. */
 typedef struct {
     arm50_real length; /**< link length, the same everywhere [m] */
+    arm50_real mass; /**< link mass, the same everywhere [kg] */
     arm50_real stiffness[ARM50_STATIONS]; /**< joint stiffness, base to tip [N m/rad] */
     arm50_real damping[ARM50_STATIONS]; /**< joint damping, base to tip [N m s/rad] */
     arm50_real tip_mass; /**< mass at the tip [kg] */
@@ -96,7 +97,7 @@ typedef struct {
     arm50_real predicted_angle_per_stage4_rate; /**< 85*step/12 [s] */
     arm50_real reaction_x_per_acceleration_x; /**< center*mass [N s^2/m] */
     arm50_real reaction_x_per_acceleration_x_2; /**< mass*(center - 1) [N s^2/m] */
-    arm50_real node_mass[ARM50_STATIONS]; /**< mass at the outer end of each link [kg] */
+    arm50_real end_mass; /**< mass at the tip less the share of a link beyond it [kg] */
     arm50_real rod_inertia; /**< inertia of a link that masses at its ends leave over [kg m^2] */
     arm50_real joint_impedance[ARM50_STATIONS]; /**< torque of a joint per difference of unknowns [kg m^2] */
 } arm50_model;

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
- * sha256 of the rest of this file: 067a8e3691accfe8b03acb2ce08263c4d7c40396e5317bd87253a293aea148ca
+ * sha256 of the rest of this file: 61f26fd6e9e34d3081bfc6b8f71cfe9df0d394fad76889dad68a29ce03a49236
  *
  * model: planar arm, large rotations, tip mass
  * stations: 50
@@ -12,11 +12,11 @@
  * linearisation: newton
  * sweep: riccati
  * unknown: acceleration
- * operations of a step: 29534, 590.7 per station (13642 additions, 15142 multiplications, 250 divisions, 500
+ * operations of a step: 29544, 590.9 per station (13642 additions, 15152 multiplications, 250 divisions, 500
  *     sines and cosines)
- * operations of prepare: 526, 10.52 per station (152 additions, 373 multiplications, 1 divisions)
+ * operations of prepare: 331, 6.62 per station (55 additions, 275 multiplications, 1 divisions)
  * number type: double
- * bytes of the structs: params 848, model 1784, state 1224, inputs 40, outputs 48
+ * bytes of the structs: params 848, model 1400, state 1224, inputs 40, outputs 48
  *
  * A test for any machine: the kernel against 30 digits, within what rounding explains.
  *

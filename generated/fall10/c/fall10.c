@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 225557ccb20983327784b6fc8326b9127fb185b183a5e99d150385ab258b9303
- * sha256 of the rest of this file: 4095b049505b0210f629ae36717edccecd88b5c4feecdced11eea5c914046658
+ * sha256 of the rest of this file: 00fbd1e2416fec4628b16914c599d29e497aec5b9834b43691c35b70724694dc
  *
  * model: planar arm, large rotations, gravity
  * stations: 10
@@ -12,11 +12,11 @@
  * linearisation: newton
  * sweep: riccati
  * unknown: acceleration
- * operations of a step: 1150, 115 per station (530 additions, 590 multiplications, 10 divisions, 20 sines and
- *     cosines)
- * operations of prepare: 108, 10.8 per station (30 additions, 78 multiplications)
+ * operations of a step: 1152, 115.2 per station (530 additions, 592 multiplications, 10 divisions, 20 sines
+ *     and cosines)
+ * operations of prepare: 73, 7.3 per station (13 additions, 60 multiplications)
  * number type: double
- * bytes of the structs: params 200, model 376, state 240, inputs 8, outputs 40
+ * bytes of the structs: params 200, model 312, state 240, inputs 8, outputs 40
  *
  * @file fall10.c
  */
@@ -65,15 +65,10 @@ fall10_status fall10_prepare(
         }
     }
 
-    const real mass = params->mass;
-    const real center = params->center;
-
     /* Masses at the nodes between links, and what they leave over. */
-    for (int j = 0; j < 9; ++j) {
-        model->node_mass[j] = center * mass + mass * (1.0 - center);
-    }
-    model->node_mass[9] = center * mass;
-    model->rod_inertia = params->inertia - center * (params->length * params->length) * mass * (1.0 - center);
+    model->end_mass = -params->mass * (1.0 - params->center);
+    model->rod_inertia = params->inertia
+        - params->center * (params->length * params->length) * params->mass * (1.0 - params->center);
 
     /* Factors of the sweep that do not change from step to step. */
     for (int j = FALL10_STATIONS - 1; j >= 0; --j) {
@@ -89,6 +84,7 @@ fall10_status fall10_prepare(
     /* What the step needs as it is. */
     model->step = step;
     model->length = params->length;
+    model->mass = params->mass;
     for (int j = 0; j < FALL10_STATIONS; ++j) {
         model->stiffness[j] = params->stiffness[j];
     }
@@ -115,7 +111,6 @@ fall10_status fall10_initialise(
 
     const real length = params->length;
     const real mass = params->mass;
-    const real center = params->center;
     real acceleration_x[FALL10_STATIONS + 1]; /* acceleration of the nodes along x [m/s^2] */
     real acceleration_y[FALL10_STATIONS + 1]; /* acceleration of the nodes along y [m/s^2] */
     real answer_own[FALL10_STATIONS]; /* unknown of a station if its inner side kept its motion */
@@ -123,18 +118,15 @@ fall10_status fall10_initialise(
     real answer_y[FALL10_STATIONS]; /* answer of the unknown to the joint's acceleration along y */
     real lever_cosine[FALL10_STATIONS]; /* length times cosine of the angle [m] */
     real lever_sine[FALL10_STATIONS]; /* length times sine of the angle [m] */
-    real node_mass[FALL10_STATIONS]; /* mass at the outer end of each link [kg] */
     /* acceleration of base and links as predicted [rad/s^2] */
     real predicted_acceleration[FALL10_STATIONS + 1];
     real predicted_angle[FALL10_STATIONS + 1]; /* angle of base and links as predicted [rad] */
     real predicted_rate[FALL10_STATIONS + 1]; /* rate of base and links as predicted [rad/s] */
 
     /* Masses at the nodes between links, and what they leave over. */
-    for (int j = 0; j < 9; ++j) {
-        node_mass[j] = center * mass + mass * (1.0 - center);
-    }
-    node_mass[9] = center * mass;
-    const real rod_inertia = params->inertia - center * (length * length) * mass * (1.0 - center);
+    const real end_mass = -mass * (1.0 - params->center);
+    const real rod_inertia = params->inertia
+        - params->center * (length * length) * mass * (1.0 - params->center);
 
     /* Predicted motion. */
     predicted_rate[0] = 0.0;
@@ -163,20 +155,20 @@ fall10_status fall10_initialise(
 
     /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
      * of the motion at it. */
-    real force_x = 0.0;
-    real force_y = 0.0;
-    real impedance_xx = 0.0;
+    real impedance_xx = end_mass;
+    real impedance_yy = end_mass;
+    real force_x = acceleration_x[10] * end_mass;
+    real force_y = acceleration_y[10] * end_mass;
     real impedance_xy = 0.0;
     real impedance_yx = 0.0;
-    real impedance_yy = 0.0;
     real torque = 0.0;
     for (int j = FALL10_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = params->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + params->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
-        impedance_xx = impedance_xx + node_mass[j];
-        impedance_yy = impedance_yy + node_mass[j];
-        force_x = force_x + acceleration_x[j + 1] * node_mass[j];
-        force_y = force_y + acceleration_y[j + 1] * node_mass[j];
+        impedance_xx = impedance_xx + mass;
+        force_x = force_x + acceleration_x[j + 1] * mass;
+        impedance_yy = impedance_yy + mass;
+        force_y = force_y + acceleration_y[j + 1] * mass;
         const real impedance_xu = impedance_xy * lever_cosine[j] - impedance_xx * lever_sine[j];
         const real impedance_yu = impedance_yy * lever_cosine[j] - impedance_yx * lever_sine[j];
         const real impedance_ux = impedance_yx * lever_cosine[j] - impedance_xx * lever_sine[j];
@@ -193,9 +185,9 @@ fall10_status fall10_initialise(
         answer_y[j] = admittance * impedance_uy;
         impedance_xx = impedance_xx - answer_x[j] * impedance_xu;
         impedance_xy = impedance_xy - answer_y[j] * impedance_xu;
+        force_x = force_x + answer_own[j] * impedance_xu;
         impedance_yx = impedance_yx - answer_x[j] * impedance_yu;
         impedance_yy = impedance_yy - answer_y[j] * impedance_yu;
-        force_x = force_x + answer_own[j] * impedance_xu;
         force_y = force_y + answer_own[j] * impedance_yu;
         torque = joint_torque;
     }
@@ -232,6 +224,7 @@ fall10_status fall10_step(
 
     const real step = model->step;
     const real length = model->length;
+    const real mass = model->mass;
     const real half_step_squared = model->half_step_squared;
     const real angle_per_acceleration = model->angle_per_acceleration;
     const real rate_per_acceleration = model->rate_per_acceleration;
@@ -243,8 +236,6 @@ fall10_status fall10_step(
     real answer_y[FALL10_STATIONS]; /* answer of the unknown to the joint's acceleration along y */
     real lever_cosine[FALL10_STATIONS]; /* length times cosine of the angle [m] */
     real lever_sine[FALL10_STATIONS]; /* length times sine of the angle [m] */
-    /* acceleration of base and links as predicted [rad/s^2] */
-    real predicted_acceleration[FALL10_STATIONS + 1];
     real predicted_angle[FALL10_STATIONS + 1]; /* angle of base and links as predicted [rad] */
     real predicted_rate[FALL10_STATIONS + 1]; /* rate of base and links as predicted [rad/s] */
     real swing_x[FALL10_STATIONS]; /* change of the outer end's acceleration along x per unknown [m] */
@@ -254,7 +245,6 @@ fall10_status fall10_step(
     /* Predicted motion. */
     predicted_rate[0] = 0.0;
     predicted_angle[0] = 0.0;
-    predicted_acceleration[0] = 0.0;
 
     /* Predicted motion; accelerations of the nodes, seen from a falling frame: gravity is the base's own. */
     real node_x = 0.0;
@@ -265,12 +255,11 @@ fall10_status fall10_step(
         predicted_rate[j + 1] = state->rate[j] + state->acceleration[j] * step;
         predicted_angle[j + 1] = state->angle[j] + state->acceleration[j] * half_step_squared
             + state->rate[j] * step;
-        predicted_acceleration[j + 1] = state->acceleration[j];
         lever_cosine[j] = length * cos(predicted_angle[j + 1]);
         lever_sine[j] = length * sin(predicted_angle[j + 1]);
         const real square = predicted_rate[j + 1] * predicted_rate[j + 1];
-        const real relative_x = -lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1];
-        const real relative_y = lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square;
+        const real relative_x = -state->acceleration[j] * lever_sine[j] - lever_cosine[j] * square;
+        const real relative_y = state->acceleration[j] * lever_cosine[j] - lever_sine[j] * square;
         const real turning = predicted_rate[j + 1] * step;
         swing_x[j] = -lever_sine[j] - angle_per_acceleration * relative_y - lever_cosine[j] * turning;
         swing_y[j] = lever_cosine[j] + angle_per_acceleration * relative_x - lever_sine[j] * turning;
@@ -282,25 +271,25 @@ fall10_status fall10_step(
 
     /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
      * of the motion at it. */
-    real force_x = 0.0;
-    real force_y = 0.0;
+    real impedance_xx = model->end_mass;
+    real impedance_yy = model->end_mass;
+    real force_x = acceleration_x[10] * model->end_mass;
+    real force_y = acceleration_y[10] * model->end_mass;
     real impedance_uu = 0.0;
     real impedance_ux = 0.0;
     real impedance_uy = 0.0;
     real impedance_xu = 0.0;
-    real impedance_xx = 0.0;
     real impedance_xy = 0.0;
     real impedance_yu = 0.0;
     real impedance_yx = 0.0;
-    real impedance_yy = 0.0;
     real torque = 0.0;
     for (int j = FALL10_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = model->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + model->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
-        impedance_xx = impedance_xx + model->node_mass[j];
-        impedance_yy = impedance_yy + model->node_mass[j];
-        force_x = force_x + acceleration_x[j + 1] * model->node_mass[j];
-        force_y = force_y + acceleration_y[j + 1] * model->node_mass[j];
+        impedance_xx = impedance_xx + mass;
+        force_x = force_x + acceleration_x[j + 1] * mass;
+        impedance_yy = impedance_yy + mass;
+        force_y = force_y + acceleration_y[j + 1] * mass;
         impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j];
         impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j];
         impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j];
@@ -309,8 +298,8 @@ fall10_status fall10_step(
         impedance_uu = impedance_uu + rod_inertia
             + lever_cosine[j] * (impedance_yu - angle_per_acceleration * force_x)
             + lever_sine[j] * (-impedance_xu - angle_per_acceleration * force_y);
-        torque = torque - force_x * lever_sine[j] + force_y * lever_cosine[j]
-            + predicted_acceleration[j + 1] * rod_inertia;
+        torque = torque + state->acceleration[j] * rod_inertia - force_x * lever_sine[j]
+            + force_y * lever_cosine[j];
         const real pivot = impedance_uu + model->joint_impedance[j];
         if (!(pivot > 0.0) || !isfinite(pivot)) {
             return FALL10_VANISHING_PIVOT;
@@ -322,15 +311,15 @@ fall10_status fall10_step(
         transmission[j] = admittance * model->joint_impedance[j];
         impedance_xx = impedance_xx - answer_x[j] * impedance_xu;
         impedance_xy = impedance_xy - answer_y[j] * impedance_xu;
+        force_x = force_x + answer_own[j] * impedance_xu;
+        impedance_xu = impedance_xu * transmission[j];
         impedance_yx = impedance_yx - answer_x[j] * impedance_yu;
         impedance_yy = impedance_yy - answer_y[j] * impedance_yu;
+        force_y = force_y + answer_own[j] * impedance_yu;
+        impedance_yu = impedance_yu * transmission[j];
         impedance_ux = answer_x[j] * model->joint_impedance[j];
         impedance_uy = answer_y[j] * model->joint_impedance[j];
         impedance_uu = impedance_uu * transmission[j];
-        force_x = force_x + answer_own[j] * impedance_xu;
-        impedance_xu = impedance_xu * transmission[j];
-        force_y = force_y + answer_own[j] * impedance_yu;
-        impedance_yu = impedance_yu * transmission[j];
         torque = joint_torque - answer_own[j] * model->joint_impedance[j];
     }
 
@@ -346,7 +335,7 @@ fall10_status fall10_step(
         change_y = change_y + swing_y[j] * unknown;
         state->angle[j] = predicted_angle[j + 1] + angle_per_acceleration * unknown;
         state->rate[j] = predicted_rate[j + 1] + rate_per_acceleration * unknown;
-        state->acceleration[j] = predicted_acceleration[j + 1] + unknown;
+        state->acceleration[j] = state->acceleration[j] + unknown;
     }
 
     /* Anything that is not a number has reached this one. */

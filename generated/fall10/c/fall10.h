@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 225557ccb20983327784b6fc8326b9127fb185b183a5e99d150385ab258b9303
- * sha256 of the rest of this file: 9a90619a48a8672d741c861f18a252117b629e571cdfa43243e9efdfa377c21b
+ * sha256 of the rest of this file: 80ca98a6bf2f5e3b0b74697d83ad7ce6bfdd9c32e2282bb73a432f6f004c162f
  *
  * model: planar arm, large rotations, gravity
  * stations: 10
@@ -12,11 +12,11 @@
  * linearisation: newton
  * sweep: riccati
  * unknown: acceleration
- * operations of a step: 1150, 115 per station (530 additions, 590 multiplications, 10 divisions, 20 sines and
- *     cosines)
- * operations of prepare: 108, 10.8 per station (30 additions, 78 multiplications)
+ * operations of a step: 1152, 115.2 per station (530 additions, 592 multiplications, 10 divisions, 20 sines
+ *     and cosines)
+ * operations of prepare: 73, 7.3 per station (13 additions, 60 multiplications)
  * number type: double
- * bytes of the structs: params 200, model 376, state 240, inputs 8, outputs 40
+ * bytes of the structs: params 200, model 312, state 240, inputs 8, outputs 40
  *
  * Call fall10_default_params() and fall10_prepare() once, fall10_initialise() to put the arm somewhere, then
  * fall10_step() at every tick of the clock and fall10_output() to know. All memory is the caller's; nothing
@@ -71,6 +71,8 @@ typedef struct {
     fall10_real step;
     /** link length, the same everywhere [m] */
     fall10_real length;
+    /** link mass, the same everywhere [kg] */
+    fall10_real mass;
     /** joint stiffness, base to tip [N m/rad] */
     fall10_real stiffness[FALL10_STATIONS];
     /** joint damping, base to tip [N m s/rad] */
@@ -83,8 +85,8 @@ typedef struct {
     fall10_real angle_per_acceleration;
     /** rate per unit of acceleration: step/2 [s] */
     fall10_real rate_per_acceleration;
-    /** mass at the outer end of each link [kg] */
-    fall10_real node_mass[FALL10_STATIONS];
+    /** mass at the tip less the share of a link beyond it [kg] */
+    fall10_real end_mass;
     /** inertia of a link that masses at its ends leave over [kg m^2] */
     fall10_real rod_inertia;
     /** torque of a joint per difference of unknowns [kg m^2] */

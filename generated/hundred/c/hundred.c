@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 1ec2a071f5720229c3b5c9d847fa0a44d6fa112015051ca13c1d73444e6eb10a
- * sha256 of the rest of this file: 075847bed0c39ecf955bcd15221c67bfbbbc2fcc7258e21af600098253796d2d
+ * sha256 of the rest of this file: 543dff882afef76554d15ca534efb479ed6daeca299ac55f09e4ae9eaf06c9f1
  *
  * model: torsional chain (linear)
  * stations: 100
@@ -97,9 +97,16 @@ hundred_status hundred_initialise(
 
     const real stiffness = params->stiffness;
     const real damping = params->damping;
-    const real inertia = params->inertia;
     real known_angle[HUNDRED_STATIONS + 1]; /* angle of base and links without the unknown's share [rad] */
     real known_rate[HUNDRED_STATIONS + 1]; /* rate of base and links without the unknown's share [rad/s] */
+
+    /* What is the same at every station. */
+    const real impedance = -params->inertia;
+    const real pivot = -impedance;
+    if (!(pivot > 0.0) || !isfinite(pivot)) {
+        return HUNDRED_VANISHING_PIVOT;
+    }
+    const real admittance = 1.0 / pivot;
 
     /* Motion known before the sweep. */
     known_rate[0] = 0.0;
@@ -117,12 +124,6 @@ hundred_status hundred_initialise(
     for (int j = HUNDRED_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = damping * (known_rate[j + 1] - known_rate[j])
             + stiffness * (known_angle[j + 1] - known_angle[j]);
-        const real impedance = -inertia;
-        const real pivot = -impedance;
-        if (!(pivot > 0.0) || !isfinite(pivot)) {
-            return HUNDRED_VANISHING_PIVOT;
-        }
-        const real admittance = 1.0 / pivot;
         const real answer_own = admittance * (torque - joint_torque);
         torque = joint_torque;
         state->angle[j] = known_angle[j + 1];

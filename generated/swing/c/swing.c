@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 1d772428e2d772ebb733ea95a16abbe042281079aa7667facf050e2b156d94bf
- * sha256 of the rest of this file: afa531e10b40fea2136a16750fdb80ad8191f25a0336cd0cc5611e17190ff773
+ * sha256 of the rest of this file: 0de6b794a07dfde248853e6eafd6cadfeb8a9076d05e51d0159e0c20e7a72425
  *
  * model: planar arm, large rotations, tip mass
  * stations: 5
@@ -12,11 +12,11 @@
  * linearisation: newton
  * sweep: riccati
  * unknown: acceleration
- * operations of a step: 593, 118.6 per station (275 additions, 302 multiplications, 6 divisions, 10 sines and
+ * operations of a step: 595, 119 per station (275 additions, 304 multiplications, 6 divisions, 10 sines and
  *     cosines)
- * operations of prepare: 62, 12.4 per station (17 additions, 45 multiplications)
+ * operations of prepare: 47, 9.4 per station (10 additions, 37 multiplications)
  * number type: double
- * bytes of the structs: params 136, model 232, state 144, inputs 8, outputs 24
+ * bytes of the structs: params 136, model 208, state 144, inputs 8, outputs 24
  *
  * @file swing.c
  */
@@ -76,15 +76,10 @@ swing_status swing_prepare(
         }
     }
 
-    const real mass = params->mass;
-    const real center = params->center;
-
     /* Masses at the nodes between links, and what they leave over. */
-    for (int j = 0; j < 4; ++j) {
-        model->node_mass[j] = center * mass + mass * (1.0 - center);
-    }
-    model->node_mass[4] = params->tip_mass + center * mass;
-    model->rod_inertia = params->inertia - center * (params->length * params->length) * mass * (1.0 - center);
+    model->end_mass = params->tip_mass - params->mass * (1.0 - params->center);
+    model->rod_inertia = params->inertia
+        - params->center * (params->length * params->length) * params->mass * (1.0 - params->center);
 
     /* Factors of the sweep that do not change from step to step. */
     for (int j = SWING_STATIONS - 1; j >= 0; --j) {
@@ -101,6 +96,7 @@ swing_status swing_prepare(
     /* What the step needs as it is. */
     model->step = step;
     model->length = params->length;
+    model->mass = params->mass;
     for (int j = 0; j < SWING_STATIONS; ++j) {
         model->stiffness[j] = params->stiffness[j];
     }
@@ -130,7 +126,6 @@ swing_status swing_initialise(
 
     const real length = params->length;
     const real mass = params->mass;
-    const real center = params->center;
     real acceleration_x[SWING_STATIONS + 1]; /* acceleration of the nodes along x [m/s^2] */
     real acceleration_y[SWING_STATIONS + 1]; /* acceleration of the nodes along y [m/s^2] */
     real answer_own[SWING_STATIONS]; /* unknown of a station if its inner side kept its motion */
@@ -138,18 +133,21 @@ swing_status swing_initialise(
     real answer_y[SWING_STATIONS]; /* answer of the unknown to the joint's acceleration along y */
     real lever_cosine[SWING_STATIONS]; /* length times cosine of the angle [m] */
     real lever_sine[SWING_STATIONS]; /* length times sine of the angle [m] */
-    real node_mass[SWING_STATIONS]; /* mass at the outer end of each link [kg] */
     /* acceleration of base and links as predicted [rad/s^2] */
     real predicted_acceleration[SWING_STATIONS + 1];
     real predicted_angle[SWING_STATIONS + 1]; /* angle of base and links as predicted [rad] */
     real predicted_rate[SWING_STATIONS + 1]; /* rate of base and links as predicted [rad/s] */
 
     /* Masses at the nodes between links, and what they leave over. */
-    for (int j = 0; j < 4; ++j) {
-        node_mass[j] = center * mass + mass * (1.0 - center);
+    const real end_mass = params->tip_mass - mass * (1.0 - params->center);
+    const real rod_inertia = params->inertia
+        - params->center * (length * length) * mass * (1.0 - params->center);
+
+    /* What is the same at every station. */
+    const real hub_pivot = params->hub_inertia;
+    if (!(params->hub_inertia > 0.0) || !isfinite(params->hub_inertia)) {
+        return SWING_VANISHING_PIVOT;
     }
-    node_mass[4] = params->tip_mass + center * mass;
-    const real rod_inertia = params->inertia - center * (length * length) * mass * (1.0 - center);
 
     /* Predicted motion. */
     predicted_rate[0] = 0.0;
@@ -178,20 +176,20 @@ swing_status swing_initialise(
 
     /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
      * of the motion at it. */
-    real force_x = 0.0;
-    real force_y = 0.0;
-    real impedance_xx = 0.0;
+    real impedance_xx = end_mass;
+    real impedance_yy = end_mass;
+    real force_x = acceleration_x[5] * end_mass;
+    real force_y = acceleration_y[5] * end_mass;
     real impedance_xy = 0.0;
     real impedance_yx = 0.0;
-    real impedance_yy = 0.0;
     real torque = 0.0;
     for (int j = SWING_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = params->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + params->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
-        impedance_xx = impedance_xx + node_mass[j];
-        impedance_yy = impedance_yy + node_mass[j];
-        force_x = force_x + acceleration_x[j + 1] * node_mass[j];
-        force_y = force_y + acceleration_y[j + 1] * node_mass[j];
+        impedance_xx = impedance_xx + mass;
+        force_x = force_x + acceleration_x[j + 1] * mass;
+        impedance_yy = impedance_yy + mass;
+        force_y = force_y + acceleration_y[j + 1] * mass;
         const real impedance_xu = impedance_xy * lever_cosine[j] - impedance_xx * lever_sine[j];
         const real impedance_yu = impedance_yy * lever_cosine[j] - impedance_yx * lever_sine[j];
         const real impedance_ux = impedance_yx * lever_cosine[j] - impedance_xx * lever_sine[j];
@@ -208,19 +206,16 @@ swing_status swing_initialise(
         answer_y[j] = admittance * impedance_uy;
         impedance_xx = impedance_xx - answer_x[j] * impedance_xu;
         impedance_xy = impedance_xy - answer_y[j] * impedance_xu;
+        force_x = force_x + answer_own[j] * impedance_xu;
         impedance_yx = impedance_yx - answer_x[j] * impedance_yu;
         impedance_yy = impedance_yy - answer_y[j] * impedance_yu;
-        force_x = force_x + answer_own[j] * impedance_xu;
         force_y = force_y + answer_own[j] * impedance_yu;
         torque = joint_torque;
     }
 
     /* The base. */
-    if (!(params->hub_inertia > 0.0) || !isfinite(params->hub_inertia)) {
-        return SWING_VANISHING_PIVOT;
-    }
     real unknown = (inputs->hub_torque - torque - params->hub_damping * predicted_rate[0]
-        - params->hub_inertia * predicted_acceleration[0]) / params->hub_inertia;
+        - params->hub_inertia * predicted_acceleration[0]) / hub_pivot;
     const real hub_unknown = unknown;
 
     /* Sweep outward: the unknown of each station. */
@@ -262,6 +257,7 @@ swing_status swing_step(
 
     const real step = model->step;
     const real length = model->length;
+    const real mass = model->mass;
     const real half_step_squared = model->half_step_squared;
     const real angle_per_acceleration = model->angle_per_acceleration;
     const real rate_per_acceleration = model->rate_per_acceleration;
@@ -273,8 +269,6 @@ swing_status swing_step(
     real answer_y[SWING_STATIONS]; /* answer of the unknown to the joint's acceleration along y */
     real lever_cosine[SWING_STATIONS]; /* length times cosine of the angle [m] */
     real lever_sine[SWING_STATIONS]; /* length times sine of the angle [m] */
-    /* acceleration of base and links as predicted [rad/s^2] */
-    real predicted_acceleration[SWING_STATIONS + 1];
     real predicted_angle[SWING_STATIONS + 1]; /* angle of base and links as predicted [rad] */
     real predicted_rate[SWING_STATIONS + 1]; /* rate of base and links as predicted [rad/s] */
     real swing_x[SWING_STATIONS]; /* change of the outer end's acceleration along x per unknown [m] */
@@ -285,7 +279,6 @@ swing_status swing_step(
     predicted_rate[0] = state->hub_rate + state->hub_acceleration * step;
     predicted_angle[0] = state->hub_angle + half_step_squared * state->hub_acceleration
         + state->hub_rate * step;
-    predicted_acceleration[0] = state->hub_acceleration;
 
     /* Predicted motion; accelerations of the nodes. */
     real node_x = 0.0;
@@ -296,12 +289,11 @@ swing_status swing_step(
         predicted_rate[j + 1] = state->rate[j] + state->acceleration[j] * step;
         predicted_angle[j + 1] = state->angle[j] + state->acceleration[j] * half_step_squared
             + state->rate[j] * step;
-        predicted_acceleration[j + 1] = state->acceleration[j];
         lever_cosine[j] = length * cos(predicted_angle[j + 1]);
         lever_sine[j] = length * sin(predicted_angle[j + 1]);
         const real square = predicted_rate[j + 1] * predicted_rate[j + 1];
-        const real relative_x = -lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1];
-        const real relative_y = lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square;
+        const real relative_x = -state->acceleration[j] * lever_sine[j] - lever_cosine[j] * square;
+        const real relative_y = state->acceleration[j] * lever_cosine[j] - lever_sine[j] * square;
         const real turning = predicted_rate[j + 1] * step;
         swing_x[j] = -lever_sine[j] - angle_per_acceleration * relative_y - lever_cosine[j] * turning;
         swing_y[j] = lever_cosine[j] + angle_per_acceleration * relative_x - lever_sine[j] * turning;
@@ -313,25 +305,25 @@ swing_status swing_step(
 
     /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
      * of the motion at it. */
-    real force_x = 0.0;
-    real force_y = 0.0;
+    real impedance_xx = model->end_mass;
+    real impedance_yy = model->end_mass;
+    real force_x = acceleration_x[5] * model->end_mass;
+    real force_y = acceleration_y[5] * model->end_mass;
     real impedance_uu = 0.0;
     real impedance_ux = 0.0;
     real impedance_uy = 0.0;
     real impedance_xu = 0.0;
-    real impedance_xx = 0.0;
     real impedance_xy = 0.0;
     real impedance_yu = 0.0;
     real impedance_yx = 0.0;
-    real impedance_yy = 0.0;
     real torque = 0.0;
     for (int j = SWING_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = model->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + model->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
-        impedance_xx = impedance_xx + model->node_mass[j];
-        impedance_yy = impedance_yy + model->node_mass[j];
-        force_x = force_x + acceleration_x[j + 1] * model->node_mass[j];
-        force_y = force_y + acceleration_y[j + 1] * model->node_mass[j];
+        impedance_xx = impedance_xx + mass;
+        force_x = force_x + acceleration_x[j + 1] * mass;
+        impedance_yy = impedance_yy + mass;
+        force_y = force_y + acceleration_y[j + 1] * mass;
         impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j];
         impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j];
         impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j];
@@ -340,8 +332,8 @@ swing_status swing_step(
         impedance_uu = impedance_uu + rod_inertia
             + lever_cosine[j] * (impedance_yu - angle_per_acceleration * force_x)
             + lever_sine[j] * (-impedance_xu - angle_per_acceleration * force_y);
-        torque = torque - force_x * lever_sine[j] + force_y * lever_cosine[j]
-            + predicted_acceleration[j + 1] * rod_inertia;
+        torque = torque + state->acceleration[j] * rod_inertia - force_x * lever_sine[j]
+            + force_y * lever_cosine[j];
         const real pivot = impedance_uu + model->joint_impedance[j];
         if (!(pivot > 0.0) || !isfinite(pivot)) {
             return SWING_VANISHING_PIVOT;
@@ -353,15 +345,15 @@ swing_status swing_step(
         transmission[j] = admittance * model->joint_impedance[j];
         impedance_xx = impedance_xx - answer_x[j] * impedance_xu;
         impedance_xy = impedance_xy - answer_y[j] * impedance_xu;
+        force_x = force_x + answer_own[j] * impedance_xu;
+        impedance_xu = impedance_xu * transmission[j];
         impedance_yx = impedance_yx - answer_x[j] * impedance_yu;
         impedance_yy = impedance_yy - answer_y[j] * impedance_yu;
+        force_y = force_y + answer_own[j] * impedance_yu;
+        impedance_yu = impedance_yu * transmission[j];
         impedance_ux = answer_x[j] * model->joint_impedance[j];
         impedance_uy = answer_y[j] * model->joint_impedance[j];
         impedance_uu = impedance_uu * transmission[j];
-        force_x = force_x + answer_own[j] * impedance_xu;
-        impedance_xu = impedance_xu * transmission[j];
-        force_y = force_y + answer_own[j] * impedance_yu;
-        impedance_yu = impedance_yu * transmission[j];
         torque = joint_torque - answer_own[j] * model->joint_impedance[j];
     }
 
@@ -370,8 +362,8 @@ swing_status swing_step(
     if (!(hub_pivot > 0.0) || !isfinite(hub_pivot)) {
         return SWING_VANISHING_PIVOT;
     }
-    real unknown = (inputs->hub_torque - torque - model->hub_damping * predicted_rate[0]
-        - model->hub_inertia * predicted_acceleration[0]) / hub_pivot;
+    real unknown = (inputs->hub_torque - torque - state->hub_acceleration * model->hub_inertia
+        - model->hub_damping * predicted_rate[0]) / hub_pivot;
     const real hub_unknown = unknown;
 
     /* Sweep outward: the unknown of each station. */
@@ -381,14 +373,14 @@ swing_status swing_step(
     /* Sweep outward: the unknown of each station; motion at the end of the step. */
     state->hub_angle = predicted_angle[0] + angle_per_acceleration * hub_unknown;
     state->hub_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration;
-    state->hub_acceleration = hub_unknown + predicted_acceleration[0];
+    state->hub_acceleration = state->hub_acceleration + hub_unknown;
     for (int j = 0; j < SWING_STATIONS; ++j) {
         unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y + transmission[j] * unknown;
         change_x = change_x + swing_x[j] * unknown;
         change_y = change_y + swing_y[j] * unknown;
         state->angle[j] = predicted_angle[j + 1] + angle_per_acceleration * unknown;
         state->rate[j] = predicted_rate[j + 1] + rate_per_acceleration * unknown;
-        state->acceleration[j] = predicted_acceleration[j + 1] + unknown;
+        state->acceleration[j] = state->acceleration[j] + unknown;
     }
 
     /* Anything that is not a number has reached this one. */

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 1d772428e2d772ebb733ea95a16abbe042281079aa7667facf050e2b156d94bf
- * sha256 of the rest of this file: 82f3bd6546a7563a5d604f097c901175242aaa0bd252e89ca049939a7f7fc385
+ * sha256 of the rest of this file: 60c40f2b4a8e67fe2c470b461caec1098c040e9c635c417496ebb2752f6f5dd5
  *
  * model: planar arm, large rotations, tip mass
  * stations: 5
@@ -12,11 +12,11 @@
  * linearisation: newton
  * sweep: riccati
  * unknown: acceleration
- * operations of a step: 593, 118.6 per station (275 additions, 302 multiplications, 6 divisions, 10 sines and
+ * operations of a step: 595, 119 per station (275 additions, 304 multiplications, 6 divisions, 10 sines and
  *     cosines)
- * operations of prepare: 62, 12.4 per station (17 additions, 45 multiplications)
+ * operations of prepare: 47, 9.4 per station (10 additions, 37 multiplications)
  * number type: double
- * bytes of the structs: params 136, model 232, state 144, inputs 8, outputs 24
+ * bytes of the structs: params 136, model 208, state 144, inputs 8, outputs 24
  *
  * Call swing_default_params() and swing_prepare() once, swing_initialise() to put the arm somewhere, then
  * swing_step() at every tick of the clock and swing_output() to know. All memory is the caller's; nothing is
@@ -71,6 +71,7 @@ typedef struct {
 typedef struct {
     swing_real step; /**< time step [s] */
     swing_real length; /**< link length, the same everywhere [m] */
+    swing_real mass; /**< link mass, the same everywhere [kg] */
     swing_real stiffness[SWING_STATIONS]; /**< joint stiffness, base to tip [N m/rad] */
     swing_real damping[SWING_STATIONS]; /**< joint damping, base to tip [N m s/rad] */
     swing_real hub_inertia; /**< hub inertia [kg m^2] */
@@ -78,7 +79,7 @@ typedef struct {
     swing_real half_step_squared; /**< step**2/2 [s^2] */
     swing_real angle_per_acceleration; /**< angle per unit of acceleration: step**2/4 [s^2] */
     swing_real rate_per_acceleration; /**< rate per unit of acceleration: step/2 [s] */
-    swing_real node_mass[SWING_STATIONS]; /**< mass at the outer end of each link [kg] */
+    swing_real end_mass; /**< mass at the tip less the share of a link beyond it [kg] */
     swing_real rod_inertia; /**< inertia of a link that masses at its ends leave over [kg m^2] */
     swing_real joint_impedance[SWING_STATIONS]; /**< torque of a joint per difference of unknowns [kg m^2] */
     swing_real hub_impedance; /**< torque of the hub per unknown [kg m^2] */

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: ee57f7952242f19cc6be0f26d3460a304cc65a1747711d25b990a158587c6f1f
- * sha256 of the rest of this file: 8b3a887d2356d27d878a2fadc1894e2d4dc6405c1d7850c1ad1e1173b6502782
+ * sha256 of the rest of this file: 1a3923fd3e2069d05771daca69a6f101717a4cbd1bb087039a05dca52ee11a13
  *
  * model: torsional chain (linear)
  * stations: 10
@@ -97,9 +97,16 @@ thesis10_status thesis10_initialise(
 
     const real stiffness = params->stiffness;
     const real damping = params->damping;
-    const real inertia = params->inertia;
     real known_angle[THESIS10_STATIONS + 1]; /* angle of base and links without the unknown's share [rad] */
     real known_rate[THESIS10_STATIONS + 1]; /* rate of base and links without the unknown's share [rad/s] */
+
+    /* What is the same at every station. */
+    const real impedance = -params->inertia;
+    const real pivot = -impedance;
+    if (!(pivot > 0.0) || !isfinite(pivot)) {
+        return THESIS10_VANISHING_PIVOT;
+    }
+    const real admittance = 1.0 / pivot;
 
     /* Motion known before the sweep. */
     known_rate[0] = 0.0;
@@ -117,12 +124,6 @@ thesis10_status thesis10_initialise(
     for (int j = THESIS10_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = damping * (known_rate[j + 1] - known_rate[j])
             + stiffness * (known_angle[j + 1] - known_angle[j]);
-        const real impedance = -inertia;
-        const real pivot = -impedance;
-        if (!(pivot > 0.0) || !isfinite(pivot)) {
-            return THESIS10_VANISHING_PIVOT;
-        }
-        const real admittance = 1.0 / pivot;
         const real answer_own = admittance * (torque - joint_torque);
         torque = joint_torque;
         state->angle[j] = known_angle[j + 1];

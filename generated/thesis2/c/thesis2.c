@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 8302c2fdab02afb73919e09c91c3abafc3d83d0760e2c0e63be40bfdc341e62e
- * sha256 of the rest of this file: 2d4e0a4dce0f6bed2aceda6318c0a91428b3bba59a313acfd4766251d50df075
+ * sha256 of the rest of this file: f0d21b1b11f3dc4bac6ebb9e7084b8d8d3918f043002a457cba7243641968975
  *
  * model: torsional chain (linear)
  * stations: 2
@@ -97,9 +97,16 @@ thesis2_status thesis2_initialise(
 
     const real stiffness = params->stiffness;
     const real damping = params->damping;
-    const real inertia = params->inertia;
     real known_angle[THESIS2_STATIONS + 1]; /* angle of base and links without the unknown's share [rad] */
     real known_rate[THESIS2_STATIONS + 1]; /* rate of base and links without the unknown's share [rad/s] */
+
+    /* What is the same at every station. */
+    const real impedance = -params->inertia;
+    const real pivot = -impedance;
+    if (!(pivot > 0.0) || !isfinite(pivot)) {
+        return THESIS2_VANISHING_PIVOT;
+    }
+    const real admittance = 1.0 / pivot;
 
     /* Motion known before the sweep. */
     known_rate[0] = 0.0;
@@ -117,12 +124,6 @@ thesis2_status thesis2_initialise(
     for (int j = THESIS2_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = damping * (known_rate[j + 1] - known_rate[j])
             + stiffness * (known_angle[j + 1] - known_angle[j]);
-        const real impedance = -inertia;
-        const real pivot = -impedance;
-        if (!(pivot > 0.0) || !isfinite(pivot)) {
-            return THESIS2_VANISHING_PIVOT;
-        }
-        const real admittance = 1.0 / pivot;
         const real answer_own = admittance * (torque - joint_torque);
         torque = joint_torque;
         state->angle[j] = known_angle[j + 1];

@@ -56,22 +56,33 @@ def planar_row(scene: Scene, integrator: str) -> Row:
     detail = (pin, inner, _rod(length, left_over), outer, *on_link)
     combinations: tuple[Combination, ...] = ()
     if scene.model.linearisation == "newton":
-        combinations = (
-            Combination(
+        rest = Combination(
+            "rod_inertia", "inertia of a link that masses at its ends leave over", "kg m^2", left_over
+        )
+        alike = len({(link.mass, link.center) for link in scene.links}) == 1
+        if (
+            alike
+        ):  # neighbours at a node make up one link's mass; what that is too much, the tip takes off again
+            end_mass = Combination(
+                "end_mass",
+                "mass at the tip less the share of a link beyond it",
+                "kg",
+                tip_mass - (1 - center) * mass,
+            )
+            combinations, node_mass, beyond = (end_mass, rest), mass, sp.Symbol(end_mass.name)
+        else:
+            joined = Combination(
                 "node_mass",
                 "mass at the outer end of each link",
                 "kg",
                 center * mass,
                 (1 - center) * mass,
                 tip_mass,
-            ),
-            Combination(
-                "rod_inertia", "inertia of a link that masses at its ends leave over", "kg m^2", left_over
-            ),
-        )
-        node_mass, rod_inertia = (sp.Symbol(c.name) for c in combinations)
+            )
+            combinations, node_mass, beyond = (joined, rest), sp.Symbol(joined.name), sp.Integer(0)
+        rod_inertia = sp.Symbol(rest.name)
         station: Elements = (pin, _rod(length, rod_inertia), _mass(node_mass), *on_link)
-        tail: Elements = (*tip_body, *at_tip)
+        tail: Elements = (*((_mass(beyond),) if beyond != 0 else ()), *tip_body, *at_tip)
     else:
         combinations = (
             Combination("carried_mass", "mass acting at a link's outer end", "kg", center * mass),

@@ -292,18 +292,23 @@ class Inward:
     def _set(self, impedances: Mapping[tuple[int, int], sp.Expr], forces: Mapping[int, sp.Expr]) -> None:
         c = self.frame.coordinates
         update: dict[sp.Symbol, sp.Expr] = {}
-        for (i, k), value in impedances.items():
-            symbol = impedance(c[i], c[k])
-            if value != self._s[i, k] and value != 0:
-                update[symbol] = value
-            self._s[i, k] = symbol if value != 0 else ZERO
-        for i, value in forces.items():
-            symbol = force(c[i])
-            if value != self._e[i] and value != 0:
-                update[symbol] = value
-            self._e[i] = symbol if value != 0 else ZERO
+        for i, row in enumerate(c):  # row by row: what a row needs is at hand when it is its turn
+            for k, column in enumerate(c):
+                if (i, k) in impedances:
+                    self._s[i, k] = _changed(impedance(row, column), self._s[i, k], impedances[i, k], update)
+            if i in forces:
+                self._e[i] = _changed(force(row), self._e[i], forces[i], update)
         if update:
             self.lines.append(Update(update))
+
+
+def _changed(symbol: sp.Symbol, old: sp.Expr, new: sp.Expr, update: dict[sp.Symbol, sp.Expr]) -> sp.Expr:
+    """Note a new value of what is carried, and return what stands for it."""
+    if new == 0:
+        return ZERO
+    if new != old:
+        update[symbol] = new
+    return symbol
 
 
 def grouped(value: sp.Expr, differences: Mapping[str, tuple[sp.Symbol, sp.Symbol]]) -> sp.Expr:

@@ -19,7 +19,7 @@ from tmm_gen.program.arm.turns import TURNED, start_unturned, take_turns_out
 from tmm_gen.program.arm.walks import Walks
 from tmm_gen.program.fields import gain_names, living_state
 from tmm_gen.program.motion import history_values
-from tmm_gen.program.passes.early import EarlySets
+from tmm_gen.program.passes.early import EarlySets, lifted
 from tmm_gen.program.passes.hoist import Hoister
 from tmm_gen.program.passes.prune import prune
 from tmm_gen.program.sensitivities.linear import linear_sensitivities
@@ -212,7 +212,7 @@ class Assembly:
         cold = (Assign(layout.dissipated.ref, sp.Integer(0)),) if layout.dissipated else ()
         sections = (
             combined.section,
-            *builder.sections(),
+            *lifted(list(builder.sections())),
             *((start_places(layout),) if layout.places else ()),
             Section("older history of the hub", older),
             *hold(layout, 1),

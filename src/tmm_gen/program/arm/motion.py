@@ -10,7 +10,7 @@ import sympy as sp
 from tmm_gen.derive.integrators.declaration import KINDS, Kind, past, stage
 from tmm_gen.derive.integrators.relations import AffineMotion
 from tmm_gen.program.fields import MOTION_NAMES
-from tmm_gen.program.variables import Role, Variable
+from tmm_gen.program.variables import Ref, Role, Variable
 
 KNOWN_RATE = sp.Symbol("known_rate", real=True)
 _WORDS = {"prediction": ("predicted", "as predicted"), "known": ("known", "without the unknown's share")}
@@ -56,3 +56,33 @@ def motion_variable(kind: Kind, about: str, stations: int) -> Variable:
     name, unit = MOTION_NAMES[kind]
     prefix, words = _WORDS[about]
     return Variable(f"{prefix}_{name}", Role.WORK, stations + 1, f"{name} of base and links {words}", unit)
+
+
+@dataclass(frozen=True)
+class Held:
+    """Motion that stands where it was: no copy of it is made.
+
+    Parameters
+    ----------
+    stations : Ref
+        At station j of a loop.
+    base : sympy.Expr
+        Of the base.
+    """
+
+    stations: Ref
+    base: sp.Expr
+
+    def at(self, offset: int = 0) -> sp.Expr:
+        """Return the motion of node ``j + offset``; that of an inner node may be the base's, elsewhere."""
+        if offset != 1:
+            raise ValueError("only a station's own motion stands where it was")
+        return self.stations
+
+    def entry(self, index: int) -> sp.Expr:
+        """Return the motion of a node, base first."""
+        return self.stations.variable.entry(index - 1) if index else self.base
+
+
+Moving = Variable | Held
+"""Motion of all nodes, base first: an array of its own, or where it stands already."""

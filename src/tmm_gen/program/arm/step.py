@@ -12,11 +12,18 @@ from tmm_gen.derive.integrators.relations import AffineMotion, Unknown, affine_m
 from tmm_gen.derive.station.frame import GAINS, Frame
 from tmm_gen.program.arm.layout import Layout
 from tmm_gen.program.arm.loads import Loads
-from tmm_gen.program.arm.motion import KNOWN_RATE, StartingPoint, motion_variable, starting_point
+from tmm_gen.program.arm.motion import (
+    KNOWN_RATE,
+    Held,
+    Moving,
+    StartingPoint,
+    motion_variable,
+    starting_point,
+)
 from tmm_gen.program.arm.walks import BASE, StageOf, Walks, hub_unknown, solved_variable
 from tmm_gen.program.motion import kept_stage_values, stage_variable, update_assignments
 from tmm_gen.program.statements import Assign, Loop, Order, Section, Statement
-from tmm_gen.program.variables import Variable
+from tmm_gen.program.variables import Ref, Variable
 
 MakeWalks = Callable[..., Walks]
 
@@ -88,10 +95,21 @@ class StepBuilder:
         gain = tuple(motion.gain[k] if motion.gain[k].is_number else GAINS[k] for k in KINDS)
         frame = Frame(row.coordinates, gain, point.still, row.about, row.sign)
         gains = {GAINS[k]: self._gain(motion, k) for k in KINDS}
-        known = {k: self._motion(k) for k in KINDS if k not in point.still}
+        known = self._moving(point)
         stage_of = StageOf(self.scheme, index, motion, self.sources)
         loads = Loads(self.layout, index - 1)
         return self.walks(self.layout, self.prepared, frame, gains, known, loads, stage_of)
+
+    def _moving(self, point: StartingPoint) -> dict[Kind, Moving]:
+        """Return where the motion of nodes before the sweep is held."""
+        found: dict[Kind, Moving] = {k: self._motion(k) for k in KINDS if k not in point.still}
+        if self.iterations > 1 or "a" in point.still or _reads_inner_acceleration(self.layout):
+            return found
+        stands = point.values["a"].xreplace(self._values("", self.layout.stations))
+        if isinstance(stands, Ref):
+            base = sp.Integer(0) if self._held else point.values["a"].xreplace(self._values("hub_", None))
+            found["a"] = Held(stands, base)
+        return found
 
     def _gain(self, motion: AffineMotion, kind: Kind) -> sp.Expr:
         return motion.gain[kind].xreplace({STEP: self.layout.step.ref})
@@ -104,11 +122,11 @@ class StepBuilder:
         at_links, at_hub = self._values("", n), self._values("hub_", None)
         rate = self._motion("v")
         body, base = [], []
+        moving = self._moving(point)
         for kind in ("v", "q", "a"):  # rates first: displacements may be written by them
-            value = point.values[kind]
-            if value == 0:
+            value, variable = point.values[kind], moving.get(kind)
+            if not isinstance(variable, Variable):
                 continue
-            variable = self._motion(kind)
             body.append(Assign(variable.at(1), value.xreplace({**at_links, KNOWN_RATE: rate.at(1)})))
             moved = value.xreplace({**at_hub, KNOWN_RATE: rate.entry(BASE)})
             base.append(Assign(variable.entry(BASE), sp.Integer(0) if self._held else moved))
@@ -150,14 +168,13 @@ class StepBuilder:
     ) -> Section:
         n = self.layout.stations
         zero = sp.Integer(0)
+        moving = self._moving(point)
         links = {
-            k: (zero if k in point.still else self._motion(k).at(1))
-            + self._gain(motion, k) * solved_variable(n).at()
+            k: (moving[k].at(1) if k in moving else zero) + self._gain(motion, k) * solved_variable(n).at()
             for k in KINDS
         }
         hub = {
-            k: (zero if k in point.still else self._motion(k).entry(BASE))
-            + self._gain(motion, k) * hub_unknown()
+            k: (moving[k].entry(BASE) if k in moving else zero) + self._gain(motion, k) * hub_unknown()
             for k in KINDS
         }
         statements: list[Statement] = []
@@ -184,3 +201,13 @@ class StepBuilder:
     ) -> dict[Kind, sp.Expr]:
         own = {stage(k, index): values[k] for k in KINDS}
         return {k: sp.expand(sp.sympify(self.scheme.update[k]).xreplace({**own, **at})) for k in KINDS}
+
+
+def _reads_inner_acceleration(layout: Layout) -> bool:
+    """Whether a station's law reads the acceleration at its inner side, which may be the base's."""
+    (own,) = [i for i, c in enumerate(layout.row.coordinates) if c.integrated]
+    return any(
+        equation.has(elements[0].inboard.motions[own].a)
+        for _, _, elements in layout.row.runs()
+        for equation in elements[0].equations
+    )

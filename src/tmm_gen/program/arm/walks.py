@@ -28,6 +28,7 @@ from tmm_gen.derive.station.station import ceasing, everything, inward, outward,
 from tmm_gen.program.arm.binding import Binding, Scratch, composed
 from tmm_gen.program.arm.layout import Layout
 from tmm_gen.program.arm.loads import Loads
+from tmm_gen.program.arm.motion import Held, Moving
 from tmm_gen.program.statements import Assign, Loop, Order, Require, Section, Statement
 from tmm_gen.program.variables import Ref, Role, Variable, local, refs_in
 
@@ -70,7 +71,7 @@ class Walks:
         What the recursion is derived for.
     gains : mapping from sympy.Symbol to sympy.Expr
         Values of the frame's symbols for gains.
-    motion : mapping from "q", "v", "a" to Variable
+    motion : mapping from "q", "v", "a" to Variable or Held
         Motion about which it is linearised, base first.
     loads : Loads
         What acts.
@@ -84,7 +85,7 @@ class Walks:
         prepared: Mapping[str, Variable],
         frame: Frame,
         gains: Mapping[sp.Symbol, sp.Expr],
-        motion: Mapping[str, Variable],
+        motion: Mapping[str, Moving],
         loads: Loads,
         stage: StageOf,
     ) -> None:
@@ -151,7 +152,8 @@ class Walks:
         values |= {**self.gains, **self.loads.values}
         for kind in KINDS:
             if kind in self.motion:
-                values[INNER[kind]] = inner(self.motion[kind])  # type: ignore[operator]
+                if not isinstance(self.motion[kind], Held):
+                    values[INNER[kind]] = inner(self.motion[kind])  # type: ignore[operator]
                 values[OUTER[kind]] = outer(self.motion[kind])  # type: ignore[operator]
         if self.frame.followed is None and "q" in self.motion:
             values[SINE], values[COSINE] = sp.sin(values[OUTER["q"]]), sp.cos(values[OUTER["q"]])

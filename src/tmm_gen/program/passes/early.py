@@ -79,6 +79,31 @@ class EarlySets:
         return replace(variable, name=name, role=Role.COEFFICIENT, length=length)
 
 
+def lifted(sections: list[Section]) -> list[Section]:
+    """Return sections in which what is alike at every station, and bound early, is computed once, before loops.
+
+    For routines that keep nothing: where it takes a loop of its own, it stays where it is. Pivots of parameters
+    alone are not asked for again: what they are not shows in the state.
+    """
+    early = _early(sections)
+    taken, left = _divided(sections, early)
+    statements = _lifted([s for group in taken for s in group])
+    if not statements or any(isinstance(s, Loop) for s in statements):
+        return sections
+    targets = {a.target.variable.name: a.target for a in _assigns(statements)}
+    names = {
+        r: targets[r.variable.name]
+        for s in left
+        for x in s.statements
+        for r in _read(x)
+        if r.variable in early
+    }
+    return [
+        Section("what is the same at every station", tuple(statements)),
+        *(_renamed(s, names) for s in left),
+    ]
+
+
 def _early(sections: list[Section]) -> set[Variable]:
     """Return the scratch that depends on what is bound early alone."""
     statements = [s for section in sections for s in section.statements]
