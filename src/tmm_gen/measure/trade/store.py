@@ -51,7 +51,11 @@ class Store:
         self.path = path
         try:
             self._connection = sqlite3.connect(path, timeout=_PATIENCE, isolation_level=None)
-            self._prepare()
+            try:
+                self._prepare()
+            except BaseException:
+                self._connection.close()  # nobody else will: there is no store to leave
+                raise
         except sqlite3.Error as error:
             raise UserError(
                 f"--store {path}: cannot be used: {error}. Name a new file in a folder that can be written."
