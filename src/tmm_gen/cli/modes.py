@@ -74,7 +74,7 @@ class _Beside:
         self.straight = arm.rest is None or not any(abs(angle) > 1e-9 for angle in arm.rest.angles.tolist())
         if self.beam is not None:
             self.exact = natural_frequencies(self.beam, count)
-            self.discretised = straight_frequencies(scene)[:count]
+            self.discretised = straight_frequencies(scene, count=count)
             self.errors = relative_errors(self.discretised, self.exact)
 
     def row(self, number: int) -> dict[str, object]:
@@ -90,7 +90,7 @@ class _Beside:
             "straight_hz": straight / (2.0 * math.pi),
             "exact_hz": exact / (2.0 * math.pi),
             "exact_angular_frequency": exact,
-            "exact_damping_ratio": None if pole is None else -pole.real / abs(pole),
+            "exact_damping_ratio": None if pole is None else (0.0 - pole.real) / abs(pole),
             "error": signed,
             "error_percent": None if signed is None else 100.0 * signed,
         }
@@ -139,7 +139,7 @@ def _show(
         columns += [
             Column("exact_hz", "continuous beam (Hz)", ".6g"),
             Column("exact_damping_ratio", "its damping ratio", ".4g"),
-            Column("error_percent", "error (%)", "+.3f"),
+            Column("error_percent", "error (%)", "+.3g"),
         ]
     if any(row["motion"] != "swings" for row in rows):
         columns.append(Column("motion"))

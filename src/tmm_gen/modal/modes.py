@@ -9,8 +9,12 @@ from numpy.typing import NDArray
 
 from tmm_gen.modal.damped import damped_modes
 from tmm_gen.modal.matrices import Matrices
+from tmm_gen.modal.undamped import undamped_modes
 
 Array = NDArray[np.float64]
+
+_FIRST = 16
+"""Modes looked for first; twice as many each time they are not enough."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,6 +72,24 @@ def find_modes(linear: Matrices, count: int | None = None) -> tuple[Mode, ...]:
         _mode(pair, shape, bound)
         for pair, shape, bound in zip(found.pairs, shapes, found.bounds.tolist(), strict=True)
     )
+
+
+def modes_up_to(linear: Matrices, limit: float) -> tuple[Mode, ...]:
+    """Return the lowest modes, with all that swing no faster than a limit among them.
+
+    Parameters
+    ----------
+    linear : Matrices
+        Of an arm in small motion.
+    limit : float
+        Angular frequency, rad/s.
+    """
+    count = min(_FIRST, linear.parts.size)
+    while True:
+        squares = undamped_modes(linear, count).squares
+        if count == linear.parts.size or squares[-1] > limit**2:
+            return find_modes(linear, count)
+        count = min(2 * count, linear.parts.size)
 
 
 def _mode(poles: tuple[complex, complex], shape: Array, bound: float) -> Mode:
