@@ -18,6 +18,9 @@ if TYPE_CHECKING:
 
 # NumPy, SymPy and Matplotlib are imported inside: `tmm-gen --help` has no use for them.
 
+_UNSURE = 1e-6
+"""Relative error that a frequency's residual may leave open without a word: the table shows six digits."""
+
 
 @click.command("modes")
 @click.argument("scene", metavar="SCENE", type=click.Path(path_type=Path))
@@ -105,6 +108,7 @@ def _row(number: int, mode: Mode) -> dict[str, object]:
         "poles": [{"real": pole.real, "imaginary": pole.imag} for pole in mode.poles],
         "motion": "falls over" if mode.unstable else ("swings" if mode.frequency else "turns freely"),
         "shape": mode.shape,
+        "error_bound": mode.bound,
     }
 
 
@@ -159,6 +163,12 @@ def _show(
     if arm.rest is not None and not beside.straight:
         tip = math.degrees(float(arm.rest.angles[-1]))
         click.echo(f"about the static equilibrium: the last link rests at {tip:.3f} degrees")
+    unsure = [row["mode"] for row in rows if row["error_bound"] > _UNSURE]
+    if unsure:
+        click.echo(
+            f"rounding may spoil more than {_UNSURE:g} of the frequency of mode {', '.join(map(str, unsure))} "
+            "(error_bound in --json says how much)"
+        )
     for path in files:
         click.echo(f"wrote {path}")
     if not files:

@@ -22,13 +22,13 @@ Pair = tuple[complex, complex]
 _PROPORTIONAL = 1e-12
 """Ratios of damper to spring that differ by less are the same; either way the poles agree to this."""
 
-_KNOWN = 1e-12
+_KNOWN = 1e-10
 """Relative error of a pole that is good enough."""
 
 _ROUNDS = 12
 _POLISHED = 4
 _MOST_POLISHED = 150
-"""Size of the projected matrices up to which each pole is polished; of many modes, rounding spoils none that matters."""
+"""Size of the projected matrices up to which each pole is polished."""
 
 _NEAR = 1e-3
 """Relative distance within which polishing may move a pole: further away lies another."""
@@ -40,7 +40,7 @@ class Damped:
 
     Parameters
     ----------
-    pairs : tuple of (complex, complex)
+    pairs : list of (complex, complex)
         1/s; a conjugate pair, or two real poles, the slower one first.
     undamped : Undamped
         The modes they grow out of.
@@ -48,7 +48,7 @@ class Damped:
         Estimated relative error of each pair, from residuals.
     """
 
-    pairs: tuple[Pair, ...]
+    pairs: list[Pair]
     undamped: Undamped
     bounds: Array
 
@@ -66,25 +66,25 @@ def damped_modes(linear: Matrices, count: int | None = None) -> Damped:
     time = damping_time(linear)
     if time is not None:
         modes = undamped_modes(linear, count)
-        pairs = tuple(quadratic(square, time * square) for square in modes.squares.tolist())
+        pairs = [quadratic(square, time * square) for square in modes.squares.tolist()]
         return Damped(pairs, modes, modes.bounds)
     size = linear.parts.size
     wanted = size if count is None else min(count, size)
     basis = undamped_modes(linear, min(size, 2 * wanted + 20))
     lowest = Undamped(basis.squares[:wanted], basis.shapes[:, :wanted], basis.bounds[:wanted])
     springs = springs_of(linear.parts)
-    shapes, best = basis.shapes, np.inf
-    pairs, bounds = _projected(linear, springs, shapes, wanted)[:2]
+    shapes = basis.shapes
+    pairs, bounds, bends = _projected(linear, springs, shapes, wanted)
     for _ in range(_ROUNDS):
-        found, errors, bends = _projected(linear, springs, shapes, wanted)
-        worst = float(np.max(errors, initial=0.0))
-        if worst < best:
-            pairs, bounds = found, errors
-        if worst <= _KNOWN or worst > 0.5 * best or shapes.shape[1] == size:
+        worst = float(np.max(bounds, initial=0.0))
+        if worst <= _KNOWN or shapes.shape[1] == size:
             break
-        best = worst
         shapes = _widened(linear, shapes, bends)
-    return Damped(tuple(pairs), lowest, np.maximum(bounds, lowest.bounds))
+        found, errors, bends = _projected(linear, springs, shapes, wanted)
+        if float(np.max(errors)) > 0.5 * worst:  # rounding is all that is left
+            break
+        pairs, bounds = found, errors
+    return Damped(pairs, lowest, np.maximum(bounds, lowest.bounds))
 
 
 def damping_time(linear: Matrices) -> float | None:
@@ -155,7 +155,7 @@ def _left(linear: Matrices, springs: Springs, shape: Complex, pole: complex) -> 
     both = np.stack([shape.real, shape.imag], axis=1)
     moved, braked = (springs.loads(part) @ [1.0, 1j] for part in _acting(linear, both))
     held = springs.bends(both) @ [1.0, 1j] * springs.signs[:, 0]
-    left: Complex = pole**2 * moved + pole * braked + held
+    left: Complex = np.asarray(pole**2 * moved + pole * braked + held, complex)
     if springs.rigid:
         left[0] = 0.0
     return left

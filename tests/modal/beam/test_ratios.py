@@ -57,8 +57,8 @@ bases = st.one_of(st.just(BeamBase()), st.builds(BeamBase, st.just("hub"), decad
 @st.composite
 def arms(draw: st.DrawFn) -> BeamArm:
     count = draw(st.integers(1, 3))
-    chosen = [tuple(draw(kind) for _ in range(count)) for kind in (members, bodies)]
-    return BeamArm(chosen[0], draw(bases), chosen[1])
+    beams = tuple(draw(members) for _ in range(count))
+    return BeamArm(beams, draw(bases), tuple(draw(bodies) for _ in range(count)))
 
 
 @given(arms())

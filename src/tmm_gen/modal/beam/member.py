@@ -186,7 +186,7 @@ def hanging(member: Member, omega: Array) -> Hanging:
     omega : array, (f,)
         rad/s, positive.
     """
-    s = 1j * omega
+    s = np.asarray(1j * omega, complex)
     inboard, outboard = _dimensionless(member.undamped(), s, np.array([0.0, 1.0]))
     known = np.concatenate([inboard[:, :2], outboard[:, 3:1:-1]], axis=1)
     sought = np.concatenate([-inboard[:, 3:1:-1], outboard[:, :2]], axis=1)
