@@ -65,6 +65,16 @@ def test_a_uniform_chain_of_any_length_has_its_closed_form(links: int) -> None:
     assert all(mode.bound < 1e-9 for mode in modes)
 
 
+@pytest.mark.parametrize("soft", [1e-3, 1e-9, 1e-15])
+def test_a_soft_joint_hides_nothing(soft: float) -> None:
+    """Held by next to nothing, a uniform chain swings as one that is free: w_j = 2 sqrt(k/I) sin(j pi / 2n)."""
+    scene = chain((soft, *(700.0,) * 149), (0.03,) * 150, 0.0)
+    modes = find_modes(matrices(linear_arm(scene)), 4)
+    exact = 2 * np.sqrt(700.0 / 0.03) * np.sin(np.arange(1, 4) * np.pi / 300)
+    np.testing.assert_allclose([mode.frequency for mode in modes[1:]], exact, rtol=soft + 1e-9)
+    assert modes[0].frequency == pytest.approx(np.sqrt(soft / (150 * 0.03)), rel=soft + 1e-9)
+
+
 decades = st.floats(-7, 7).map(lambda power: 10.0**power)
 
 
