@@ -23,6 +23,9 @@ if TYPE_CHECKING:
 
 # NumPy, SymPy and Matplotlib are imported inside: `tmm-gen --help` has no use for them.
 
+_SHOWN = 8
+"""Modes that fit into the band where none is asked for."""
+
 _IN = {"torque": "N m", "force_x": "N", "force_y": "N", "angle": "rad"}
 
 
@@ -157,20 +160,21 @@ def _respond(
 
     from tmm_gen.modal.beam.response import beam_response
     from tmm_gen.modal.matrices import matrices
-    from tmm_gen.modal.modes import find_modes
+    from tmm_gen.modal.modes import find_modes, modes_up_to
     from tmm_gen.modal.response import component_names, frequency_response
     from tmm_gen.modal.situation import resting_arm
 
     arm = resting_arm(scene, inputs)
-    modes = find_modes(matrices(arm))
-    swinging = [mode.hertz for mode in modes if mode.frequency > 0.0]
+    linear = matrices(arm)
+    swinging = [mode.hertz for mode in find_modes(linear, _SHOWN + 1) if mode.frequency > 0.0][:_SHOWN]
     low = limits[0] or (0.1 * swinging[0] if swinging else 0.01)
-    high = limits[1] or (2.0 * swinging[min(7, len(swinging) - 1)] if swinging else 100.0 * low)
+    high = limits[1] or (2.0 * swinging[-1] if swinging else 100.0 * low)
     if low >= high:
         raise click.UsageError(f"the band from {low:g} to {high:g} Hz is empty; give both --low and --high.")
     hertz = np.geomspace(low, high, points)
     number = [item.name for item in scene.inputs].index(given.name)
     names = component_names(arm)[read.name]
+    modes = modes_up_to(linear, 2.0 * np.pi * high)
     inside = [(k, mode) for k, mode in enumerate(modes) if low <= mode.hertz <= high]
     at_modes = np.array([mode.hertz for _, mode in inside])
     with np.errstate(all="ignore"):  # without damping a resonance has no bound

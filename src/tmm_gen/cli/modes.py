@@ -18,6 +18,9 @@ if TYPE_CHECKING:
 
 # NumPy, SymPy and Matplotlib are imported inside: `tmm-gen --help` has no use for them.
 
+_UNSURE = 1e-6
+"""Relative error that a frequency's residual may leave open without a word: the table shows six digits."""
+
 
 @click.command("modes")
 @click.argument("scene", metavar="SCENE", type=click.Path(path_type=Path))
@@ -74,7 +77,7 @@ class _Beside:
         self.straight = arm.rest is None or not any(abs(angle) > 1e-9 for angle in arm.rest.angles.tolist())
         if self.beam is not None:
             self.exact = natural_frequencies(self.beam, count)
-            self.discretised = straight_frequencies(scene)[:count]
+            self.discretised = straight_frequencies(scene, count=count)
             self.errors = relative_errors(self.discretised, self.exact)
 
     def row(self, number: int) -> dict[str, object]:
@@ -90,7 +93,7 @@ class _Beside:
             "straight_hz": straight / (2.0 * math.pi),
             "exact_hz": exact / (2.0 * math.pi),
             "exact_angular_frequency": exact,
-            "exact_damping_ratio": None if pole is None else -pole.real / abs(pole),
+            "exact_damping_ratio": None if pole is None else (0.0 - pole.real) / abs(pole),
             "error": signed,
             "error_percent": None if signed is None else 100.0 * signed,
         }
@@ -105,6 +108,7 @@ def _row(number: int, mode: Mode) -> dict[str, object]:
         "poles": [{"real": pole.real, "imaginary": pole.imag} for pole in mode.poles],
         "motion": "falls over" if mode.unstable else ("swings" if mode.frequency else "turns freely"),
         "shape": mode.shape,
+        "error_bound": mode.bound,
     }
 
 
@@ -139,7 +143,7 @@ def _show(
         columns += [
             Column("exact_hz", "continuous beam (Hz)", ".6g"),
             Column("exact_damping_ratio", "its damping ratio", ".4g"),
-            Column("error_percent", "error (%)", "+.3f"),
+            Column("error_percent", "error (%)", "+.3g"),
         ]
     if any(row["motion"] != "swings" for row in rows):
         columns.append(Column("motion"))
@@ -159,6 +163,12 @@ def _show(
     if arm.rest is not None and not beside.straight:
         tip = math.degrees(float(arm.rest.angles[-1]))
         click.echo(f"about the static equilibrium: the last link rests at {tip:.3f} degrees")
+    unsure = [row["mode"] for row in rows if row["error_bound"] > _UNSURE]
+    if unsure:
+        click.echo(
+            f"rounding may spoil more than {_UNSURE:g} of the frequency of mode {', '.join(map(str, unsure))} "
+            "(error_bound in --json says how much)"
+        )
     for path in files:
         click.echo(f"wrote {path}")
     if not files:
