@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 95c81c6eb7e0b6f1ffc37b1b0540e1023a1118b007e8b573b96cceed3f286490
- * sha256 of the rest of this file: a1c85a8dd8723eb97becb803d172ae0ee4156182bfc5e756c8457c20e20aedd0
+ * sha256 of the rest of this file: f3cfed9a318c7b07471129d8b53ea4620fcf6f23e018523299193de22c6fcc2c
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 10
@@ -20,9 +20,15 @@
  *
  * @file arm10.c
  */
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(_M_FP_FAST) \
+    || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "-Ofast, -ffast-math, -ffinite-math-only, -fassociative-math and /fp:fast remove checks of this file: compile it with -O2 or -O3 (MSVC: /fp:precise), or put -fno-fast-math behind them"
+#endif
+
 #include "arm10.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdint.h>
 
 typedef arm10_real real;
@@ -83,7 +89,7 @@ static circle circle_of(real angle)
 
 static int inputs_are_finite(const arm10_inputs *inputs)
 {
-    if (!isfinite(inputs->hub_torque) || !isfinite(inputs->tip_force)) {
+    if (!isfinite(inputs->tmm_hub_torque) || !isfinite(inputs->tmm_tip_force)) {
         return 0;
     }
     return 1;
@@ -97,6 +103,9 @@ void arm10_default_params(arm10_params *params)
     static const real damping[] = {
         0.128, 0.064, 0.064, 0.064, 0.064, 0.064, 0.064, 0.064, 0.064, 0.064
     };
+    if (params == NULL) {
+        return;
+    }
     params->length = 0.1;
     params->mass = 0.05;
     params->inertia = 4.166666666666668e-05;
@@ -118,6 +127,9 @@ arm10_status arm10_prepare(
     const arm10_params *params,
     arm10_real step)
 {
+    if (model == NULL || params == NULL) {
+        return ARM10_NULL_POINTER;
+    }
     if (!isfinite(step) || !(step > 0.0)) {
         return ARM10_INVALID_STEP;
     }
@@ -162,6 +174,21 @@ arm10_status arm10_prepare(
     model->hub_inertia = params->hub_inertia;
     model->hub_damping = params->hub_damping;
     model->tip_mass = params->tip_mass;
+
+    if (!isfinite(model->step) || !isfinite(model->length) || !isfinite(model->mass)
+        || !isfinite(model->gravity) || !isfinite(model->hub_inertia) || !isfinite(model->hub_damping)
+        || !isfinite(model->tip_mass) || !isfinite(model->step2_1_over_2)
+        || !isfinite(model->angle_per_acceleration) || !isfinite(model->factor_3)
+        || !isfinite(model->rate_per_acceleration) || !isfinite(model->carried_mass)
+        || !isfinite(model->inner_mass) || !isfinite(model->pin_inertia)) {
+        return ARM10_NON_FINITE_MODEL;
+    }
+    for (int j = 0; j < ARM10_STATIONS; ++j) {
+        if (!isfinite(model->stiffness[j]) || !isfinite(model->damping[j])
+            || !isfinite(model->joint_impedance[j])) {
+            return ARM10_NON_FINITE_MODEL;
+        }
+    }
     return ARM10_OK;
 }
 
@@ -172,11 +199,15 @@ arm10_status arm10_initialise(
     const arm10_real initial_rate[ARM10_STATIONS],
     const arm10_inputs *inputs)
 {
+    if (state == NULL || params == NULL || inputs == NULL) {
+        return ARM10_NULL_POINTER;
+    }
     if (!inputs_are_finite(inputs)) {
         return ARM10_NON_FINITE_INPUT;
     }
     for (int j = 0; j < ARM10_STATIONS; ++j) {
-        if (!isfinite(initial_angle[j]) || !isfinite(initial_rate[j])) {
+        if ((initial_angle != NULL && !isfinite(initial_angle[j]))
+            || (initial_rate != NULL && !isfinite(initial_rate[j]))) {
             return ARM10_NON_FINITE_INPUT;
         }
     }
@@ -210,8 +241,8 @@ arm10_status arm10_initialise(
     acceleration_x[0] = node_x;
     acceleration_y[0] = params->gravity;
     for (int j = 0; j < ARM10_STATIONS; ++j) {
-        predicted_angle[j + 1] = initial_angle[j];
-        predicted_rate[j + 1] = initial_rate[j];
+        predicted_angle[j + 1] = (initial_angle != NULL ? initial_angle[j] : 0.0);
+        predicted_rate[j + 1] = (initial_rate != NULL ? initial_rate[j] : 0.0);
         predicted_acceleration[j + 1] = 0.0;
         if (!(predicted_angle[j + 1] >= -ARM10_LARGEST_ANGLE)
             || !(predicted_angle[j + 1] <= ARM10_LARGEST_ANGLE)) {
@@ -239,7 +270,7 @@ arm10_status arm10_initialise(
     real impedance_uy = 0.0;
     real impedance_uu = 0.0;
     real force_x = acceleration_x[10] * params->tip_mass;
-    real force_y = acceleration_y[10] * params->tip_mass - inputs->tip_force;
+    real force_y = acceleration_y[10] * params->tip_mass - inputs->tmm_tip_force;
     real torque = 0.0;
     for (int j = ARM10_STATIONS - 1; j >= 0; --j) {
         swing_x[j] = -lever_sine[j];
@@ -302,7 +333,7 @@ arm10_status arm10_initialise(
     if (!(hub_pivot > 0.00048828125) || !isfinite(hub_pivot)) {
         return ARM10_VANISHING_PIVOT;
     }
-    real unknown = (inputs->hub_torque - torque - params->hub_damping * predicted_rate[0]
+    real unknown = (inputs->tmm_hub_torque - torque - params->hub_damping * predicted_rate[0]
         - params->hub_inertia * predicted_acceleration[0]) / hub_pivot;
     const real hub_unknown = unknown;
 
@@ -339,6 +370,9 @@ arm10_status arm10_step(
     arm10_state *state,
     const arm10_inputs *inputs)
 {
+    if (model == NULL || state == NULL || inputs == NULL) {
+        return ARM10_NULL_POINTER;
+    }
     if (!inputs_are_finite(inputs)) {
         return ARM10_NON_FINITE_INPUT;
     }
@@ -366,6 +400,7 @@ arm10_status arm10_step(
     real predicted_rate[ARM10_STATIONS + 1]; /* rate of base and links as predicted [rad/s] */
     real swing_x[ARM10_STATIONS]; /* change of the outer end's acceleration along x per unknown [m] */
     real swing_y[ARM10_STATIONS]; /* change of the outer end's acceleration along y per unknown [m] */
+    real total = 0.0; /* of the new motion: is all of it finite? */
 
     /* Predicted motion. */
     predicted_angle[0] = state->hub_angle + state->hub_acceleration * step2_1_over_2 + state->hub_rate * step;
@@ -408,7 +443,7 @@ arm10_status arm10_step(
     real impedance_uy = 0.0;
     real impedance_uu = 0.0;
     real force_x = acceleration_x[10] * model->tip_mass;
-    real force_y = acceleration_y[10] * model->tip_mass - inputs->tip_force;
+    real force_y = acceleration_y[10] * model->tip_mass - inputs->tmm_tip_force;
     real torque = 0.0;
     for (int j = ARM10_STATIONS - 1; j >= 0; --j) {
         const real tangential = 1.0
@@ -476,7 +511,7 @@ arm10_status arm10_step(
     if (!(hub_pivot > 0.00048828125) || !isfinite(hub_pivot)) {
         return ARM10_VANISHING_PIVOT;
     }
-    real unknown = (inputs->hub_torque - torque - model->hub_damping * predicted_rate[0]
+    real unknown = (inputs->tmm_hub_torque - torque - model->hub_damping * predicted_rate[0]
         - model->hub_inertia * predicted_acceleration[0]) / hub_pivot;
     const real hub_unknown = unknown;
 
@@ -496,10 +531,10 @@ arm10_status arm10_step(
         state->angle[j] = predicted_angle[j + 1] + angle_per_acceleration * unknown;
         state->rate[j] = predicted_rate[j + 1] + rate_per_acceleration * unknown;
         state->acceleration[j] = predicted_acceleration[j + 1] + unknown;
+        total += state->angle[j] + state->rate[j] + state->acceleration[j];
     }
 
-    /* Anything that is not a number has reached this one. */
-    if (!isfinite(state->acceleration[ARM10_STATIONS - 1])) {
+    if (!isfinite(total + state->hub_angle + state->hub_rate + state->hub_acceleration)) {
         return ARM10_NON_FINITE_STATE;
     }
     return ARM10_OK;
@@ -510,21 +545,24 @@ void arm10_output(
     const arm10_state *state,
     arm10_outputs *outputs)
 {
+    if (model == NULL || state == NULL || outputs == NULL) {
+        return;
+    }
     const real length = model->length;
 
     /* Tip: position. */
-    outputs->tip_x = 0.0;
-    outputs->tip_y = 0.0;
+    outputs->tmm_tip_x = 0.0;
+    outputs->tmm_tip_y = 0.0;
     for (int j = 0; j < ARM10_STATIONS; ++j) {
         const circle turn_1 = circle_of(state->angle[j]);
-        outputs->tip_x = outputs->tip_x + length * turn_1.cosine;
-        outputs->tip_y = outputs->tip_y + length * turn_1.sine;
+        outputs->tmm_tip_x = outputs->tmm_tip_x + length * turn_1.cosine;
+        outputs->tmm_tip_y = outputs->tmm_tip_y + length * turn_1.sine;
     }
 
     /* Hub: angle. */
-    outputs->hub = state->hub_angle;
+    outputs->tmm_hub = state->hub_angle;
 
     /* Root: torque. */
-    outputs->root = model->damping[0] * (state->rate[0] - state->hub_rate)
+    outputs->tmm_root = model->damping[0] * (state->rate[0] - state->hub_rate)
         + model->stiffness[0] * (state->angle[0] - state->hub_angle);
 }

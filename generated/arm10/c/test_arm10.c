@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 95c81c6eb7e0b6f1ffc37b1b0540e1023a1118b007e8b573b96cceed3f286490
- * sha256 of the rest of this file: 2a02f762e45bf993522645b785742db4091bc9c069c31d519420946c430b891c
+ * sha256 of the rest of this file: 15f3e38bb0723dd7438900c1ee0398fd35b9e314acbcd5720ba65d6f5811a698
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 10
@@ -22,9 +22,15 @@
  *
  * @file test_arm10.c
  */
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(_M_FP_FAST) \
+    || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "-Ofast, -ffast-math, -ffinite-math-only, -fassociative-math and /fp:fast remove checks of this file: compile it with -O2 or -O3 (MSVC: /fp:precise), or put -fno-fast-math behind them"
+#endif
+
 #include "arm10.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -44,7 +50,7 @@ static void expect(tally *count, const char *what, real value, real right, real 
     }
 }
 
-static void expect_status(
+static void expect_code(
     tally *count,
     const char *what,
     arm10_status value,
@@ -71,7 +77,7 @@ static void test_motion(tally *count)
     memset(&state, 0, sizeof state); /* padding too: it is compared below */
     arm10_default_params(&params);
     status = arm10_prepare(&model, &params, ARM10_STEP);
-    expect_status(count, "prepare", status, ARM10_OK);
+    expect_code(count, "prepare", status, ARM10_OK);
 
     for (int j = 0; j < ARM10_STATIONS; ++j) {
         initial_angle[j] = (real)((7 * j + 3) % 16 - 8) / 64.0;
@@ -79,43 +85,43 @@ static void test_motion(tally *count)
     for (int j = 0; j < ARM10_STATIONS; ++j) {
         initial_rate[j] = (real)((7 * j + 3) % 16 - 8) / 64.0;
     }
-    inputs.hub_torque = -0.375;
-    inputs.tip_force = 0.0;
+    inputs.tmm_hub_torque = -0.375;
+    inputs.tmm_tip_force = 0.0;
     status = arm10_initialise(&state, &params, initial_angle, initial_rate, &inputs);
-    expect_status(count, "initialise", status, ARM10_OK);
+    expect_code(count, "initialise", status, ARM10_OK);
 
     /* Step 1. */
-    inputs.hub_torque = 0.25;
-    inputs.tip_force = -0.5;
+    inputs.tmm_hub_torque = 0.25;
+    inputs.tmm_tip_force = -0.5;
     status = arm10_step(&model, &state, &inputs);
-    expect_status(count, "step 1", status, ARM10_OK);
+    expect_code(count, "step 1", status, ARM10_OK);
     arm10_output(&model, &state, &outputs);
-    expect(count, "tip_x", outputs.tip_x, 0.9979174518326092, 4e-15);
-    expect(count, "tip_y", outputs.tip_y, -0.010880664560434617, 2.6e-16);
-    expect(count, "hub", outputs.hub, -3.888180620851496e-05, 2.6e-18);
-    expect(count, "root", outputs.root, -2.6421388778271626, 4e-14);
+    expect(count, "tmm_tip_x", outputs.tmm_tip_x, 0.9979174518326092, 4e-15);
+    expect(count, "tmm_tip_y", outputs.tmm_tip_y, -0.010880664560434617, 2.6e-16);
+    expect(count, "tmm_hub", outputs.tmm_hub, -3.888180620851496e-05, 2.6e-18);
+    expect(count, "tmm_root", outputs.tmm_root, -2.6421388778271626, 4e-14);
 
     /* Step 2. */
-    inputs.hub_torque = -0.25;
-    inputs.tip_force = 0.125;
+    inputs.tmm_hub_torque = -0.25;
+    inputs.tmm_tip_force = 0.125;
     status = arm10_step(&model, &state, &inputs);
-    expect_status(count, "step 2", status, ARM10_OK);
+    expect_code(count, "step 2", status, ARM10_OK);
     arm10_output(&model, &state, &outputs);
-    expect(count, "tip_x", outputs.tip_x, 0.9986543302037392, 4e-15);
-    expect(count, "tip_y", outputs.tip_y, -0.010807568816472367, 2.6e-16);
-    expect(count, "hub", outputs.hub, -0.00013800301056501565, 2.6e-18);
-    expect(count, "root", outputs.root, -1.6313619341541177, 4e-14);
+    expect(count, "tmm_tip_x", outputs.tmm_tip_x, 0.9986543302037392, 4e-15);
+    expect(count, "tmm_tip_y", outputs.tmm_tip_y, -0.010807568816472367, 2.6e-16);
+    expect(count, "tmm_hub", outputs.tmm_hub, -0.00013800301056501565, 2.6e-18);
+    expect(count, "tmm_root", outputs.tmm_root, -1.6313619341541177, 4e-14);
 
     /* Step 3. */
-    inputs.hub_torque = 0.375;
-    inputs.tip_force = -0.375;
+    inputs.tmm_hub_torque = 0.375;
+    inputs.tmm_tip_force = -0.375;
     status = arm10_step(&model, &state, &inputs);
-    expect_status(count, "step 3", status, ARM10_OK);
+    expect_code(count, "step 3", status, ARM10_OK);
     arm10_output(&model, &state, &outputs);
-    expect(count, "tip_x", outputs.tip_x, 0.9990198473307055, 4e-15);
-    expect(count, "tip_y", outputs.tip_y, -0.010747626233688329, 2.6e-16);
-    expect(count, "hub", outputs.hub, -0.0002741687549532674, 2.6e-18);
-    expect(count, "root", outputs.root, -1.6337509991897192, 4e-14);
+    expect(count, "tmm_tip_x", outputs.tmm_tip_x, 0.9990198473307055, 4e-15);
+    expect(count, "tmm_tip_y", outputs.tmm_tip_y, -0.010747626233688329, 2.6e-16);
+    expect(count, "tmm_hub", outputs.tmm_hub, -0.0002741687549532674, 2.6e-18);
+    expect(count, "tmm_root", outputs.tmm_root, -1.6337509991897192, 4e-14);
 
     /* State after the last step. */
     expect(count, "hub_angle", state.hub_angle, -0.0002741687549532674, 2.6e-18);
@@ -157,16 +163,16 @@ static void test_motion(tally *count)
     memcpy(&before, &state, sizeof before);
     const real bad[] = {(real)NAN, (real)INFINITY, -(real)INFINITY};
     for (int k = 0; k < 3; ++k) {
-        const real hub_torque = inputs.hub_torque;
-        inputs.hub_torque = bad[k];
+        const real tmm_hub_torque = inputs.tmm_hub_torque;
+        inputs.tmm_hub_torque = bad[k];
         status = arm10_step(&model, &state, &inputs);
-        expect_status(count, "bad hub_torque", status, ARM10_NON_FINITE_INPUT);
-        inputs.hub_torque = hub_torque;
-        const real tip_force = inputs.tip_force;
-        inputs.tip_force = bad[k];
+        expect_code(count, "bad hub_torque", status, ARM10_NON_FINITE_INPUT);
+        inputs.tmm_hub_torque = tmm_hub_torque;
+        const real tmm_tip_force = inputs.tmm_tip_force;
+        inputs.tmm_tip_force = bad[k];
         status = arm10_step(&model, &state, &inputs);
-        expect_status(count, "bad tip_force", status, ARM10_NON_FINITE_INPUT);
-        inputs.tip_force = tip_force;
+        expect_code(count, "bad tip_force", status, ARM10_NON_FINITE_INPUT);
+        inputs.tmm_tip_force = tmm_tip_force;
     }
     ++count->checks;
     if (memcmp(&before, &state, sizeof state) != 0) {
@@ -183,59 +189,92 @@ static void test_refusals(tally *count)
 
     arm10_default_params(&params);
     status = arm10_prepare(&model, &params, 0.0);
-    expect_status(count, "no step", status, ARM10_INVALID_STEP);
+    expect_code(count, "no step", status, ARM10_INVALID_STEP);
     status = arm10_prepare(&model, &params, (real)NAN);
-    expect_status(count, "bad step", status, ARM10_INVALID_STEP);
+    expect_code(count, "bad step", status, ARM10_INVALID_STEP);
 
     arm10_default_params(&params);
     params.length = (real)NAN;
     status = arm10_prepare(&model, &params, ARM10_STEP);
-    expect_status(count, "bad length", status, ARM10_NON_FINITE_INPUT);
+    expect_code(count, "bad length", status, ARM10_NON_FINITE_INPUT);
 
     arm10_default_params(&params);
     params.mass = (real)NAN;
     status = arm10_prepare(&model, &params, ARM10_STEP);
-    expect_status(count, "bad mass", status, ARM10_NON_FINITE_INPUT);
+    expect_code(count, "bad mass", status, ARM10_NON_FINITE_INPUT);
 
     arm10_default_params(&params);
     params.inertia = (real)NAN;
     status = arm10_prepare(&model, &params, ARM10_STEP);
-    expect_status(count, "bad inertia", status, ARM10_NON_FINITE_INPUT);
+    expect_code(count, "bad inertia", status, ARM10_NON_FINITE_INPUT);
 
     arm10_default_params(&params);
     params.center = (real)NAN;
     status = arm10_prepare(&model, &params, ARM10_STEP);
-    expect_status(count, "bad center", status, ARM10_NON_FINITE_INPUT);
+    expect_code(count, "bad center", status, ARM10_NON_FINITE_INPUT);
 
     arm10_default_params(&params);
     params.stiffness[ARM10_STATIONS - 1] = (real)NAN;
     status = arm10_prepare(&model, &params, ARM10_STEP);
-    expect_status(count, "bad stiffness", status, ARM10_NON_FINITE_INPUT);
+    expect_code(count, "bad stiffness", status, ARM10_NON_FINITE_INPUT);
 
     arm10_default_params(&params);
     params.damping[ARM10_STATIONS - 1] = (real)NAN;
     status = arm10_prepare(&model, &params, ARM10_STEP);
-    expect_status(count, "bad damping", status, ARM10_NON_FINITE_INPUT);
+    expect_code(count, "bad damping", status, ARM10_NON_FINITE_INPUT);
 
     arm10_default_params(&params);
     params.gravity = (real)NAN;
     status = arm10_prepare(&model, &params, ARM10_STEP);
-    expect_status(count, "bad gravity", status, ARM10_NON_FINITE_INPUT);
+    expect_code(count, "bad gravity", status, ARM10_NON_FINITE_INPUT);
 
     arm10_default_params(&params);
     params.hub_inertia = (real)NAN;
     status = arm10_prepare(&model, &params, ARM10_STEP);
-    expect_status(count, "bad hub_inertia", status, ARM10_NON_FINITE_INPUT);
+    expect_code(count, "bad hub_inertia", status, ARM10_NON_FINITE_INPUT);
 
     arm10_default_params(&params);
     params.hub_damping = (real)NAN;
     status = arm10_prepare(&model, &params, ARM10_STEP);
-    expect_status(count, "bad hub_damping", status, ARM10_NON_FINITE_INPUT);
+    expect_code(count, "bad hub_damping", status, ARM10_NON_FINITE_INPUT);
 
     arm10_default_params(&params);
     params.tip_mass = (real)NAN;
     status = arm10_prepare(&model, &params, ARM10_STEP);
-    expect_status(count, "bad tip_mass", status, ARM10_NON_FINITE_INPUT);
+    expect_code(count, "bad tip_mass", status, ARM10_NON_FINITE_INPUT);
+}
+
+/* Arrays that are absent are the scene's own; any other pointer that is absent is refused. */
+static void test_absent(tally *count)
+{
+    arm10_params params;
+    arm10_model model;
+    arm10_state state;
+    arm10_inputs inputs;
+    arm10_status status;
+
+    memset(&inputs, 0, sizeof inputs);
+    arm10_default_params(&params);
+    arm10_default_params(NULL);
+    status = arm10_prepare(NULL, &params, ARM10_STEP);
+    expect_code(count, "no model", status, ARM10_NULL_POINTER);
+    status = arm10_prepare(&model, NULL, ARM10_STEP);
+    expect_code(count, "no parameters", status, ARM10_NULL_POINTER);
+    status = arm10_prepare(&model, &params, ARM10_STEP);
+    expect_code(count, "prepare", status, ARM10_OK);
+    status = arm10_initialise(NULL, &params, NULL, NULL, &inputs);
+    expect_code(count, "no state", status, ARM10_NULL_POINTER);
+    status = arm10_initialise(&state, &params, NULL, NULL, &inputs);
+    expect_code(count, "the scene's start", status, ARM10_OK);
+    status = arm10_step(&model, NULL, &inputs);
+    expect_code(count, "no state", status, ARM10_NULL_POINTER);
+    status = arm10_step(NULL, &state, &inputs);
+    expect_code(count, "no model", status, ARM10_NULL_POINTER);
+    status = arm10_initialise(&state, &params, NULL, NULL, NULL);
+    expect_code(count, "no inputs", status, ARM10_NULL_POINTER);
+    status = arm10_step(&model, &state, NULL);
+    expect_code(count, "no inputs", status, ARM10_NULL_POINTER);
+    arm10_output(&model, &state, NULL);
 }
 
 int main(void)
@@ -243,6 +282,7 @@ int main(void)
     tally count = {0, 0};
 
     test_motion(&count);
+    test_absent(&count);
     test_refusals(&count);
     if (count.failures > 0) {
         printf("%d of %d checks failed\n", count.failures, count.checks);

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 260c88ca5ffe6b93ea5946fad67187e547942573db1dc2f710bcd9a0610b8738
- * sha256 of the rest of this file: c01fc0ead76b77f3b7fbd0e9c240857b98487621ff0fe7abc69f52e6ff599be9
+ * sha256 of the rest of this file: beca1c860092294ff9f33b53549d62d2665f497292900113aca1823756a2f26c
  *
  * model: torsional chain (linear)
  * stations: 6
@@ -18,15 +18,21 @@
  *
  * @file drivetrain.c
  */
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(_M_FP_FAST) \
+    || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "-Ofast, -ffast-math, -ffinite-math-only, -fassociative-math and /fp:fast remove checks of this file: compile it with -O2 or -O3 (MSVC: /fp:precise), or put -fno-fast-math behind them"
+#endif
+
 #include "drivetrain.h"
 
 #include <math.h>
+#include <stddef.h>
 
 typedef drivetrain_real real;
 
 static int inputs_are_finite(const drivetrain_inputs *inputs)
 {
-    if (!isfinite(inputs->motor_torque) || !isfinite(inputs->load_torque)) {
+    if (!isfinite(inputs->tmm_motor_torque) || !isfinite(inputs->tmm_load_torque)) {
         return 0;
     }
     return 1;
@@ -43,6 +49,9 @@ void drivetrain_default_params(drivetrain_params *params)
     static const real inertia[] = {
         0.0004, 0.0011, 0.0028, 0.019, 0.0024, 2e-05
     };
+    if (params == NULL) {
+        return;
+    }
     for (int j = 0; j < DRIVETRAIN_STATIONS; ++j) {
         params->stiffness[j] = stiffness[j];
     }
@@ -61,6 +70,9 @@ drivetrain_status drivetrain_prepare(
     const drivetrain_params *params,
     drivetrain_real step)
 {
+    if (model == NULL || params == NULL) {
+        return DRIVETRAIN_NULL_POINTER;
+    }
     if (!isfinite(step) || !(step > 0.0)) {
         return DRIVETRAIN_INVALID_STEP;
     }
@@ -113,6 +125,19 @@ drivetrain_status drivetrain_prepare(
     for (int j = 0; j < DRIVETRAIN_STATIONS; ++j) {
         model->damping[j] = params->damping[j];
     }
+
+    if (!isfinite(model->step) || !isfinite(model->step_5_over_108) || !isfinite(model->step2_5_over_243)
+        || !isfinite(model->step_5_over_9) || !isfinite(model->factor_4) || !isfinite(model->step2_1_over_27)
+        || !isfinite(model->step2_25_over_54) || !isfinite(model->step_1_over_12)
+        || !isfinite(model->step_11_over_12) || !isfinite(model->hub_admittance)) {
+        return DRIVETRAIN_NON_FINITE_MODEL;
+    }
+    for (int j = 0; j < DRIVETRAIN_STATIONS; ++j) {
+        if (!isfinite(model->stiffness[j]) || !isfinite(model->damping[j]) || !isfinite(model->admittance[j])
+            || !isfinite(model->transmission[j]) || !isfinite(model->reflection[j])) {
+            return DRIVETRAIN_NON_FINITE_MODEL;
+        }
+    }
     return DRIVETRAIN_OK;
 }
 
@@ -123,11 +148,15 @@ drivetrain_status drivetrain_initialise(
     const drivetrain_real initial_rate[DRIVETRAIN_STATIONS],
     const drivetrain_inputs *inputs)
 {
+    if (state == NULL || params == NULL || inputs == NULL) {
+        return DRIVETRAIN_NULL_POINTER;
+    }
     if (!inputs_are_finite(inputs)) {
         return DRIVETRAIN_NON_FINITE_INPUT;
     }
     for (int j = 0; j < DRIVETRAIN_STATIONS; ++j) {
-        if (!isfinite(initial_angle[j]) || !isfinite(initial_rate[j])) {
+        if ((initial_angle != NULL && !isfinite(initial_angle[j]))
+            || (initial_rate != NULL && !isfinite(initial_rate[j]))) {
             return DRIVETRAIN_NON_FINITE_INPUT;
         }
     }
@@ -144,11 +173,11 @@ drivetrain_status drivetrain_initialise(
     known_rate[0] = 0.0;
     known_angle[0] = 0.0;
     for (int j = 0; j < DRIVETRAIN_STATIONS; ++j) {
-        known_rate[j + 1] = initial_rate[j];
-        known_angle[j + 1] = initial_angle[j];
+        known_rate[j + 1] = (initial_rate != NULL ? initial_rate[j] : 0.0);
+        known_angle[j + 1] = (initial_angle != NULL ? initial_angle[j] : 0.0);
         load[j] = 0.0;
     }
-    load[3] = inputs->load_torque;
+    load[3] = inputs->tmm_load_torque;
     real bias = 0.0;
 
     /* Torque of each joint at the known motion; sweep inward: torque beyond each joint as if its inner side
@@ -162,7 +191,7 @@ drivetrain_status drivetrain_initialise(
     }
 
     /* The base. */
-    const real unknown = (bias + inputs->motor_torque - params->hub_damping * known_rate[0])
+    const real unknown = (bias + inputs->tmm_motor_torque - params->hub_damping * known_rate[0])
         / params->hub_inertia;
     const real hub_unknown = unknown;
 
@@ -192,6 +221,9 @@ drivetrain_status drivetrain_step(
     drivetrain_state *state,
     const drivetrain_inputs *inputs)
 {
+    if (model == NULL || state == NULL || inputs == NULL) {
+        return DRIVETRAIN_NULL_POINTER;
+    }
     if (!inputs_are_finite(inputs)) {
         return DRIVETRAIN_NON_FINITE_INPUT;
     }
@@ -210,6 +242,7 @@ drivetrain_status drivetrain_step(
     /* rate of each node without the unknown's share, base first [rad/s] */
     real known_rate[DRIVETRAIN_STATIONS + 1];
     real load[DRIVETRAIN_STATIONS]; /* external torque on each link but the last [N m] */
+    real total = 0.0; /* of the new motion: is all of it finite? */
 
     /* Motion known before the sweep; sweep inward: torque beyond each joint as if its inner side did not
      * move. */
@@ -222,7 +255,7 @@ drivetrain_status drivetrain_step(
             + state->rate[j] * step_5_over_9;
         load[j] = 0.0;
     }
-    load[3] = inputs->load_torque;
+    load[3] = inputs->tmm_load_torque;
     real bias = 0.0;
 
     /* Torque of each joint at the known motion; sweep inward: torque beyond each joint as if its inner side
@@ -236,7 +269,8 @@ drivetrain_status drivetrain_step(
     }
 
     /* The base. */
-    real unknown = model->hub_admittance * (bias + inputs->motor_torque) - model->factor_4 * known_rate[0];
+    real unknown = model->hub_admittance * (bias + inputs->tmm_motor_torque)
+        - model->factor_4 * known_rate[0];
     const real hub_unknown = unknown;
 
     /* Sweep outward: the unknown of each station; motion at the end of the step. */
@@ -252,10 +286,10 @@ drivetrain_status drivetrain_step(
             + solved * step2_25_over_54;
         state->rate[j] = state->rate[j] + state->acceleration[j] * step_1_over_12 + solved * step_11_over_12;
         state->acceleration[j] = 1.5 * unknown - 0.5 * state->acceleration[j];
+        total += state->angle[j] + state->rate[j] + state->acceleration[j];
     }
 
-    /* Anything that is not a number has reached this one. */
-    if (!isfinite(state->acceleration[DRIVETRAIN_STATIONS - 1])) {
+    if (!isfinite(total + state->hub_angle + state->hub_rate + state->hub_acceleration)) {
         return DRIVETRAIN_NON_FINITE_STATE;
     }
     return DRIVETRAIN_OK;
@@ -266,10 +300,13 @@ void drivetrain_output(
     const drivetrain_state *state,
     drivetrain_outputs *outputs)
 {
+    if (model == NULL || state == NULL || outputs == NULL) {
+        return;
+    }
     /* Outputs. */
-    outputs->motor_speed = state->hub_rate;
-    outputs->roller_speed = state->rate[3];
-    outputs->shaft_torque = model->damping[3] * (state->rate[3] - state->rate[2])
+    outputs->tmm_motor_speed = state->hub_rate;
+    outputs->tmm_roller_speed = state->rate[3];
+    outputs->tmm_shaft_torque = model->damping[3] * (state->rate[3] - state->rate[2])
         + model->stiffness[3] * (state->angle[3] - state->angle[2]);
-    outputs->encoder = state->angle[5];
+    outputs->tmm_encoder = state->angle[5];
 }
