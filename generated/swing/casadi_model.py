@@ -1,8 +1,8 @@
 # swing: Flexible arm swung by one radian
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 1d772428e2d772ebb733ea95a16abbe042281079aa7667facf050e2b156d94bf
-# sha256 of the rest of this file: 1d9d632bfda2c88c93fc1a885b627084a29821b52acf8b0bb4863481f7dbebb8
+# scene digest: c9c08efbdc9f2f1b1ddadadab522649e5100f98e9cdabe31fcf56b416283c60f
+# sha256 of the rest of this file: 2589568f5305150e613280cb27f433ed4fbe1cfaf8f34b9adc491c341e019835
 #
 # model: planar arm, large rotations, tip mass
 # stations: 5
@@ -67,8 +67,8 @@ def default_parameters() -> ca.DM:
     values = (
         0.005,
         0.2,
-        0.08000000000000002,
-        0.00026666666666666673,
+        0.08,
+        0.0002666666666666667,
         0.5,
         120.0,
         60.0,

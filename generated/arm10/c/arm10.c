@@ -2,8 +2,8 @@
  * arm10: Ten-link arm swung by a hub motor
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 95c81c6eb7e0b6f1ffc37b1b0540e1023a1118b007e8b573b96cceed3f286490
- * sha256 of the rest of this file: f3cfed9a318c7b07471129d8b53ea4620fcf6f23e018523299193de22c6fcc2c
+ * scene digest: d9d28dc691ae4f0a1d62cb9cfa9f4612d111fa76a756dd286c77eac7f930ab35
+ * sha256 of the rest of this file: f203ecde0bbd5e38953eba9a6cdd73e05bd8eac82a5c0feba07b3e911f2465cf
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 10
@@ -27,6 +27,7 @@
 
 #include "arm10.h"
 
+#include <float.h>
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -108,7 +109,7 @@ void arm10_default_params(arm10_params *params)
     }
     params->length = 0.1;
     params->mass = 0.05;
-    params->inertia = 4.166666666666668e-05;
+    params->inertia = 4.1666666666666665e-05;
     params->center = 0.5;
     for (int j = 0; j < ARM10_STATIONS; ++j) {
         params->stiffness[j] = stiffness[j];
@@ -175,19 +176,14 @@ arm10_status arm10_prepare(
     model->hub_damping = params->hub_damping;
     model->tip_mass = params->tip_mass;
 
-    if (!isfinite(model->step) || !isfinite(model->length) || !isfinite(model->mass)
-        || !isfinite(model->gravity) || !isfinite(model->hub_inertia) || !isfinite(model->hub_damping)
-        || !isfinite(model->tip_mass) || !isfinite(model->step2_1_over_2)
-        || !isfinite(model->angle_per_acceleration) || !isfinite(model->factor_3)
-        || !isfinite(model->rate_per_acceleration) || !isfinite(model->carried_mass)
-        || !isfinite(model->inner_mass) || !isfinite(model->pin_inertia)) {
-        return ARM10_NON_FINITE_MODEL;
-    }
+    real total = 0.0; /* of the model: is all of it finite? */
     for (int j = 0; j < ARM10_STATIONS; ++j) {
-        if (!isfinite(model->stiffness[j]) || !isfinite(model->damping[j])
-            || !isfinite(model->joint_impedance[j])) {
-            return ARM10_NON_FINITE_MODEL;
-        }
+        total += model->joint_impedance[j];
+    }
+    if (!isfinite(model->step2_1_over_2 + model->angle_per_acceleration + model->factor_3
+        + model->rate_per_acceleration + model->carried_mass + model->inner_mass + model->pin_inertia
+        + total)) {
+        return ARM10_NON_FINITE_MODEL;
     }
     return ARM10_OK;
 }
@@ -229,6 +225,7 @@ arm10_status arm10_initialise(
     real predicted_rate[ARM10_STATIONS + 1]; /* rate of base and links as predicted [rad/s] */
     real swing_x[ARM10_STATIONS]; /* change of the outer end's acceleration along x per unknown [m] */
     real swing_y[ARM10_STATIONS]; /* change of the outer end's acceleration along y per unknown [m] */
+    real total = 0.0; /* of the new motion: is all of it finite? */
 
     /* Predicted motion. */
     predicted_angle[0] = 0.0;
@@ -244,8 +241,7 @@ arm10_status arm10_initialise(
         predicted_angle[j + 1] = (initial_angle != NULL ? initial_angle[j] : 0.0);
         predicted_rate[j + 1] = (initial_rate != NULL ? initial_rate[j] : 0.0);
         predicted_acceleration[j + 1] = 0.0;
-        if (!(predicted_angle[j + 1] >= -ARM10_LARGEST_ANGLE)
-            || !(predicted_angle[j + 1] <= ARM10_LARGEST_ANGLE)) {
+        if (!(fabs(predicted_angle[j + 1]) <= ARM10_LARGEST_ANGLE)) {
             return ARM10_OUT_OF_RANGE;
         }
         const circle turn_1 = circle_of(predicted_angle[j + 1]);
@@ -298,7 +294,7 @@ arm10_status arm10_initialise(
             + acceleration_x[j + 1] * center * mass;
         force_y = force_y + acceleration_y[j] * (mass - center * mass)
             + acceleration_y[j + 1] * center * mass;
-        if (!(link_uu > 3.814697265625e-06) || !isfinite(link_uu)) {
+        if (!(link_uu > 3.814697265625e-06) || !(link_uu <= DBL_MAX)) {
             return ARM10_VANISHING_PIVOT;
         }
         const real inverse_pivot = 1.0 / link_uu;
@@ -330,7 +326,7 @@ arm10_status arm10_initialise(
 
     /* The hub. */
     const real hub_pivot = params->hub_inertia + impedance_uu;
-    if (!(hub_pivot > 0.00048828125) || !isfinite(hub_pivot)) {
+    if (!(hub_pivot > 0.00048828125) || !(hub_pivot <= DBL_MAX)) {
         return ARM10_VANISHING_PIVOT;
     }
     real unknown = (inputs->tmm_hub_torque - torque - params->hub_damping * predicted_rate[0]
@@ -352,15 +348,11 @@ arm10_status arm10_initialise(
         state->angle[j] = predicted_angle[j + 1];
         state->rate[j] = predicted_rate[j + 1];
         state->acceleration[j] = predicted_acceleration[j + 1] + unknown;
+        total += state->angle[j] + state->rate[j] + state->acceleration[j];
     }
 
-    if (!isfinite(state->hub_angle) || !isfinite(state->hub_rate) || !isfinite(state->hub_acceleration)) {
+    if (!isfinite(total + state->hub_angle + state->hub_rate + state->hub_acceleration)) {
         return ARM10_NON_FINITE_STATE;
-    }
-    for (int j = 0; j < ARM10_STATIONS; ++j) {
-        if (!isfinite(state->angle[j]) || !isfinite(state->rate[j]) || !isfinite(state->acceleration[j])) {
-            return ARM10_NON_FINITE_STATE;
-        }
     }
     return ARM10_OK;
 }
@@ -417,8 +409,7 @@ arm10_status arm10_step(
             + state->rate[j] * step;
         predicted_rate[j + 1] = state->rate[j] + state->acceleration[j] * step;
         predicted_acceleration[j + 1] = state->acceleration[j];
-        if (!(predicted_angle[j + 1] >= -ARM10_LARGEST_ANGLE)
-            || !(predicted_angle[j + 1] <= ARM10_LARGEST_ANGLE)) {
+        if (!(fabs(predicted_angle[j + 1]) <= ARM10_LARGEST_ANGLE)) {
             return ARM10_OUT_OF_RANGE;
         }
         const circle turn_1 = circle_of(predicted_angle[j + 1]);
@@ -475,7 +466,7 @@ arm10_status arm10_step(
         force_x = force_x + acceleration_x[j + 1] * carried_mass + acceleration_x[j] * inner_mass;
         force_y = force_y + acceleration_y[j + 1] * carried_mass + acceleration_y[j] * inner_mass;
         const real pivot = model->joint_impedance[j] + link_uu;
-        if (!(pivot > 3.814697265625e-06) || !isfinite(pivot)) {
+        if (!(pivot > 3.814697265625e-06) || !(pivot <= DBL_MAX)) {
             return ARM10_VANISHING_PIVOT;
         }
         const real inverse_pivot = 1.0 / pivot;
@@ -508,7 +499,7 @@ arm10_status arm10_step(
 
     /* The hub. */
     const real hub_pivot = model->factor_3 + impedance_uu;
-    if (!(hub_pivot > 0.00048828125) || !isfinite(hub_pivot)) {
+    if (!(hub_pivot > 0.00048828125) || !(hub_pivot <= DBL_MAX)) {
         return ARM10_VANISHING_PIVOT;
     }
     real unknown = (inputs->tmm_hub_torque - torque - model->hub_damping * predicted_rate[0]

@@ -2,8 +2,8 @@
  * arm10: Ten-link arm swung by a hub motor
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 95c81c6eb7e0b6f1ffc37b1b0540e1023a1118b007e8b573b96cceed3f286490
- * sha256 of the rest of this file: f4f8d6ebab9524e1e31ec06ba091b7334f1091658a434705c97e17ca41fa21a4
+ * scene digest: d9d28dc691ae4f0a1d62cb9cfa9f4612d111fa76a756dd286c77eac7f930ab35
+ * sha256 of the rest of this file: f106364d1bdddefd7c91159c46cdd21ac6a27a60ea050d0a57bfcadd96a9447c
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 10

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 260c88ca5ffe6b93ea5946fad67187e547942573db1dc2f710bcd9a0610b8738
- * sha256 of the rest of this file: beca1c860092294ff9f33b53549d62d2665f497292900113aca1823756a2f26c
+ * sha256 of the rest of this file: 91a10814caa6166af973298fee8eb86c3b20e23992a7781add278fad8a13445f
  *
  * model: torsional chain (linear)
  * stations: 6
@@ -25,6 +25,7 @@
 
 #include "drivetrain.h"
 
+#include <float.h>
 #include <math.h>
 #include <stddef.h>
 
@@ -93,7 +94,7 @@ drivetrain_status drivetrain_prepare(
             + (125.0 / 486.0) * (step * step) * params->stiffness[j];
         impedance = impedance - params->inertia[j];
         const real pivot = joint_impedance - impedance;
-        if (!(pivot > 0.0) || !isfinite(pivot)) {
+        if (!(pivot > 0.0) || !(pivot <= DBL_MAX)) {
             return DRIVETRAIN_VANISHING_PIVOT;
         }
         model->admittance[j] = 1.0 / pivot;
@@ -102,7 +103,7 @@ drivetrain_status drivetrain_prepare(
         impedance = impedance * model->transmission[j];
     }
     const real hub_pivot = params->hub_inertia - impedance + (55.0 / 108.0) * params->hub_damping * step;
-    if (!(hub_pivot > 0.0) || !isfinite(hub_pivot)) {
+    if (!(hub_pivot > 0.0) || !(hub_pivot <= DBL_MAX)) {
         return DRIVETRAIN_VANISHING_PIVOT;
     }
     model->hub_admittance = 1.0 / hub_pivot;
@@ -126,17 +127,14 @@ drivetrain_status drivetrain_prepare(
         model->damping[j] = params->damping[j];
     }
 
-    if (!isfinite(model->step) || !isfinite(model->step_5_over_108) || !isfinite(model->step2_5_over_243)
-        || !isfinite(model->step_5_over_9) || !isfinite(model->factor_4) || !isfinite(model->step2_1_over_27)
-        || !isfinite(model->step2_25_over_54) || !isfinite(model->step_1_over_12)
-        || !isfinite(model->step_11_over_12) || !isfinite(model->hub_admittance)) {
-        return DRIVETRAIN_NON_FINITE_MODEL;
-    }
+    real total = 0.0; /* of the model: is all of it finite? */
     for (int j = 0; j < DRIVETRAIN_STATIONS; ++j) {
-        if (!isfinite(model->stiffness[j]) || !isfinite(model->damping[j]) || !isfinite(model->admittance[j])
-            || !isfinite(model->transmission[j]) || !isfinite(model->reflection[j])) {
-            return DRIVETRAIN_NON_FINITE_MODEL;
-        }
+        total += model->admittance[j] + model->transmission[j] + model->reflection[j];
+    }
+    if (!isfinite(model->step_5_over_108 + model->step2_5_over_243 + model->step_5_over_9 + model->factor_4
+        + model->step2_1_over_27 + model->step2_25_over_54 + model->step_1_over_12 + model->step_11_over_12
+        + model->hub_admittance + total)) {
+        return DRIVETRAIN_NON_FINITE_MODEL;
     }
     return DRIVETRAIN_OK;
 }
@@ -167,6 +165,7 @@ drivetrain_status drivetrain_initialise(
     /* rate of each node without the unknown's share, base first [rad/s] */
     real known_rate[DRIVETRAIN_STATIONS + 1];
     real load[DRIVETRAIN_STATIONS]; /* external torque on each link but the last [N m] */
+    real total = 0.0; /* of the new motion: is all of it finite? */
 
     /* Motion known before the sweep; sweep inward: torque beyond each joint as if its inner side did not
      * move. */
@@ -203,15 +202,11 @@ drivetrain_status drivetrain_initialise(
         state->angle[j] = known_angle[j + 1];
         state->rate[j] = known_rate[j + 1];
         state->acceleration[j] = correction[j];
+        total += state->angle[j] + state->rate[j] + state->acceleration[j];
     }
 
-    if (!isfinite(state->hub_angle) || !isfinite(state->hub_rate) || !isfinite(state->hub_acceleration)) {
+    if (!isfinite(total + state->hub_angle + state->hub_rate + state->hub_acceleration)) {
         return DRIVETRAIN_NON_FINITE_STATE;
-    }
-    for (int j = 0; j < DRIVETRAIN_STATIONS; ++j) {
-        if (!isfinite(state->angle[j]) || !isfinite(state->rate[j]) || !isfinite(state->acceleration[j])) {
-            return DRIVETRAIN_NON_FINITE_STATE;
-        }
     }
     return DRIVETRAIN_OK;
 }

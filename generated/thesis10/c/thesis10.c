@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: ee57f7952242f19cc6be0f26d3460a304cc65a1747711d25b990a158587c6f1f
- * sha256 of the rest of this file: 07f5e95778a9fae1bff7fc2c78e54529d547179fdb084b17f1fb632bbc181077
+ * sha256 of the rest of this file: f508bd3832f53b8c46b4d27d750f91bb3ef1d5c118ba05430e7bc8b5212e7b74
  *
  * model: torsional chain (linear)
  * stations: 10
@@ -25,6 +25,7 @@
 
 #include "thesis10.h"
 
+#include <float.h>
 #include <math.h>
 #include <stddef.h>
 
@@ -71,7 +72,7 @@ thesis10_status thesis10_prepare(
     for (int j = THESIS10_STATIONS - 1; j >= 0; --j) {
         impedance = impedance - inertia;
         const real pivot = joint_impedance - impedance;
-        if (!(pivot > 0.0) || !isfinite(pivot)) {
+        if (!(pivot > 0.0) || !(pivot <= DBL_MAX)) {
             return THESIS10_VANISHING_PIVOT;
         }
         model->admittance[j] = 1.0 / pivot;
@@ -89,15 +90,12 @@ thesis10_status thesis10_prepare(
     model->stiffness = params->stiffness;
     model->damping = params->damping;
 
-    if (!isfinite(model->step) || !isfinite(model->stiffness) || !isfinite(model->damping)
-        || !isfinite(model->rate_per_acceleration) || !isfinite(model->angle_per_acceleration)) {
-        return THESIS10_NON_FINITE_MODEL;
-    }
+    real total = 0.0; /* of the model: is all of it finite? */
     for (int j = 0; j < THESIS10_STATIONS; ++j) {
-        if (!isfinite(model->admittance[j]) || !isfinite(model->transmission[j])
-            || !isfinite(model->reflection[j])) {
-            return THESIS10_NON_FINITE_MODEL;
-        }
+        total += model->admittance[j] + model->transmission[j] + model->reflection[j];
+    }
+    if (!isfinite(model->rate_per_acceleration + model->angle_per_acceleration + total)) {
+        return THESIS10_NON_FINITE_MODEL;
     }
     return THESIS10_OK;
 }
@@ -129,6 +127,7 @@ thesis10_status thesis10_initialise(
     real known_angle[THESIS10_STATIONS + 1];
     /* rate of each node without the unknown's share, base first [rad/s] */
     real known_rate[THESIS10_STATIONS + 1];
+    real total = 0.0; /* of the new motion: is all of it finite? */
 
     /* Motion known before the sweep. */
     known_rate[0] = 0.0;
@@ -151,12 +150,11 @@ thesis10_status thesis10_initialise(
         state->angle[j] = known_angle[j + 1];
         state->rate[j] = known_rate[j + 1];
         state->acceleration[j] = correction;
+        total += state->angle[j] + state->rate[j] + state->acceleration[j];
     }
 
-    for (int j = 0; j < THESIS10_STATIONS; ++j) {
-        if (!isfinite(state->angle[j]) || !isfinite(state->rate[j]) || !isfinite(state->acceleration[j])) {
-            return THESIS10_NON_FINITE_STATE;
-        }
+    if (!isfinite(total)) {
+        return THESIS10_NON_FINITE_STATE;
     }
     return THESIS10_OK;
 }
@@ -185,24 +183,29 @@ thesis10_status thesis10_step(
     real known_rate[THESIS10_STATIONS + 1];
     real total = 0.0; /* of the new motion: is all of it finite? */
 
-    /* Motion known before the sweep. */
+    /* Motion known before the sweep: at the last station. */
     known_rate[0] = 0.0;
     known_angle[0] = 0.0;
-    for (int j = 0; j < THESIS10_STATIONS; ++j) {
-        known_rate[j + 1] = state->rate[j] + state->acceleration[j] * rate_per_acceleration;
-        known_angle[j + 1] = state->angle[j] + state->acceleration[j] * angle_per_acceleration
-            + state->rate[j] * step;
-    }
+    known_rate[10] = state->rate[9] + state->acceleration[9] * rate_per_acceleration;
+    known_angle[10] = state->angle[9] + state->acceleration[9] * angle_per_acceleration
+        + state->rate[9] * step;
 
-    /* Torque of each joint at the known motion; sweep inward: torque beyond each joint as if its inner side
-     * did not move. */
+    /* Motion known before the sweep; torque of each joint at the known motion; sweep inward: torque beyond
+     * each joint as if its inner side did not move. */
     real bias = inputs->tmm_tip_torque;
-    for (int j = THESIS10_STATIONS - 1; j >= 0; --j) {
+    for (int j = THESIS10_STATIONS - 1; j >= 1; --j) {
+        known_rate[j] = state->rate[j - 1] + state->acceleration[j - 1] * rate_per_acceleration;
+        known_angle[j] = state->angle[j - 1] + state->acceleration[j - 1] * angle_per_acceleration
+            + state->rate[j - 1] * step;
         const real joint_torque = damping * (known_rate[j + 1] - known_rate[j])
             + stiffness * (known_angle[j + 1] - known_angle[j]);
         correction[j] = model->admittance[j] * (bias - joint_torque);
         bias = bias * model->transmission[j] + joint_torque * model->reflection[j];
     }
+    const real first_joint_torque = damping * (known_rate[1] - known_rate[0])
+        + stiffness * (known_angle[1] - known_angle[0]);
+    correction[0] = model->admittance[0] * (bias - first_joint_torque);
+    bias = bias * model->transmission[0] + first_joint_torque * model->reflection[0];
 
     /* The base. */
     real unknown = 0.0;

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.emit.c_names import c_name
 from tmm_gen.emit.c.real import Real
 from tmm_gen.emit.c.structs import COUNTER, Struct
+from tmm_gen.emit.c_names import c_name
 from tmm_gen.program.variables import Variable
 
 Value = float | Sequence[float] | NDArray[np.floating[Any]]

@@ -120,7 +120,9 @@ class Library:
         if status == 6:
             raise ValueError(f"{what}: a pointer is NULL")
         if status == 7:
-            raise FloatingPointError(f"{what}: parameters or step are too large or too small for the number type")
+            raise FloatingPointError(
+                f"{what}: parameters or step are too large or too small for the number type"
+            )
         if status == 4:
             raise NonFiniteStateError(f"{what}: the motion has outgrown the number type")
 

@@ -15,8 +15,8 @@ from pathlib import Path, PurePosixPath
 from tmm_gen.emit.c import emit_kernel
 from tmm_gen.emit.c.box import Box, box_of
 from tmm_gen.emit.c.kernel import Kernel
-from tmm_gen.emit.c_names import c_name, macros
 from tmm_gen.emit.c.structs import dimension
+from tmm_gen.emit.c_names import c_name, macros
 from tmm_gen.emit.templates import render
 from tmm_gen.errors import UserError
 from tmm_gen.program.build import build_program

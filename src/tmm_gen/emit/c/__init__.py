@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from tmm_gen.emit.c.kernel import Kernel
-from tmm_gen.emit.c_names import macros
 from tmm_gen.emit.c.sensitivities import emit_sensitivities
 from tmm_gen.emit.c.vectors import vectors
+from tmm_gen.emit.c_names import macros
 from tmm_gen.emit.seal import sealed
 from tmm_gen.emit.templates import render
 from tmm_gen.program.statements import Program

@@ -13,13 +13,13 @@ from tmm_gen.emit.c.fence import Fence
 from tmm_gen.emit.c.finite import check
 from tmm_gen.emit.c.given import given_element
 from tmm_gen.emit.c.guard import Sums, sums_of
-from tmm_gen.emit.c_names import c_name, macros
 from tmm_gen.emit.c.pair import PairPrinter, is_pair
 from tmm_gen.emit.c.printer import CPrinter, element, element_at
 from tmm_gen.emit.c.real import Real
 from tmm_gen.emit.c.scalars import place_scalars
 from tmm_gen.emit.c.structs import described, dimension
 from tmm_gen.emit.c.wrap import INDENT, WIDTH, comment, statement
+from tmm_gen.emit.c_names import c_name, macros
 from tmm_gen.program.statements import Assign, Loop, Order, Program, Require, Routine
 from tmm_gen.program.variables import Ref, Role, Variable, refs_in
 
@@ -213,7 +213,9 @@ class Body:
 
     def _last(self, entry: int) -> str:
         """Return an index of a station, in terms of the kernel's macro where it is the last."""
-        return f"{macros(self.program.name)}_STATIONS - 1" if entry == self.program.stations - 1 else str(entry)
+        return (
+            f"{macros(self.program.name)}_STATIONS - 1" if entry == self.program.stations - 1 else str(entry)
+        )
 
     def _judged(self, assign: Assign, printer: CPrinter) -> str:
         """Return a number that is finite only if what an assignment has set is, whose parts may be two."""
@@ -264,7 +266,9 @@ class Body:
     def _required(self, required: Require, value: str, depth: int) -> list[str]:
         least = self.real.literal(self.fence.least_of(required))
         value += self._high
-        return self._unless(f"({value} > {least})", f"isfinite({value})", "VANISHING_PIVOT", depth)
+        return self._unless(
+            f"({value} > {least})", f"({value} <= {self.real.largest})", "VANISHING_PIVOT", depth
+        )
 
     def _fenced(self, value: str, largest: float, depth: int) -> list[str]:
         bound, number = self.real.literal(largest), value + self._high
@@ -277,16 +281,18 @@ class Body:
     def _turned(self, angle: str, name: str, depth: int) -> Iterator[str]:
         """Yield sine and cosine of an angle; before them, where the function can refuse, a check of its range."""
         if self.kind != "output":
-            largest, number = f"{macros(self.program.name)}_LARGEST_ANGLE", angle + self._high
-            yield from self._unless(
-                f"({number} >= -{largest})", f"({number} <= {largest})", "OUT_OF_RANGE", depth
-            )
+            largest = f"{macros(self.program.name)}_LARGEST_ANGLE"
+            size = f"{self.real.function('fabs')}({angle}{self._high})"
+            yield from self._leave(f"!({size} <= {largest})", "OUT_OF_RANGE", depth)
         yield from statement(f"const circle {name} = circle_of({angle});", depth)
 
     def _unless(self, one: str, other: str, status: str, depth: int) -> list[str]:
+        return self._leave(f"!{one} || !{other}", status, depth)
+
+    def _leave(self, condition: str, status: str, depth: int) -> list[str]:
         pad = INDENT * depth
         return [
-            *statement(f"if (!{one} || !{other}) {{", depth),
+            *statement(f"if ({condition}) {{", depth),
             f"{pad}{INDENT}return {macros(self.program.name)}_{status};",
             f"{pad}}}",
         ]

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from tmm_gen.emit.c_names import c_name
 from tmm_gen.emit.c.structs import dimension
 from tmm_gen.emit.c.wrap import INDENT, statement
+from tmm_gen.emit.c_names import c_name
 from tmm_gen.program.statements import Program
 from tmm_gen.program.variables import Variable
 

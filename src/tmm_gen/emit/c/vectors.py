@@ -12,9 +12,9 @@ import mpmath
 
 from tmm_gen.emit.c.estimate import FUNCTIONS, Estimate, estimate_of
 from tmm_gen.emit.c.kernel import Kernel
-from tmm_gen.emit.c_names import c_element
 from tmm_gen.emit.c.pair import is_pair, pair_literal, parts
 from tmm_gen.emit.c.real import FLOAT, Real
+from tmm_gen.emit.c_names import c_element
 from tmm_gen.program.evaluate import Values, VanishingPivotError, allocate, execute, key
 from tmm_gen.program.statements import Program
 from tmm_gen.program.variables import Ref, Variable
@@ -165,7 +165,9 @@ def _inputs(program: Program, k: int, spread: int, real: Real) -> tuple[tuple[st
         for which, variable in enumerate(program.inputs)
         for stage in range(variable.length or 1)
     ]
-    return tuple((c_element(ref), real.literal(_input(which, k, stage, spread))) for which, stage, ref in members)
+    return tuple(
+        (c_element(ref), real.literal(_input(which, k, stage, spread))) for which, stage, ref in members
+    )
 
 
 def _shown(variable: Variable) -> list[Ref]:

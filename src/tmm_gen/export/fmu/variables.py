@@ -6,8 +6,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from tmm_gen.emit.c_names import c_name, signal
 from tmm_gen.emit.c.real import Real
+from tmm_gen.emit.c_names import c_name, signal
 from tmm_gen.program.statements import Program
 from tmm_gen.program.variables import Variable
 
