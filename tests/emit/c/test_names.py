@@ -205,21 +205,8 @@ def test_scenes_of_two_cases_and_precisions_run_in_one_program(tmp_path: Path) -
 
 def test_no_name_of_the_kernels_own_looks_like_a_scenes(chain: Any) -> None:
     """Static functions and local variables never end as the types and functions of some scene would."""
-    ends = [
-        "_real",
-        "_pair",
-        "_status",
-        "_params",
-        "_model",
-        "_state",
-        "_inputs",
-        "_outputs",
-        "_prepare",
-        "_initialise",
-        "_step",
-        "_output",
-        "_default_params",
-    ]
+    ends = [f"_{end}" for end in ("real", "pair", "status", "params", "model", "state", "inputs", "outputs")]
+    ends += [f"_{end}" for end in ("default_params", "prepare", "initialise", "step", "output")]
     for kind in ({}, {"base": "motor", "integrator": "houbolt"}, {"integrator": "sdirk4", "real": "float32"}):
         of = chain(**kind, name="qqq")
         for path, text in of.files.items():
