@@ -128,8 +128,8 @@ def test_a_step_that_is_not_positive_is_refused(kernel: Any, step: float) -> Non
 def test_a_motion_beyond_all_numbers_is_refused(kernel: Any) -> None:
     model, state = kernel.prepare(), kernel.initialise()
     with pytest.raises(FloatingPointError, match="outgrown"):
-        kernel.step(model, dataclasses.replace(state, rate=np.full(3, 1.7e308)))
-    with pytest.raises(FloatingPointError, match="too large or too small"):
+        kernel.step(model, dataclasses.replace(state, rate=np.array([1.7e308, -1.7e308, 0.0])))
+    with pytest.raises(ArithmeticError, match="finite|too large"):
         kernel.prepare(step=1e300)
 
 

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: d9d28dc691ae4f0a1d62cb9cfa9f4612d111fa76a756dd286c77eac7f930ab35
- * sha256 of the rest of this file: f203ecde0bbd5e38953eba9a6cdd73e05bd8eac82a5c0feba07b3e911f2465cf
+ * sha256 of the rest of this file: 59c4a157982c33c6ad0c08a8c73743e765091a7589cb54185e231aad67d6ddac
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 10
@@ -22,7 +22,7 @@
  */
 #if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(_M_FP_FAST) \
     || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
-#error "-Ofast, -ffast-math, -ffinite-math-only, -fassociative-math and /fp:fast remove checks of this file: compile it with -O2 or -O3 (MSVC: /fp:precise), or put -fno-fast-math behind them"
+#error "-Ofast and -ffast-math remove checks of this file: use -O3, or put -fno-fast-math behind them"
 #endif
 
 #include "arm10.h"

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: d9d28dc691ae4f0a1d62cb9cfa9f4612d111fa76a756dd286c77eac7f930ab35
- * sha256 of the rest of this file: f106364d1bdddefd7c91159c46cdd21ac6a27a60ea050d0a57bfcadd96a9447c
+ * sha256 of the rest of this file: 25af8d654cf4f4d856ee986f1ac9c01ae119e1e8f734b73fc2b2e2e10855079c
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 10
@@ -60,7 +60,7 @@ typedef enum {
     ARM10_OUT_OF_RANGE,
     /** A pointer that is needed is NULL; nothing was changed. */
     ARM10_NULL_POINTER = 6,
-    /** Parameters or time step are so large or so small that the model is beyond the number type; it is of no use. */
+    /** Parameters or time step are too large or too small for the number type; the model is of no use. */
     ARM10_NON_FINITE_MODEL = 7
 } arm10_status;
 

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: c5e09abbb61734735cef8cfddf39dd959eb5765da3ad6484bed2957b4fdf212c
- * sha256 of the rest of this file: c70ade97f4728731b7307b4aebb72ba851d4f933554f7ac45deb60c73bec2e06
+ * sha256 of the rest of this file: b2b5578e84b5b097d2287d9b6d9b6e83b6b4c3d3dae019c8e776f87685ed0e42
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 2
@@ -21,7 +21,7 @@
  */
 #if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(_M_FP_FAST) \
     || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
-#error "-Ofast, -ffast-math, -ffinite-math-only, -fassociative-math and /fp:fast remove checks of this file: compile it with -O2 or -O3 (MSVC: /fp:precise), or put -fno-fast-math behind them"
+#error "-Ofast and -ffast-math remove checks of this file: use -O3, or put -fno-fast-math behind them"
 #endif
 
 #include "arm2.h"

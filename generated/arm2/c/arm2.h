@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: c5e09abbb61734735cef8cfddf39dd959eb5765da3ad6484bed2957b4fdf212c
- * sha256 of the rest of this file: fd598ed2d6c657b5318fa9368d6155de4151c308f0a81f07fd4853dae60c547f
+ * sha256 of the rest of this file: b518427010552a75ae37752930bdb259297c86d8003cc3488b609ab59f3600d2
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 2
@@ -53,7 +53,7 @@ typedef enum {
     ARM2_NON_FINITE_STATE,
     /** A pointer that is needed is NULL; nothing was changed. */
     ARM2_NULL_POINTER = 6,
-    /** Parameters or time step are so large or so small that the model is beyond the number type; it is of no use. */
+    /** Parameters or time step are too large or too small for the number type; the model is of no use. */
     ARM2_NON_FINITE_MODEL = 7
 } arm2_status;
 

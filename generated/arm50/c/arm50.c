@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
- * sha256 of the rest of this file: cde632497c1869b7c39138fc0912970f9f82fcf4429bb680d4b1cca65942c649
+ * sha256 of the rest of this file: fc42e824e67822784b301e6847312b808a62b56d9de5723ee6e1e39ec6b7c5cc
  *
  * model: planar arm, large rotations, tip mass
  * stations: 50
@@ -22,7 +22,7 @@
  */
 #if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(_M_FP_FAST) \
     || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
-#error "-Ofast, -ffast-math, -ffinite-math-only, -fassociative-math and /fp:fast remove checks of this file: compile it with -O2 or -O3 (MSVC: /fp:precise), or put -fno-fast-math behind them"
+#error "-Ofast and -ffast-math remove checks of this file: use -O3, or put -fno-fast-math behind them"
 #endif
 
 #include "arm50.h"

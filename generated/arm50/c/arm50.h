@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
- * sha256 of the rest of this file: 3de224fbd6b2eeb1b72cdbdb9097eb19bcf73e1b28003e567ef6f483de1d31a0
+ * sha256 of the rest of this file: 27b9ea60596eab102830c6ba5331cc90431ab1c86d16858b4fa163ad613564fa
  *
  * model: planar arm, large rotations, tip mass
  * stations: 50
@@ -58,7 +58,7 @@ typedef enum {
     ARM50_NON_FINITE_STATE,
     /** A pointer that is needed is NULL; nothing was changed. */
     ARM50_NULL_POINTER = 6,
-    /** Parameters or time step are so large or so small that the model is beyond the number type; it is of no use. */
+    /** Parameters or time step are too large or too small for the number type; the model is of no use. */
     ARM50_NON_FINITE_MODEL = 7
 } arm50_status;
 

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 260c88ca5ffe6b93ea5946fad67187e547942573db1dc2f710bcd9a0610b8738
- * sha256 of the rest of this file: 91a10814caa6166af973298fee8eb86c3b20e23992a7781add278fad8a13445f
+ * sha256 of the rest of this file: daee4274a689894816550aac52b3ade608024422f149ae8ac3e4a66d44018c43
  *
  * model: torsional chain (linear)
  * stations: 6
@@ -20,7 +20,7 @@
  */
 #if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(_M_FP_FAST) \
     || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
-#error "-Ofast, -ffast-math, -ffinite-math-only, -fassociative-math and /fp:fast remove checks of this file: compile it with -O2 or -O3 (MSVC: /fp:precise), or put -fno-fast-math behind them"
+#error "-Ofast and -ffast-math remove checks of this file: use -O3, or put -fno-fast-math behind them"
 #endif
 
 #include "drivetrain.h"

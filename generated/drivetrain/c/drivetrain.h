@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 260c88ca5ffe6b93ea5946fad67187e547942573db1dc2f710bcd9a0610b8738
- * sha256 of the rest of this file: 2273caece7d061e1c3a13f310976e2e9bc7b1ca44d9163a5b4417bd6cb6c9114
+ * sha256 of the rest of this file: 553386b2e183f4f705eb34657359347167546da44223b85dfa3a6b69fae9db5a
  *
  * model: torsional chain (linear)
  * stations: 6
@@ -52,7 +52,7 @@ typedef enum {
     DRIVETRAIN_NON_FINITE_STATE,
     /** A pointer that is needed is NULL; nothing was changed. */
     DRIVETRAIN_NULL_POINTER = 6,
-    /** Parameters or time step are so large or so small that the model is beyond the number type; it is of no use. */
+    /** Parameters or time step are too large or too small for the number type; the model is of no use. */
     DRIVETRAIN_NON_FINITE_MODEL = 7
 } drivetrain_status;
 

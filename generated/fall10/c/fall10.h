@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 225557ccb20983327784b6fc8326b9127fb185b183a5e99d150385ab258b9303
- * sha256 of the rest of this file: 423c5266c0cea237c831539ff0fdbf9387d1ab6a557ec7dd8f473a0e8cebb9e5
+ * sha256 of the rest of this file: 4f5228d8e3d777a73688579a317b9d2ef53900b0f7414c0e44546b74c1307bc1
  *
  * model: planar arm, large rotations, gravity
  * stations: 10
@@ -54,7 +54,7 @@ typedef enum {
     FALL10_NON_FINITE_STATE,
     /** A pointer that is needed is NULL; nothing was changed. */
     FALL10_NULL_POINTER = 6,
-    /** Parameters or time step are so large or so small that the model is beyond the number type; it is of no use. */
+    /** Parameters or time step are too large or too small for the number type; the model is of no use. */
     FALL10_NON_FINITE_MODEL = 7
 } fall10_status;
 

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 1ec2a071f5720229c3b5c9d847fa0a44d6fa112015051ca13c1d73444e6eb10a
- * sha256 of the rest of this file: 44dcfa2a249d86dd201a61a9d08a53cc883c466da48ed4f38fba61eb0ba29ff8
+ * sha256 of the rest of this file: c67aabad640173c0ee6785ff505ebc081bb179248beaec82fa0747878fd07a14
  *
  * model: torsional chain (linear)
  * stations: 100
@@ -52,7 +52,7 @@ typedef enum {
     HUNDRED_NON_FINITE_STATE,
     /** A pointer that is needed is NULL; nothing was changed. */
     HUNDRED_NULL_POINTER = 6,
-    /** Parameters or time step are so large or so small that the model is beyond the number type; it is of no use. */
+    /** Parameters or time step are too large or too small for the number type; the model is of no use. */
     HUNDRED_NON_FINITE_MODEL = 7
 } hundred_status;
 

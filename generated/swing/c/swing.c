@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: c9c08efbdc9f2f1b1ddadadab522649e5100f98e9cdabe31fcf56b416283c60f
- * sha256 of the rest of this file: a4e4c19204ae17894f651b2fbfd8b7e74bf460dc9b83a9a96836640fd61dcfc3
+ * sha256 of the rest of this file: 2769f5e6383e95e6144d700212b95dbfe6dda01da907791b2c9599c396aac9e6
  *
  * model: planar arm, large rotations, tip mass
  * stations: 5
@@ -21,7 +21,7 @@
  */
 #if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(_M_FP_FAST) \
     || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
-#error "-Ofast, -ffast-math, -ffinite-math-only, -fassociative-math and /fp:fast remove checks of this file: compile it with -O2 or -O3 (MSVC: /fp:precise), or put -fno-fast-math behind them"
+#error "-Ofast and -ffast-math remove checks of this file: use -O3, or put -fno-fast-math behind them"
 #endif
 
 #include "swing.h"

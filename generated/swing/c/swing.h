@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: c9c08efbdc9f2f1b1ddadadab522649e5100f98e9cdabe31fcf56b416283c60f
- * sha256 of the rest of this file: 2f47be96f5d8d5a22cf0442ec68f6cec534303a8635ae2e14a6f92ad593337e6
+ * sha256 of the rest of this file: 6ff43f93f5e140c888f4a8541460fd13186d948cf089ed76f065f628615bcbc0
  *
  * model: planar arm, large rotations, tip mass
  * stations: 5
@@ -53,7 +53,7 @@ typedef enum {
     SWING_NON_FINITE_STATE,
     /** A pointer that is needed is NULL; nothing was changed. */
     SWING_NULL_POINTER = 6,
-    /** Parameters or time step are so large or so small that the model is beyond the number type; it is of no use. */
+    /** Parameters or time step are too large or too small for the number type; the model is of no use. */
     SWING_NON_FINITE_MODEL = 7
 } swing_status;
 

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: c9c08efbdc9f2f1b1ddadadab522649e5100f98e9cdabe31fcf56b416283c60f
- * sha256 of the rest of this file: 07f8203ebf07f5cdbf896f1f95644db595c252ecbc7af7eb2f647cfa53ee49d6
+ * sha256 of the rest of this file: 4be27417d0d29eef63584ec6588b46914306820cd4d1fe76302553824a9e9670
  *
  * model: planar arm, large rotations, tip mass
  * stations: 5
@@ -23,7 +23,7 @@
  */
 #if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(_M_FP_FAST) \
     || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
-#error "-Ofast, -ffast-math, -ffinite-math-only, -fassociative-math and /fp:fast remove checks of this file: compile it with -O2 or -O3 (MSVC: /fp:precise), or put -fno-fast-math behind them"
+#error "-Ofast and -ffast-math remove checks of this file: use -O3, or put -fno-fast-math behind them"
 #endif
 
 #include "swing.h"

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: ee57f7952242f19cc6be0f26d3460a304cc65a1747711d25b990a158587c6f1f
- * sha256 of the rest of this file: 04a4e8fb7491fcb138999d2b51212767b017ed2a01a09bfb51e6b68319526d45
+ * sha256 of the rest of this file: 7f2fa6bfccbaf5fda86a7e6910b7615eef17cdcbea2a5fa3f958e32993d7808e
  *
  * model: torsional chain (linear)
  * stations: 10
@@ -52,7 +52,7 @@ typedef enum {
     THESIS10_NON_FINITE_STATE,
     /** A pointer that is needed is NULL; nothing was changed. */
     THESIS10_NULL_POINTER = 6,
-    /** Parameters or time step are so large or so small that the model is beyond the number type; it is of no use. */
+    /** Parameters or time step are too large or too small for the number type; the model is of no use. */
     THESIS10_NON_FINITE_MODEL = 7
 } thesis10_status;
 

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 8302c2fdab02afb73919e09c91c3abafc3d83d0760e2c0e63be40bfdc341e62e
- * sha256 of the rest of this file: 453d361bb4556fb11ed9bb0e0e9444bb3035fc2c67047cc4dd3033239974fba1
+ * sha256 of the rest of this file: ef5bb3f27b62d301d0e834c1fff0f5c6f08d4995e03edfb70b79097964bdea81
  *
  * model: torsional chain (linear)
  * stations: 2
@@ -52,7 +52,7 @@ typedef enum {
     THESIS2_NON_FINITE_STATE,
     /** A pointer that is needed is NULL; nothing was changed. */
     THESIS2_NULL_POINTER = 6,
-    /** Parameters or time step are so large or so small that the model is beyond the number type; it is of no use. */
+    /** Parameters or time step are too large or too small for the number type; the model is of no use. */
     THESIS2_NON_FINITE_MODEL = 7
 } thesis2_status;
 

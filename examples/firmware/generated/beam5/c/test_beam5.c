@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 7cda6afdfe9f28eb257c67670c83631d86f159a73ec0c14225ebe1e38843e797
- * sha256 of the rest of this file: d3329a24d7166b4ceade5a2b03f6bd510417985f0aaad283e419d1fbf55f93a2
+ * sha256 of the rest of this file: d143c55762b93779d721766d72807788889a44b66cc59857aeafb08be417f5d4
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 5
@@ -23,7 +23,7 @@
  */
 #if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(_M_FP_FAST) \
     || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
-#error "-Ofast, -ffast-math, -ffinite-math-only, -fassociative-math and /fp:fast remove checks of this file: compile it with -O2 or -O3 (MSVC: /fp:precise), or put -fno-fast-math behind them"
+#error "-Ofast and -ffast-math remove checks of this file: use -O3, or put -fno-fast-math behind them"
 #endif
 
 #include "beam5.h"
