@@ -35,14 +35,16 @@ def emit_casadi(program: Program, scene: Scene) -> dict[str, str]:
     ]
     several_stages = any(v.length is not None for v in program.inputs)
     held = ", held" if several_stages else ""
+    front = symbol(program.name)
     starts = [
-        f'_function("{symbol(program.name)}_{s["name"]}", _{s["name"]}, STAGE_INSTANTS[{k}]{held})' for k, s in enumerate(steps[:-1])
+        f'_function("{front}_{s["name"]}", _{s["name"]}, STAGE_INSTANTS[{k}]{held})'
+        for k, s in enumerate(steps[:-1])
     ]
     rendered = render(
         "casadi/model.py.jinja",
         header=text(comments(header_lines(program, scene))),
         description=text(_description(program)),
-        symbol=symbol(program.name),
+        symbol=front,
         stations=program.stations,
         state_names=_names("STATE_NAMES", flat_names(program.state)),
         input_names=_names("INPUT_NAMES", flat_names(program.inputs)),
