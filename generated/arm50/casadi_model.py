@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
-# sha256 of the rest of this file: 25d3ce81cbe1c10c7bfbb5be9d4cdf0e53aa1d115c35faa1d177334197259ebd
+# sha256 of the rest of this file: e2b5adcf557f637382ba8e9b5d41e91d1cef44c0a2e0b263561811c2fb1fbda3
 #
 # model: planar arm, large rotations, tip mass
 # stations: 50
@@ -185,7 +185,7 @@ def step_function(held: bool = True) -> ca.Function:
         ``u`` is one column, held over the step. Otherwise it has one column for each stage, read at its
         instant in STAGE_INSTANTS.
     """
-    return _function("step", _step, STAGE_INSTANTS[-1], held)
+    return _function("arm50_step", _step, STAGE_INSTANTS[-1], held)
 
 
 def start_functions(held: bool = True) -> tuple[ca.Function, ...]:
@@ -208,7 +208,7 @@ def initial_function() -> ca.Function:
     u, p = _symbols(INPUT_NAMES), _symbols(PARAMETER_NAMES)
     with _as_written():
         x = _initialise(given, [u], p)
-    return ca.Function("initial", [*given.values(), u, p], [x], [*given, "u", "p"], ["x"])
+    return ca.Function("arm50_initial", [*given.values(), u, p], [x], [*given, "u", "p"], ["x"])
 
 
 def _function(

@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
-# sha256 of the rest of this file: 0c1b0c38bf145025abd941eb9aa3af67bba9b0a7dba7077c0eb25e70cabf758e
+# sha256 of the rest of this file: b87a89c66aa17769b3a41cdd7223e20d16c0a07b1ac7a095b834e58a9e480af3
 #
 # model: planar arm, large rotations, tip mass
 # stations: 50
@@ -22,7 +22,8 @@ inputs)`` for all of them. Arrays are never written in place.
 
 All arrays may have further axes behind, those of a batch: many arms at once, each with its own parameters,
 inputs and state. What is one number for an arm then has the batch's shape; what differs between stations has
-the stations first, base to tip.
+the stations first, base to tip. An arm with numbers that are not finite, or a step or pivot that is not
+positive, is NaN; errors are left for where no other arm is left.
 """
 
 from __future__ import annotations
@@ -403,6 +404,7 @@ class Result:
     state: State
 
 
+@np.errstate(all="ignore")
 def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     """Compute what depends on parameters and step alone.
 
@@ -416,9 +418,9 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     Raises
     ------
     FloatingPointError
-        If a parameter or the step is not finite.
+        If parameters, step or what follows from them are not finite.
     ValueError
-        If shapes do not fit.
+        If the step is not positive, or shapes do not fit.
     VanishingPivotError
         If parameters or step leave a pivot that is not positive.
     """
@@ -431,6 +433,7 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     damping = _array(params.damping, STATIONS, "damping")
     tip_mass = _array(params.tip_mass, None, "tip_mass")
     tip_inertia = _array(params.tip_inertia, None, "tip_inertia")
+    good = _positive(step)
     numbers = (step, length, mass, inertia, center, tip_mass, tip_inertia)
     arrays = (stiffness, damping)
     batch, _ = _common(numbers, arrays)
@@ -473,49 +476,94 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     step_41_over_6 = (41.0 / 6.0) * step
     factor_28 = mass * (center - 1.0)
     factor_29 = center * mass
+
+    numbers = (
+        length,
+        mass,
+        tip_mass,
+        tip_inertia,
+        angle_per_acceleration,
+        rate_per_acceleration,
+        step_1_over_2,
+        step2_inverse_16,
+        step2_3_over_16,
+        step_3_over_4,
+        step2_17_over_200,
+        step_17_over_50,
+        step2_21_over_400,
+        step_1_over_25,
+        step_21_over_100,
+        step2_371_over_5440,
+        step_371_over_1360,
+        step2_137_over_10880,
+        step_137_over_2720,
+        step2_151_over_2176,
+        step_15_over_544,
+        step_151_over_544,
+        step2_25_over_96,
+        step_25_over_24,
+        step2_49_over_192,
+        step_49_over_48,
+        step2_125_over_64,
+        step_125_over_16,
+        step2_41_over_24,
+        step_85_over_12,
+        step_41_over_6,
+        factor_28,
+        factor_29,
+        carried_mass,
+        inner_mass,
+        pin_inertia,
+        step,
+        inertia,
+        center,
+    )
+    arrays = (stiffness, damping, joint_impedance)
+    good = _judged(good, numbers, arrays, "parameters or step are too large or too small for the number type")
     return Model(
-        length=length,
-        mass=mass,
-        stiffness=stiffness,
-        damping=damping,
-        tip_mass=tip_mass,
-        tip_inertia=tip_inertia,
-        angle_per_acceleration=angle_per_acceleration,
-        rate_per_acceleration=rate_per_acceleration,
-        step_1_over_2=step_1_over_2,
-        step2_inverse_16=step2_inverse_16,
-        step2_3_over_16=step2_3_over_16,
-        step_3_over_4=step_3_over_4,
-        step2_17_over_200=step2_17_over_200,
-        step_17_over_50=step_17_over_50,
-        step2_21_over_400=step2_21_over_400,
-        step_1_over_25=step_1_over_25,
-        step_21_over_100=step_21_over_100,
-        step2_371_over_5440=step2_371_over_5440,
-        step_371_over_1360=step_371_over_1360,
-        step2_137_over_10880=step2_137_over_10880,
-        step_137_over_2720=step_137_over_2720,
-        step2_151_over_2176=step2_151_over_2176,
-        step_15_over_544=step_15_over_544,
-        step_151_over_544=step_151_over_544,
-        step2_25_over_96=step2_25_over_96,
-        step_25_over_24=step_25_over_24,
-        step2_49_over_192=step2_49_over_192,
-        step_49_over_48=step_49_over_48,
-        step2_125_over_64=step2_125_over_64,
-        step_125_over_16=step_125_over_16,
-        step2_41_over_24=step2_41_over_24,
-        step_85_over_12=step_85_over_12,
-        step_41_over_6=step_41_over_6,
-        factor_28=factor_28,
-        factor_29=factor_29,
-        carried_mass=carried_mass,
-        inner_mass=inner_mass,
-        pin_inertia=pin_inertia,
-        joint_impedance=joint_impedance,
+        length=_kept(length, good, False),
+        mass=_kept(mass, good, False),
+        stiffness=_kept(stiffness, good, True),
+        damping=_kept(damping, good, True),
+        tip_mass=_kept(tip_mass, good, False),
+        tip_inertia=_kept(tip_inertia, good, False),
+        angle_per_acceleration=_kept(angle_per_acceleration, good, False),
+        rate_per_acceleration=_kept(rate_per_acceleration, good, False),
+        step_1_over_2=_kept(step_1_over_2, good, False),
+        step2_inverse_16=_kept(step2_inverse_16, good, False),
+        step2_3_over_16=_kept(step2_3_over_16, good, False),
+        step_3_over_4=_kept(step_3_over_4, good, False),
+        step2_17_over_200=_kept(step2_17_over_200, good, False),
+        step_17_over_50=_kept(step_17_over_50, good, False),
+        step2_21_over_400=_kept(step2_21_over_400, good, False),
+        step_1_over_25=_kept(step_1_over_25, good, False),
+        step_21_over_100=_kept(step_21_over_100, good, False),
+        step2_371_over_5440=_kept(step2_371_over_5440, good, False),
+        step_371_over_1360=_kept(step_371_over_1360, good, False),
+        step2_137_over_10880=_kept(step2_137_over_10880, good, False),
+        step_137_over_2720=_kept(step_137_over_2720, good, False),
+        step2_151_over_2176=_kept(step2_151_over_2176, good, False),
+        step_15_over_544=_kept(step_15_over_544, good, False),
+        step_151_over_544=_kept(step_151_over_544, good, False),
+        step2_25_over_96=_kept(step2_25_over_96, good, False),
+        step_25_over_24=_kept(step_25_over_24, good, False),
+        step2_49_over_192=_kept(step2_49_over_192, good, False),
+        step_49_over_48=_kept(step_49_over_48, good, False),
+        step2_125_over_64=_kept(step2_125_over_64, good, False),
+        step_125_over_16=_kept(step_125_over_16, good, False),
+        step2_41_over_24=_kept(step2_41_over_24, good, False),
+        step_85_over_12=_kept(step_85_over_12, good, False),
+        step_41_over_6=_kept(step_41_over_6, good, False),
+        factor_28=_kept(factor_28, good, False),
+        factor_29=_kept(factor_29, good, False),
+        carried_mass=_kept(carried_mass, good, False),
+        inner_mass=_kept(inner_mass, good, False),
+        pin_inertia=_kept(pin_inertia, good, False),
+        joint_impedance=_kept(joint_impedance, good, True),
     )
 
 
+@np.errstate(all="ignore")
 def initialise(
     params: Params = Params(),
     input: Input = Input(),
@@ -539,13 +587,14 @@ def initialise(
     Raises
     ------
     FloatingPointError
-        If an argument is not finite.
+        If an argument or the state is not finite.
     ValueError
         If shapes do not fit.
     VanishingPivotError
         If parameters leave a pivot that is not positive.
     """
     stages = (input,)
+    good: Any = True
     base_angle = _at_stages(stages, "base_angle")
     length = _array(params.length, None, "length")
     mass = _array(params.mass, None, "mass")
@@ -650,7 +699,7 @@ def initialise(
         force_x = force_x + acceleration_x[j] * (mass - center * mass) + acceleration_x[j + 1] * center * mass
         force_y = force_y + acceleration_y[j] * (mass - center * mass) + acceleration_y[j + 1] * center * mass
         pivot = link_uu
-        _require_positive(pivot, "pivot", j)
+        good = _positive_pivot(good, pivot, "pivot", j)
         inverse_pivot = 1.0 / pivot
         answer_own[j] = inverse_pivot * (joint_torque[j] - torque)
         answer_x[j] = inverse_pivot * link_ux
@@ -688,16 +737,21 @@ def initialise(
     angle = predicted_angle[1:]
     rate = predicted_rate[1:]
     acceleration = predicted_acceleration[1:] + solved
+
+    numbers = (hub_angle, hub_rate, hub_acceleration)
+    arrays = (angle, rate, acceleration)
+    good = _judged(good, numbers, arrays, "the motion has outgrown the number type")
     return State(
-        hub_angle=_spread(hub_angle, batch, False),
-        hub_rate=_spread(hub_rate, batch, False),
-        hub_acceleration=_spread(hub_acceleration, batch, False),
-        angle=_spread(angle, batch, True),
-        rate=_spread(rate, batch, True),
-        acceleration=_spread(acceleration, batch, True),
+        hub_angle=_kept(_spread(hub_angle, batch, False), good, False),
+        hub_rate=_kept(_spread(hub_rate, batch, False), good, False),
+        hub_acceleration=_kept(_spread(hub_acceleration, batch, False), good, False),
+        angle=_kept(_spread(angle, batch, True), good, True),
+        rate=_kept(_spread(rate, batch, True), good, True),
+        acceleration=_kept(_spread(acceleration, batch, True), good, True),
     )
 
 
+@np.errstate(all="ignore")
 def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -> State:
     """Advance the state by one step.
 
@@ -718,12 +772,13 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
     Raises
     ------
     FloatingPointError
-        If an input is not finite.
+        If an input or the new state is not finite.
     ValueError
         If shapes do not fit.
     VanishingPivotError
         If the motion, parameters or step leave a pivot that is not positive.
     """
+    good: Any = True
     stages = _stages(input, 5)
     base_angle = _at_stages(stages, "base_angle")
     length = model.length
@@ -911,7 +966,7 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
         force_x = force_x + acceleration_x[j + 1] * carried_mass + acceleration_x[j] * inner_mass
         force_y = force_y + acceleration_y[j + 1] * carried_mass + acceleration_y[j] * inner_mass
         pivot = joint_impedance[j] + link_uu
-        _require_positive(pivot, "pivot", j)
+        good = _positive_pivot(good, pivot, "pivot", j)
         inverse_pivot = 1.0 / pivot
         answer_own[j] = inverse_pivot * (joint_torque[j] - torque)
         answer_x[j] = inverse_pivot * link_ux
@@ -1039,7 +1094,7 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
         force_x = force_x + acceleration_x[j + 1] * carried_mass + acceleration_x[j] * inner_mass
         force_y = force_y + acceleration_y[j + 1] * carried_mass + acceleration_y[j] * inner_mass
         pivot = joint_impedance[j] + link_uu
-        _require_positive(pivot, "pivot", j)
+        good = _positive_pivot(good, pivot, "pivot", j)
         inverse_pivot = 1.0 / pivot
         answer_own[j] = inverse_pivot * (joint_torque[j] - torque)
         answer_x[j] = inverse_pivot * link_ux
@@ -1173,7 +1228,7 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
         force_x = force_x + acceleration_x[j + 1] * carried_mass + acceleration_x[j] * inner_mass
         force_y = force_y + acceleration_y[j + 1] * carried_mass + acceleration_y[j] * inner_mass
         pivot = joint_impedance[j] + link_uu
-        _require_positive(pivot, "pivot", j)
+        good = _positive_pivot(good, pivot, "pivot", j)
         inverse_pivot = 1.0 / pivot
         answer_own[j] = inverse_pivot * (joint_torque[j] - torque)
         answer_x[j] = inverse_pivot * link_ux
@@ -1319,7 +1374,7 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
         force_x = force_x + acceleration_x[j + 1] * carried_mass + acceleration_x[j] * inner_mass
         force_y = force_y + acceleration_y[j + 1] * carried_mass + acceleration_y[j] * inner_mass
         pivot = joint_impedance[j] + link_uu
-        _require_positive(pivot, "pivot", j)
+        good = _positive_pivot(good, pivot, "pivot", j)
         inverse_pivot = 1.0 / pivot
         answer_own[j] = inverse_pivot * (joint_torque[j] - torque)
         answer_x[j] = inverse_pivot * link_ux
@@ -1471,7 +1526,7 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
         force_x = force_x + acceleration_x[j + 1] * carried_mass + acceleration_x[j] * inner_mass
         force_y = force_y + acceleration_y[j + 1] * carried_mass + acceleration_y[j] * inner_mass
         pivot = joint_impedance[j] + link_uu
-        _require_positive(pivot, "pivot", j)
+        good = _positive_pivot(good, pivot, "pivot", j)
         inverse_pivot = 1.0 / pivot
         answer_own[j] = inverse_pivot * (joint_torque[j] - torque)
         answer_x[j] = inverse_pivot * link_ux
@@ -1512,16 +1567,21 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
     angle = predicted_angle[1:] + angle_per_acceleration * solved
     rate = predicted_rate[1:] + rate_per_acceleration * solved
     acceleration = predicted_acceleration[1:] + solved
+
+    numbers = (hub_angle, hub_rate, hub_acceleration)
+    arrays = (angle, rate, acceleration)
+    good = _judged(good, numbers, arrays, "the motion has outgrown the number type")
     return State(
-        hub_angle=_spread(hub_angle, batch, False),
-        hub_rate=_spread(hub_rate, batch, False),
-        hub_acceleration=_spread(hub_acceleration, batch, False),
-        angle=_spread(angle, batch, True),
-        rate=_spread(rate, batch, True),
-        acceleration=_spread(acceleration, batch, True),
+        hub_angle=_kept(_spread(hub_angle, batch, False), good, False),
+        hub_rate=_kept(_spread(hub_rate, batch, False), good, False),
+        hub_acceleration=_kept(_spread(hub_acceleration, batch, False), good, False),
+        angle=_kept(_spread(angle, batch, True), good, True),
+        rate=_kept(_spread(rate, batch, True), good, True),
+        acceleration=_kept(_spread(acceleration, batch, True), good, True),
     )
 
 
+@np.errstate(all="ignore")
 def output(model: Model, state: State) -> Output:
     """Read the outputs off a state.
 
@@ -1670,16 +1730,50 @@ def _array(value: ArrayLike, length: int | None, what: str) -> Array:
         array = array.astype(float)
     if array.dtype.kind not in "fcO":
         raise TypeError(f"{what} must be numeric, not {value!r}")
-    if array.dtype.kind != "O" and not np.isfinite(array).all():
-        raise FloatingPointError(f"{what} must be finite, not {value!r}")
-    if length is None:
-        return array
-    if array.ndim == 0:
-        return np.full(length, array)
-    if array.shape[0] != length:
+    if length is not None and array.ndim == 0:
+        array = np.full(length, array)
+    if length is not None and array.shape[0] != length:
         expected = f"shape ({length}, *batch), or be one number"
         raise ValueError(f"{what} must have {expected}; it has shape {array.shape}")
+    finite = _finite(array)
+    if array.size and not np.any(finite if length is None else finite.all(axis=0)):
+        raise FloatingPointError(f"{what} must be finite, not {value!r}")
     return array
+
+
+def _finite(value: Any) -> Array:
+    """Return which numbers are finite; of numbers that are objects nobody knows."""
+    array = np.asarray(value)
+    return np.ones(array.shape, dtype=bool) if array.dtype.kind == "O" else np.isfinite(array)
+
+
+def _positive(step: Array) -> Any:
+    """Return for which arms the time step is positive."""
+    good = np.asarray(step > 0.0)
+    if step.size and not good.any():
+        raise ValueError(f"step must be positive, not {step}")
+    return good
+
+
+def _judged(good: Any, numbers: tuple[Any, ...], arrays: tuple[Any, ...], what: str) -> Any:
+    """Return which arms are good so far and have only numbers that are finite; leave if there are none."""
+    for number in numbers:
+        good = good & _finite(number)
+    for array in arrays:
+        good = good & _finite(array).all(axis=0)
+    if np.size(good) and not np.any(good):
+        raise FloatingPointError(what)
+    return good
+
+
+def _kept(value: Any, good: Any, stations: bool) -> Array:
+    """Return a result with NaN for the arms that are not good."""
+    array = np.asarray(value)
+    if np.all(good):
+        return array
+    if stations:
+        array = _align(array, np.shape(good))
+    return np.where(good, array, array.dtype.type(np.nan))
 
 
 def _common(numbers: tuple[Any, ...], arrays: tuple[Array, ...]) -> tuple[tuple[int, ...], np.dtype[Any]]:
@@ -1724,13 +1818,15 @@ def _at_stages(stages: Sequence[Input], name: str) -> tuple[Array, ...]:
     return tuple(_array(getattr(stage, name), None, f"input {name}") for stage in stages)
 
 
-def _require_positive(pivot: Any, name: str, station: int | None) -> None:
-    """Leave where a pivot is not positive and finite."""
-    if not np.all((pivot > 0.0) & (pivot < np.inf)):
+def _positive_pivot(good: Any, pivot: Any, name: str, station: int | None) -> Any:
+    """Return which arms are good so far and have a positive pivot; leave if there are none."""
+    good = good & np.asarray((pivot > 0.0) & (pivot < np.inf))
+    if np.size(good) and not np.any(good):
         where = "" if station is None else f" of station {station + 1}"
         raise VanishingPivotError(
             f"{name}{where} must be positive and finite, not {pivot}; check parameters and step"
         )
+    return good
 
 
 def _series(values: list[Array]) -> Array:

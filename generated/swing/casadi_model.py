@@ -1,8 +1,8 @@
 # swing: Flexible arm swung by one radian
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 1d772428e2d772ebb733ea95a16abbe042281079aa7667facf050e2b156d94bf
-# sha256 of the rest of this file: 1d9d632bfda2c88c93fc1a885b627084a29821b52acf8b0bb4863481f7dbebb8
+# scene digest: c9c08efbdc9f2f1b1ddadadab522649e5100f98e9cdabe31fcf56b416283c60f
+# sha256 of the rest of this file: 97baa790fab4febbb063a46fc1574eecb62032eb2d82d1742ad21072f63616f0
 #
 # model: planar arm, large rotations, tip mass
 # stations: 5
@@ -67,8 +67,8 @@ def default_parameters() -> ca.DM:
     values = (
         0.005,
         0.2,
-        0.08000000000000002,
-        0.00026666666666666673,
+        0.08,
+        0.0002666666666666667,
         0.5,
         120.0,
         60.0,
@@ -89,7 +89,7 @@ def default_parameters() -> ca.DM:
 
 def step_function() -> ca.Function:
     """Return the step ``(x, u, p) -> (x_next, y)``: the state one step later, and the outputs at ``x``."""
-    return _function("step", _step, STAGE_INSTANTS[-1])
+    return _function("swing_step", _step, STAGE_INSTANTS[-1])
 
 
 def start_functions() -> tuple[ca.Function, ...]:
@@ -112,7 +112,7 @@ def initial_function() -> ca.Function:
     u, p = _symbols(INPUT_NAMES), _symbols(PARAMETER_NAMES)
     with _as_written():
         x = _initialise(given, [u], p)
-    return ca.Function("initial", [*given.values(), u, p], [x], [*given, "u", "p"], ["x"])
+    return ca.Function("swing_initial", [*given.values(), u, p], [x], [*given, "u", "p"], ["x"])
 
 
 def _function(

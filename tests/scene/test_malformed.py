@@ -66,11 +66,7 @@ NAMES = [
     Case("letters no compiler takes", '"arm"', '"بازو"', 1, "name", "بازو", "Write for example"),
     Case("leading digit", '"tip_torque"', '"2nd"', 30, "input[1].name", "2nd", "'arm_2nd'?"),
     Case("word of Python", '"tip_torque"', '"lambda"', 30, "input[1].name", "lambda", "'lambda_1'", "Python"),
-    Case(
-        "word of C", '"tip_torque"', '"register"', 30, "input[1].name", "register", "'register_1'", "C or C++"
-    ),
-    Case("word of C++", '"tip_torque"', '"template"', 30, "input[1].name", "template", "Choose", "C or C++"),
-    Case("word of generated code", '"tip_torque"', '"step"', 30, "input[1].name", "step", "'my_step'"),
+    Case("name of the clock", '"tip_torque"', '"time"', 30, "input[1].name", "time", "'time_1'", "clock"),
     Case("module of Python", '"arm"', '"statistics"', 1, "name", "statistics", "'statistics_arm'", "hide"),
     Case("header of C", '"arm"', '"stdio"', 1, "name", "stdio", "'stdio_arm'", "hide"),
     Case("long name", '"arm"', f'"{"a" * 49}"', 1, "name", "a" * 49, "shorter"),

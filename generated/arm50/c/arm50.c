@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
- * sha256 of the rest of this file: 4c63d04dee3bc40c9f8f236b0471ed5ea51b923750401c6a05bf35da7b4d73b4
+ * sha256 of the rest of this file: fc42e824e67822784b301e6847312b808a62b56d9de5723ee6e1e39ec6b7c5cc
  *
  * model: planar arm, large rotations, tip mass
  * stations: 50
@@ -20,16 +20,23 @@
  *
  * @file arm50.c
  */
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(_M_FP_FAST) \
+    || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "-Ofast and -ffast-math remove checks of this file: use -O3, or put -fno-fast-math behind them"
+#endif
+
 #include "arm50.h"
 
+#include <float.h>
 #include <math.h>
+#include <stddef.h>
 
 typedef arm50_real real;
 
 static int inputs_are_finite(const arm50_inputs *inputs)
 {
     for (int j = 0; j < ARM50_STAGES; ++j) {
-        if (!isfinite(inputs->base_angle[j])) {
+        if (!isfinite(inputs->tmm_base_angle[j])) {
             return 0;
         }
     }
@@ -51,6 +58,9 @@ void arm50_default_params(arm50_params *params)
         1.5625, 1.5625, 1.5625, 1.5625, 1.5625, 1.5625, 1.5625, 1.5625, 1.5625, 1.5625, 1.5625, 1.5625,
         1.5625, 1.5625, 1.5625, 1.5625, 1.5625, 1.5625, 1.5625, 1.5625, 1.5625, 1.5625, 1.5625, 1.5625, 1.5625
     };
+    if (params == NULL) {
+        return;
+    }
     params->length = 0.016;
     params->mass = 0.0304;
     params->inertia = 6.485333333333333e-07;
@@ -70,6 +80,9 @@ arm50_status arm50_prepare(
     const arm50_params *params,
     arm50_real step)
 {
+    if (model == NULL || params == NULL) {
+        return ARM50_NULL_POINTER;
+    }
     if (!isfinite(step) || !(step > 0.0)) {
         return ARM50_INVALID_STEP;
     }
@@ -135,6 +148,23 @@ arm50_status arm50_prepare(
     }
     model->tip_mass = params->tip_mass;
     model->tip_inertia = params->tip_inertia;
+
+    real total = 0.0; /* of the model: is all of it finite? */
+    for (int j = 0; j < ARM50_STATIONS; ++j) {
+        total += model->joint_impedance[j];
+    }
+    if (!isfinite(model->angle_per_acceleration + model->rate_per_acceleration + model->step_1_over_2
+        + model->step2_inverse_16 + model->step2_3_over_16 + model->step_3_over_4 + model->step2_17_over_200
+        + model->step_17_over_50 + model->step2_21_over_400 + model->step_1_over_25 + model->step_21_over_100
+        + model->step2_371_over_5440 + model->step_371_over_1360 + model->step2_137_over_10880
+        + model->step_137_over_2720 + model->step2_151_over_2176 + model->step_15_over_544
+        + model->step_151_over_544 + model->step2_25_over_96 + model->step_25_over_24
+        + model->step2_49_over_192 + model->step_49_over_48 + model->step2_125_over_64
+        + model->step_125_over_16 + model->step2_41_over_24 + model->step_85_over_12 + model->step_41_over_6
+        + model->factor_28 + model->factor_29 + model->carried_mass + model->inner_mass + model->pin_inertia
+        + total)) {
+        return ARM50_NON_FINITE_MODEL;
+    }
     return ARM50_OK;
 }
 
@@ -145,11 +175,15 @@ arm50_status arm50_initialise(
     const arm50_real initial_rate[ARM50_STATIONS],
     const arm50_inputs *inputs)
 {
+    if (state == NULL || params == NULL || inputs == NULL) {
+        return ARM50_NULL_POINTER;
+    }
     if (!inputs_are_finite(inputs)) {
         return ARM50_NON_FINITE_INPUT;
     }
     for (int j = 0; j < ARM50_STATIONS; ++j) {
-        if (!isfinite(initial_angle[j]) || !isfinite(initial_rate[j])) {
+        if ((initial_angle != NULL && !isfinite(initial_angle[j]))
+            || (initial_rate != NULL && !isfinite(initial_rate[j]))) {
             return ARM50_NON_FINITE_INPUT;
         }
     }
@@ -171,9 +205,10 @@ arm50_status arm50_initialise(
     real predicted_rate[ARM50_STATIONS + 1]; /* rate of base and links as predicted [rad/s] */
     real swing_x[ARM50_STATIONS]; /* change of the outer end's acceleration along x per unknown [m] */
     real swing_y[ARM50_STATIONS]; /* change of the outer end's acceleration along y per unknown [m] */
+    real total = 0.0; /* of the new motion: is all of it finite? */
 
     /* Predicted motion. */
-    predicted_angle[0] = inputs->base_angle[0];
+    predicted_angle[0] = inputs->tmm_base_angle[0];
     predicted_rate[0] = 0.0;
     predicted_acceleration[0] = 0.0;
 
@@ -183,8 +218,8 @@ arm50_status arm50_initialise(
     acceleration_x[0] = node_x;
     acceleration_y[0] = node_y;
     for (int j = 0; j < ARM50_STATIONS; ++j) {
-        predicted_angle[j + 1] = initial_angle[j];
-        predicted_rate[j + 1] = initial_rate[j];
+        predicted_angle[j + 1] = (initial_angle != NULL ? initial_angle[j] : 0.0);
+        predicted_rate[j + 1] = (initial_rate != NULL ? initial_rate[j] : 0.0);
         predicted_acceleration[j + 1] = 0.0;
         lever_sine[j] = length * sin(predicted_angle[j + 1]);
         lever_cosine[j] = length * cos(predicted_angle[j + 1]);
@@ -235,7 +270,7 @@ arm50_status arm50_initialise(
             + acceleration_x[j + 1] * center * mass;
         force_y = force_y + acceleration_y[j] * (mass - center * mass)
             + acceleration_y[j + 1] * center * mass;
-        if (!(link_uu > 0.0) || !isfinite(link_uu)) {
+        if (!(link_uu > 0.0) || !(link_uu <= DBL_MAX)) {
             return ARM50_VANISHING_PIVOT;
         }
         const real inverse_pivot = 1.0 / link_uu;
@@ -275,15 +310,11 @@ arm50_status arm50_initialise(
         state->angle[j] = predicted_angle[j + 1];
         state->rate[j] = predicted_rate[j + 1];
         state->acceleration[j] = predicted_acceleration[j + 1] + unknown;
+        total += state->angle[j] + state->rate[j] + state->acceleration[j];
     }
 
-    if (!isfinite(state->hub_angle) || !isfinite(state->hub_rate) || !isfinite(state->hub_acceleration)) {
+    if (!isfinite(total + state->hub_angle + state->hub_rate + state->hub_acceleration)) {
         return ARM50_NON_FINITE_STATE;
-    }
-    for (int j = 0; j < ARM50_STATIONS; ++j) {
-        if (!isfinite(state->angle[j]) || !isfinite(state->rate[j]) || !isfinite(state->acceleration[j])) {
-            return ARM50_NON_FINITE_STATE;
-        }
     }
     return ARM50_OK;
 }
@@ -293,6 +324,9 @@ arm50_status arm50_step(
     arm50_state *state,
     const arm50_inputs *inputs)
 {
+    if (model == NULL || state == NULL || inputs == NULL) {
+        return ARM50_NULL_POINTER;
+    }
     if (!inputs_are_finite(inputs)) {
         return ARM50_NON_FINITE_INPUT;
     }
@@ -348,6 +382,7 @@ arm50_status arm50_step(
     real stage3_rate[ARM50_STATIONS]; /* rate at stage 3 [rad/s] */
     real swing_x[ARM50_STATIONS]; /* change of the outer end's acceleration along x per unknown [m] */
     real swing_y[ARM50_STATIONS]; /* change of the outer end's acceleration along y per unknown [m] */
+    real total = 0.0; /* of the new motion: is all of it finite? */
 
     /* Stage 1 of 5: predicted motion. */
     predicted_angle[0] = state->hub_angle + angle_per_acceleration * state->hub_acceleration
@@ -418,7 +453,7 @@ arm50_status arm50_step(
         force_x = force_x + acceleration_x[j + 1] * carried_mass + acceleration_x[j] * inner_mass;
         force_y = force_y + acceleration_y[j + 1] * carried_mass + acceleration_y[j] * inner_mass;
         const real pivot = model->joint_impedance[j] + link_uu;
-        if (!(pivot > 0.0) || !isfinite(pivot)) {
+        if (!(pivot > 0.0) || !(pivot <= DBL_MAX)) {
             return ARM50_VANISHING_PIVOT;
         }
         const real inverse_pivot = 1.0 / pivot;
@@ -441,7 +476,7 @@ arm50_status arm50_step(
     }
 
     /* Stage 1 of 5: the hub. */
-    real unknown = model->step2_inverse_16 * (inputs->base_angle[0] - predicted_angle[0]);
+    real unknown = model->step2_inverse_16 * (inputs->tmm_base_angle[0] - predicted_angle[0]);
     real hub_unknown = unknown;
 
     /* Stage 1 of 5: sweep outward: the increment of each link's unknown. */
@@ -528,7 +563,7 @@ arm50_status arm50_step(
         force_x = force_x + acceleration_x[j + 1] * carried_mass + acceleration_x[j] * inner_mass;
         force_y = force_y + acceleration_y[j + 1] * carried_mass + acceleration_y[j] * inner_mass;
         const real pivot = model->joint_impedance[j] + link_uu;
-        if (!(pivot > 0.0) || !isfinite(pivot)) {
+        if (!(pivot > 0.0) || !(pivot <= DBL_MAX)) {
             return ARM50_VANISHING_PIVOT;
         }
         const real inverse_pivot = 1.0 / pivot;
@@ -551,7 +586,7 @@ arm50_status arm50_step(
     }
 
     /* Stage 2 of 5: the hub. */
-    unknown = model->step2_inverse_16 * (inputs->base_angle[1] - predicted_angle[0]);
+    unknown = model->step2_inverse_16 * (inputs->tmm_base_angle[1] - predicted_angle[0]);
     hub_unknown = unknown;
 
     /* Stage 2 of 5: sweep outward: the increment of each link's unknown. */
@@ -642,7 +677,7 @@ arm50_status arm50_step(
         force_x = force_x + acceleration_x[j + 1] * carried_mass + acceleration_x[j] * inner_mass;
         force_y = force_y + acceleration_y[j + 1] * carried_mass + acceleration_y[j] * inner_mass;
         const real pivot = model->joint_impedance[j] + link_uu;
-        if (!(pivot > 0.0) || !isfinite(pivot)) {
+        if (!(pivot > 0.0) || !(pivot <= DBL_MAX)) {
             return ARM50_VANISHING_PIVOT;
         }
         const real inverse_pivot = 1.0 / pivot;
@@ -665,7 +700,7 @@ arm50_status arm50_step(
     }
 
     /* Stage 3 of 5: the hub. */
-    unknown = model->step2_inverse_16 * (inputs->base_angle[2] - predicted_angle[0]);
+    unknown = model->step2_inverse_16 * (inputs->tmm_base_angle[2] - predicted_angle[0]);
     hub_unknown = unknown;
 
     /* Stage 3 of 5: sweep outward: the increment of each link's unknown. */
@@ -758,7 +793,7 @@ arm50_status arm50_step(
         force_x = force_x + acceleration_x[j + 1] * carried_mass + acceleration_x[j] * inner_mass;
         force_y = force_y + acceleration_y[j + 1] * carried_mass + acceleration_y[j] * inner_mass;
         const real pivot = model->joint_impedance[j] + link_uu;
-        if (!(pivot > 0.0) || !isfinite(pivot)) {
+        if (!(pivot > 0.0) || !(pivot <= DBL_MAX)) {
             return ARM50_VANISHING_PIVOT;
         }
         const real inverse_pivot = 1.0 / pivot;
@@ -781,7 +816,7 @@ arm50_status arm50_step(
     }
 
     /* Stage 4 of 5: the hub. */
-    unknown = model->step2_inverse_16 * (inputs->base_angle[3] - predicted_angle[0]);
+    unknown = model->step2_inverse_16 * (inputs->tmm_base_angle[3] - predicted_angle[0]);
     hub_unknown = unknown;
 
     /* Stage 4 of 5: sweep outward: the increment of each link's unknown. */
@@ -878,7 +913,7 @@ arm50_status arm50_step(
         force_x = force_x + acceleration_x[j + 1] * carried_mass + acceleration_x[j] * inner_mass;
         force_y = force_y + acceleration_y[j + 1] * carried_mass + acceleration_y[j] * inner_mass;
         const real pivot = model->joint_impedance[j] + link_uu;
-        if (!(pivot > 0.0) || !isfinite(pivot)) {
+        if (!(pivot > 0.0) || !(pivot <= DBL_MAX)) {
             return ARM50_VANISHING_PIVOT;
         }
         const real inverse_pivot = 1.0 / pivot;
@@ -901,7 +936,7 @@ arm50_status arm50_step(
     }
 
     /* Stage 5 of 5: the hub. */
-    unknown = model->step2_inverse_16 * (inputs->base_angle[4] - predicted_angle[0]);
+    unknown = model->step2_inverse_16 * (inputs->tmm_base_angle[4] - predicted_angle[0]);
     hub_unknown = unknown;
 
     /* Stage 5 of 5: sweep outward: the increment of each link's unknown. */
@@ -920,10 +955,10 @@ arm50_status arm50_step(
         state->angle[j] = predicted_angle[j + 1] + angle_per_acceleration * unknown;
         state->rate[j] = predicted_rate[j + 1] + rate_per_acceleration * unknown;
         state->acceleration[j] = predicted_acceleration[j + 1] + unknown;
+        total += state->angle[j] + state->rate[j] + state->acceleration[j];
     }
 
-    /* Anything that is not a number has reached this one. */
-    if (!isfinite(state->acceleration[ARM50_STATIONS - 1])) {
+    if (!isfinite(total + state->hub_angle + state->hub_rate + state->hub_acceleration)) {
         return ARM50_NON_FINITE_STATE;
     }
     return ARM50_OK;
@@ -934,38 +969,41 @@ void arm50_output(
     const arm50_state *state,
     arm50_outputs *outputs)
 {
+    if (model == NULL || state == NULL || outputs == NULL) {
+        return;
+    }
     const real length = model->length;
     const real factor_28 = model->factor_28;
     const real factor_29 = model->factor_29;
 
     /* Tip: position. */
-    outputs->tip_x = 0.0;
-    outputs->tip_y = 0.0;
+    outputs->tmm_tip_x = 0.0;
+    outputs->tmm_tip_y = 0.0;
 
     /* Tip_angle: angle. */
-    outputs->tip_angle = state->angle[49];
+    outputs->tmm_tip_angle = state->angle[49];
 
     /* Tip: position; reaction: force. */
     real node_x = 0.0;
     real node_y = 0.0;
-    outputs->reaction_x = 0.0;
-    outputs->reaction_y = 0.0;
+    outputs->tmm_reaction_x = 0.0;
+    outputs->tmm_reaction_y = 0.0;
     for (int j = 0; j < ARM50_STATIONS; ++j) {
-        outputs->tip_x = outputs->tip_x + length * cos(state->angle[j]);
-        outputs->tip_y = outputs->tip_y + length * sin(state->angle[j]);
+        outputs->tmm_tip_x = outputs->tmm_tip_x + length * cos(state->angle[j]);
+        outputs->tmm_tip_y = outputs->tmm_tip_y + length * sin(state->angle[j]);
         const real inner_x = node_x;
         const real inner_y = node_y;
         node_x = node_x - state->acceleration[j] * length * sin(state->angle[j])
             - length * (state->rate[j] * state->rate[j]) * cos(state->angle[j]);
         node_y = node_y + state->acceleration[j] * length * cos(state->angle[j])
             - length * (state->rate[j] * state->rate[j]) * sin(state->angle[j]);
-        outputs->reaction_x = outputs->reaction_x - factor_28 * inner_x + factor_29 * node_x;
-        outputs->reaction_y = outputs->reaction_y - factor_28 * inner_y + factor_29 * node_y;
+        outputs->tmm_reaction_x = outputs->tmm_reaction_x - factor_28 * inner_x + factor_29 * node_x;
+        outputs->tmm_reaction_y = outputs->tmm_reaction_y - factor_28 * inner_y + factor_29 * node_y;
     }
-    outputs->reaction_x = outputs->reaction_x + node_x * model->tip_mass;
-    outputs->reaction_y = outputs->reaction_y + node_y * model->tip_mass;
+    outputs->tmm_reaction_x = outputs->tmm_reaction_x + node_x * model->tip_mass;
+    outputs->tmm_reaction_y = outputs->tmm_reaction_y + node_y * model->tip_mass;
 
     /* Drive: torque. */
-    outputs->drive = model->damping[0] * (state->rate[0] - state->hub_rate)
+    outputs->tmm_drive = model->damping[0] * (state->rate[0] - state->hub_rate)
         + model->stiffness[0] * (state->angle[0] - state->hub_angle);
 }

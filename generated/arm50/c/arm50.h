@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
- * sha256 of the rest of this file: 59f88805c2a6caeb07330d762aab54ce6214f03b677ad11248cc230f32e533aa
+ * sha256 of the rest of this file: 27b9ea60596eab102830c6ba5331cc90431ab1c86d16858b4fa163ad613564fa
  *
  * model: planar arm, large rotations, tip mass
  * stations: 50
@@ -24,8 +24,8 @@
  *
  * @file arm50.h
  */
-#ifndef ARM50_H
-#define ARM50_H
+#ifndef TMM_GEN_KERNEL_arm50
+#define TMM_GEN_KERNEL_arm50
 
 #ifdef __cplusplus
 extern "C" {
@@ -55,7 +55,11 @@ typedef enum {
     /** No passive arm has such parameters (a negative inertia, say); the model is of no use. */
     ARM50_VANISHING_PIVOT,
     /** The motion has outgrown the number type; initialise anew. */
-    ARM50_NON_FINITE_STATE
+    ARM50_NON_FINITE_STATE,
+    /** A pointer that is needed is NULL; nothing was changed. */
+    ARM50_NULL_POINTER = 6,
+    /** Parameters or time step are too large or too small for the number type; the model is of no use. */
+    ARM50_NON_FINITE_MODEL = 7
 } arm50_status;
 
 /** Physical parameters. */
@@ -125,23 +129,23 @@ typedef struct {
 
 /** What acts on the arm. */
 typedef struct {
-    arm50_real base_angle[ARM50_STAGES]; /**< prescribed base angle, at each stage of the step [rad] */
+    arm50_real tmm_base_angle[ARM50_STAGES]; /**< prescribed base angle, at each stage of the step [rad] */
 } arm50_inputs;
 
 /** What the scene asks to know. */
 typedef struct {
-    arm50_real tip_x; /**< position at the tip, x [m] */
-    arm50_real tip_y; /**< position at the tip, y [m] */
-    arm50_real tip_angle; /**< angle at the tip [rad] */
-    arm50_real reaction_x; /**< force at the base, x [N] */
-    arm50_real reaction_y; /**< force at the base, y [N] */
-    arm50_real drive; /**< torque at the base [N m] */
+    arm50_real tmm_tip_x; /**< position at the tip, x [m] */
+    arm50_real tmm_tip_y; /**< position at the tip, y [m] */
+    arm50_real tmm_tip_angle; /**< angle at the tip [rad] */
+    arm50_real tmm_reaction_x; /**< force at the base, x [N] */
+    arm50_real tmm_reaction_y; /**< force at the base, y [N] */
+    arm50_real tmm_drive; /**< torque at the base [N m] */
 } arm50_outputs;
 
 /**
  * Write the scene's parameters.
  *
- * @param[out] params  parameters
+ * @param[out] params  parameters; nothing is done where it is NULL
  */
 void arm50_default_params(arm50_params *params);
 
@@ -151,7 +155,7 @@ void arm50_default_params(arm50_params *params);
  * @param[out] model   what the other functions need
  * @param[in]  params  parameters
  * @param[in]  step    time step [s]
- * @return OK, NON_FINITE_INPUT, INVALID_STEP or VANISHING_PIVOT
+ * @return OK, NON_FINITE_INPUT, NULL_POINTER, INVALID_STEP, VANISHING_PIVOT or NON_FINITE_MODEL
  */
 arm50_status arm50_prepare(
     arm50_model *model,
@@ -163,10 +167,10 @@ arm50_status arm50_prepare(
  *
  * @param[out] state   motion at the initial instant
  * @param[in]  params  parameters
- * @param[in]  initial_angle  angles to start from [rad]
- * @param[in]  initial_rate  rates to start from [rad/s]
+ * @param[in]  initial_angle  angles to start from [rad]; NULL for the scene's own
+ * @param[in]  initial_rate  rates to start from [rad/s]; NULL for the scene's own
  * @param[in]  inputs  what acts at the initial instant; only the first stage's count
- * @return OK, NON_FINITE_INPUT, VANISHING_PIVOT or NON_FINITE_STATE
+ * @return OK, NON_FINITE_INPUT, NULL_POINTER, VANISHING_PIVOT or NON_FINITE_STATE
  */
 arm50_status arm50_initialise(
     arm50_state *state,
@@ -181,7 +185,7 @@ arm50_status arm50_initialise(
  * @param[in]     model   from arm50_prepare()
  * @param[in,out] state   motion before the step, and after it
  * @param[in]     inputs  what acts, at each stage of the step
- * @return OK, NON_FINITE_INPUT, VANISHING_PIVOT or NON_FINITE_STATE
+ * @return OK, NON_FINITE_INPUT, NULL_POINTER, VANISHING_PIVOT or NON_FINITE_STATE
  */
 arm50_status arm50_step(
     const arm50_model *model,
@@ -189,7 +193,7 @@ arm50_status arm50_step(
     const arm50_inputs *inputs);
 
 /**
- * Read the outputs off the state.
+ * Read the outputs off the state. Nothing is done where a pointer is NULL.
  *
  * @param[in]  model    from arm50_prepare()
  * @param[in]  state    motion
@@ -204,4 +208,4 @@ void arm50_output(
 }
 #endif
 
-#endif /* ARM50_H */
+#endif /* TMM_GEN_KERNEL_arm50 */

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
- * sha256 of the rest of this file: 84fee3526f4457d969abc33243d38e62837316018d7d75ec6340ad0d7e099db4
+ * sha256 of the rest of this file: b6be9116aece1d5c6a2a43ba0219347ddbee2a4dd95a6a82ff2a40c81f13cdc0
  *
  * model: planar arm, large rotations, tip mass
  * stations: 50
@@ -22,9 +22,15 @@
  *
  * @file test_arm50.c
  */
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(_M_FP_FAST) \
+    || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "-Ofast and -ffast-math remove checks of this file: use -O3, or put -fno-fast-math behind them"
+#endif
+
 #include "arm50.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -44,7 +50,7 @@ static void expect(tally *count, const char *what, real value, real right, real 
     }
 }
 
-static void expect_status(
+static void expect_code(
     tally *count,
     const char *what,
     arm50_status value,
@@ -71,7 +77,7 @@ static void test_motion(tally *count)
     memset(&state, 0, sizeof state); /* padding too: it is compared below */
     arm50_default_params(&params);
     status = arm50_prepare(&model, &params, ARM50_STEP);
-    expect_status(count, "prepare", status, ARM50_OK);
+    expect_code(count, "prepare", status, ARM50_OK);
 
     for (int j = 0; j < ARM50_STATIONS; ++j) {
         initial_angle[j] = (real)((7 * j + 3) % 16 - 8) / 16777216.0;
@@ -79,61 +85,61 @@ static void test_motion(tally *count)
     for (int j = 0; j < ARM50_STATIONS; ++j) {
         initial_rate[j] = (real)((7 * j + 3) % 16 - 8) / 16777216.0;
     }
-    inputs.base_angle[0] = -1.430511474609375e-06;
-    inputs.base_angle[1] = -4.76837158203125e-07;
-    inputs.base_angle[2] = 4.76837158203125e-07;
-    inputs.base_angle[3] = 1.430511474609375e-06;
-    inputs.base_angle[4] = -1.9073486328125e-06;
+    inputs.tmm_base_angle[0] = -1.430511474609375e-06;
+    inputs.tmm_base_angle[1] = -4.76837158203125e-07;
+    inputs.tmm_base_angle[2] = 4.76837158203125e-07;
+    inputs.tmm_base_angle[3] = 1.430511474609375e-06;
+    inputs.tmm_base_angle[4] = -1.9073486328125e-06;
     status = arm50_initialise(&state, &params, initial_angle, initial_rate, &inputs);
-    expect_status(count, "initialise", status, ARM50_OK);
+    expect_code(count, "initialise", status, ARM50_OK);
 
     /* Step 1. */
-    inputs.base_angle[0] = 9.5367431640625e-07;
-    inputs.base_angle[1] = 1.9073486328125e-06;
-    inputs.base_angle[2] = -1.430511474609375e-06;
-    inputs.base_angle[3] = -4.76837158203125e-07;
-    inputs.base_angle[4] = 4.76837158203125e-07;
+    inputs.tmm_base_angle[0] = 9.5367431640625e-07;
+    inputs.tmm_base_angle[1] = 1.9073486328125e-06;
+    inputs.tmm_base_angle[2] = -1.430511474609375e-06;
+    inputs.tmm_base_angle[3] = -4.76837158203125e-07;
+    inputs.tmm_base_angle[4] = 4.76837158203125e-07;
     status = arm50_step(&model, &state, &inputs);
-    expect_status(count, "step 1", status, ARM50_OK);
+    expect_code(count, "step 1", status, ARM50_OK);
     arm50_output(&model, &state, &outputs);
-    expect(count, "tip_x", outputs.tip_x, 0.7999999999936437, 5.2e-15);
-    expect(count, "tip_y", outputs.tip_y, -2.9246799722947642e-08, 1.6e-16);
-    expect(count, "tip_angle", outputs.tip_angle, -3.133217657302007e-08, 1.9e-15);
-    expect(count, "reaction_x", outputs.reaction_x, -0.0003276465637738733, 8.4e-15);
-    expect(count, "reaction_y", outputs.reaction_y, 2.5796813386601256, 4.3e-11);
-    expect(count, "drive", outputs.drive, -0.1589352020161569, 3.9e-12);
+    expect(count, "tmm_tip_x", outputs.tmm_tip_x, 0.7999999999936437, 5.2e-15);
+    expect(count, "tmm_tip_y", outputs.tmm_tip_y, -2.9246799722947642e-08, 1.6e-16);
+    expect(count, "tmm_tip_angle", outputs.tmm_tip_angle, -3.133217657302007e-08, 1.9e-15);
+    expect(count, "tmm_reaction_x", outputs.tmm_reaction_x, -0.0003276465637738733, 8.4e-15);
+    expect(count, "tmm_reaction_y", outputs.tmm_reaction_y, 2.5796813386601256, 4.3e-11);
+    expect(count, "tmm_drive", outputs.tmm_drive, -0.1589352020161569, 3.9e-12);
 
     /* Step 2. */
-    inputs.base_angle[0] = -9.5367431640625e-07;
-    inputs.base_angle[1] = 0.0;
-    inputs.base_angle[2] = 9.5367431640625e-07;
-    inputs.base_angle[3] = 1.9073486328125e-06;
-    inputs.base_angle[4] = -1.430511474609375e-06;
+    inputs.tmm_base_angle[0] = -9.5367431640625e-07;
+    inputs.tmm_base_angle[1] = 0.0;
+    inputs.tmm_base_angle[2] = 9.5367431640625e-07;
+    inputs.tmm_base_angle[3] = 1.9073486328125e-06;
+    inputs.tmm_base_angle[4] = -1.430511474609375e-06;
     status = arm50_step(&model, &state, &inputs);
-    expect_status(count, "step 2", status, ARM50_OK);
+    expect_code(count, "step 2", status, ARM50_OK);
     arm50_output(&model, &state, &outputs);
-    expect(count, "tip_x", outputs.tip_x, 0.7999999999930091, 5.2e-15);
-    expect(count, "tip_y", outputs.tip_y, 1.4754792375597243e-08, 1.6e-16);
-    expect(count, "tip_angle", outputs.tip_angle, -3.974691784563144e-06, 1.9e-15);
-    expect(count, "reaction_x", outputs.reaction_x, -6.965293798188813e-06, 8.4e-15);
-    expect(count, "reaction_y", outputs.reaction_y, 0.4174345325587483, 4.3e-11);
-    expect(count, "drive", outputs.drive, -0.053923043942192495, 3.9e-12);
+    expect(count, "tmm_tip_x", outputs.tmm_tip_x, 0.7999999999930091, 5.2e-15);
+    expect(count, "tmm_tip_y", outputs.tmm_tip_y, 1.4754792375597243e-08, 1.6e-16);
+    expect(count, "tmm_tip_angle", outputs.tmm_tip_angle, -3.974691784563144e-06, 1.9e-15);
+    expect(count, "tmm_reaction_x", outputs.tmm_reaction_x, -6.965293798188813e-06, 8.4e-15);
+    expect(count, "tmm_reaction_y", outputs.tmm_reaction_y, 0.4174345325587483, 4.3e-11);
+    expect(count, "tmm_drive", outputs.tmm_drive, -0.053923043942192495, 3.9e-12);
 
     /* Step 3. */
-    inputs.base_angle[0] = 1.430511474609375e-06;
-    inputs.base_angle[1] = -1.9073486328125e-06;
-    inputs.base_angle[2] = -9.5367431640625e-07;
-    inputs.base_angle[3] = 0.0;
-    inputs.base_angle[4] = 9.5367431640625e-07;
+    inputs.tmm_base_angle[0] = 1.430511474609375e-06;
+    inputs.tmm_base_angle[1] = -1.9073486328125e-06;
+    inputs.tmm_base_angle[2] = -9.5367431640625e-07;
+    inputs.tmm_base_angle[3] = 0.0;
+    inputs.tmm_base_angle[4] = 9.5367431640625e-07;
     status = arm50_step(&model, &state, &inputs);
-    expect_status(count, "step 3", status, ARM50_OK);
+    expect_code(count, "step 3", status, ARM50_OK);
     arm50_output(&model, &state, &outputs);
-    expect(count, "tip_x", outputs.tip_x, 0.7999999999907428, 5.2e-15);
-    expect(count, "tip_y", outputs.tip_y, 4.2879698427023643e-07, 1.6e-16);
-    expect(count, "tip_angle", outputs.tip_angle, 1.2390017072473374e-05, 1.9e-15);
-    expect(count, "reaction_x", outputs.reaction_x, -0.00015577557233715532, 8.4e-15);
-    expect(count, "reaction_y", outputs.reaction_y, 1.6692356643512634, 4.3e-11);
-    expect(count, "drive", outputs.drive, -0.10696685184478559, 3.9e-12);
+    expect(count, "tmm_tip_x", outputs.tmm_tip_x, 0.7999999999907428, 5.2e-15);
+    expect(count, "tmm_tip_y", outputs.tmm_tip_y, 4.2879698427023643e-07, 1.6e-16);
+    expect(count, "tmm_tip_angle", outputs.tmm_tip_angle, 1.2390017072473374e-05, 1.9e-15);
+    expect(count, "tmm_reaction_x", outputs.tmm_reaction_x, -0.00015577557233715532, 8.4e-15);
+    expect(count, "tmm_reaction_y", outputs.tmm_reaction_y, 1.6692356643512634, 4.3e-11);
+    expect(count, "tmm_drive", outputs.tmm_drive, -0.10696685184478559, 3.9e-12);
 
     /* State after the last step. */
     expect(count, "hub_angle", state.hub_angle, 9.5367431640625e-07, 7.1e-19);
@@ -175,11 +181,11 @@ static void test_motion(tally *count)
     memcpy(&before, &state, sizeof before);
     const real bad[] = {(real)NAN, (real)INFINITY, -(real)INFINITY};
     for (int k = 0; k < 3; ++k) {
-        const real base_angle = inputs.base_angle[ARM50_STAGES - 1];
-        inputs.base_angle[ARM50_STAGES - 1] = bad[k];
+        const real tmm_base_angle = inputs.tmm_base_angle[ARM50_STAGES - 1];
+        inputs.tmm_base_angle[ARM50_STAGES - 1] = bad[k];
         status = arm50_step(&model, &state, &inputs);
-        expect_status(count, "bad base_angle", status, ARM50_NON_FINITE_INPUT);
-        inputs.base_angle[ARM50_STAGES - 1] = base_angle;
+        expect_code(count, "bad base_angle", status, ARM50_NON_FINITE_INPUT);
+        inputs.tmm_base_angle[ARM50_STAGES - 1] = tmm_base_angle;
     }
     ++count->checks;
     if (memcmp(&before, &state, sizeof state) != 0) {
@@ -196,49 +202,82 @@ static void test_refusals(tally *count)
 
     arm50_default_params(&params);
     status = arm50_prepare(&model, &params, 0.0);
-    expect_status(count, "no step", status, ARM50_INVALID_STEP);
+    expect_code(count, "no step", status, ARM50_INVALID_STEP);
     status = arm50_prepare(&model, &params, (real)NAN);
-    expect_status(count, "bad step", status, ARM50_INVALID_STEP);
+    expect_code(count, "bad step", status, ARM50_INVALID_STEP);
 
     arm50_default_params(&params);
     params.length = (real)NAN;
     status = arm50_prepare(&model, &params, ARM50_STEP);
-    expect_status(count, "bad length", status, ARM50_NON_FINITE_INPUT);
+    expect_code(count, "bad length", status, ARM50_NON_FINITE_INPUT);
 
     arm50_default_params(&params);
     params.mass = (real)NAN;
     status = arm50_prepare(&model, &params, ARM50_STEP);
-    expect_status(count, "bad mass", status, ARM50_NON_FINITE_INPUT);
+    expect_code(count, "bad mass", status, ARM50_NON_FINITE_INPUT);
 
     arm50_default_params(&params);
     params.inertia = (real)NAN;
     status = arm50_prepare(&model, &params, ARM50_STEP);
-    expect_status(count, "bad inertia", status, ARM50_NON_FINITE_INPUT);
+    expect_code(count, "bad inertia", status, ARM50_NON_FINITE_INPUT);
 
     arm50_default_params(&params);
     params.center = (real)NAN;
     status = arm50_prepare(&model, &params, ARM50_STEP);
-    expect_status(count, "bad center", status, ARM50_NON_FINITE_INPUT);
+    expect_code(count, "bad center", status, ARM50_NON_FINITE_INPUT);
 
     arm50_default_params(&params);
     params.stiffness[ARM50_STATIONS - 1] = (real)NAN;
     status = arm50_prepare(&model, &params, ARM50_STEP);
-    expect_status(count, "bad stiffness", status, ARM50_NON_FINITE_INPUT);
+    expect_code(count, "bad stiffness", status, ARM50_NON_FINITE_INPUT);
 
     arm50_default_params(&params);
     params.damping[ARM50_STATIONS - 1] = (real)NAN;
     status = arm50_prepare(&model, &params, ARM50_STEP);
-    expect_status(count, "bad damping", status, ARM50_NON_FINITE_INPUT);
+    expect_code(count, "bad damping", status, ARM50_NON_FINITE_INPUT);
 
     arm50_default_params(&params);
     params.tip_mass = (real)NAN;
     status = arm50_prepare(&model, &params, ARM50_STEP);
-    expect_status(count, "bad tip_mass", status, ARM50_NON_FINITE_INPUT);
+    expect_code(count, "bad tip_mass", status, ARM50_NON_FINITE_INPUT);
 
     arm50_default_params(&params);
     params.tip_inertia = (real)NAN;
     status = arm50_prepare(&model, &params, ARM50_STEP);
-    expect_status(count, "bad tip_inertia", status, ARM50_NON_FINITE_INPUT);
+    expect_code(count, "bad tip_inertia", status, ARM50_NON_FINITE_INPUT);
+}
+
+/* Arrays that are absent are the scene's own; any other pointer that is absent is refused. */
+static void test_absent(tally *count)
+{
+    arm50_params params;
+    arm50_model model;
+    arm50_state state;
+    arm50_inputs inputs;
+    arm50_status status;
+
+    memset(&inputs, 0, sizeof inputs);
+    arm50_default_params(&params);
+    arm50_default_params(NULL);
+    status = arm50_prepare(NULL, &params, ARM50_STEP);
+    expect_code(count, "no model", status, ARM50_NULL_POINTER);
+    status = arm50_prepare(&model, NULL, ARM50_STEP);
+    expect_code(count, "no parameters", status, ARM50_NULL_POINTER);
+    status = arm50_prepare(&model, &params, ARM50_STEP);
+    expect_code(count, "prepare", status, ARM50_OK);
+    status = arm50_initialise(NULL, &params, NULL, NULL, &inputs);
+    expect_code(count, "no state", status, ARM50_NULL_POINTER);
+    status = arm50_initialise(&state, &params, NULL, NULL, &inputs);
+    expect_code(count, "the scene's start", status, ARM50_OK);
+    status = arm50_step(&model, NULL, &inputs);
+    expect_code(count, "no state", status, ARM50_NULL_POINTER);
+    status = arm50_step(NULL, &state, &inputs);
+    expect_code(count, "no model", status, ARM50_NULL_POINTER);
+    status = arm50_initialise(&state, &params, NULL, NULL, NULL);
+    expect_code(count, "no inputs", status, ARM50_NULL_POINTER);
+    status = arm50_step(&model, &state, NULL);
+    expect_code(count, "no inputs", status, ARM50_NULL_POINTER);
+    arm50_output(&model, &state, NULL);
 }
 
 int main(void)
@@ -246,6 +285,7 @@ int main(void)
     tally count = {0, 0};
 
     test_motion(&count);
+    test_absent(&count);
     test_refusals(&count);
     if (count.failures > 0) {
         printf("%d of %d checks failed\n", count.failures, count.checks);

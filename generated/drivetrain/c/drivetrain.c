@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 260c88ca5ffe6b93ea5946fad67187e547942573db1dc2f710bcd9a0610b8738
- * sha256 of the rest of this file: c01fc0ead76b77f3b7fbd0e9c240857b98487621ff0fe7abc69f52e6ff599be9
+ * sha256 of the rest of this file: daee4274a689894816550aac52b3ade608024422f149ae8ac3e4a66d44018c43
  *
  * model: torsional chain (linear)
  * stations: 6
@@ -18,15 +18,22 @@
  *
  * @file drivetrain.c
  */
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(_M_FP_FAST) \
+    || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "-Ofast and -ffast-math remove checks of this file: use -O3, or put -fno-fast-math behind them"
+#endif
+
 #include "drivetrain.h"
 
+#include <float.h>
 #include <math.h>
+#include <stddef.h>
 
 typedef drivetrain_real real;
 
 static int inputs_are_finite(const drivetrain_inputs *inputs)
 {
-    if (!isfinite(inputs->motor_torque) || !isfinite(inputs->load_torque)) {
+    if (!isfinite(inputs->tmm_motor_torque) || !isfinite(inputs->tmm_load_torque)) {
         return 0;
     }
     return 1;
@@ -43,6 +50,9 @@ void drivetrain_default_params(drivetrain_params *params)
     static const real inertia[] = {
         0.0004, 0.0011, 0.0028, 0.019, 0.0024, 2e-05
     };
+    if (params == NULL) {
+        return;
+    }
     for (int j = 0; j < DRIVETRAIN_STATIONS; ++j) {
         params->stiffness[j] = stiffness[j];
     }
@@ -61,6 +71,9 @@ drivetrain_status drivetrain_prepare(
     const drivetrain_params *params,
     drivetrain_real step)
 {
+    if (model == NULL || params == NULL) {
+        return DRIVETRAIN_NULL_POINTER;
+    }
     if (!isfinite(step) || !(step > 0.0)) {
         return DRIVETRAIN_INVALID_STEP;
     }
@@ -81,7 +94,7 @@ drivetrain_status drivetrain_prepare(
             + (125.0 / 486.0) * (step * step) * params->stiffness[j];
         impedance = impedance - params->inertia[j];
         const real pivot = joint_impedance - impedance;
-        if (!(pivot > 0.0) || !isfinite(pivot)) {
+        if (!(pivot > 0.0) || !(pivot <= DBL_MAX)) {
             return DRIVETRAIN_VANISHING_PIVOT;
         }
         model->admittance[j] = 1.0 / pivot;
@@ -90,7 +103,7 @@ drivetrain_status drivetrain_prepare(
         impedance = impedance * model->transmission[j];
     }
     const real hub_pivot = params->hub_inertia - impedance + (55.0 / 108.0) * params->hub_damping * step;
-    if (!(hub_pivot > 0.0) || !isfinite(hub_pivot)) {
+    if (!(hub_pivot > 0.0) || !(hub_pivot <= DBL_MAX)) {
         return DRIVETRAIN_VANISHING_PIVOT;
     }
     model->hub_admittance = 1.0 / hub_pivot;
@@ -113,6 +126,16 @@ drivetrain_status drivetrain_prepare(
     for (int j = 0; j < DRIVETRAIN_STATIONS; ++j) {
         model->damping[j] = params->damping[j];
     }
+
+    real total = 0.0; /* of the model: is all of it finite? */
+    for (int j = 0; j < DRIVETRAIN_STATIONS; ++j) {
+        total += model->admittance[j] + model->transmission[j] + model->reflection[j];
+    }
+    if (!isfinite(model->step_5_over_108 + model->step2_5_over_243 + model->step_5_over_9 + model->factor_4
+        + model->step2_1_over_27 + model->step2_25_over_54 + model->step_1_over_12 + model->step_11_over_12
+        + model->hub_admittance + total)) {
+        return DRIVETRAIN_NON_FINITE_MODEL;
+    }
     return DRIVETRAIN_OK;
 }
 
@@ -123,11 +146,15 @@ drivetrain_status drivetrain_initialise(
     const drivetrain_real initial_rate[DRIVETRAIN_STATIONS],
     const drivetrain_inputs *inputs)
 {
+    if (state == NULL || params == NULL || inputs == NULL) {
+        return DRIVETRAIN_NULL_POINTER;
+    }
     if (!inputs_are_finite(inputs)) {
         return DRIVETRAIN_NON_FINITE_INPUT;
     }
     for (int j = 0; j < DRIVETRAIN_STATIONS; ++j) {
-        if (!isfinite(initial_angle[j]) || !isfinite(initial_rate[j])) {
+        if ((initial_angle != NULL && !isfinite(initial_angle[j]))
+            || (initial_rate != NULL && !isfinite(initial_rate[j]))) {
             return DRIVETRAIN_NON_FINITE_INPUT;
         }
     }
@@ -138,17 +165,18 @@ drivetrain_status drivetrain_initialise(
     /* rate of each node without the unknown's share, base first [rad/s] */
     real known_rate[DRIVETRAIN_STATIONS + 1];
     real load[DRIVETRAIN_STATIONS]; /* external torque on each link but the last [N m] */
+    real total = 0.0; /* of the new motion: is all of it finite? */
 
     /* Motion known before the sweep; sweep inward: torque beyond each joint as if its inner side did not
      * move. */
     known_rate[0] = 0.0;
     known_angle[0] = 0.0;
     for (int j = 0; j < DRIVETRAIN_STATIONS; ++j) {
-        known_rate[j + 1] = initial_rate[j];
-        known_angle[j + 1] = initial_angle[j];
+        known_rate[j + 1] = (initial_rate != NULL ? initial_rate[j] : 0.0);
+        known_angle[j + 1] = (initial_angle != NULL ? initial_angle[j] : 0.0);
         load[j] = 0.0;
     }
-    load[3] = inputs->load_torque;
+    load[3] = inputs->tmm_load_torque;
     real bias = 0.0;
 
     /* Torque of each joint at the known motion; sweep inward: torque beyond each joint as if its inner side
@@ -162,7 +190,7 @@ drivetrain_status drivetrain_initialise(
     }
 
     /* The base. */
-    const real unknown = (bias + inputs->motor_torque - params->hub_damping * known_rate[0])
+    const real unknown = (bias + inputs->tmm_motor_torque - params->hub_damping * known_rate[0])
         / params->hub_inertia;
     const real hub_unknown = unknown;
 
@@ -174,15 +202,11 @@ drivetrain_status drivetrain_initialise(
         state->angle[j] = known_angle[j + 1];
         state->rate[j] = known_rate[j + 1];
         state->acceleration[j] = correction[j];
+        total += state->angle[j] + state->rate[j] + state->acceleration[j];
     }
 
-    if (!isfinite(state->hub_angle) || !isfinite(state->hub_rate) || !isfinite(state->hub_acceleration)) {
+    if (!isfinite(total + state->hub_angle + state->hub_rate + state->hub_acceleration)) {
         return DRIVETRAIN_NON_FINITE_STATE;
-    }
-    for (int j = 0; j < DRIVETRAIN_STATIONS; ++j) {
-        if (!isfinite(state->angle[j]) || !isfinite(state->rate[j]) || !isfinite(state->acceleration[j])) {
-            return DRIVETRAIN_NON_FINITE_STATE;
-        }
     }
     return DRIVETRAIN_OK;
 }
@@ -192,6 +216,9 @@ drivetrain_status drivetrain_step(
     drivetrain_state *state,
     const drivetrain_inputs *inputs)
 {
+    if (model == NULL || state == NULL || inputs == NULL) {
+        return DRIVETRAIN_NULL_POINTER;
+    }
     if (!inputs_are_finite(inputs)) {
         return DRIVETRAIN_NON_FINITE_INPUT;
     }
@@ -210,6 +237,7 @@ drivetrain_status drivetrain_step(
     /* rate of each node without the unknown's share, base first [rad/s] */
     real known_rate[DRIVETRAIN_STATIONS + 1];
     real load[DRIVETRAIN_STATIONS]; /* external torque on each link but the last [N m] */
+    real total = 0.0; /* of the new motion: is all of it finite? */
 
     /* Motion known before the sweep; sweep inward: torque beyond each joint as if its inner side did not
      * move. */
@@ -222,7 +250,7 @@ drivetrain_status drivetrain_step(
             + state->rate[j] * step_5_over_9;
         load[j] = 0.0;
     }
-    load[3] = inputs->load_torque;
+    load[3] = inputs->tmm_load_torque;
     real bias = 0.0;
 
     /* Torque of each joint at the known motion; sweep inward: torque beyond each joint as if its inner side
@@ -236,7 +264,8 @@ drivetrain_status drivetrain_step(
     }
 
     /* The base. */
-    real unknown = model->hub_admittance * (bias + inputs->motor_torque) - model->factor_4 * known_rate[0];
+    real unknown = model->hub_admittance * (bias + inputs->tmm_motor_torque)
+        - model->factor_4 * known_rate[0];
     const real hub_unknown = unknown;
 
     /* Sweep outward: the unknown of each station; motion at the end of the step. */
@@ -252,10 +281,10 @@ drivetrain_status drivetrain_step(
             + solved * step2_25_over_54;
         state->rate[j] = state->rate[j] + state->acceleration[j] * step_1_over_12 + solved * step_11_over_12;
         state->acceleration[j] = 1.5 * unknown - 0.5 * state->acceleration[j];
+        total += state->angle[j] + state->rate[j] + state->acceleration[j];
     }
 
-    /* Anything that is not a number has reached this one. */
-    if (!isfinite(state->acceleration[DRIVETRAIN_STATIONS - 1])) {
+    if (!isfinite(total + state->hub_angle + state->hub_rate + state->hub_acceleration)) {
         return DRIVETRAIN_NON_FINITE_STATE;
     }
     return DRIVETRAIN_OK;
@@ -266,10 +295,13 @@ void drivetrain_output(
     const drivetrain_state *state,
     drivetrain_outputs *outputs)
 {
+    if (model == NULL || state == NULL || outputs == NULL) {
+        return;
+    }
     /* Outputs. */
-    outputs->motor_speed = state->hub_rate;
-    outputs->roller_speed = state->rate[3];
-    outputs->shaft_torque = model->damping[3] * (state->rate[3] - state->rate[2])
+    outputs->tmm_motor_speed = state->hub_rate;
+    outputs->tmm_roller_speed = state->rate[3];
+    outputs->tmm_shaft_torque = model->damping[3] * (state->rate[3] - state->rate[2])
         + model->stiffness[3] * (state->angle[3] - state->angle[2]);
-    outputs->encoder = state->angle[5];
+    outputs->tmm_encoder = state->angle[5];
 }

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 225557ccb20983327784b6fc8326b9127fb185b183a5e99d150385ab258b9303
- * sha256 of the rest of this file: 5d06ffca2997514547389a7a0cd2f744bca6d533614cb317caefb86421b9ee2a
+ * sha256 of the rest of this file: e8bcef861e1508eed6b5e1b3646c6565b9d6e406cf41b8889be95035667ae0a8
  *
  * model: planar arm, large rotations, gravity
  * stations: 10
@@ -20,9 +20,16 @@
  *
  * @file fall10.c
  */
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(_M_FP_FAST) \
+    || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "-Ofast and -ffast-math remove checks of this file: use -O3, or put -fno-fast-math behind them"
+#endif
+
 #include "fall10.h"
 
+#include <float.h>
 #include <math.h>
+#include <stddef.h>
 
 typedef fall10_real real;
 
@@ -34,6 +41,9 @@ void fall10_default_params(fall10_params *params)
     static const real damping[] = {
         0.064, 0.032, 0.032, 0.032, 0.032, 0.032, 0.032, 0.032, 0.032, 0.032
     };
+    if (params == NULL) {
+        return;
+    }
     params->length = 0.1;
     params->mass = 0.03;
     params->inertia = 2.5e-05;
@@ -52,6 +62,9 @@ fall10_status fall10_prepare(
     const fall10_params *params,
     fall10_real step)
 {
+    if (model == NULL || params == NULL) {
+        return FALL10_NULL_POINTER;
+    }
     if (!isfinite(step) || !(step > 0.0)) {
         return FALL10_INVALID_STEP;
     }
@@ -91,6 +104,15 @@ fall10_status fall10_prepare(
         model->damping[j] = params->damping[j];
     }
     model->gravity = params->gravity;
+
+    real total = 0.0; /* of the model: is all of it finite? */
+    for (int j = 0; j < FALL10_STATIONS; ++j) {
+        total += model->joint_impedance[j];
+    }
+    if (!isfinite(model->step2_1_over_2 + model->angle_per_acceleration + model->rate_per_acceleration
+        + model->carried_mass + model->inner_mass + model->pin_inertia + total)) {
+        return FALL10_NON_FINITE_MODEL;
+    }
     return FALL10_OK;
 }
 
@@ -101,8 +123,12 @@ fall10_status fall10_initialise(
     const fall10_real initial_rate[FALL10_STATIONS],
     const fall10_inputs *inputs)
 {
+    if (state == NULL || params == NULL) {
+        return FALL10_NULL_POINTER;
+    }
     for (int j = 0; j < FALL10_STATIONS; ++j) {
-        if (!isfinite(initial_angle[j]) || !isfinite(initial_rate[j])) {
+        if ((initial_angle != NULL && !isfinite(initial_angle[j]))
+            || (initial_rate != NULL && !isfinite(initial_rate[j]))) {
             return FALL10_NON_FINITE_INPUT;
         }
     }
@@ -125,6 +151,7 @@ fall10_status fall10_initialise(
     real predicted_rate[FALL10_STATIONS + 1]; /* rate of base and links as predicted [rad/s] */
     real swing_x[FALL10_STATIONS]; /* change of the outer end's acceleration along x per unknown [m] */
     real swing_y[FALL10_STATIONS]; /* change of the outer end's acceleration along y per unknown [m] */
+    real total = 0.0; /* of the new motion: is all of it finite? */
 
     /* Predicted motion. */
     predicted_angle[0] = 0.0;
@@ -137,8 +164,8 @@ fall10_status fall10_initialise(
     acceleration_x[0] = node_x;
     acceleration_y[0] = params->gravity;
     for (int j = 0; j < FALL10_STATIONS; ++j) {
-        predicted_angle[j + 1] = initial_angle[j];
-        predicted_rate[j + 1] = initial_rate[j];
+        predicted_angle[j + 1] = (initial_angle != NULL ? initial_angle[j] : 0.0);
+        predicted_rate[j + 1] = (initial_rate != NULL ? initial_rate[j] : 0.0);
         predicted_acceleration[j + 1] = 0.0;
         lever_sine[j] = length * sin(predicted_angle[j + 1]);
         lever_cosine[j] = length * cos(predicted_angle[j + 1]);
@@ -189,7 +216,7 @@ fall10_status fall10_initialise(
             + acceleration_x[j + 1] * center * mass;
         force_y = force_y + acceleration_y[j] * (mass - center * mass)
             + acceleration_y[j + 1] * center * mass;
-        if (!(link_uu > 0.0) || !isfinite(link_uu)) {
+        if (!(link_uu > 0.0) || !(link_uu <= DBL_MAX)) {
             return FALL10_VANISHING_PIVOT;
         }
         const real inverse_pivot = 1.0 / link_uu;
@@ -223,12 +250,11 @@ fall10_status fall10_initialise(
         state->angle[j] = predicted_angle[j + 1];
         state->rate[j] = predicted_rate[j + 1];
         state->acceleration[j] = predicted_acceleration[j + 1] + unknown;
+        total += state->angle[j] + state->rate[j] + state->acceleration[j];
     }
 
-    for (int j = 0; j < FALL10_STATIONS; ++j) {
-        if (!isfinite(state->angle[j]) || !isfinite(state->rate[j]) || !isfinite(state->acceleration[j])) {
-            return FALL10_NON_FINITE_STATE;
-        }
+    if (!isfinite(total)) {
+        return FALL10_NON_FINITE_STATE;
     }
     return FALL10_OK;
 }
@@ -238,6 +264,9 @@ fall10_status fall10_step(
     fall10_state *state,
     const fall10_inputs *inputs)
 {
+    if (model == NULL || state == NULL) {
+        return FALL10_NULL_POINTER;
+    }
     (void)inputs;
 
     const real step = model->step;
@@ -263,6 +292,7 @@ fall10_status fall10_step(
     real predicted_rate[FALL10_STATIONS + 1]; /* rate of base and links as predicted [rad/s] */
     real swing_x[FALL10_STATIONS]; /* change of the outer end's acceleration along x per unknown [m] */
     real swing_y[FALL10_STATIONS]; /* change of the outer end's acceleration along y per unknown [m] */
+    real total = 0.0; /* of the new motion: is all of it finite? */
 
     /* Predicted motion. */
     predicted_angle[0] = 0.0;
@@ -332,7 +362,7 @@ fall10_status fall10_step(
         force_x = force_x + acceleration_x[j + 1] * carried_mass + acceleration_x[j] * inner_mass;
         force_y = force_y + acceleration_y[j + 1] * carried_mass + acceleration_y[j] * inner_mass;
         const real pivot = model->joint_impedance[j] + link_uu;
-        if (!(pivot > 0.0) || !isfinite(pivot)) {
+        if (!(pivot > 0.0) || !(pivot <= DBL_MAX)) {
             return FALL10_VANISHING_PIVOT;
         }
         const real inverse_pivot = 1.0 / pivot;
@@ -368,10 +398,10 @@ fall10_status fall10_step(
         state->angle[j] = predicted_angle[j + 1] + angle_per_acceleration * unknown;
         state->rate[j] = predicted_rate[j + 1] + rate_per_acceleration * unknown;
         state->acceleration[j] = predicted_acceleration[j + 1] + unknown;
+        total += state->angle[j] + state->rate[j] + state->acceleration[j];
     }
 
-    /* Anything that is not a number has reached this one. */
-    if (!isfinite(state->acceleration[FALL10_STATIONS - 1])) {
+    if (!isfinite(total)) {
         return FALL10_NON_FINITE_STATE;
     }
     return FALL10_OK;
@@ -382,22 +412,25 @@ void fall10_output(
     const fall10_state *state,
     fall10_outputs *outputs)
 {
+    if (model == NULL || state == NULL || outputs == NULL) {
+        return;
+    }
     const real length = model->length;
 
     /* Tip: position. */
-    outputs->tip_x = 0.0;
-    outputs->tip_y = 0.0;
+    outputs->tmm_tip_x = 0.0;
+    outputs->tmm_tip_y = 0.0;
 
     /* Tip: position; speed: velocity. */
-    outputs->speed_x = 0.0;
-    outputs->speed_y = 0.0;
+    outputs->tmm_speed_x = 0.0;
+    outputs->tmm_speed_y = 0.0;
     for (int j = 0; j < FALL10_STATIONS; ++j) {
-        outputs->tip_x = outputs->tip_x + length * cos(state->angle[j]);
-        outputs->tip_y = outputs->tip_y + length * sin(state->angle[j]);
-        outputs->speed_x = outputs->speed_x - length * state->rate[j] * sin(state->angle[j]);
-        outputs->speed_y = outputs->speed_y + length * state->rate[j] * cos(state->angle[j]);
+        outputs->tmm_tip_x = outputs->tmm_tip_x + length * cos(state->angle[j]);
+        outputs->tmm_tip_y = outputs->tmm_tip_y + length * sin(state->angle[j]);
+        outputs->tmm_speed_x = outputs->tmm_speed_x - length * state->rate[j] * sin(state->angle[j]);
+        outputs->tmm_speed_y = outputs->tmm_speed_y + length * state->rate[j] * cos(state->angle[j]);
     }
 
     /* Root: torque. */
-    outputs->root = state->angle[0] * model->stiffness[0] + model->damping[0] * state->rate[0];
+    outputs->tmm_root = state->angle[0] * model->stiffness[0] + model->damping[0] * state->rate[0];
 }

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 1ec2a071f5720229c3b5c9d847fa0a44d6fa112015051ca13c1d73444e6eb10a
- * sha256 of the rest of this file: 1e21c045c11fc73eeffac3b3f0ca5c1f91dc13aafa9cd54564d35f959f525f98
+ * sha256 of the rest of this file: e53f40a05c8914fdedf3a5075d2b5faaf49800abb95d1003ea08a263604590cc
  *
  * model: torsional chain (linear)
  * stations: 100
@@ -18,15 +18,22 @@
  *
  * @file hundred.c
  */
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(_M_FP_FAST) \
+    || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "-Ofast and -ffast-math remove checks of this file: use -O3, or put -fno-fast-math behind them"
+#endif
+
 #include "hundred.h"
 
+#include <float.h>
 #include <math.h>
+#include <stddef.h>
 
 typedef hundred_real real;
 
 static int inputs_are_finite(const hundred_inputs *inputs)
 {
-    if (!isfinite(inputs->tip_torque)) {
+    if (!isfinite(inputs->tmm_tip_torque)) {
         return 0;
     }
     return 1;
@@ -34,6 +41,9 @@ static int inputs_are_finite(const hundred_inputs *inputs)
 
 void hundred_default_params(hundred_params *params)
 {
+    if (params == NULL) {
+        return;
+    }
     params->stiffness = 400.0;
     params->damping = 0.02;
     params->inertia = 0.01;
@@ -44,6 +54,9 @@ hundred_status hundred_prepare(
     const hundred_params *params,
     hundred_real step)
 {
+    if (model == NULL || params == NULL) {
+        return HUNDRED_NULL_POINTER;
+    }
     if (!isfinite(step) || !(step > 0.0)) {
         return HUNDRED_INVALID_STEP;
     }
@@ -59,7 +72,7 @@ hundred_status hundred_prepare(
     for (int j = HUNDRED_STATIONS - 1; j >= 0; --j) {
         impedance = impedance - inertia;
         const real pivot = joint_impedance - impedance;
-        if (!(pivot > 0.0) || !isfinite(pivot)) {
+        if (!(pivot > 0.0) || !(pivot <= DBL_MAX)) {
             return HUNDRED_VANISHING_PIVOT;
         }
         model->admittance[j] = 1.0 / pivot;
@@ -76,6 +89,14 @@ hundred_status hundred_prepare(
     model->step = step;
     model->stiffness = params->stiffness;
     model->damping = params->damping;
+
+    real total = 0.0; /* of the model: is all of it finite? */
+    for (int j = 0; j < HUNDRED_STATIONS; ++j) {
+        total += model->admittance[j] + model->transmission[j] + model->reflection[j];
+    }
+    if (!isfinite(model->rate_per_acceleration + model->angle_per_acceleration + total)) {
+        return HUNDRED_NON_FINITE_MODEL;
+    }
     return HUNDRED_OK;
 }
 
@@ -86,11 +107,15 @@ hundred_status hundred_initialise(
     const hundred_real initial_rate[HUNDRED_STATIONS],
     const hundred_inputs *inputs)
 {
+    if (state == NULL || params == NULL || inputs == NULL) {
+        return HUNDRED_NULL_POINTER;
+    }
     if (!inputs_are_finite(inputs)) {
         return HUNDRED_NON_FINITE_INPUT;
     }
     for (int j = 0; j < HUNDRED_STATIONS; ++j) {
-        if (!isfinite(initial_angle[j]) || !isfinite(initial_rate[j])) {
+        if ((initial_angle != NULL && !isfinite(initial_angle[j]))
+            || (initial_rate != NULL && !isfinite(initial_rate[j]))) {
             return HUNDRED_NON_FINITE_INPUT;
         }
     }
@@ -102,17 +127,18 @@ hundred_status hundred_initialise(
     real known_angle[HUNDRED_STATIONS + 1];
     /* rate of each node without the unknown's share, base first [rad/s] */
     real known_rate[HUNDRED_STATIONS + 1];
+    real total = 0.0; /* of the new motion: is all of it finite? */
 
     /* Motion known before the sweep. */
     known_rate[0] = 0.0;
     known_angle[0] = 0.0;
     for (int j = 0; j < HUNDRED_STATIONS; ++j) {
-        known_rate[j + 1] = initial_rate[j];
-        known_angle[j + 1] = initial_angle[j];
+        known_rate[j + 1] = (initial_rate != NULL ? initial_rate[j] : 0.0);
+        known_angle[j + 1] = (initial_angle != NULL ? initial_angle[j] : 0.0);
     }
 
     /* Sweep inward: torque beyond each joint as if its inner side did not move. */
-    real bias = inputs->tip_torque;
+    real bias = inputs->tmm_tip_torque;
 
     /* Torque of each joint at the known motion; sweep inward: torque beyond each joint as if its inner side
      * did not move; sweep outward: the unknown of each station; motion at the end of the step. */
@@ -124,12 +150,11 @@ hundred_status hundred_initialise(
         state->angle[j] = known_angle[j + 1];
         state->rate[j] = known_rate[j + 1];
         state->acceleration[j] = correction;
+        total += state->angle[j] + state->rate[j] + state->acceleration[j];
     }
 
-    for (int j = 0; j < HUNDRED_STATIONS; ++j) {
-        if (!isfinite(state->angle[j]) || !isfinite(state->rate[j]) || !isfinite(state->acceleration[j])) {
-            return HUNDRED_NON_FINITE_STATE;
-        }
+    if (!isfinite(total)) {
+        return HUNDRED_NON_FINITE_STATE;
     }
     return HUNDRED_OK;
 }
@@ -139,6 +164,9 @@ hundred_status hundred_step(
     hundred_state *state,
     const hundred_inputs *inputs)
 {
+    if (model == NULL || state == NULL || inputs == NULL) {
+        return HUNDRED_NULL_POINTER;
+    }
     if (!inputs_are_finite(inputs)) {
         return HUNDRED_NON_FINITE_INPUT;
     }
@@ -153,25 +181,31 @@ hundred_status hundred_step(
     real known_angle[HUNDRED_STATIONS + 1];
     /* rate of each node without the unknown's share, base first [rad/s] */
     real known_rate[HUNDRED_STATIONS + 1];
+    real total = 0.0; /* of the new motion: is all of it finite? */
 
-    /* Motion known before the sweep. */
+    /* Motion known before the sweep: at the last station. */
     known_rate[0] = 0.0;
     known_angle[0] = 0.0;
-    for (int j = 0; j < HUNDRED_STATIONS; ++j) {
-        known_rate[j + 1] = state->rate[j] + state->acceleration[j] * rate_per_acceleration;
-        known_angle[j + 1] = state->angle[j] + state->acceleration[j] * angle_per_acceleration
-            + state->rate[j] * step;
-    }
+    known_rate[100] = state->rate[99] + state->acceleration[99] * rate_per_acceleration;
+    known_angle[100] = state->angle[99] + state->acceleration[99] * angle_per_acceleration
+        + state->rate[99] * step;
 
-    /* Torque of each joint at the known motion; sweep inward: torque beyond each joint as if its inner side
-     * did not move. */
-    real bias = inputs->tip_torque;
-    for (int j = HUNDRED_STATIONS - 1; j >= 0; --j) {
+    /* Motion known before the sweep; torque of each joint at the known motion; sweep inward: torque beyond
+     * each joint as if its inner side did not move. */
+    real bias = inputs->tmm_tip_torque;
+    for (int j = HUNDRED_STATIONS - 1; j >= 1; --j) {
+        known_rate[j] = state->rate[j - 1] + state->acceleration[j - 1] * rate_per_acceleration;
+        known_angle[j] = state->angle[j - 1] + state->acceleration[j - 1] * angle_per_acceleration
+            + state->rate[j - 1] * step;
         const real joint_torque = damping * (known_rate[j + 1] - known_rate[j])
             + stiffness * (known_angle[j + 1] - known_angle[j]);
         correction[j] = model->admittance[j] * (bias - joint_torque);
         bias = bias * model->transmission[j] + joint_torque * model->reflection[j];
     }
+    const real first_joint_torque = damping * (known_rate[1] - known_rate[0])
+        + stiffness * (known_angle[1] - known_angle[0]);
+    correction[0] = model->admittance[0] * (bias - first_joint_torque);
+    bias = bias * model->transmission[0] + first_joint_torque * model->reflection[0];
 
     /* The base. */
     real unknown = 0.0;
@@ -182,10 +216,10 @@ hundred_status hundred_step(
         state->angle[j] = known_angle[j + 1] + angle_per_acceleration * unknown;
         state->rate[j] = known_rate[j + 1] + rate_per_acceleration * unknown;
         state->acceleration[j] = unknown;
+        total += state->angle[j] + state->rate[j];
     }
 
-    /* Anything that is not a number has reached this one. */
-    if (!isfinite(state->acceleration[HUNDRED_STATIONS - 1])) {
+    if (!isfinite(total + state->acceleration[HUNDRED_STATIONS - 1])) {
         return HUNDRED_NON_FINITE_STATE;
     }
     return HUNDRED_OK;
@@ -196,8 +230,11 @@ void hundred_output(
     const hundred_state *state,
     hundred_outputs *outputs)
 {
+    if (model == NULL || state == NULL || outputs == NULL) {
+        return;
+    }
     /* Outputs. */
-    outputs->tip = state->angle[99];
-    outputs->middle = state->angle[49];
-    outputs->base_torque = state->angle[0] * model->stiffness + model->damping * state->rate[0];
+    outputs->tmm_tip = state->angle[99];
+    outputs->tmm_middle = state->angle[49];
+    outputs->tmm_base_torque = state->angle[0] * model->stiffness + model->damping * state->rate[0];
 }

@@ -2,8 +2,8 @@
  * swing: Flexible arm swung by one radian
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 1d772428e2d772ebb733ea95a16abbe042281079aa7667facf050e2b156d94bf
- * sha256 of the rest of this file: fcb25805457a601d3cbe4fb9ba014d68037e8b51c65282b2078b478894961635
+ * scene digest: c9c08efbdc9f2f1b1ddadadab522649e5100f98e9cdabe31fcf56b416283c60f
+ * sha256 of the rest of this file: 2769f5e6383e95e6144d700212b95dbfe6dda01da907791b2c9599c396aac9e6
  *
  * model: planar arm, large rotations, tip mass
  * stations: 5
@@ -19,15 +19,22 @@
  *
  * @file swing.c
  */
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(_M_FP_FAST) \
+    || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "-Ofast and -ffast-math remove checks of this file: use -O3, or put -fno-fast-math behind them"
+#endif
+
 #include "swing.h"
 
+#include <float.h>
 #include <math.h>
+#include <stddef.h>
 
 typedef swing_real real;
 
 static int inputs_are_finite(const swing_inputs *inputs)
 {
-    if (!isfinite(inputs->hub_torque)) {
+    if (!isfinite(inputs->tmm_hub_torque)) {
         return 0;
     }
     return 1;
@@ -41,9 +48,12 @@ void swing_default_params(swing_params *params)
     static const real damping[] = {
         0.18, 0.09, 0.09, 0.09, 0.09
     };
+    if (params == NULL) {
+        return;
+    }
     params->length = 0.2;
-    params->mass = 0.08000000000000002;
-    params->inertia = 0.00026666666666666673;
+    params->mass = 0.08;
+    params->inertia = 0.0002666666666666667;
     params->center = 0.5;
     for (int j = 0; j < SWING_STATIONS; ++j) {
         params->stiffness[j] = stiffness[j];
@@ -61,6 +71,9 @@ swing_status swing_prepare(
     const swing_params *params,
     swing_real step)
 {
+    if (model == NULL || params == NULL) {
+        return SWING_NULL_POINTER;
+    }
     if (!isfinite(step) || !(step > 0.0)) {
         return SWING_INVALID_STEP;
     }
@@ -104,6 +117,16 @@ swing_status swing_prepare(
     model->hub_inertia = params->hub_inertia;
     model->hub_damping = params->hub_damping;
     model->tip_mass = params->tip_mass;
+
+    real total = 0.0; /* of the model: is all of it finite? */
+    for (int j = 0; j < SWING_STATIONS; ++j) {
+        total += model->joint_impedance[j];
+    }
+    if (!isfinite(model->step2_1_over_2 + model->angle_per_acceleration + model->factor_3
+        + model->rate_per_acceleration + model->carried_mass + model->inner_mass + model->pin_inertia
+        + total)) {
+        return SWING_NON_FINITE_MODEL;
+    }
     return SWING_OK;
 }
 
@@ -114,11 +137,15 @@ swing_status swing_initialise(
     const swing_real initial_rate[SWING_STATIONS],
     const swing_inputs *inputs)
 {
+    if (state == NULL || params == NULL || inputs == NULL) {
+        return SWING_NULL_POINTER;
+    }
     if (!inputs_are_finite(inputs)) {
         return SWING_NON_FINITE_INPUT;
     }
     for (int j = 0; j < SWING_STATIONS; ++j) {
-        if (!isfinite(initial_angle[j]) || !isfinite(initial_rate[j])) {
+        if ((initial_angle != NULL && !isfinite(initial_angle[j]))
+            || (initial_rate != NULL && !isfinite(initial_rate[j]))) {
             return SWING_NON_FINITE_INPUT;
         }
     }
@@ -140,6 +167,7 @@ swing_status swing_initialise(
     real predicted_rate[SWING_STATIONS + 1]; /* rate of base and links as predicted [rad/s] */
     real swing_x[SWING_STATIONS]; /* change of the outer end's acceleration along x per unknown [m] */
     real swing_y[SWING_STATIONS]; /* change of the outer end's acceleration along y per unknown [m] */
+    real total = 0.0; /* of the new motion: is all of it finite? */
 
     /* Predicted motion. */
     predicted_angle[0] = 0.0;
@@ -152,8 +180,8 @@ swing_status swing_initialise(
     acceleration_x[0] = node_x;
     acceleration_y[0] = node_y;
     for (int j = 0; j < SWING_STATIONS; ++j) {
-        predicted_angle[j + 1] = initial_angle[j];
-        predicted_rate[j + 1] = initial_rate[j];
+        predicted_angle[j + 1] = (initial_angle != NULL ? initial_angle[j] : 0.0);
+        predicted_rate[j + 1] = (initial_rate != NULL ? initial_rate[j] : 0.0);
         predicted_acceleration[j + 1] = 0.0;
         lever_sine[j] = length * sin(predicted_angle[j + 1]);
         lever_cosine[j] = length * cos(predicted_angle[j + 1]);
@@ -204,7 +232,7 @@ swing_status swing_initialise(
             + acceleration_x[j + 1] * center * mass;
         force_y = force_y + acceleration_y[j] * (mass - center * mass)
             + acceleration_y[j + 1] * center * mass;
-        if (!(link_uu > 0.0) || !isfinite(link_uu)) {
+        if (!(link_uu > 0.0) || !(link_uu <= DBL_MAX)) {
             return SWING_VANISHING_PIVOT;
         }
         const real inverse_pivot = 1.0 / link_uu;
@@ -227,10 +255,10 @@ swing_status swing_initialise(
 
     /* The hub. */
     const real hub_pivot = params->hub_inertia + impedance_uu;
-    if (!(hub_pivot > 0.0) || !isfinite(hub_pivot)) {
+    if (!(hub_pivot > 0.0) || !(hub_pivot <= DBL_MAX)) {
         return SWING_VANISHING_PIVOT;
     }
-    real unknown = (inputs->hub_torque - torque - params->hub_damping * predicted_rate[0]
+    real unknown = (inputs->tmm_hub_torque - torque - params->hub_damping * predicted_rate[0]
         - params->hub_inertia * predicted_acceleration[0]) / hub_pivot;
     const real hub_unknown = unknown;
 
@@ -249,15 +277,11 @@ swing_status swing_initialise(
         state->angle[j] = predicted_angle[j + 1];
         state->rate[j] = predicted_rate[j + 1];
         state->acceleration[j] = predicted_acceleration[j + 1] + unknown;
+        total += state->angle[j] + state->rate[j] + state->acceleration[j];
     }
 
-    if (!isfinite(state->hub_angle) || !isfinite(state->hub_rate) || !isfinite(state->hub_acceleration)) {
+    if (!isfinite(total + state->hub_angle + state->hub_rate + state->hub_acceleration)) {
         return SWING_NON_FINITE_STATE;
-    }
-    for (int j = 0; j < SWING_STATIONS; ++j) {
-        if (!isfinite(state->angle[j]) || !isfinite(state->rate[j]) || !isfinite(state->acceleration[j])) {
-            return SWING_NON_FINITE_STATE;
-        }
     }
     return SWING_OK;
 }
@@ -267,6 +291,9 @@ swing_status swing_step(
     swing_state *state,
     const swing_inputs *inputs)
 {
+    if (model == NULL || state == NULL || inputs == NULL) {
+        return SWING_NULL_POINTER;
+    }
     if (!inputs_are_finite(inputs)) {
         return SWING_NON_FINITE_INPUT;
     }
@@ -294,6 +321,7 @@ swing_status swing_step(
     real predicted_rate[SWING_STATIONS + 1]; /* rate of base and links as predicted [rad/s] */
     real swing_x[SWING_STATIONS]; /* change of the outer end's acceleration along x per unknown [m] */
     real swing_y[SWING_STATIONS]; /* change of the outer end's acceleration along y per unknown [m] */
+    real total = 0.0; /* of the new motion: is all of it finite? */
 
     /* Predicted motion. */
     predicted_angle[0] = state->hub_angle + state->hub_acceleration * step2_1_over_2 + state->hub_rate * step;
@@ -363,7 +391,7 @@ swing_status swing_step(
         force_x = force_x + acceleration_x[j + 1] * carried_mass + acceleration_x[j] * inner_mass;
         force_y = force_y + acceleration_y[j + 1] * carried_mass + acceleration_y[j] * inner_mass;
         const real pivot = model->joint_impedance[j] + link_uu;
-        if (!(pivot > 0.0) || !isfinite(pivot)) {
+        if (!(pivot > 0.0) || !(pivot <= DBL_MAX)) {
             return SWING_VANISHING_PIVOT;
         }
         const real inverse_pivot = 1.0 / pivot;
@@ -387,10 +415,10 @@ swing_status swing_step(
 
     /* The hub. */
     const real hub_pivot = model->factor_3 + impedance_uu;
-    if (!(hub_pivot > 0.0) || !isfinite(hub_pivot)) {
+    if (!(hub_pivot > 0.0) || !(hub_pivot <= DBL_MAX)) {
         return SWING_VANISHING_PIVOT;
     }
-    real unknown = (inputs->hub_torque - torque - model->hub_damping * predicted_rate[0]
+    real unknown = (inputs->tmm_hub_torque - torque - model->hub_damping * predicted_rate[0]
         - model->hub_inertia * predicted_acceleration[0]) / hub_pivot;
     const real hub_unknown = unknown;
 
@@ -410,10 +438,10 @@ swing_status swing_step(
         state->angle[j] = predicted_angle[j + 1] + angle_per_acceleration * unknown;
         state->rate[j] = predicted_rate[j + 1] + rate_per_acceleration * unknown;
         state->acceleration[j] = predicted_acceleration[j + 1] + unknown;
+        total += state->angle[j] + state->rate[j] + state->acceleration[j];
     }
 
-    /* Anything that is not a number has reached this one. */
-    if (!isfinite(state->acceleration[SWING_STATIONS - 1])) {
+    if (!isfinite(total + state->hub_angle + state->hub_rate + state->hub_acceleration)) {
         return SWING_NON_FINITE_STATE;
     }
     return SWING_OK;
@@ -424,16 +452,19 @@ void swing_output(
     const swing_state *state,
     swing_outputs *outputs)
 {
+    if (model == NULL || state == NULL || outputs == NULL) {
+        return;
+    }
     const real length = model->length;
 
     /* Tip: position. */
-    outputs->tip_x = 0.0;
-    outputs->tip_y = 0.0;
+    outputs->tmm_tip_x = 0.0;
+    outputs->tmm_tip_y = 0.0;
     for (int j = 0; j < SWING_STATIONS; ++j) {
-        outputs->tip_x = outputs->tip_x + length * cos(state->angle[j]);
-        outputs->tip_y = outputs->tip_y + length * sin(state->angle[j]);
+        outputs->tmm_tip_x = outputs->tmm_tip_x + length * cos(state->angle[j]);
+        outputs->tmm_tip_y = outputs->tmm_tip_y + length * sin(state->angle[j]);
     }
 
     /* Hub: angle. */
-    outputs->hub = state->hub_angle;
+    outputs->tmm_hub = state->hub_angle;
 }

@@ -2,8 +2,8 @@
  * swing: Flexible arm swung by one radian
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 1d772428e2d772ebb733ea95a16abbe042281079aa7667facf050e2b156d94bf
- * sha256 of the rest of this file: da18a58803a4215cfc602735d3bc4b3d9e2cf25fc269af6e67683d09057ca822
+ * scene digest: c9c08efbdc9f2f1b1ddadadab522649e5100f98e9cdabe31fcf56b416283c60f
+ * sha256 of the rest of this file: 6ff43f93f5e140c888f4a8541460fd13186d948cf089ed76f065f628615bcbc0
  *
  * model: planar arm, large rotations, tip mass
  * stations: 5
@@ -23,8 +23,8 @@
  *
  * @file swing.h
  */
-#ifndef SWING_H
-#define SWING_H
+#ifndef TMM_GEN_KERNEL_swing
+#define TMM_GEN_KERNEL_swing
 
 #ifdef __cplusplus
 extern "C" {
@@ -50,7 +50,11 @@ typedef enum {
     /** No passive arm has such parameters (a negative inertia, say); the model is of no use. */
     SWING_VANISHING_PIVOT,
     /** The motion has outgrown the number type; initialise anew. */
-    SWING_NON_FINITE_STATE
+    SWING_NON_FINITE_STATE,
+    /** A pointer that is needed is NULL; nothing was changed. */
+    SWING_NULL_POINTER = 6,
+    /** Parameters or time step are too large or too small for the number type; the model is of no use. */
+    SWING_NON_FINITE_MODEL = 7
 } swing_status;
 
 /** Physical parameters. */
@@ -98,20 +102,20 @@ typedef struct {
 
 /** What acts on the arm. */
 typedef struct {
-    swing_real hub_torque; /**< torque acting at the base [N m] */
+    swing_real tmm_hub_torque; /**< torque acting at the base [N m] */
 } swing_inputs;
 
 /** What the scene asks to know. */
 typedef struct {
-    swing_real tip_x; /**< position at the tip, x [m] */
-    swing_real tip_y; /**< position at the tip, y [m] */
-    swing_real hub; /**< angle at the base [rad] */
+    swing_real tmm_tip_x; /**< position at the tip, x [m] */
+    swing_real tmm_tip_y; /**< position at the tip, y [m] */
+    swing_real tmm_hub; /**< angle at the base [rad] */
 } swing_outputs;
 
 /**
  * Write the scene's parameters.
  *
- * @param[out] params  parameters
+ * @param[out] params  parameters; nothing is done where it is NULL
  */
 void swing_default_params(swing_params *params);
 
@@ -121,7 +125,7 @@ void swing_default_params(swing_params *params);
  * @param[out] model   what the other functions need
  * @param[in]  params  parameters
  * @param[in]  step    time step [s]
- * @return OK, NON_FINITE_INPUT, INVALID_STEP or VANISHING_PIVOT
+ * @return OK, NON_FINITE_INPUT, NULL_POINTER, INVALID_STEP, VANISHING_PIVOT or NON_FINITE_MODEL
  */
 swing_status swing_prepare(
     swing_model *model,
@@ -133,10 +137,10 @@ swing_status swing_prepare(
  *
  * @param[out] state   motion at the initial instant
  * @param[in]  params  parameters
- * @param[in]  initial_angle  angles to start from [rad]
- * @param[in]  initial_rate  rates to start from [rad/s]
+ * @param[in]  initial_angle  angles to start from [rad]; NULL for the scene's own
+ * @param[in]  initial_rate  rates to start from [rad/s]; NULL for the scene's own
  * @param[in]  inputs  what acts at the initial instant
- * @return OK, NON_FINITE_INPUT, VANISHING_PIVOT or NON_FINITE_STATE
+ * @return OK, NON_FINITE_INPUT, NULL_POINTER, VANISHING_PIVOT or NON_FINITE_STATE
  */
 swing_status swing_initialise(
     swing_state *state,
@@ -151,7 +155,7 @@ swing_status swing_initialise(
  * @param[in]     model   from swing_prepare()
  * @param[in,out] state   motion before the step, and after it
  * @param[in]     inputs  what acts, at the end of the step
- * @return OK, NON_FINITE_INPUT, VANISHING_PIVOT or NON_FINITE_STATE
+ * @return OK, NON_FINITE_INPUT, NULL_POINTER, VANISHING_PIVOT or NON_FINITE_STATE
  */
 swing_status swing_step(
     const swing_model *model,
@@ -159,7 +163,7 @@ swing_status swing_step(
     const swing_inputs *inputs);
 
 /**
- * Read the outputs off the state.
+ * Read the outputs off the state. Nothing is done where a pointer is NULL.
  *
  * @param[in]  model    from swing_prepare()
  * @param[in]  state    motion
@@ -174,4 +178,4 @@ void swing_output(
 }
 #endif
 
-#endif /* SWING_H */
+#endif /* TMM_GEN_KERNEL_swing */

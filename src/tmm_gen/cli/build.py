@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from difflib import get_close_matches, unified_diff
+from keyword import iskeyword
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -70,9 +72,32 @@ def build(scenes: tuple[str, ...], check: bool, out: Path, force: bool, json_mod
         for line in drift:
             click.echo(line)
     table([row.as_dict() for row in rows], _columns(check), json_mode)
+    if not json_mode and not check and (names := [s.name for s in loaded if "numpy" in s.emit.backends]):
+        click.echo(import_line(out, names))
     if differing := [row.scene for row in rows if row.state == _DRIFT]:
         command = " ".join(["tmm-gen build", *scenes])
         raise CheckFailed(f"{out}/ is not what the scenes give: {', '.join(differing)}. Run `{command}`.")
+
+
+def import_line(out: Path, names: Sequence[str]) -> str:
+    """Return how to import packages, and from where: Python looks in the folder of a script, not in the current one.
+
+    Parameters
+    ----------
+    out : Path
+        Folder of the packages.
+    names : sequence of str
+        Of the packages.
+    """
+    folder = out.resolve()
+    package = folder.name.isidentifier() and not iskeyword(folder.name)
+    root = folder.parent if package else folder
+    here = root == Path.cwd()
+    which = names[0] if len(names) == 1 else "NAME"
+    module = f"{folder.name}.{which}" if package else which
+    where = "this folder" if here else str(root)
+    path = "." if here else shlex.quote(str(root))
+    return f"In Python: from {module} import simulate, with {where} on its path: PYTHONPATH={path} python SCRIPT.py"
 
 
 def scene_files(named: Sequence[str]) -> list[Path]:

@@ -103,7 +103,7 @@ def measure(scene: Scene, target: str) -> Measurement:
         here = run_here(build_here(kernel, sources, Path(scratch, "host")))
         sizes = sizes_of(board, built.kernel)
         depth = worst_stack(built.callgraph.read_text(), f"{scene.name}_step")
-        measured = there.counts["stack_of_step"][0]
+        measured = there.counts["stack_taken"][0]
         difference = compare_bits(here, there, kernel.real)
         return Measurement(
             target=target,

@@ -16,6 +16,7 @@ from tmm_gen.emit.c import emit_kernel
 from tmm_gen.emit.c.box import Box, box_of
 from tmm_gen.emit.c.kernel import Kernel
 from tmm_gen.emit.c.structs import dimension
+from tmm_gen.emit.c_names import c_name, macros
 from tmm_gen.emit.templates import render
 from tmm_gen.errors import UserError
 from tmm_gen.program.build import build_program
@@ -119,7 +120,7 @@ def driver(kernel: Kernel, box: Box) -> str:
         return literal(low), literal(high)
 
     def members(variables: tuple[Variable, ...]) -> list[tuple[str, str, str, str]]:
-        return [(v.name, dimension(v, program), *bounds(v)) for v in variables]
+        return [(c_name(v), dimension(v, program), *bounds(v)) for v in variables]
 
     step = box.bounds.get("step")
     return render(
@@ -129,7 +130,7 @@ def driver(kernel: Kernel, box: Box) -> str:
         interval="Frama_C_float_interval" if kernel.real.size == 4 else "Frama_C_double_interval",
         step=f"{'any_pair' if kernel.real.pair else 'any'}({literal(step[0])}, {literal(step[1])})"
         if step
-        else f"{program.name.upper()}_STEP",
+        else f"{macros(program.name)}_STEP",
         zero=literal(0.0),
         inputs=members(program.inputs),
         state=members(program.state),

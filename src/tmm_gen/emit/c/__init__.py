@@ -5,6 +5,7 @@ from __future__ import annotations
 from tmm_gen.emit.c.kernel import Kernel
 from tmm_gen.emit.c.sensitivities import emit_sensitivities
 from tmm_gen.emit.c.vectors import vectors
+from tmm_gen.emit.c_names import macros
 from tmm_gen.emit.seal import sealed
 from tmm_gen.emit.templates import render
 from tmm_gen.program.statements import Program
@@ -69,4 +70,4 @@ def _kernel_files(kernel: Kernel) -> dict[str, str]:
 
 def _filled(template: str, kernel: Kernel, **more: object) -> str:
     name = kernel.program.name
-    return sealed(render(f"c/{template}.jinja", kernel=kernel, name=name, NAME=name.upper(), **more))
+    return sealed(render(f"c/{template}.jinja", kernel=kernel, name=name, NAME=macros(name), **more))

@@ -43,6 +43,11 @@ class Real:
         """Bytes of a number of parameters, model or state."""
         return 2 * self.size if self.pair else self.size
 
+    @property
+    def largest(self) -> str:
+        """Largest finite number, as ``<float.h>`` calls it."""
+        return "DBL_MAX" if self.size == 8 else "FLT_MAX"
+
     def literal(self, value: float) -> str:
         """Write a number: the shortest decimal that reads back as the same ``double``.
 

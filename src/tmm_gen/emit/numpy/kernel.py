@@ -99,7 +99,9 @@ def _description(program: Program) -> list[str]:
         *prose(
             "All arrays may have further axes behind, those of a batch: many arms at once, each with its own "
             "parameters, inputs and state. What is one number for an arm then has the batch's shape; what "
-            "differs between stations has the stations first, base to tip."
+            "differs between stations has the stations first, base to tip. An arm "
+            "with numbers that are not finite, or a step or pivot that is not positive, is NaN; errors are left "
+            "for where no other arm is left."
         ),
         '"""',
     ]

@@ -2,8 +2,8 @@
  * beam5: Five-link arm on a hub, the model of an observer
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 2aa7477fe5a1cf796a596a84ffa48c892dc54bfd3ece90a5d25a43813cf34ab5
- * sha256 of the rest of this file: 242b90a151b1d304329c7d5377db42cf2cca8f63980aea64e310627f42b5a1ac
+ * scene digest: 7cda6afdfe9f28eb257c67670c83631d86f159a73ec0c14225ebe1e38843e797
+ * sha256 of the rest of this file: b277228e2678f747a7dcfdcd82412bf4e52fc7b5e305dfd3f358b6076d2b3d06
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 5
@@ -19,9 +19,16 @@
  *
  * @file beam5.c
  */
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(_M_FP_FAST) \
+    || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "-Ofast and -ffast-math remove checks of this file: use -O3, or put -fno-fast-math behind them"
+#endif
+
 #include "beam5.h"
 
+#include <float.h>
 #include <math.h>
+#include <stddef.h>
 #include <stdint.h>
 
 typedef beam5_real real;
@@ -76,7 +83,7 @@ static circle circle_of(real angle)
 
 static int inputs_are_finite(const beam5_inputs *inputs)
 {
-    if (!isfinite(inputs->hub_torque)) {
+    if (!isfinite(inputs->tmm_hub_torque)) {
         return 0;
     }
     return 1;
@@ -120,11 +127,15 @@ beam5_status beam5_initialise(
     const beam5_real initial_rate[BEAM5_STATIONS],
     const beam5_inputs *inputs)
 {
+    if (state == NULL || inputs == NULL) {
+        return BEAM5_NULL_POINTER;
+    }
     if (!inputs_are_finite(inputs)) {
         return BEAM5_NON_FINITE_INPUT;
     }
     for (int j = 0; j < BEAM5_STATIONS; ++j) {
-        if (!isfinite(initial_angle[j]) || !isfinite(initial_rate[j])) {
+        if ((initial_angle != NULL && !isfinite(initial_angle[j]))
+            || (initial_rate != NULL && !isfinite(initial_rate[j]))) {
             return BEAM5_NON_FINITE_INPUT;
         }
     }
@@ -142,6 +153,7 @@ beam5_status beam5_initialise(
     real predicted_rate[BEAM5_STATIONS + 1]; /* rate of base and links as predicted [rad/s] */
     real swing_x[BEAM5_STATIONS]; /* change of the outer end's acceleration along x per unknown [m] */
     real swing_y[BEAM5_STATIONS]; /* change of the outer end's acceleration along y per unknown [m] */
+    real total = 0.0f; /* of the new motion: is all of it finite? */
 
     /* Predicted motion. */
     predicted_angle[0] = 0.0f;
@@ -154,11 +166,10 @@ beam5_status beam5_initialise(
     acceleration_x[0] = node_x;
     acceleration_y[0] = gravity;
     for (int j = 0; j < BEAM5_STATIONS; ++j) {
-        predicted_angle[j + 1] = initial_angle[j];
-        predicted_rate[j + 1] = initial_rate[j];
+        predicted_angle[j + 1] = (initial_angle != NULL ? initial_angle[j] : 0.0f);
+        predicted_rate[j + 1] = (initial_rate != NULL ? initial_rate[j] : 0.0f);
         predicted_acceleration[j + 1] = 0.0f;
-        if (!(predicted_angle[j + 1] >= -BEAM5_LARGEST_ANGLE)
-            || !(predicted_angle[j + 1] <= BEAM5_LARGEST_ANGLE)) {
+        if (!(fabsf(predicted_angle[j + 1]) <= BEAM5_LARGEST_ANGLE)) {
             return BEAM5_OUT_OF_RANGE;
         }
         const circle turn_1 = circle_of(predicted_angle[j + 1]);
@@ -211,7 +222,7 @@ beam5_status beam5_initialise(
             + acceleration_x[j + 1] * center * mass;
         force_y = force_y + acceleration_y[j] * (mass - center * mass)
             + acceleration_y[j + 1] * center * mass;
-        if (!(link_uu > 0.0f) || !isfinite(link_uu)) {
+        if (!(link_uu > 0.0f) || !(link_uu <= FLT_MAX)) {
             return BEAM5_VANISHING_PIVOT;
         }
         const real inverse_pivot = 1.0f / link_uu;
@@ -234,10 +245,10 @@ beam5_status beam5_initialise(
 
     /* The hub. */
     const real hub_pivot = hub_inertia + impedance_uu;
-    if (!(hub_pivot > 0.0f) || !isfinite(hub_pivot)) {
+    if (!(hub_pivot > 0.0f) || !(hub_pivot <= FLT_MAX)) {
         return BEAM5_VANISHING_PIVOT;
     }
-    real unknown = (inputs->hub_torque - torque - hub_damping * predicted_rate[0]
+    real unknown = (inputs->tmm_hub_torque - torque - hub_damping * predicted_rate[0]
         - hub_inertia * predicted_acceleration[0]) / hub_pivot;
     const real hub_unknown = unknown;
 
@@ -256,15 +267,11 @@ beam5_status beam5_initialise(
         state->angle[j] = predicted_angle[j + 1];
         state->rate[j] = predicted_rate[j + 1];
         state->acceleration[j] = predicted_acceleration[j + 1] + unknown;
+        total += state->angle[j] + state->rate[j] + state->acceleration[j];
     }
 
-    if (!isfinite(state->hub_angle) || !isfinite(state->hub_rate) || !isfinite(state->hub_acceleration)) {
+    if (!isfinite(total + state->hub_angle + state->hub_rate + state->hub_acceleration)) {
         return BEAM5_NON_FINITE_STATE;
-    }
-    for (int j = 0; j < BEAM5_STATIONS; ++j) {
-        if (!isfinite(state->angle[j]) || !isfinite(state->rate[j]) || !isfinite(state->acceleration[j])) {
-            return BEAM5_NON_FINITE_STATE;
-        }
     }
     return BEAM5_OK;
 }
@@ -273,6 +280,9 @@ beam5_status beam5_step(
     beam5_state *state,
     const beam5_inputs *inputs)
 {
+    if (state == NULL || inputs == NULL) {
+        return BEAM5_NULL_POINTER;
+    }
     if (!inputs_are_finite(inputs)) {
         return BEAM5_NON_FINITE_INPUT;
     }
@@ -291,6 +301,7 @@ beam5_status beam5_step(
     real predicted_rate[BEAM5_STATIONS + 1]; /* rate of base and links as predicted [rad/s] */
     real swing_x[BEAM5_STATIONS]; /* change of the outer end's acceleration along x per unknown [m] */
     real swing_y[BEAM5_STATIONS]; /* change of the outer end's acceleration along y per unknown [m] */
+    real total = 0.0f; /* of the new motion: is all of it finite? */
 
     /* Predicted motion. */
     predicted_angle[0] = state->hub_angle + state->hub_acceleration * step2_1_over_2 + state->hub_rate * step;
@@ -307,8 +318,7 @@ beam5_status beam5_step(
             + state->rate[j] * step;
         predicted_rate[j + 1] = state->rate[j] + state->acceleration[j] * step;
         predicted_acceleration[j + 1] = state->acceleration[j];
-        if (!(predicted_angle[j + 1] >= -BEAM5_LARGEST_ANGLE)
-            || !(predicted_angle[j + 1] <= BEAM5_LARGEST_ANGLE)) {
+        if (!(fabsf(predicted_angle[j + 1]) <= BEAM5_LARGEST_ANGLE)) {
             return BEAM5_OUT_OF_RANGE;
         }
         const circle turn_1 = circle_of(predicted_angle[j + 1]);
@@ -365,7 +375,7 @@ beam5_status beam5_step(
         force_x = force_x + acceleration_x[j + 1] * carried_mass + acceleration_x[j] * inner_mass;
         force_y = force_y + acceleration_y[j + 1] * carried_mass + acceleration_y[j] * inner_mass;
         const real pivot = joint_impedance[j] + link_uu;
-        if (!(pivot > 0.0f) || !isfinite(pivot)) {
+        if (!(pivot > 0.0f) || !(pivot <= FLT_MAX)) {
             return BEAM5_VANISHING_PIVOT;
         }
         const real inverse_pivot = 1.0f / pivot;
@@ -389,10 +399,10 @@ beam5_status beam5_step(
 
     /* The hub. */
     const real hub_pivot = factor_3 + impedance_uu;
-    if (!(hub_pivot > 0.0f) || !isfinite(hub_pivot)) {
+    if (!(hub_pivot > 0.0f) || !(hub_pivot <= FLT_MAX)) {
         return BEAM5_VANISHING_PIVOT;
     }
-    real unknown = (inputs->hub_torque - torque - hub_damping * predicted_rate[0]
+    real unknown = (inputs->tmm_hub_torque - torque - hub_damping * predicted_rate[0]
         - hub_inertia * predicted_acceleration[0]) / hub_pivot;
     const real hub_unknown = unknown;
 
@@ -412,10 +422,10 @@ beam5_status beam5_step(
         state->angle[j] = predicted_angle[j + 1] + angle_per_acceleration * unknown;
         state->rate[j] = predicted_rate[j + 1] + rate_per_acceleration * unknown;
         state->acceleration[j] = predicted_acceleration[j + 1] + unknown;
+        total += state->angle[j] + state->rate[j] + state->acceleration[j];
     }
 
-    /* Anything that is not a number has reached this one. */
-    if (!isfinite(state->acceleration[BEAM5_STATIONS - 1])) {
+    if (!isfinite(total + state->hub_angle + state->hub_rate + state->hub_acceleration)) {
         return BEAM5_NON_FINITE_STATE;
     }
     return BEAM5_OK;
@@ -425,15 +435,18 @@ void beam5_output(
     const beam5_state *state,
     beam5_outputs *outputs)
 {
+    if (state == NULL || outputs == NULL) {
+        return;
+    }
     /* Hub: angle. */
-    outputs->hub = state->hub_angle;
+    outputs->tmm_hub = state->hub_angle;
 
     /* Tip: position. */
-    outputs->tip_x = 0.0f;
-    outputs->tip_y = 0.0f;
+    outputs->tmm_tip_x = 0.0f;
+    outputs->tmm_tip_y = 0.0f;
     for (int j = 0; j < BEAM5_STATIONS; ++j) {
         const circle turn_1 = circle_of(state->angle[j]);
-        outputs->tip_x = outputs->tip_x + length * turn_1.cosine;
-        outputs->tip_y = outputs->tip_y + length * turn_1.sine;
+        outputs->tmm_tip_x = outputs->tmm_tip_x + length * turn_1.cosine;
+        outputs->tmm_tip_y = outputs->tmm_tip_y + length * turn_1.sine;
     }
 }
