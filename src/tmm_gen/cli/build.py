@@ -149,7 +149,9 @@ def _compare(scene: Scene, out: Path) -> tuple[_Row, list[str]]:
 
 def _difference(path: Path, wanted: str) -> list[str]:
     """Return what a build would change in a file."""
-    held = path.read_bytes().decode("utf-8", errors="replace") if path.is_file() else ""
+    from tmm_gen.emit.write import text_of
+
+    held = text_of(path) if path.is_file() else ""
     name = path.as_posix()
     before, after = (name if held else "/dev/null"), (name if wanted else "/dev/null")
     return list(unified_diff(held.splitlines(), wanted.splitlines(), before, after, lineterm=""))

@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING
 import click
 
 from tmm_gen.cli.console import Column, progress, table
+from tmm_gen.cli.outputs import OutputFile, force_option, require_new, write_outputs
 from tmm_gen.errors import UserError
+from tmm_gen.reading import open_table, read_file
 
 if TYPE_CHECKING:
     from tmm_gen.control.calibration import Calibration
@@ -36,7 +38,8 @@ if TYPE_CHECKING:
     multiple=True,
     help="An input that is not among the record's columns, as for `tmm-gen run`. Repeatable.",
 )
-@click.option("--out", type=click.Path(dir_okay=False, path_type=Path), help="Write the calibrated scene.")
+@click.option("--out", type=OutputFile(), help="Write the calibrated scene.")
+@force_option
 @click.option("--json", "json_mode", is_flag=True, help="One JSON object instead of a table.")
 def calibrate(
     scene: Path,
@@ -44,6 +47,7 @@ def calibrate(
     keys: tuple[str, ...],
     given: tuple[str, ...],
     out: Path | None,
+    force: bool,
     json_mode: bool,
 ) -> None:
     """Fit stiffness and damping of SCENE to a recorded response.
@@ -53,6 +57,7 @@ def calibrate(
     """
     from tmm_gen.scene import load_scene
 
+    require_new(out, force)
     loaded = load_scene(scene)
     with progress(f"fitting {loaded.name}"):
         from tmm_gen.control.calibration import calibrate as fit
@@ -62,7 +67,7 @@ def calibrate(
         missing = tuple(item.name for item in loaded.inputs if item.name not in names)
         signals = {**read_tables(record, names), **read_inputs(given, missing)}
         done = fit(loaded, signals, keys or None)
-    written = _write(scene, out, done)
+    written = _write(scene, out, done, force)
     _show(loaded, done, written, json_mode)
 
 
@@ -77,10 +82,8 @@ def _columns(scene: Scene, record: Path) -> tuple[str, ...]:
     from tmm_gen.measure.columns import output_columns
 
     try:
-        with record.open(encoding="utf-8-sig", newline="") as file:
+        with open_table(record) as file:
             headings = [cell.strip() for cell in next(csv.reader(file), [])]
-    except FileNotFoundError:
-        raise UserError(f"{record}: no such file. Check the path.") from None
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         raise UserError(f"{record}: cannot be read: {error}. Save it as CSV in UTF-8.") from None
     outputs = [column.name for column in output_columns(scene)]
@@ -91,16 +94,14 @@ def _columns(scene: Scene, record: Path) -> tuple[str, ...]:
     return found
 
 
-def _write(scene: Path, out: Path | None, done: Calibration) -> list[Path]:
+def _write(scene: Path, out: Path | None, done: Calibration, force: bool) -> list[Path]:
     """Write the scene's file with the fitted numbers in place of the old ones."""
     if out is None:
         return []
-    from tmm_gen.files import write_whole
     from tmm_gen.scene.rewrite import rewritten
 
-    text = scene.read_bytes().decode("utf-8-sig")
-    write_whole(out, rewritten(text, str(scene), done.scene, done.changes))
-    return [out]
+    text = read_file(scene).decode("utf-8-sig")
+    return write_outputs({out: rewritten(text, str(scene), done.scene, done.changes)}, force=force)
 
 
 def _show(scene: Scene, done: Calibration, written: list[Path], json_mode: bool) -> None:
