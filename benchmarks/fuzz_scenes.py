@@ -113,23 +113,27 @@ def _report(done: dict[str, dict[str, dict[str, str]]]) -> int:
     for seed, entry in done.items():
         for trial, outcome in entry.items():
             counts.setdefault(trial, Counter())[outcome["result"]] += 1
-            if outcome["result"] == "traceback":
+            caught = "leave the range of floating point" in outcome["where"]
+            counts[trial]["caught"] += caught
+            if caught or outcome["result"] == "traceback":
                 place = f"{trial}: {outcome['where']}"
                 places[place] += 1
                 example.setdefault(place, seed)
             if outcome["warned"]:
                 warned[f"{trial}: {outcome['warned']}"] += 1
                 example.setdefault(f"{trial}: {outcome['warned']}", seed)
-    print(f"{'trial':10} {'tried':>7} {'done':>7} {'refused':>7} {'check 1':>7} {'slow':>5} tracebacks")
+    ends = ("0", "2", "1", "slow", "caught", "traceback")
+    heads = ("done", "refused", "check 1", "slow", "caught", "tracebacks")
+    print("trial".ljust(10), "tried".rjust(10), *(head.rjust(10) for head in heads))
     for trial, count in counts.items():
-        told = f"{count['0']:7} {count['2']:7} {count['1']:7} {count['slow']:5} {count['traceback']:10}"
-        print(f"{trial:10} {count.total():7} {told}")
-    for title, found in (("tracebacks", places), ("warnings", warned)):
+        tried = count.total() - count["caught"]
+        print(trial.ljust(10), str(tried).rjust(10), *(str(count[end]).rjust(10) for end in ends))
+    for title, found in (("tracebacks and arithmetic caught at the end", places), ("warnings", warned)):
         if found:
             print(f"\n{title}:")
         for place, number in found.most_common(60):
             print(f"{number:6}  {place}  (seed {example[place]})")
-    return int(bool(places))
+    return int(any(count["traceback"] for count in counts.values()))
 
 
 def _done(path: Path) -> dict[str, dict[str, dict[str, str]]]:

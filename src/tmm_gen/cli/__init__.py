@@ -11,6 +11,8 @@ import os
 import signal
 import sys
 import threading
+import traceback
+import warnings
 from collections.abc import Iterator, Sequence
 
 import click
@@ -89,6 +91,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return _fail(
             "standard output is closed. Leave it open, or send it to /dev/null.", UserError.exit_code
         )
+    if arguments is None and not sys.warnoptions:
+        warnings.simplefilter(
+            "ignore"
+        )  # what libraries warn of is for those who write tmm-gen; python -W shows it
     with _ending_in_order():
         return _code(words)
 
@@ -119,9 +125,11 @@ def _code(words: list[str]) -> int:
     except MemoryError:
         return _fail("not enough memory for this. Ask for fewer steps, links or modes.", UserError.exit_code)
     except Exception as error:
-        if (mendable := _exit_code(error)) is None:
+        if (mendable := _exit_code(error)) is not None:
+            return _fail(str(error), mendable)
+        if (scene := _scene_in(words)) is None or not _of_numbers(error):
             raise
-        return _fail(str(error), mendable)
+        return _fail(f"{scene}: {_beyond(error)}", UserError.exit_code)
 
 
 def _invoke(words: list[str]) -> int:
@@ -174,6 +182,26 @@ def _ending_in_order() -> Iterator[None]:
     finally:
         for number in ours:
             signal.signal(number, signal.SIG_DFL)
+
+
+def _scene_in(words: list[str]) -> str | None:
+    """Return the scene that a command line names."""
+    return next((word for word in words[1:] if word.endswith(".toml")), None)
+
+
+def _of_numbers(error: Exception) -> bool:
+    """Whether an error is what numbers do that leave the range of floating point."""
+    named = {kind.__name__ for kind in type(error).__mro__}
+    return bool(named & {"ArithmeticError", "LinAlgError"})
+
+
+def _beyond(error: Exception) -> str:
+    place = traceback.extract_tb(error.__traceback__)[-1]
+    return (
+        f"its numbers leave the range of floating point ({type(error).__name__}: {error}, in "
+        f"{place.filename.rpartition(os.sep)[2]}:{place.lineno}). Choose units in which they are nearer to 1; if they "
+        "are ordinary ones, this is a defect of tmm-gen."
+    )
 
 
 def _exit_code(error: Exception) -> int | None:

@@ -68,7 +68,7 @@ def claim(outputs: Iterable[Path | None], inputs: Iterable[Path | None] = ()) ->
     for path in outputs:
         if path is None:
             continue
-        target = path.resolve()
+        target = require_target(path)
         if target in read:
             raise UserError(f"{path}: is read by this command and would be lost. Name another file.")
         if target in taken:

@@ -25,6 +25,12 @@ REPORT = "report"
 """What ``--report`` without a file stands for."""
 
 
+def _report_option(context: click.Context, parameter: click.Parameter, value: str | None) -> Path | None:
+    if value in (None, REPORT):
+        return None if value is None else Path(value)
+    return OutputFile().convert(value, parameter, context)
+
+
 def grid_options(command: Callable[..., Any]) -> Callable[..., Any]:
     """Add the options that say what arm goes through and what is tried."""
     options = [
@@ -109,7 +115,7 @@ def grid_options(command: Callable[..., Any]) -> Callable[..., Any]:
     metavar="[FILE.html]",
     is_flag=False,
     flag_value=REPORT,
-    type=click.Path(path_type=Path),
+    callback=_report_option,
     help="Write one page that needs no other file; by default NAME-trade.html.",
 )
 @click.option("--all", "show_all", is_flag=True, help="Show all configurations, not only the best.")

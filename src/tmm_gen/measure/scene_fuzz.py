@@ -18,7 +18,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
 
-Path = tuple[str | int, ...]
+Path = tuple[Any, ...]
 """Keys and positions that lead to a value."""
 
 NUMBERS: tuple[object, ...] = (
@@ -229,7 +229,7 @@ def _other(value: object, draw: random.Random) -> object:
 
 
 def _places(value: object, path: Path = ()) -> Iterator[Path]:
-    items: Iterator[tuple[str | int, object]]
+    items: Iterator[tuple[Any, object]]
     if isinstance(value, dict):
         items = iter(value.items())
     elif isinstance(value, list):

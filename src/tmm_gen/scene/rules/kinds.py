@@ -91,8 +91,8 @@ def base_hub(document: Document) -> Iterator[Finding]:
             "must be greater than 0 for a motor, whose torques turn the hub"
             if given
             else "is missing: a motor turns a hub",
-            f"Write the inertia of hub and rotor in kg m^2; `inertia = {_light_hub(document):.2g}` is light beside "
-            "the arm.",
+            "Write the inertia of hub and rotor in kg m^2, for example `inertia = 0.05`; beside this arm "
+            f"{_light_hub(document):.2g} is light.",
             base.inertia if given else None,
         )
     if base.kind == "clamp":
