@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import hashlib
 import os
+import shutil
 import stat
+from contextlib import suppress
 from pathlib import Path
 
-__all__ = ["digest_of", "own_content", "own_folder"]
+__all__ = ["digest_of", "discard", "own_content", "own_folder"]
 
 _OTHERS = stat.S_IWGRP | stat.S_IWOTH
 
@@ -31,6 +33,15 @@ def own_folder(folder: Path) -> None:
         raise PermissionError(f"{folder} is not this user's folder")
     if status.st_mode & _OTHERS:
         folder.chmod(stat.S_IMODE(status.st_mode) & ~_OTHERS)
+
+
+def discard(path: Path) -> None:
+    """Remove what lies in a cache in the place of a file, whatever it is; what cannot be removed stays."""
+    with suppress(OSError):
+        if path.is_dir() and not path.is_symlink():
+            shutil.rmtree(path)
+        else:
+            path.unlink(missing_ok=True)
 
 
 def own_content(path: Path, largest: int = 2**28) -> bytes | None:

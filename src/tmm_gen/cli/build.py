@@ -33,6 +33,7 @@ class _Row:
     written: tuple[str, ...]
     removed: tuple[str, ...]
     unchanged: tuple[str, ...]
+    without_motion: bool
 
     def as_dict(self) -> dict[str, object]:
         """Return the row for a table."""
@@ -70,6 +71,12 @@ def build(scenes: tuple[str, ...], check: bool, out: Path, force: bool, json_mod
         for line in drift:
             click.echo(line)
     table([row.as_dict() for row in rows], _columns(check), json_mode)
+    if not json_mode:
+        for row in rows:
+            if row.without_motion:
+                click.echo(
+                    f"{row.scene}: the C's test holds no motion, as no step from any start keeps to the numbers' range"
+                )
     if differing := [row.scene for row in rows if row.state == _DRIFT]:
         command = " ".join(["tmm-gen build", *scenes])
         raise CheckFailed(f"{out}/ is not what the scenes give: {', '.join(differing)}. Run `{command}`.")
@@ -168,7 +175,15 @@ def _row(scene: Scene, folder: Path, state: str, changes: Changes) -> _Row:
         tuple(path.relative_to(folder).as_posix() for path in paths)
         for paths in (changes.written, changes.stale, changes.unchanged)
     )
-    return _Row(scene.name, folder, state, written, removed, unchanged)
+    return _Row(scene.name, folder, state, written, removed, unchanged, _without_motion(scene, folder))
+
+
+def _without_motion(scene: Scene, folder: Path) -> bool:
+    """Whether the C's test has nothing to compare a motion with."""
+    from tmm_gen.emit.write import text_of, without_motion
+
+    test = folder / "c" / f"test_{scene.name}.c"
+    return test.is_file() and without_motion(text_of(test))
 
 
 def _columns(check: bool) -> list[Column | str]:

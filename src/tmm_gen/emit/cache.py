@@ -19,7 +19,7 @@ from tmm_gen.emit.write import written_files
 from tmm_gen.files import write_whole
 from tmm_gen.reading import read_file
 from tmm_gen.resources import templates_dir
-from tmm_gen.trusted import digest_of, own_content, own_folder
+from tmm_gen.trusted import digest_of, discard, own_content, own_folder
 from tmm_gen.version import __version__
 
 _LARGEST = 2**22
@@ -72,6 +72,8 @@ def remember(digest: str, files: Mapping[str, str]) -> None:
     entry = _entry(digest)
     with suppress(OSError):
         own_folder(entry.parent)
+        if own_content(entry, _LARGEST) is None:
+            discard(entry)
         write_whole(entry, f"{_seal(entry, body)}\n{body}")
         entry.chmod(0o600)
 

@@ -14,6 +14,9 @@ from tmm_gen.reading import LARGEST_TEXT, kind_of, read_file
 SUFFIXES = frozenset({".py", ".c", ".h", ".txt"})
 """Of the files that tmm-gen writes; only such files are looked at."""
 
+WITHOUT_MOTION = "no motion to compare with: from no start can steps be taken within the range of the numbers"
+"""What a generated test says that has no motion in it."""
+
 
 @dataclass(frozen=True)
 class Changes:
@@ -117,6 +120,11 @@ def _require_ours(path: Path) -> None:
 def text_of(path: Path) -> str:
     """Return the text of a file; nothing for one too large to be tmm-gen's."""
     return _content(path).decode("utf-8", errors="replace")
+
+
+def without_motion(text: str) -> bool:
+    """Whether a generated test says that it has no motion to compare with."""
+    return WITHOUT_MOTION in text
 
 
 def _content(path: Path) -> bytes:

@@ -7,7 +7,6 @@ import hashlib
 import shutil
 import subprocess
 from collections.abc import Mapping, Sequence
-from contextlib import suppress
 from functools import cache
 from pathlib import Path, PurePosixPath
 
@@ -15,7 +14,7 @@ import platformdirs
 
 from tmm_gen.errors import UserError
 from tmm_gen.scratch import new_folder, scratch_folder
-from tmm_gen.trusted import digest_of, own_content, own_folder
+from tmm_gen.trusted import digest_of, discard, own_content, own_folder
 
 FLAGS = ("-O2", "-ffp-contract=off")
 """Optimised, and without fused multiply-add, so that results are the same bits everywhere."""
@@ -64,8 +63,7 @@ def _intact(folder: Path) -> Path | None:
         content = own_content(library)
         if content is not None and digest_of(content) == library.stem:
             return library
-        with suppress(OSError):
-            library.unlink()
+        discard(library)
     return None
 
 
@@ -87,9 +85,6 @@ def _compile(files: Mapping[str, str], cc: str, flags: Sequence[str], folder: Pa
         built = here / "kernel.so"
         built.chmod(0o700)
         library = place / f"{digest_of(built.read_bytes())}.so"
-        if library.is_dir() and not library.is_symlink():
-            place = _own_temporary()
-            library = place / library.name
         built.replace(library)
     return library
 

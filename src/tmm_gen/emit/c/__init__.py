@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from tmm_gen.emit.c.kernel import Kernel
 from tmm_gen.emit.c.sensitivities import emit_sensitivities
-from tmm_gen.emit.c.vectors import WITHOUT, vectors
+from tmm_gen.emit.c.vectors import vectors
 from tmm_gen.emit.seal import sealed
 from tmm_gen.emit.templates import render
+from tmm_gen.emit.write import WITHOUT_MOTION
 from tmm_gen.program.statements import Program
 from tmm_gen.scene import Scene
 
@@ -48,7 +49,9 @@ def emit_c(program: Program, scene: Scene) -> dict[str, str]:
     kernel = Kernel.of(program, scene)
     return {
         **_kernel_files(kernel),
-        f"c/test_{program.name}.c": _filled("test.c", kernel, vectors=vectors(kernel), without=WITHOUT),
+        f"c/test_{program.name}.c": _filled(
+            "test.c", kernel, vectors=vectors(kernel), without=WITHOUT_MOTION
+        ),
         "c/CMakeLists.txt": _filled("CMakeLists.txt", kernel),
     }
 

@@ -112,8 +112,6 @@ last starts are bent again, by next to nothing.
 """
 WORTHLESS = 1e-3
 """Share of its size beyond which a bound of rounding tells nothing."""
-WITHOUT = "no motion to compare with: from no start can steps be taken within the range of the numbers"
-"""What a test without vectors says."""
 
 
 def vectors(kernel: Kernel) -> Vectors | None:
