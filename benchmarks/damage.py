@@ -86,9 +86,12 @@ def _damage(path: Path, kind: str, draw: random.Random) -> None:
     content = bytearray(path.read_bytes())
     if kind in ("folder", "pipe", "link"):
         path.unlink()
-        {"folder": path.mkdir, "pipe": lambda: os.mkfifo(path), "link": lambda: path.symlink_to("/dev/zero")}[
-            kind
-        ]()
+        if kind == "folder":
+            path.mkdir()
+        elif kind == "pipe":
+            os.mkfifo(path)
+        else:
+            path.symlink_to("/dev/zero")
     elif kind == "open":
         path.chmod(0o777)
     elif kind == "other user":

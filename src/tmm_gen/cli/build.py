@@ -75,7 +75,7 @@ def build(scenes: tuple[str, ...], check: bool, out: Path, force: bool, json_mod
         for row in rows:
             if row.without_motion:
                 click.echo(
-                    f"{row.scene}: the C's test holds no motion, as no step from any start keeps to the numbers' range"
+                    f"{row.scene}: the C's test holds no motion, as no start leads to steps within range"
                 )
     if differing := [row.scene for row in rows if row.state == _DRIFT]:
         command = " ".join(["tmm-gen build", *scenes])
