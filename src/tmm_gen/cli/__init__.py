@@ -91,6 +91,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return _fail(
             "standard output is closed. Leave it open, or send it to /dev/null.", UserError.exit_code
         )
+    if any("\0" in word for word in words):
+        return _fail("an argument holds a null character. Leave it out.", UserError.exit_code)
     if arguments is None and not sys.warnoptions:
         warnings.simplefilter(
             "ignore"
