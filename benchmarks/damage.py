@@ -54,7 +54,7 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=0)
     options = parser.parse_args()
     draw = random.Random(options.seed)
-    counts: Counter[str] = Counter()
+    counts = _Told()
     with tempfile.TemporaryDirectory() as folder:
         here = Path(folder)
         _caches(here, options.caches, draw, counts)
@@ -62,6 +62,14 @@ def main() -> int:
     for what, count in sorted(counts.items()):
         print(f"{count:6}  {what}")
     return int(any(what.startswith("WRONG") for what in counts))
+
+
+class _Told(Counter[str]):
+    """Counts that are told as they come: such a run is long, and may be ended."""
+
+    def __setitem__(self, what: str, count: int) -> None:
+        super().__setitem__(what, count)
+        print(what, file=sys.stderr, flush=True)
 
 
 def _caches(here: Path, tries: int, draw: random.Random, counts: Counter[str]) -> None:

@@ -220,7 +220,7 @@ def _other(value: object, draw: random.Random) -> object:
     if isinstance(value, bool):
         return not value
     if isinstance(value, int | float) and draw.random() < 0.9:
-        if draw.random() < 0.35:
+        if draw.random() < 0.35 and abs(value) < 10**300:
             return value * 10.0 ** draw.uniform(-6, 6)
         return draw.choice(NUMBERS)
     if isinstance(value, str) and draw.random() < 0.9:
