@@ -213,7 +213,7 @@ def _change(document: dict[str, Any], draw: random.Random) -> None:
     elif kind < 0.90 and isinstance(holder, list):
         holder.insert(draw.randrange(len(holder) + 1), copy.deepcopy(holder[key]))
     elif isinstance(holder, dict):
-        holder[draw.choice(KEYS)] = draw.choice((*NUMBERS, *WORDS, *OTHERS))
+        holder[draw.choice(KEYS)] = _anything(draw)
 
 
 def _other(value: object, draw: random.Random) -> object:
@@ -225,7 +225,13 @@ def _other(value: object, draw: random.Random) -> object:
         return draw.choice(NUMBERS)
     if isinstance(value, str) and draw.random() < 0.9:
         return draw.choice(WORDS)
-    return draw.choice((*NUMBERS, *WORDS, *OTHERS))
+    return _anything(draw)
+
+
+def _anything(draw: random.Random) -> object:
+    return copy.deepcopy(
+        draw.choice((*NUMBERS, *WORDS, *OTHERS))
+    )  # later changes must not reach the next scene
 
 
 def _places(value: object, path: Path = ()) -> Iterator[Path]:
