@@ -82,7 +82,7 @@ def _caches(here: Path, tries: int, draw: random.Random, counts: Counter[str]) -
             entry = draw.choice([p for p in entries if (p.suffix == ".so") == (words[0] == "run")])
             kind = draw.choice(_KINDS)
             _damage(entry, kind, draw)
-            (here / "out.csv").unlink(missing_ok=True)
+            _forget(here, words)
             done = _call(here, words)
             good = done.returncode == 0 and "Traceback" not in done.stderr and _result(here) == right
             counts[
@@ -152,7 +152,8 @@ def _kills(here: Path, tries: int, draw: random.Random, counts: Counter[str]) ->
 
 def _forget(here: Path, words: list[str]) -> None:
     """Make the command write anew."""
-    for path in [here / "out.csv", *(here / "made").rglob("*.c")] if words[0] != "check" else []:
+    written = {"run": [here / "out.csv"], "build": list((here / "made").rglob("*.c"))}
+    for path in written.get(words[0], []):
         path.unlink(missing_ok=True)
 
 
