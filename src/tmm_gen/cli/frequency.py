@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from tmm_gen.cli.console import Column, progress, table
-from tmm_gen.cli.given import PICTURE, constant_inputs, picture_option, positive, refuse_folders
+from tmm_gen.cli.given import PICTURE, constant_inputs, picture_option, positive
 from tmm_gen.cli.links import show_links
+from tmm_gen.cli.outputs import OutputFile, claim, write_outputs
 from tmm_gen.errors import UserError
 
 if TYPE_CHECKING:
@@ -49,7 +50,7 @@ _IN = {"torque": "N m", "force_x": "N", "force_y": "N", "angle": "rad"}
     multiple=True,
     help="A constant input that a planar arm rests under. Repeatable; the rest is zero.",
 )
-@click.option("--csv", "csv_file", type=click.Path(path_type=Path), help="Write the response.")
+@click.option("--csv", "csv_file", type=OutputFile(), help="Write the response.")
 @click.option(
     "--plot",
     "picture",
@@ -100,7 +101,7 @@ def frequency(
     if error is not None and band is not None:
         show_links(loaded, error, band, json_mode)
         return
-    refuse_folders(csv_file, picture)
+    claim((csv_file, picture), (scene,))
     inputs = constant_inputs(loaded, given)
     chosen = _chosen(scene, loaded.inputs, source, "--from", "[[input]]")
     # energies go with the square of the motion
@@ -108,7 +109,7 @@ def frequency(
     read = _chosen(scene, readable, target, "--to", "[[output]] of a place")
     with progress(f"frequency response of {loaded.name}"):
         answer = _respond(loaded, inputs, chosen, read, (low, high), points)
-        written = _write(answer, csv_file, picture)
+        written = _write(scene, answer, csv_file, picture)
     _show(answer, written, json_mode)
 
 
@@ -202,11 +203,9 @@ def _respond(
     )
 
 
-def _write(answer: _Answer, csv_file: Path | None, picture: Path | None) -> list[Path]:
+def _write(scene: Path, answer: _Answer, csv_file: Path | None, picture: Path | None) -> list[Path]:
     """Write the files asked for, all or none; return them."""
     import numpy as np
-
-    from tmm_gen.files import write_tree_whole
 
     files: dict[Path, str | bytes] = {}
     if csv_file is not None:
@@ -225,8 +224,7 @@ def _write(answer: _Answer, csv_file: Path | None, picture: Path | None) -> list
         texts = (answer.arm.scene.title, f"{name} for a unit of {answer.given.name}")
         drawn = (answer.hertz, answer.parts[name], answer.beam)
         files[target] = bode_picture(answer.arm, *drawn, texts, answer.unit, target.suffix[1:].lower())
-    write_tree_whole(files)
-    return list(files)
+    return write_outputs(files, (scene,))
 
 
 def _shown(answer: _Answer) -> str:

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from tmm_gen.cli.console import Column, progress, table
-from tmm_gen.cli.given import PICTURE, constant_inputs, picture_option, refuse_folders
+from tmm_gen.cli.given import PICTURE, constant_inputs, picture_option
+from tmm_gen.cli.outputs import claim, write_outputs
 
 if TYPE_CHECKING:
     from tmm_gen.modal.arm import LinearArm
@@ -52,7 +53,7 @@ def modes(scene: Path, count: int, given: tuple[str, ...], picture: Path | None,
 
     loaded = load_scene(scene)
     inputs = constant_inputs(loaded, given)
-    refuse_folders(picture)
+    claim((picture,), (scene,))
     with progress(f"finding modes of {loaded.name}"):
         from tmm_gen.modal.matrices import matrices
         from tmm_gen.modal.modes import find_modes
@@ -115,13 +116,11 @@ def _row(number: int, mode: Mode) -> dict[str, object]:
 def _draw(picture: Path | None, arm: LinearArm, found: tuple[Mode, ...], beside: _Beside) -> list[Path]:
     if picture is None:
         return []
-    from tmm_gen.files import write_whole
     from tmm_gen.modal.picture import mode_picture
 
     target = Path(f"{arm.scene.name}-modes.png") if picture == Path(PICTURE) else picture
     exact = None if beside.beam is None else (beside.beam, beside.exact)
-    write_whole(target, mode_picture(arm, found, exact, target.suffix[1:].lower()))
-    return [target]
+    return write_outputs({target: mode_picture(arm, found, exact, target.suffix[1:].lower())})
 
 
 def _show(

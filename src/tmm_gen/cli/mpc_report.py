@@ -9,6 +9,7 @@ import click
 
 from tmm_gen.cli.console import Column, progress, table
 from tmm_gen.cli.given import PICTURE
+from tmm_gen.cli.outputs import write_outputs
 from tmm_gen.errors import UserError
 
 if TYPE_CHECKING:
@@ -68,8 +69,6 @@ def show(scene: Scene, trials: list[Trial], until: float, files: list[Path], jso
 
 def write_files(bench: Bench, trials: list[Trial], picture: Path | None, animated: Path | None) -> list[Path]:
     """Write the pictures asked for, all or none; return them."""
-    from tmm_gen.files import write_tree_whole
-
     files: dict[Path, str | bytes] = {}
     if picture is not None:
         from tmm_gen.control.pictures import comparison_picture
@@ -81,11 +80,10 @@ def write_files(bench: Bench, trials: list[Trial], picture: Path | None, animate
         from tmm_gen.measure.animate import animation
 
         files[animated] = animation(motion(bench.scene, trials[-1]), animated.suffix[1:].lower())
-    write_tree_whole(files)
-    return list(files)
+    return write_outputs(files)
 
 
-def emit(bench: Bench, names: list[str], folder: Path, real: str, json_mode: bool) -> None:
+def emit(bench: Bench, names: list[str], folder: Path, real: str, force: bool, json_mode: bool) -> None:
     """Write a controller as C.
 
     Raises
@@ -94,7 +92,6 @@ def emit(bench: Bench, names: list[str], folder: Path, real: str, json_mode: boo
         If there is none of that name in C, or more than one is asked for.
     """
     from tmm_gen.control.emitted.emit import EMITTED, emit_controller
-    from tmm_gen.files import write_tree_whole
 
     if len(names) != 1 or names[0] not in EMITTED:
         raise UserError(
@@ -103,7 +100,7 @@ def emit(bench: Bench, names: list[str], folder: Path, real: str, json_mode: boo
     with progress(f"writing {names[0]}"):
         name, files = emit_controller(bench, names[0], real=real)
     written = {folder / path: text for path, text in files.items()}
-    write_tree_whole(dict(written))
+    write_outputs(dict(written), force=force)
     rows: list[dict[str, object]] = [
         {"file": path, "bytes": len(text.encode())} for path, text in written.items()
     ]

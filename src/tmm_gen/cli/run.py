@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,6 +11,8 @@ import click
 
 from tmm_gen.cli.changes import changed_scene, set_option
 from tmm_gen.cli.console import Column, progress, table
+from tmm_gen.cli.given import PICTURE, picture_option
+from tmm_gen.cli.outputs import OutputFile, claim, write_outputs
 from tmm_gen.errors import UserError
 
 if TYPE_CHECKING:
@@ -18,11 +21,7 @@ if TYPE_CHECKING:
 
 # NumPy, SymPy and Matplotlib are imported inside: `tmm-gen --help` has no use for them.
 
-_PICTURE = "picture"
-"""What ``--plot`` without a file stands for."""
-
 _MOVING = (".gif", ".html")
-_PICTURES = (".png", ".svg", ".pdf")
 _BALANCED = 1e-2
 """Imbalance of energies, as a share of what moves, that is worth a word on how the step may cause it."""
 
@@ -45,18 +44,6 @@ def _time(_context: click.Context, parameter: click.Parameter, value: float | No
     return value
 
 
-def _picture(_context: click.Context, parameter: click.Parameter, value: str | None) -> Path | None:
-    if value not in (None, _PICTURE) and Path(value).suffix.lower() not in _PICTURES:
-        raise click.BadParameter(f"'{value}' must end in {', '.join(_PICTURES)}", param=parameter)
-    return None if value is None else Path(value)
-
-
-def _animated(_context: click.Context, parameter: click.Parameter, value: Path | None) -> Path | None:
-    if value is not None and value.suffix.lower() not in _MOVING:
-        raise click.BadParameter(f"'{value}' must end in {' or '.join(_MOVING)}", param=parameter)
-    return value
-
-
 @click.command("run")
 @click.argument("scene", metavar="SCENE", type=click.Path(path_type=Path))
 @click.option(
@@ -72,22 +59,21 @@ def _animated(_context: click.Context, parameter: click.Parameter, value: Path |
 )
 @set_option
 @click.option("--backend", type=click.Choice(["numpy", "c"]), default="numpy", show_default=True)
-@click.option("--csv", "csv_file", type=click.Path(path_type=Path), help="Write the outputs over time.")
+@click.option("--csv", "csv_file", type=OutputFile(), help="Write the outputs over time.")
 @click.option(
     "--plot",
     "picture",
     metavar="[FILE.png]",
     is_flag=False,
-    flag_value=_PICTURE,
-    callback=_picture,
+    flag_value=PICTURE,
+    callback=picture_option,
     help="Draw inputs and outputs; by default into NAME.png.",
 )
 @click.option(
     "--animate",
     "animated",
     metavar="FILE.gif|FILE.html",
-    type=click.Path(path_type=Path),
-    callback=_animated,
+    type=OutputFile(*_MOVING),
     help="Show a planar arm in motion.",
 )
 @click.option("--json", "json_mode", is_flag=True, help="One JSON object instead of a table.")
@@ -110,17 +96,16 @@ def run(
     """
     from tmm_gen.measure.clock import refuse_other_clock
     from tmm_gen.measure.duration import default_duration
-    from tmm_gen.measure.given import read_inputs
+    from tmm_gen.measure.given import read_inputs, table_files
     from tmm_gen.measure.run import number_of_steps, simulate, traceable
 
     chosen = changed_scene(scene, changes, step)
+    read = (scene, *table_files(given))
     signals = read_inputs(given, tuple(item.name for item in chosen.inputs))
     planar = chosen.model.kind == "planar"
     if animated is not None and not planar:
         raise UserError(f"--animate {animated}: a chain has no shape to show. Use --plot.")
-    for target in (csv_file, picture, animated):
-        if target is not None and target.is_dir():
-            raise UserError(f"{target}: is a directory. Name a file in it.")
+    claim((csv_file, picture, animated), read)
     duration = until or default_duration(chosen)
     refuse_other_clock(signals, duration)
     steps = number_of_steps(duration, chosen.integrator.step)
@@ -129,30 +114,31 @@ def run(
         # in NumPy the motion of all links is at hand; compiled C would have to stop at every step
         trace = drawn or (backend == "numpy" and traceable(chosen, steps))
         simulation = simulate(chosen, signals, duration, backend, advance, trace=trace)
-    written = _write(simulation, csv_file, picture, animated)
+    written = _write(simulation, csv_file, picture, animated, read)
     _show(simulation, written, json_mode)
 
 
 def _write(
-    simulation: Simulation, csv_file: Path | None, picture: Path | None, animated: Path | None
+    simulation: Simulation,
+    csv_file: Path | None,
+    picture: Path | None,
+    animated: Path | None,
+    read: Sequence[Path],
 ) -> list[Path]:
     """Write the files asked for, all or none; return them."""
-    from tmm_gen.files import write_tree_whole
-
     files: dict[Path, str | bytes] = {}
     if csv_file is not None:
         files[csv_file] = simulation.csv()
     if picture is not None:
         from tmm_gen.measure.plots import response_picture
 
-        target = Path(f"{simulation.scene.name}.png") if picture == Path(_PICTURE) else picture
+        target = Path(f"{simulation.scene.name}.png") if picture == Path(PICTURE) else picture
         files[target] = response_picture(simulation, target.suffix[1:].lower())
     if animated is not None:
         from tmm_gen.measure.animate import animation
 
         files[animated] = animation(simulation, animated.suffix[1:].lower())
-    write_tree_whole(files)
-    return list(files)
+    return write_outputs(files, read)
 
 
 def _show(simulation: Simulation, written: list[Path], json_mode: bool) -> None:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import csv
 import math
+import os
 from collections.abc import Iterable, Iterator
 from difflib import get_close_matches
 from pathlib import Path
@@ -16,6 +17,7 @@ import numpy as np
 
 from tmm_gen.errors import UserError
 from tmm_gen.measure.signals import Constant, Signal, Table
+from tmm_gen.reading import open_table
 
 TIME = "time"
 """Name of the column of instants, s."""
@@ -55,6 +57,12 @@ def read_inputs(given: Iterable[str], names: tuple[str, ...]) -> dict[str, Signa
             raise UserError(f"--input {text}: every input is given already. Leave it out.")
         found |= read_tables(Path(text), wanted)
     return found
+
+
+def table_files(given: Iterable[str]) -> list[Path]:
+    """Return the files among what a user gives as inputs."""
+    parts = [part for text in given for part in (text, text.partition("=")[2]) if part]
+    return [path for path in map(Path, parts) if os.path.lexists(path)]
 
 
 def _signal(name: str, value: str, text: str) -> Signal:
@@ -147,13 +155,11 @@ def read_tables(path: Path, names: tuple[str, ...], gaps: bool = False) -> dict[
 def _rows(path: Path) -> Iterator[tuple[int, list[str]]]:
     """Yield the rows that are not blank, each with its line."""
     try:
-        with path.open(encoding="utf-8-sig", newline="") as file:
+        with open_table(path, "--input: ") as file:
             reader = csv.reader(file)
             for row in reader:
                 if any(cell.strip() for cell in row):
                     yield reader.line_num, row
-    except FileNotFoundError:
-        raise UserError(f"--input: {path}: no such file. Check the path.") from None
     except UnicodeDecodeError:
         raise UserError(f"{path}: is not UTF-8 text. Save it as CSV in UTF-8.") from None
     except csv.Error as error:

@@ -8,9 +8,8 @@ alarm is a proof (Buehler, "EVA, an evolved value analysis for Frama-C", Rennes,
 from __future__ import annotations
 
 import re
-import tempfile
 from dataclasses import dataclass
-from pathlib import Path, PurePosixPath
+from pathlib import PurePosixPath
 
 from tmm_gen.emit.c import emit_kernel
 from tmm_gen.emit.c.box import Box, box_of
@@ -22,6 +21,7 @@ from tmm_gen.errors import UserError
 from tmm_gen.program.build import build_program
 from tmm_gen.program.variables import Variable
 from tmm_gen.scene import Scene
+from tmm_gen.scratch import scratch_folder
 from tmm_gen.target.tools import attempt, need
 
 OPTIONS = (
@@ -162,8 +162,7 @@ def analyse(files: dict[str, str], name: str) -> tuple[tuple[Alarm, ...], str]:
         If Frama-C is missing or fails, or never gets to the end of a step (so that its silence would mean nothing).
     """
     program = need("frama-c", "frama-c-base")
-    with tempfile.TemporaryDirectory(prefix="tmm-gen-") as scratch:
-        folder = Path(scratch)
+    with scratch_folder() as folder:
         names = [PurePosixPath(path).name for path in files]
         for short, text in zip(names, files.values(), strict=True):
             (folder / short).write_text(text, encoding="utf-8")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ctypes
 import subprocess
-import tempfile
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,6 +15,7 @@ from numpy.typing import NDArray
 from tmm_gen.control.command import Command, Status
 from tmm_gen.emit.templates import render
 from tmm_gen.errors import UserError
+from tmm_gen.scratch import scratch_folder
 
 Array = NDArray[np.float64]
 
@@ -74,8 +74,8 @@ class EmittedController:
     ) -> None:
         self.name, self.sensors = name, list(sensors)
         self._number: Any = ctypes.c_double if real == "float64" else ctypes.c_float
-        with tempfile.TemporaryDirectory(prefix="tmm-gen-") as folder:
-            self._library = ctypes.CDLL(str(_compiled(Path(folder), name, files, real, cc, flags)))
+        with scratch_folder() as folder:
+            self._library = ctypes.CDLL(str(_compiled(folder, name, files, real, cc, flags)))
         self._library.harness_size.restype = ctypes.c_size_t
         self.bytes = int(self._library.harness_size())
         self._memory = ctypes.create_string_buffer(self.bytes + 64)

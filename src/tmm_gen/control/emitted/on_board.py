@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,6 +13,7 @@ from tmm_gen.control.emitted.tables import table
 from tmm_gen.emit.c.real import REALS
 from tmm_gen.emit.templates import render
 from tmm_gen.errors import UserError
+from tmm_gen.scratch import scratch_folder
 from tmm_gen.target.boards import BOARDS, Board
 from tmm_gen.target.build import CROSS, FLAGS, HOST
 from tmm_gen.target.sizes import sizes_of
@@ -88,7 +88,7 @@ def run_on_board(
     if target not in BOARDS:
         raise UserError(f"no target is called '{target}'; there are {', '.join(BOARDS)}")
     board = BOARDS[target]
-    with tempfile.TemporaryDirectory(prefix="tmm-gen-") as scratch:
+    with scratch_folder() as scratch:
         folder = Path(scratch, "board")
         sources = _lay_out(folder, name, files, measured, real, board.counter)
         program, alone, static = _cross_compiled(board, name, sources, folder, real)

@@ -8,6 +8,7 @@ from tmm_gen.emit.c.vectors import vectors
 from tmm_gen.emit.c_names import macros
 from tmm_gen.emit.seal import sealed
 from tmm_gen.emit.templates import render
+from tmm_gen.emit.write import WITHOUT_MOTION
 from tmm_gen.program.statements import Program
 from tmm_gen.scene import Scene
 
@@ -49,7 +50,9 @@ def emit_c(program: Program, scene: Scene) -> dict[str, str]:
     kernel = Kernel.of(program, scene)
     return {
         **_kernel_files(kernel),
-        f"c/test_{program.name}.c": _filled("test.c", kernel, vectors=vectors(kernel)),
+        f"c/test_{program.name}.c": _filled(
+            "test.c", kernel, vectors=vectors(kernel), without=WITHOUT_MOTION
+        ),
         "c/CMakeLists.txt": _filled("CMakeLists.txt", kernel),
     }
 

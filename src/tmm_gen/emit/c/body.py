@@ -267,7 +267,7 @@ class Body:
         least = self.real.literal(self.fence.least_of(required))
         value += self._high
         return self._unless(
-            f"({value} > {least})", f"({value} <= {self.real.largest})", "VANISHING_PIVOT", depth
+            f"({value} > {least})", f"({value} <= {self.real.largest_name})", "VANISHING_PIVOT", depth
         )
 
     def _fenced(self, value: str, largest: float, depth: int) -> list[str]:

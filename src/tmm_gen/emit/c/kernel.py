@@ -22,6 +22,7 @@ from tmm_gen.emit.c.structs import COUNTER, Struct, described, dimension, struct
 from tmm_gen.emit.c.wrap import INDENT, WIDTH, comment, statement
 from tmm_gen.emit.c_names import macros
 from tmm_gen.emit.header import header_lines
+from tmm_gen.emit.runs import Run, runs
 from tmm_gen.program.statements import Assign, Loop, Program, Require, Routine
 from tmm_gen.program.variables import Variable
 from tmm_gen.scene import Scene
@@ -316,9 +317,13 @@ class Kernel:
         numbers = textwrap.wrap(", ".join(map(literal, values)), WIDTH - len(INDENT))
         return [*remark, f"{head} {{", *(INDENT + line for line in numbers), "};"]
 
-    def defaults(self) -> list[tuple[Variable, list[str]]]:
-        """Return the scene's parameters as literals, those of arrays in lines that fit."""
-        return [(v, self._literals(v)) for v in self.program.parameters]
+    def defaults(self) -> list[tuple[Variable, list[str], tuple[Run, ...] | None]]:
+        """Return the scene's parameters as literals, those of arrays in lines that fit, and their long runs."""
+        return [(v, self._literals(v), _runs(v)) for v in self.program.parameters]
+
+    def parameter(self, value: float) -> str:
+        """Return a parameter's value as an expression."""
+        return f"(pair){pair_literal(value)}" if self.real.pair else self.real.literal(value)
 
     @property
     def default_step(self) -> str:
@@ -352,6 +357,10 @@ class Kernel:
         literal = pair_literal if self.real.pair else self.real.literal
         numbers = [literal(value) for value in values if value is not None]
         return textwrap.wrap(", ".join(numbers), WIDTH - 2 * len(INDENT))
+
+
+def _runs(variable: Variable) -> tuple[Run, ...] | None:
+    return runs(variable.default) if isinstance(variable.default, tuple) else None
 
 
 def _flat(routine: Routine) -> Iterator[Assign | Require]:

@@ -8,6 +8,7 @@ from tmm_gen.emit.casadi.functions import RESERVED, Functions, flat_names
 from tmm_gen.emit.header import header_lines
 from tmm_gen.emit.python.lines import comments, listing, prose, text
 from tmm_gen.emit.python.names import Names
+from tmm_gen.emit.runs import python_items
 from tmm_gen.emit.seal import sealed
 from tmm_gen.emit.templates import render
 from tmm_gen.program.statements import Program
@@ -107,5 +108,5 @@ def _defaults(program: Program) -> list[str]:
         default = variable.default
         if default is None:
             raise ValueError(f"{variable.name} has no default")
-        numbers += [repr(float(x)) for x in (default if isinstance(default, tuple) else (default,))]
+        numbers += python_items([float(x) for x in (default if isinstance(default, tuple) else (default,))])
     return numbers

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import tempfile
-from pathlib import Path
 
 from tmm_gen.emit.c import emit_kernel, free_scene
 from tmm_gen.emit.c.kernel import Kernel
@@ -22,6 +20,7 @@ from tmm_gen.native.compiler import FLAGS, compile_library
 from tmm_gen.program.build import build_program
 from tmm_gen.program.statements import Program
 from tmm_gen.scene import Scene
+from tmm_gen.scratch import scratch_folder
 
 _HIDDEN = "-fvisibility=hidden"
 """The kernel's own functions are nobody's business, so that units can be loaded side by side."""
@@ -144,8 +143,8 @@ def _validate(packed: bytes, name: str) -> None:
     """Have FMPy judge the unit: schema, names, structure, units, start values."""
     from fmpy.validation import validate_fmu
 
-    with tempfile.TemporaryDirectory(prefix="tmm-gen-") as folder:
-        path = Path(folder) / f"{name}.fmu"
+    with scratch_folder() as folder:
+        path = folder / f"{name}.fmu"
         path.write_bytes(packed)
         problems = validate_fmu(str(path))
     if problems:
