@@ -15,6 +15,10 @@ from tmm_gen.control.problem import ControlProblem
 
 Array = NDArray[np.float64]
 
+BEYOND = 0.1
+"""A soft bound that the arm is so far beyond is left out until it is back, rad: it would hold at every sample of the
+horizon, whatever the torques, and pull where the reference pulls already."""
+
 
 @dataclass(frozen=True, eq=False)
 class Outputs:
@@ -146,7 +150,10 @@ class Condensed:
         return np.concatenate([found, np.zeros(self.size - len(found))])
 
     def bounds(self, along: Outputs, inputs: Array, last: float) -> tuple[Array, Array]:
-        """Return lower and upper bounds of the inputs and of the rows, with arguments as for :meth:`gradient`."""
+        """Return lower and upper bounds of the inputs and of the rows, with arguments as for :meth:`gradient`.
+
+        Soft ones that the arm is far beyond at the first sample are infinite.
+        """
         problem, count = self.problem, self.problem.horizon
         low, high = [problem.torque[0] - inputs], [problem.torque[1] - inputs]
         if problem.torque_rate is not None:
@@ -157,10 +164,19 @@ class Condensed:
             high.append(change - changes)
         none = np.full(count, np.inf)
         for present, value in ((problem.tip, along.tip), (problem.hub, along.hub)):
-            if present is not None and np.isfinite(present[1]):
+            if present is None:
+                continue
+            near = present[0] - BEYOND <= value[0] <= present[1] + BEYOND
+            if np.isfinite(present[1]):
                 low.append(-none)
-                high.append(present[1] - value)
-            if present is not None and np.isfinite(present[0]):
-                low.append(present[0] - value)
+                high.append(present[1] - value if near else none)
+            if np.isfinite(present[0]):
+                low.append(present[0] - value if near else -none)
                 high.append(none)
         return np.concatenate(low), np.concatenate(high)
+
+    @cached_property
+    def soft(self) -> NDArray[np.bool_]:
+        """Which of the bounds are soft."""
+        hard = self.problem.horizon * (1 if self.problem.torque_rate is None else 2)
+        return np.arange(self.problem.horizon + len(self.rows)) >= hard

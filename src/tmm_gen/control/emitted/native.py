@@ -23,9 +23,12 @@ STATUSES = (
     Status.OK,
     Status.MEASUREMENT,
     Status.ESTIMATE,
-    Status.INFEASIBLE,
-    Status.ITERATIONS,
+    Status.REDUCED,
+    Status.RELAXED,
     Status.NOT_FINITE,
+    Status.ITERATIONS,
+    Status.INFEASIBLE,
+    Status.MISSING,
 )
 """By their number in C."""
 FLAGS = ("-O3", "-ffp-contract=off")
