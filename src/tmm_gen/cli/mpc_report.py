@@ -85,23 +85,28 @@ def write_files(bench: Bench, trials: list[Trial], picture: Path | None, animate
     return list(files)
 
 
-def emit(bench: Bench, names: list[str], folder: Path, real: str, json_mode: bool) -> None:
+def emit(
+    bench: Bench, names: list[str], folder: Path, real: str, prefix: str | None, json_mode: bool
+) -> None:
     """Write a controller as C.
 
     Raises
     ------
     UserError
-        If there is none of that name in C, or more than one is asked for.
+        If there is none of that name in C, more than one is asked for, or the prefix is no name.
     """
     from tmm_gen.control.emitted.emit import EMITTED, emit_controller
     from tmm_gen.files import write_tree_whole
+    from tmm_gen.scene.identifier import scene_name_fault
 
     if len(names) != 1 or names[0] not in EMITTED:
         raise UserError(
             f"--emit: cannot write {' and '.join(names)}. Choose one by --controller: {', '.join(EMITTED)}."
         )
+    if prefix is not None and (fault := scene_name_fault(prefix)):
+        raise UserError(f"--name {prefix}: {fault[0]}. {fault[1]}")
     with progress(f"writing {names[0]}"):
-        name, files = emit_controller(bench, names[0], real=real)
+        name, files = emit_controller(bench, names[0], real, prefix)
     written = {folder / path: text for path, text in files.items()}
     write_tree_whole(dict(written))
     rows: list[dict[str, object]] = [
@@ -112,3 +117,4 @@ def emit(bench: Bench, names: list[str], folder: Path, real: str, json_mode: boo
     table(rows, ["file", Column("bytes", form="d")], json_mode, title=title, more=facts)
     if not json_mode:
         click.echo(f"call {name}_command() once per sample; {folder / (name + '.h')} says how")
+        click.echo(f"try it: cd {folder} && cc -O2 *.c */*.c -lm && ./a.out")

@@ -83,8 +83,8 @@ class ControllerText:
 
     @property
     def NAME(self) -> str:
-        """Prefix of macros."""
-        return self.name.upper()
+        """Prefix of macros: of two names that differ in capitals only, two prefixes."""
+        return macro_prefix(self.name)
 
     @property
     def single(self) -> bool:
@@ -197,7 +197,7 @@ class ControllerText:
         """Return the head of a file."""
         problem = self.problem
         lines = [
-            f"{self.name}: {self.title}",
+            f"{self.name}: {_harmless(self.title)}",
             "",
             f"Written by tmm-gen {__version__}. Do not edit: change the scene and run `tmm-gen mpc --emit`.",
             "",
@@ -209,3 +209,13 @@ class ControllerText:
         ]
         wrapped = [part for line in lines for part in (textwrap.wrap(line, WIDTH - len(lead) - 1) or [""])]
         return "\n".join(f"{lead} {line}".rstrip() for line in wrapped)
+
+
+def macro_prefix(name: str) -> str:
+    """Return the prefix of a controller's macros: of two names that differ in capitals only, two prefixes."""
+    return name.upper() if name.islower() else name
+
+
+def _harmless(text: str) -> str:
+    """Return a text that neither ends a comment nor begins one."""
+    return text.replace("*/", "* /").replace("/*", "/ *")
