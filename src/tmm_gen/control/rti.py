@@ -84,7 +84,7 @@ class RealTimeIteration(ModelBased):
         renewed = condensed is not self.prepared
         solution = self._program.solve_softly(
             condensed.gradient(along, plan, last, disturbance),
-            *condensed.bounds(along, plan, last),
+            *condensed.bounds(along, plan, last, self.prepared.stopping),
             soft=condensed.soft,
             hessian=condensed.hessian if renewed else None,
             rows=condensed.rows if renewed else None,
