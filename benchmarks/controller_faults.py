@@ -54,7 +54,9 @@ def outcomes(loop: FaultyLoop, count: int, number: int = 0) -> list[tuple[Case, 
 
 def failed(outcome: Outcome) -> bool:
     """Return whether a case ended as none must."""
-    return outcome.recovery > WITHIN or bool(outcome.late) or math.isinf(outcome.arrival) or outcome.outside > 0
+    return (
+        outcome.recovery > WITHIN or bool(outcome.late) or math.isinf(outcome.arrival) or outcome.outside > 0
+    )
 
 
 def row(controller: str, real: str, found: list[tuple[Case, Outcome]]) -> dict[str, object]:

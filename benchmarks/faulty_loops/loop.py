@@ -115,7 +115,15 @@ class FaultyLoop:
             at += spell.samples
         low, high = self.problem.torque
         given = _Given(
-            case.start, self.problem.reference, low, high, self.gravity, case.before, case.faults, AFTER, SUBSTEPS
+            case.start,
+            self.problem.reference,
+            low,
+            high,
+            self.gravity,
+            case.before,
+            case.faults,
+            AFTER,
+            SUBSTEPS,
         )
         sensors = (ctypes.c_int * len(self.sensors))(*self.sensors)
         found = _Found()

@@ -43,7 +43,7 @@ class NonlinearFilter:
         self.estimate[self._angles] += angle
 
     def rest(self, hub: float, rate: float) -> None:
-        """Start anew from an arm at its target's shape, with its hub at an angle (rad), all turning at a rate (rad/s)."""
+        """Start anew from an arm of the target's shape: where its hub is, rad, and how fast it turns, rad/s."""
         self.estimate = np.append(rest_state(self.model, self._linear), 0.0)
         self.estimate[self._angles] += hub - self._linear.target_hub
         self.estimate[self._rates] = rate

@@ -76,14 +76,19 @@ class KalmanFilter:
         self.estimate[:-1] += angle * self.model.turned
 
     def rest(self, hub: float, rate: float) -> None:
-        """Start anew from an arm at its target's shape, with its hub at an angle (rad), all turning at a rate (rad/s)."""
+        """Start anew from an arm of the target's shape: where its hub is, rad, and how fast it turns, rad/s."""
         model = self.model
         self.estimate = np.append((hub - model.target_hub) * model.turned + rate * model.turn, 0.0)
 
     def surprise(self, measured: Array) -> Array:
         """Return how far a measurement is off what is expected, (3,), NaN where there is no sensor."""
         model, state = self.model, self.estimate[:-1]
-        seen = measured - model.target_sensors - model.measure @ state - model.feed * (self._direct + self.estimate[-1])
+        seen = (
+            measured
+            - model.target_sensors
+            - model.measure @ state
+            - model.feed * (self._direct + self.estimate[-1])
+        )
         rate = float(model.tip_rate @ state)
         seen[1] -= rate * rate * float(model.whirl @ state)
         return np.asarray(seen, float)

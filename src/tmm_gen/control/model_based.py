@@ -33,14 +33,14 @@ class Estimator(Protocol):
         """Turn the whole arm by an angle, rad."""
 
     def rest(self, hub: float, rate: float) -> None:
-        """Start anew from an arm at its target's shape, with its hub at an angle (rad), all turning at a rate (rad/s)."""
+        """Start anew from an arm of the target's shape: where its hub is, rad, and how fast it turns, rad/s."""
 
     def surprise(self, measured: Array) -> Array:
         """Return how far a measurement is off what is expected, (3,)."""
         ...
 
     def correct(self, surprise: Array, sensors: tuple[int, ...], most: float) -> None:
-        """Take in what some of encoder, accelerometer and strain gauge are off; the disturbance is ``most`` N m at most."""
+        """Take in what some sensors are off, (3,); the disturbance stays within ``most`` N m either way."""
 
     def advance(self, torques: Pair, end: float) -> None:
         """Predict a sample with the torques that act in it, and the one at its end, N m."""
@@ -84,6 +84,7 @@ class ModelBased(ABC):
         self._hub, self._fresh, self._wrong = math.nan, True, 0
         self._forget()
 
+    @abstractmethod
     def _forget(self) -> None:
         """Forget what was planned."""
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from tmm_gen.control.bench import Bench
-from tmm_gen.control.emitted.linear import emit_linear_mpc
 from tmm_gen.control.emitted.example_arm import example_arm
+from tmm_gen.control.emitted.linear import emit_linear_mpc
 from tmm_gen.control.emitted.rti import emit_rti
 from tmm_gen.control.linear_mpc import LinearMpc
 from tmm_gen.control.rti import RealTimeIteration
@@ -43,7 +43,9 @@ def emit_controller(
         If that controller cannot be written in C.
     """
     if controller not in EMITTED:
-        raise UserError(f"the controller '{controller}' cannot be written in C; these can: {', '.join(EMITTED)}")
+        raise UserError(
+            f"the controller '{controller}' cannot be written in C; these can: {', '.join(EMITTED)}"
+        )
     name = name or f"{bench.scene.name}_{controller.replace('-', '_')}"
     arm = example_arm(bench)
     title = bench.scene.title

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from tmm_gen.control.emitted.example_arm import ExampleArm
 from tmm_gen.control.emitted.folder import complete
 from tmm_gen.control.emitted.linear_data import linear_mpc_data
-from tmm_gen.control.emitted.example_arm import ExampleArm
 from tmm_gen.control.emitted.solver import solver_files
 from tmm_gen.control.emitted.text import ControllerText
 from tmm_gen.control.linear_mpc import LinearMpc

@@ -137,16 +137,16 @@ def _lay_out(
     """Write all sources into a folder and return those of the controller."""
     prefix = macro_prefix(name)
     seen = table("measured", measured, f"[SAMPLES][{prefix}_SENSORS]", REALS[real])
-    harness = render("control/board.c.jinja", name=name, NAME=prefix, samples=len(measured), counter=counter, table=seen)
+    harness = render(
+        "control/board.c.jinja", name=name, NAME=prefix, samples=len(measured), counter=counter, table=seen
+    )
     for path, text in {**files, "harness.c": harness}.items():
         (folder / path).parent.mkdir(parents=True, exist_ok=True)
         (folder / path).write_text(text)
     return library_sources(files)
 
 
-def _cross_compiled(
-    board: Board, name: str, sources: list[str], folder: Path
-) -> tuple[Path, Path, int]:
+def _cross_compiled(board: Board, name: str, sources: list[str], folder: Path) -> tuple[Path, Path, int]:
     """Return the program, the controller linked alone, and its bytes of static variables."""
     cc = need(f"{board.prefix}gcc", board.package)
     common = (*FLAGS, *CROSS, board.optimisation, *board.machine, "-I.")

@@ -6,8 +6,8 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from tmm_gen.control.emitted.folder import complete
 from tmm_gen.control.emitted.example_arm import ExampleArm
+from tmm_gen.control.emitted.folder import complete
 from tmm_gen.control.emitted.rti_data import RtiData, rti_data
 from tmm_gen.control.emitted.solver import solver_files
 from tmm_gen.control.emitted.text import ControllerText
@@ -16,6 +16,7 @@ from tmm_gen.emit.c import emit_kernel
 from tmm_gen.emit.c.real import REALS
 from tmm_gen.emit.templates import render
 from tmm_gen.program.build import build_program
+
 
 @dataclass(frozen=True, eq=False)
 class RtiText(ControllerText):
@@ -155,7 +156,9 @@ def short_names(scene: str, kernel: str, files: Mapping[str, str]) -> dict[str, 
     """
     headers = sorted(path for path in files if path.endswith(".h"))
     words = {word for path in headers for word in re.findall(rf"\b{kernel}_\w+", files[path], re.IGNORECASE)}
-    names = [(_shortened(word, scene, kernel), word) for word in sorted(words) if not word.endswith(("_H", "_h"))]
+    names = [
+        (_shortened(word, scene, kernel), word) for word in sorted(words) if not word.endswith(("_H", "_h"))
+    ]
     text = render("control/short_names.h.jinja", scene=scene, kernel=kernel, headers=headers, names=names)
     return {f"{scene}.h": text} if f"{scene}.h" not in files else {}
 

@@ -197,7 +197,7 @@ class ControllerText:
         """Return the head of a file."""
         problem = self.problem
         lines = [
-            f"{self.name}: {_harmless(self.title)}",
+            f"{self.name}: {self.title}",
             "",
             f"Written by tmm-gen {__version__}. Do not edit: change the scene and run `tmm-gen mpc --emit`.",
             "",
@@ -214,8 +214,3 @@ class ControllerText:
 def macro_prefix(name: str) -> str:
     """Return the prefix of a controller's macros: of two names that differ in capitals only, two prefixes."""
     return name.upper() if name.islower() else name
-
-
-def _harmless(text: str) -> str:
-    """Return a text that neither ends a comment nor begins one."""
-    return text.replace("*/", "* /").replace("/*", "/ *")
