@@ -53,7 +53,9 @@ def spells(cases: Any) -> list[Any]:
     ]
 
 
-def follow(bench: Bench, controller: Any, case: Any, cases: Any) -> tuple[list[Status], np.ndarray, np.ndarray]:
+def follow(
+    bench: Bench, controller: Any, case: Any, cases: Any
+) -> tuple[list[Status], np.ndarray, np.ndarray]:
     """Return statuses after the last wrong sample, the tip's angle then, and all torques."""
     plant = Plant(bench.scene, bench.problem, CONDITIONS[0])
     at_rest = {name: np.zeros_like(value) for name, value in plant.kernel.state.items()}
@@ -68,7 +70,7 @@ def follow(bench: Bench, controller: Any, case: Any, cases: Any) -> tuple[list[S
         held = seen if at <= 0 else held
         if 0 <= at < len(kinds):
             shown = [held, np.array(kinds[at].values), seen + kinds[at].values]
-            seen = np.array([([seen] + shown)[kind][i] for i, kind in enumerate(kinds[at].kinds)])
+            seen = np.array([[seen, *shown][kind][i] for i, kind in enumerate(kinds[at].kinds)])
         command = controller.command(seen)
         torques.append(command.torque)
         angles = plant.advance(command.torque)
@@ -78,7 +80,9 @@ def follow(bench: Bench, controller: Any, case: Any, cases: Any) -> tuple[list[S
     return statuses, np.array(tips), np.array(torques)
 
 
-@pytest.mark.parametrize(("name", "number"), [(name, number) for name, some in SOME.items() for number in some])
+@pytest.mark.parametrize(
+    ("name", "number"), [(name, number) for name, some in SOME.items() for number in some]
+)
 def test_all_is_well_a_second_after_the_last_wrong_sample(
     name: str, number: int, bench: Bench, cases: Any
 ) -> None:

@@ -52,8 +52,8 @@ by ``reference + overshoot (reference - start)``, where ``start`` is the tip ang
 Decision variables are ``z = (u - u^, s, r)``; slacks of absent bounds are absent. The Hessian is the Gauss-Newton
 one. Rows in order: bounds of the torques (N), then rates of change (N), tip (N), hub (N), those present.
 
-**Safe law.** If the QP is not solved, it is once more without its soft bounds. If that fails too, the controller applies
-:func:`tmm_gen.control.safe.safe_torque` and says so. Every torque that leaves a controller is within its bounds.
+**Safe law.** If the QP is not solved, it is once more without its soft bounds. If that fails too, the controller
+applies :func:`tmm_gen.control.safe.safe_torque` and says so. Every torque that leaves a controller is within its bounds.
 """
 
 from __future__ import annotations

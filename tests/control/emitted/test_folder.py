@@ -52,7 +52,9 @@ def test_all_controllers_in_both_precisions_are_in_one_program(bench: Bench, tmp
         for real in REALS:
             name = f"{kind.replace('-', '_')}_{real}"
             _, files = emit_controller(bench, kind, real, name)
-            write(tmp_path / name, {path: text for path, text in files.items() if "/example" not in f"/{path}"})
+            write(
+                tmp_path / name, {path: text for path, text in files.items() if "/example" not in f"/{path}"}
+            )
             includes.append(f'#include "{name}/{name}.h"')
             macro = macro_prefix(name)
             calls.append(

@@ -48,7 +48,7 @@ class BoardRun:
     samples : int
         Length of the closed loop.
     fallbacks : int
-        Samples on which the safe law stepped in.
+        Samples whose status was not OK.
     """
 
     target: str
