@@ -53,7 +53,8 @@ Decision variables are ``z = (u - u^, s, r)``; slacks of absent bounds are absen
 one. Rows in order: bounds of the torques (N), then rates of change (N), tip (N), hub (N), those present.
 
 **Safe law.** If the QP is not solved, it is once more without its soft bounds. If that fails too, the controller
-applies :func:`tmm_gen.control.safe.safe_torque` and says so. Every torque that leaves a controller is within its bounds.
+applies :func:`tmm_gen.control.safe.safe_torque` and says so. Every torque that leaves a controller is within its
+bounds.
 """
 
 from __future__ import annotations
