@@ -84,6 +84,12 @@ _EMITTED = "mpc-modes"
     help="Number type of the C code.",
 )
 @click.option(
+    "--name",
+    metavar="NAME",
+    help="Prefix of the C code's functions and files, by default SCENE_CONTROLLER: one controller twice in a program "
+    "needs two.",
+)
+@click.option(
     "--tune",
     "tunables",
     metavar="[NAME]",
@@ -127,6 +133,7 @@ def mpc(
     animated: Path | None,
     folder: Path | None,
     real: str,
+    name: str | None,
     tunables: tuple[str, ...],
     evaluations: int,
     refine: bool,
@@ -164,7 +171,7 @@ def mpc(
         return
     if folder is not None:
         names = [kind.name for kind in kinds] or [_EMITTED]
-        emit(bench, names, folder, real, force, json_mode)
+        emit(bench, names, folder, real, name, force, json_mode)
         return
     kinds = kinds or [kind for kind in CONTROLLERS if kind.default]
     trials = _trials(loaded, bench, kinds, cases, until, seed, compiled)

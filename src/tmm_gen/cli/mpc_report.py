@@ -83,22 +83,27 @@ def write_files(bench: Bench, trials: list[Trial], picture: Path | None, animate
     return write_outputs(files)
 
 
-def emit(bench: Bench, names: list[str], folder: Path, real: str, force: bool, json_mode: bool) -> None:
+def emit(
+    bench: Bench, names: list[str], folder: Path, real: str, prefix: str | None, force: bool, json_mode: bool
+) -> None:
     """Write a controller as C.
 
     Raises
     ------
     UserError
-        If there is none of that name in C, or more than one is asked for.
+        If there is none of that name in C, more than one is asked for, or the prefix is no name.
     """
     from tmm_gen.control.emitted.emit import EMITTED, emit_controller
+    from tmm_gen.scene.identifier import scene_name_fault
 
     if len(names) != 1 or names[0] not in EMITTED:
         raise UserError(
             f"--emit: cannot write {' and '.join(names)}. Choose one by --controller: {', '.join(EMITTED)}."
         )
+    if prefix is not None and (fault := scene_name_fault(prefix)):
+        raise UserError(f"--name {prefix}: {fault[0]}. {fault[1]}")
     with progress(f"writing {names[0]}"):
-        name, files = emit_controller(bench, names[0], real=real)
+        name, files = emit_controller(bench, names[0], real, prefix)
     written = {folder / path: text for path, text in files.items()}
     write_outputs(dict(written), force=force)
     rows: list[dict[str, object]] = [
@@ -109,3 +114,4 @@ def emit(bench: Bench, names: list[str], folder: Path, real: str, force: bool, j
     table(rows, ["file", Column("bytes", form="d")], json_mode, title=title, more=facts)
     if not json_mode:
         click.echo(f"call {name}_command() once per sample; {folder / (name + '.h')} says how")
+        click.echo(f"try it: cd {folder} && cc -O2 *.c */*.c -lm && ./a.out")
