@@ -56,11 +56,12 @@ def calibrate(
     loaded = load_scene(scene)
     with progress(f"fitting {loaded.name}"):
         from tmm_gen.control.calibration import calibrate as fit
-        from tmm_gen.measure.given import read_inputs, read_tables
+        from tmm_gen.measure.given import input_names, read_inputs, read_tables
 
         names = _columns(loaded, record)
         missing = tuple(item.name for item in loaded.inputs if item.name not in names)
-        signals = {**read_tables(record, names), **read_inputs(given, missing)}
+        _, angles = input_names(loaded)
+        signals = {**read_tables(record, names, angles), **read_inputs(given, missing, angles)}
         done = fit(loaded, signals, keys or None)
     written = _write(scene, out, done)
     _show(loaded, done, written, json_mode)

@@ -109,11 +109,11 @@ def run(
     last one stays.
     """
     from tmm_gen.measure.duration import default_duration
-    from tmm_gen.measure.given import read_inputs
+    from tmm_gen.measure.given import input_names, read_inputs
     from tmm_gen.measure.run import number_of_steps, simulate, traceable
 
     chosen = changed_scene(scene, changes, step)
-    signals = read_inputs(given, tuple(item.name for item in chosen.inputs))
+    signals = read_inputs(given, *input_names(chosen))
     planar = chosen.model.kind == "planar"
     if animated is not None and not planar:
         raise UserError(f"--animate {animated}: a chain has no shape to show. Use --plot.")
@@ -166,6 +166,7 @@ def _show(simulation: Simulation, written: list[Path], json_mode: bool) -> None:
         "energy_imbalance": simulation.imbalance,
         "unsolved": simulation.unsolved,
         "step_error": simulation.step_error,
+        "notes": list(simulation.notes),
         "files": written,
     }
     done = f"{last:g} s in {simulation.steps} steps of {scene.integrator.step:g} s by {scene.integrator.name}"
@@ -174,6 +175,8 @@ def _show(simulation: Simulation, written: list[Path], json_mode: bool) -> None:
         return
     if simulation.unsolved is not None and not simulation.still:
         click.echo(_trusted(simulation))
+    for note in simulation.notes:
+        click.echo(note)
     for path in written:
         click.echo(f"wrote {path}")
     if simulation.still and scene.inputs:

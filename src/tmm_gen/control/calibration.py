@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.errors import UserError
+from tmm_gen.measure.prescribed import Derivative, kernel_signals
 from tmm_gen.measure.signals import Signal, Table
 from tmm_gen.native import NativeKernel, compile_kernel
 from tmm_gen.program.build import build_program
@@ -186,7 +187,7 @@ class _Fit:
             for v in self.kernel.program.parameters
             if v.name in known
         }
-        signals = {name: _caller(signal) for name, signal in self.signals.items()}
+        signals = {name: _caller(signal) for name, signal in kernel_signals(self.scene, self.signals).items()}
         step = self.scene.integrator.step
         times, found = self.kernel.simulate(self.until + step, signals, parameters)
         return np.concatenate(
@@ -216,7 +217,7 @@ def parameters_of(scene: Scene) -> dict[str, Any]:
     return found
 
 
-def _caller(signal: Signal) -> Any:
+def _caller(signal: Signal | Derivative) -> Any:
     return lambda time: float(signal.at(time))
 
 
