@@ -202,6 +202,6 @@ def followed(scene: Scene, signals: Mapping[str, Signal], until: float) -> Itera
     more = f" and at {len(corners) - _SHOWN} more rows" if len(corners) > _SHOWN else ""
     name = item.name
     yield (
-        f"{name} has corners: the base's rate jumps by {', '.join(told)}{more}. For a smooth motion give more rows, the "
-        f"columns {name}_rate and {name}_acceleration, or a profile such as {name}=smooth:0:1:0.5s"
+        f"{name} has corners: the base's rate jumps by {', '.join(told)}{more}. For a smooth motion give more rows, "
+        f"the columns {name}_rate and {name}_acceleration, or a profile such as {name}=smooth:0:1:0.5s"
     )

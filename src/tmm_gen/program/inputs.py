@@ -11,7 +11,7 @@ from tmm_gen.program.fields import MOTION_NAMES
 from tmm_gen.program.statements import Assign
 from tmm_gen.program.variables import Role, Variable
 from tmm_gen.scene import Scene
-from tmm_gen.scene.signal import kernel_names
+from tmm_gen.scene.signal import ACCELERATION, RATE, kernel_names
 
 UNITS = {"torque": "N m", "force_x": "N", "force_y": "N"}
 
@@ -48,6 +48,12 @@ def input_variables(scene: Scene, integrator: Integrator) -> tuple[Variable, ...
             for name, (doc, unit) in zip(names, words, strict=True)
         ]
     return tuple(found)
+
+
+def prescribed_names(inputs: tuple[Variable, ...]) -> tuple[str, str, str] | None:
+    """Return the names of angle, rate and acceleration of a prescribed base among a kernel's inputs, if it has them."""
+    angle = next((variable.name for variable in inputs if variable.unit == "rad"), None)
+    return None if angle is None else (angle, angle + RATE, angle + ACCELERATION)
 
 
 def prescribed_motion(scene: Scene, inputs: tuple[Variable, ...], instant: int) -> dict[Kind, sp.Expr]:

@@ -107,7 +107,7 @@ def test_a_communication_step_may_be_many_steps(
 
 
 @pytest.mark.parametrize("version", VERSIONS)
-def test_a_prescribed_angle_is_gone_to_along_a_straight_line(
+def test_a_prescribed_angle_alone_is_gone_to_along_a_straight_line(
     version: FmiVersion, servo: Scene, instance: Any, direct: Any
 ) -> None:
     unit = instance(servo, version)
@@ -125,7 +125,8 @@ def test_a_prescribed_angle_is_gone_to_along_a_straight_line(
         time += many * 2e-3
         for k in range(many):
             way = [reached + ((k + at) / many) * (target - reached) for at in instants]
-            kernel.step({"angle": way, "push": push})
+            rate = (target - reached) / (many * 2e-3)
+            kernel.step({"angle": way, "angle_rate": rate, "push": push})
         reached = target
         assert unit.outputs() == kernel.output()
     assert abs(unit.outputs()["tip_y"]) > 0.002
