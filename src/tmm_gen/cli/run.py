@@ -66,9 +66,9 @@ def _animated(_context: click.Context, parameter: click.Parameter, value: Path |
 @click.option(
     "--input",
     "given",
-    metavar="NAME=VALUE|NAME=FILE.csv|FILE.csv",
+    metavar="NAME=VALUE|NAME=PROFILE|NAME=FILE.csv|FILE.csv",
     multiple=True,
-    help="An input: a constant, a column of a file, or all from one file. Repeatable; the rest is zero.",
+    help="An input: a constant, a profile, a column of a file, or all from one file. Repeatable; the rest is zero.",
 )
 @set_option
 @click.option("--backend", type=click.Choice(["numpy", "c"]), default="numpy", show_default=True)
@@ -106,7 +106,18 @@ def run(
     """Simulate SCENE with its generated kernel.
 
     Files of inputs have a `time` column and a column for each input; between rows values are linear, and the
-    last one stays.
+    last one stays. The angle of a prescribed base goes smoothly through its rows, with its rate and acceleration;
+    where the rows have a corner its rate jumps. Columns NAME_rate and NAME_acceleration tell them exactly.
+
+    \b
+    Profiles; times in s (or 0.8s, 800ms), what is in brackets may be absent:
+      step:FROM:TO[:AT]                 a jump, at 0 s or AT
+      ramp:FROM:TO:TIME[:START]         straight from value to value in a time
+      smooth:FROM:TO:TIME[:START]       the same, at rest at both ends (degree five)
+      sine:AMPLITUDE:FREQUENCY[:PHASE]  FREQUENCY in Hz, PHASE in rad (or 90deg)
+      chirp:AMPLITUDE:FIRST:LAST:TIME   from one frequency (Hz) to another in a time
+
+    For example --input base_angle=smooth:0:1.5:0.8s; a prescribed base cannot jump.
     """
     from tmm_gen.measure.duration import default_duration
     from tmm_gen.measure.given import input_names, read_inputs
