@@ -38,7 +38,7 @@ _BESIDE = 1e-9
 
 @dataclass(frozen=True, eq=False)
 class Curve:
-    """A motion in pieces; before the first instant and after the last it stays.
+    """A motion in pieces; before the first instant and after the last it stays, at the last it still moves.
 
     Parameters
     ----------
@@ -91,7 +91,9 @@ class Curve:
         for row in self._derivatives[derivative]:
             values = values * since + row[inside]
         before, beyond = (self.table.values[0], self.last) if derivative == 0 else (0.0, 0.0)
-        return np.where(place < 0, before, np.where(place > len(self.times) - 2, beyond, values))
+        # the last row itself still belongs to the motion: a run may end there
+        after = now > self.times[-1] + (self.times[-1] - self._begins[-1])
+        return np.where(place < 0, before, np.where(after, beyond, values))
 
     @cached_property
     def _begins(self) -> Array:
