@@ -26,6 +26,16 @@ _PICTURES = (".png", ".svg", ".pdf")
 _BALANCED = 1e-2
 """Imbalance of energies, as a share of what moves, that is worth a word on how the step may cause it."""
 
+_PROFILES = """\b
+Profiles; times in s (or 0.8s, 800ms), what is in brackets may be absent:
+  step:FROM:TO[:AT]                 a jump, at 0 s or AT
+  ramp:FROM:TO:TIME[:START]         straight from value to value in a time
+  smooth:FROM:TO:TIME[:START]       the same, at rest at both ends (degree five)
+  sine:AMPLITUDE:FREQUENCY[:PHASE]  FREQUENCY in Hz, PHASE in rad (or 90deg)
+  chirp:AMPLITUDE:FIRST:LAST:TIME   from one frequency (Hz) to another in a time
+"""
+"""What ``--input NAME=`` takes besides numbers and files; click leaves lines behind its mark as they are."""
+
 _COLUMNS: list[Column | str] = [
     "output",
     Column("what", ""),
@@ -57,7 +67,7 @@ def _animated(_context: click.Context, parameter: click.Parameter, value: Path |
     return value
 
 
-@click.command("run")
+@click.command("run", epilog=_PROFILES)
 @click.argument("scene", metavar="SCENE", type=click.Path(path_type=Path))
 @click.option(
     "--until", type=float, callback=_time, help="Time to simulate, s; by default five slow periods."
@@ -109,15 +119,7 @@ def run(
     last one stays. The angle of a prescribed base goes smoothly through its rows, with its rate and acceleration;
     where the rows have a corner its rate jumps. Columns NAME_rate and NAME_acceleration tell them exactly.
 
-    \b
-    Profiles; times in s (or 0.8s, 800ms), what is in brackets may be absent:
-      step:FROM:TO[:AT]                 a jump, at 0 s or AT
-      ramp:FROM:TO:TIME[:START]         straight from value to value in a time
-      smooth:FROM:TO:TIME[:START]       the same, at rest at both ends (degree five)
-      sine:AMPLITUDE:FREQUENCY[:PHASE]  FREQUENCY in Hz, PHASE in rad (or 90deg)
-      chirp:AMPLITUDE:FIRST:LAST:TIME   from one frequency (Hz) to another in a time
-
-    For example --input base_angle=smooth:0:1.5:0.8s; a prescribed base cannot jump.
+    A profile is for example --input base_angle=smooth:0:1.5:0.8s; a prescribed base cannot jump.
     """
     from tmm_gen.measure.duration import default_duration
     from tmm_gen.measure.given import input_names, read_inputs
