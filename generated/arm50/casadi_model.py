@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
-# sha256 of the rest of this file: e2b5adcf557f637382ba8e9b5d41e91d1cef44c0a2e0b263561811c2fb1fbda3
+# sha256 of the rest of this file: 2975a5241ad8fd721f466e99141813a21fbe787a78bcc272345040d39fa1eacd
 #
 # model: planar arm, large rotations, tip mass
 # stations: 50
@@ -11,9 +11,9 @@
 # linearisation: newton
 # sweep: riccati
 # unknown: acceleration
-# operations of a step: 35166, 703.3 per station (16203 additions, 18213 multiplications, 250 divisions, 500
+# operations of a step: 35065, 701.3 per station (16150 additions, 18165 multiplications, 250 divisions, 500
 #     functions)
-# operations of prepare: 350, 7 per station (53 additions, 296 multiplications, 1 divisions)
+# operations of prepare: 348, 6.96 per station (53 additions, 295 multiplications)
 """arm50: Stiff arm of fifty links on a servo. Functions for optimisation and control.
 
 Columns: ``x`` the state (STATE_NAMES), ``u`` the inputs (INPUT_NAMES), ``p`` the step and the physical
@@ -40,12 +40,11 @@ STATIONS = 50
 STATE_NAMES: tuple[str, ...] = (
     "hub_angle",
     "hub_rate",
-    "hub_acceleration",
     *_numbered("angle", 50),
     *_numbered("rate", 50),
     *_numbered("acceleration", 50),
 )
-INPUT_NAMES: tuple[str, ...] = ("base_angle",)
+INPUT_NAMES: tuple[str, ...] = ("base_angle", "base_angle_rate", "base_angle_acceleration")
 OUTPUT_NAMES: tuple[str, ...] = ("tip_x", "tip_y", "tip_angle", "reaction_x", "reaction_y", "drive")
 PARAMETER_NAMES: tuple[str, ...] = (
     "step",
@@ -272,7 +271,6 @@ def _prepare(p: ca.SX) -> dict[str, Any]:
     angle_per_acceleration = 0.0625 * (step * step)
     rate_per_acceleration = 0.25 * step
     step_1_over_2 = 0.5 * step
-    step2_inverse_16 = 16.0 / (step * step)
     step2_3_over_16 = 0.1875 * (step * step)
     step_3_over_4 = 0.75 * step
     step2_17_over_200 = (17.0 / 200.0) * (step * step)
@@ -296,8 +294,8 @@ def _prepare(p: ca.SX) -> dict[str, Any]:
     step2_41_over_24 = (41.0 / 24.0) * (step * step)
     step_85_over_12 = (85.0 / 12.0) * step
     step_41_over_6 = (41.0 / 6.0) * step
-    factor_28 = mass * (center - 1.0)
-    factor_29 = center * mass
+    factor_27 = mass * (center - 1.0)
+    factor_28 = center * mass
     return {
         "length": length,
         "mass": mass,
@@ -308,7 +306,6 @@ def _prepare(p: ca.SX) -> dict[str, Any]:
         "angle_per_acceleration": angle_per_acceleration,
         "rate_per_acceleration": rate_per_acceleration,
         "step_1_over_2": step_1_over_2,
-        "step2_inverse_16": step2_inverse_16,
         "step2_3_over_16": step2_3_over_16,
         "step_3_over_4": step_3_over_4,
         "step2_17_over_200": step2_17_over_200,
@@ -332,8 +329,8 @@ def _prepare(p: ca.SX) -> dict[str, Any]:
         "step2_41_over_24": step2_41_over_24,
         "step_85_over_12": step_85_over_12,
         "step_41_over_6": step_41_over_6,
+        "factor_27": factor_27,
         "factor_28": factor_28,
-        "factor_29": factor_29,
         "carried_mass": carried_mass,
         "inner_mass": inner_mass,
         "pin_inertia": pin_inertia,
@@ -354,6 +351,8 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
     initial_angle = ca.vertsplit(given["initial_angle"])
     initial_rate = ca.vertsplit(given["initial_rate"])
     base_angle = [u[0] for u in stages]
+    base_angle_rate = [u[1] for u in stages]
+    base_angle_acceleration = [u[2] for u in stages]
     acceleration: list[Any] = [0.0] * STATIONS
     acceleration_x: list[Any] = [0.0] * (STATIONS + 1)
     acceleration_y: list[Any] = [0.0] * (STATIONS + 1)
@@ -374,8 +373,8 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
 
     # predicted motion
     predicted_angle[0] = base_angle[0]
-    predicted_rate[0] = 0.0
-    predicted_acceleration[0] = 0.0
+    predicted_rate[0] = base_angle_rate[0]
+    predicted_acceleration[0] = base_angle_acceleration[0]
     for j in range(STATIONS):
         predicted_angle[j + 1] = initial_angle[j]
         predicted_rate[j + 1] = initial_rate[j]
@@ -468,9 +467,8 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
         impedance_uu = 0.0
         torque = joint_torque[j]
 
-    # the hub
+    # the base moves as prescribed
     unknown: Any = 0.0
-    hub_unknown = unknown
 
     # sweep outward: the increment of each link's unknown
     change_x: Any = 0.0
@@ -482,14 +480,13 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
         solved[j] = unknown
 
     # motion at the end of the step
-    hub_angle = predicted_angle[0]
-    hub_rate = predicted_rate[0]
-    hub_acceleration = hub_unknown + predicted_acceleration[0]
+    hub_angle = base_angle[0]
+    hub_rate = base_angle_rate[0]
     for j in range(STATIONS):
         angle[j] = predicted_angle[j + 1]
         rate[j] = predicted_rate[j + 1]
         acceleration[j] = predicted_acceleration[j + 1] + solved[j]
-    return _column(hub_angle, hub_rate, hub_acceleration, *angle, *rate, *acceleration)
+    return _column(hub_angle, hub_rate, *angle, *rate, *acceleration)
 
 
 def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
@@ -503,7 +500,6 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     angle_per_acceleration = model["angle_per_acceleration"]
     rate_per_acceleration = model["rate_per_acceleration"]
     step_1_over_2 = model["step_1_over_2"]
-    step2_inverse_16 = model["step2_inverse_16"]
     step2_3_over_16 = model["step2_3_over_16"]
     step_3_over_4 = model["step_3_over_4"]
     step2_17_over_200 = model["step2_17_over_200"]
@@ -533,11 +529,12 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     joint_impedance = model["joint_impedance"]
     hub_angle = x[0]
     hub_rate = x[1]
-    hub_acceleration = x[2]
-    angle = ca.vertsplit(x[3:53])
-    rate = ca.vertsplit(x[53:103])
-    acceleration = ca.vertsplit(x[103:153])
+    angle = ca.vertsplit(x[2:52])
+    rate = ca.vertsplit(x[52:102])
+    acceleration = ca.vertsplit(x[102:152])
     base_angle = [u[0] for u in stages]
+    base_angle_rate = [u[1] for u in stages]
+    base_angle_acceleration = [u[2] for u in stages]
     acceleration_x: list[Any] = [0.0] * (STATIONS + 1)
     acceleration_y: list[Any] = [0.0] * (STATIONS + 1)
     answer_from_inner: list[Any] = [0.0] * STATIONS
@@ -563,11 +560,9 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     swing_y: list[Any] = [0.0] * STATIONS
 
     # Stage 1 of 5: predicted motion
-    predicted_angle[0] = (
-        hub_angle + angle_per_acceleration * hub_acceleration + hub_rate * rate_per_acceleration
-    )
-    predicted_rate[0] = hub_rate + hub_acceleration * rate_per_acceleration
-    predicted_acceleration[0] = hub_acceleration
+    predicted_angle[0] = base_angle[0]
+    predicted_rate[0] = base_angle_rate[0]
+    predicted_acceleration[0] = base_angle_acceleration[0]
     for j in range(STATIONS):
         predicted_angle[j + 1] = (
             angle[j] + acceleration[j] * angle_per_acceleration + rate[j] * rate_per_acceleration
@@ -667,9 +662,8 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         impedance_uu = answer_from_inner[j] * link_uu
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
-    # Stage 1 of 5: the hub
-    unknown = step2_inverse_16 * (base_angle[0] - predicted_angle[0])
-    hub_unknown = unknown
+    # Stage 1 of 5: the base moves as prescribed
+    unknown: Any = 0.0
 
     # Stage 1 of 5: sweep outward: the increment of each link's unknown
     change_x: Any = 0.0
@@ -683,21 +677,14 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         solved[j] = unknown
 
     # Stage 1 of 5: motion at this stage
-    hub_stage1_acceleration = hub_unknown + predicted_acceleration[0]
-    hub_stage1_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration
     for j in range(STATIONS):
         stage1_acceleration[j] = predicted_acceleration[j + 1] + solved[j]
         stage1_rate[j] = predicted_rate[j + 1] + rate_per_acceleration * solved[j]
 
     # Stage 2 of 5: predicted motion
-    predicted_angle[0] = (
-        hub_angle
-        + hub_rate * rate_per_acceleration
-        + hub_stage1_acceleration * step2_3_over_16
-        + hub_stage1_rate * step_1_over_2
-    )
-    predicted_rate[0] = hub_rate + hub_stage1_acceleration * step_3_over_4
-    predicted_acceleration[0] = hub_stage1_acceleration
+    predicted_angle[0] = base_angle[1]
+    predicted_rate[0] = base_angle_rate[1]
+    predicted_acceleration[0] = base_angle_acceleration[1]
     for j in range(STATIONS):
         predicted_angle[j + 1] = (
             angle[j]
@@ -800,9 +787,8 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         impedance_uu = answer_from_inner[j] * link_uu
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
-    # Stage 2 of 5: the hub
-    unknown = step2_inverse_16 * (base_angle[1] - predicted_angle[0])
-    hub_unknown = unknown
+    # Stage 2 of 5: the base moves as prescribed
+    unknown = 0.0
 
     # Stage 2 of 5: sweep outward: the increment of each link's unknown
     change_x = 0.0
@@ -816,25 +802,14 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         solved[j] = unknown
 
     # Stage 2 of 5: motion at this stage
-    hub_stage2_acceleration = hub_unknown + predicted_acceleration[0]
-    hub_stage2_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration
     for j in range(STATIONS):
         stage2_acceleration[j] = predicted_acceleration[j + 1] + solved[j]
         stage2_rate[j] = predicted_rate[j + 1] + rate_per_acceleration * solved[j]
 
     # Stage 3 of 5: predicted motion
-    predicted_angle[0] = (
-        hub_angle
-        + hub_rate * rate_per_acceleration
-        + hub_stage1_acceleration * step2_17_over_200
-        + hub_stage1_rate * step_17_over_50
-        + hub_stage2_acceleration * step2_21_over_400
-        - hub_stage2_rate * step_1_over_25
-    )
-    predicted_rate[0] = (
-        hub_rate + hub_stage1_acceleration * step_17_over_50 + hub_stage2_acceleration * step_21_over_100
-    )
-    predicted_acceleration[0] = hub_stage2_acceleration
+    predicted_angle[0] = base_angle[2]
+    predicted_rate[0] = base_angle_rate[2]
+    predicted_acceleration[0] = base_angle_acceleration[2]
     for j in range(STATIONS):
         predicted_angle[j + 1] = (
             angle[j]
@@ -941,9 +916,8 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         impedance_uu = answer_from_inner[j] * link_uu
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
-    # Stage 3 of 5: the hub
-    unknown = step2_inverse_16 * (base_angle[2] - predicted_angle[0])
-    hub_unknown = unknown
+    # Stage 3 of 5: the base moves as prescribed
+    unknown = 0.0
 
     # Stage 3 of 5: sweep outward: the increment of each link's unknown
     change_x = 0.0
@@ -957,30 +931,14 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         solved[j] = unknown
 
     # Stage 3 of 5: motion at this stage
-    hub_stage3_acceleration = hub_unknown + predicted_acceleration[0]
-    hub_stage3_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration
     for j in range(STATIONS):
         stage3_acceleration[j] = predicted_acceleration[j + 1] + solved[j]
         stage3_rate[j] = predicted_rate[j + 1] + rate_per_acceleration * solved[j]
 
     # Stage 4 of 5: predicted motion
-    predicted_angle[0] = (
-        hub_angle
-        + hub_rate * rate_per_acceleration
-        + hub_stage1_acceleration * step2_371_over_5440
-        + hub_stage1_rate * step_371_over_1360
-        - hub_stage2_acceleration * step2_137_over_10880
-        - hub_stage2_rate * step_137_over_2720
-        + hub_stage3_acceleration * step2_151_over_2176
-        + hub_stage3_rate * step_15_over_544
-    )
-    predicted_rate[0] = (
-        hub_rate
-        + hub_stage1_acceleration * step_371_over_1360
-        - hub_stage2_acceleration * step_137_over_2720
-        + hub_stage3_acceleration * step_151_over_544
-    )
-    predicted_acceleration[0] = hub_stage3_acceleration
+    predicted_angle[0] = base_angle[3]
+    predicted_rate[0] = base_angle_rate[3]
+    predicted_acceleration[0] = base_angle_acceleration[3]
     for j in range(STATIONS):
         predicted_angle[j + 1] = (
             angle[j]
@@ -1092,9 +1050,8 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         impedance_uu = answer_from_inner[j] * link_uu
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
-    # Stage 4 of 5: the hub
-    unknown = step2_inverse_16 * (base_angle[3] - predicted_angle[0])
-    hub_unknown = unknown
+    # Stage 4 of 5: the base moves as prescribed
+    unknown = 0.0
 
     # Stage 4 of 5: sweep outward: the increment of each link's unknown
     change_x = 0.0
@@ -1108,33 +1065,14 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         solved[j] = unknown
 
     # Stage 4 of 5: motion at this stage
-    hub_stage4_acceleration = hub_unknown + predicted_acceleration[0]
-    hub_stage4_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration
     for j in range(STATIONS):
         stage4_acceleration[j] = predicted_acceleration[j + 1] + solved[j]
         stage4_rate[j] = predicted_rate[j + 1] + rate_per_acceleration * solved[j]
 
     # Stage 5 of 5: predicted motion
-    predicted_angle[0] = (
-        hub_angle
-        + hub_rate * rate_per_acceleration
-        + hub_stage1_acceleration * step2_25_over_96
-        + hub_stage1_rate * step_25_over_24
-        - hub_stage2_acceleration * step2_49_over_192
-        - hub_stage2_rate * step_49_over_48
-        + hub_stage3_acceleration * step2_125_over_64
-        + hub_stage3_rate * step_125_over_16
-        - hub_stage4_acceleration * step2_41_over_24
-        - hub_stage4_rate * step_85_over_12
-    )
-    predicted_rate[0] = (
-        hub_rate
-        + hub_stage1_acceleration * step_25_over_24
-        - hub_stage2_acceleration * step_49_over_48
-        + hub_stage3_acceleration * step_125_over_16
-        - hub_stage4_acceleration * step_41_over_6
-    )
-    predicted_acceleration[0] = hub_stage4_acceleration
+    predicted_angle[0] = base_angle[4]
+    predicted_rate[0] = base_angle_rate[4]
+    predicted_acceleration[0] = base_angle_acceleration[4]
     for j in range(STATIONS):
         predicted_angle[j + 1] = (
             angle[j]
@@ -1249,9 +1187,8 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         impedance_uu = answer_from_inner[j] * link_uu
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
-    # Stage 5 of 5: the hub
-    unknown = step2_inverse_16 * (base_angle[4] - predicted_angle[0])
-    hub_unknown = unknown
+    # Stage 5 of 5: the base moves as prescribed
+    unknown = 0.0
 
     # Stage 5 of 5: sweep outward: the increment of each link's unknown
     change_x = 0.0
@@ -1265,14 +1202,13 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         solved[j] = unknown
 
     # Stage 5 of 5: motion at the end of the step
-    hub_angle = predicted_angle[0] + angle_per_acceleration * hub_unknown
-    hub_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration
-    hub_acceleration = hub_unknown + predicted_acceleration[0]
+    hub_angle = base_angle[4]
+    hub_rate = base_angle_rate[4]
     for j in range(STATIONS):
         angle[j] = predicted_angle[j + 1] + angle_per_acceleration * solved[j]
         rate[j] = predicted_rate[j + 1] + rate_per_acceleration * solved[j]
         acceleration[j] = predicted_acceleration[j + 1] + solved[j]
-    return _column(hub_angle, hub_rate, hub_acceleration, *angle, *rate, *acceleration)
+    return _column(hub_angle, hub_rate, *angle, *rate, *acceleration)
 
 
 def _output(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
@@ -1281,13 +1217,13 @@ def _output(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     stiffness = model["stiffness"]
     damping = model["damping"]
     tip_mass = model["tip_mass"]
+    factor_27 = model["factor_27"]
     factor_28 = model["factor_28"]
-    factor_29 = model["factor_29"]
     hub_angle = x[0]
     hub_rate = x[1]
-    angle = ca.vertsplit(x[3:53])
-    rate = ca.vertsplit(x[53:103])
-    acceleration = ca.vertsplit(x[103:153])
+    angle = ca.vertsplit(x[2:52])
+    rate = ca.vertsplit(x[52:102])
+    acceleration = ca.vertsplit(x[102:152])
 
     # tip: position
     tip_x: Any = 0.0
@@ -1317,8 +1253,8 @@ def _output(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
             + acceleration[j] * length * ca.cos(angle[j])
             - length * (rate[j] * rate[j]) * ca.sin(angle[j])
         )
-        reaction_x = reaction_x - factor_28 * inner_x + factor_29 * node_x
-        reaction_y = reaction_y - factor_28 * inner_y + factor_29 * node_y
+        reaction_x = reaction_x - factor_27 * inner_x + factor_28 * node_x
+        reaction_y = reaction_y - factor_27 * inner_y + factor_28 * node_y
     reaction_x = reaction_x + node_x * tip_mass
     reaction_y = reaction_y + node_y * tip_mass
 

@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
-# sha256 of the rest of this file: b87a89c66aa17769b3a41cdd7223e20d16c0a07b1ac7a095b834e58a9e480af3
+# sha256 of the rest of this file: 4b2485bce8017011ef26000b169a117bce17bf8e384dc6ed6c240c76461efaac
 #
 # model: planar arm, large rotations, tip mass
 # stations: 50
@@ -11,9 +11,9 @@
 # linearisation: newton
 # sweep: riccati
 # unknown: acceleration
-# operations of a step: 35166, 703.3 per station (16203 additions, 18213 multiplications, 250 divisions, 500
+# operations of a step: 35065, 701.3 per station (16150 additions, 18165 multiplications, 250 divisions, 500
 #     functions)
-# operations of prepare: 350, 7 per station (53 additions, 296 multiplications, 1 divisions)
+# operations of prepare: 348, 6.96 per station (53 additions, 295 multiplications)
 """arm50: Stiff arm of fifty links on a servo.
 
 A state goes in, a new one comes out: ``model = prepare(params, step)``, ``state = initialise(params,
@@ -41,7 +41,7 @@ STATIONS = 50
 """Number of links."""
 STEP = 0.002
 """Time step of the scene (s)."""
-INPUT_NAMES: tuple[str, ...] = ("base_angle",)
+INPUT_NAMES: tuple[str, ...] = ("base_angle", "base_angle_rate", "base_angle_acceleration")
 OUTPUT_NAMES: tuple[str, ...] = ("tip_x", "tip_y", "tip_angle", "reaction_x", "reaction_y", "drive")
 STAGE_INSTANTS = ((0.25, 0.75, 0.55, 0.5, 1.0),)
 """When inputs are read, in steps from the start of the step."""
@@ -213,8 +213,6 @@ class Model:
         Rate per unit of acceleration: step/4 (SI).
     step_1_over_2 : array, shape (*batch)
         Step/2 (s).
-    step2_inverse_16 : array, shape (*batch)
-        16/step**2 (s^-2).
     step2_3_over_16 : array, shape (*batch)
         3*step**2/16 (s^2).
     step_3_over_4 : array, shape (*batch)
@@ -261,9 +259,9 @@ class Model:
         85*step/12 (s).
     step_41_over_6 : array, shape (*batch)
         41*step/6 (s).
-    factor_28 : array, shape (*batch)
+    factor_27 : array, shape (*batch)
         Mass*(center - 1) (SI).
-    factor_29 : array, shape (*batch)
+    factor_28 : array, shape (*batch)
         Center*mass (SI).
     carried_mass : array, shape (*batch)
         Mass acting at a link's outer end (kg).
@@ -284,7 +282,6 @@ class Model:
     angle_per_acceleration: Array
     rate_per_acceleration: Array
     step_1_over_2: Array
-    step2_inverse_16: Array
     step2_3_over_16: Array
     step_3_over_4: Array
     step2_17_over_200: Array
@@ -308,8 +305,8 @@ class Model:
     step2_41_over_24: Array
     step_85_over_12: Array
     step_41_over_6: Array
+    factor_27: Array
     factor_28: Array
-    factor_29: Array
     carried_mass: Array
     inner_mass: Array
     pin_inertia: Array
@@ -326,8 +323,6 @@ class State:
         Hub angle (rad).
     hub_rate : array, shape (*batch)
         Hub rate (rad/s).
-    hub_acceleration : array, shape (*batch)
-        Hub acceleration (rad/s^2).
     angle : array, shape (50, *batch)
         Angle of each link, base to tip (rad).
     rate : array, shape (50, *batch)
@@ -338,7 +333,6 @@ class State:
 
     hub_angle: Array
     hub_rate: Array
-    hub_acceleration: Array
     angle: Array
     rate: Array
     acceleration: Array
@@ -352,9 +346,15 @@ class Input:
     ----------
     base_angle : array_like, shape (*batch)
         Prescribed base angle, at each stage of the step (rad).
+    base_angle_rate : array_like, shape (*batch)
+        Prescribed base rate, at each stage of the step (rad/s).
+    base_angle_acceleration : array_like, shape (*batch)
+        Prescribed base acceleration, at each stage of the step (rad/s^2).
     """
 
     base_angle: ArrayLike = 0.0
+    base_angle_rate: ArrayLike = 0.0
+    base_angle_acceleration: ArrayLike = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -450,7 +450,6 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     angle_per_acceleration = 0.0625 * (step * step)
     rate_per_acceleration = 0.25 * step
     step_1_over_2 = 0.5 * step
-    step2_inverse_16 = 16.0 / (step * step)
     step2_3_over_16 = 0.1875 * (step * step)
     step_3_over_4 = 0.75 * step
     step2_17_over_200 = (17.0 / 200.0) * (step * step)
@@ -474,8 +473,8 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     step2_41_over_24 = (41.0 / 24.0) * (step * step)
     step_85_over_12 = (85.0 / 12.0) * step
     step_41_over_6 = (41.0 / 6.0) * step
-    factor_28 = mass * (center - 1.0)
-    factor_29 = center * mass
+    factor_27 = mass * (center - 1.0)
+    factor_28 = center * mass
 
     numbers = (
         length,
@@ -485,7 +484,6 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
         angle_per_acceleration,
         rate_per_acceleration,
         step_1_over_2,
-        step2_inverse_16,
         step2_3_over_16,
         step_3_over_4,
         step2_17_over_200,
@@ -509,8 +507,8 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
         step2_41_over_24,
         step_85_over_12,
         step_41_over_6,
+        factor_27,
         factor_28,
-        factor_29,
         carried_mass,
         inner_mass,
         pin_inertia,
@@ -530,7 +528,6 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
         angle_per_acceleration=_kept(angle_per_acceleration, good, False),
         rate_per_acceleration=_kept(rate_per_acceleration, good, False),
         step_1_over_2=_kept(step_1_over_2, good, False),
-        step2_inverse_16=_kept(step2_inverse_16, good, False),
         step2_3_over_16=_kept(step2_3_over_16, good, False),
         step_3_over_4=_kept(step_3_over_4, good, False),
         step2_17_over_200=_kept(step2_17_over_200, good, False),
@@ -554,8 +551,8 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
         step2_41_over_24=_kept(step2_41_over_24, good, False),
         step_85_over_12=_kept(step_85_over_12, good, False),
         step_41_over_6=_kept(step_41_over_6, good, False),
+        factor_27=_kept(factor_27, good, False),
         factor_28=_kept(factor_28, good, False),
-        factor_29=_kept(factor_29, good, False),
         carried_mass=_kept(carried_mass, good, False),
         inner_mass=_kept(inner_mass, good, False),
         pin_inertia=_kept(pin_inertia, good, False),
@@ -596,6 +593,8 @@ def initialise(
     stages = (input,)
     good: Any = True
     base_angle = _at_stages(stages, "base_angle")
+    base_angle_rate = _at_stages(stages, "base_angle_rate")
+    base_angle_acceleration = _at_stages(stages, "base_angle_acceleration")
     length = _array(params.length, None, "length")
     mass = _array(params.mass, None, "mass")
     inertia = _array(params.inertia, None, "inertia")
@@ -606,7 +605,17 @@ def initialise(
     tip_inertia = _array(params.tip_inertia, None, "tip_inertia")
     initial_angle = _array(initial_angle, STATIONS, "initial_angle")
     initial_rate = _array(initial_rate, STATIONS, "initial_rate")
-    numbers = (*base_angle, length, mass, inertia, center, tip_mass, tip_inertia)
+    numbers = (
+        *base_angle,
+        *base_angle_rate,
+        *base_angle_acceleration,
+        length,
+        mass,
+        inertia,
+        center,
+        tip_mass,
+        tip_inertia,
+    )
     arrays = (stiffness, damping, initial_angle, initial_rate)
     batch, dtype = _common(numbers, arrays)
     stiffness = _align(stiffness, batch)
@@ -625,8 +634,8 @@ def initialise(
 
     # predicted motion
     predicted_angle[0] = base_angle[0]
-    predicted_rate[0] = 0.0
-    predicted_acceleration[0] = 0.0
+    predicted_rate[0] = base_angle_rate[0]
+    predicted_acceleration[0] = base_angle_acceleration[0]
     predicted_angle[1:] = initial_angle
     predicted_rate[1:] = initial_rate
     predicted_acceleration[1:] = 0.0
@@ -717,9 +726,8 @@ def initialise(
         impedance_uu = 0.0
         torque = joint_torque[j]
 
-    # the hub
+    # the base moves as prescribed
     unknown: Any = 0.0
-    hub_unknown = unknown
 
     # sweep outward: the increment of each link's unknown
     change_x: Any = 0.0
@@ -731,20 +739,18 @@ def initialise(
         solved[j] = unknown
 
     # motion at the end of the step
-    hub_angle = predicted_angle[0]
-    hub_rate = predicted_rate[0]
-    hub_acceleration = hub_unknown + predicted_acceleration[0]
+    hub_angle = base_angle[0]
+    hub_rate = base_angle_rate[0]
     angle = predicted_angle[1:]
     rate = predicted_rate[1:]
     acceleration = predicted_acceleration[1:] + solved
 
-    numbers = (hub_angle, hub_rate, hub_acceleration)
+    numbers = (hub_angle, hub_rate)
     arrays = (angle, rate, acceleration)
     good = _judged(good, numbers, arrays, "the motion has outgrown the number type")
     return State(
         hub_angle=_kept(_spread(hub_angle, batch, False), good, False),
         hub_rate=_kept(_spread(hub_rate, batch, False), good, False),
-        hub_acceleration=_kept(_spread(hub_acceleration, batch, False), good, False),
         angle=_kept(_spread(angle, batch, True), good, True),
         rate=_kept(_spread(rate, batch, True), good, True),
         acceleration=_kept(_spread(acceleration, batch, True), good, True),
@@ -781,6 +787,8 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
     good: Any = True
     stages = _stages(input, 5)
     base_angle = _at_stages(stages, "base_angle")
+    base_angle_rate = _at_stages(stages, "base_angle_rate")
+    base_angle_acceleration = _at_stages(stages, "base_angle_acceleration")
     length = model.length
     mass = model.mass
     stiffness = np.asarray(model.stiffness)
@@ -790,7 +798,6 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
     angle_per_acceleration = model.angle_per_acceleration
     rate_per_acceleration = model.rate_per_acceleration
     step_1_over_2 = model.step_1_over_2
-    step2_inverse_16 = model.step2_inverse_16
     step2_3_over_16 = model.step2_3_over_16
     step_3_over_4 = model.step_3_over_4
     step2_17_over_200 = model.step2_17_over_200
@@ -820,12 +827,13 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
     joint_impedance = np.asarray(model.joint_impedance)
     hub_angle = state.hub_angle
     hub_rate = state.hub_rate
-    hub_acceleration = state.hub_acceleration
     angle = np.asarray(state.angle)
     rate = np.asarray(state.rate)
     acceleration = np.asarray(state.acceleration)
     numbers = (
         *base_angle,
+        *base_angle_rate,
+        *base_angle_acceleration,
         length,
         mass,
         tip_mass,
@@ -833,7 +841,6 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
         angle_per_acceleration,
         rate_per_acceleration,
         step_1_over_2,
-        step2_inverse_16,
         step2_3_over_16,
         step_3_over_4,
         step2_17_over_200,
@@ -862,7 +869,6 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
         pin_inertia,
         hub_angle,
         hub_rate,
-        hub_acceleration,
     )
     arrays = (stiffness, damping, joint_impedance, angle, rate, acceleration)
     batch, dtype = _common(numbers, arrays)
@@ -871,7 +877,6 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
     joint_impedance = _align(joint_impedance, batch)
     hub_angle = _spread(hub_angle, batch, False)
     hub_rate = _spread(hub_rate, batch, False)
-    hub_acceleration = _spread(hub_acceleration, batch, False)
     angle = _spread(angle, batch, True)
     rate = _spread(rate, batch, True)
     acceleration = _spread(acceleration, batch, True)
@@ -887,11 +892,9 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
     solved = np.zeros((STATIONS, *batch), dtype)
 
     # Stage 1 of 5: predicted motion
-    predicted_angle[0] = (
-        hub_angle + angle_per_acceleration * hub_acceleration + hub_rate * rate_per_acceleration
-    )
-    predicted_rate[0] = hub_rate + hub_acceleration * rate_per_acceleration
-    predicted_acceleration[0] = hub_acceleration
+    predicted_angle[0] = base_angle[0]
+    predicted_rate[0] = base_angle_rate[0]
+    predicted_acceleration[0] = base_angle_acceleration[0]
     predicted_angle[1:] = angle + acceleration * angle_per_acceleration + rate * rate_per_acceleration
     predicted_rate[1:] = rate + acceleration * rate_per_acceleration
     predicted_acceleration[1:] = acceleration
@@ -985,9 +988,8 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
         impedance_uu = answer_from_inner[j] * link_uu
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
-    # Stage 1 of 5: the hub
-    unknown = step2_inverse_16 * (base_angle[0] - predicted_angle[0])
-    hub_unknown = unknown
+    # Stage 1 of 5: the base moves as prescribed
+    unknown: Any = 0.0
 
     # Stage 1 of 5: sweep outward: the increment of each link's unknown
     change_x: Any = 0.0
@@ -1001,20 +1003,13 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
         solved[j] = unknown
 
     # Stage 1 of 5: motion at this stage
-    hub_stage1_acceleration = hub_unknown + predicted_acceleration[0]
-    hub_stage1_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration
     stage1_acceleration = predicted_acceleration[1:] + solved
     stage1_rate = predicted_rate[1:] + rate_per_acceleration * solved
 
     # Stage 2 of 5: predicted motion
-    predicted_angle[0] = (
-        hub_angle
-        + hub_rate * rate_per_acceleration
-        + hub_stage1_acceleration * step2_3_over_16
-        + hub_stage1_rate * step_1_over_2
-    )
-    predicted_rate[0] = hub_rate + hub_stage1_acceleration * step_3_over_4
-    predicted_acceleration[0] = hub_stage1_acceleration
+    predicted_angle[0] = base_angle[1]
+    predicted_rate[0] = base_angle_rate[1]
+    predicted_acceleration[0] = base_angle_acceleration[1]
     predicted_angle[1:] = (
         angle
         + rate * rate_per_acceleration
@@ -1113,9 +1108,8 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
         impedance_uu = answer_from_inner[j] * link_uu
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
-    # Stage 2 of 5: the hub
-    unknown = step2_inverse_16 * (base_angle[1] - predicted_angle[0])
-    hub_unknown = unknown
+    # Stage 2 of 5: the base moves as prescribed
+    unknown = 0.0
 
     # Stage 2 of 5: sweep outward: the increment of each link's unknown
     change_x = 0.0
@@ -1129,24 +1123,13 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
         solved[j] = unknown
 
     # Stage 2 of 5: motion at this stage
-    hub_stage2_acceleration = hub_unknown + predicted_acceleration[0]
-    hub_stage2_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration
     stage2_acceleration = predicted_acceleration[1:] + solved
     stage2_rate = predicted_rate[1:] + rate_per_acceleration * solved
 
     # Stage 3 of 5: predicted motion
-    predicted_angle[0] = (
-        hub_angle
-        + hub_rate * rate_per_acceleration
-        + hub_stage1_acceleration * step2_17_over_200
-        + hub_stage1_rate * step_17_over_50
-        + hub_stage2_acceleration * step2_21_over_400
-        - hub_stage2_rate * step_1_over_25
-    )
-    predicted_rate[0] = (
-        hub_rate + hub_stage1_acceleration * step_17_over_50 + hub_stage2_acceleration * step_21_over_100
-    )
-    predicted_acceleration[0] = hub_stage2_acceleration
+    predicted_angle[0] = base_angle[2]
+    predicted_rate[0] = base_angle_rate[2]
+    predicted_acceleration[0] = base_angle_acceleration[2]
     predicted_angle[1:] = (
         angle
         + rate * rate_per_acceleration
@@ -1247,9 +1230,8 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
         impedance_uu = answer_from_inner[j] * link_uu
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
-    # Stage 3 of 5: the hub
-    unknown = step2_inverse_16 * (base_angle[2] - predicted_angle[0])
-    hub_unknown = unknown
+    # Stage 3 of 5: the base moves as prescribed
+    unknown = 0.0
 
     # Stage 3 of 5: sweep outward: the increment of each link's unknown
     change_x = 0.0
@@ -1263,29 +1245,13 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
         solved[j] = unknown
 
     # Stage 3 of 5: motion at this stage
-    hub_stage3_acceleration = hub_unknown + predicted_acceleration[0]
-    hub_stage3_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration
     stage3_acceleration = predicted_acceleration[1:] + solved
     stage3_rate = predicted_rate[1:] + rate_per_acceleration * solved
 
     # Stage 4 of 5: predicted motion
-    predicted_angle[0] = (
-        hub_angle
-        + hub_rate * rate_per_acceleration
-        + hub_stage1_acceleration * step2_371_over_5440
-        + hub_stage1_rate * step_371_over_1360
-        - hub_stage2_acceleration * step2_137_over_10880
-        - hub_stage2_rate * step_137_over_2720
-        + hub_stage3_acceleration * step2_151_over_2176
-        + hub_stage3_rate * step_15_over_544
-    )
-    predicted_rate[0] = (
-        hub_rate
-        + hub_stage1_acceleration * step_371_over_1360
-        - hub_stage2_acceleration * step_137_over_2720
-        + hub_stage3_acceleration * step_151_over_544
-    )
-    predicted_acceleration[0] = hub_stage3_acceleration
+    predicted_angle[0] = base_angle[3]
+    predicted_rate[0] = base_angle_rate[3]
+    predicted_acceleration[0] = base_angle_acceleration[3]
     predicted_angle[1:] = (
         angle
         + rate * rate_per_acceleration
@@ -1393,9 +1359,8 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
         impedance_uu = answer_from_inner[j] * link_uu
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
-    # Stage 4 of 5: the hub
-    unknown = step2_inverse_16 * (base_angle[3] - predicted_angle[0])
-    hub_unknown = unknown
+    # Stage 4 of 5: the base moves as prescribed
+    unknown = 0.0
 
     # Stage 4 of 5: sweep outward: the increment of each link's unknown
     change_x = 0.0
@@ -1409,32 +1374,13 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
         solved[j] = unknown
 
     # Stage 4 of 5: motion at this stage
-    hub_stage4_acceleration = hub_unknown + predicted_acceleration[0]
-    hub_stage4_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration
     stage4_acceleration = predicted_acceleration[1:] + solved
     stage4_rate = predicted_rate[1:] + rate_per_acceleration * solved
 
     # Stage 5 of 5: predicted motion
-    predicted_angle[0] = (
-        hub_angle
-        + hub_rate * rate_per_acceleration
-        + hub_stage1_acceleration * step2_25_over_96
-        + hub_stage1_rate * step_25_over_24
-        - hub_stage2_acceleration * step2_49_over_192
-        - hub_stage2_rate * step_49_over_48
-        + hub_stage3_acceleration * step2_125_over_64
-        + hub_stage3_rate * step_125_over_16
-        - hub_stage4_acceleration * step2_41_over_24
-        - hub_stage4_rate * step_85_over_12
-    )
-    predicted_rate[0] = (
-        hub_rate
-        + hub_stage1_acceleration * step_25_over_24
-        - hub_stage2_acceleration * step_49_over_48
-        + hub_stage3_acceleration * step_125_over_16
-        - hub_stage4_acceleration * step_41_over_6
-    )
-    predicted_acceleration[0] = hub_stage4_acceleration
+    predicted_angle[0] = base_angle[4]
+    predicted_rate[0] = base_angle_rate[4]
+    predicted_acceleration[0] = base_angle_acceleration[4]
     predicted_angle[1:] = (
         angle
         + rate * rate_per_acceleration
@@ -1545,9 +1491,8 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
         impedance_uu = answer_from_inner[j] * link_uu
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
-    # Stage 5 of 5: the hub
-    unknown = step2_inverse_16 * (base_angle[4] - predicted_angle[0])
-    hub_unknown = unknown
+    # Stage 5 of 5: the base moves as prescribed
+    unknown = 0.0
 
     # Stage 5 of 5: sweep outward: the increment of each link's unknown
     change_x = 0.0
@@ -1561,20 +1506,18 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
         solved[j] = unknown
 
     # Stage 5 of 5: motion at the end of the step
-    hub_angle = predicted_angle[0] + angle_per_acceleration * hub_unknown
-    hub_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration
-    hub_acceleration = hub_unknown + predicted_acceleration[0]
+    hub_angle = base_angle[4]
+    hub_rate = base_angle_rate[4]
     angle = predicted_angle[1:] + angle_per_acceleration * solved
     rate = predicted_rate[1:] + rate_per_acceleration * solved
     acceleration = predicted_acceleration[1:] + solved
 
-    numbers = (hub_angle, hub_rate, hub_acceleration)
+    numbers = (hub_angle, hub_rate)
     arrays = (angle, rate, acceleration)
     good = _judged(good, numbers, arrays, "the motion has outgrown the number type")
     return State(
         hub_angle=_kept(_spread(hub_angle, batch, False), good, False),
         hub_rate=_kept(_spread(hub_rate, batch, False), good, False),
-        hub_acceleration=_kept(_spread(hub_acceleration, batch, False), good, False),
         angle=_kept(_spread(angle, batch, True), good, True),
         rate=_kept(_spread(rate, batch, True), good, True),
         acceleration=_kept(_spread(acceleration, batch, True), good, True),
@@ -1596,22 +1539,20 @@ def output(model: Model, state: State) -> Output:
     stiffness = np.asarray(model.stiffness)
     damping = np.asarray(model.damping)
     tip_mass = model.tip_mass
+    factor_27 = model.factor_27
     factor_28 = model.factor_28
-    factor_29 = model.factor_29
     hub_angle = state.hub_angle
     hub_rate = state.hub_rate
-    hub_acceleration = state.hub_acceleration
     angle = np.asarray(state.angle)
     rate = np.asarray(state.rate)
     acceleration = np.asarray(state.acceleration)
-    numbers = (length, tip_mass, factor_28, factor_29, hub_angle, hub_rate, hub_acceleration)
+    numbers = (length, tip_mass, factor_27, factor_28, hub_angle, hub_rate)
     arrays = (stiffness, damping, angle, rate, acceleration)
     batch, _ = _common(numbers, arrays)
     stiffness = _align(stiffness, batch)
     damping = _align(damping, batch)
     hub_angle = _spread(hub_angle, batch, False)
     hub_rate = _spread(hub_rate, batch, False)
-    hub_acceleration = _spread(hub_acceleration, batch, False)
     angle = _spread(angle, batch, True)
     rate = _spread(rate, batch, True)
     acceleration = _spread(acceleration, batch, True)
@@ -1644,8 +1585,8 @@ def output(model: Model, state: State) -> Output:
             + acceleration[j] * length * np.cos(angle[j])
             - length * (rate[j] * rate[j]) * np.sin(angle[j])
         )
-        reaction_x = reaction_x - factor_28 * inner_x + factor_29 * node_x
-        reaction_y = reaction_y - factor_28 * inner_y + factor_29 * node_y
+        reaction_x = reaction_x - factor_27 * inner_x + factor_28 * node_x
+        reaction_y = reaction_y - factor_27 * inner_y + factor_28 * node_y
     reaction_x = reaction_x + node_x * tip_mass
     reaction_y = reaction_y + node_y * tip_mass
 
@@ -1681,6 +1622,8 @@ def simulate(
         Time to simulate (s); the last instant is the last whole step within it.
     inputs : mapping from str
         Constants of shape ``(*batch)``, or functions of time (s) that return them; inputs not named are zero.
+        Where ``base_angle`` is a function and ``base_angle_rate`` or ``base_angle_acceleration`` is not
+        named, it is what differences of the function over a fraction of the step give.
     params : Params
         Physical parameters.
     step : float
@@ -1707,6 +1650,9 @@ def simulate(
     if unknown := sorted(set(given) - set(INPUT_NAMES)):
         known = ", ".join(INPUT_NAMES) or "none"
         raise ValueError(f"no input is named {', '.join(unknown)}; there are: {known}")
+    if callable(angle := given.get("base_angle")):
+        given.setdefault("base_angle_rate", _difference(angle, 1, step / 4.0))
+        given.setdefault("base_angle_acceleration", _difference(angle, 2, step / 4.0))
 
     def read(time: float) -> Input:
         return Input(**{name: value(time) if callable(value) else value for name, value in given.items()})
@@ -1721,6 +1667,19 @@ def simulate(
         rows.append(output(model, state))
     outputs = {name: _series([getattr(row, name) for row in rows]) for name in OUTPUT_NAMES}
     return Result(times, outputs, state)
+
+
+def _difference(angle: Callable[[float], ArrayLike], order: int, apart: float) -> Callable[[float], ArrayLike]:
+    """Differentiate a function of time by fourth-order differences; at time zero they look forward only."""
+    central = {1: (1.0, -8.0, 0.0, 8.0, -1.0), 2: (-1.0, 16.0, -30.0, 16.0, -1.0)}[order]
+    forward = {1: (-25.0, 48.0, -36.0, 16.0, -3.0), 2: (35.0, -104.0, 114.0, -56.0, 11.0)}[order]
+
+    def derivative(time: float) -> ArrayLike:
+        weights, first = (central, time - 2.0 * apart) if time >= 2.0 * apart else (forward, time)
+        values = [weight * np.asarray(angle(first + k * apart)) for k, weight in enumerate(weights)]
+        return sum(values) / (12.0 * apart**order)
+
+    return derivative
 
 
 def _array(value: ArrayLike, length: int | None, what: str) -> Array:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tmm_gen.scene import Problem, SceneError, load_scene
+from tmm_gen.scene import Problem, SceneError, load_scene, parse_scene
 
 
 @dataclass(frozen=True)
@@ -468,3 +468,25 @@ def test_a_scene_without_outputs(tmp_path: Path, chain: str) -> None:
 def test_no_file_is_written(tmp_path: Path, chain: str) -> None:
     problems(tmp_path / "arm.toml", chain.replace("20.0", "-1"))
     assert [path.name for path in tmp_path.iterdir()] == ["arm.toml"]
+
+
+@pytest.mark.parametrize(
+    ("angle", "other", "said"),
+    [
+        ("a", "a_rate", "is already the name of the rate of [[input]] number 2"),
+        ("a", "a_acceleration", "is already the name of the acceleration of [[input]] number 2"),
+        (
+            "long" * 10,
+            "b",
+            "comes with '" + "long" * 10 + "_acceleration', which must have at most 48 characters",
+        ),
+    ],
+)
+def test_names_of_a_prescribed_base(angle: str, other: str, said: str, chain: str) -> None:
+    """An angle comes with its rate and acceleration, whose names must be free."""
+    text = chain.replace('"clamp"', '"prescribed"')
+    text += f'[[input]]\nname = "{angle}"\nat = "base"\nacts = "angle"\n'
+    text += f'[[output]]\nname = "{other}"\nat = "tip"\nof = "angle"\n'
+    with pytest.raises(SceneError) as caught:
+        parse_scene(text)
+    assert said in str(caught.value)

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
- * sha256 of the rest of this file: fc42e824e67822784b301e6847312b808a62b56d9de5723ee6e1e39ec6b7c5cc
+ * sha256 of the rest of this file: 180e9b5f549832657b5634d16b4388d78fb0a510e5420cc781be2ea684ccb6df
  *
  * model: planar arm, large rotations, tip mass
  * stations: 50
@@ -12,11 +12,11 @@
  * linearisation: newton
  * sweep: riccati
  * unknown: acceleration
- * operations of a step: 35166, 703.3 per station (16203 additions, 18213 multiplications, 250 divisions, 500
+ * operations of a step: 35065, 701.3 per station (16150 additions, 18165 multiplications, 250 divisions, 500
  *     functions)
- * operations of prepare: 350, 7 per station (53 additions, 296 multiplications, 1 divisions)
+ * operations of prepare: 348, 6.96 per station (53 additions, 295 multiplications)
  * number type: double
- * bytes of the structs: params 848, model 1488, state 1224, inputs 40, outputs 48
+ * bytes of the structs: params 848, model 1480, state 1216, inputs 120, outputs 48
  *
  * @file arm50.c
  */
@@ -36,7 +36,8 @@ typedef arm50_real real;
 static int inputs_are_finite(const arm50_inputs *inputs)
 {
     for (int j = 0; j < ARM50_STAGES; ++j) {
-        if (!isfinite(inputs->tmm_base_angle[j])) {
+        if (!isfinite(inputs->tmm_base_angle[j]) || !isfinite(inputs->tmm_base_angle_rate[j])
+            || !isfinite(inputs->tmm_base_angle_acceleration[j])) {
             return 0;
         }
     }
@@ -110,7 +111,6 @@ arm50_status arm50_prepare(
     model->angle_per_acceleration = 0.0625 * (step * step);
     model->rate_per_acceleration = 0.25 * step;
     model->step_1_over_2 = 0.5 * step;
-    model->step2_inverse_16 = 16.0 / (step * step);
     model->step2_3_over_16 = 0.1875 * (step * step);
     model->step_3_over_4 = 0.75 * step;
     model->step2_17_over_200 = (17.0 / 200.0) * (step * step);
@@ -134,8 +134,8 @@ arm50_status arm50_prepare(
     model->step2_41_over_24 = (41.0 / 24.0) * (step * step);
     model->step_85_over_12 = (85.0 / 12.0) * step;
     model->step_41_over_6 = (41.0 / 6.0) * step;
-    model->factor_28 = params->mass * (params->center - 1.0);
-    model->factor_29 = params->center * params->mass;
+    model->factor_27 = params->mass * (params->center - 1.0);
+    model->factor_28 = params->center * params->mass;
 
     /* What the step needs as it is. */
     model->length = params->length;
@@ -154,14 +154,14 @@ arm50_status arm50_prepare(
         total += model->joint_impedance[j];
     }
     if (!isfinite(model->angle_per_acceleration + model->rate_per_acceleration + model->step_1_over_2
-        + model->step2_inverse_16 + model->step2_3_over_16 + model->step_3_over_4 + model->step2_17_over_200
-        + model->step_17_over_50 + model->step2_21_over_400 + model->step_1_over_25 + model->step_21_over_100
+        + model->step2_3_over_16 + model->step_3_over_4 + model->step2_17_over_200 + model->step_17_over_50
+        + model->step2_21_over_400 + model->step_1_over_25 + model->step_21_over_100
         + model->step2_371_over_5440 + model->step_371_over_1360 + model->step2_137_over_10880
         + model->step_137_over_2720 + model->step2_151_over_2176 + model->step_15_over_544
         + model->step_151_over_544 + model->step2_25_over_96 + model->step_25_over_24
         + model->step2_49_over_192 + model->step_49_over_48 + model->step2_125_over_64
         + model->step_125_over_16 + model->step2_41_over_24 + model->step_85_over_12 + model->step_41_over_6
-        + model->factor_28 + model->factor_29 + model->carried_mass + model->inner_mass + model->pin_inertia
+        + model->factor_27 + model->factor_28 + model->carried_mass + model->inner_mass + model->pin_inertia
         + total)) {
         return ARM50_NON_FINITE_MODEL;
     }
@@ -209,8 +209,8 @@ arm50_status arm50_initialise(
 
     /* Predicted motion. */
     predicted_angle[0] = inputs->tmm_base_angle[0];
-    predicted_rate[0] = 0.0;
-    predicted_acceleration[0] = 0.0;
+    predicted_rate[0] = inputs->tmm_base_angle_rate[0];
+    predicted_acceleration[0] = inputs->tmm_base_angle_acceleration[0];
 
     /* Predicted motion; accelerations of the nodes. */
     real node_x = 0.0;
@@ -291,18 +291,16 @@ arm50_status arm50_initialise(
         torque = joint_torque;
     }
 
-    /* The hub. */
+    /* The base moves as prescribed. */
     real unknown = 0.0;
-    const real hub_unknown = unknown;
 
     /* Sweep outward: the increment of each link's unknown. */
     real change_x = 0.0;
     real change_y = 0.0;
 
     /* Sweep outward: the increment of each link's unknown; motion at the end of the step. */
-    state->hub_angle = predicted_angle[0];
-    state->hub_rate = predicted_rate[0];
-    state->hub_acceleration = hub_unknown + predicted_acceleration[0];
+    state->hub_angle = inputs->tmm_base_angle[0];
+    state->hub_rate = inputs->tmm_base_angle_rate[0];
     for (int j = 0; j < ARM50_STATIONS; ++j) {
         unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y;
         change_x = change_x + swing_x[j] * unknown;
@@ -313,7 +311,7 @@ arm50_status arm50_initialise(
         total += state->angle[j] + state->rate[j] + state->acceleration[j];
     }
 
-    if (!isfinite(total + state->hub_angle + state->hub_rate + state->hub_acceleration)) {
+    if (!isfinite(total + state->hub_angle + state->hub_rate)) {
         return ARM50_NON_FINITE_STATE;
     }
     return ARM50_OK;
@@ -385,10 +383,9 @@ arm50_status arm50_step(
     real total = 0.0; /* of the new motion: is all of it finite? */
 
     /* Stage 1 of 5: predicted motion. */
-    predicted_angle[0] = state->hub_angle + angle_per_acceleration * state->hub_acceleration
-        + state->hub_rate * rate_per_acceleration;
-    predicted_rate[0] = state->hub_rate + state->hub_acceleration * rate_per_acceleration;
-    predicted_acceleration[0] = state->hub_acceleration;
+    predicted_angle[0] = inputs->tmm_base_angle[0];
+    predicted_rate[0] = inputs->tmm_base_angle_rate[0];
+    predicted_acceleration[0] = inputs->tmm_base_angle_acceleration[0];
 
     /* Stage 1 of 5: predicted motion; accelerations of the nodes. */
     real node_x = 0.0;
@@ -475,23 +472,17 @@ arm50_status arm50_step(
         torque = joint_torque - answer_own[j] * model->joint_impedance[j];
     }
 
-    /* Stage 1 of 5: the hub. */
-    real unknown = model->step2_inverse_16 * (inputs->tmm_base_angle[0] - predicted_angle[0]);
-    real hub_unknown = unknown;
+    /* Stage 1 of 5: the base moves as prescribed. */
+    real unknown = 0.0;
 
     /* Stage 1 of 5: sweep outward: the increment of each link's unknown. */
     real change_x = 0.0;
     real change_y = 0.0;
 
-    /* Stage 1 of 5: motion at this stage. */
-    const real hub_stage1_acceleration = hub_unknown + predicted_acceleration[0];
-    const real hub_stage1_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration;
-
     /* Stage 2 of 5: predicted motion. */
-    predicted_angle[0] = state->hub_angle + state->hub_rate * rate_per_acceleration
-        + hub_stage1_acceleration * step2_3_over_16 + hub_stage1_rate * step_1_over_2;
-    predicted_rate[0] = state->hub_rate + hub_stage1_acceleration * step_3_over_4;
-    predicted_acceleration[0] = hub_stage1_acceleration;
+    predicted_angle[0] = inputs->tmm_base_angle[1];
+    predicted_rate[0] = inputs->tmm_base_angle_rate[1];
+    predicted_acceleration[0] = inputs->tmm_base_angle_acceleration[1];
 
     /* Stage 1 of 5: sweep outward: the increment of each link's unknown; motion at this stage. Stage 2 of 5:
      * predicted motion; accelerations of the nodes. */
@@ -585,25 +576,17 @@ arm50_status arm50_step(
         torque = joint_torque - answer_own[j] * model->joint_impedance[j];
     }
 
-    /* Stage 2 of 5: the hub. */
-    unknown = model->step2_inverse_16 * (inputs->tmm_base_angle[1] - predicted_angle[0]);
-    hub_unknown = unknown;
+    /* Stage 2 of 5: the base moves as prescribed. */
+    unknown = 0.0;
 
     /* Stage 2 of 5: sweep outward: the increment of each link's unknown. */
     change_x = 0.0;
     change_y = 0.0;
 
-    /* Stage 2 of 5: motion at this stage. */
-    const real hub_stage2_acceleration = hub_unknown + predicted_acceleration[0];
-    const real hub_stage2_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration;
-
     /* Stage 3 of 5: predicted motion. */
-    predicted_angle[0] = state->hub_angle + state->hub_rate * rate_per_acceleration
-        + hub_stage1_acceleration * step2_17_over_200 + hub_stage1_rate * step_17_over_50
-        + hub_stage2_acceleration * step2_21_over_400 - hub_stage2_rate * step_1_over_25;
-    predicted_rate[0] = state->hub_rate + hub_stage1_acceleration * step_17_over_50
-        + hub_stage2_acceleration * step_21_over_100;
-    predicted_acceleration[0] = hub_stage2_acceleration;
+    predicted_angle[0] = inputs->tmm_base_angle[2];
+    predicted_rate[0] = inputs->tmm_base_angle_rate[2];
+    predicted_acceleration[0] = inputs->tmm_base_angle_acceleration[2];
 
     /* Stage 2 of 5: sweep outward: the increment of each link's unknown; motion at this stage. Stage 3 of 5:
      * predicted motion; accelerations of the nodes. */
@@ -699,26 +682,17 @@ arm50_status arm50_step(
         torque = joint_torque - answer_own[j] * model->joint_impedance[j];
     }
 
-    /* Stage 3 of 5: the hub. */
-    unknown = model->step2_inverse_16 * (inputs->tmm_base_angle[2] - predicted_angle[0]);
-    hub_unknown = unknown;
+    /* Stage 3 of 5: the base moves as prescribed. */
+    unknown = 0.0;
 
     /* Stage 3 of 5: sweep outward: the increment of each link's unknown. */
     change_x = 0.0;
     change_y = 0.0;
 
-    /* Stage 3 of 5: motion at this stage. */
-    const real hub_stage3_acceleration = hub_unknown + predicted_acceleration[0];
-    const real hub_stage3_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration;
-
     /* Stage 4 of 5: predicted motion. */
-    predicted_angle[0] = state->hub_angle + state->hub_rate * rate_per_acceleration
-        + hub_stage1_acceleration * step2_371_over_5440 + hub_stage1_rate * step_371_over_1360
-        - hub_stage2_acceleration * step2_137_over_10880 - hub_stage2_rate * step_137_over_2720
-        + hub_stage3_acceleration * step2_151_over_2176 + hub_stage3_rate * step_15_over_544;
-    predicted_rate[0] = state->hub_rate + hub_stage1_acceleration * step_371_over_1360
-        - hub_stage2_acceleration * step_137_over_2720 + hub_stage3_acceleration * step_151_over_544;
-    predicted_acceleration[0] = hub_stage3_acceleration;
+    predicted_angle[0] = inputs->tmm_base_angle[3];
+    predicted_rate[0] = inputs->tmm_base_angle_rate[3];
+    predicted_acceleration[0] = inputs->tmm_base_angle_acceleration[3];
 
     /* Stage 3 of 5: sweep outward: the increment of each link's unknown; motion at this stage. Stage 4 of 5:
      * predicted motion; accelerations of the nodes. */
@@ -815,28 +789,17 @@ arm50_status arm50_step(
         torque = joint_torque - answer_own[j] * model->joint_impedance[j];
     }
 
-    /* Stage 4 of 5: the hub. */
-    unknown = model->step2_inverse_16 * (inputs->tmm_base_angle[3] - predicted_angle[0]);
-    hub_unknown = unknown;
+    /* Stage 4 of 5: the base moves as prescribed. */
+    unknown = 0.0;
 
     /* Stage 4 of 5: sweep outward: the increment of each link's unknown. */
     change_x = 0.0;
     change_y = 0.0;
 
-    /* Stage 4 of 5: motion at this stage. */
-    const real hub_stage4_acceleration = hub_unknown + predicted_acceleration[0];
-    const real hub_stage4_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration;
-
     /* Stage 5 of 5: predicted motion. */
-    predicted_angle[0] = state->hub_angle + state->hub_rate * rate_per_acceleration
-        + hub_stage1_acceleration * step2_25_over_96 + hub_stage1_rate * step_25_over_24
-        - hub_stage2_acceleration * step2_49_over_192 - hub_stage2_rate * step_49_over_48
-        + hub_stage3_acceleration * step2_125_over_64 + hub_stage3_rate * step_125_over_16
-        - hub_stage4_acceleration * step2_41_over_24 - hub_stage4_rate * step_85_over_12;
-    predicted_rate[0] = state->hub_rate + hub_stage1_acceleration * step_25_over_24
-        - hub_stage2_acceleration * step_49_over_48 + hub_stage3_acceleration * step_125_over_16
-        - hub_stage4_acceleration * step_41_over_6;
-    predicted_acceleration[0] = hub_stage4_acceleration;
+    predicted_angle[0] = inputs->tmm_base_angle[4];
+    predicted_rate[0] = inputs->tmm_base_angle_rate[4];
+    predicted_acceleration[0] = inputs->tmm_base_angle_acceleration[4];
 
     /* Stage 4 of 5: sweep outward: the increment of each link's unknown; motion at this stage. Stage 5 of 5:
      * predicted motion; accelerations of the nodes. */
@@ -935,18 +898,16 @@ arm50_status arm50_step(
         torque = joint_torque - answer_own[j] * model->joint_impedance[j];
     }
 
-    /* Stage 5 of 5: the hub. */
-    unknown = model->step2_inverse_16 * (inputs->tmm_base_angle[4] - predicted_angle[0]);
-    hub_unknown = unknown;
+    /* Stage 5 of 5: the base moves as prescribed. */
+    unknown = 0.0;
 
     /* Stage 5 of 5: sweep outward: the increment of each link's unknown. */
     change_x = 0.0;
     change_y = 0.0;
 
     /* Stage 5 of 5: sweep outward: the increment of each link's unknown; motion at the end of the step. */
-    state->hub_angle = predicted_angle[0] + angle_per_acceleration * hub_unknown;
-    state->hub_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration;
-    state->hub_acceleration = hub_unknown + predicted_acceleration[0];
+    state->hub_angle = inputs->tmm_base_angle[4];
+    state->hub_rate = inputs->tmm_base_angle_rate[4];
     for (int j = 0; j < ARM50_STATIONS; ++j) {
         unknown = answer_own[j] + answer_from_inner[j] * unknown - answer_x[j] * change_x
             - answer_y[j] * change_y;
@@ -958,7 +919,7 @@ arm50_status arm50_step(
         total += state->angle[j] + state->rate[j] + state->acceleration[j];
     }
 
-    if (!isfinite(total + state->hub_angle + state->hub_rate + state->hub_acceleration)) {
+    if (!isfinite(total + state->hub_angle + state->hub_rate)) {
         return ARM50_NON_FINITE_STATE;
     }
     return ARM50_OK;
@@ -973,8 +934,8 @@ void arm50_output(
         return;
     }
     const real length = model->length;
+    const real factor_27 = model->factor_27;
     const real factor_28 = model->factor_28;
-    const real factor_29 = model->factor_29;
 
     /* Tip: position. */
     outputs->tmm_tip_x = 0.0;
@@ -997,8 +958,8 @@ void arm50_output(
             - length * (state->rate[j] * state->rate[j]) * cos(state->angle[j]);
         node_y = node_y + state->acceleration[j] * length * cos(state->angle[j])
             - length * (state->rate[j] * state->rate[j]) * sin(state->angle[j]);
-        outputs->tmm_reaction_x = outputs->tmm_reaction_x - factor_28 * inner_x + factor_29 * node_x;
-        outputs->tmm_reaction_y = outputs->tmm_reaction_y - factor_28 * inner_y + factor_29 * node_y;
+        outputs->tmm_reaction_x = outputs->tmm_reaction_x - factor_27 * inner_x + factor_28 * node_x;
+        outputs->tmm_reaction_y = outputs->tmm_reaction_y - factor_27 * inner_y + factor_28 * node_y;
     }
     outputs->tmm_reaction_x = outputs->tmm_reaction_x + node_x * model->tip_mass;
     outputs->tmm_reaction_y = outputs->tmm_reaction_y + node_y * model->tip_mass;

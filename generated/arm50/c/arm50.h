@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
- * sha256 of the rest of this file: 27b9ea60596eab102830c6ba5331cc90431ab1c86d16858b4fa163ad613564fa
+ * sha256 of the rest of this file: f31d244d2e45174633fa9e22da02e84b111f589f10605998b431a7fcb7ba9e87
  *
  * model: planar arm, large rotations, tip mass
  * stations: 50
@@ -12,11 +12,11 @@
  * linearisation: newton
  * sweep: riccati
  * unknown: acceleration
- * operations of a step: 35166, 703.3 per station (16203 additions, 18213 multiplications, 250 divisions, 500
+ * operations of a step: 35065, 701.3 per station (16150 additions, 18165 multiplications, 250 divisions, 500
  *     functions)
- * operations of prepare: 350, 7 per station (53 additions, 296 multiplications, 1 divisions)
+ * operations of prepare: 348, 6.96 per station (53 additions, 295 multiplications)
  * number type: double
- * bytes of the structs: params 848, model 1488, state 1224, inputs 40, outputs 48
+ * bytes of the structs: params 848, model 1480, state 1216, inputs 120, outputs 48
  *
  * Call arm50_default_params() and arm50_prepare() once, arm50_initialise() to put the arm somewhere, then
  * arm50_step() at every tick of the clock and arm50_output() to know. All memory is the caller's; nothing is
@@ -85,7 +85,6 @@ typedef struct {
     arm50_real angle_per_acceleration; /**< angle per unit of acceleration: step**2/16 [SI] */
     arm50_real rate_per_acceleration; /**< rate per unit of acceleration: step/4 [SI] */
     arm50_real step_1_over_2; /**< step/2 [s] */
-    arm50_real step2_inverse_16; /**< 16/step**2 [s^-2] */
     arm50_real step2_3_over_16; /**< 3*step**2/16 [s^2] */
     arm50_real step_3_over_4; /**< 3*step/4 [s] */
     arm50_real step2_17_over_200; /**< 17*step**2/200 [s^2] */
@@ -109,8 +108,8 @@ typedef struct {
     arm50_real step2_41_over_24; /**< 41*step**2/24 [s^2] */
     arm50_real step_85_over_12; /**< 85*step/12 [s] */
     arm50_real step_41_over_6; /**< 41*step/6 [s] */
-    arm50_real factor_28; /**< mass*(center - 1) [SI] */
-    arm50_real factor_29; /**< center*mass [SI] */
+    arm50_real factor_27; /**< mass*(center - 1) [SI] */
+    arm50_real factor_28; /**< center*mass [SI] */
     arm50_real carried_mass; /**< mass acting at a link's outer end [kg] */
     arm50_real inner_mass; /**< mass acting at a link's inner end [kg] */
     arm50_real pin_inertia; /**< inertia of a link about its inner end [kg m^2] */
@@ -121,7 +120,6 @@ typedef struct {
 typedef struct {
     arm50_real hub_angle; /**< hub angle [rad] */
     arm50_real hub_rate; /**< hub rate [rad/s] */
-    arm50_real hub_acceleration; /**< hub acceleration [rad/s^2] */
     arm50_real angle[ARM50_STATIONS]; /**< angle of each link, base to tip [rad] */
     arm50_real rate[ARM50_STATIONS]; /**< rate of each link, base to tip [rad/s] */
     arm50_real acceleration[ARM50_STATIONS]; /**< acceleration of each link, base to tip [rad/s^2] */
@@ -129,7 +127,12 @@ typedef struct {
 
 /** What acts on the arm. */
 typedef struct {
-    arm50_real tmm_base_angle[ARM50_STAGES]; /**< prescribed base angle, at each stage of the step [rad] */
+    /** prescribed base angle, at each stage of the step [rad] */
+    arm50_real tmm_base_angle[ARM50_STAGES];
+    /** prescribed base rate, at each stage of the step [rad/s] */
+    arm50_real tmm_base_angle_rate[ARM50_STAGES];
+    /** prescribed base acceleration, at each stage of the step [rad/s^2] */
+    arm50_real tmm_base_angle_acceleration[ARM50_STAGES];
 } arm50_inputs;
 
 /** What the scene asks to know. */

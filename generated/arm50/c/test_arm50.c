@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
- * sha256 of the rest of this file: b6be9116aece1d5c6a2a43ba0219347ddbee2a4dd95a6a82ff2a40c81f13cdc0
+ * sha256 of the rest of this file: 27fa20d9695964c53dde94a7828bc2433188fd153d50741c7105a2f911921328
  *
  * model: planar arm, large rotations, tip mass
  * stations: 50
@@ -12,11 +12,11 @@
  * linearisation: newton
  * sweep: riccati
  * unknown: acceleration
- * operations of a step: 35166, 703.3 per station (16203 additions, 18213 multiplications, 250 divisions, 500
+ * operations of a step: 35065, 701.3 per station (16150 additions, 18165 multiplications, 250 divisions, 500
  *     functions)
- * operations of prepare: 350, 7 per station (53 additions, 296 multiplications, 1 divisions)
+ * operations of prepare: 348, 6.96 per station (53 additions, 295 multiplications)
  * number type: double
- * bytes of the structs: params 848, model 1488, state 1224, inputs 40, outputs 48
+ * bytes of the structs: params 848, model 1480, state 1216, inputs 120, outputs 48
  *
  * A test for any machine: the kernel against 30 digits, within what rounding explains.
  *
@@ -90,6 +90,16 @@ static void test_motion(tally *count)
     inputs.tmm_base_angle[2] = 4.76837158203125e-07;
     inputs.tmm_base_angle[3] = 1.430511474609375e-06;
     inputs.tmm_base_angle[4] = -1.9073486328125e-06;
+    inputs.tmm_base_angle_rate[0] = 0.0;
+    inputs.tmm_base_angle_rate[1] = 9.5367431640625e-07;
+    inputs.tmm_base_angle_rate[2] = 1.9073486328125e-06;
+    inputs.tmm_base_angle_rate[3] = -1.430511474609375e-06;
+    inputs.tmm_base_angle_rate[4] = -4.76837158203125e-07;
+    inputs.tmm_base_angle_acceleration[0] = 1.430511474609375e-06;
+    inputs.tmm_base_angle_acceleration[1] = -1.9073486328125e-06;
+    inputs.tmm_base_angle_acceleration[2] = -9.5367431640625e-07;
+    inputs.tmm_base_angle_acceleration[3] = 0.0;
+    inputs.tmm_base_angle_acceleration[4] = 9.5367431640625e-07;
     status = arm50_initialise(&state, &params, initial_angle, initial_rate, &inputs);
     expect_code(count, "initialise", status, ARM50_OK);
 
@@ -99,15 +109,25 @@ static void test_motion(tally *count)
     inputs.tmm_base_angle[2] = -1.430511474609375e-06;
     inputs.tmm_base_angle[3] = -4.76837158203125e-07;
     inputs.tmm_base_angle[4] = 4.76837158203125e-07;
+    inputs.tmm_base_angle_rate[0] = -1.9073486328125e-06;
+    inputs.tmm_base_angle_rate[1] = -9.5367431640625e-07;
+    inputs.tmm_base_angle_rate[2] = 0.0;
+    inputs.tmm_base_angle_rate[3] = 9.5367431640625e-07;
+    inputs.tmm_base_angle_rate[4] = 1.9073486328125e-06;
+    inputs.tmm_base_angle_acceleration[0] = -4.76837158203125e-07;
+    inputs.tmm_base_angle_acceleration[1] = 4.76837158203125e-07;
+    inputs.tmm_base_angle_acceleration[2] = 1.430511474609375e-06;
+    inputs.tmm_base_angle_acceleration[3] = -1.9073486328125e-06;
+    inputs.tmm_base_angle_acceleration[4] = -9.5367431640625e-07;
     status = arm50_step(&model, &state, &inputs);
     expect_code(count, "step 1", status, ARM50_OK);
     arm50_output(&model, &state, &outputs);
-    expect(count, "tmm_tip_x", outputs.tmm_tip_x, 0.7999999999936437, 5.2e-15);
-    expect(count, "tmm_tip_y", outputs.tmm_tip_y, -2.9246799722947642e-08, 1.6e-16);
-    expect(count, "tmm_tip_angle", outputs.tmm_tip_angle, -3.133217657302007e-08, 1.9e-15);
-    expect(count, "tmm_reaction_x", outputs.tmm_reaction_x, -0.0003276465637738733, 8.4e-15);
-    expect(count, "tmm_reaction_y", outputs.tmm_reaction_y, 2.5796813386601256, 4.3e-11);
-    expect(count, "tmm_drive", outputs.tmm_drive, -0.1589352020161569, 3.9e-12);
+    expect(count, "tmm_tip_x", outputs.tmm_tip_x, 0.7999999999942251, 9.4e-15);
+    expect(count, "tmm_tip_y", outputs.tmm_tip_y, -2.880113430839688e-08, 1.5e-16);
+    expect(count, "tmm_tip_angle", outputs.tmm_tip_angle, -2.381432336305946e-08, 1.7e-15);
+    expect(count, "tmm_reaction_x", outputs.tmm_reaction_x, -4.975183846760653e-05, 7e-15);
+    expect(count, "tmm_reaction_y", outputs.tmm_reaction_y, 1.6583070962886979, 4.2e-11);
+    expect(count, "tmm_drive", outputs.tmm_drive, -0.08772188480999438, 3.7e-12);
 
     /* Step 2. */
     inputs.tmm_base_angle[0] = -9.5367431640625e-07;
@@ -115,15 +135,25 @@ static void test_motion(tally *count)
     inputs.tmm_base_angle[2] = 9.5367431640625e-07;
     inputs.tmm_base_angle[3] = 1.9073486328125e-06;
     inputs.tmm_base_angle[4] = -1.430511474609375e-06;
+    inputs.tmm_base_angle_rate[0] = 4.76837158203125e-07;
+    inputs.tmm_base_angle_rate[1] = 1.430511474609375e-06;
+    inputs.tmm_base_angle_rate[2] = -1.9073486328125e-06;
+    inputs.tmm_base_angle_rate[3] = -9.5367431640625e-07;
+    inputs.tmm_base_angle_rate[4] = 0.0;
+    inputs.tmm_base_angle_acceleration[0] = 1.9073486328125e-06;
+    inputs.tmm_base_angle_acceleration[1] = -1.430511474609375e-06;
+    inputs.tmm_base_angle_acceleration[2] = -4.76837158203125e-07;
+    inputs.tmm_base_angle_acceleration[3] = 4.76837158203125e-07;
+    inputs.tmm_base_angle_acceleration[4] = 1.430511474609375e-06;
     status = arm50_step(&model, &state, &inputs);
     expect_code(count, "step 2", status, ARM50_OK);
     arm50_output(&model, &state, &outputs);
-    expect(count, "tmm_tip_x", outputs.tmm_tip_x, 0.7999999999930091, 5.2e-15);
-    expect(count, "tmm_tip_y", outputs.tmm_tip_y, 1.4754792375597243e-08, 1.6e-16);
-    expect(count, "tmm_tip_angle", outputs.tmm_tip_angle, -3.974691784563144e-06, 1.9e-15);
-    expect(count, "tmm_reaction_x", outputs.tmm_reaction_x, -6.965293798188813e-06, 8.4e-15);
-    expect(count, "tmm_reaction_y", outputs.tmm_reaction_y, 0.4174345325587483, 4.3e-11);
-    expect(count, "tmm_drive", outputs.tmm_drive, -0.053923043942192495, 3.9e-12);
+    expect(count, "tmm_tip_x", outputs.tmm_tip_x, 0.7999999999931233, 9.4e-15);
+    expect(count, "tmm_tip_y", outputs.tmm_tip_y, 4.799431743542084e-09, 1.5e-16);
+    expect(count, "tmm_tip_angle", outputs.tmm_tip_angle, -3.823199472629874e-06, 1.7e-15);
+    expect(count, "tmm_reaction_x", outputs.tmm_reaction_x, -1.6342636196468835e-05, 7e-15);
+    expect(count, "tmm_reaction_y", outputs.tmm_reaction_y, 0.8010694573375713, 4.2e-11);
+    expect(count, "tmm_drive", outputs.tmm_drive, -0.04984730647904703, 3.7e-12);
 
     /* Step 3. */
     inputs.tmm_base_angle[0] = 1.430511474609375e-06;
@@ -131,50 +161,59 @@ static void test_motion(tally *count)
     inputs.tmm_base_angle[2] = -9.5367431640625e-07;
     inputs.tmm_base_angle[3] = 0.0;
     inputs.tmm_base_angle[4] = 9.5367431640625e-07;
+    inputs.tmm_base_angle_rate[0] = -1.430511474609375e-06;
+    inputs.tmm_base_angle_rate[1] = -4.76837158203125e-07;
+    inputs.tmm_base_angle_rate[2] = 4.76837158203125e-07;
+    inputs.tmm_base_angle_rate[3] = 1.430511474609375e-06;
+    inputs.tmm_base_angle_rate[4] = -1.9073486328125e-06;
+    inputs.tmm_base_angle_acceleration[0] = 0.0;
+    inputs.tmm_base_angle_acceleration[1] = 9.5367431640625e-07;
+    inputs.tmm_base_angle_acceleration[2] = 1.9073486328125e-06;
+    inputs.tmm_base_angle_acceleration[3] = -1.430511474609375e-06;
+    inputs.tmm_base_angle_acceleration[4] = -4.76837158203125e-07;
     status = arm50_step(&model, &state, &inputs);
     expect_code(count, "step 3", status, ARM50_OK);
     arm50_output(&model, &state, &outputs);
-    expect(count, "tmm_tip_x", outputs.tmm_tip_x, 0.7999999999907428, 5.2e-15);
-    expect(count, "tmm_tip_y", outputs.tmm_tip_y, 4.2879698427023643e-07, 1.6e-16);
-    expect(count, "tmm_tip_angle", outputs.tmm_tip_angle, 1.2390017072473374e-05, 1.9e-15);
-    expect(count, "tmm_reaction_x", outputs.tmm_reaction_x, -0.00015577557233715532, 8.4e-15);
-    expect(count, "tmm_reaction_y", outputs.tmm_reaction_y, 1.6692356643512634, 4.3e-11);
-    expect(count, "tmm_drive", outputs.tmm_drive, -0.10696685184478559, 3.9e-12);
+    expect(count, "tmm_tip_x", outputs.tmm_tip_x, 0.7999999999914352, 9.4e-15);
+    expect(count, "tmm_tip_y", outputs.tmm_tip_y, 4.1740593813060265e-07, 1.5e-16);
+    expect(count, "tmm_tip_angle", outputs.tmm_tip_angle, 1.1947586103501569e-05, 1.7e-15);
+    expect(count, "tmm_reaction_x", outputs.tmm_reaction_x, -3.46850610367445e-05, 7e-15);
+    expect(count, "tmm_reaction_y", outputs.tmm_reaction_y, 1.2065779130309793, 4.2e-11);
+    expect(count, "tmm_drive", outputs.tmm_drive, -0.06330408711891466, 3.7e-12);
 
     /* State after the last step. */
-    expect(count, "hub_angle", state.hub_angle, 9.5367431640625e-07, 7.1e-19);
-    expect(count, "hub_rate", state.hub_rate, 0.06659825642903645, 2.6e-14);
-    expect(count, "hub_acceleration", state.hub_acceleration, 242.49818589952255, 1.3e-10);
-    expect(count, "angle[0]", state.angle[0], -1.0715716706486423e-06, 1.9e-15);
-    expect(count, "angle[5]", state.angle[5], -5.596620999212178e-06, 1.9e-15);
-    expect(count, "angle[11]", state.angle[11], -1.1226625847505054e-07, 1.9e-15);
-    expect(count, "angle[16]", state.angle[16], -1.7223089690140633e-06, 1.9e-15);
-    expect(count, "angle[22]", state.angle[22], -3.597797178410893e-06, 1.9e-15);
-    expect(count, "angle[27]", state.angle[27], -1.4665219751599584e-06, 1.9e-15);
-    expect(count, "angle[33]", state.angle[33], 1.1586895291698052e-06, 1.9e-15);
-    expect(count, "angle[38]", state.angle[38], 3.3114150741598068e-06, 1.9e-15);
-    expect(count, "angle[44]", state.angle[44], 8.2295661034435e-06, 1.9e-15);
-    expect(count, "angle[49]", state.angle[49], 1.2390017072473374e-05, 1.9e-15);
-    expect(count, "rate[0]", state.rate[0], 0.05262132370925399, 1.1e-12);
-    expect(count, "rate[5]", state.rate[5], -0.019272102720093526, 1.1e-12);
-    expect(count, "rate[11]", state.rate[11], -0.0036431037420894216, 1.1e-12);
-    expect(count, "rate[16]", state.rate[16], 0.0112070608739416, 1.1e-12);
-    expect(count, "rate[22]", state.rate[22], -0.0038503317122658928, 1.1e-12);
-    expect(count, "rate[27]", state.rate[27], -0.009442823308854532, 1.1e-12);
-    expect(count, "rate[33]", state.rate[33], -2.57822062195467e-05, 1.1e-12);
-    expect(count, "rate[38]", state.rate[38], 0.00425563200198166, 1.1e-12);
-    expect(count, "rate[44]", state.rate[44], 0.0026872350313206367, 1.1e-12);
-    expect(count, "rate[49]", state.rate[49], 0.002471919458275861, 1.1e-12);
-    expect(count, "acceleration[0]", state.acceleration[0], 203.42734809856154, 4.4e-09);
-    expect(count, "acceleration[5]", state.acceleration[5], -7.374863719365523, 4.4e-09);
-    expect(count, "acceleration[11]", state.acceleration[11], -97.27579413583985, 4.4e-09);
-    expect(count, "acceleration[16]", state.acceleration[16], -3.2824580946006523, 4.4e-09);
-    expect(count, "acceleration[22]", state.acceleration[22], 38.29813233681261, 4.4e-09);
-    expect(count, "acceleration[27]", state.acceleration[27], -9.751238233099807, 4.4e-09);
-    expect(count, "acceleration[33]", state.acceleration[33], -12.188916728360537, 4.4e-09);
-    expect(count, "acceleration[38]", state.acceleration[38], 12.978056275350609, 4.4e-09);
-    expect(count, "acceleration[44]", state.acceleration[44], 3.649853966054123, 4.4e-09);
-    expect(count, "acceleration[49]", state.acceleration[49], -23.66535405132707, 4.4e-09);
+    expect(count, "hub_angle", state.hub_angle, 9.5367431640625e-07, 1.3e-21);
+    expect(count, "hub_rate", state.hub_rate, -1.9073486328125e-06, 1.7e-21);
+    expect(count, "angle[0]", state.angle[0], -4.539565732191602e-06, 1.7e-15);
+    expect(count, "angle[5]", state.angle[5], -3.956546575790395e-06, 1.7e-15);
+    expect(count, "angle[11]", state.angle[11], -4.796837239535226e-07, 1.7e-15);
+    expect(count, "angle[16]", state.angle[16], -2.6546920916122985e-06, 1.7e-15);
+    expect(count, "angle[22]", state.angle[22], -3.0298265300403506e-06, 1.7e-15);
+    expect(count, "angle[27]", state.angle[27], -7.458709921883524e-07, 1.7e-15);
+    expect(count, "angle[33]", state.angle[33], 1.114851559683051e-06, 1.7e-15);
+    expect(count, "angle[38]", state.angle[38], 3.087764394122053e-06, 1.7e-15);
+    expect(count, "angle[44]", state.angle[44], 8.016937494330643e-06, 1.7e-15);
+    expect(count, "angle[49]", state.angle[49], 1.1947586103501569e-05, 1.7e-15);
+    expect(count, "rate[0]", state.rate[0], 0.03467318525929301, 1.1e-12);
+    expect(count, "rate[5]", state.rate[5], -0.016224749386546555, 1.1e-12);
+    expect(count, "rate[11]", state.rate[11], 0.003585162103440013, 1.1e-12);
+    expect(count, "rate[16]", state.rate[16], 0.00917889585647528, 1.1e-12);
+    expect(count, "rate[22]", state.rate[22], -0.006123253942813842, 1.1e-12);
+    expect(count, "rate[27]", state.rate[27], -0.007726695006370253, 1.1e-12);
+    expect(count, "rate[33]", state.rate[33], 0.0004873793077872551, 1.1e-12);
+    expect(count, "rate[38]", state.rate[38], 0.0028068407308045463, 1.1e-12);
+    expect(count, "rate[44]", state.rate[44], 0.0026118045378037366, 1.1e-12);
+    expect(count, "rate[49]", state.rate[49], 0.0045518233250874465, 1.1e-12);
+    expect(count, "acceleration[0]", state.acceleration[0], 179.70729161238492, 4.3e-09);
+    expect(count, "acceleration[5]", state.acceleration[5], -30.443323284468278, 4.3e-09);
+    expect(count, "acceleration[11]", state.acceleration[11], -72.28874998114266, 4.3e-09);
+    expect(count, "acceleration[16]", state.acceleration[16], 18.974478206772346, 4.3e-09);
+    expect(count, "acceleration[22]", state.acceleration[22], 23.352935785639918, 4.3e-09);
+    expect(count, "acceleration[27]", state.acceleration[27], -16.82480042218215, 4.3e-09);
+    expect(count, "acceleration[33]", state.acceleration[33], -5.240542270804542, 4.3e-09);
+    expect(count, "acceleration[38]", state.acceleration[38], 15.07954074752109, 4.3e-09);
+    expect(count, "acceleration[44]", state.acceleration[44], 0.9380284293603288, 4.3e-09);
+    expect(count, "acceleration[49]", state.acceleration[49], -22.482039284403584, 4.3e-09);
 
     /* Bad input is refused and leaves the state alone. */
     arm50_state before;
@@ -186,6 +225,16 @@ static void test_motion(tally *count)
         status = arm50_step(&model, &state, &inputs);
         expect_code(count, "bad base_angle", status, ARM50_NON_FINITE_INPUT);
         inputs.tmm_base_angle[ARM50_STAGES - 1] = tmm_base_angle;
+        const real tmm_base_angle_rate = inputs.tmm_base_angle_rate[ARM50_STAGES - 1];
+        inputs.tmm_base_angle_rate[ARM50_STAGES - 1] = bad[k];
+        status = arm50_step(&model, &state, &inputs);
+        expect_code(count, "bad base_angle_rate", status, ARM50_NON_FINITE_INPUT);
+        inputs.tmm_base_angle_rate[ARM50_STAGES - 1] = tmm_base_angle_rate;
+        const real tmm_base_angle_acceleration = inputs.tmm_base_angle_acceleration[ARM50_STAGES - 1];
+        inputs.tmm_base_angle_acceleration[ARM50_STAGES - 1] = bad[k];
+        status = arm50_step(&model, &state, &inputs);
+        expect_code(count, "bad base_angle_acceleration", status, ARM50_NON_FINITE_INPUT);
+        inputs.tmm_base_angle_acceleration[ARM50_STAGES - 1] = tmm_base_angle_acceleration;
     }
     ++count->checks;
     if (memcmp(&before, &state, sizeof state) != 0) {

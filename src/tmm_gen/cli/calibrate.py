@@ -97,11 +97,15 @@ def calibrate(
     with progress(f"fitting {loaded.name}"):
         from tmm_gen.control.calibration import calibrate as fit
         from tmm_gen.measure.clock import UNITS, from_start
-        from tmm_gen.measure.given import read_inputs, read_tables
+        from tmm_gen.measure.given import input_names, read_inputs, read_tables
 
         names = _columns(loaded, record)
         missing = tuple(item.name for item in loaded.inputs if item.name not in names)
-        signals = {**read_tables(record, names, gaps=True), **read_inputs(given, missing)}
+        _, angles = input_names(loaded)
+        signals = {
+            **read_tables(record, names, angles, gaps=True),
+            **read_inputs(given, missing, angles),
+        }
         unit = UNITS[time_unit]
         done = fit(
             loaded,

@@ -25,6 +25,16 @@ _MOVING = (".gif", ".html")
 _BALANCED = 1e-2
 """Imbalance of energies, as a share of what moves, that is worth a word on how the step may cause it."""
 
+_PROFILES = """\b
+Profiles; times in s (or 0.8s, 800ms), what is in brackets may be absent:
+  step:FROM:TO[:AT]                 a jump, at 0 s or AT
+  ramp:FROM:TO:TIME[:START]         straight from value to value in a time
+  smooth:FROM:TO:TIME[:START]       the same, at rest at both ends (degree five)
+  sine:AMPLITUDE:FREQUENCY[:PHASE]  FREQUENCY in Hz, PHASE in rad (or 90deg)
+  chirp:AMPLITUDE:FIRST:LAST:TIME   from one frequency (Hz) to another in a time
+"""
+"""What ``--input NAME=`` takes besides numbers and files; click leaves lines behind its mark as they are."""
+
 _COLUMNS: list[Column | str] = [
     "output",
     Column("what", ""),
@@ -44,7 +54,7 @@ def _time(_context: click.Context, parameter: click.Parameter, value: float | No
     return value
 
 
-@click.command("run")
+@click.command("run", epilog=_PROFILES)
 @click.argument("scene", metavar="SCENE", type=click.Path(path_type=Path))
 @click.option(
     "--until", type=float, callback=_time, help="Time to simulate, s; by default five slow periods."
@@ -53,9 +63,9 @@ def _time(_context: click.Context, parameter: click.Parameter, value: float | No
 @click.option(
     "--input",
     "given",
-    metavar="NAME=VALUE|NAME=FILE.csv|FILE.csv",
+    metavar="NAME=VALUE|NAME=PROFILE|NAME=FILE.csv|FILE.csv",
     multiple=True,
-    help="An input: a constant, a column of a file, or all from one file. Repeatable; the rest is zero.",
+    help="An input: a constant, a profile, a column of a file, or all from one file. Repeatable; the rest is zero.",
 )
 @set_option
 @click.option("--backend", type=click.Choice(["numpy", "c"]), default="numpy", show_default=True)
@@ -92,16 +102,19 @@ def run(
     """Simulate SCENE with its generated kernel.
 
     Files of inputs have a `time` column and a column for each input; between rows values are linear, and the
-    last one stays.
+    last one stays. The angle of a prescribed base goes smoothly through its rows, with its rate and acceleration;
+    where the rows have a corner its rate jumps. Columns NAME_rate and NAME_acceleration tell them exactly.
+
+    A profile is for example --input base_angle=smooth:0:1.5:0.8s; a prescribed base cannot jump.
     """
     from tmm_gen.measure.clock import refuse_other_clock
     from tmm_gen.measure.duration import default_duration
-    from tmm_gen.measure.given import read_inputs, table_files
+    from tmm_gen.measure.given import input_names, read_inputs, table_files
     from tmm_gen.measure.run import number_of_steps, simulate, traceable
 
     chosen = changed_scene(scene, changes, step)
     read = (scene, *table_files(given))
-    signals = read_inputs(given, tuple(item.name for item in chosen.inputs))
+    signals = read_inputs(given, *input_names(chosen))
     planar = chosen.model.kind == "planar"
     if animated is not None and not planar:
         raise UserError(f"--animate {animated}: a chain has no shape to show. Use --plot.")
@@ -154,6 +167,7 @@ def _show(simulation: Simulation, written: list[Path], json_mode: bool) -> None:
         "energy_imbalance": simulation.imbalance,
         "unsolved": simulation.unsolved,
         "step_error": simulation.step_error,
+        "notes": list(simulation.notes),
         "files": written,
     }
     done = f"{last:g} s in {simulation.steps} steps of {scene.integrator.step:g} s by {scene.integrator.name}"
@@ -162,6 +176,8 @@ def _show(simulation: Simulation, written: list[Path], json_mode: bool) -> None:
         return
     if simulation.unsolved is not None and not simulation.still:
         click.echo(_trusted(simulation))
+    for note in simulation.notes:
+        click.echo(note)
     for path in written:
         click.echo(f"wrote {path}")
     if simulation.still and scene.inputs:

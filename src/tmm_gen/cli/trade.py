@@ -155,14 +155,14 @@ def trade(
 
 def run(path: Path, options: dict[str, Any]) -> Study:
     """Read a scene and study it."""
-    from tmm_gen.measure.given import read_inputs
+    from tmm_gen.measure.given import input_names, read_inputs
     from tmm_gen.measure.trade.excitation import excitation
     from tmm_gen.measure.trade.grid import configurations
     from tmm_gen.measure.trade.study import run_study
     from tmm_gen.scene import load_scene
 
     scene = load_scene(path)
-    given = read_inputs(options["given"], tuple(item.name for item in scene.inputs))
+    given = read_inputs(options["given"], *input_names(scene))
     went = excitation(scene, given, options["until"], options["output"])
     grid = configurations(scene, axes_of(scene, options), went.until)
     rounds = options["rounds"]

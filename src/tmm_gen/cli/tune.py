@@ -104,7 +104,7 @@ def tune(
 def _search(
     path: Path, max_error: str, max_time: str, options: dict[str, Any]
 ) -> tuple[Tuning, Allowance | None]:
-    from tmm_gen.measure.given import read_inputs
+    from tmm_gen.measure.given import input_names, read_inputs
     from tmm_gen.measure.trade.bounds import read_error, read_time
     from tmm_gen.measure.trade.budgets import allowance
     from tmm_gen.measure.trade.excitation import excitation
@@ -118,7 +118,7 @@ def _search(
     links = () if auto or options["links"] is None else _links(options["links"])
     axes = axes_of(scene, {**options, "links": links, "steps": (), "backends": ("c",)})
     _known_target(options["target"])
-    given = read_inputs(options["given"], tuple(item.name for item in scene.inputs))
+    given = read_inputs(options["given"], *input_names(scene))
     went = excitation(scene, given, options["until"], options["output"])
     allowed = allowance(scene, options["target"])
     with progress(f"tuning {scene.name}", total=len(families(scene, axes)) * (1 + auto)) as advance:

@@ -18,6 +18,7 @@ from tmm_gen.export.fmu.identity import FmiVersion, Identity, number
 from tmm_gen.export.fmu.variables import FmuVariable, fmu_variables
 from tmm_gen.native.compiler import FLAGS, compile_library
 from tmm_gen.program.build import build_program
+from tmm_gen.program.inputs import prescribed_names
 from tmm_gen.program.statements import Program
 from tmm_gen.scene import Scene
 from tmm_gen.scratch import scratch_folder
@@ -93,7 +94,7 @@ def _sources(
 ) -> tuple[dict[str, str], Identity, tuple[FmuVariable, ...]]:
     """Return the C files by name, the identity, and the variables in the order of their numbers."""
     kernel = Kernel.of(program, scene)
-    followed = [item.name for item in scene.inputs if item.acts == "angle"]
+    followed = prescribed_names(program.inputs) or ()
     whole = fmu_variables(program, REALS[scene.emit.real], followed)
     variables = tuple(element for v in whole for element in v.elements()) if version == 2 else whole
     files = {path.removeprefix("c/"): text for path, text in emit_kernel(program, scene).items()}

@@ -88,7 +88,7 @@ def fmu_variables(program: Program, real: Real, followed: Sequence[str]) -> tupl
     real : Real
         Number type of the kernel.
     followed : sequence of str
-        Inputs that are gone to along a straight line, instead of being held.
+        Inputs that are gone to smoothly, instead of being held: angle, rate and acceleration of a prescribed base.
     """
     return (
         *(_known(v, f"parameters.{v.name}", f"params.{v.name}", real) for v in program.parameters),

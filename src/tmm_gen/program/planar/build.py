@@ -22,6 +22,7 @@ from tmm_gen.derive.integrators.declaration import (
 from tmm_gen.derive.integrators.relations import Unknown, affine_motion
 from tmm_gen.errors import UserError
 from tmm_gen.program.fields import gain_names, living_state
+from tmm_gen.program.inputs import input_instants
 from tmm_gen.program.passes.hoist import Hoister
 from tmm_gen.program.passes.prune import prune
 from tmm_gen.program.planar.energy import heat_after, heat_before
@@ -66,7 +67,9 @@ def build_planar(scene: Scene, integrator: Integrator) -> Program:
             layout=layout,
             shared=combined.shared,
             impedances=tuple(combined.impedance(scheme, i, unknown) for i in range(len(scheme.stages))),
-            loads=tuple(planar_loads(scene, layout.inputs, k) for k in range(len(scheme.stages))),
+            loads=tuple(
+                planar_loads(scene, layout.inputs, k) for k in range(len(input_instants(scene, scheme)))
+            ),
             base=scene.base.kind,
             scheme=scheme,
             unknown=unknown,
@@ -125,9 +128,7 @@ def build_planar(scene: Scene, integrator: Integrator) -> Program:
         startup=startup,
         main=main,
         output=output,
-        stage_instants=tuple(
-            tuple(float(stage.instant) for stage in scheme.stages) for scheme in integrator.schemes
-        ),
+        stage_instants=tuple(input_instants(scene, scheme) for scheme in integrator.schemes),
         facts={
             "model": "planar arm, large rotations"
             + (", gravity" if layout.gravity else "")
@@ -251,7 +252,7 @@ def _initialise(scene: Scene, layout: PlanarLayout) -> Routine:
         scheme=CONSISTENT_START,
         unknown="acceleration",
         sources={past("q"): angle.at(), past("v"): rate.at(), past("a"): sp.Integer(0)},
-        hub_sources={past("q"): loads.angle, past("v"): sp.Integer(0), past("a"): sp.Integer(0)},
+        hub_sources={past(kind): sp.Integer(0) for kind in KINDS},
         iterations=1,  # exact: at given angles and rates the equations are linear in accelerations
     )
     cold = Assign(layout.dissipated.ref, sp.Integer(0)) if layout.dissipated else None

@@ -7,11 +7,10 @@ from dataclasses import dataclass
 from tmm_gen.derive.integrators.declaration import KINDS, Integrator, Past
 from tmm_gen.derive.integrators.history import history
 from tmm_gen.program.fields import parameter, state_variable
+from tmm_gen.program.inputs import UNITS, input_variables
 from tmm_gen.program.variables import Role, Variable
-from tmm_gen.scene import Input, Output, Scene, station_of
+from tmm_gen.scene import Output, Scene, station_of
 from tmm_gen.scene.quantity import PLANAR
-
-_UNITS = {"torque": "N m", "force_x": "N", "force_y": "N", "angle": "rad"}
 
 
 @dataclass(frozen=True)
@@ -86,7 +85,6 @@ def planar_layout(scene: Scene, integrator: Integrator) -> PlanarLayout:
     ordered = sorted(kept, key=lambda p: (p.lag, KINDS.index(p.kind)))
     moved = scene.base.kind == "motor"
     hubbed = scene.base.kind != "clamp"
-    stages = max(len(scheme.stages) for scheme in integrator.schemes)
     tip = scene.tip
     links, joints = scene.links, scene.joints
 
@@ -120,13 +118,13 @@ def planar_layout(scene: Scene, integrator: Integrator) -> PlanarLayout:
         tip_mass=optional("tip_mass", "mass at the tip", "kg", tip.mass if tip else None),
         tip_inertia=optional("tip_inertia", "inertia at the tip", "kg m^2", tip.inertia if tip else None),
         state={p: state_variable(p, "", n) for p in ordered},
-        hub={p: state_variable(p, "hub_", None) for p in ordered} if hubbed else {},
+        hub={p: state_variable(p, "hub_", None) for p in ordered if moved or not p.lag} if hubbed else {},
         places={axis: {p: _place(axis, p, n) for p in ordered} for axis in "xy"}
         if scene.model.linearisation != "newton"
         else {},
         held=_held(scene),
         dissipated=_dissipated(scene),
-        inputs=tuple(_input(i, stages) for i in scene.inputs),
+        inputs=input_variables(scene, integrator),
         outputs=tuple(v for o in scene.outputs for v in output_variables(o)),
         given=(
             Variable(
@@ -152,14 +150,6 @@ def output_variables(output: Output) -> tuple[Variable, ...]:
     )
 
 
-def _input(described: Input, stages: int) -> Variable:
-    place = f"station {described.at}" if isinstance(described.at, int) else f"the {described.at}"
-    doc = "prescribed base angle" if described.acts == "angle" else f"{described.acts} acting at {place}"
-    if stages > 1:
-        doc += ", at each stage of the step"
-    return Variable(described.name, Role.INPUT, stages if stages > 1 else None, doc, _UNITS[described.acts])
-
-
 def _place(axis: str, past: Past, length: int) -> Variable:
     """Return the variable of one value of the history of the nodes' places."""
     suffix = {"q": "", "v": "_rate", "a": "_acceleration"}[past.kind]
@@ -177,7 +167,7 @@ def _held(scene: Scene) -> dict[str, Variable]:
     if any(o.of == "torque" and o.at == "tip" for o in scene.outputs):
         held += [i for i in scene.inputs if i.acts == "torque" and station_of(i.at, n) == n]
     return {
-        i.name: Variable(f"held_{i.name}", Role.STATE, doc=f"{i.name} as it last acted", unit=_UNITS[i.acts])
+        i.name: Variable(f"held_{i.name}", Role.STATE, doc=f"{i.name} as it last acted", unit=UNITS[i.acts])
         for i in held
     }
 

@@ -6,6 +6,8 @@ from dataclasses import dataclass
 
 import sympy as sp
 
+from tmm_gen.derive.integrators.declaration import Kind
+from tmm_gen.program.inputs import prescribed_motion
 from tmm_gen.program.statements import Assign, Loop, Order, Statement
 from tmm_gen.program.variables import Role, Variable
 from tmm_gen.scene import Scene, station_of
@@ -22,8 +24,10 @@ class PlanarLoads:
     ----------
     tip : dict from "force_x", "force_y", "torque" to sympy.Expr
         At the last link.
-    base, angle : sympy.Expr
-        Torque at the hub; prescribed base angle.
+    base : sympy.Expr
+        Torque at the hub.
+    motion : dict from "q", "v", "a" to sympy.Expr
+        Angle, rate and acceleration of a prescribed base; empty for other bases.
     inner : dict from component to tuple of (int, sympy.Expr)
         At other links, by index from 0; forces act at the link's outer end.
     stations : int
@@ -32,7 +36,7 @@ class PlanarLoads:
 
     tip: dict[str, sp.Expr]
     base: sp.Expr
-    angle: sp.Expr
+    motion: dict[Kind, sp.Expr]
     inner: dict[str, tuple[tuple[int, sp.Expr], ...]]
     stations: int
 
@@ -57,17 +61,18 @@ class PlanarLoads:
 
 
 def planar_loads(scene: Scene, inputs: tuple[Variable, ...], stage: int) -> PlanarLoads:
-    """Sort a scene's inputs by the place they act at, read at a stage (from 0) of the step."""
+    """Sort a scene's inputs by the place they act at, read at an instant (from 0) of the step."""
     n = scene.stations
     tip = dict.fromkeys(COMPONENTS, sp.Integer(0))
     inner: dict[str, dict[int, sp.Expr]] = {}
-    base = angle = sp.Integer(0)
-    for described, variable in zip(scene.inputs, inputs, strict=True):
-        value = variable.entry(stage)
+    base = sp.Integer(0)
+    by_name = {variable.name: variable for variable in inputs}
+    for described in scene.inputs:
+        value = by_name[described.name].entry(stage)
         link = station_of(described.at, n)
         if described.acts == "angle":
-            angle += value
-        elif link == 0:
+            continue
+        if link == 0:
             base += value
         elif link == n:
             tip[described.acts] += value
@@ -77,7 +82,7 @@ def planar_loads(scene: Scene, inputs: tuple[Variable, ...], stage: int) -> Plan
     return PlanarLoads(
         tip=tip,
         base=base,
-        angle=angle,
+        motion=prescribed_motion(scene, inputs, stage),
         inner={c: tuple(sorted(inner[c].items())) for c in COMPONENTS if c in inner},
         stations=n,
     )

@@ -13,6 +13,7 @@ import sympy as sp
 
 from tmm_gen.derive.integrators.declaration import KINDS, STEP, Kind, past, stage
 from tmm_gen.derive.integrators.relations import AffineMotion, affine_motion
+from tmm_gen.program.inputs import prescribed_end
 from tmm_gen.program.motion import history_values, kept_stage_values, stage_variable, update_assignments
 from tmm_gen.program.planar.layout import PlanarLayout
 from tmm_gen.program.planar.scratch import BASE, HUB_UNKNOWN, predicted, solved
@@ -35,7 +36,7 @@ class PlanarStep(PlanarSweep):
         sections: list[Section] = []
         for index, (motion, prediction) in enumerate(zip(motions, predictions, strict=True), start=1):
             title = f"Stage {index} of {count}: " if count > 1 else ""
-            sections.append(Section(title + "predicted motion", tuple(self._predict(prediction))))
+            sections.append(Section(title + "predicted motion", tuple(self._predict(index, prediction))))
             for iteration in range(self.iterations):
                 again = f"iteration {iteration + 1}: " if self.iterations > 1 else ""
                 sections += [
@@ -51,14 +52,16 @@ class PlanarStep(PlanarSweep):
 
     # -- prediction ----------------------------------------------------------------------------------------
 
-    def _predict(self, prediction: Mapping[Kind, sp.Expr]) -> list[Statement]:
+    def _predict(self, index: int, prediction: Mapping[Kind, sp.Expr]) -> list[Statement]:
         n = self.layout.stations
+        prescribed = self.loads[index - 1].motion
         at_links, at_hub = self._values("", n), self._values("hub_", None)
         body, base = [], []
         for kind in KINDS:
             variable = predicted(kind, n)
             body.append(Assign(variable.at(1), prediction[kind].xreplace(at_links)))
-            value = sp.Integer(0) if self.base == "clamp" else prediction[kind].xreplace(at_hub)
+            moved = prediction[kind].xreplace(at_hub) if self.base == "motor" else sp.Integer(0)
+            value = prescribed.get(kind, moved)
             base.append(Assign(variable.entry(BASE), value))
         return [*base, Loop(Order.OUTWARD, 0, n, tuple(body))]
 
@@ -70,7 +73,7 @@ class PlanarStep(PlanarSweep):
             ref, entry = predicted(kind, n).at(1), predicted(kind, n).entry(BASE)
             body.append(Assign(ref, ref + gain * solved(n).at()))
             base.append(Assign(entry, entry + gain * HUB_UNKNOWN))
-        moved = base if self.base != "clamp" else []
+        moved = base if self.base == "motor" else []
         return [*moved, Loop(Order.OUTWARD, 0, n, tuple(a for a in body if a.value != a.target))]
 
     def _values(self, prefix: str, length: int | None) -> dict[sp.Symbol, sp.Expr]:
@@ -86,7 +89,7 @@ class PlanarStep(PlanarSweep):
         n = self.layout.stations
         links = {k: predicted(k, n).at(1) + self._gain(motion, k) * solved(n).at() for k in KINDS}
         hub = {k: predicted(k, n).entry(BASE) + self._gain(motion, k) * HUB_UNKNOWN for k in KINDS}
-        hubbed = self.base != "clamp"
+        hubbed = self.base == "motor"
         statements: list[Statement] = []
         if not last:
             mine = sorted((k, i) for k, i in kept if i == index)
@@ -99,6 +102,7 @@ class PlanarStep(PlanarSweep):
         if hubbed:
             new = self._new_values(index, hub, self._values("hub_", None))
             statements += update_assignments(self.layout.hub, new, lambda v: v.ref, "")
+        statements += prescribed_end(self.layout.hub, self.loads[-1].motion)
         new = self._new_values(index, links, self._values("", n))
         body = tuple(update_assignments(self.layout.state, new, lambda v: v.at(), ""))
         places = self._after_update(index, motion)

@@ -36,7 +36,7 @@ from tmm_gen.program.planar.scratch import (
     solved,
     swing,
 )
-from tmm_gen.program.statements import Assign, Loop, Order, Require, Section, Statement
+from tmm_gen.program.statements import Assign, Loop, Order, Require, Section
 from tmm_gen.program.variables import Ref, local
 
 
@@ -53,7 +53,8 @@ class PlanarSweep:
     impedances : sequence of sympy.Expr
         Joint impedance ``K`` of each stage.
     loads : sequence of PlanarLoads
-        Inputs, one for each stage.
+        Inputs, one for each instant at which they are read: each stage, and the end of the step where a prescribed
+        base needs it.
     base : str
         "clamp", "motor" or "prescribed".
     sources, hub_sources : mapping from sympy.Symbol to sympy.Expr
@@ -284,33 +285,26 @@ class PlanarSweep:
 
     def _at_base(self, motion: AffineMotion, loads: PlanarLoads) -> Section:
         n = self.layout.stations
-        if self.base == "clamp":
-            return Section("the base does not move", (Assign(UNKNOWN, sp.Integer(0)),))
-        statements: list[Statement] = []
-        if self.base == "prescribed":
-            gain = self._gain(motion, "q")
-            value = (loads.angle - predicted("q", n).entry(BASE)) / gain if gain != 0 else sp.Integer(0)
-            statements.append(Assign(UNKNOWN, value))
-        else:
-            law = torsion_chain.hub_law()
-            assert self.layout.hub_inertia is not None
-            hub = {
-                torsion.INERTIA: self.layout.hub_inertia.ref,
-                torsion.GROUND_DAMPING: self.layout.hub_damping.ref
-                if self.layout.hub_damping
-                else sp.Integer(0),
-                # the chain counts the torque on the inner side, the arm that on the outer one
-                torsion_chain.IMPEDANCE: -IMPEDANCE[2][2],
-                **{torsion_chain.GAINS[k]: self._gain(motion, k) for k in KINDS},
-                **{torsion_chain.INNER[k]: predicted(k, n).entry(BASE) for k in KINDS},
-            }
-            pivot = local("hub_pivot")
-            known = law.known.xreplace(hub)
-            statements += [
-                Assign(pivot, law.pivot.xreplace(hub)),
-                Require(pivot),
-                Assign(UNKNOWN, (loads.base - FORCE[2] - known) / pivot),
-            ]
+        if self.base != "motor":
+            does = "does not move" if self.base == "clamp" else "moves as prescribed"
+            return Section(f"the base {does}", (Assign(UNKNOWN, sp.Integer(0)),))
+        law = torsion_chain.hub_law()
+        assert self.layout.hub_inertia is not None
+        hub = {
+            torsion.INERTIA: self.layout.hub_inertia.ref,
+            torsion.GROUND_DAMPING: self.layout.hub_damping.ref if self.layout.hub_damping else sp.Integer(0),
+            # the chain counts the torque on the inner side, the arm that on the outer one
+            torsion_chain.IMPEDANCE: -IMPEDANCE[2][2],
+            **{torsion_chain.GAINS[k]: self._gain(motion, k) for k in KINDS},
+            **{torsion_chain.INNER[k]: predicted(k, n).entry(BASE) for k in KINDS},
+        }
+        pivot = local("hub_pivot")
+        known = law.known.xreplace(hub)
+        statements = (
+            Assign(pivot, law.pivot.xreplace(hub)),
+            Require(pivot),
+            Assign(UNKNOWN, (loads.base - FORCE[2] - known) / pivot),
+        )
         return Section("the hub", (*statements, Assign(HUB_UNKNOWN, UNKNOWN)))
 
     def _outward(self, impedance: sp.Expr) -> Section:

@@ -8,9 +8,10 @@ import sympy as sp
 
 from tmm_gen.derive import torsion_chain as chain
 from tmm_gen.derive.elements.torsion import INERTIA
-from tmm_gen.derive.integrators.declaration import CONSISTENT_START, Integrator, Past, Scheme, past
+from tmm_gen.derive.integrators.declaration import CONSISTENT_START, KINDS, Integrator, Past, Scheme, past
 from tmm_gen.derive.integrators.relations import Unknown, affine_motion
 from tmm_gen.program.fields import gain_names, living_state
+from tmm_gen.program.inputs import input_instants
 from tmm_gen.program.motion import history_values
 from tmm_gen.program.passes.hoist import Hoister
 from tmm_gen.program.passes.prune import prune
@@ -64,7 +65,7 @@ def build_chain(scene: Scene, integrator: Integrator) -> Program:
         name = "step" if scheme is integrator.main else f"step_start{position + 1}"
         builder = StepBuilder(
             layout=layout,
-            loads=tuple(loads_of(scene, layout.inputs, k) for k in range(len(scheme.stages))),
+            loads=tuple(loads_of(scene, layout.inputs, k) for k in range(len(input_instants(scene, scheme)))),
             base=scene.base.kind,
             scheme=scheme,
             unknown=unknown,
@@ -116,9 +117,7 @@ def build_chain(scene: Scene, integrator: Integrator) -> Program:
         startup=startup,
         main=main,
         output=output,
-        stage_instants=tuple(
-            tuple(float(stage.instant) for stage in scheme.stages) for scheme in integrator.schemes
-        ),
+        stage_instants=tuple(input_instants(scene, scheme) for scheme in integrator.schemes),
         facts={
             "model": "torsional chain (linear)",
             "stations": str(scene.stations),
@@ -179,7 +178,7 @@ def _initialise(layout: ChainLayout, loads: Loads, base: str) -> Routine:
         admittance=1 / pivot.subs(INERTIA, parameter_values(layout)[INERTIA]),
         hub_admittance=hub_admittance,
     )
-    hub_start = {past("q"): loads.angle, past("v"): sp.Integer(0), past("a"): sp.Integer(0)}
+    hub_start = {past(kind): sp.Integer(0) for kind in KINDS}
     builder = StepBuilder(
         layout=replace(
             layout,

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from tmm_gen.derive.integrators.declaration import KINDS, Integrator, Kind, Past
 from tmm_gen.derive.integrators.history import history
 from tmm_gen.program.fields import MOTION_NAMES, parameter, state_variable
+from tmm_gen.program.inputs import input_variables
 from tmm_gen.program.variables import Role, Variable
 from tmm_gen.scene import Scene
 
@@ -63,7 +64,6 @@ def chain_layout(scene: Scene, integrator: Integrator) -> ChainLayout:
         kept |= {Past(kind, 0) for kind in kinds}
     ordered = sorted(kept, key=lambda p: (p.lag, KINDS.index(p.kind)))
     damped = any(joint.damping for joint in scene.joints)
-    stages = max(len(scheme.stages) for scheme in integrator.schemes)
     hubbed = scene.base.kind != "clamp"
     moved = scene.base.kind == "motor"
     return ChainLayout(
@@ -85,17 +85,8 @@ def chain_layout(scene: Scene, integrator: Integrator) -> ChainLayout:
             else None
         ),
         state={p: state_variable(p, "", n) for p in ordered},
-        hub={p: state_variable(p, "hub_", None) for p in ordered} if hubbed else {},
-        inputs=tuple(
-            Variable(
-                i.name,
-                Role.INPUT,
-                stages if stages > 1 else None,
-                _input_doc(i.at, i.acts) + (", at each stage of the step" if stages > 1 else ""),
-                "rad" if i.acts == "angle" else "N m",
-            )
-            for i in scene.inputs
-        ),
+        hub={p: state_variable(p, "hub_", None) for p in ordered if moved or not p.lag} if hubbed else {},
+        inputs=input_variables(scene, integrator),
         outputs=tuple(
             Variable(o.name, Role.OUTPUT, doc=f"{o.of} at {_place(o.at)}", unit=_output_unit(o.of))
             for o in scene.outputs
@@ -113,10 +104,6 @@ def chain_layout(scene: Scene, integrator: Integrator) -> ChainLayout:
 
 def _place(at: str | int) -> str:
     return f"station {at}" if isinstance(at, int) else f"the {at}"
-
-
-def _input_doc(at: str | int, acts: str) -> str:
-    return f"{acts} acting at {_place(at)}" if acts != "angle" else "prescribed base angle"
 
 
 def _output_unit(of: str) -> str:

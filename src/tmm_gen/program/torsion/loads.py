@@ -6,6 +6,8 @@ from dataclasses import dataclass
 
 import sympy as sp
 
+from tmm_gen.derive.integrators.declaration import Kind
+from tmm_gen.program.inputs import prescribed_motion
 from tmm_gen.program.statements import Assign, Loop, Order, Statement
 from tmm_gen.program.variables import Role, Variable
 from tmm_gen.scene import Scene
@@ -19,8 +21,8 @@ class Loads:
     ----------
     tip, base : sympy.Expr
         Torque at the last link and at the hub.
-    angle : sympy.Expr
-        Prescribed base angle.
+    motion : dict from "q", "v", "a" to sympy.Expr
+        Angle, rate and acceleration of a prescribed base; empty for other bases.
     inner : tuple of (int, sympy.Expr)
         Torques at other links, by index from 0.
     array : Variable
@@ -29,7 +31,7 @@ class Loads:
 
     tip: sp.Expr
     base: sp.Expr
-    angle: sp.Expr
+    motion: dict[Kind, sp.Expr]
     inner: tuple[tuple[int, sp.Expr], ...]
     array: Variable
 
@@ -43,21 +45,19 @@ class Loads:
 
 
 def loads_of(scene: Scene, inputs: tuple[Variable, ...], stage: int) -> Loads:
-    """Sort a scene's inputs by the place they act at, read at a stage (from 0) of the step."""
+    """Sort a scene's inputs by the place they act at, read at an instant (from 0) of the step."""
     n = scene.stations
     places: dict[str | int, sp.Expr] = {}
-    for described, variable in zip(scene.inputs, inputs, strict=True):
-        place: str | int = described.at
-        if described.acts == "angle":
-            place = "angle"
-        elif place == n:
-            place = "tip"
-        places[place] = places.get(place, sp.Integer(0)) + variable.entry(stage)
+    by_name = {variable.name: variable for variable in inputs}
+    for described in scene.inputs:
+        if described.acts != "angle":
+            place: str | int = "tip" if described.at == n else described.at
+            places[place] = places.get(place, sp.Integer(0)) + by_name[described.name].entry(stage)
     zero = sp.Integer(0)
     return Loads(
         tip=places.get("tip", zero),
         base=places.get("base", zero),
-        angle=places.get("angle", zero),
+        motion=prescribed_motion(scene, inputs, stage),
         inner=tuple(
             (place - 1, torque) for place, torque in sorted(places.items(), key=str) if isinstance(place, int)
         ),

@@ -11,6 +11,7 @@ from tmm_gen.derive import torsion_chain as chain
 from tmm_gen.derive.integrators.declaration import KINDS, STEP, Kind, Past, Scheme, stage
 from tmm_gen.derive.integrators.relations import UNKNOWN, AffineMotion, Unknown, affine_motion
 from tmm_gen.program.fields import MOTION_NAMES
+from tmm_gen.program.inputs import prescribed_end
 from tmm_gen.program.motion import (
     history_values,
     kept_stage_values,
@@ -36,7 +37,8 @@ class StepBuilder:
     layout : ChainLayout
         The chain's variables.
     loads : sequence of Loads
-        Where inputs act, one for each stage.
+        Where inputs act, one for each instant at which they are read: each stage, and the end of the step where a
+        prescribed base needs it.
     base : str
         "clamp", "motor" or "prescribed".
     scheme : Scheme
@@ -66,12 +68,12 @@ class StepBuilder:
             self.scheme, {(i, k): m.offset[k] for i, m in enumerate(motions) for k in KINDS}
         )
         sections: list[Section] = []
-        each = zip(motions, self.factors, self.loads, strict=True)
+        each = zip(motions, self.factors, self.loads[:stages], strict=True)
         for index, (motion, factors, loads) in enumerate(each, start=1):
             title = f"Stage {index} of {stages}: " if stages > 1 else ""
             last = index == stages
             sections += [
-                Section(title + "motion known before the sweep", tuple(self._predict(motion))),
+                Section(title + "motion known before the sweep", tuple(self._predict(motion, loads))),
                 *self._sweep(title, motion, factors, loads),
                 self._outward_end(title, index, motion, kept, last),
             ]
@@ -79,7 +81,7 @@ class StepBuilder:
 
     # -- prediction ---------------------------------------------------------------------------------------------
 
-    def _predict(self, motion: AffineMotion) -> list[Statement]:
+    def _predict(self, motion: AffineMotion, loads: Loads) -> list[Statement]:
         at_links = self._link_values()
         at_hub = self._hub_values()
         body = []
@@ -96,7 +98,9 @@ class StepBuilder:
                 )
             )
             at_base = sp.Integer(0)
-            if self.base != "clamp":
+            if self.base == "prescribed" and kind != "a":
+                at_base = self._prescribed_known(motion, loads, kind)
+            elif self.base == "motor":
                 at_base = offset.subs({**at_hub, _KNOWN_RATE: _known("v", self.layout.stations).entry(_BASE)})
             base.append(Assign(known.entry(_BASE), at_base))
         if not body:
@@ -216,13 +220,12 @@ class StepBuilder:
         if self.base == "motor":
             first_torque = self._hub_known(motion) - loads.base
         elif self.base == "prescribed":
-            first_unknown = self._base_unknown(motion, factors, loads, sp.Integer(0))
+            first_unknown = self._prescribed_unknown(motion, loads)
         outward = Section(
             "product outward: state of each station if the base unknown were zero",
             (
                 *loads.statements(),
                 Assign(known, first_unknown),
-                *(self._keep_hub_unknown(known) if self.base == "prescribed" else ()),
                 Assign(torque, first_torque),
                 Loop(
                     Order.OUTWARD,
@@ -257,15 +260,21 @@ class StepBuilder:
         if self.base == "clamp":
             return sp.Integer(0)
         if self.base == "prescribed":
-            if motion.gain["q"] == 0:  # the initial instant: at rest
-                return sp.Integer(0)
-            angle = self._known_at(motion, _BASE)["q"]
-            return ((loads.angle - angle) / motion.gain["q"]).subs(STEP, self.layout.step.ref)
+            return self._prescribed_unknown(motion, loads)
         assert factors.hub_admittance is not None
         return factors.hub_admittance * (bias + loads.base - self._hub_known(motion))
 
+    def _prescribed_unknown(self, motion: AffineMotion, loads: Loads) -> sp.Expr:
+        """Return a prescribed base's unknown: its motion is known, unless the angle itself is the unknown."""
+        return loads.motion["q"] if motion.offset["q"] == 0 else sp.Integer(0)
+
+    def _prescribed_known(self, motion: AffineMotion, loads: Loads, kind: Kind) -> sp.Expr:
+        """Return what a prescribed base's unknown leaves of its motion."""
+        gain = motion.gain[kind].subs(STEP, self.layout.step.ref)
+        return loads.motion[kind] - gain * self._prescribed_unknown(motion, loads)
+
     def _keep_hub_unknown(self, unknown: Ref) -> list[Assign]:
-        return [] if self.base == "clamp" else [Assign(_HUB_UNKNOWN, unknown)]
+        return [Assign(_HUB_UNKNOWN, unknown)] if self.base == "motor" else []
 
     # -- after the sweep ----------------------------------------------------------------------------------------
 
@@ -275,7 +284,7 @@ class StepBuilder:
         n = self.layout.stations
         links = self._stage_values(motion, _unknown(n).at(), self._known_at(motion, None, 1))
         hub = self._stage_values(motion, _HUB_UNKNOWN, self._known_at(motion, _BASE))
-        hubbed = self.base != "clamp"
+        hubbed = self.base == "motor"
         if not last:
             body = [Assign(stage_variable(k, i, "", n).at(), links[k]) for k, i in sorted(kept) if i == index]
             own = [
@@ -288,6 +297,7 @@ class StepBuilder:
         if hubbed:
             new_hub = self._new_values(index, hub, self._hub_values())
             statements += update_assignments(self.layout.hub, new_hub, lambda v: v.ref, "")
+        statements += prescribed_end(self.layout.hub, self.loads[-1].motion)
         body = update_assignments(self.layout.state, new_links, lambda v: v.at(), "")
         statements.append(Loop(Order.OUTWARD, 0, n, tuple(body)))
         return Section(title + "motion at the end of the step", tuple(statements))
