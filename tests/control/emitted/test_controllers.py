@@ -95,10 +95,10 @@ def test_the_safe_law_brakes_by_the_encoder(bench: Bench, emitted: Callable[...,
     hub = 63.99
     for _ in range(2):
         controller.command(np.array([hub, 0.0, np.nan]))
-    hub += 0.02
+    hub += 0.015
     command = controller.command(np.array([hub, 0.0, np.nan]))
     assert command.status is Status.MEASUREMENT
-    rate = 0.02 / bench.problem.sample_time
+    rate = 0.015 / bench.problem.sample_time
     assert command.torque == pytest.approx(-bench.inertia / BRAKE_TIME * rate, rel=1e-9)
 
 
