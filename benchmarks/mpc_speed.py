@@ -125,7 +125,7 @@ def record(bench: Bench, controller: EmittedController) -> Record:
     rows: list[tuple[np.ndarray, float, np.ndarray, float, float]] = []
     for _ in range(samples):
         seen = np.array(step.sensors(state)).ravel()
-        observer.correct(seen)
+        observer.correct(observer.surprise(seen), tuple(observer.sensors), np.inf)
         torque = controller.command(seen).torque
         estimate = observer.estimate.copy()
         rows.append((seen, torque, estimate[:-1], float(past[-1]), float(estimate[-1])))

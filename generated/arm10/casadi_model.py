@@ -1,8 +1,8 @@
 # arm10: Ten-link arm swung by a hub motor
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 95c81c6eb7e0b6f1ffc37b1b0540e1023a1118b007e8b573b96cceed3f286490
-# sha256 of the rest of this file: 791d2f9d254257d3f073b7043a93092b190c97c065d249b25bf14cf52e68be2b
+# scene digest: d9d28dc691ae4f0a1d62cb9cfa9f4612d111fa76a756dd286c77eac7f930ab35
+# sha256 of the rest of this file: f1b7c385b552171f41b7088d52c7cd246bf87e61a2d5728c891ca7632f5ac9d5
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 10
@@ -70,7 +70,7 @@ def default_parameters() -> ca.DM:
         0.001,
         0.1,
         0.05,
-        4.166666666666668e-05,
+        4.1666666666666665e-05,
         0.5,
         64.0,
         32.0,
@@ -102,7 +102,7 @@ def default_parameters() -> ca.DM:
 
 def step_function() -> ca.Function:
     """Return the step ``(x, u, p) -> (x_next, y)``: the state one step later, and the outputs at ``x``."""
-    return _function("step", _step, STAGE_INSTANTS[-1])
+    return _function("arm10_step", _step, STAGE_INSTANTS[-1])
 
 
 def start_functions() -> tuple[ca.Function, ...]:
@@ -125,7 +125,7 @@ def initial_function() -> ca.Function:
     u, p = _symbols(INPUT_NAMES), _symbols(PARAMETER_NAMES)
     with _as_written():
         x = _initialise(given, [u], p)
-    return ca.Function("initial", [*given.values(), u, p], [x], [*given, "u", "p"], ["x"])
+    return ca.Function("arm10_initial", [*given.values(), u, p], [x], [*given, "u", "p"], ["x"])
 
 
 def _function(

@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: c5e09abbb61734735cef8cfddf39dd959eb5765da3ad6484bed2957b4fdf212c
-# sha256 of the rest of this file: 325a8e6c3680f090b41b2c6feccc8ab3cafcdd606c485447b8e0d82203b61b95
+# sha256 of the rest of this file: 2e8e682163332ced047d8bdc65a4e532088e280bd70e517235d489f1aad33428
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 2
@@ -92,7 +92,7 @@ def default_parameters() -> ca.DM:
 
 def step_function() -> ca.Function:
     """Return the step ``(x, u, p) -> (x_next, y)``: the state one step later, and the outputs at ``x``."""
-    return _function("step", _step, STAGE_INSTANTS[-1])
+    return _function("arm2_step", _step, STAGE_INSTANTS[-1])
 
 
 def start_functions() -> tuple[ca.Function, ...]:
@@ -115,7 +115,7 @@ def initial_function() -> ca.Function:
     u, p = _symbols(INPUT_NAMES), _symbols(PARAMETER_NAMES)
     with _as_written():
         x = _initialise(given, [u], p)
-    return ca.Function("initial", [*given.values(), u, p], [x], [*given, "u", "p"], ["x"])
+    return ca.Function("arm2_initial", [*given.values(), u, p], [x], [*given, "u", "p"], ["x"])
 
 
 def _function(

@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: c5e09abbb61734735cef8cfddf39dd959eb5765da3ad6484bed2957b4fdf212c
-# sha256 of the rest of this file: 6c615cc81b782422552199818e276adbef732908289345a9d670cd6d2db7660b
+# sha256 of the rest of this file: e7289792d9cd3d5481bf44353a724ba03ac28d36762cf4e983d0b539d7fdb440
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 2
@@ -22,7 +22,8 @@ inputs)`` for all of them. Arrays are never written in place.
 
 All arrays may have further axes behind, those of a batch: many arms at once, each with its own parameters,
 inputs and state. What is one number for an arm then has the batch's shape; what differs between stations has
-the stations first, base to tip.
+the stations first, base to tip. An arm with numbers that are not finite, or a step or pivot that is not
+positive, is NaN; errors are left for where no other arm is left.
 """
 
 from __future__ import annotations
@@ -232,6 +233,7 @@ class Result:
     state: State
 
 
+@np.errstate(all="ignore")
 def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     """Compute what depends on parameters and step alone.
 
@@ -245,9 +247,9 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     Raises
     ------
     FloatingPointError
-        If a parameter or the step is not finite.
+        If parameters, step or what follows from them are not finite.
     ValueError
-        If shapes do not fit.
+        If the step is not positive, or shapes do not fit.
     VanishingPivotError
         If parameters or step leave a pivot that is not positive.
     """
@@ -263,6 +265,7 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     hub_damping = _array(params.hub_damping, None, "hub_damping")
     tip_mass = _array(params.tip_mass, None, "tip_mass")
     tip_inertia = _array(params.tip_inertia, None, "tip_inertia")
+    good = _positive(step)
     numbers = (step, gravity, hub_inertia, hub_damping, tip_mass, tip_inertia)
     arrays = (length, mass, inertia, center, stiffness, damping)
     batch, dtype = _common(numbers, arrays)
@@ -287,25 +290,41 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     half_step_squared = 0.5 * (step * step)
     angle_per_acceleration = 0.25 * (step * step)
     rate_per_acceleration = 0.5 * step
+
+    numbers = (
+        step,
+        gravity,
+        hub_inertia,
+        hub_damping,
+        tip_inertia,
+        half_step_squared,
+        angle_per_acceleration,
+        rate_per_acceleration,
+        hub_impedance,
+        tip_mass,
+    )
+    arrays = (length, stiffness, damping, node_mass, rod_inertia, joint_impedance, mass, inertia, center)
+    good = _judged(good, numbers, arrays, "parameters or step are too large or too small for the number type")
     return Model(
-        step=step,
-        length=length,
-        stiffness=stiffness,
-        damping=damping,
-        gravity=gravity,
-        hub_inertia=hub_inertia,
-        hub_damping=hub_damping,
-        tip_inertia=tip_inertia,
-        half_step_squared=half_step_squared,
-        angle_per_acceleration=angle_per_acceleration,
-        rate_per_acceleration=rate_per_acceleration,
-        node_mass=node_mass,
-        rod_inertia=rod_inertia,
-        joint_impedance=joint_impedance,
-        hub_impedance=hub_impedance,
+        step=_kept(step, good, False),
+        length=_kept(length, good, True),
+        stiffness=_kept(stiffness, good, True),
+        damping=_kept(damping, good, True),
+        gravity=_kept(gravity, good, False),
+        hub_inertia=_kept(hub_inertia, good, False),
+        hub_damping=_kept(hub_damping, good, False),
+        tip_inertia=_kept(tip_inertia, good, False),
+        half_step_squared=_kept(half_step_squared, good, False),
+        angle_per_acceleration=_kept(angle_per_acceleration, good, False),
+        rate_per_acceleration=_kept(rate_per_acceleration, good, False),
+        node_mass=_kept(node_mass, good, True),
+        rod_inertia=_kept(rod_inertia, good, True),
+        joint_impedance=_kept(joint_impedance, good, True),
+        hub_impedance=_kept(hub_impedance, good, False),
     )
 
 
+@np.errstate(all="ignore")
 def initialise(
     params: Params = Params(),
     input: Input = Input(),
@@ -329,12 +348,13 @@ def initialise(
     Raises
     ------
     FloatingPointError
-        If an argument is not finite.
+        If an argument or the state is not finite.
     ValueError
         If shapes do not fit.
     VanishingPivotError
         If parameters leave a pivot that is not positive.
     """
+    good: Any = True
     hub_torque = _array(input.hub_torque, None, "input hub_torque")
     length = _array(params.length, STATIONS, "length")
     mass = _array(params.mass, STATIONS, "mass")
@@ -378,7 +398,7 @@ def initialise(
 
     # what is the same at every station
     hub_pivot = hub_inertia
-    _require_positive(hub_pivot, "hub_pivot", None)
+    good = _positive_pivot(good, hub_pivot, "hub_pivot", None)
 
     # predicted motion
     predicted_rate[0] = 0.0
@@ -437,7 +457,7 @@ def initialise(
             + predicted_acceleration[j + 1] * rod_inertia[j]
         )
         pivot = impedance_uu
-        _require_positive(pivot, "pivot", j)
+        good = _positive_pivot(good, pivot, "pivot", j)
         admittance = 1.0 / pivot
         answer_own[j] = admittance * (joint_torque[j] - torque)
         answer_x[j] = admittance * impedance_ux
@@ -473,16 +493,21 @@ def initialise(
     angle = predicted_angle[1:]
     rate = predicted_rate[1:]
     acceleration = predicted_acceleration[1:] + solved
+
+    numbers = (hub_angle, hub_rate, hub_acceleration)
+    arrays = (angle, rate, acceleration)
+    good = _judged(good, numbers, arrays, "the motion has outgrown the number type")
     return State(
-        hub_angle=_spread(hub_angle, batch, False),
-        hub_rate=_spread(hub_rate, batch, False),
-        hub_acceleration=_spread(hub_acceleration, batch, False),
-        angle=_spread(angle, batch, True),
-        rate=_spread(rate, batch, True),
-        acceleration=_spread(acceleration, batch, True),
+        hub_angle=_kept(_spread(hub_angle, batch, False), good, False),
+        hub_rate=_kept(_spread(hub_rate, batch, False), good, False),
+        hub_acceleration=_kept(_spread(hub_acceleration, batch, False), good, False),
+        angle=_kept(_spread(angle, batch, True), good, True),
+        rate=_kept(_spread(rate, batch, True), good, True),
+        acceleration=_kept(_spread(acceleration, batch, True), good, True),
     )
 
 
+@np.errstate(all="ignore")
 def step(model: Model, state: State, input: Input = Input()) -> State:
     """Advance the state by one step.
 
@@ -503,12 +528,13 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     Raises
     ------
     FloatingPointError
-        If an input is not finite.
+        If an input or the new state is not finite.
     ValueError
         If shapes do not fit.
     VanishingPivotError
         If the motion, parameters or step leave a pivot that is not positive.
     """
+    good: Any = True
     hub_torque = _array(input.hub_torque, None, "input hub_torque")
     step = model.step
     length = np.asarray(model.length)
@@ -633,7 +659,7 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
             torque + acceleration[j] * rod_inertia[j] - force_x * lever_sine[j] + force_y * lever_cosine[j]
         )
         pivot = impedance_uu + joint_impedance[j]
-        _require_positive(pivot, "pivot", j)
+        good = _positive_pivot(good, pivot, "pivot", j)
         admittance = 1.0 / pivot
         answer_own[j] = admittance * (joint_torque[j] - torque)
         answer_x[j] = admittance * impedance_ux
@@ -654,7 +680,7 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
 
     # the base
     hub_pivot = hub_impedance + impedance_uu
-    _require_positive(hub_pivot, "hub_pivot", None)
+    good = _positive_pivot(good, hub_pivot, "hub_pivot", None)
     unknown = (
         hub_torque - torque - hub_acceleration * hub_inertia - hub_damping * predicted_rate[0]
     ) / hub_pivot
@@ -676,16 +702,21 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     angle = predicted_angle[1:] + angle_per_acceleration * solved
     rate = predicted_rate[1:] + rate_per_acceleration * solved
     acceleration = acceleration + solved
+
+    numbers = (hub_angle, hub_rate, hub_acceleration)
+    arrays = (angle, rate, acceleration)
+    good = _judged(good, numbers, arrays, "the motion has outgrown the number type")
     return State(
-        hub_angle=_spread(hub_angle, batch, False),
-        hub_rate=_spread(hub_rate, batch, False),
-        hub_acceleration=_spread(hub_acceleration, batch, False),
-        angle=_spread(angle, batch, True),
-        rate=_spread(rate, batch, True),
-        acceleration=_spread(acceleration, batch, True),
+        hub_angle=_kept(_spread(hub_angle, batch, False), good, False),
+        hub_rate=_kept(_spread(hub_rate, batch, False), good, False),
+        hub_acceleration=_kept(_spread(hub_acceleration, batch, False), good, False),
+        angle=_kept(_spread(angle, batch, True), good, True),
+        rate=_kept(_spread(rate, batch, True), good, True),
+        acceleration=_kept(_spread(acceleration, batch, True), good, True),
     )
 
 
+@np.errstate(all="ignore")
 def output(model: Model, state: State) -> Output:
     """Read the outputs off a state.
 
@@ -807,16 +838,50 @@ def _array(value: ArrayLike, length: int | None, what: str) -> Array:
         array = array.astype(float)
     if array.dtype.kind not in "fcO":
         raise TypeError(f"{what} must be numeric, not {value!r}")
-    if array.dtype.kind != "O" and not np.isfinite(array).all():
-        raise FloatingPointError(f"{what} must be finite, not {value!r}")
-    if length is None:
-        return array
-    if array.ndim == 0:
-        return np.full(length, array)
-    if array.shape[0] != length:
+    if length is not None and array.ndim == 0:
+        array = np.full(length, array)
+    if length is not None and array.shape[0] != length:
         expected = f"shape ({length}, *batch), or be one number"
         raise ValueError(f"{what} must have {expected}; it has shape {array.shape}")
+    finite = _finite(array)
+    if array.size and not np.any(finite if length is None else finite.all(axis=0)):
+        raise FloatingPointError(f"{what} must be finite, not {value!r}")
     return array
+
+
+def _finite(value: Any) -> Array:
+    """Return which numbers are finite; of numbers that are objects nobody knows."""
+    array = np.asarray(value)
+    return np.ones(array.shape, dtype=bool) if array.dtype.kind == "O" else np.isfinite(array)
+
+
+def _positive(step: Array) -> Any:
+    """Return for which arms the time step is positive."""
+    good = np.asarray(step > 0.0)
+    if step.size and not good.any():
+        raise ValueError(f"step must be positive, not {step}")
+    return good
+
+
+def _judged(good: Any, numbers: tuple[Any, ...], arrays: tuple[Any, ...], what: str) -> Any:
+    """Return which arms are good so far and have only numbers that are finite; leave if there are none."""
+    for number in numbers:
+        good = good & _finite(number)
+    for array in arrays:
+        good = good & _finite(array).all(axis=0)
+    if np.size(good) and not np.any(good):
+        raise FloatingPointError(what)
+    return good
+
+
+def _kept(value: Any, good: Any, stations: bool) -> Array:
+    """Return a result with NaN for the arms that are not good."""
+    array = np.asarray(value)
+    if np.all(good):
+        return array
+    if stations:
+        array = _align(array, np.shape(good))
+    return np.where(good, array, array.dtype.type(np.nan))
 
 
 def _common(numbers: tuple[Any, ...], arrays: tuple[Array, ...]) -> tuple[tuple[int, ...], np.dtype[Any]]:
@@ -847,13 +912,15 @@ def _spread(value: Any, batch: tuple[int, ...], stations: bool) -> Array:
     return np.broadcast_to(array, batch)
 
 
-def _require_positive(pivot: Any, name: str, station: int | None) -> None:
-    """Leave where a pivot is not positive and finite."""
-    if not np.all((pivot > 0.0) & (pivot < np.inf)):
+def _positive_pivot(good: Any, pivot: Any, name: str, station: int | None) -> Any:
+    """Return which arms are good so far and have a positive pivot; leave if there are none."""
+    good = good & np.asarray((pivot > 0.0) & (pivot < np.inf))
+    if np.size(good) and not np.any(good):
         where = "" if station is None else f" of station {station + 1}"
         raise VanishingPivotError(
             f"{name}{where} must be positive and finite, not {pivot}; check parameters and step"
         )
+    return good
 
 
 def _series(values: list[Array]) -> Array:

@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
-# sha256 of the rest of this file: 071a2bb08f4020e7fe6d346844fe82c1def5b64861593a02754f7950487acb3f
+# sha256 of the rest of this file: a287dcf57b609db3b88ca3edc18d1286cfd2c1e65097402d0d1b798c3d3ac599
 #
 # model: planar arm, large rotations, tip mass
 # stations: 50
@@ -11,9 +11,9 @@
 # linearisation: newton
 # sweep: riccati
 # unknown: acceleration
-# operations of a step: 29544, 590.9 per station (13642 additions, 15152 multiplications, 250 divisions, 500
+# operations of a step: 29465, 589.3 per station (13600 additions, 15115 multiplications, 250 divisions, 500
 #     sines and cosines)
-# operations of prepare: 331, 6.62 per station (55 additions, 275 multiplications, 1 divisions)
+# operations of prepare: 329, 6.58 per station (55 additions, 274 multiplications)
 """arm50: Stiff arm of fifty links on a servo. Functions for optimisation and control.
 
 Columns: ``x`` the state (STATE_NAMES), ``u`` the inputs (INPUT_NAMES), ``p`` the step and the physical
@@ -40,12 +40,11 @@ STATIONS = 50
 STATE_NAMES: tuple[str, ...] = (
     "hub_angle",
     "hub_rate",
-    "hub_acceleration",
     *_numbered("angle", 50),
     *_numbered("rate", 50),
     *_numbered("acceleration", 50),
 )
-INPUT_NAMES: tuple[str, ...] = ("base_angle",)
+INPUT_NAMES: tuple[str, ...] = ("base_angle", "base_angle_rate", "base_angle_acceleration")
 OUTPUT_NAMES: tuple[str, ...] = ("tip_x", "tip_y", "tip_angle", "reaction_x", "reaction_y", "drive")
 PARAMETER_NAMES: tuple[str, ...] = (
     "step",
@@ -185,7 +184,7 @@ def step_function(held: bool = True) -> ca.Function:
         ``u`` is one column, held over the step. Otherwise it has one column for each stage, read at its
         instant in STAGE_INSTANTS.
     """
-    return _function("step", _step, STAGE_INSTANTS[-1], held)
+    return _function("arm50_step", _step, STAGE_INSTANTS[-1], held)
 
 
 def start_functions(held: bool = True) -> tuple[ca.Function, ...]:
@@ -208,7 +207,7 @@ def initial_function() -> ca.Function:
     u, p = _symbols(INPUT_NAMES), _symbols(PARAMETER_NAMES)
     with _as_written():
         x = _initialise(given, [u], p)
-    return ca.Function("initial", [*given.values(), u, p], [x], [*given, "u", "p"], ["x"])
+    return ca.Function("arm50_initial", [*given.values(), u, p], [x], [*given, "u", "p"], ["x"])
 
 
 def _function(
@@ -273,7 +272,6 @@ def _prepare(p: ca.SX) -> dict[str, Any]:
     rate_per_acceleration = 0.25 * step
     half_step = 0.5 * step
     angle_per_acceleration = 0.0625 * (step * step)
-    unknown_per_base_angle = 16.0 / (step * step)
     three_quarters_step = 0.75 * step
     predicted_rate_per_stage1_acceleration = (17.0 / 50.0) * step
     predicted_rate_per_stage2_acceleration = (21.0 / 100.0) * step
@@ -299,7 +297,6 @@ def _prepare(p: ca.SX) -> dict[str, Any]:
         "rate_per_acceleration": rate_per_acceleration,
         "half_step": half_step,
         "angle_per_acceleration": angle_per_acceleration,
-        "unknown_per_base_angle": unknown_per_base_angle,
         "three_quarters_step": three_quarters_step,
         "predicted_rate_per_stage1_acceleration": predicted_rate_per_stage1_acceleration,
         "predicted_rate_per_stage2_acceleration": predicted_rate_per_stage2_acceleration,
@@ -334,6 +331,8 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
     initial_angle = ca.vertsplit(given["initial_angle"])
     initial_rate = ca.vertsplit(given["initial_rate"])
     base_angle = [u[0] for u in stages]
+    base_angle_rate = [u[1] for u in stages]
+    base_angle_acceleration = [u[2] for u in stages]
     acceleration: list[Any] = [0.0] * STATIONS
     acceleration_x: list[Any] = [0.0] * (STATIONS + 1)
     acceleration_y: list[Any] = [0.0] * (STATIONS + 1)
@@ -357,9 +356,9 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
     rod_inertia = inertia - center * (length * length) * mass * (1.0 - center)
 
     # predicted motion
-    predicted_rate[0] = 0.0
+    predicted_rate[0] = base_angle_rate[0]
     predicted_angle[0] = base_angle[0]
-    predicted_acceleration[0] = 0.0
+    predicted_acceleration[0] = base_angle_acceleration[0]
     for j in range(STATIONS):
         predicted_rate[j + 1] = initial_rate[j]
         predicted_angle[j + 1] = initial_angle[j]
@@ -431,7 +430,6 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
 
     # the base
     unknown: Any = 0.0
-    hub_unknown = unknown
 
     # sweep outward: the unknown of each station
     change_x: Any = 0.0
@@ -443,14 +441,13 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
         solved[j] = unknown
 
     # motion at the end of the step
-    hub_angle = predicted_angle[0]
-    hub_rate = predicted_rate[0]
-    hub_acceleration = hub_unknown + predicted_acceleration[0]
+    hub_angle = base_angle[1]
+    hub_rate = base_angle_rate[1]
     for j in range(STATIONS):
         angle[j] = predicted_angle[j + 1]
         rate[j] = predicted_rate[j + 1]
         acceleration[j] = predicted_acceleration[j + 1] + solved[j]
-    return _column(hub_angle, hub_rate, hub_acceleration, *angle, *rate, *acceleration)
+    return _column(hub_angle, hub_rate, *angle, *rate, *acceleration)
 
 
 def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
@@ -463,7 +460,6 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     rate_per_acceleration = model["rate_per_acceleration"]
     half_step = model["half_step"]
     angle_per_acceleration = model["angle_per_acceleration"]
-    unknown_per_base_angle = model["unknown_per_base_angle"]
     three_quarters_step = model["three_quarters_step"]
     predicted_rate_per_stage1_acceleration = model["predicted_rate_per_stage1_acceleration"]
     predicted_rate_per_stage2_acceleration = model["predicted_rate_per_stage2_acceleration"]
@@ -482,11 +478,11 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     joint_impedance = model["joint_impedance"]
     hub_angle = x[0]
     hub_rate = x[1]
-    hub_acceleration = x[2]
-    angle = ca.vertsplit(x[3:53])
-    rate = ca.vertsplit(x[53:103])
-    acceleration = ca.vertsplit(x[103:153])
+    angle = ca.vertsplit(x[2:52])
+    rate = ca.vertsplit(x[52:102])
+    acceleration = ca.vertsplit(x[102:152])
     base_angle = [u[0] for u in stages]
+    base_angle_rate = [u[1] for u in stages]
     acceleration_x: list[Any] = [0.0] * (STATIONS + 1)
     acceleration_y: list[Any] = [0.0] * (STATIONS + 1)
     answer_own: list[Any] = [0.0] * STATIONS
@@ -513,8 +509,8 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     transmission: list[Any] = [0.0] * STATIONS
 
     # Stage 1 of 5: predicted motion
-    predicted_rate[0] = hub_rate + hub_acceleration * rate_per_acceleration
-    predicted_angle[0] = hub_angle + predicted_rate[0] * rate_per_acceleration
+    predicted_rate[0] = base_angle_rate[0]
+    predicted_angle[0] = base_angle[0]
     for j in range(STATIONS):
         predicted_rate[j + 1] = rate[j] + acceleration[j] * rate_per_acceleration
         predicted_angle[j + 1] = angle[j] + predicted_rate[j + 1] * rate_per_acceleration
@@ -595,8 +591,7 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
     # Stage 1 of 5: the base
-    unknown = unknown_per_base_angle * (base_angle[0] - predicted_angle[0])
-    hub_unknown = unknown
+    unknown: Any = 0.0
 
     # Stage 1 of 5: sweep outward: the unknown of each station
     change_x: Any = 0.0
@@ -608,15 +603,13 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         solved[j] = unknown
 
     # Stage 1 of 5: motion at this stage
-    hub_stage1_acceleration = hub_acceleration + hub_unknown
-    hub_stage1_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration
     for j in range(STATIONS):
         stage1_acceleration[j] = acceleration[j] + solved[j]
         stage1_rate[j] = predicted_rate[j + 1] + rate_per_acceleration * solved[j]
 
     # Stage 2 of 5: predicted motion
-    predicted_rate[0] = hub_rate + hub_stage1_acceleration * three_quarters_step
-    predicted_angle[0] = hub_angle + half_step * hub_stage1_rate + predicted_rate[0] * rate_per_acceleration
+    predicted_rate[0] = base_angle_rate[1]
+    predicted_angle[0] = base_angle[1]
     for j in range(STATIONS):
         predicted_rate[j + 1] = rate[j] + stage1_acceleration[j] * three_quarters_step
         predicted_angle[j + 1] = (
@@ -704,8 +697,7 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
     # Stage 2 of 5: the base
-    unknown = unknown_per_base_angle * (base_angle[1] - predicted_angle[0])
-    hub_unknown = unknown
+    unknown = 0.0
 
     # Stage 2 of 5: sweep outward: the unknown of each station
     change_x = 0.0
@@ -717,24 +709,13 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         solved[j] = unknown
 
     # Stage 2 of 5: motion at this stage
-    hub_stage2_acceleration = hub_stage1_acceleration + hub_unknown
-    hub_stage2_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration
     for j in range(STATIONS):
         stage2_acceleration[j] = solved[j] + stage1_acceleration[j]
         stage2_rate[j] = predicted_rate[j + 1] + rate_per_acceleration * solved[j]
 
     # Stage 3 of 5: predicted motion
-    predicted_rate[0] = (
-        hub_rate
-        + hub_stage1_acceleration * predicted_rate_per_stage1_acceleration
-        + hub_stage2_acceleration * predicted_rate_per_stage2_acceleration
-    )
-    predicted_angle[0] = (
-        hub_angle
-        + hub_stage1_rate * predicted_rate_per_stage1_acceleration
-        - hub_stage2_rate * predicted_angle_per_stage2_rate
-        + predicted_rate[0] * rate_per_acceleration
-    )
+    predicted_rate[0] = base_angle_rate[2]
+    predicted_angle[0] = base_angle[2]
     for j in range(STATIONS):
         predicted_rate[j + 1] = (
             rate[j]
@@ -829,8 +810,7 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
     # Stage 3 of 5: the base
-    unknown = unknown_per_base_angle * (base_angle[2] - predicted_angle[0])
-    hub_unknown = unknown
+    unknown = 0.0
 
     # Stage 3 of 5: sweep outward: the unknown of each station
     change_x = 0.0
@@ -842,26 +822,13 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         solved[j] = unknown
 
     # Stage 3 of 5: motion at this stage
-    hub_stage3_acceleration = hub_stage2_acceleration + hub_unknown
-    hub_stage3_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration
     for j in range(STATIONS):
         stage3_acceleration[j] = solved[j] + stage2_acceleration[j]
         stage3_rate[j] = predicted_rate[j + 1] + rate_per_acceleration * solved[j]
 
     # Stage 4 of 5: predicted motion
-    predicted_rate[0] = (
-        hub_rate
-        + hub_stage1_acceleration * predicted_rate_per_stage1_acceleration_2
-        - hub_stage2_acceleration * predicted_rate_per_stage2_acceleration_2
-        + hub_stage3_acceleration * predicted_rate_per_stage3_acceleration
-    )
-    predicted_angle[0] = (
-        hub_angle
-        + hub_stage1_rate * predicted_rate_per_stage1_acceleration_2
-        - hub_stage2_rate * predicted_rate_per_stage2_acceleration_2
-        + hub_stage3_rate * predicted_angle_per_stage3_rate
-        + predicted_rate[0] * rate_per_acceleration
-    )
+    predicted_rate[0] = base_angle_rate[3]
+    predicted_angle[0] = base_angle[3]
     for j in range(STATIONS):
         predicted_rate[j + 1] = (
             rate[j]
@@ -958,8 +925,7 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
     # Stage 4 of 5: the base
-    unknown = unknown_per_base_angle * (base_angle[3] - predicted_angle[0])
-    hub_unknown = unknown
+    unknown = 0.0
 
     # Stage 4 of 5: sweep outward: the unknown of each station
     change_x = 0.0
@@ -971,28 +937,13 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         solved[j] = unknown
 
     # Stage 4 of 5: motion at this stage
-    hub_stage4_acceleration = hub_stage3_acceleration + hub_unknown
-    hub_stage4_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration
     for j in range(STATIONS):
         stage4_acceleration[j] = solved[j] + stage3_acceleration[j]
         stage4_rate[j] = predicted_rate[j + 1] + rate_per_acceleration * solved[j]
 
     # Stage 5 of 5: predicted motion
-    predicted_rate[0] = (
-        hub_rate
-        + hub_stage1_acceleration * predicted_rate_per_stage1_acceleration_3
-        - hub_stage2_acceleration * predicted_rate_per_stage2_acceleration_3
-        + hub_stage3_acceleration * predicted_rate_per_stage3_acceleration_2
-        - hub_stage4_acceleration * predicted_rate_per_stage4_acceleration
-    )
-    predicted_angle[0] = (
-        hub_angle
-        + hub_stage1_rate * predicted_rate_per_stage1_acceleration_3
-        - hub_stage2_rate * predicted_rate_per_stage2_acceleration_3
-        + hub_stage3_rate * predicted_rate_per_stage3_acceleration_2
-        - hub_stage4_rate * predicted_angle_per_stage4_rate
-        + predicted_rate[0] * rate_per_acceleration
-    )
+    predicted_rate[0] = base_angle_rate[4]
+    predicted_angle[0] = base_angle[4]
     for j in range(STATIONS):
         predicted_rate[j + 1] = (
             rate[j]
@@ -1091,8 +1042,7 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
     # Stage 5 of 5: the base
-    unknown = unknown_per_base_angle * (base_angle[4] - predicted_angle[0])
-    hub_unknown = unknown
+    unknown = 0.0
 
     # Stage 5 of 5: sweep outward: the unknown of each station
     change_x = 0.0
@@ -1104,14 +1054,13 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         solved[j] = unknown
 
     # Stage 5 of 5: motion at the end of the step
-    hub_angle = predicted_angle[0] + angle_per_acceleration * hub_unknown
-    hub_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration
-    hub_acceleration = hub_stage4_acceleration + hub_unknown
+    hub_angle = base_angle[4]
+    hub_rate = base_angle_rate[4]
     for j in range(STATIONS):
         angle[j] = predicted_angle[j + 1] + angle_per_acceleration * solved[j]
         rate[j] = predicted_rate[j + 1] + rate_per_acceleration * solved[j]
         acceleration[j] = solved[j] + stage4_acceleration[j]
-    return _column(hub_angle, hub_rate, hub_acceleration, *angle, *rate, *acceleration)
+    return _column(hub_angle, hub_rate, *angle, *rate, *acceleration)
 
 
 def _output(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
@@ -1124,9 +1073,9 @@ def _output(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     reaction_x_per_acceleration_x_2 = model["reaction_x_per_acceleration_x_2"]
     hub_angle = x[0]
     hub_rate = x[1]
-    angle = ca.vertsplit(x[3:53])
-    rate = ca.vertsplit(x[53:103])
-    acceleration = ca.vertsplit(x[103:153])
+    angle = ca.vertsplit(x[2:52])
+    rate = ca.vertsplit(x[52:102])
+    acceleration = ca.vertsplit(x[102:152])
     acceleration_x: list[Any] = [0.0] * (STATIONS + 1)
     acceleration_y: list[Any] = [0.0] * (STATIONS + 1)
 

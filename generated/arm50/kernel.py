@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
-# sha256 of the rest of this file: 8d4ad59ca5afa92b0b97e91bc444686e52fd1d2036ceb690e9691e63e921ab5d
+# sha256 of the rest of this file: ae9594ce7c1caf0612e5678f4ae58b50d2d850a1e9f1ced66b85a2385716c5fe
 #
 # model: planar arm, large rotations, tip mass
 # stations: 50
@@ -11,9 +11,9 @@
 # linearisation: newton
 # sweep: riccati
 # unknown: acceleration
-# operations of a step: 29544, 590.9 per station (13642 additions, 15152 multiplications, 250 divisions, 500
+# operations of a step: 29465, 589.3 per station (13600 additions, 15115 multiplications, 250 divisions, 500
 #     sines and cosines)
-# operations of prepare: 331, 6.62 per station (55 additions, 275 multiplications, 1 divisions)
+# operations of prepare: 329, 6.58 per station (55 additions, 274 multiplications)
 """arm50: Stiff arm of fifty links on a servo.
 
 A state goes in, a new one comes out: ``model = prepare(params, step)``, ``state = initialise(params,
@@ -22,7 +22,8 @@ inputs)`` for all of them. Arrays are never written in place.
 
 All arrays may have further axes behind, those of a batch: many arms at once, each with its own parameters,
 inputs and state. What is one number for an arm then has the batch's shape; what differs between stations has
-the stations first, base to tip.
+the stations first, base to tip. An arm with numbers that are not finite, or a step or pivot that is not
+positive, is NaN; errors are left for where no other arm is left.
 """
 
 from __future__ import annotations
@@ -40,7 +41,7 @@ STATIONS = 50
 """Number of links."""
 STEP = 0.002
 """Time step of the scene (s)."""
-INPUT_NAMES: tuple[str, ...] = ("base_angle",)
+INPUT_NAMES: tuple[str, ...] = ("base_angle", "base_angle_rate", "base_angle_acceleration")
 OUTPUT_NAMES: tuple[str, ...] = ("tip_x", "tip_y", "tip_angle", "reaction_x", "reaction_y", "drive")
 STAGE_INSTANTS = ((0.25, 0.75, 0.55, 0.5, 1.0),)
 """When inputs are read, in steps from the start of the step."""
@@ -212,8 +213,6 @@ class Model:
         Step/2 (s).
     angle_per_acceleration : array, shape (*batch)
         Angle per unit of acceleration: step**2/16 (s^2).
-    unknown_per_base_angle : array, shape (*batch)
-        16/step**2 (1/rad).
     three_quarters_step : array, shape (*batch)
         3*step/4 (s).
     predicted_rate_per_stage1_acceleration : array, shape (*batch)
@@ -261,7 +260,6 @@ class Model:
     rate_per_acceleration: Array
     half_step: Array
     angle_per_acceleration: Array
-    unknown_per_base_angle: Array
     three_quarters_step: Array
     predicted_rate_per_stage1_acceleration: Array
     predicted_rate_per_stage2_acceleration: Array
@@ -292,8 +290,6 @@ class State:
         Hub angle (rad).
     hub_rate : array, shape (*batch)
         Hub rate (rad/s).
-    hub_acceleration : array, shape (*batch)
-        Hub acceleration (rad/s^2).
     angle : array, shape (50, *batch)
         Angle of each link, base to tip (rad).
     rate : array, shape (50, *batch)
@@ -304,7 +300,6 @@ class State:
 
     hub_angle: Array
     hub_rate: Array
-    hub_acceleration: Array
     angle: Array
     rate: Array
     acceleration: Array
@@ -318,9 +313,15 @@ class Input:
     ----------
     base_angle : array_like, shape (*batch)
         Prescribed base angle, at each stage of the step (rad).
+    base_angle_rate : array_like, shape (*batch)
+        Prescribed base rate, at each stage of the step (rad/s).
+    base_angle_acceleration : array_like, shape (*batch)
+        Prescribed base acceleration, at each stage of the step (rad/s^2).
     """
 
     base_angle: ArrayLike = 0.0
+    base_angle_rate: ArrayLike = 0.0
+    base_angle_acceleration: ArrayLike = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -370,6 +371,7 @@ class Result:
     state: State
 
 
+@np.errstate(all="ignore")
 def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     """Compute what depends on parameters and step alone.
 
@@ -383,9 +385,9 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     Raises
     ------
     FloatingPointError
-        If a parameter or the step is not finite.
+        If parameters, step or what follows from them are not finite.
     ValueError
-        If shapes do not fit.
+        If the step is not positive, or shapes do not fit.
     VanishingPivotError
         If parameters or step leave a pivot that is not positive.
     """
@@ -398,6 +400,7 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     damping = _array(params.damping, STATIONS, "damping")
     tip_mass = _array(params.tip_mass, None, "tip_mass")
     tip_inertia = _array(params.tip_inertia, None, "tip_inertia")
+    good = _positive(step)
     numbers = (step, length, mass, inertia, center, tip_mass, tip_inertia)
     arrays = (stiffness, damping)
     batch, _ = _common(numbers, arrays)
@@ -415,7 +418,6 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     rate_per_acceleration = 0.25 * step
     half_step = 0.5 * step
     angle_per_acceleration = 0.0625 * (step * step)
-    unknown_per_base_angle = 16.0 / (step * step)
     three_quarters_step = 0.75 * step
     predicted_rate_per_stage1_acceleration = (17.0 / 50.0) * step
     predicted_rate_per_stage2_acceleration = (21.0 / 100.0) * step
@@ -431,38 +433,70 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     predicted_angle_per_stage4_rate = (85.0 / 12.0) * step
     reaction_x_per_acceleration_x = center * mass
     reaction_x_per_acceleration_x_2 = mass * (center - 1.0)
+
+    numbers = (
+        length,
+        mass,
+        tip_mass,
+        tip_inertia,
+        rate_per_acceleration,
+        half_step,
+        angle_per_acceleration,
+        three_quarters_step,
+        predicted_rate_per_stage1_acceleration,
+        predicted_rate_per_stage2_acceleration,
+        predicted_angle_per_stage2_rate,
+        predicted_rate_per_stage1_acceleration_2,
+        predicted_rate_per_stage2_acceleration_2,
+        predicted_rate_per_stage3_acceleration,
+        predicted_angle_per_stage3_rate,
+        predicted_rate_per_stage1_acceleration_3,
+        predicted_rate_per_stage2_acceleration_3,
+        predicted_rate_per_stage3_acceleration_2,
+        predicted_rate_per_stage4_acceleration,
+        predicted_angle_per_stage4_rate,
+        reaction_x_per_acceleration_x,
+        reaction_x_per_acceleration_x_2,
+        end_mass,
+        rod_inertia,
+        step,
+        inertia,
+        center,
+    )
+    arrays = (stiffness, damping, joint_impedance)
+    good = _judged(good, numbers, arrays, "parameters or step are too large or too small for the number type")
     return Model(
-        length=length,
-        mass=mass,
-        stiffness=stiffness,
-        damping=damping,
-        tip_mass=tip_mass,
-        tip_inertia=tip_inertia,
-        rate_per_acceleration=rate_per_acceleration,
-        half_step=half_step,
-        angle_per_acceleration=angle_per_acceleration,
-        unknown_per_base_angle=unknown_per_base_angle,
-        three_quarters_step=three_quarters_step,
-        predicted_rate_per_stage1_acceleration=predicted_rate_per_stage1_acceleration,
-        predicted_rate_per_stage2_acceleration=predicted_rate_per_stage2_acceleration,
-        predicted_angle_per_stage2_rate=predicted_angle_per_stage2_rate,
-        predicted_rate_per_stage1_acceleration_2=predicted_rate_per_stage1_acceleration_2,
-        predicted_rate_per_stage2_acceleration_2=predicted_rate_per_stage2_acceleration_2,
-        predicted_rate_per_stage3_acceleration=predicted_rate_per_stage3_acceleration,
-        predicted_angle_per_stage3_rate=predicted_angle_per_stage3_rate,
-        predicted_rate_per_stage1_acceleration_3=predicted_rate_per_stage1_acceleration_3,
-        predicted_rate_per_stage2_acceleration_3=predicted_rate_per_stage2_acceleration_3,
-        predicted_rate_per_stage3_acceleration_2=predicted_rate_per_stage3_acceleration_2,
-        predicted_rate_per_stage4_acceleration=predicted_rate_per_stage4_acceleration,
-        predicted_angle_per_stage4_rate=predicted_angle_per_stage4_rate,
-        reaction_x_per_acceleration_x=reaction_x_per_acceleration_x,
-        reaction_x_per_acceleration_x_2=reaction_x_per_acceleration_x_2,
-        end_mass=end_mass,
-        rod_inertia=rod_inertia,
-        joint_impedance=joint_impedance,
+        length=_kept(length, good, False),
+        mass=_kept(mass, good, False),
+        stiffness=_kept(stiffness, good, True),
+        damping=_kept(damping, good, True),
+        tip_mass=_kept(tip_mass, good, False),
+        tip_inertia=_kept(tip_inertia, good, False),
+        rate_per_acceleration=_kept(rate_per_acceleration, good, False),
+        half_step=_kept(half_step, good, False),
+        angle_per_acceleration=_kept(angle_per_acceleration, good, False),
+        three_quarters_step=_kept(three_quarters_step, good, False),
+        predicted_rate_per_stage1_acceleration=_kept(predicted_rate_per_stage1_acceleration, good, False),
+        predicted_rate_per_stage2_acceleration=_kept(predicted_rate_per_stage2_acceleration, good, False),
+        predicted_angle_per_stage2_rate=_kept(predicted_angle_per_stage2_rate, good, False),
+        predicted_rate_per_stage1_acceleration_2=_kept(predicted_rate_per_stage1_acceleration_2, good, False),
+        predicted_rate_per_stage2_acceleration_2=_kept(predicted_rate_per_stage2_acceleration_2, good, False),
+        predicted_rate_per_stage3_acceleration=_kept(predicted_rate_per_stage3_acceleration, good, False),
+        predicted_angle_per_stage3_rate=_kept(predicted_angle_per_stage3_rate, good, False),
+        predicted_rate_per_stage1_acceleration_3=_kept(predicted_rate_per_stage1_acceleration_3, good, False),
+        predicted_rate_per_stage2_acceleration_3=_kept(predicted_rate_per_stage2_acceleration_3, good, False),
+        predicted_rate_per_stage3_acceleration_2=_kept(predicted_rate_per_stage3_acceleration_2, good, False),
+        predicted_rate_per_stage4_acceleration=_kept(predicted_rate_per_stage4_acceleration, good, False),
+        predicted_angle_per_stage4_rate=_kept(predicted_angle_per_stage4_rate, good, False),
+        reaction_x_per_acceleration_x=_kept(reaction_x_per_acceleration_x, good, False),
+        reaction_x_per_acceleration_x_2=_kept(reaction_x_per_acceleration_x_2, good, False),
+        end_mass=_kept(end_mass, good, False),
+        rod_inertia=_kept(rod_inertia, good, False),
+        joint_impedance=_kept(joint_impedance, good, True),
     )
 
 
+@np.errstate(all="ignore")
 def initialise(
     params: Params = Params(),
     input: Input = Input(),
@@ -486,14 +520,17 @@ def initialise(
     Raises
     ------
     FloatingPointError
-        If an argument is not finite.
+        If an argument or the state is not finite.
     ValueError
         If shapes do not fit.
     VanishingPivotError
         If parameters leave a pivot that is not positive.
     """
     stages = (input,)
+    good: Any = True
     base_angle = _at_stages(stages, "base_angle")
+    base_angle_rate = _at_stages(stages, "base_angle_rate")
+    base_angle_acceleration = _at_stages(stages, "base_angle_acceleration")
     length = _array(params.length, None, "length")
     mass = _array(params.mass, None, "mass")
     inertia = _array(params.inertia, None, "inertia")
@@ -504,7 +541,17 @@ def initialise(
     tip_inertia = _array(params.tip_inertia, None, "tip_inertia")
     initial_angle = _array(initial_angle, STATIONS, "initial_angle")
     initial_rate = _array(initial_rate, STATIONS, "initial_rate")
-    numbers = (*base_angle, length, mass, inertia, center, tip_mass, tip_inertia)
+    numbers = (
+        *base_angle,
+        *base_angle_rate,
+        *base_angle_acceleration,
+        length,
+        mass,
+        inertia,
+        center,
+        tip_mass,
+        tip_inertia,
+    )
     arrays = (stiffness, damping, initial_angle, initial_rate)
     batch, dtype = _common(numbers, arrays)
     stiffness = _align(stiffness, batch)
@@ -526,9 +573,9 @@ def initialise(
     rod_inertia = inertia - center * (length * length) * mass * (1.0 - center)
 
     # predicted motion
-    predicted_rate[0] = 0.0
+    predicted_rate[0] = base_angle_rate[0]
     predicted_angle[0] = base_angle[0]
-    predicted_acceleration[0] = 0.0
+    predicted_acceleration[0] = base_angle_acceleration[0]
     predicted_rate[1:] = initial_rate
     predicted_angle[1:] = initial_angle
     predicted_acceleration[1:] = 0.0
@@ -582,7 +629,7 @@ def initialise(
             + predicted_acceleration[j + 1] * rod_inertia
         )
         pivot = impedance_uu
-        _require_positive(pivot, "pivot", j)
+        good = _positive_pivot(good, pivot, "pivot", j)
         admittance = 1.0 / pivot
         answer_own[j] = admittance * (joint_torque[j] - torque)
         answer_x[j] = admittance * impedance_ux
@@ -598,7 +645,6 @@ def initialise(
 
     # the base
     unknown: Any = 0.0
-    hub_unknown = unknown
 
     # sweep outward: the unknown of each station
     change_x: Any = 0.0
@@ -610,22 +656,25 @@ def initialise(
         solved[j] = unknown
 
     # motion at the end of the step
-    hub_angle = predicted_angle[0]
-    hub_rate = predicted_rate[0]
-    hub_acceleration = hub_unknown + predicted_acceleration[0]
+    hub_angle = base_angle[1]
+    hub_rate = base_angle_rate[1]
     angle = predicted_angle[1:]
     rate = predicted_rate[1:]
     acceleration = predicted_acceleration[1:] + solved
+
+    numbers = (hub_angle, hub_rate)
+    arrays = (angle, rate, acceleration)
+    good = _judged(good, numbers, arrays, "the motion has outgrown the number type")
     return State(
-        hub_angle=_spread(hub_angle, batch, False),
-        hub_rate=_spread(hub_rate, batch, False),
-        hub_acceleration=_spread(hub_acceleration, batch, False),
-        angle=_spread(angle, batch, True),
-        rate=_spread(rate, batch, True),
-        acceleration=_spread(acceleration, batch, True),
+        hub_angle=_kept(_spread(hub_angle, batch, False), good, False),
+        hub_rate=_kept(_spread(hub_rate, batch, False), good, False),
+        angle=_kept(_spread(angle, batch, True), good, True),
+        rate=_kept(_spread(rate, batch, True), good, True),
+        acceleration=_kept(_spread(acceleration, batch, True), good, True),
     )
 
 
+@np.errstate(all="ignore")
 def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -> State:
     """Advance the state by one step.
 
@@ -646,14 +695,16 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
     Raises
     ------
     FloatingPointError
-        If an input is not finite.
+        If an input or the new state is not finite.
     ValueError
         If shapes do not fit.
     VanishingPivotError
         If the motion, parameters or step leave a pivot that is not positive.
     """
+    good: Any = True
     stages = _stages(input, 5)
     base_angle = _at_stages(stages, "base_angle")
+    base_angle_rate = _at_stages(stages, "base_angle_rate")
     length = model.length
     mass = model.mass
     stiffness = np.asarray(model.stiffness)
@@ -662,7 +713,6 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
     rate_per_acceleration = model.rate_per_acceleration
     half_step = model.half_step
     angle_per_acceleration = model.angle_per_acceleration
-    unknown_per_base_angle = model.unknown_per_base_angle
     three_quarters_step = model.three_quarters_step
     predicted_rate_per_stage1_acceleration = model.predicted_rate_per_stage1_acceleration
     predicted_rate_per_stage2_acceleration = model.predicted_rate_per_stage2_acceleration
@@ -681,19 +731,18 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
     joint_impedance = np.asarray(model.joint_impedance)
     hub_angle = state.hub_angle
     hub_rate = state.hub_rate
-    hub_acceleration = state.hub_acceleration
     angle = np.asarray(state.angle)
     rate = np.asarray(state.rate)
     acceleration = np.asarray(state.acceleration)
     numbers = (
         *base_angle,
+        *base_angle_rate,
         length,
         mass,
         tip_inertia,
         rate_per_acceleration,
         half_step,
         angle_per_acceleration,
-        unknown_per_base_angle,
         three_quarters_step,
         predicted_rate_per_stage1_acceleration,
         predicted_rate_per_stage2_acceleration,
@@ -711,7 +760,6 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
         rod_inertia,
         hub_angle,
         hub_rate,
-        hub_acceleration,
     )
     arrays = (stiffness, damping, joint_impedance, angle, rate, acceleration)
     batch, dtype = _common(numbers, arrays)
@@ -720,7 +768,6 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
     joint_impedance = _align(joint_impedance, batch)
     hub_angle = _spread(hub_angle, batch, False)
     hub_rate = _spread(hub_rate, batch, False)
-    hub_acceleration = _spread(hub_acceleration, batch, False)
     angle = _spread(angle, batch, True)
     rate = _spread(rate, batch, True)
     acceleration = _spread(acceleration, batch, True)
@@ -735,8 +782,8 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
     transmission = np.zeros((STATIONS, *batch), dtype)
 
     # Stage 1 of 5: predicted motion
-    predicted_rate[0] = hub_rate + hub_acceleration * rate_per_acceleration
-    predicted_angle[0] = hub_angle + predicted_rate[0] * rate_per_acceleration
+    predicted_rate[0] = base_angle_rate[0]
+    predicted_angle[0] = base_angle[0]
     predicted_rate[1:] = rate + acceleration * rate_per_acceleration
     predicted_angle[1:] = angle + predicted_rate[1:] * rate_per_acceleration
 
@@ -795,7 +842,7 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
         )
         torque = torque + acceleration[j] * rod_inertia - force_x * lever_sine[j] + force_y * lever_cosine[j]
         pivot = impedance_uu + joint_impedance[j]
-        _require_positive(pivot, "pivot", j)
+        good = _positive_pivot(good, pivot, "pivot", j)
         admittance = 1.0 / pivot
         answer_own[j] = admittance * (joint_torque[j] - torque)
         answer_x[j] = admittance * impedance_ux
@@ -815,8 +862,7 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
     # Stage 1 of 5: the base
-    unknown = unknown_per_base_angle * (base_angle[0] - predicted_angle[0])
-    hub_unknown = unknown
+    unknown: Any = 0.0
 
     # Stage 1 of 5: sweep outward: the unknown of each station
     change_x: Any = 0.0
@@ -828,14 +874,12 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
         solved[j] = unknown
 
     # Stage 1 of 5: motion at this stage
-    hub_stage1_acceleration = hub_acceleration + hub_unknown
-    hub_stage1_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration
     stage1_acceleration = acceleration + solved
     stage1_rate = predicted_rate[1:] + rate_per_acceleration * solved
 
     # Stage 2 of 5: predicted motion
-    predicted_rate[0] = hub_rate + hub_stage1_acceleration * three_quarters_step
-    predicted_angle[0] = hub_angle + half_step * hub_stage1_rate + predicted_rate[0] * rate_per_acceleration
+    predicted_rate[0] = base_angle_rate[1]
+    predicted_angle[0] = base_angle[1]
     predicted_rate[1:] = rate + stage1_acceleration * three_quarters_step
     predicted_angle[1:] = angle + half_step * stage1_rate + predicted_rate[1:] * rate_per_acceleration
 
@@ -899,7 +943,7 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
             + rod_inertia * stage1_acceleration[j]
         )
         pivot = impedance_uu + joint_impedance[j]
-        _require_positive(pivot, "pivot", j)
+        good = _positive_pivot(good, pivot, "pivot", j)
         admittance = 1.0 / pivot
         answer_own[j] = admittance * (joint_torque[j] - torque)
         answer_x[j] = admittance * impedance_ux
@@ -919,8 +963,7 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
     # Stage 2 of 5: the base
-    unknown = unknown_per_base_angle * (base_angle[1] - predicted_angle[0])
-    hub_unknown = unknown
+    unknown = 0.0
 
     # Stage 2 of 5: sweep outward: the unknown of each station
     change_x = 0.0
@@ -932,23 +975,12 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
         solved[j] = unknown
 
     # Stage 2 of 5: motion at this stage
-    hub_stage2_acceleration = hub_stage1_acceleration + hub_unknown
-    hub_stage2_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration
     stage2_acceleration = solved + stage1_acceleration
     stage2_rate = predicted_rate[1:] + rate_per_acceleration * solved
 
     # Stage 3 of 5: predicted motion
-    predicted_rate[0] = (
-        hub_rate
-        + hub_stage1_acceleration * predicted_rate_per_stage1_acceleration
-        + hub_stage2_acceleration * predicted_rate_per_stage2_acceleration
-    )
-    predicted_angle[0] = (
-        hub_angle
-        + hub_stage1_rate * predicted_rate_per_stage1_acceleration
-        - hub_stage2_rate * predicted_angle_per_stage2_rate
-        + predicted_rate[0] * rate_per_acceleration
-    )
+    predicted_rate[0] = base_angle_rate[2]
+    predicted_angle[0] = base_angle[2]
     predicted_rate[1:] = (
         rate
         + predicted_rate_per_stage1_acceleration * stage1_acceleration
@@ -1021,7 +1053,7 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
             + rod_inertia * stage2_acceleration[j]
         )
         pivot = impedance_uu + joint_impedance[j]
-        _require_positive(pivot, "pivot", j)
+        good = _positive_pivot(good, pivot, "pivot", j)
         admittance = 1.0 / pivot
         answer_own[j] = admittance * (joint_torque[j] - torque)
         answer_x[j] = admittance * impedance_ux
@@ -1041,8 +1073,7 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
     # Stage 3 of 5: the base
-    unknown = unknown_per_base_angle * (base_angle[2] - predicted_angle[0])
-    hub_unknown = unknown
+    unknown = 0.0
 
     # Stage 3 of 5: sweep outward: the unknown of each station
     change_x = 0.0
@@ -1054,25 +1085,12 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
         solved[j] = unknown
 
     # Stage 3 of 5: motion at this stage
-    hub_stage3_acceleration = hub_stage2_acceleration + hub_unknown
-    hub_stage3_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration
     stage3_acceleration = solved + stage2_acceleration
     stage3_rate = predicted_rate[1:] + rate_per_acceleration * solved
 
     # Stage 4 of 5: predicted motion
-    predicted_rate[0] = (
-        hub_rate
-        + hub_stage1_acceleration * predicted_rate_per_stage1_acceleration_2
-        - hub_stage2_acceleration * predicted_rate_per_stage2_acceleration_2
-        + hub_stage3_acceleration * predicted_rate_per_stage3_acceleration
-    )
-    predicted_angle[0] = (
-        hub_angle
-        + hub_stage1_rate * predicted_rate_per_stage1_acceleration_2
-        - hub_stage2_rate * predicted_rate_per_stage2_acceleration_2
-        + hub_stage3_rate * predicted_angle_per_stage3_rate
-        + predicted_rate[0] * rate_per_acceleration
-    )
+    predicted_rate[0] = base_angle_rate[3]
+    predicted_angle[0] = base_angle[3]
     predicted_rate[1:] = (
         rate
         + predicted_rate_per_stage1_acceleration_2 * stage1_acceleration
@@ -1147,7 +1165,7 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
             + rod_inertia * stage3_acceleration[j]
         )
         pivot = impedance_uu + joint_impedance[j]
-        _require_positive(pivot, "pivot", j)
+        good = _positive_pivot(good, pivot, "pivot", j)
         admittance = 1.0 / pivot
         answer_own[j] = admittance * (joint_torque[j] - torque)
         answer_x[j] = admittance * impedance_ux
@@ -1167,8 +1185,7 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
     # Stage 4 of 5: the base
-    unknown = unknown_per_base_angle * (base_angle[3] - predicted_angle[0])
-    hub_unknown = unknown
+    unknown = 0.0
 
     # Stage 4 of 5: sweep outward: the unknown of each station
     change_x = 0.0
@@ -1180,27 +1197,12 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
         solved[j] = unknown
 
     # Stage 4 of 5: motion at this stage
-    hub_stage4_acceleration = hub_stage3_acceleration + hub_unknown
-    hub_stage4_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration
     stage4_acceleration = solved + stage3_acceleration
     stage4_rate = predicted_rate[1:] + rate_per_acceleration * solved
 
     # Stage 5 of 5: predicted motion
-    predicted_rate[0] = (
-        hub_rate
-        + hub_stage1_acceleration * predicted_rate_per_stage1_acceleration_3
-        - hub_stage2_acceleration * predicted_rate_per_stage2_acceleration_3
-        + hub_stage3_acceleration * predicted_rate_per_stage3_acceleration_2
-        - hub_stage4_acceleration * predicted_rate_per_stage4_acceleration
-    )
-    predicted_angle[0] = (
-        hub_angle
-        + hub_stage1_rate * predicted_rate_per_stage1_acceleration_3
-        - hub_stage2_rate * predicted_rate_per_stage2_acceleration_3
-        + hub_stage3_rate * predicted_rate_per_stage3_acceleration_2
-        - hub_stage4_rate * predicted_angle_per_stage4_rate
-        + predicted_rate[0] * rate_per_acceleration
-    )
+    predicted_rate[0] = base_angle_rate[4]
+    predicted_angle[0] = base_angle[4]
     predicted_rate[1:] = (
         rate
         + predicted_rate_per_stage1_acceleration_3 * stage1_acceleration
@@ -1277,7 +1279,7 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
             + rod_inertia * stage4_acceleration[j]
         )
         pivot = impedance_uu + joint_impedance[j]
-        _require_positive(pivot, "pivot", j)
+        good = _positive_pivot(good, pivot, "pivot", j)
         admittance = 1.0 / pivot
         answer_own[j] = admittance * (joint_torque[j] - torque)
         answer_x[j] = admittance * impedance_ux
@@ -1297,8 +1299,7 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
     # Stage 5 of 5: the base
-    unknown = unknown_per_base_angle * (base_angle[4] - predicted_angle[0])
-    hub_unknown = unknown
+    unknown = 0.0
 
     # Stage 5 of 5: sweep outward: the unknown of each station
     change_x = 0.0
@@ -1310,22 +1311,25 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
         solved[j] = unknown
 
     # Stage 5 of 5: motion at the end of the step
-    hub_angle = predicted_angle[0] + angle_per_acceleration * hub_unknown
-    hub_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration
-    hub_acceleration = hub_stage4_acceleration + hub_unknown
+    hub_angle = base_angle[4]
+    hub_rate = base_angle_rate[4]
     angle = predicted_angle[1:] + angle_per_acceleration * solved
     rate = predicted_rate[1:] + rate_per_acceleration * solved
     acceleration = solved + stage4_acceleration
+
+    numbers = (hub_angle, hub_rate)
+    arrays = (angle, rate, acceleration)
+    good = _judged(good, numbers, arrays, "the motion has outgrown the number type")
     return State(
-        hub_angle=_spread(hub_angle, batch, False),
-        hub_rate=_spread(hub_rate, batch, False),
-        hub_acceleration=_spread(hub_acceleration, batch, False),
-        angle=_spread(angle, batch, True),
-        rate=_spread(rate, batch, True),
-        acceleration=_spread(acceleration, batch, True),
+        hub_angle=_kept(_spread(hub_angle, batch, False), good, False),
+        hub_rate=_kept(_spread(hub_rate, batch, False), good, False),
+        angle=_kept(_spread(angle, batch, True), good, True),
+        rate=_kept(_spread(rate, batch, True), good, True),
+        acceleration=_kept(_spread(acceleration, batch, True), good, True),
     )
 
 
+@np.errstate(all="ignore")
 def output(model: Model, state: State) -> Output:
     """Read the outputs off a state.
 
@@ -1344,7 +1348,6 @@ def output(model: Model, state: State) -> Output:
     reaction_x_per_acceleration_x_2 = model.reaction_x_per_acceleration_x_2
     hub_angle = state.hub_angle
     hub_rate = state.hub_rate
-    hub_acceleration = state.hub_acceleration
     angle = np.asarray(state.angle)
     rate = np.asarray(state.rate)
     acceleration = np.asarray(state.acceleration)
@@ -1355,7 +1358,6 @@ def output(model: Model, state: State) -> Output:
         reaction_x_per_acceleration_x_2,
         hub_angle,
         hub_rate,
-        hub_acceleration,
     )
     arrays = (stiffness, damping, angle, rate, acceleration)
     batch, dtype = _common(numbers, arrays)
@@ -1363,7 +1365,6 @@ def output(model: Model, state: State) -> Output:
     damping = _align(damping, batch)
     hub_angle = _spread(hub_angle, batch, False)
     hub_rate = _spread(hub_rate, batch, False)
-    hub_acceleration = _spread(hub_acceleration, batch, False)
     angle = _spread(angle, batch, True)
     rate = _spread(rate, batch, True)
     acceleration = _spread(acceleration, batch, True)
@@ -1438,6 +1439,8 @@ def simulate(
         Time to simulate (s); the last instant is the last whole step within it.
     inputs : mapping from str
         Constants of shape ``(*batch)``, or functions of time (s) that return them; inputs not named are zero.
+        Where ``base_angle`` is a function and ``base_angle_rate`` or ``base_angle_acceleration`` is not
+        named, it is what differences of the function over a fraction of the step give.
     params : Params
         Physical parameters.
     step : float
@@ -1464,6 +1467,9 @@ def simulate(
     if unknown := sorted(set(given) - set(INPUT_NAMES)):
         known = ", ".join(INPUT_NAMES) or "none"
         raise ValueError(f"no input is named {', '.join(unknown)}; there are: {known}")
+    if callable(angle := given.get("base_angle")):
+        given.setdefault("base_angle_rate", _difference(angle, 1, step / 4.0))
+        given.setdefault("base_angle_acceleration", _difference(angle, 2, step / 4.0))
 
     def read(time: float) -> Input:
         return Input(**{name: value(time) if callable(value) else value for name, value in given.items()})
@@ -1480,6 +1486,19 @@ def simulate(
     return Result(times, outputs, state)
 
 
+def _difference(angle: Callable[[float], ArrayLike], order: int, apart: float) -> Callable[[float], ArrayLike]:
+    """Differentiate a function of time by fourth-order differences; at time zero they look forward only."""
+    central = {1: (1.0, -8.0, 0.0, 8.0, -1.0), 2: (-1.0, 16.0, -30.0, 16.0, -1.0)}[order]
+    forward = {1: (-25.0, 48.0, -36.0, 16.0, -3.0), 2: (35.0, -104.0, 114.0, -56.0, 11.0)}[order]
+
+    def derivative(time: float) -> ArrayLike:
+        weights, first = (central, time - 2.0 * apart) if time >= 2.0 * apart else (forward, time)
+        values = [weight * np.asarray(angle(first + k * apart)) for k, weight in enumerate(weights)]
+        return sum(values) / (12.0 * apart**order)
+
+    return derivative
+
+
 def _array(value: ArrayLike, length: int | None, what: str) -> Array:
     """Check what a user gives: a number for each arm if length is None, else an array over stations."""
     array = np.asarray(value)
@@ -1487,16 +1506,50 @@ def _array(value: ArrayLike, length: int | None, what: str) -> Array:
         array = array.astype(float)
     if array.dtype.kind not in "fcO":
         raise TypeError(f"{what} must be numeric, not {value!r}")
-    if array.dtype.kind != "O" and not np.isfinite(array).all():
-        raise FloatingPointError(f"{what} must be finite, not {value!r}")
-    if length is None:
-        return array
-    if array.ndim == 0:
-        return np.full(length, array)
-    if array.shape[0] != length:
+    if length is not None and array.ndim == 0:
+        array = np.full(length, array)
+    if length is not None and array.shape[0] != length:
         expected = f"shape ({length}, *batch), or be one number"
         raise ValueError(f"{what} must have {expected}; it has shape {array.shape}")
+    finite = _finite(array)
+    if array.size and not np.any(finite if length is None else finite.all(axis=0)):
+        raise FloatingPointError(f"{what} must be finite, not {value!r}")
     return array
+
+
+def _finite(value: Any) -> Array:
+    """Return which numbers are finite; of numbers that are objects nobody knows."""
+    array = np.asarray(value)
+    return np.ones(array.shape, dtype=bool) if array.dtype.kind == "O" else np.isfinite(array)
+
+
+def _positive(step: Array) -> Any:
+    """Return for which arms the time step is positive."""
+    good = np.asarray(step > 0.0)
+    if step.size and not good.any():
+        raise ValueError(f"step must be positive, not {step}")
+    return good
+
+
+def _judged(good: Any, numbers: tuple[Any, ...], arrays: tuple[Any, ...], what: str) -> Any:
+    """Return which arms are good so far and have only numbers that are finite; leave if there are none."""
+    for number in numbers:
+        good = good & _finite(number)
+    for array in arrays:
+        good = good & _finite(array).all(axis=0)
+    if np.size(good) and not np.any(good):
+        raise FloatingPointError(what)
+    return good
+
+
+def _kept(value: Any, good: Any, stations: bool) -> Array:
+    """Return a result with NaN for the arms that are not good."""
+    array = np.asarray(value)
+    if np.all(good):
+        return array
+    if stations:
+        array = _align(array, np.shape(good))
+    return np.where(good, array, array.dtype.type(np.nan))
 
 
 def _common(numbers: tuple[Any, ...], arrays: tuple[Array, ...]) -> tuple[tuple[int, ...], np.dtype[Any]]:
@@ -1541,13 +1594,15 @@ def _at_stages(stages: Sequence[Input], name: str) -> tuple[Array, ...]:
     return tuple(_array(getattr(stage, name), None, f"input {name}") for stage in stages)
 
 
-def _require_positive(pivot: Any, name: str, station: int | None) -> None:
-    """Leave where a pivot is not positive and finite."""
-    if not np.all((pivot > 0.0) & (pivot < np.inf)):
+def _positive_pivot(good: Any, pivot: Any, name: str, station: int | None) -> Any:
+    """Return which arms are good so far and have a positive pivot; leave if there are none."""
+    good = good & np.asarray((pivot > 0.0) & (pivot < np.inf))
+    if np.size(good) and not np.any(good):
         where = "" if station is None else f" of station {station + 1}"
         raise VanishingPivotError(
             f"{name}{where} must be positive and finite, not {pivot}; check parameters and step"
         )
+    return good
 
 
 def _series(values: list[Array]) -> Array:

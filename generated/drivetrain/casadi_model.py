@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 260c88ca5ffe6b93ea5946fad67187e547942573db1dc2f710bcd9a0610b8738
-# sha256 of the rest of this file: be7edf3bbee45eb716ad5d81eac457ecab2e9ff99b985c8be9374910defcfa4f
+# sha256 of the rest of this file: d5c4ea62e9b248902c170a29eaa5fed8fc395bfd42e9f622db7b8cf597603c1c
 #
 # model: torsional chain (linear)
 # stations: 6
@@ -87,7 +87,7 @@ def default_parameters() -> ca.DM:
 
 def step_function() -> ca.Function:
     """Return the step ``(x, u, p) -> (x_next, y)``: the state one step later, and the outputs at ``x``."""
-    return _function("step", _step, STAGE_INSTANTS[-1])
+    return _function("drivetrain_step", _step, STAGE_INSTANTS[-1])
 
 
 def start_functions() -> tuple[ca.Function, ...]:
@@ -110,7 +110,7 @@ def initial_function() -> ca.Function:
     u, p = _symbols(INPUT_NAMES), _symbols(PARAMETER_NAMES)
     with _as_written():
         x = _initialise(given, [u], p)
-    return ca.Function("initial", [*given.values(), u, p], [x], [*given, "u", "p"], ["x"])
+    return ca.Function("drivetrain_initial", [*given.values(), u, p], [x], [*given, "u", "p"], ["x"])
 
 
 def _function(

@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 260c88ca5ffe6b93ea5946fad67187e547942573db1dc2f710bcd9a0610b8738
-# sha256 of the rest of this file: df30198a955af74560bbc77fefa7c55a913b8a6207e98a5545fd5cebc506204e
+# sha256 of the rest of this file: c4e49064426e8202dae6cf0efa93a2603ed711fd2251f1466f8a390eb4681394
 #
 # model: torsional chain (linear)
 # stations: 6
@@ -20,7 +20,8 @@ inputs)`` for all of them. Arrays are never written in place.
 
 All arrays may have further axes behind, those of a batch: many arms at once, each with its own parameters,
 inputs and state. What is one number for an arm then has the batch's shape; what differs between stations has
-the stations first, base to tip.
+the stations first, base to tip. An arm with numbers that are not finite, or a step or pivot that is not
+positive, is NaN; errors are left for where no other arm is left.
 """
 
 from __future__ import annotations
@@ -215,6 +216,7 @@ class Result:
     state: State
 
 
+@np.errstate(all="ignore")
 def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     """Compute what depends on parameters and step alone.
 
@@ -228,9 +230,9 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     Raises
     ------
     FloatingPointError
-        If a parameter or the step is not finite.
+        If parameters, step or what follows from them are not finite.
     ValueError
-        If shapes do not fit.
+        If the step is not positive, or shapes do not fit.
     VanishingPivotError
         If parameters or step leave a pivot that is not positive.
     """
@@ -240,6 +242,7 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     inertia = _array(params.inertia, STATIONS, "inertia")
     hub_inertia = _array(params.hub_inertia, None, "hub_inertia")
     hub_damping = _array(params.hub_damping, None, "hub_damping")
+    good = _positive(step)
     numbers = (step, hub_inertia, hub_damping)
     arrays = (stiffness, damping, inertia)
     batch, dtype = _common(numbers, arrays)
@@ -256,14 +259,14 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
         impedance = impedance - inertia[j]
         joint_impedance = (55.0 / 108.0) * damping[j] * step + (125.0 / 486.0) * (step * step) * stiffness[j]
         pivot = joint_impedance - impedance
-        _require_positive(pivot, "pivot", j)
+        good = _positive_pivot(good, pivot, "pivot", j)
         admittance[j] = 1.0 / pivot
         transmission[j] = admittance[j] * joint_impedance
         reflection[j] = -admittance[j] * impedance
         impedance = impedance * transmission[j]
     hub_impedance = hub_inertia + (55.0 / 108.0) * hub_damping * step
     hub_pivot = hub_impedance - impedance
-    _require_positive(hub_pivot, "hub_pivot", None)
+    good = _positive_pivot(good, hub_pivot, "hub_pivot", None)
     hub_admittance = 1.0 / hub_pivot
 
     # Factors of the step that depend on the time step and parameters alone
@@ -275,25 +278,43 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     angle_per_unknown = (25.0 / 54.0) * (step * step)
     twelfth_step = (1.0 / 12.0) * step
     eleven_twelfths_step = (11.0 / 12.0) * step
+
+    numbers = (
+        step,
+        known_rate_per_acceleration,
+        known_angle_per_acceleration,
+        five_ninths_step,
+        unknown_per_known_rate,
+        angle_per_acceleration_2,
+        angle_per_unknown,
+        twelfth_step,
+        eleven_twelfths_step,
+        hub_admittance,
+        hub_inertia,
+        hub_damping,
+    )
+    arrays = (stiffness, damping, admittance, transmission, reflection, inertia)
+    good = _judged(good, numbers, arrays, "parameters or step are too large or too small for the number type")
     return Model(
-        step=step,
-        stiffness=stiffness,
-        damping=damping,
-        known_rate_per_acceleration=known_rate_per_acceleration,
-        known_angle_per_acceleration=known_angle_per_acceleration,
-        five_ninths_step=five_ninths_step,
-        unknown_per_known_rate=unknown_per_known_rate,
-        angle_per_acceleration_2=angle_per_acceleration_2,
-        angle_per_unknown=angle_per_unknown,
-        twelfth_step=twelfth_step,
-        eleven_twelfths_step=eleven_twelfths_step,
-        admittance=admittance,
-        transmission=transmission,
-        reflection=reflection,
-        hub_admittance=hub_admittance,
+        step=_kept(step, good, False),
+        stiffness=_kept(stiffness, good, True),
+        damping=_kept(damping, good, True),
+        known_rate_per_acceleration=_kept(known_rate_per_acceleration, good, False),
+        known_angle_per_acceleration=_kept(known_angle_per_acceleration, good, False),
+        five_ninths_step=_kept(five_ninths_step, good, False),
+        unknown_per_known_rate=_kept(unknown_per_known_rate, good, False),
+        angle_per_acceleration_2=_kept(angle_per_acceleration_2, good, False),
+        angle_per_unknown=_kept(angle_per_unknown, good, False),
+        twelfth_step=_kept(twelfth_step, good, False),
+        eleven_twelfths_step=_kept(eleven_twelfths_step, good, False),
+        admittance=_kept(admittance, good, True),
+        transmission=_kept(transmission, good, True),
+        reflection=_kept(reflection, good, True),
+        hub_admittance=_kept(hub_admittance, good, False),
     )
 
 
+@np.errstate(all="ignore")
 def initialise(
     params: Params = Params(),
     input: Input = Input(),
@@ -317,12 +338,13 @@ def initialise(
     Raises
     ------
     FloatingPointError
-        If an argument is not finite.
+        If an argument or the state is not finite.
     ValueError
         If shapes do not fit.
     VanishingPivotError
         If parameters leave a pivot that is not positive.
     """
+    good: Any = True
     motor_torque = _array(input.motor_torque, None, "input motor_torque")
     load_torque_ = _array(input.load_torque, None, "input load_torque")
     stiffness = _array(params.stiffness, STATIONS, "stiffness")
@@ -364,14 +386,14 @@ def initialise(
         torque = load_torque[j] + torque
         impedance = -inertia[j]
         pivot = -impedance
-        _require_positive(pivot, "pivot", j)
+        good = _positive_pivot(good, pivot, "pivot", j)
         admittance = 1.0 / pivot
         answer_own[j] = admittance * (torque - joint_torque[j])
         torque = joint_torque[j]
 
     # the base
     hub_pivot = hub_inertia
-    _require_positive(hub_pivot, "hub_pivot", None)
+    good = _positive_pivot(good, hub_pivot, "hub_pivot", None)
     hub_admittance = 1.0 / hub_pivot
     unknown = hub_admittance * (motor_torque + torque - hub_damping * known_rate[0])
     hub_unknown = unknown
@@ -387,16 +409,21 @@ def initialise(
     angle = known_angle[1:]
     rate = known_rate[1:]
     acceleration = solved
+
+    numbers = (hub_angle, hub_rate, hub_acceleration)
+    arrays = (angle, rate, acceleration)
+    good = _judged(good, numbers, arrays, "the motion has outgrown the number type")
     return State(
-        hub_angle=_spread(hub_angle, batch, False),
-        hub_rate=_spread(hub_rate, batch, False),
-        hub_acceleration=_spread(hub_acceleration, batch, False),
-        angle=_spread(angle, batch, True),
-        rate=_spread(rate, batch, True),
-        acceleration=_spread(acceleration, batch, True),
+        hub_angle=_kept(_spread(hub_angle, batch, False), good, False),
+        hub_rate=_kept(_spread(hub_rate, batch, False), good, False),
+        hub_acceleration=_kept(_spread(hub_acceleration, batch, False), good, False),
+        angle=_kept(_spread(angle, batch, True), good, True),
+        rate=_kept(_spread(rate, batch, True), good, True),
+        acceleration=_kept(_spread(acceleration, batch, True), good, True),
     )
 
 
+@np.errstate(all="ignore")
 def step(model: Model, state: State, input: Input = Input()) -> State:
     """Advance the state by one step.
 
@@ -417,10 +444,11 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     Raises
     ------
     FloatingPointError
-        If an input is not finite.
+        If an input or the new state is not finite.
     ValueError
         If shapes do not fit.
     """
+    good: Any = True
     motor_torque = _array(input.motor_torque, None, "input motor_torque")
     load_torque_ = _array(input.load_torque, None, "input load_torque")
     step = model.step
@@ -521,16 +549,21 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     angle = angle + acceleration * angle_per_acceleration_2 + angle_per_unknown * solved + rate * step
     rate = rate + acceleration * twelfth_step + eleven_twelfths_step * solved
     acceleration = 1.5 * solved - 0.5 * acceleration
+
+    numbers = (hub_angle, hub_rate, hub_acceleration)
+    arrays = (angle, rate, acceleration)
+    good = _judged(good, numbers, arrays, "the motion has outgrown the number type")
     return State(
-        hub_angle=_spread(hub_angle, batch, False),
-        hub_rate=_spread(hub_rate, batch, False),
-        hub_acceleration=_spread(hub_acceleration, batch, False),
-        angle=_spread(angle, batch, True),
-        rate=_spread(rate, batch, True),
-        acceleration=_spread(acceleration, batch, True),
+        hub_angle=_kept(_spread(hub_angle, batch, False), good, False),
+        hub_rate=_kept(_spread(hub_rate, batch, False), good, False),
+        hub_acceleration=_kept(_spread(hub_acceleration, batch, False), good, False),
+        angle=_kept(_spread(angle, batch, True), good, True),
+        rate=_kept(_spread(rate, batch, True), good, True),
+        acceleration=_kept(_spread(acceleration, batch, True), good, True),
     )
 
 
+@np.errstate(all="ignore")
 def output(model: Model, state: State) -> Output:
     """Read the outputs off a state.
 
@@ -643,16 +676,50 @@ def _array(value: ArrayLike, length: int | None, what: str) -> Array:
         array = array.astype(float)
     if array.dtype.kind not in "fcO":
         raise TypeError(f"{what} must be numeric, not {value!r}")
-    if array.dtype.kind != "O" and not np.isfinite(array).all():
-        raise FloatingPointError(f"{what} must be finite, not {value!r}")
-    if length is None:
-        return array
-    if array.ndim == 0:
-        return np.full(length, array)
-    if array.shape[0] != length:
+    if length is not None and array.ndim == 0:
+        array = np.full(length, array)
+    if length is not None and array.shape[0] != length:
         expected = f"shape ({length}, *batch), or be one number"
         raise ValueError(f"{what} must have {expected}; it has shape {array.shape}")
+    finite = _finite(array)
+    if array.size and not np.any(finite if length is None else finite.all(axis=0)):
+        raise FloatingPointError(f"{what} must be finite, not {value!r}")
     return array
+
+
+def _finite(value: Any) -> Array:
+    """Return which numbers are finite; of numbers that are objects nobody knows."""
+    array = np.asarray(value)
+    return np.ones(array.shape, dtype=bool) if array.dtype.kind == "O" else np.isfinite(array)
+
+
+def _positive(step: Array) -> Any:
+    """Return for which arms the time step is positive."""
+    good = np.asarray(step > 0.0)
+    if step.size and not good.any():
+        raise ValueError(f"step must be positive, not {step}")
+    return good
+
+
+def _judged(good: Any, numbers: tuple[Any, ...], arrays: tuple[Any, ...], what: str) -> Any:
+    """Return which arms are good so far and have only numbers that are finite; leave if there are none."""
+    for number in numbers:
+        good = good & _finite(number)
+    for array in arrays:
+        good = good & _finite(array).all(axis=0)
+    if np.size(good) and not np.any(good):
+        raise FloatingPointError(what)
+    return good
+
+
+def _kept(value: Any, good: Any, stations: bool) -> Array:
+    """Return a result with NaN for the arms that are not good."""
+    array = np.asarray(value)
+    if np.all(good):
+        return array
+    if stations:
+        array = _align(array, np.shape(good))
+    return np.where(good, array, array.dtype.type(np.nan))
 
 
 def _common(numbers: tuple[Any, ...], arrays: tuple[Array, ...]) -> tuple[tuple[int, ...], np.dtype[Any]]:
@@ -683,13 +750,15 @@ def _spread(value: Any, batch: tuple[int, ...], stations: bool) -> Array:
     return np.broadcast_to(array, batch)
 
 
-def _require_positive(pivot: Any, name: str, station: int | None) -> None:
-    """Leave where a pivot is not positive and finite."""
-    if not np.all((pivot > 0.0) & (pivot < np.inf)):
+def _positive_pivot(good: Any, pivot: Any, name: str, station: int | None) -> Any:
+    """Return which arms are good so far and have a positive pivot; leave if there are none."""
+    good = good & np.asarray((pivot > 0.0) & (pivot < np.inf))
+    if np.size(good) and not np.any(good):
         where = "" if station is None else f" of station {station + 1}"
         raise VanishingPivotError(
             f"{name}{where} must be positive and finite, not {pivot}; check parameters and step"
         )
+    return good
 
 
 def _series(values: list[Array]) -> Array:

@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 225557ccb20983327784b6fc8326b9127fb185b183a5e99d150385ab258b9303
-# sha256 of the rest of this file: 123938ba7362365813454e856ce4dcd4a9dbaee28d6d58e515a59ccff36dce14
+# sha256 of the rest of this file: 4c568b2ce35e06f9c2b3153500e22fc816600d30234ad78c4de207cb60a94701
 #
 # model: planar arm, large rotations, gravity
 # stations: 10
@@ -22,7 +22,8 @@ inputs)`` for all of them. Arrays are never written in place.
 
 All arrays may have further axes behind, those of a batch: many arms at once, each with its own parameters,
 inputs and state. What is one number for an arm then has the batch's shape; what differs between stations has
-the stations first, base to tip.
+the stations first, base to tip. An arm with numbers that are not finite, or a step or pivot that is not
+positive, is NaN; errors are left for where no other arm is left.
 """
 
 from __future__ import annotations
@@ -197,6 +198,7 @@ class Result:
     state: State
 
 
+@np.errstate(all="ignore")
 def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     """Compute what depends on parameters and step alone.
 
@@ -210,9 +212,9 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     Raises
     ------
     FloatingPointError
-        If a parameter or the step is not finite.
+        If parameters, step or what follows from them are not finite.
     ValueError
-        If shapes do not fit.
+        If the step is not positive, or shapes do not fit.
     VanishingPivotError
         If parameters or step leave a pivot that is not positive.
     """
@@ -224,6 +226,7 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     stiffness = _array(params.stiffness, STATIONS, "stiffness")
     damping = _array(params.damping, STATIONS, "damping")
     gravity = _array(params.gravity, None, "gravity")
+    good = _positive(step)
     numbers = (step, length, mass, inertia, center, gravity)
     arrays = (stiffness, damping)
     batch, _ = _common(numbers, arrays)
@@ -241,22 +244,39 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     half_step_squared = 0.5 * (step * step)
     angle_per_acceleration = 0.25 * (step * step)
     rate_per_acceleration = 0.5 * step
+
+    numbers = (
+        step,
+        length,
+        mass,
+        gravity,
+        half_step_squared,
+        angle_per_acceleration,
+        rate_per_acceleration,
+        end_mass,
+        rod_inertia,
+        inertia,
+        center,
+    )
+    arrays = (stiffness, damping, joint_impedance)
+    good = _judged(good, numbers, arrays, "parameters or step are too large or too small for the number type")
     return Model(
-        step=step,
-        length=length,
-        mass=mass,
-        stiffness=stiffness,
-        damping=damping,
-        gravity=gravity,
-        half_step_squared=half_step_squared,
-        angle_per_acceleration=angle_per_acceleration,
-        rate_per_acceleration=rate_per_acceleration,
-        end_mass=end_mass,
-        rod_inertia=rod_inertia,
-        joint_impedance=joint_impedance,
+        step=_kept(step, good, False),
+        length=_kept(length, good, False),
+        mass=_kept(mass, good, False),
+        stiffness=_kept(stiffness, good, True),
+        damping=_kept(damping, good, True),
+        gravity=_kept(gravity, good, False),
+        half_step_squared=_kept(half_step_squared, good, False),
+        angle_per_acceleration=_kept(angle_per_acceleration, good, False),
+        rate_per_acceleration=_kept(rate_per_acceleration, good, False),
+        end_mass=_kept(end_mass, good, False),
+        rod_inertia=_kept(rod_inertia, good, False),
+        joint_impedance=_kept(joint_impedance, good, True),
     )
 
 
+@np.errstate(all="ignore")
 def initialise(
     params: Params = Params(),
     input: Input = Input(),
@@ -280,12 +300,13 @@ def initialise(
     Raises
     ------
     FloatingPointError
-        If an argument is not finite.
+        If an argument or the state is not finite.
     ValueError
         If shapes do not fit.
     VanishingPivotError
         If parameters leave a pivot that is not positive.
     """
+    good: Any = True
     length = _array(params.length, None, "length")
     mass = _array(params.mass, None, "mass")
     inertia = _array(params.inertia, None, "inertia")
@@ -370,7 +391,7 @@ def initialise(
             + predicted_acceleration[j + 1] * rod_inertia
         )
         pivot = impedance_uu
-        _require_positive(pivot, "pivot", j)
+        good = _positive_pivot(good, pivot, "pivot", j)
         admittance = 1.0 / pivot
         answer_own[j] = admittance * (joint_torque[j] - torque)
         answer_x[j] = admittance * impedance_ux
@@ -399,13 +420,18 @@ def initialise(
     angle = predicted_angle[1:]
     rate = predicted_rate[1:]
     acceleration = predicted_acceleration[1:] + solved
+
+    numbers = ()
+    arrays = (angle, rate, acceleration)
+    good = _judged(good, numbers, arrays, "the motion has outgrown the number type")
     return State(
-        angle=_spread(angle, batch, True),
-        rate=_spread(rate, batch, True),
-        acceleration=_spread(acceleration, batch, True),
+        angle=_kept(_spread(angle, batch, True), good, True),
+        rate=_kept(_spread(rate, batch, True), good, True),
+        acceleration=_kept(_spread(acceleration, batch, True), good, True),
     )
 
 
+@np.errstate(all="ignore")
 def step(model: Model, state: State, input: Input = Input()) -> State:
     """Advance the state by one step.
 
@@ -426,12 +452,13 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     Raises
     ------
     FloatingPointError
-        If an input is not finite.
+        If an input or the new state is not finite.
     ValueError
         If shapes do not fit.
     VanishingPivotError
         If the motion, parameters or step leave a pivot that is not positive.
     """
+    good: Any = True
     step = model.step
     length = model.length
     mass = model.mass
@@ -537,7 +564,7 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
         )
         torque = torque + acceleration[j] * rod_inertia - force_x * lever_sine[j] + force_y * lever_cosine[j]
         pivot = impedance_uu + joint_impedance[j]
-        _require_positive(pivot, "pivot", j)
+        good = _positive_pivot(good, pivot, "pivot", j)
         admittance = 1.0 / pivot
         answer_own[j] = admittance * (joint_torque[j] - torque)
         answer_x[j] = admittance * impedance_ux
@@ -572,13 +599,18 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     angle = predicted_angle[1:] + angle_per_acceleration * solved
     rate = predicted_rate[1:] + rate_per_acceleration * solved
     acceleration = acceleration + solved
+
+    numbers = ()
+    arrays = (angle, rate, acceleration)
+    good = _judged(good, numbers, arrays, "the motion has outgrown the number type")
     return State(
-        angle=_spread(angle, batch, True),
-        rate=_spread(rate, batch, True),
-        acceleration=_spread(acceleration, batch, True),
+        angle=_kept(_spread(angle, batch, True), good, True),
+        rate=_kept(_spread(rate, batch, True), good, True),
+        acceleration=_kept(_spread(acceleration, batch, True), good, True),
     )
 
 
+@np.errstate(all="ignore")
 def output(model: Model, state: State) -> Output:
     """Read the outputs off a state.
 
@@ -698,16 +730,50 @@ def _array(value: ArrayLike, length: int | None, what: str) -> Array:
         array = array.astype(float)
     if array.dtype.kind not in "fcO":
         raise TypeError(f"{what} must be numeric, not {value!r}")
-    if array.dtype.kind != "O" and not np.isfinite(array).all():
-        raise FloatingPointError(f"{what} must be finite, not {value!r}")
-    if length is None:
-        return array
-    if array.ndim == 0:
-        return np.full(length, array)
-    if array.shape[0] != length:
+    if length is not None and array.ndim == 0:
+        array = np.full(length, array)
+    if length is not None and array.shape[0] != length:
         expected = f"shape ({length}, *batch), or be one number"
         raise ValueError(f"{what} must have {expected}; it has shape {array.shape}")
+    finite = _finite(array)
+    if array.size and not np.any(finite if length is None else finite.all(axis=0)):
+        raise FloatingPointError(f"{what} must be finite, not {value!r}")
     return array
+
+
+def _finite(value: Any) -> Array:
+    """Return which numbers are finite; of numbers that are objects nobody knows."""
+    array = np.asarray(value)
+    return np.ones(array.shape, dtype=bool) if array.dtype.kind == "O" else np.isfinite(array)
+
+
+def _positive(step: Array) -> Any:
+    """Return for which arms the time step is positive."""
+    good = np.asarray(step > 0.0)
+    if step.size and not good.any():
+        raise ValueError(f"step must be positive, not {step}")
+    return good
+
+
+def _judged(good: Any, numbers: tuple[Any, ...], arrays: tuple[Any, ...], what: str) -> Any:
+    """Return which arms are good so far and have only numbers that are finite; leave if there are none."""
+    for number in numbers:
+        good = good & _finite(number)
+    for array in arrays:
+        good = good & _finite(array).all(axis=0)
+    if np.size(good) and not np.any(good):
+        raise FloatingPointError(what)
+    return good
+
+
+def _kept(value: Any, good: Any, stations: bool) -> Array:
+    """Return a result with NaN for the arms that are not good."""
+    array = np.asarray(value)
+    if np.all(good):
+        return array
+    if stations:
+        array = _align(array, np.shape(good))
+    return np.where(good, array, array.dtype.type(np.nan))
 
 
 def _common(numbers: tuple[Any, ...], arrays: tuple[Array, ...]) -> tuple[tuple[int, ...], np.dtype[Any]]:
@@ -738,13 +804,15 @@ def _spread(value: Any, batch: tuple[int, ...], stations: bool) -> Array:
     return np.broadcast_to(array, batch)
 
 
-def _require_positive(pivot: Any, name: str, station: int | None) -> None:
-    """Leave where a pivot is not positive and finite."""
-    if not np.all((pivot > 0.0) & (pivot < np.inf)):
+def _positive_pivot(good: Any, pivot: Any, name: str, station: int | None) -> Any:
+    """Return which arms are good so far and have a positive pivot; leave if there are none."""
+    good = good & np.asarray((pivot > 0.0) & (pivot < np.inf))
+    if np.size(good) and not np.any(good):
         where = "" if station is None else f" of station {station + 1}"
         raise VanishingPivotError(
             f"{name}{where} must be positive and finite, not {pivot}; check parameters and step"
         )
+    return good
 
 
 def _series(values: list[Array]) -> Array:

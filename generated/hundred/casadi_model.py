@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 1ec2a071f5720229c3b5c9d847fa0a44d6fa112015051ca13c1d73444e6eb10a
-# sha256 of the rest of this file: bebea2fba37fc44aa1655fc86216f8d236aea110bef81206018094d23466e72d
+# sha256 of the rest of this file: 645b5b4c9bff35251c6207a6050e0f85d11905cd0e8dd0089d052df046c7fccd
 #
 # model: torsional chain (linear)
 # stations: 100
@@ -55,7 +55,7 @@ def default_parameters() -> ca.DM:
 
 def step_function() -> ca.Function:
     """Return the step ``(x, u, p) -> (x_next, y)``: the state one step later, and the outputs at ``x``."""
-    return _function("step", _step, STAGE_INSTANTS[-1])
+    return _function("hundred_step", _step, STAGE_INSTANTS[-1])
 
 
 def start_functions() -> tuple[ca.Function, ...]:
@@ -78,7 +78,7 @@ def initial_function() -> ca.Function:
     u, p = _symbols(INPUT_NAMES), _symbols(PARAMETER_NAMES)
     with _as_written():
         x = _initialise(given, [u], p)
-    return ca.Function("initial", [*given.values(), u, p], [x], [*given, "u", "p"], ["x"])
+    return ca.Function("hundred_initial", [*given.values(), u, p], [x], [*given, "u", "p"], ["x"])
 
 
 def _function(

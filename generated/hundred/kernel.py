@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 1ec2a071f5720229c3b5c9d847fa0a44d6fa112015051ca13c1d73444e6eb10a
-# sha256 of the rest of this file: 57043a8847a81ba9e99418d0f169112b564a151a35c1a38318b4d1645d92c9f2
+# sha256 of the rest of this file: 356d87c773bbc3563db0561b29d43c1aab0d207508cb6cc11a3f105030e04d52
 #
 # model: torsional chain (linear)
 # stations: 100
@@ -20,7 +20,8 @@ inputs)`` for all of them. Arrays are never written in place.
 
 All arrays may have further axes behind, those of a batch: many arms at once, each with its own parameters,
 inputs and state. What is one number for an arm then has the batch's shape; what differs between stations has
-the stations first, base to tip.
+the stations first, base to tip. An arm with numbers that are not finite, or a step or pivot that is not
+positive, is NaN; errors are left for where no other arm is left.
 """
 
 from __future__ import annotations
@@ -173,6 +174,7 @@ class Result:
     state: State
 
 
+@np.errstate(all="ignore")
 def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     """Compute what depends on parameters and step alone.
 
@@ -186,9 +188,9 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     Raises
     ------
     FloatingPointError
-        If a parameter or the step is not finite.
+        If parameters, step or what follows from them are not finite.
     ValueError
-        If shapes do not fit.
+        If the step is not positive, or shapes do not fit.
     VanishingPivotError
         If parameters or step leave a pivot that is not positive.
     """
@@ -196,6 +198,7 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     stiffness = _array(params.stiffness, None, "stiffness")
     damping = _array(params.damping, None, "damping")
     inertia = _array(params.inertia, None, "inertia")
+    good = _positive(step)
     numbers = (step, stiffness, damping, inertia)
     arrays = ()
     batch, dtype = _common(numbers, arrays)
@@ -209,7 +212,7 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     for j in reversed(range(STATIONS)):
         impedance = impedance - inertia
         pivot = joint_impedance - impedance
-        _require_positive(pivot, "pivot", j)
+        good = _positive_pivot(good, pivot, "pivot", j)
         admittance[j] = 1.0 / pivot
         transmission[j] = admittance[j] * joint_impedance
         reflection[j] = -admittance[j] * impedance
@@ -218,18 +221,23 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     # Factors of the step that depend on the time step and parameters alone
     rate_per_acceleration = 0.5 * step
     angle_per_acceleration = 0.25 * (step * step)
+
+    numbers = (step, stiffness, damping, rate_per_acceleration, angle_per_acceleration, inertia)
+    arrays = (admittance, transmission, reflection)
+    good = _judged(good, numbers, arrays, "parameters or step are too large or too small for the number type")
     return Model(
-        step=step,
-        stiffness=stiffness,
-        damping=damping,
-        rate_per_acceleration=rate_per_acceleration,
-        angle_per_acceleration=angle_per_acceleration,
-        admittance=admittance,
-        transmission=transmission,
-        reflection=reflection,
+        step=_kept(step, good, False),
+        stiffness=_kept(stiffness, good, False),
+        damping=_kept(damping, good, False),
+        rate_per_acceleration=_kept(rate_per_acceleration, good, False),
+        angle_per_acceleration=_kept(angle_per_acceleration, good, False),
+        admittance=_kept(admittance, good, True),
+        transmission=_kept(transmission, good, True),
+        reflection=_kept(reflection, good, True),
     )
 
 
+@np.errstate(all="ignore")
 def initialise(
     params: Params = Params(),
     input: Input = Input(),
@@ -253,12 +261,13 @@ def initialise(
     Raises
     ------
     FloatingPointError
-        If an argument is not finite.
+        If an argument or the state is not finite.
     ValueError
         If shapes do not fit.
     VanishingPivotError
         If parameters leave a pivot that is not positive.
     """
+    good: Any = True
     tip_torque = _array(input.tip_torque, None, "input tip_torque")
     stiffness = _array(params.stiffness, None, "stiffness")
     damping = _array(params.damping, None, "damping")
@@ -277,7 +286,7 @@ def initialise(
     # what is the same at every station
     impedance = -inertia
     pivot = -impedance
-    _require_positive(pivot, "pivot", None)
+    good = _positive_pivot(good, pivot, "pivot", None)
     admittance = 1.0 / pivot
 
     # motion known before the sweep
@@ -308,13 +317,18 @@ def initialise(
     angle = known_angle[1:]
     rate = known_rate[1:]
     acceleration = solved
+
+    numbers = ()
+    arrays = (angle, rate, acceleration)
+    good = _judged(good, numbers, arrays, "the motion has outgrown the number type")
     return State(
-        angle=_spread(angle, batch, True),
-        rate=_spread(rate, batch, True),
-        acceleration=_spread(acceleration, batch, True),
+        angle=_kept(_spread(angle, batch, True), good, True),
+        rate=_kept(_spread(rate, batch, True), good, True),
+        acceleration=_kept(_spread(acceleration, batch, True), good, True),
     )
 
 
+@np.errstate(all="ignore")
 def step(model: Model, state: State, input: Input = Input()) -> State:
     """Advance the state by one step.
 
@@ -335,10 +349,11 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     Raises
     ------
     FloatingPointError
-        If an input is not finite.
+        If an input or the new state is not finite.
     ValueError
         If shapes do not fit.
     """
+    good: Any = True
     tip_torque = _array(input.tip_torque, None, "input tip_torque")
     step = model.step
     stiffness = model.stiffness
@@ -394,13 +409,18 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     angle = known_angle[1:] + angle_per_acceleration * solved
     rate = known_rate[1:] + rate_per_acceleration * solved
     acceleration = solved
+
+    numbers = ()
+    arrays = (angle, rate, acceleration)
+    good = _judged(good, numbers, arrays, "the motion has outgrown the number type")
     return State(
-        angle=_spread(angle, batch, True),
-        rate=_spread(rate, batch, True),
-        acceleration=_spread(acceleration, batch, True),
+        angle=_kept(_spread(angle, batch, True), good, True),
+        rate=_kept(_spread(rate, batch, True), good, True),
+        acceleration=_kept(_spread(acceleration, batch, True), good, True),
     )
 
 
+@np.errstate(all="ignore")
 def output(model: Model, state: State) -> Output:
     """Read the outputs off a state.
 
@@ -503,16 +523,50 @@ def _array(value: ArrayLike, length: int | None, what: str) -> Array:
         array = array.astype(float)
     if array.dtype.kind not in "fcO":
         raise TypeError(f"{what} must be numeric, not {value!r}")
-    if array.dtype.kind != "O" and not np.isfinite(array).all():
-        raise FloatingPointError(f"{what} must be finite, not {value!r}")
-    if length is None:
-        return array
-    if array.ndim == 0:
-        return np.full(length, array)
-    if array.shape[0] != length:
+    if length is not None and array.ndim == 0:
+        array = np.full(length, array)
+    if length is not None and array.shape[0] != length:
         expected = f"shape ({length}, *batch), or be one number"
         raise ValueError(f"{what} must have {expected}; it has shape {array.shape}")
+    finite = _finite(array)
+    if array.size and not np.any(finite if length is None else finite.all(axis=0)):
+        raise FloatingPointError(f"{what} must be finite, not {value!r}")
     return array
+
+
+def _finite(value: Any) -> Array:
+    """Return which numbers are finite; of numbers that are objects nobody knows."""
+    array = np.asarray(value)
+    return np.ones(array.shape, dtype=bool) if array.dtype.kind == "O" else np.isfinite(array)
+
+
+def _positive(step: Array) -> Any:
+    """Return for which arms the time step is positive."""
+    good = np.asarray(step > 0.0)
+    if step.size and not good.any():
+        raise ValueError(f"step must be positive, not {step}")
+    return good
+
+
+def _judged(good: Any, numbers: tuple[Any, ...], arrays: tuple[Any, ...], what: str) -> Any:
+    """Return which arms are good so far and have only numbers that are finite; leave if there are none."""
+    for number in numbers:
+        good = good & _finite(number)
+    for array in arrays:
+        good = good & _finite(array).all(axis=0)
+    if np.size(good) and not np.any(good):
+        raise FloatingPointError(what)
+    return good
+
+
+def _kept(value: Any, good: Any, stations: bool) -> Array:
+    """Return a result with NaN for the arms that are not good."""
+    array = np.asarray(value)
+    if np.all(good):
+        return array
+    if stations:
+        array = _align(array, np.shape(good))
+    return np.where(good, array, array.dtype.type(np.nan))
 
 
 def _common(numbers: tuple[Any, ...], arrays: tuple[Array, ...]) -> tuple[tuple[int, ...], np.dtype[Any]]:
@@ -543,13 +597,15 @@ def _spread(value: Any, batch: tuple[int, ...], stations: bool) -> Array:
     return np.broadcast_to(array, batch)
 
 
-def _require_positive(pivot: Any, name: str, station: int | None) -> None:
-    """Leave where a pivot is not positive and finite."""
-    if not np.all((pivot > 0.0) & (pivot < np.inf)):
+def _positive_pivot(good: Any, pivot: Any, name: str, station: int | None) -> Any:
+    """Return which arms are good so far and have a positive pivot; leave if there are none."""
+    good = good & np.asarray((pivot > 0.0) & (pivot < np.inf))
+    if np.size(good) and not np.any(good):
         where = "" if station is None else f" of station {station + 1}"
         raise VanishingPivotError(
             f"{name}{where} must be positive and finite, not {pivot}; check parameters and step"
         )
+    return good
 
 
 def _series(values: list[Array]) -> Array:

@@ -1,8 +1,8 @@
 # swing: Flexible arm swung by one radian
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 1d772428e2d772ebb733ea95a16abbe042281079aa7667facf050e2b156d94bf
-# sha256 of the rest of this file: 5ef9f7a0e21de21e9770e884c6b1f97d5dc09cf7c1a6321b8f10116e5651f3db
+# scene digest: c9c08efbdc9f2f1b1ddadadab522649e5100f98e9cdabe31fcf56b416283c60f
+# sha256 of the rest of this file: dbf1f0eed54f78e2219438270aee79a071cbf9467f6bcde0131b16cfc87c939c
 """swing: Flexible arm swung by one radian."""
 
 from .kernel import (

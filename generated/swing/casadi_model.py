@@ -1,8 +1,8 @@
 # swing: Flexible arm swung by one radian
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 1d772428e2d772ebb733ea95a16abbe042281079aa7667facf050e2b156d94bf
-# sha256 of the rest of this file: e548987202bef536db0a418dbd8002e309b405e94a14fcc8447c4e35b8e85029
+# scene digest: c9c08efbdc9f2f1b1ddadadab522649e5100f98e9cdabe31fcf56b416283c60f
+# sha256 of the rest of this file: 94ebd93918a3441f3f834475088b5e6a1ca8a2c39a9cacb6409a80700a30be84
 #
 # model: planar arm, large rotations, tip mass
 # stations: 5
@@ -68,8 +68,8 @@ def default_parameters() -> ca.DM:
     values = (
         0.005,
         0.2,
-        0.08000000000000002,
-        0.00026666666666666673,
+        0.08,
+        0.0002666666666666667,
         0.5,
         120.0,
         60.0,
@@ -90,7 +90,7 @@ def default_parameters() -> ca.DM:
 
 def step_function() -> ca.Function:
     """Return the step ``(x, u, p) -> (x_next, y)``: the state one step later, and the outputs at ``x``."""
-    return _function("step", _step, STAGE_INSTANTS[-1])
+    return _function("swing_step", _step, STAGE_INSTANTS[-1])
 
 
 def start_functions() -> tuple[ca.Function, ...]:
@@ -113,7 +113,7 @@ def initial_function() -> ca.Function:
     u, p = _symbols(INPUT_NAMES), _symbols(PARAMETER_NAMES)
     with _as_written():
         x = _initialise(given, [u], p)
-    return ca.Function("initial", [*given.values(), u, p], [x], [*given, "u", "p"], ["x"])
+    return ca.Function("swing_initial", [*given.values(), u, p], [x], [*given, "u", "p"], ["x"])
 
 
 def _function(

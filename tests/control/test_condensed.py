@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 
 import numpy as np
+import pytest
 from numpy.testing import assert_allclose
 
 from tmm_gen.control.bench import Bench
@@ -44,7 +45,8 @@ def stated_cost(problem: ControlProblem, model: LinearModel, outputs: np.ndarray
     return total
 
 
-def test_cost_and_rows_are_those_of_the_problem(bench: Bench) -> None:
+def test_cost_and_rows_are_those_of_the_problem(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("tmm_gen.control.condensed.BEYOND", np.inf)  # no bound gives way
     problem = dataclasses.replace(bench.problem, torque_rate=40.0, delay=0.027)
     model = dataclasses.replace(
         bench.modes,
@@ -103,3 +105,22 @@ def test_the_free_response_is_the_models(bench: Bench) -> None:
     together = np.array([shown.tip, shown.tip_rate, shown.hub, shown.hub_rate]) + targets
     assert_allclose(together, outputs, rtol=1e-9, atol=1e-9)
     assert_allclose(shown.end, left, rtol=1e-9, atol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("tip", "rate", "given_way"), [(1.0, 0.0, False), (1.2, 0.0, True), (0.9, 0.01, False), (0.9, 0.2, True)]
+)
+def test_soft_bounds_give_way_where_the_arm_passes_them_anyway(
+    bench: Bench, tip: float, rate: float, given_way: bool
+) -> None:
+    """Far beyond, or so fast (rad per sample) that no brake helps."""
+    problem, model = bench.problem, bench.modes
+    made = response(model, problem.horizon, np.zeros((1, model.size + 1)))
+    condensed = Condensed(problem, made.slopes, model.target_hub, model.target_torque)
+    way = tip + rate * np.arange(problem.horizon)
+    hub = np.full(problem.horizon, 0.5)
+    along = Outputs(way, 0.0 * way, hub, 0.0 * way, np.zeros(1))
+    _, high = condensed.bounds(along, 0.0 * way, 0.0)
+    soft = high[condensed.soft]
+    assert np.all(np.isinf(soft[: problem.horizon])) == given_way
+    assert np.isfinite(soft[problem.horizon : 2 * problem.horizon]).all()

@@ -31,7 +31,7 @@ def test_an_unknown_torque_is_found(bench: Bench, kind: str) -> None:
     for k in range(200):
         seen = model.measure @ state + model.feed * (acting + 0.2)
         seen[1] += (model.tip_rate @ state) ** 2 * (model.whirl @ state)
-        estimator.correct(seen + model.target_sensors)
+        estimator.correct(estimator.surprise(seen + model.target_sensors), (0, 1), np.inf)
         acting = 0.5 * np.sin(0.3 * k)
         estimator.advance((acting, acting), acting)
         state = model.transition @ state + model.drive * (acting + 0.2)
@@ -52,8 +52,31 @@ def test_filters_agree_at_the_target(bench: Bench) -> None:
     measured[2] = np.nan  # there is no strain gauge
     for _ in range(3):
         for each in (linear, *others):
-            each.correct(measured)
+            each.correct(each.surprise(measured), (0, 1), np.inf)
             each.advance((0.01, 0.01), 0.01)
     for other in others:
         assert_allclose(other.estimate[:-1] - start, linear.estimate[:-1], rtol=1e-3, atol=1e-7)
         assert other.estimate[-1] == pytest.approx(linear.estimate[-1], rel=1e-3, abs=1e-9)
+
+
+def test_a_filter_without_accelerometer_has_the_gain_of_a_scene_without_one(bench: Bench) -> None:
+    found = KalmanFilter(bench.modes, bench.problem)
+    scene = bench.scene.replace(**{"control.sensors.accelerometer": None})
+    alone = KalmanFilter(bench.modes, Bench.of(scene).problem)
+    assert alone.sensors == [0]
+    assert_allclose(found.gain_of((0,)), alone.gain, rtol=1e-12)
+
+
+@pytest.mark.parametrize("kind", [NonlinearFilter, ExtendedKalmanFilter, KalmanFilter])
+def test_an_estimate_can_be_turned_and_start_anew(bench: Bench, kind: type) -> None:
+    filters = {KalmanFilter: lambda: KalmanFilter(bench.links, bench.problem)}
+    estimator = filters.get(kind, lambda: kind(bench.step, bench.links))()
+    measured = np.array([0.3, 0.0, np.nan])
+    estimator.turn(0.3)
+    assert estimator.surprise(measured)[0] == pytest.approx(0.0, abs=1e-12)
+    estimator.rest(0.7, 2.0)
+    measured[0] = 0.7
+    assert estimator.surprise(measured)[0] == pytest.approx(0.0, abs=1e-12)
+    estimator.advance((0.0, 0.0), 0.0)
+    after = 0.7 + 2.0 * bench.problem.sample_time
+    assert estimator.surprise(measured)[0] == pytest.approx(0.7 - after, rel=0.02)

@@ -46,6 +46,18 @@ def test_a_controller_is_written_in_c(tmm_gen: Call, tmp_path: Path, repository:
     shown = json.loads(done.stdout)
     assert (tmp_path / "controller" / f"{shown['name']}.h").is_file()
     assert (tmp_path / "controller" / "daqp" / "LICENSE").is_file()
+    assert (tmp_path / "controller" / "example" / "example.c").is_file()
+
+
+def test_a_controller_can_have_a_name_of_its_own(tmm_gen: Call, tmp_path: Path, repository: Path) -> None:
+    scene = repository / "scenes" / "swing.toml"
+    done = tmm_gen("mpc", scene, "--emit", "fast", "--name", "fast", "--real", "float32")
+    assert done.returncode == 0, done.stderr
+    assert "fast_reset" in (tmp_path / "fast" / "fast.h").read_text()
+    refused = tmm_gen("mpc", scene, "--emit", "other", "--name", "stdio")
+    assert refused.returncode == 2
+    assert "--name stdio" in refused.stderr
+    assert not (tmp_path / "other").exists()
 
 
 @pytest.mark.parametrize(

@@ -28,6 +28,11 @@ def evaluated(expression: sp.Expr, angle: float, values: dict[sp.Symbol, float])
     return float(sp.sympify(expression).subs({**VALUES, **geometry, **values}))
 
 
+def turning(lever: np.ndarray, force: np.ndarray) -> float:
+    """The moment of a force in the plane; NumPy's own `cross` wants three components."""
+    return float(lever[0] * force[1] - lever[1] * force[0])
+
+
 def inner_forces(angle: float, rate: float, acceleration: float, a: np.ndarray, f: np.ndarray) -> np.ndarray:
     """Forces at the inner end by Newton and Euler, written here by hand from eqs. 2-3 to 2-9."""
     length, mass, inertia, center = (VALUES[s] for s in (LENGTH, MASS, INERTIA, CENTER))
@@ -36,7 +41,7 @@ def inner_forces(angle: float, rate: float, acceleration: float, a: np.ndarray, 
     inner = f[:2] + mass * a_center
     to_inner, to_outer = -center * length * along, (1 - center) * length * along
     # I alpha = M_in - M_out + r_in x F_in - r_out x F_out
-    moment = inertia * acceleration + f[2] - np.cross(to_inner, inner) + np.cross(to_outer, f[:2])
+    moment = inertia * acceleration + f[2] - turning(to_inner, inner) + turning(to_outer, f[:2])
     return np.array([*inner, moment])
 
 

@@ -158,8 +158,10 @@ def test_check_does_not_trust_the_cache(place: Path, capsys: pytest.CaptureFixtu
         kernel.write_text(kernel.read_text().replace("2.0", "7.0"))
         import hashlib
 
-        known = json.loads(entry.read_text())
-        entry.write_text(json.dumps({**known, "kernel.py": hashlib.sha256(kernel.read_bytes()).hexdigest()}))
+        known = json.loads(entry.read_text().partition("\n")[2])
+        body = json.dumps({**known, "kernel.py": hashlib.sha256(kernel.read_bytes()).hexdigest()})
+        seal = hashlib.sha256(f"{entry.name}\n{body}".encode()).hexdigest()
+        entry.write_text(f"{seal}\n{body}")
     capsys.readouterr()
     assert main(["build", "--check", "arm"]) == 1
 

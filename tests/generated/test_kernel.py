@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from collections.abc import Callable
 from typing import Any
@@ -76,7 +77,7 @@ def test_the_start_is_in_equilibrium(kernel: Any) -> None:
     np.testing.assert_allclose(state.acceleration, expected, rtol=1e-14)
 
 
-@pytest.mark.parametrize("value", [math.nan, math.inf, [0.0, -math.inf]])
+@pytest.mark.parametrize("value", [math.nan, math.inf, [math.nan, -math.inf]])
 def test_inputs_that_are_not_finite_are_refused(kernel: Any, value: Any) -> None:
     model, state = kernel.prepare(), kernel.initialise()
     with pytest.raises(FloatingPointError, match="input push must be finite"):
@@ -112,8 +113,24 @@ def test_a_vanishing_pivot_names_station_and_remedy(kernel: Any) -> None:
     ) as raised:
         kernel.prepare(kernel.Params(inertia=[1.0, -9.0, 0.5]))
     assert isinstance(raised.value, ArithmeticError)
-    with pytest.raises(kernel.VanishingPivotError):  # one arm of a batch is enough
-        kernel.prepare(kernel.Params(inertia=np.array([[1.0, 1.0], [1.0, -9.0], [0.5, 0.5]])))
+    model = kernel.prepare(kernel.Params(inertia=np.array([[1.0, 1.0], [1.0, -9.0], [0.5, 0.5]])))
+    good = kernel.prepare(kernel.Params(inertia=[1.0, 1.0, 0.5]))
+    np.testing.assert_array_equal(model.admittance[:, 0], good.admittance)
+    assert np.isnan(model.admittance[:, 1]).all()  # the other arm of the batch
+
+
+@pytest.mark.parametrize("step", [0.0, -0.01, -math.inf])
+def test_a_step_that_is_not_positive_is_refused(kernel: Any, step: float) -> None:
+    with pytest.raises((ValueError, FloatingPointError), match="step must be"):
+        kernel.prepare(step=step)
+
+
+def test_a_motion_beyond_all_numbers_is_refused(kernel: Any) -> None:
+    model, state = kernel.prepare(), kernel.initialise()
+    with pytest.raises(FloatingPointError, match="outgrown"):
+        kernel.step(model, dataclasses.replace(state, rate=np.array([1.7e308, -1.7e308, 0.0])))
+    with pytest.raises(ArithmeticError, match="finite|too large"):
+        kernel.prepare(step=1e300)
 
 
 def test_a_vanishing_hub_pivot_is_told(chain: Chain, generate: Generate) -> None:

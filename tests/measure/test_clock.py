@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from tmm_gen.cli import main
 from tmm_gen.errors import UserError
 from tmm_gen.measure.clock import from_start, refuse_other_clock, starts_of
+from tmm_gen.measure.curve import through
 from tmm_gen.measure.given import read_tables
 from tmm_gen.measure.signals import Constant, Table
 from tmm_gen.measure.trade.rise import Rise
@@ -87,3 +88,16 @@ def test_what_cannot_be_moved_is_refused() -> None:
     assert from_start({"u": rise}, 0.0) == {"u": rise}
     with pytest.raises(UserError, match="cannot be put on another clock"):
         from_start({"u": rise}, 5.0)
+
+
+def test_a_motion_in_pieces_is_the_same_on_another_clock() -> None:
+    times = np.array([100.0, 100.1, 100.2, 100.35, 100.5, 100.6, 100.7])
+    curve = through(Table(1e3 * times, np.sin(3.0 * times)))
+    moved = from_start({"base": curve}, 100.0, 1e-3)["base"]
+    inside = np.linspace(0.0, 0.69, 50)
+    there = 1e3 * (inside + 100.0)
+    np.testing.assert_allclose(moved.at(inside), curve.at(there), rtol=1e-9)
+    np.testing.assert_allclose(moved.slope(inside), 1e3 * curve.slope(there), rtol=1e-6, atol=1e-9)
+    np.testing.assert_allclose(moved.curvature(inside), 1e6 * curve.curvature(there), rtol=1e-5, atol=1e-6)
+    with pytest.raises(UserError, match="so that it would see none of them"):
+        refuse_other_clock({"base": through(Table(times, np.sin(times)))}, 10.0)

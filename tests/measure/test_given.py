@@ -57,7 +57,7 @@ def test_a_name_with_an_equals_sign_may_be_a_file(folder: Path) -> None:
         (["hub_torqe=1"], "--input hub_torqe=1: the scene has no input 'hub_torqe'. Did you mean hub_torq"),
         (["zzz=1"], "Its inputs are hub_torque, tip_torque."),
         (["hub_torque=1", "hub_torque=2"], "'hub_torque' is given twice"),
-        (["hub_torque=fast"], "'fast' is neither a number nor a CSV file. Write for example --input hub_"),
+        (["hub_torque=fast"], "'fast' is neither a number nor a CSV file nor a profile. Write for example --input"),
         (["hub_torque="], "'' is neither"),
         (["hub_torque=nan"], "nan is not finite"),
         (["hub_torque=missing.csv"], "missing.csv: no such file"),

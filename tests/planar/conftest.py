@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from tmm_gen.measure.prescribed import kernel_signals
 from tmm_gen.measure.signals import Sine
 from tmm_gen.measure.trace import Trace
 from tmm_gen.native import NativeKernel, compile_kernel
@@ -148,6 +149,7 @@ def traced() -> Callable[..., tuple[np.ndarray, Trace]]:
     def run(
         kernel: NativeKernel, scene: Scene, signals: Any, until: float, step: float
     ) -> tuple[np.ndarray, Trace]:
+        signals = kernel_signals(scene, signals)
         kernel.prepare(step=step)
         kernel.initialise({name: float(signal.at(0.0)) for name, signal in signals.items()})
         steps = round(until / step)

@@ -141,7 +141,7 @@ def test_jacobian_of_the_step(base: str, integrator: str) -> None:
         else:
             values.setdefault(key(variable), [0.0] * (variable.length or 1))[index] = number
     for variable, number in zip(program.inputs, u, strict=True):
-        values[key(variable)] = number
+        values[key(variable)] = number if variable.length is None else [number] * variable.length  # held
     by_sympy = tangents(program, program.main, values)
     scale = np.abs(by_casadi).max()
     assert np.abs(by_casadi - by_sympy).max() <= 1e-11 * scale

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tmm_gen.scene import Problem, SceneError, load_scene
+from tmm_gen.scene import Problem, SceneError, load_scene, parse_scene
 
 
 @dataclass(frozen=True)
@@ -66,11 +66,7 @@ NAMES = [
     Case("letters no compiler takes", '"arm"', '"بازو"', 1, "name", "بازو", "Write for example"),
     Case("leading digit", '"tip_torque"', '"2nd"', 30, "input[1].name", "2nd", "'arm_2nd'?"),
     Case("word of Python", '"tip_torque"', '"lambda"', 30, "input[1].name", "lambda", "'lambda_1'", "Python"),
-    Case(
-        "word of C", '"tip_torque"', '"register"', 30, "input[1].name", "register", "'register_1'", "C or C++"
-    ),
-    Case("word of C++", '"tip_torque"', '"template"', 30, "input[1].name", "template", "Choose", "C or C++"),
-    Case("word of generated code", '"tip_torque"', '"step"', 30, "input[1].name", "step", "'my_step'"),
+    Case("name of the clock", '"tip_torque"', '"time"', 30, "input[1].name", "time", "'time_1'", "clock"),
     Case("module of Python", '"arm"', '"statistics"', 1, "name", "statistics", "'statistics_arm'", "hide"),
     Case("header of C", '"arm"', '"stdio"', 1, "name", "stdio", "'stdio_arm'", "hide"),
     Case("long name", '"arm"', f'"{"a" * 49}"', 1, "name", "a" * 49, "shorter"),
@@ -472,3 +468,25 @@ def test_a_scene_without_outputs(tmp_path: Path, chain: str) -> None:
 def test_no_file_is_written(tmp_path: Path, chain: str) -> None:
     problems(tmp_path / "arm.toml", chain.replace("20.0", "-1"))
     assert [path.name for path in tmp_path.iterdir()] == ["arm.toml"]
+
+
+@pytest.mark.parametrize(
+    ("angle", "other", "said"),
+    [
+        ("a", "a_rate", "is already the name of the rate of [[input]] number 2"),
+        ("a", "a_acceleration", "is already the name of the acceleration of [[input]] number 2"),
+        (
+            "long" * 10,
+            "b",
+            "comes with '" + "long" * 10 + "_acceleration', which must have at most 48 characters",
+        ),
+    ],
+)
+def test_names_of_a_prescribed_base(angle: str, other: str, said: str, chain: str) -> None:
+    """An angle comes with its rate and acceleration, whose names must be free."""
+    text = chain.replace('"clamp"', '"prescribed"')
+    text += f'[[input]]\nname = "{angle}"\nat = "base"\nacts = "angle"\n'
+    text += f'[[output]]\nname = "{other}"\nat = "tip"\nof = "angle"\n'
+    with pytest.raises(SceneError) as caught:
+        parse_scene(text)
+    assert said in str(caught.value)

@@ -47,7 +47,9 @@ OVERFLOW = Fault(
     "overflow", "angle_per_acceleration * unknown;", "angle_per_acceleration * unknown * 1e38f * 1e3f;"
 )
 WRONG_SIGN = Fault("wrong sign", "(bias - joint_torque);", "(bias + joint_torque);")
-DOUBLE = Fault("implicit double", "real unknown = 0.0f;", "real unknown = (real)(0.1 * inputs->tip_torque);")
+DOUBLE = Fault(
+    "implicit double", "real unknown = 0.0f;", "real unknown = (real)(0.1 * inputs->tmm_tip_torque);"
+)
 
 
 @pytest.fixture(scope="module")
@@ -127,7 +129,7 @@ def test_the_proof_finds_nothing_where_nothing_is(
             "misra",
             Fault(
                 "no braces",
-                "        if (!isfinite(initial",
+                "        if ((initial_angle != NULL",
                 "        if (bias > 0.0f) bias = 0.0f; if (!isfinite(initial",
             ),
             "15.6",
@@ -150,7 +152,7 @@ def test_the_analyser_finds_a_null_pointer(
 ) -> None:
     need_tool(*TOOLS["gcc_analyzer"])
     fault = Fault(
-        "null", "    real bias = inputs->tip_torque;", "    real *none = 0;\n    real bias = *none;"
+        "null", "    real bias = inputs->tmm_tip_torque;", "    real *none = 0;\n    real bias = *none;"
     )
     found = CHECKS["gcc_analyzer"](_planted(files, fault))
     assert not found.passed

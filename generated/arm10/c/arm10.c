@@ -2,8 +2,8 @@
  * arm10: Ten-link arm swung by a hub motor
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 95c81c6eb7e0b6f1ffc37b1b0540e1023a1118b007e8b573b96cceed3f286490
- * sha256 of the rest of this file: aa249c9615a7e39ae6757409fbe6ce652bb3586827fd8ab4d3e69e4a9980a300
+ * scene digest: d9d28dc691ae4f0a1d62cb9cfa9f4612d111fa76a756dd286c77eac7f930ab35
+ * sha256 of the rest of this file: f950727245d571ee71bb5d83ee30333771f14c6aa30795b31c21e04f024e0a69
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 10
@@ -20,9 +20,16 @@
  *
  * @file arm10.c
  */
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(_M_FP_FAST) \
+    || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "-Ofast and -ffast-math remove checks of this file: use -O3, or put -fno-fast-math behind them"
+#endif
+
 #include "arm10.h"
 
+#include <float.h>
 #include <math.h>
+#include <stddef.h>
 #include <stdint.h>
 
 typedef arm10_real real;
@@ -83,7 +90,7 @@ static circle circle_of(real angle)
 
 static int inputs_are_finite(const arm10_inputs *inputs)
 {
-    if (!isfinite(inputs->hub_torque) || !isfinite(inputs->tip_force)) {
+    if (!isfinite(inputs->tmm_hub_torque) || !isfinite(inputs->tmm_tip_force)) {
         return 0;
     }
     return 1;
@@ -97,9 +104,12 @@ void arm10_default_params(arm10_params *params)
     static const real damping[] = {
         0.128, 0.064, 0.064, 0.064, 0.064, 0.064, 0.064, 0.064, 0.064, 0.064
     };
+    if (params == NULL) {
+        return;
+    }
     params->length = 0.1;
     params->mass = 0.05;
-    params->inertia = 4.166666666666668e-05;
+    params->inertia = 4.1666666666666665e-05;
     params->center = 0.5;
     for (int j = 0; j < ARM10_STATIONS; ++j) {
         params->stiffness[j] = stiffness[j];
@@ -118,6 +128,9 @@ arm10_status arm10_prepare(
     const arm10_params *params,
     arm10_real step)
 {
+    if (model == NULL || params == NULL) {
+        return ARM10_NULL_POINTER;
+    }
     if (!isfinite(step) || !(step > 0.0)) {
         return ARM10_INVALID_STEP;
     }
@@ -162,6 +175,15 @@ arm10_status arm10_prepare(
     model->gravity = params->gravity;
     model->hub_inertia = params->hub_inertia;
     model->hub_damping = params->hub_damping;
+
+    real total = 0.0; /* of the model: is all of it finite? */
+    for (int j = 0; j < ARM10_STATIONS; ++j) {
+        total += model->joint_impedance[j];
+    }
+    if (!isfinite(model->half_step_squared + model->angle_per_acceleration + model->rate_per_acceleration
+        + model->end_mass + model->rod_inertia + model->hub_impedance + total)) {
+        return ARM10_NON_FINITE_MODEL;
+    }
     return ARM10_OK;
 }
 
@@ -172,11 +194,15 @@ arm10_status arm10_initialise(
     const arm10_real initial_rate[ARM10_STATIONS],
     const arm10_inputs *inputs)
 {
+    if (state == NULL || params == NULL || inputs == NULL) {
+        return ARM10_NULL_POINTER;
+    }
     if (!inputs_are_finite(inputs)) {
         return ARM10_NON_FINITE_INPUT;
     }
     for (int j = 0; j < ARM10_STATIONS; ++j) {
-        if (!isfinite(initial_angle[j]) || !isfinite(initial_rate[j])) {
+        if ((initial_angle != NULL && !isfinite(initial_angle[j]))
+            || (initial_rate != NULL && !isfinite(initial_rate[j]))) {
             return ARM10_NON_FINITE_INPUT;
         }
     }
@@ -194,6 +220,7 @@ arm10_status arm10_initialise(
     real predicted_acceleration[ARM10_STATIONS + 1];
     real predicted_angle[ARM10_STATIONS + 1]; /* angle of base and links as predicted [rad] */
     real predicted_rate[ARM10_STATIONS + 1]; /* rate of base and links as predicted [rad/s] */
+    real total = 0.0; /* of the new motion: is all of it finite? */
 
     /* Masses at the nodes between links, and what they leave over. */
     const real end_mass = params->tip_mass - mass * (1.0 - params->center);
@@ -202,7 +229,7 @@ arm10_status arm10_initialise(
 
     /* What is the same at every station. */
     const real hub_pivot = params->hub_inertia;
-    if (!(params->hub_inertia > 0.00048828125) || !isfinite(params->hub_inertia)) {
+    if (!(params->hub_inertia > 0.00048828125) || !(params->hub_inertia <= DBL_MAX)) {
         return ARM10_VANISHING_PIVOT;
     }
 
@@ -217,11 +244,10 @@ arm10_status arm10_initialise(
     acceleration_x[0] = node_x;
     acceleration_y[0] = params->gravity;
     for (int j = 0; j < ARM10_STATIONS; ++j) {
-        predicted_rate[j + 1] = initial_rate[j];
-        predicted_angle[j + 1] = initial_angle[j];
+        predicted_rate[j + 1] = (initial_rate != NULL ? initial_rate[j] : 0.0);
+        predicted_angle[j + 1] = (initial_angle != NULL ? initial_angle[j] : 0.0);
         predicted_acceleration[j + 1] = 0.0;
-        if (!(predicted_angle[j + 1] >= -ARM10_LARGEST_ANGLE)
-            || !(predicted_angle[j + 1] <= ARM10_LARGEST_ANGLE)) {
+        if (!(fabs(predicted_angle[j + 1]) <= ARM10_LARGEST_ANGLE)) {
             return ARM10_OUT_OF_RANGE;
         }
         const circle turn_1 = circle_of(predicted_angle[j + 1]);
@@ -241,7 +267,7 @@ arm10_status arm10_initialise(
     real impedance_xx = end_mass;
     real impedance_yy = end_mass;
     real force_x = acceleration_x[10] * end_mass;
-    real force_y = acceleration_y[10] * end_mass - inputs->tip_force;
+    real force_y = acceleration_y[10] * end_mass - inputs->tmm_tip_force;
     real impedance_xy = 0.0;
     real impedance_yx = 0.0;
     real torque = 0.0;
@@ -259,7 +285,7 @@ arm10_status arm10_initialise(
         const real impedance_uu = rod_inertia - impedance_xu * lever_sine[j] + impedance_yu * lever_cosine[j];
         torque = torque - force_x * lever_sine[j] + force_y * lever_cosine[j]
             + predicted_acceleration[j + 1] * rod_inertia;
-        if (!(impedance_uu > 3.814697265625e-06) || !isfinite(impedance_uu)) {
+        if (!(impedance_uu > 3.814697265625e-06) || !(impedance_uu <= DBL_MAX)) {
             return ARM10_VANISHING_PIVOT;
         }
         const real admittance = 1.0 / impedance_uu;
@@ -285,7 +311,7 @@ arm10_status arm10_initialise(
     }
 
     /* The base. */
-    real unknown = (inputs->hub_torque - torque - params->hub_damping * predicted_rate[0]
+    real unknown = (inputs->tmm_hub_torque - torque - params->hub_damping * predicted_rate[0]
         - params->hub_inertia * predicted_acceleration[0]) / hub_pivot;
     const real hub_unknown = unknown;
 
@@ -304,15 +330,11 @@ arm10_status arm10_initialise(
         state->angle[j] = predicted_angle[j + 1];
         state->rate[j] = predicted_rate[j + 1];
         state->acceleration[j] = predicted_acceleration[j + 1] + unknown;
+        total += state->angle[j] + state->rate[j] + state->acceleration[j];
     }
 
-    if (!isfinite(state->hub_angle) || !isfinite(state->hub_rate) || !isfinite(state->hub_acceleration)) {
+    if (!isfinite(total + state->hub_angle + state->hub_rate + state->hub_acceleration)) {
         return ARM10_NON_FINITE_STATE;
-    }
-    for (int j = 0; j < ARM10_STATIONS; ++j) {
-        if (!isfinite(state->angle[j]) || !isfinite(state->rate[j]) || !isfinite(state->acceleration[j])) {
-            return ARM10_NON_FINITE_STATE;
-        }
     }
     return ARM10_OK;
 }
@@ -322,6 +344,9 @@ arm10_status arm10_step(
     arm10_state *state,
     const arm10_inputs *inputs)
 {
+    if (model == NULL || state == NULL || inputs == NULL) {
+        return ARM10_NULL_POINTER;
+    }
     if (!inputs_are_finite(inputs)) {
         return ARM10_NON_FINITE_INPUT;
     }
@@ -345,6 +370,7 @@ arm10_status arm10_step(
     real swing_x[ARM10_STATIONS]; /* change of the outer end's acceleration along x per unknown [m] */
     real swing_y[ARM10_STATIONS]; /* change of the outer end's acceleration along y per unknown [m] */
     real transmission[ARM10_STATIONS]; /* share of motion and torque each joint passes on */
+    real total = 0.0; /* of the new motion: is all of it finite? */
 
     /* Predicted motion. */
     predicted_rate[0] = state->hub_rate + state->hub_acceleration * step;
@@ -360,8 +386,7 @@ arm10_status arm10_step(
         predicted_rate[j + 1] = state->rate[j] + state->acceleration[j] * step;
         predicted_angle[j + 1] = state->angle[j] + state->acceleration[j] * half_step_squared
             + state->rate[j] * step;
-        if (!(predicted_angle[j + 1] >= -ARM10_LARGEST_ANGLE)
-            || !(predicted_angle[j + 1] <= ARM10_LARGEST_ANGLE)) {
+        if (!(fabs(predicted_angle[j + 1]) <= ARM10_LARGEST_ANGLE)) {
             return ARM10_OUT_OF_RANGE;
         }
         const circle turn_1 = circle_of(predicted_angle[j + 1]);
@@ -384,7 +409,7 @@ arm10_status arm10_step(
     real impedance_xx = model->end_mass;
     real impedance_yy = model->end_mass;
     real force_x = acceleration_x[10] * model->end_mass;
-    real force_y = acceleration_y[10] * model->end_mass - inputs->tip_force;
+    real force_y = acceleration_y[10] * model->end_mass - inputs->tmm_tip_force;
     real impedance_uu = 0.0;
     real impedance_ux = 0.0;
     real impedance_uy = 0.0;
@@ -411,7 +436,7 @@ arm10_status arm10_step(
         torque = torque + state->acceleration[j] * rod_inertia - force_x * lever_sine[j]
             + force_y * lever_cosine[j];
         const real pivot = impedance_uu + model->joint_impedance[j];
-        if (!(pivot > 3.814697265625e-06) || !isfinite(pivot)) {
+        if (!(pivot > 3.814697265625e-06) || !(pivot <= DBL_MAX)) {
             return ARM10_VANISHING_PIVOT;
         }
         const real admittance = 1.0 / pivot;
@@ -444,10 +469,10 @@ arm10_status arm10_step(
 
     /* The base. */
     const real hub_pivot = model->hub_impedance + impedance_uu;
-    if (!(hub_pivot > 0.00048828125) || !isfinite(hub_pivot)) {
+    if (!(hub_pivot > 0.00048828125) || !(hub_pivot <= DBL_MAX)) {
         return ARM10_VANISHING_PIVOT;
     }
-    real unknown = (inputs->hub_torque - torque - state->hub_acceleration * model->hub_inertia
+    real unknown = (inputs->tmm_hub_torque - torque - state->hub_acceleration * model->hub_inertia
         - model->hub_damping * predicted_rate[0]) / hub_pivot;
     const real hub_unknown = unknown;
 
@@ -466,10 +491,10 @@ arm10_status arm10_step(
         state->angle[j] = predicted_angle[j + 1] + angle_per_acceleration * unknown;
         state->rate[j] = predicted_rate[j + 1] + rate_per_acceleration * unknown;
         state->acceleration[j] = state->acceleration[j] + unknown;
+        total += state->angle[j] + state->rate[j] + state->acceleration[j];
     }
 
-    /* Anything that is not a number has reached this one. */
-    if (!isfinite(state->acceleration[ARM10_STATIONS - 1])) {
+    if (!isfinite(total + state->hub_angle + state->hub_rate + state->hub_acceleration)) {
         return ARM10_NON_FINITE_STATE;
     }
     return ARM10_OK;
@@ -480,21 +505,24 @@ void arm10_output(
     const arm10_state *state,
     arm10_outputs *outputs)
 {
+    if (model == NULL || state == NULL || outputs == NULL) {
+        return;
+    }
     const real length = model->length;
 
     /* Tip: position. */
-    outputs->tip_x = 0.0;
-    outputs->tip_y = 0.0;
+    outputs->tmm_tip_x = 0.0;
+    outputs->tmm_tip_y = 0.0;
     for (int j = 0; j < ARM10_STATIONS; ++j) {
         const circle turn_1 = circle_of(state->angle[j]);
-        outputs->tip_x = outputs->tip_x + length * turn_1.cosine;
-        outputs->tip_y = outputs->tip_y + length * turn_1.sine;
+        outputs->tmm_tip_x = outputs->tmm_tip_x + length * turn_1.cosine;
+        outputs->tmm_tip_y = outputs->tmm_tip_y + length * turn_1.sine;
     }
 
     /* Hub: angle. */
-    outputs->hub = state->hub_angle;
+    outputs->tmm_hub = state->hub_angle;
 
     /* Root: torque. */
-    outputs->root = model->damping[0] * (state->rate[0] - state->hub_rate)
+    outputs->tmm_root = model->damping[0] * (state->rate[0] - state->hub_rate)
         + model->stiffness[0] * (state->angle[0] - state->hub_angle);
 }

@@ -2,8 +2,8 @@
  * arm10: Ten-link arm swung by a hub motor
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 95c81c6eb7e0b6f1ffc37b1b0540e1023a1118b007e8b573b96cceed3f286490
- * sha256 of the rest of this file: c6b0bb4ff8df96e82803e2144c98881b3c5af0576d737da3454ed15b0d78ddc4
+ * scene digest: d9d28dc691ae4f0a1d62cb9cfa9f4612d111fa76a756dd286c77eac7f930ab35
+ * sha256 of the rest of this file: 17dfb47ba56d0bdfff0efdb85c218ec72b5ebc6a2b572adaeffce847692679f4
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 10
@@ -24,8 +24,8 @@
  *
  * @file arm10.h
  */
-#ifndef ARM10_H
-#define ARM10_H
+#ifndef TMM_GEN_KERNEL_arm10
+#define TMM_GEN_KERNEL_arm10
 
 #ifdef __cplusplus
 extern "C" {
@@ -57,7 +57,11 @@ typedef enum {
     ARM10_NON_FINITE_STATE,
     /** An angle is beyond ARM10_LARGEST_ANGLE, or an intermediate result is beyond what the box of the scene
      * can lead to; nothing was changed. */
-    ARM10_OUT_OF_RANGE
+    ARM10_OUT_OF_RANGE,
+    /** A pointer that is needed is NULL; nothing was changed. */
+    ARM10_NULL_POINTER = 6,
+    /** Parameters or time step are too large or too small for the number type; the model is of no use. */
+    ARM10_NON_FINITE_MODEL = 7
 } arm10_status;
 
 /** Physical parameters. */
@@ -105,22 +109,22 @@ typedef struct {
 
 /** What acts on the arm. */
 typedef struct {
-    arm10_real hub_torque; /**< torque acting at the base [N m] */
-    arm10_real tip_force; /**< force_y acting at the tip [N] */
+    arm10_real tmm_hub_torque; /**< torque acting at the base [N m] */
+    arm10_real tmm_tip_force; /**< force_y acting at the tip [N] */
 } arm10_inputs;
 
 /** What the scene asks to know. */
 typedef struct {
-    arm10_real tip_x; /**< position at the tip, x [m] */
-    arm10_real tip_y; /**< position at the tip, y [m] */
-    arm10_real hub; /**< angle at the base [rad] */
-    arm10_real root; /**< torque at station 1 [N m] */
+    arm10_real tmm_tip_x; /**< position at the tip, x [m] */
+    arm10_real tmm_tip_y; /**< position at the tip, y [m] */
+    arm10_real tmm_hub; /**< angle at the base [rad] */
+    arm10_real tmm_root; /**< torque at station 1 [N m] */
 } arm10_outputs;
 
 /**
  * Write the scene's parameters.
  *
- * @param[out] params  parameters
+ * @param[out] params  parameters; nothing is done where it is NULL
  */
 void arm10_default_params(arm10_params *params);
 
@@ -130,7 +134,7 @@ void arm10_default_params(arm10_params *params);
  * @param[out] model   what the other functions need
  * @param[in]  params  parameters
  * @param[in]  step    time step [s]
- * @return OK, NON_FINITE_INPUT, INVALID_STEP or VANISHING_PIVOT
+ * @return OK, NON_FINITE_INPUT, NULL_POINTER, INVALID_STEP, VANISHING_PIVOT or NON_FINITE_MODEL
  */
 arm10_status arm10_prepare(
     arm10_model *model,
@@ -142,10 +146,10 @@ arm10_status arm10_prepare(
  *
  * @param[out] state   motion at the initial instant
  * @param[in]  params  parameters
- * @param[in]  initial_angle  angles to start from [rad]
- * @param[in]  initial_rate  rates to start from [rad/s]
+ * @param[in]  initial_angle  angles to start from [rad]; NULL for the scene's own
+ * @param[in]  initial_rate  rates to start from [rad/s]; NULL for the scene's own
  * @param[in]  inputs  what acts at the initial instant
- * @return OK, NON_FINITE_INPUT, VANISHING_PIVOT, NON_FINITE_STATE or OUT_OF_RANGE
+ * @return OK, NON_FINITE_INPUT, NULL_POINTER, VANISHING_PIVOT, NON_FINITE_STATE or OUT_OF_RANGE
  */
 arm10_status arm10_initialise(
     arm10_state *state,
@@ -160,7 +164,7 @@ arm10_status arm10_initialise(
  * @param[in]     model   from arm10_prepare()
  * @param[in,out] state   motion before the step, and after it
  * @param[in]     inputs  what acts, at the end of the step
- * @return OK, NON_FINITE_INPUT, VANISHING_PIVOT, NON_FINITE_STATE or OUT_OF_RANGE
+ * @return OK, NON_FINITE_INPUT, NULL_POINTER, VANISHING_PIVOT, NON_FINITE_STATE or OUT_OF_RANGE
  */
 arm10_status arm10_step(
     const arm10_model *model,
@@ -168,7 +172,7 @@ arm10_status arm10_step(
     const arm10_inputs *inputs);
 
 /**
- * Read the outputs off the state.
+ * Read the outputs off the state. Nothing is done where a pointer is NULL.
  *
  * @param[in]  model    from arm10_prepare()
  * @param[in]  state    motion
@@ -183,4 +187,4 @@ void arm10_output(
 }
 #endif
 
-#endif /* ARM10_H */
+#endif /* TMM_GEN_KERNEL_arm10 */

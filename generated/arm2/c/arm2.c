@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: c5e09abbb61734735cef8cfddf39dd959eb5765da3ad6484bed2957b4fdf212c
- * sha256 of the rest of this file: 400f5a5c09cc9a06922e26516d6f04d990868f9e3530bd400df9c0b597748390
+ * sha256 of the rest of this file: 4c66e0d44ac70211278b9ca3981acab9f11a29e4c62775974f8de39f75e001b3
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 2
@@ -20,15 +20,22 @@
  *
  * @file arm2.c
  */
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(_M_FP_FAST) \
+    || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "-Ofast and -ffast-math remove checks of this file: use -O3, or put -fno-fast-math behind them"
+#endif
+
 #include "arm2.h"
 
+#include <float.h>
 #include <math.h>
+#include <stddef.h>
 
 typedef arm2_real real;
 
 static int inputs_are_finite(const arm2_inputs *inputs)
 {
-    if (!isfinite(inputs->hub_torque)) {
+    if (!isfinite(inputs->tmm_hub_torque)) {
         return 0;
     }
     return 1;
@@ -54,6 +61,9 @@ void arm2_default_params(arm2_params *params)
     static const real damping[] = {
         0.6, 0.2
     };
+    if (params == NULL) {
+        return;
+    }
     for (int j = 0; j < ARM2_STATIONS; ++j) {
         params->length[j] = length[j];
     }
@@ -84,6 +94,9 @@ arm2_status arm2_prepare(
     const arm2_params *params,
     arm2_real step)
 {
+    if (model == NULL || params == NULL) {
+        return ARM2_NULL_POINTER;
+    }
     if (!isfinite(step) || !(step > 0.0)) {
         return ARM2_INVALID_STEP;
     }
@@ -135,6 +148,15 @@ arm2_status arm2_prepare(
     model->hub_inertia = params->hub_inertia;
     model->hub_damping = params->hub_damping;
     model->tip_inertia = params->tip_inertia;
+
+    real total = 0.0; /* of the model: is all of it finite? */
+    for (int j = 0; j < ARM2_STATIONS; ++j) {
+        total += model->node_mass[j] + model->rod_inertia[j] + model->joint_impedance[j];
+    }
+    if (!isfinite(model->half_step_squared + model->angle_per_acceleration + model->rate_per_acceleration
+        + model->hub_impedance + total)) {
+        return ARM2_NON_FINITE_MODEL;
+    }
     return ARM2_OK;
 }
 
@@ -145,11 +167,15 @@ arm2_status arm2_initialise(
     const arm2_real initial_rate[ARM2_STATIONS],
     const arm2_inputs *inputs)
 {
+    if (state == NULL || params == NULL || inputs == NULL) {
+        return ARM2_NULL_POINTER;
+    }
     if (!inputs_are_finite(inputs)) {
         return ARM2_NON_FINITE_INPUT;
     }
     for (int j = 0; j < ARM2_STATIONS; ++j) {
-        if (!isfinite(initial_angle[j]) || !isfinite(initial_rate[j])) {
+        if ((initial_angle != NULL && !isfinite(initial_angle[j]))
+            || (initial_rate != NULL && !isfinite(initial_rate[j]))) {
             return ARM2_NON_FINITE_INPUT;
         }
     }
@@ -166,6 +192,7 @@ arm2_status arm2_initialise(
     real predicted_acceleration[ARM2_STATIONS + 1];
     real predicted_angle[ARM2_STATIONS + 1]; /* angle of base and links as predicted [rad] */
     real predicted_rate[ARM2_STATIONS + 1]; /* rate of base and links as predicted [rad/s] */
+    real total = 0.0; /* of the new motion: is all of it finite? */
 
     /* Masses at the nodes between links, and what they leave over. */
     for (int j = 0; j < 1; ++j) {
@@ -176,7 +203,7 @@ arm2_status arm2_initialise(
 
     /* What is the same at every station. */
     const real hub_pivot = params->hub_inertia;
-    if (!(params->hub_inertia > 0.0) || !isfinite(params->hub_inertia)) {
+    if (!(params->hub_inertia > 0.0) || !(params->hub_inertia <= DBL_MAX)) {
         return ARM2_VANISHING_PIVOT;
     }
 
@@ -191,8 +218,8 @@ arm2_status arm2_initialise(
     acceleration_x[0] = node_x;
     acceleration_y[0] = params->gravity;
     for (int j = 0; j < ARM2_STATIONS; ++j) {
-        predicted_rate[j + 1] = initial_rate[j];
-        predicted_angle[j + 1] = initial_angle[j];
+        predicted_rate[j + 1] = (initial_rate != NULL ? initial_rate[j] : 0.0);
+        predicted_angle[j + 1] = (initial_angle != NULL ? initial_angle[j] : 0.0);
         predicted_acceleration[j + 1] = 0.0;
         lever_cosine[j] = params->length[j] * cos(predicted_angle[j + 1]);
         lever_sine[j] = params->length[j] * sin(predicted_angle[j + 1]);
@@ -233,7 +260,7 @@ arm2_status arm2_initialise(
             + impedance_yu * lever_cosine[j];
         torque = torque - force_x * lever_sine[j] + force_y * lever_cosine[j]
             + predicted_acceleration[j + 1] * rod_inertia;
-        if (!(impedance_uu > 0.0) || !isfinite(impedance_uu)) {
+        if (!(impedance_uu > 0.0) || !(impedance_uu <= DBL_MAX)) {
             return ARM2_VANISHING_PIVOT;
         }
         const real admittance = 1.0 / impedance_uu;
@@ -251,7 +278,7 @@ arm2_status arm2_initialise(
     }
 
     /* The base. */
-    real unknown = (inputs->hub_torque - torque - params->hub_damping * predicted_rate[0]
+    real unknown = (inputs->tmm_hub_torque - torque - params->hub_damping * predicted_rate[0]
         - params->hub_inertia * predicted_acceleration[0]) / hub_pivot;
     const real hub_unknown = unknown;
 
@@ -270,15 +297,11 @@ arm2_status arm2_initialise(
         state->angle[j] = predicted_angle[j + 1];
         state->rate[j] = predicted_rate[j + 1];
         state->acceleration[j] = predicted_acceleration[j + 1] + unknown;
+        total += state->angle[j] + state->rate[j] + state->acceleration[j];
     }
 
-    if (!isfinite(state->hub_angle) || !isfinite(state->hub_rate) || !isfinite(state->hub_acceleration)) {
+    if (!isfinite(total + state->hub_angle + state->hub_rate + state->hub_acceleration)) {
         return ARM2_NON_FINITE_STATE;
-    }
-    for (int j = 0; j < ARM2_STATIONS; ++j) {
-        if (!isfinite(state->angle[j]) || !isfinite(state->rate[j]) || !isfinite(state->acceleration[j])) {
-            return ARM2_NON_FINITE_STATE;
-        }
     }
     return ARM2_OK;
 }
@@ -288,6 +311,9 @@ arm2_status arm2_step(
     arm2_state *state,
     const arm2_inputs *inputs)
 {
+    if (model == NULL || state == NULL || inputs == NULL) {
+        return ARM2_NULL_POINTER;
+    }
     if (!inputs_are_finite(inputs)) {
         return ARM2_NON_FINITE_INPUT;
     }
@@ -308,6 +334,7 @@ arm2_status arm2_step(
     real swing_x[ARM2_STATIONS]; /* change of the outer end's acceleration along x per unknown [m] */
     real swing_y[ARM2_STATIONS]; /* change of the outer end's acceleration along y per unknown [m] */
     real transmission[ARM2_STATIONS]; /* share of motion and torque each joint passes on */
+    real total = 0.0; /* of the new motion: is all of it finite? */
 
     /* Predicted motion. */
     predicted_rate[0] = state->hub_rate + state->hub_acceleration * step;
@@ -369,7 +396,7 @@ arm2_status arm2_step(
         torque = torque + state->acceleration[j] * model->rod_inertia[j] - force_x * lever_sine[j]
             + force_y * lever_cosine[j];
         const real pivot = impedance_uu + model->joint_impedance[j];
-        if (!(pivot > 0.0) || !isfinite(pivot)) {
+        if (!(pivot > 0.0) || !(pivot <= DBL_MAX)) {
             return ARM2_VANISHING_PIVOT;
         }
         const real admittance = 1.0 / pivot;
@@ -393,10 +420,10 @@ arm2_status arm2_step(
 
     /* The base. */
     const real hub_pivot = model->hub_impedance + impedance_uu;
-    if (!(hub_pivot > 0.0) || !isfinite(hub_pivot)) {
+    if (!(hub_pivot > 0.0) || !(hub_pivot <= DBL_MAX)) {
         return ARM2_VANISHING_PIVOT;
     }
-    real unknown = (inputs->hub_torque - torque - state->hub_acceleration * model->hub_inertia
+    real unknown = (inputs->tmm_hub_torque - torque - state->hub_acceleration * model->hub_inertia
         - model->hub_damping * predicted_rate[0]) / hub_pivot;
     const real hub_unknown = unknown;
 
@@ -415,10 +442,10 @@ arm2_status arm2_step(
         state->angle[j] = predicted_angle[j + 1] + angle_per_acceleration * unknown;
         state->rate[j] = predicted_rate[j + 1] + rate_per_acceleration * unknown;
         state->acceleration[j] = state->acceleration[j] + unknown;
+        total += state->angle[j] + state->rate[j] + state->acceleration[j];
     }
 
-    /* Anything that is not a number has reached this one. */
-    if (!isfinite(state->acceleration[ARM2_STATIONS - 1])) {
+    if (!isfinite(total + state->hub_angle + state->hub_rate + state->hub_acceleration)) {
         return ARM2_NON_FINITE_STATE;
     }
     return ARM2_OK;
@@ -429,18 +456,21 @@ void arm2_output(
     const arm2_state *state,
     arm2_outputs *outputs)
 {
+    if (model == NULL || state == NULL || outputs == NULL) {
+        return;
+    }
     /* Tip: position. */
-    outputs->tip_x = 0.0;
-    outputs->tip_y = 0.0;
+    outputs->tmm_tip_x = 0.0;
+    outputs->tmm_tip_y = 0.0;
     for (int j = 0; j < ARM2_STATIONS; ++j) {
-        outputs->tip_x = outputs->tip_x + model->length[j] * cos(state->angle[j]);
-        outputs->tip_y = outputs->tip_y + model->length[j] * sin(state->angle[j]);
+        outputs->tmm_tip_x = outputs->tmm_tip_x + model->length[j] * cos(state->angle[j]);
+        outputs->tmm_tip_y = outputs->tmm_tip_y + model->length[j] * sin(state->angle[j]);
     }
 
     /* Hub: angle. */
-    outputs->hub = state->hub_angle;
+    outputs->tmm_hub = state->hub_angle;
 
     /* Elbow: torque. */
-    outputs->elbow = model->damping[1] * (state->rate[1] - state->rate[0])
+    outputs->tmm_elbow = model->damping[1] * (state->rate[1] - state->rate[0])
         + model->stiffness[1] * (state->angle[1] - state->angle[0]);
 }

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: c5e09abbb61734735cef8cfddf39dd959eb5765da3ad6484bed2957b4fdf212c
- * sha256 of the rest of this file: 735407acf1e47e01d3af7d8b5624e8bd92709d08574bfb011c67caa630344800
+ * sha256 of the rest of this file: 1b6da6d9ec433a1f9b95bb2f530230a3b52eac8898708294b824857ce145f559
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 2
@@ -24,8 +24,8 @@
  *
  * @file arm2.h
  */
-#ifndef ARM2_H
-#define ARM2_H
+#ifndef TMM_GEN_KERNEL_arm2
+#define TMM_GEN_KERNEL_arm2
 
 #ifdef __cplusplus
 extern "C" {
@@ -51,7 +51,11 @@ typedef enum {
     /** No passive arm has such parameters (a negative inertia, say); the model is of no use. */
     ARM2_VANISHING_PIVOT,
     /** The motion has outgrown the number type; initialise anew. */
-    ARM2_NON_FINITE_STATE
+    ARM2_NON_FINITE_STATE,
+    /** A pointer that is needed is NULL; nothing was changed. */
+    ARM2_NULL_POINTER = 6,
+    /** Parameters or time step are too large or too small for the number type; the model is of no use. */
+    ARM2_NON_FINITE_MODEL = 7
 } arm2_status;
 
 /** Physical parameters. */
@@ -115,21 +119,21 @@ typedef struct {
 
 /** What acts on the arm. */
 typedef struct {
-    arm2_real hub_torque; /**< torque acting at the base [N m] */
+    arm2_real tmm_hub_torque; /**< torque acting at the base [N m] */
 } arm2_inputs;
 
 /** What the scene asks to know. */
 typedef struct {
-    arm2_real tip_x; /**< position at the tip, x [m] */
-    arm2_real tip_y; /**< position at the tip, y [m] */
-    arm2_real hub; /**< angle at the base [rad] */
-    arm2_real elbow; /**< torque at station 2 [N m] */
+    arm2_real tmm_tip_x; /**< position at the tip, x [m] */
+    arm2_real tmm_tip_y; /**< position at the tip, y [m] */
+    arm2_real tmm_hub; /**< angle at the base [rad] */
+    arm2_real tmm_elbow; /**< torque at station 2 [N m] */
 } arm2_outputs;
 
 /**
  * Write the scene's parameters.
  *
- * @param[out] params  parameters
+ * @param[out] params  parameters; nothing is done where it is NULL
  */
 void arm2_default_params(arm2_params *params);
 
@@ -139,7 +143,7 @@ void arm2_default_params(arm2_params *params);
  * @param[out] model   what the other functions need
  * @param[in]  params  parameters
  * @param[in]  step    time step [s]
- * @return OK, NON_FINITE_INPUT, INVALID_STEP or VANISHING_PIVOT
+ * @return OK, NON_FINITE_INPUT, NULL_POINTER, INVALID_STEP, VANISHING_PIVOT or NON_FINITE_MODEL
  */
 arm2_status arm2_prepare(
     arm2_model *model,
@@ -151,10 +155,10 @@ arm2_status arm2_prepare(
  *
  * @param[out] state   motion at the initial instant
  * @param[in]  params  parameters
- * @param[in]  initial_angle  angles to start from [rad]
- * @param[in]  initial_rate  rates to start from [rad/s]
+ * @param[in]  initial_angle  angles to start from [rad]; NULL for the scene's own
+ * @param[in]  initial_rate  rates to start from [rad/s]; NULL for the scene's own
  * @param[in]  inputs  what acts at the initial instant
- * @return OK, NON_FINITE_INPUT, VANISHING_PIVOT or NON_FINITE_STATE
+ * @return OK, NON_FINITE_INPUT, NULL_POINTER, VANISHING_PIVOT or NON_FINITE_STATE
  */
 arm2_status arm2_initialise(
     arm2_state *state,
@@ -169,7 +173,7 @@ arm2_status arm2_initialise(
  * @param[in]     model   from arm2_prepare()
  * @param[in,out] state   motion before the step, and after it
  * @param[in]     inputs  what acts, at the end of the step
- * @return OK, NON_FINITE_INPUT, VANISHING_PIVOT or NON_FINITE_STATE
+ * @return OK, NON_FINITE_INPUT, NULL_POINTER, VANISHING_PIVOT or NON_FINITE_STATE
  */
 arm2_status arm2_step(
     const arm2_model *model,
@@ -177,7 +181,7 @@ arm2_status arm2_step(
     const arm2_inputs *inputs);
 
 /**
- * Read the outputs off the state.
+ * Read the outputs off the state. Nothing is done where a pointer is NULL.
  *
  * @param[in]  model    from arm2_prepare()
  * @param[in]  state    motion
@@ -192,4 +196,4 @@ void arm2_output(
 }
 #endif
 
-#endif /* ARM2_H */
+#endif /* TMM_GEN_KERNEL_arm2 */

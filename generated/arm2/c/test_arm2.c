@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: c5e09abbb61734735cef8cfddf39dd959eb5765da3ad6484bed2957b4fdf212c
- * sha256 of the rest of this file: b05d91f60fd52ad8e61efaf2a3e6912c1f739b69e329401d3b22b7c34549ac9d
+ * sha256 of the rest of this file: 19ba4724c818cfd7ef038542425a20bcf294d2a4c97a2878e7c53a33bd4d97ef
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 2
@@ -22,9 +22,15 @@
  *
  * @file test_arm2.c
  */
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(_M_FP_FAST) \
+    || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "-Ofast and -ffast-math remove checks of this file: use -O3, or put -fno-fast-math behind them"
+#endif
+
 #include "arm2.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -44,7 +50,7 @@ static void expect(tally *count, const char *what, real value, real right, real 
     }
 }
 
-static void expect_status(
+static void expect_code(
     tally *count,
     const char *what,
     arm2_status value,
@@ -71,7 +77,7 @@ static void test_motion(tally *count)
     memset(&state, 0, sizeof state); /* padding too: it is compared below */
     arm2_default_params(&params);
     status = arm2_prepare(&model, &params, ARM2_STEP);
-    expect_status(count, "prepare", status, ARM2_OK);
+    expect_code(count, "prepare", status, ARM2_OK);
 
     for (int j = 0; j < ARM2_STATIONS; ++j) {
         initial_angle[j] = (real)((7 * j + 3) % 16 - 8) / 64.0;
@@ -79,39 +85,39 @@ static void test_motion(tally *count)
     for (int j = 0; j < ARM2_STATIONS; ++j) {
         initial_rate[j] = (real)((7 * j + 3) % 16 - 8) / 64.0;
     }
-    inputs.hub_torque = -0.375;
+    inputs.tmm_hub_torque = -0.375;
     status = arm2_initialise(&state, &params, initial_angle, initial_rate, &inputs);
-    expect_status(count, "initialise", status, ARM2_OK);
+    expect_code(count, "initialise", status, ARM2_OK);
 
     /* Step 1. */
-    inputs.hub_torque = 0.25;
+    inputs.tmm_hub_torque = 0.25;
     status = arm2_step(&model, &state, &inputs);
-    expect_status(count, "step 1", status, ARM2_OK);
+    expect_code(count, "step 1", status, ARM2_OK);
     arm2_output(&model, &state, &outputs);
-    expect(count, "tip_x", outputs.tip_x, 0.7984602796950953, 4e-15);
-    expect(count, "tip_y", outputs.tip_y, -0.024253900210004155, 2.4e-16);
-    expect(count, "hub", outputs.hub, -9.34954459179551e-05, 4.8e-18);
-    expect(count, "elbow", outputs.elbow, 4.233359997848719, 2.1e-14);
+    expect(count, "tmm_tip_x", outputs.tmm_tip_x, 0.7984602796950953, 4e-15);
+    expect(count, "tmm_tip_y", outputs.tmm_tip_y, -0.024253900210004155, 2.4e-16);
+    expect(count, "tmm_hub", outputs.tmm_hub, -9.34954459179551e-05, 4.8e-18);
+    expect(count, "tmm_elbow", outputs.tmm_elbow, 4.233359997848719, 2.1e-14);
 
     /* Step 2. */
-    inputs.hub_torque = -0.25;
+    inputs.tmm_hub_torque = -0.25;
     status = arm2_step(&model, &state, &inputs);
-    expect_status(count, "step 2", status, ARM2_OK);
+    expect_code(count, "step 2", status, ARM2_OK);
     arm2_output(&model, &state, &outputs);
-    expect(count, "tip_x", outputs.tip_x, 0.798477298072207, 4e-15);
-    expect(count, "tip_y", outputs.tip_y, -0.024411474125818337, 2.4e-16);
-    expect(count, "hub", outputs.hub, -0.0003704693802380693, 4.8e-18);
-    expect(count, "elbow", outputs.elbow, 4.04576223863709, 2.1e-14);
+    expect(count, "tmm_tip_x", outputs.tmm_tip_x, 0.798477298072207, 4e-15);
+    expect(count, "tmm_tip_y", outputs.tmm_tip_y, -0.024411474125818337, 2.4e-16);
+    expect(count, "tmm_hub", outputs.tmm_hub, -0.0003704693802380693, 4.8e-18);
+    expect(count, "tmm_elbow", outputs.tmm_elbow, 4.04576223863709, 2.1e-14);
 
     /* Step 3. */
-    inputs.hub_torque = 0.375;
+    inputs.tmm_hub_torque = 0.375;
     status = arm2_step(&model, &state, &inputs);
-    expect_status(count, "step 3", status, ARM2_OK);
+    expect_code(count, "step 3", status, ARM2_OK);
     arm2_output(&model, &state, &outputs);
-    expect(count, "tip_x", outputs.tip_x, 0.7985065263338432, 4e-15);
-    expect(count, "tip_y", outputs.tip_y, -0.02465418925084082, 2.4e-16);
-    expect(count, "hub", outputs.hub, -0.0008235312257242458, 4.8e-18);
-    expect(count, "elbow", outputs.elbow, 3.836054914822808, 2.1e-14);
+    expect(count, "tmm_tip_x", outputs.tmm_tip_x, 0.7985065263338432, 4e-15);
+    expect(count, "tmm_tip_y", outputs.tmm_tip_y, -0.02465418925084082, 2.4e-16);
+    expect(count, "tmm_hub", outputs.tmm_hub, -0.0008235312257242458, 4.8e-18);
+    expect(count, "tmm_elbow", outputs.tmm_elbow, 3.836054914822808, 2.1e-14);
 
     /* State after the last step. */
     expect(count, "hub_angle", state.hub_angle, -0.0008235312257242458, 4.8e-18);
@@ -129,11 +135,11 @@ static void test_motion(tally *count)
     memcpy(&before, &state, sizeof before);
     const real bad[] = {(real)NAN, (real)INFINITY, -(real)INFINITY};
     for (int k = 0; k < 3; ++k) {
-        const real hub_torque = inputs.hub_torque;
-        inputs.hub_torque = bad[k];
+        const real tmm_hub_torque = inputs.tmm_hub_torque;
+        inputs.tmm_hub_torque = bad[k];
         status = arm2_step(&model, &state, &inputs);
-        expect_status(count, "bad hub_torque", status, ARM2_NON_FINITE_INPUT);
-        inputs.hub_torque = hub_torque;
+        expect_code(count, "bad hub_torque", status, ARM2_NON_FINITE_INPUT);
+        inputs.tmm_hub_torque = tmm_hub_torque;
     }
     ++count->checks;
     if (memcmp(&before, &state, sizeof state) != 0) {
@@ -150,64 +156,97 @@ static void test_refusals(tally *count)
 
     arm2_default_params(&params);
     status = arm2_prepare(&model, &params, 0.0);
-    expect_status(count, "no step", status, ARM2_INVALID_STEP);
+    expect_code(count, "no step", status, ARM2_INVALID_STEP);
     status = arm2_prepare(&model, &params, (real)NAN);
-    expect_status(count, "bad step", status, ARM2_INVALID_STEP);
+    expect_code(count, "bad step", status, ARM2_INVALID_STEP);
 
     arm2_default_params(&params);
     params.length[ARM2_STATIONS - 1] = (real)NAN;
     status = arm2_prepare(&model, &params, ARM2_STEP);
-    expect_status(count, "bad length", status, ARM2_NON_FINITE_INPUT);
+    expect_code(count, "bad length", status, ARM2_NON_FINITE_INPUT);
 
     arm2_default_params(&params);
     params.mass[ARM2_STATIONS - 1] = (real)NAN;
     status = arm2_prepare(&model, &params, ARM2_STEP);
-    expect_status(count, "bad mass", status, ARM2_NON_FINITE_INPUT);
+    expect_code(count, "bad mass", status, ARM2_NON_FINITE_INPUT);
 
     arm2_default_params(&params);
     params.inertia[ARM2_STATIONS - 1] = (real)NAN;
     status = arm2_prepare(&model, &params, ARM2_STEP);
-    expect_status(count, "bad inertia", status, ARM2_NON_FINITE_INPUT);
+    expect_code(count, "bad inertia", status, ARM2_NON_FINITE_INPUT);
 
     arm2_default_params(&params);
     params.center[ARM2_STATIONS - 1] = (real)NAN;
     status = arm2_prepare(&model, &params, ARM2_STEP);
-    expect_status(count, "bad center", status, ARM2_NON_FINITE_INPUT);
+    expect_code(count, "bad center", status, ARM2_NON_FINITE_INPUT);
 
     arm2_default_params(&params);
     params.stiffness[ARM2_STATIONS - 1] = (real)NAN;
     status = arm2_prepare(&model, &params, ARM2_STEP);
-    expect_status(count, "bad stiffness", status, ARM2_NON_FINITE_INPUT);
+    expect_code(count, "bad stiffness", status, ARM2_NON_FINITE_INPUT);
 
     arm2_default_params(&params);
     params.damping[ARM2_STATIONS - 1] = (real)NAN;
     status = arm2_prepare(&model, &params, ARM2_STEP);
-    expect_status(count, "bad damping", status, ARM2_NON_FINITE_INPUT);
+    expect_code(count, "bad damping", status, ARM2_NON_FINITE_INPUT);
 
     arm2_default_params(&params);
     params.gravity = (real)NAN;
     status = arm2_prepare(&model, &params, ARM2_STEP);
-    expect_status(count, "bad gravity", status, ARM2_NON_FINITE_INPUT);
+    expect_code(count, "bad gravity", status, ARM2_NON_FINITE_INPUT);
 
     arm2_default_params(&params);
     params.hub_inertia = (real)NAN;
     status = arm2_prepare(&model, &params, ARM2_STEP);
-    expect_status(count, "bad hub_inertia", status, ARM2_NON_FINITE_INPUT);
+    expect_code(count, "bad hub_inertia", status, ARM2_NON_FINITE_INPUT);
 
     arm2_default_params(&params);
     params.hub_damping = (real)NAN;
     status = arm2_prepare(&model, &params, ARM2_STEP);
-    expect_status(count, "bad hub_damping", status, ARM2_NON_FINITE_INPUT);
+    expect_code(count, "bad hub_damping", status, ARM2_NON_FINITE_INPUT);
 
     arm2_default_params(&params);
     params.tip_mass = (real)NAN;
     status = arm2_prepare(&model, &params, ARM2_STEP);
-    expect_status(count, "bad tip_mass", status, ARM2_NON_FINITE_INPUT);
+    expect_code(count, "bad tip_mass", status, ARM2_NON_FINITE_INPUT);
 
     arm2_default_params(&params);
     params.tip_inertia = (real)NAN;
     status = arm2_prepare(&model, &params, ARM2_STEP);
-    expect_status(count, "bad tip_inertia", status, ARM2_NON_FINITE_INPUT);
+    expect_code(count, "bad tip_inertia", status, ARM2_NON_FINITE_INPUT);
+}
+
+/* Arrays that are absent are the scene's own; any other pointer that is absent is refused. */
+static void test_absent(tally *count)
+{
+    arm2_params params;
+    arm2_model model;
+    arm2_state state;
+    arm2_inputs inputs;
+    arm2_status status;
+
+    memset(&inputs, 0, sizeof inputs);
+    arm2_default_params(&params);
+    arm2_default_params(NULL);
+    status = arm2_prepare(NULL, &params, ARM2_STEP);
+    expect_code(count, "no model", status, ARM2_NULL_POINTER);
+    status = arm2_prepare(&model, NULL, ARM2_STEP);
+    expect_code(count, "no parameters", status, ARM2_NULL_POINTER);
+    status = arm2_prepare(&model, &params, ARM2_STEP);
+    expect_code(count, "prepare", status, ARM2_OK);
+    status = arm2_initialise(NULL, &params, NULL, NULL, &inputs);
+    expect_code(count, "no state", status, ARM2_NULL_POINTER);
+    status = arm2_initialise(&state, &params, NULL, NULL, &inputs);
+    expect_code(count, "the scene's start", status, ARM2_OK);
+    status = arm2_step(&model, NULL, &inputs);
+    expect_code(count, "no state", status, ARM2_NULL_POINTER);
+    status = arm2_step(NULL, &state, &inputs);
+    expect_code(count, "no model", status, ARM2_NULL_POINTER);
+    status = arm2_initialise(&state, &params, NULL, NULL, NULL);
+    expect_code(count, "no inputs", status, ARM2_NULL_POINTER);
+    status = arm2_step(&model, &state, NULL);
+    expect_code(count, "no inputs", status, ARM2_NULL_POINTER);
+    arm2_output(&model, &state, NULL);
 }
 
 int main(void)
@@ -215,6 +254,7 @@ int main(void)
     tally count = {0, 0};
 
     test_motion(&count);
+    test_absent(&count);
     test_refusals(&count);
     if (count.failures > 0) {
         printf("%d of %d checks failed\n", count.failures, count.checks);

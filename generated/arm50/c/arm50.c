@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
- * sha256 of the rest of this file: f1c685cc2652f6b28e9c24e89ccad005543aae3dd0e55c87bcac4e7d2cd7a672
+ * sha256 of the rest of this file: c63e44edfc682c63fbdbcd9b28f44a791e9a8ebbbeef379af450edf1d06d5589
  *
  * model: planar arm, large rotations, tip mass
  * stations: 50
@@ -12,24 +12,32 @@
  * linearisation: newton
  * sweep: riccati
  * unknown: acceleration
- * operations of a step: 29544, 590.9 per station (13642 additions, 15152 multiplications, 250 divisions, 500
+ * operations of a step: 29465, 589.3 per station (13600 additions, 15115 multiplications, 250 divisions, 500
  *     sines and cosines)
- * operations of prepare: 331, 6.62 per station (55 additions, 275 multiplications, 1 divisions)
+ * operations of prepare: 329, 6.58 per station (55 additions, 274 multiplications)
  * number type: double
- * bytes of the structs: params 848, model 1400, state 1224, inputs 40, outputs 48
+ * bytes of the structs: params 848, model 1392, state 1216, inputs 120, outputs 48
  *
  * @file arm50.c
  */
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(_M_FP_FAST) \
+    || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "-Ofast and -ffast-math remove checks of this file: use -O3, or put -fno-fast-math behind them"
+#endif
+
 #include "arm50.h"
 
+#include <float.h>
 #include <math.h>
+#include <stddef.h>
 
 typedef arm50_real real;
 
 static int inputs_are_finite(const arm50_inputs *inputs)
 {
     for (int j = 0; j < ARM50_STAGES; ++j) {
-        if (!isfinite(inputs->base_angle[j])) {
+        if (!isfinite(inputs->tmm_base_angle[j]) || !isfinite(inputs->tmm_base_angle_rate[j])
+            || !isfinite(inputs->tmm_base_angle_acceleration[j])) {
             return 0;
         }
     }
@@ -51,6 +59,9 @@ void arm50_default_params(arm50_params *params)
         1.5625, 1.5625, 1.5625, 1.5625, 1.5625, 1.5625, 1.5625, 1.5625, 1.5625, 1.5625, 1.5625, 1.5625,
         1.5625, 1.5625, 1.5625, 1.5625, 1.5625, 1.5625, 1.5625, 1.5625, 1.5625, 1.5625, 1.5625, 1.5625, 1.5625
     };
+    if (params == NULL) {
+        return;
+    }
     params->length = 0.016;
     params->mass = 0.0304;
     params->inertia = 6.485333333333333e-07;
@@ -70,6 +81,9 @@ arm50_status arm50_prepare(
     const arm50_params *params,
     arm50_real step)
 {
+    if (model == NULL || params == NULL) {
+        return ARM50_NULL_POINTER;
+    }
     if (!isfinite(step) || !(step > 0.0)) {
         return ARM50_INVALID_STEP;
     }
@@ -98,7 +112,6 @@ arm50_status arm50_prepare(
     model->rate_per_acceleration = 0.25 * step;
     model->half_step = 0.5 * step;
     model->angle_per_acceleration = 0.0625 * (step * step);
-    model->unknown_per_base_angle = 16.0 / (step * step);
     model->three_quarters_step = 0.75 * step;
     model->predicted_rate_per_stage1_acceleration = (17.0 / 50.0) * step;
     model->predicted_rate_per_stage2_acceleration = (21.0 / 100.0) * step;
@@ -126,6 +139,22 @@ arm50_status arm50_prepare(
     }
     model->tip_mass = params->tip_mass;
     model->tip_inertia = params->tip_inertia;
+
+    real total = 0.0; /* of the model: is all of it finite? */
+    for (int j = 0; j < ARM50_STATIONS; ++j) {
+        total += model->joint_impedance[j];
+    }
+    if (!isfinite(model->rate_per_acceleration + model->half_step + model->angle_per_acceleration
+        + model->three_quarters_step + model->predicted_rate_per_stage1_acceleration
+        + model->predicted_rate_per_stage2_acceleration + model->predicted_angle_per_stage2_rate
+        + model->predicted_rate_per_stage1_acceleration_2 + model->predicted_rate_per_stage2_acceleration_2
+        + model->predicted_rate_per_stage3_acceleration + model->predicted_angle_per_stage3_rate
+        + model->predicted_rate_per_stage1_acceleration_3 + model->predicted_rate_per_stage2_acceleration_3
+        + model->predicted_rate_per_stage3_acceleration_2 + model->predicted_rate_per_stage4_acceleration
+        + model->predicted_angle_per_stage4_rate + model->reaction_x_per_acceleration_x
+        + model->reaction_x_per_acceleration_x_2 + model->end_mass + model->rod_inertia + total)) {
+        return ARM50_NON_FINITE_MODEL;
+    }
     return ARM50_OK;
 }
 
@@ -136,11 +165,15 @@ arm50_status arm50_initialise(
     const arm50_real initial_rate[ARM50_STATIONS],
     const arm50_inputs *inputs)
 {
+    if (state == NULL || params == NULL || inputs == NULL) {
+        return ARM50_NULL_POINTER;
+    }
     if (!inputs_are_finite(inputs)) {
         return ARM50_NON_FINITE_INPUT;
     }
     for (int j = 0; j < ARM50_STATIONS; ++j) {
-        if (!isfinite(initial_angle[j]) || !isfinite(initial_rate[j])) {
+        if ((initial_angle != NULL && !isfinite(initial_angle[j]))
+            || (initial_rate != NULL && !isfinite(initial_rate[j]))) {
             return ARM50_NON_FINITE_INPUT;
         }
     }
@@ -158,6 +191,7 @@ arm50_status arm50_initialise(
     real predicted_acceleration[ARM50_STATIONS + 1];
     real predicted_angle[ARM50_STATIONS + 1]; /* angle of base and links as predicted [rad] */
     real predicted_rate[ARM50_STATIONS + 1]; /* rate of base and links as predicted [rad/s] */
+    real total = 0.0; /* of the new motion: is all of it finite? */
 
     /* Masses at the nodes between links, and what they leave over. */
     const real end_mass = params->tip_mass - mass * (1.0 - params->center);
@@ -165,9 +199,9 @@ arm50_status arm50_initialise(
         - params->center * (length * length) * mass * (1.0 - params->center);
 
     /* Predicted motion. */
-    predicted_rate[0] = 0.0;
-    predicted_angle[0] = inputs->base_angle[0];
-    predicted_acceleration[0] = 0.0;
+    predicted_rate[0] = inputs->tmm_base_angle_rate[0];
+    predicted_angle[0] = inputs->tmm_base_angle[0];
+    predicted_acceleration[0] = inputs->tmm_base_angle_acceleration[0];
 
     /* Predicted motion; accelerations of the nodes. */
     real node_x = 0.0;
@@ -175,8 +209,8 @@ arm50_status arm50_initialise(
     acceleration_x[0] = node_x;
     acceleration_y[0] = node_y;
     for (int j = 0; j < ARM50_STATIONS; ++j) {
-        predicted_rate[j + 1] = initial_rate[j];
-        predicted_angle[j + 1] = initial_angle[j];
+        predicted_rate[j + 1] = (initial_rate != NULL ? initial_rate[j] : 0.0);
+        predicted_angle[j + 1] = (initial_angle != NULL ? initial_angle[j] : 0.0);
         predicted_acceleration[j + 1] = 0.0;
         lever_cosine[j] = length * cos(predicted_angle[j + 1]);
         lever_sine[j] = length * sin(predicted_angle[j + 1]);
@@ -214,7 +248,7 @@ arm50_status arm50_initialise(
             + impedance_yu * lever_cosine[j];
         torque = torque - force_x * lever_sine[j] + force_y * lever_cosine[j]
             + predicted_acceleration[j + 1] * rod_inertia;
-        if (!(impedance_uu > 0.0) || !isfinite(impedance_uu)) {
+        if (!(impedance_uu > 0.0) || !(impedance_uu <= DBL_MAX)) {
             return ARM50_VANISHING_PIVOT;
         }
         const real admittance = 1.0 / impedance_uu;
@@ -233,16 +267,14 @@ arm50_status arm50_initialise(
 
     /* The base. */
     real unknown = 0.0;
-    const real hub_unknown = unknown;
 
     /* Sweep outward: the unknown of each station. */
     real change_x = 0.0;
     real change_y = 0.0;
 
     /* Sweep outward: the unknown of each station; motion at the end of the step. */
-    state->hub_angle = predicted_angle[0];
-    state->hub_rate = predicted_rate[0];
-    state->hub_acceleration = hub_unknown + predicted_acceleration[0];
+    state->hub_angle = inputs->tmm_base_angle[1];
+    state->hub_rate = inputs->tmm_base_angle_rate[1];
     for (int j = 0; j < ARM50_STATIONS; ++j) {
         unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y;
         change_x = change_x - lever_sine[j] * unknown;
@@ -250,15 +282,11 @@ arm50_status arm50_initialise(
         state->angle[j] = predicted_angle[j + 1];
         state->rate[j] = predicted_rate[j + 1];
         state->acceleration[j] = predicted_acceleration[j + 1] + unknown;
+        total += state->angle[j] + state->rate[j] + state->acceleration[j];
     }
 
-    if (!isfinite(state->hub_angle) || !isfinite(state->hub_rate) || !isfinite(state->hub_acceleration)) {
+    if (!isfinite(total + state->hub_angle + state->hub_rate)) {
         return ARM50_NON_FINITE_STATE;
-    }
-    for (int j = 0; j < ARM50_STATIONS; ++j) {
-        if (!isfinite(state->angle[j]) || !isfinite(state->rate[j]) || !isfinite(state->acceleration[j])) {
-            return ARM50_NON_FINITE_STATE;
-        }
     }
     return ARM50_OK;
 }
@@ -268,6 +296,9 @@ arm50_status arm50_step(
     arm50_state *state,
     const arm50_inputs *inputs)
 {
+    if (model == NULL || state == NULL || inputs == NULL) {
+        return ARM50_NULL_POINTER;
+    }
     if (!inputs_are_finite(inputs)) {
         return ARM50_NON_FINITE_INPUT;
     }
@@ -310,10 +341,11 @@ arm50_status arm50_step(
     real swing_x[ARM50_STATIONS]; /* change of the outer end's acceleration along x per unknown [m] */
     real swing_y[ARM50_STATIONS]; /* change of the outer end's acceleration along y per unknown [m] */
     real transmission[ARM50_STATIONS]; /* share of motion and torque each joint passes on */
+    real total = 0.0; /* of the new motion: is all of it finite? */
 
     /* Stage 1 of 5: predicted motion. */
-    predicted_rate[0] = state->hub_rate + state->hub_acceleration * rate_per_acceleration;
-    predicted_angle[0] = state->hub_angle + predicted_rate[0] * rate_per_acceleration;
+    predicted_rate[0] = inputs->tmm_base_angle_rate[0];
+    predicted_angle[0] = inputs->tmm_base_angle[0];
 
     /* Stage 1 of 5: predicted motion; accelerations of the nodes. */
     real node_x = 0.0;
@@ -369,7 +401,7 @@ arm50_status arm50_step(
         torque = torque + state->acceleration[j] * rod_inertia - force_x * lever_sine[j]
             + force_y * lever_cosine[j];
         const real pivot = impedance_uu + model->joint_impedance[j];
-        if (!(pivot > 0.0) || !isfinite(pivot)) {
+        if (!(pivot > 0.0) || !(pivot <= DBL_MAX)) {
             return ARM50_VANISHING_PIVOT;
         }
         const real admittance = 1.0 / pivot;
@@ -392,21 +424,15 @@ arm50_status arm50_step(
     }
 
     /* Stage 1 of 5: the base. */
-    real unknown = model->unknown_per_base_angle * (inputs->base_angle[0] - predicted_angle[0]);
-    real hub_unknown = unknown;
+    real unknown = 0.0;
 
     /* Stage 1 of 5: sweep outward: the unknown of each station. */
     real change_x = 0.0;
     real change_y = 0.0;
 
-    /* Stage 1 of 5: motion at this stage. */
-    const real hub_stage1_acceleration = state->hub_acceleration + hub_unknown;
-    const real hub_stage1_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration;
-
     /* Stage 2 of 5: predicted motion. */
-    predicted_rate[0] = state->hub_rate + hub_stage1_acceleration * three_quarters_step;
-    predicted_angle[0] = state->hub_angle + half_step * hub_stage1_rate
-        + predicted_rate[0] * rate_per_acceleration;
+    predicted_rate[0] = inputs->tmm_base_angle_rate[1];
+    predicted_angle[0] = inputs->tmm_base_angle[1];
 
     /* Stage 1 of 5: sweep outward: the unknown of each station; motion at this stage. Stage 2 of 5: predicted
      * motion; accelerations of the nodes. */
@@ -469,7 +495,7 @@ arm50_status arm50_step(
         torque = torque - force_x * lever_sine[j] + force_y * lever_cosine[j]
             + rod_inertia * stage1_acceleration[j];
         const real pivot = impedance_uu + model->joint_impedance[j];
-        if (!(pivot > 0.0) || !isfinite(pivot)) {
+        if (!(pivot > 0.0) || !(pivot <= DBL_MAX)) {
             return ARM50_VANISHING_PIVOT;
         }
         const real admittance = 1.0 / pivot;
@@ -492,22 +518,15 @@ arm50_status arm50_step(
     }
 
     /* Stage 2 of 5: the base. */
-    unknown = model->unknown_per_base_angle * (inputs->base_angle[1] - predicted_angle[0]);
-    hub_unknown = unknown;
+    unknown = 0.0;
 
     /* Stage 2 of 5: sweep outward: the unknown of each station. */
     change_x = 0.0;
     change_y = 0.0;
 
-    /* Stage 2 of 5: motion at this stage. */
-    const real hub_stage2_acceleration = hub_stage1_acceleration + hub_unknown;
-    const real hub_stage2_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration;
-
     /* Stage 3 of 5: predicted motion. */
-    predicted_rate[0] = state->hub_rate + hub_stage1_acceleration * predicted_rate_per_stage1_acceleration
-        + hub_stage2_acceleration * predicted_rate_per_stage2_acceleration;
-    predicted_angle[0] = state->hub_angle + hub_stage1_rate * predicted_rate_per_stage1_acceleration
-        - hub_stage2_rate * predicted_angle_per_stage2_rate + predicted_rate[0] * rate_per_acceleration;
+    predicted_rate[0] = inputs->tmm_base_angle_rate[2];
+    predicted_angle[0] = inputs->tmm_base_angle[2];
 
     /* Stage 2 of 5: sweep outward: the unknown of each station; motion at this stage. Stage 3 of 5: predicted
      * motion; accelerations of the nodes. */
@@ -574,7 +593,7 @@ arm50_status arm50_step(
         torque = torque - force_x * lever_sine[j] + force_y * lever_cosine[j]
             + rod_inertia * stage2_acceleration[j];
         const real pivot = impedance_uu + model->joint_impedance[j];
-        if (!(pivot > 0.0) || !isfinite(pivot)) {
+        if (!(pivot > 0.0) || !(pivot <= DBL_MAX)) {
             return ARM50_VANISHING_PIVOT;
         }
         const real admittance = 1.0 / pivot;
@@ -597,24 +616,15 @@ arm50_status arm50_step(
     }
 
     /* Stage 3 of 5: the base. */
-    unknown = model->unknown_per_base_angle * (inputs->base_angle[2] - predicted_angle[0]);
-    hub_unknown = unknown;
+    unknown = 0.0;
 
     /* Stage 3 of 5: sweep outward: the unknown of each station. */
     change_x = 0.0;
     change_y = 0.0;
 
-    /* Stage 3 of 5: motion at this stage. */
-    const real hub_stage3_acceleration = hub_stage2_acceleration + hub_unknown;
-    const real hub_stage3_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration;
-
     /* Stage 4 of 5: predicted motion. */
-    predicted_rate[0] = state->hub_rate + hub_stage1_acceleration * predicted_rate_per_stage1_acceleration_2
-        - hub_stage2_acceleration * predicted_rate_per_stage2_acceleration_2
-        + hub_stage3_acceleration * predicted_rate_per_stage3_acceleration;
-    predicted_angle[0] = state->hub_angle + hub_stage1_rate * predicted_rate_per_stage1_acceleration_2
-        - hub_stage2_rate * predicted_rate_per_stage2_acceleration_2
-        + hub_stage3_rate * predicted_angle_per_stage3_rate + predicted_rate[0] * rate_per_acceleration;
+    predicted_rate[0] = inputs->tmm_base_angle_rate[3];
+    predicted_angle[0] = inputs->tmm_base_angle[3];
 
     /* Stage 3 of 5: sweep outward: the unknown of each station; motion at this stage. Stage 4 of 5: predicted
      * motion; accelerations of the nodes. */
@@ -683,7 +693,7 @@ arm50_status arm50_step(
         torque = torque - force_x * lever_sine[j] + force_y * lever_cosine[j]
             + rod_inertia * stage3_acceleration[j];
         const real pivot = impedance_uu + model->joint_impedance[j];
-        if (!(pivot > 0.0) || !isfinite(pivot)) {
+        if (!(pivot > 0.0) || !(pivot <= DBL_MAX)) {
             return ARM50_VANISHING_PIVOT;
         }
         const real admittance = 1.0 / pivot;
@@ -706,26 +716,15 @@ arm50_status arm50_step(
     }
 
     /* Stage 4 of 5: the base. */
-    unknown = model->unknown_per_base_angle * (inputs->base_angle[3] - predicted_angle[0]);
-    hub_unknown = unknown;
+    unknown = 0.0;
 
     /* Stage 4 of 5: sweep outward: the unknown of each station. */
     change_x = 0.0;
     change_y = 0.0;
 
-    /* Stage 4 of 5: motion at this stage. */
-    const real hub_stage4_acceleration = hub_stage3_acceleration + hub_unknown;
-    const real hub_stage4_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration;
-
     /* Stage 5 of 5: predicted motion. */
-    predicted_rate[0] = state->hub_rate + hub_stage1_acceleration * predicted_rate_per_stage1_acceleration_3
-        - hub_stage2_acceleration * predicted_rate_per_stage2_acceleration_3
-        + hub_stage3_acceleration * predicted_rate_per_stage3_acceleration_2
-        - hub_stage4_acceleration * predicted_rate_per_stage4_acceleration;
-    predicted_angle[0] = state->hub_angle + hub_stage1_rate * predicted_rate_per_stage1_acceleration_3
-        - hub_stage2_rate * predicted_rate_per_stage2_acceleration_3
-        + hub_stage3_rate * predicted_rate_per_stage3_acceleration_2
-        - hub_stage4_rate * predicted_angle_per_stage4_rate + predicted_rate[0] * rate_per_acceleration;
+    predicted_rate[0] = inputs->tmm_base_angle_rate[4];
+    predicted_angle[0] = inputs->tmm_base_angle[4];
 
     /* Stage 4 of 5: sweep outward: the unknown of each station; motion at this stage. Stage 5 of 5: predicted
      * motion; accelerations of the nodes. */
@@ -796,7 +795,7 @@ arm50_status arm50_step(
         torque = torque - force_x * lever_sine[j] + force_y * lever_cosine[j]
             + rod_inertia * stage4_acceleration[j];
         const real pivot = impedance_uu + model->joint_impedance[j];
-        if (!(pivot > 0.0) || !isfinite(pivot)) {
+        if (!(pivot > 0.0) || !(pivot <= DBL_MAX)) {
             return ARM50_VANISHING_PIVOT;
         }
         const real admittance = 1.0 / pivot;
@@ -819,17 +818,15 @@ arm50_status arm50_step(
     }
 
     /* Stage 5 of 5: the base. */
-    unknown = model->unknown_per_base_angle * (inputs->base_angle[4] - predicted_angle[0]);
-    hub_unknown = unknown;
+    unknown = 0.0;
 
     /* Stage 5 of 5: sweep outward: the unknown of each station. */
     change_x = 0.0;
     change_y = 0.0;
 
     /* Stage 5 of 5: sweep outward: the unknown of each station; motion at the end of the step. */
-    state->hub_angle = predicted_angle[0] + angle_per_acceleration * hub_unknown;
-    state->hub_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration;
-    state->hub_acceleration = hub_stage4_acceleration + hub_unknown;
+    state->hub_angle = inputs->tmm_base_angle[4];
+    state->hub_rate = inputs->tmm_base_angle_rate[4];
     for (int j = 0; j < ARM50_STATIONS; ++j) {
         unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y + transmission[j] * unknown;
         change_x = change_x + swing_x[j] * unknown;
@@ -838,10 +835,10 @@ arm50_status arm50_step(
         state->angle[j] = predicted_angle[j + 1] + angle_per_acceleration * unknown;
         state->rate[j] = predicted_rate[j + 1] + rate_per_acceleration * unknown;
         state->acceleration[j] = solved + stage4_acceleration[j];
+        total += state->angle[j] + state->rate[j] + state->acceleration[j];
     }
 
-    /* Anything that is not a number has reached this one. */
-    if (!isfinite(state->acceleration[ARM50_STATIONS - 1])) {
+    if (!isfinite(total + state->hub_angle + state->hub_rate)) {
         return ARM50_NON_FINITE_STATE;
     }
     return ARM50_OK;
@@ -852,6 +849,9 @@ void arm50_output(
     const arm50_state *state,
     arm50_outputs *outputs)
 {
+    if (model == NULL || state == NULL || outputs == NULL) {
+        return;
+    }
     const real length = model->length;
     const real reaction_x_per_acceleration_x = model->reaction_x_per_acceleration_x;
     const real reaction_x_per_acceleration_x_2 = model->reaction_x_per_acceleration_x_2;
@@ -859,11 +859,11 @@ void arm50_output(
     real acceleration_y[ARM50_STATIONS + 1]; /* acceleration of the nodes along y [m/s^2] */
 
     /* Tip: position. */
-    outputs->tip_x = 0.0;
-    outputs->tip_y = 0.0;
+    outputs->tmm_tip_x = 0.0;
+    outputs->tmm_tip_y = 0.0;
 
     /* Tip_angle: angle. */
-    outputs->tip_angle = state->angle[49];
+    outputs->tmm_tip_angle = state->angle[49];
 
     /* Tip: position; reaction: force. */
     real a_x = 0.0;
@@ -871,8 +871,8 @@ void arm50_output(
     acceleration_x[0] = a_x;
     acceleration_y[0] = a_y;
     for (int j = 0; j < ARM50_STATIONS; ++j) {
-        outputs->tip_x = outputs->tip_x + length * cos(state->angle[j]);
-        outputs->tip_y = outputs->tip_y + length * sin(state->angle[j]);
+        outputs->tmm_tip_x = outputs->tmm_tip_x + length * cos(state->angle[j]);
+        outputs->tmm_tip_y = outputs->tmm_tip_y + length * sin(state->angle[j]);
         a_x = a_x - state->acceleration[j] * length * sin(state->angle[j])
             - length * (state->rate[j] * state->rate[j]) * cos(state->angle[j]);
         a_y = a_y + state->acceleration[j] * length * cos(state->angle[j])
@@ -880,16 +880,20 @@ void arm50_output(
         acceleration_x[j + 1] = a_x;
         acceleration_y[j + 1] = a_y;
     }
-    outputs->reaction_x = acceleration_x[50] * model->tip_mass;
-    outputs->reaction_y = acceleration_y[50] * model->tip_mass;
+    outputs->tmm_reaction_x = acceleration_x[50] * model->tip_mass;
+    outputs->tmm_reaction_y = acceleration_y[50] * model->tip_mass;
     for (int j = ARM50_STATIONS - 1; j >= 0; --j) {
-        outputs->reaction_x = outputs->reaction_x + acceleration_x[j + 1] * reaction_x_per_acceleration_x;
-        outputs->reaction_y = outputs->reaction_y + acceleration_y[j + 1] * reaction_x_per_acceleration_x;
-        outputs->reaction_x = outputs->reaction_x - acceleration_x[j] * reaction_x_per_acceleration_x_2;
-        outputs->reaction_y = outputs->reaction_y - acceleration_y[j] * reaction_x_per_acceleration_x_2;
+        outputs->tmm_reaction_x = outputs->tmm_reaction_x
+            + acceleration_x[j + 1] * reaction_x_per_acceleration_x;
+        outputs->tmm_reaction_y = outputs->tmm_reaction_y
+            + acceleration_y[j + 1] * reaction_x_per_acceleration_x;
+        outputs->tmm_reaction_x = outputs->tmm_reaction_x
+            - acceleration_x[j] * reaction_x_per_acceleration_x_2;
+        outputs->tmm_reaction_y = outputs->tmm_reaction_y
+            - acceleration_y[j] * reaction_x_per_acceleration_x_2;
     }
 
     /* Drive: torque. */
-    outputs->drive = model->damping[0] * (state->rate[0] - state->hub_rate)
+    outputs->tmm_drive = model->damping[0] * (state->rate[0] - state->hub_rate)
         + model->stiffness[0] * (state->angle[0] - state->hub_angle);
 }

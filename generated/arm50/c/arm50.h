@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
- * sha256 of the rest of this file: 1e62c156f76497b3039b3d43ac6d7a89d022cab680b63a18307062246f5d693d
+ * sha256 of the rest of this file: 82d986fc76049422e19d7c8a0e8567169605e446be7365c9e64ba75e9e44f073
  *
  * model: planar arm, large rotations, tip mass
  * stations: 50
@@ -12,11 +12,11 @@
  * linearisation: newton
  * sweep: riccati
  * unknown: acceleration
- * operations of a step: 29544, 590.9 per station (13642 additions, 15152 multiplications, 250 divisions, 500
+ * operations of a step: 29465, 589.3 per station (13600 additions, 15115 multiplications, 250 divisions, 500
  *     sines and cosines)
- * operations of prepare: 331, 6.62 per station (55 additions, 275 multiplications, 1 divisions)
+ * operations of prepare: 329, 6.58 per station (55 additions, 274 multiplications)
  * number type: double
- * bytes of the structs: params 848, model 1400, state 1224, inputs 40, outputs 48
+ * bytes of the structs: params 848, model 1392, state 1216, inputs 120, outputs 48
  *
  * Call arm50_default_params() and arm50_prepare() once, arm50_initialise() to put the arm somewhere, then
  * arm50_step() at every tick of the clock and arm50_output() to know. All memory is the caller's; nothing is
@@ -24,8 +24,8 @@
  *
  * @file arm50.h
  */
-#ifndef ARM50_H
-#define ARM50_H
+#ifndef TMM_GEN_KERNEL_arm50
+#define TMM_GEN_KERNEL_arm50
 
 #ifdef __cplusplus
 extern "C" {
@@ -55,7 +55,11 @@ typedef enum {
     /** No passive arm has such parameters (a negative inertia, say); the model is of no use. */
     ARM50_VANISHING_PIVOT,
     /** The motion has outgrown the number type; initialise anew. */
-    ARM50_NON_FINITE_STATE
+    ARM50_NON_FINITE_STATE,
+    /** A pointer that is needed is NULL; nothing was changed. */
+    ARM50_NULL_POINTER = 6,
+    /** Parameters or time step are too large or too small for the number type; the model is of no use. */
+    ARM50_NON_FINITE_MODEL = 7
 } arm50_status;
 
 /** Physical parameters. */
@@ -81,7 +85,6 @@ typedef struct {
     arm50_real rate_per_acceleration; /**< rate per unit of acceleration: step/4 [s] */
     arm50_real half_step; /**< step/2 [s] */
     arm50_real angle_per_acceleration; /**< angle per unit of acceleration: step**2/16 [s^2] */
-    arm50_real unknown_per_base_angle; /**< 16/step**2 [1/rad] */
     arm50_real three_quarters_step; /**< 3*step/4 [s] */
     arm50_real predicted_rate_per_stage1_acceleration; /**< 17*step/50 [s] */
     arm50_real predicted_rate_per_stage2_acceleration; /**< 21*step/100 [s] */
@@ -106,7 +109,6 @@ typedef struct {
 typedef struct {
     arm50_real hub_angle; /**< hub angle [rad] */
     arm50_real hub_rate; /**< hub rate [rad/s] */
-    arm50_real hub_acceleration; /**< hub acceleration [rad/s^2] */
     arm50_real angle[ARM50_STATIONS]; /**< angle of each link, base to tip [rad] */
     arm50_real rate[ARM50_STATIONS]; /**< rate of each link, base to tip [rad/s] */
     arm50_real acceleration[ARM50_STATIONS]; /**< acceleration of each link, base to tip [rad/s^2] */
@@ -114,23 +116,28 @@ typedef struct {
 
 /** What acts on the arm. */
 typedef struct {
-    arm50_real base_angle[ARM50_STAGES]; /**< prescribed base angle, at each stage of the step [rad] */
+    /** prescribed base angle, at each stage of the step [rad] */
+    arm50_real tmm_base_angle[ARM50_STAGES];
+    /** prescribed base rate, at each stage of the step [rad/s] */
+    arm50_real tmm_base_angle_rate[ARM50_STAGES];
+    /** prescribed base acceleration, at each stage of the step [rad/s^2] */
+    arm50_real tmm_base_angle_acceleration[ARM50_STAGES];
 } arm50_inputs;
 
 /** What the scene asks to know. */
 typedef struct {
-    arm50_real tip_x; /**< position at the tip, x [m] */
-    arm50_real tip_y; /**< position at the tip, y [m] */
-    arm50_real tip_angle; /**< angle at the tip [rad] */
-    arm50_real reaction_x; /**< force at the base, x [N] */
-    arm50_real reaction_y; /**< force at the base, y [N] */
-    arm50_real drive; /**< torque at the base [N m] */
+    arm50_real tmm_tip_x; /**< position at the tip, x [m] */
+    arm50_real tmm_tip_y; /**< position at the tip, y [m] */
+    arm50_real tmm_tip_angle; /**< angle at the tip [rad] */
+    arm50_real tmm_reaction_x; /**< force at the base, x [N] */
+    arm50_real tmm_reaction_y; /**< force at the base, y [N] */
+    arm50_real tmm_drive; /**< torque at the base [N m] */
 } arm50_outputs;
 
 /**
  * Write the scene's parameters.
  *
- * @param[out] params  parameters
+ * @param[out] params  parameters; nothing is done where it is NULL
  */
 void arm50_default_params(arm50_params *params);
 
@@ -140,7 +147,7 @@ void arm50_default_params(arm50_params *params);
  * @param[out] model   what the other functions need
  * @param[in]  params  parameters
  * @param[in]  step    time step [s]
- * @return OK, NON_FINITE_INPUT, INVALID_STEP or VANISHING_PIVOT
+ * @return OK, NON_FINITE_INPUT, NULL_POINTER, INVALID_STEP, VANISHING_PIVOT or NON_FINITE_MODEL
  */
 arm50_status arm50_prepare(
     arm50_model *model,
@@ -152,10 +159,10 @@ arm50_status arm50_prepare(
  *
  * @param[out] state   motion at the initial instant
  * @param[in]  params  parameters
- * @param[in]  initial_angle  angles to start from [rad]
- * @param[in]  initial_rate  rates to start from [rad/s]
+ * @param[in]  initial_angle  angles to start from [rad]; NULL for the scene's own
+ * @param[in]  initial_rate  rates to start from [rad/s]; NULL for the scene's own
  * @param[in]  inputs  what acts at the initial instant; only the first stage's count
- * @return OK, NON_FINITE_INPUT, VANISHING_PIVOT or NON_FINITE_STATE
+ * @return OK, NON_FINITE_INPUT, NULL_POINTER, VANISHING_PIVOT or NON_FINITE_STATE
  */
 arm50_status arm50_initialise(
     arm50_state *state,
@@ -170,7 +177,7 @@ arm50_status arm50_initialise(
  * @param[in]     model   from arm50_prepare()
  * @param[in,out] state   motion before the step, and after it
  * @param[in]     inputs  what acts, at each stage of the step
- * @return OK, NON_FINITE_INPUT, VANISHING_PIVOT or NON_FINITE_STATE
+ * @return OK, NON_FINITE_INPUT, NULL_POINTER, VANISHING_PIVOT or NON_FINITE_STATE
  */
 arm50_status arm50_step(
     const arm50_model *model,
@@ -178,7 +185,7 @@ arm50_status arm50_step(
     const arm50_inputs *inputs);
 
 /**
- * Read the outputs off the state.
+ * Read the outputs off the state. Nothing is done where a pointer is NULL.
  *
  * @param[in]  model    from arm50_prepare()
  * @param[in]  state    motion
@@ -193,4 +200,4 @@ void arm50_output(
 }
 #endif
 
-#endif /* ARM50_H */
+#endif /* TMM_GEN_KERNEL_arm50 */

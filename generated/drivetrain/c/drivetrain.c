@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 260c88ca5ffe6b93ea5946fad67187e547942573db1dc2f710bcd9a0610b8738
- * sha256 of the rest of this file: 1c2f6774aa3991b428bb06b479fe9ae2b8e193c08a2b1153bfe758d8e84a4a0f
+ * sha256 of the rest of this file: e6b8148ba7deb330418be400189a87165613fc5e6b36d5b7ed0f0cb99a101690
  *
  * model: torsional chain (linear)
  * stations: 6
@@ -18,15 +18,22 @@
  *
  * @file drivetrain.c
  */
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(_M_FP_FAST) \
+    || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "-Ofast and -ffast-math remove checks of this file: use -O3, or put -fno-fast-math behind them"
+#endif
+
 #include "drivetrain.h"
 
+#include <float.h>
 #include <math.h>
+#include <stddef.h>
 
 typedef drivetrain_real real;
 
 static int inputs_are_finite(const drivetrain_inputs *inputs)
 {
-    if (!isfinite(inputs->motor_torque) || !isfinite(inputs->load_torque)) {
+    if (!isfinite(inputs->tmm_motor_torque) || !isfinite(inputs->tmm_load_torque)) {
         return 0;
     }
     return 1;
@@ -43,6 +50,9 @@ void drivetrain_default_params(drivetrain_params *params)
     static const real inertia[] = {
         0.0004, 0.0011, 0.0028, 0.019, 0.0024, 2e-05
     };
+    if (params == NULL) {
+        return;
+    }
     for (int j = 0; j < DRIVETRAIN_STATIONS; ++j) {
         params->stiffness[j] = stiffness[j];
     }
@@ -61,6 +71,9 @@ drivetrain_status drivetrain_prepare(
     const drivetrain_params *params,
     drivetrain_real step)
 {
+    if (model == NULL || params == NULL) {
+        return DRIVETRAIN_NULL_POINTER;
+    }
     if (!isfinite(step) || !(step > 0.0)) {
         return DRIVETRAIN_INVALID_STEP;
     }
@@ -81,7 +94,7 @@ drivetrain_status drivetrain_prepare(
         const real joint_impedance = (55.0 / 108.0) * params->damping[j] * step
             + (125.0 / 486.0) * (step * step) * params->stiffness[j];
         const real pivot = joint_impedance - impedance;
-        if (!(pivot > 0.0) || !isfinite(pivot)) {
+        if (!(pivot > 0.0) || !(pivot <= DBL_MAX)) {
             return DRIVETRAIN_VANISHING_PIVOT;
         }
         model->admittance[j] = 1.0 / pivot;
@@ -91,7 +104,7 @@ drivetrain_status drivetrain_prepare(
     }
     const real hub_impedance = params->hub_inertia + (55.0 / 108.0) * params->hub_damping * step;
     const real hub_pivot = hub_impedance - impedance;
-    if (!(hub_pivot > 0.0) || !isfinite(hub_pivot)) {
+    if (!(hub_pivot > 0.0) || !(hub_pivot <= DBL_MAX)) {
         return DRIVETRAIN_VANISHING_PIVOT;
     }
     model->hub_admittance = 1.0 / hub_pivot;
@@ -114,6 +127,17 @@ drivetrain_status drivetrain_prepare(
     for (int j = 0; j < DRIVETRAIN_STATIONS; ++j) {
         model->damping[j] = params->damping[j];
     }
+
+    real total = 0.0; /* of the model: is all of it finite? */
+    for (int j = 0; j < DRIVETRAIN_STATIONS; ++j) {
+        total += model->admittance[j] + model->transmission[j] + model->reflection[j];
+    }
+    if (!isfinite(model->known_rate_per_acceleration + model->known_angle_per_acceleration
+        + model->five_ninths_step + model->unknown_per_known_rate + model->angle_per_acceleration_2
+        + model->angle_per_unknown + model->twelfth_step + model->eleven_twelfths_step
+        + model->hub_admittance + total)) {
+        return DRIVETRAIN_NON_FINITE_MODEL;
+    }
     return DRIVETRAIN_OK;
 }
 
@@ -124,11 +148,15 @@ drivetrain_status drivetrain_initialise(
     const drivetrain_real initial_rate[DRIVETRAIN_STATIONS],
     const drivetrain_inputs *inputs)
 {
+    if (state == NULL || params == NULL || inputs == NULL) {
+        return DRIVETRAIN_NULL_POINTER;
+    }
     if (!inputs_are_finite(inputs)) {
         return DRIVETRAIN_NON_FINITE_INPUT;
     }
     for (int j = 0; j < DRIVETRAIN_STATIONS; ++j) {
-        if (!isfinite(initial_angle[j]) || !isfinite(initial_rate[j])) {
+        if ((initial_angle != NULL && !isfinite(initial_angle[j]))
+            || (initial_rate != NULL && !isfinite(initial_rate[j]))) {
             return DRIVETRAIN_NON_FINITE_INPUT;
         }
     }
@@ -137,17 +165,18 @@ drivetrain_status drivetrain_initialise(
     real known_angle[DRIVETRAIN_STATIONS + 1]; /* angle of base and links without the unknown's share [rad] */
     real known_rate[DRIVETRAIN_STATIONS + 1]; /* rate of base and links without the unknown's share [rad/s] */
     real load_torque[DRIVETRAIN_STATIONS]; /* external torque on each link [N m] */
+    real total = 0.0; /* of the new motion: is all of it finite? */
 
     /* Motion known before the sweep; sweep inward: force beyond each joint as an affine function of the
      * motion at it. */
     known_rate[0] = 0.0;
     known_angle[0] = 0.0;
     for (int j = 0; j < DRIVETRAIN_STATIONS; ++j) {
-        known_rate[j + 1] = initial_rate[j];
-        known_angle[j + 1] = initial_angle[j];
+        known_rate[j + 1] = (initial_rate != NULL ? initial_rate[j] : 0.0);
+        known_angle[j + 1] = (initial_angle != NULL ? initial_angle[j] : 0.0);
         load_torque[j] = 0.0;
     }
-    load_torque[3] = inputs->load_torque;
+    load_torque[3] = inputs->tmm_load_torque;
     real torque = 0.0;
 
     /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
@@ -158,7 +187,7 @@ drivetrain_status drivetrain_initialise(
         torque = load_torque[j] + torque;
         const real impedance = -params->inertia[j];
         const real pivot = -impedance;
-        if (!(pivot > 0.0) || !isfinite(pivot)) {
+        if (!(pivot > 0.0) || !(pivot <= DBL_MAX)) {
             return DRIVETRAIN_VANISHING_PIVOT;
         }
         const real admittance = 1.0 / pivot;
@@ -167,12 +196,12 @@ drivetrain_status drivetrain_initialise(
     }
 
     /* The base. */
-    if (!(params->hub_inertia > 0.0) || !isfinite(params->hub_inertia)) {
+    if (!(params->hub_inertia > 0.0) || !(params->hub_inertia <= DBL_MAX)) {
         return DRIVETRAIN_VANISHING_PIVOT;
     }
     const real hub_admittance = 1.0 / params->hub_inertia;
     const real unknown = hub_admittance
-        * (inputs->motor_torque + torque - params->hub_damping * known_rate[0]);
+        * (inputs->tmm_motor_torque + torque - params->hub_damping * known_rate[0]);
     const real hub_unknown = unknown;
 
     /* Sweep outward: the unknown of each station; motion at the end of the step. */
@@ -183,15 +212,11 @@ drivetrain_status drivetrain_initialise(
         state->angle[j] = known_angle[j + 1];
         state->rate[j] = known_rate[j + 1];
         state->acceleration[j] = answer_own[j];
+        total += state->angle[j] + state->rate[j] + state->acceleration[j];
     }
 
-    if (!isfinite(state->hub_angle) || !isfinite(state->hub_rate) || !isfinite(state->hub_acceleration)) {
+    if (!isfinite(total + state->hub_angle + state->hub_rate + state->hub_acceleration)) {
         return DRIVETRAIN_NON_FINITE_STATE;
-    }
-    for (int j = 0; j < DRIVETRAIN_STATIONS; ++j) {
-        if (!isfinite(state->angle[j]) || !isfinite(state->rate[j]) || !isfinite(state->acceleration[j])) {
-            return DRIVETRAIN_NON_FINITE_STATE;
-        }
     }
     return DRIVETRAIN_OK;
 }
@@ -201,6 +226,9 @@ drivetrain_status drivetrain_step(
     drivetrain_state *state,
     const drivetrain_inputs *inputs)
 {
+    if (model == NULL || state == NULL || inputs == NULL) {
+        return DRIVETRAIN_NULL_POINTER;
+    }
     if (!inputs_are_finite(inputs)) {
         return DRIVETRAIN_NON_FINITE_INPUT;
     }
@@ -217,6 +245,7 @@ drivetrain_status drivetrain_step(
     real known_angle[DRIVETRAIN_STATIONS + 1]; /* angle of base and links without the unknown's share [rad] */
     real known_rate[DRIVETRAIN_STATIONS + 1]; /* rate of base and links without the unknown's share [rad/s] */
     real load_torque[DRIVETRAIN_STATIONS]; /* external torque on each link [N m] */
+    real total = 0.0; /* of the new motion: is all of it finite? */
 
     /* Motion known before the sweep; sweep inward: force beyond each joint as an affine function of the
      * motion at it. */
@@ -229,7 +258,7 @@ drivetrain_status drivetrain_step(
             + five_ninths_step * state->rate[j];
         load_torque[j] = 0.0;
     }
-    load_torque[3] = inputs->load_torque;
+    load_torque[3] = inputs->tmm_load_torque;
     real torque = 0.0;
 
     /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
@@ -243,7 +272,7 @@ drivetrain_status drivetrain_step(
     }
 
     /* The base. */
-    real unknown = model->hub_admittance * (inputs->motor_torque + torque)
+    real unknown = model->hub_admittance * (inputs->tmm_motor_torque + torque)
         - known_rate[0] * model->unknown_per_known_rate;
     const real hub_unknown = unknown;
 
@@ -260,10 +289,10 @@ drivetrain_status drivetrain_step(
         state->rate[j] = state->rate[j] + state->acceleration[j] * twelfth_step
             + eleven_twelfths_step * unknown;
         state->acceleration[j] = 1.5 * unknown - 0.5 * state->acceleration[j];
+        total += state->angle[j] + state->rate[j] + state->acceleration[j];
     }
 
-    /* Anything that is not a number has reached this one. */
-    if (!isfinite(state->acceleration[DRIVETRAIN_STATIONS - 1])) {
+    if (!isfinite(total + state->hub_angle + state->hub_rate + state->hub_acceleration)) {
         return DRIVETRAIN_NON_FINITE_STATE;
     }
     return DRIVETRAIN_OK;
@@ -274,10 +303,13 @@ void drivetrain_output(
     const drivetrain_state *state,
     drivetrain_outputs *outputs)
 {
+    if (model == NULL || state == NULL || outputs == NULL) {
+        return;
+    }
     /* Outputs. */
-    outputs->motor_speed = state->hub_rate;
-    outputs->roller_speed = state->rate[3];
-    outputs->shaft_torque = model->damping[3] * (state->rate[3] - state->rate[2])
+    outputs->tmm_motor_speed = state->hub_rate;
+    outputs->tmm_roller_speed = state->rate[3];
+    outputs->tmm_shaft_torque = model->damping[3] * (state->rate[3] - state->rate[2])
         + model->stiffness[3] * (state->angle[3] - state->angle[2]);
-    outputs->encoder = state->angle[5];
+    outputs->tmm_encoder = state->angle[5];
 }

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 260c88ca5ffe6b93ea5946fad67187e547942573db1dc2f710bcd9a0610b8738
- * sha256 of the rest of this file: 0451ed045583b1f4de75aebf4fd982ab18fe6ffdc60cd0569df6594658714c15
+ * sha256 of the rest of this file: 9d0095e5aae759acf0142d51e005935c371a90a0f663c4af3551d00dd0c305ce
  *
  * model: torsional chain (linear)
  * stations: 6
@@ -22,8 +22,8 @@
  *
  * @file drivetrain.h
  */
-#ifndef DRIVETRAIN_H
-#define DRIVETRAIN_H
+#ifndef TMM_GEN_KERNEL_drivetrain
+#define TMM_GEN_KERNEL_drivetrain
 
 #ifdef __cplusplus
 extern "C" {
@@ -49,7 +49,11 @@ typedef enum {
     /** No passive arm has such parameters (a negative inertia, say); the model is of no use. */
     DRIVETRAIN_VANISHING_PIVOT,
     /** The motion has outgrown the number type; initialise anew. */
-    DRIVETRAIN_NON_FINITE_STATE
+    DRIVETRAIN_NON_FINITE_STATE,
+    /** A pointer that is needed is NULL; nothing was changed. */
+    DRIVETRAIN_NULL_POINTER = 6,
+    /** Parameters or time step are too large or too small for the number type; the model is of no use. */
+    DRIVETRAIN_NON_FINITE_MODEL = 7
 } drivetrain_status;
 
 /** Physical parameters. */
@@ -113,22 +117,22 @@ typedef struct {
 
 /** What acts on the arm. */
 typedef struct {
-    drivetrain_real motor_torque; /**< torque acting at the base [N m] */
-    drivetrain_real load_torque; /**< torque acting at station 4 [N m] */
+    drivetrain_real tmm_motor_torque; /**< torque acting at the base [N m] */
+    drivetrain_real tmm_load_torque; /**< torque acting at station 4 [N m] */
 } drivetrain_inputs;
 
 /** What the scene asks to know. */
 typedef struct {
-    drivetrain_real motor_speed; /**< velocity at the base [rad/s] */
-    drivetrain_real roller_speed; /**< velocity at station 4 [rad/s] */
-    drivetrain_real shaft_torque; /**< torque at station 4 [N m] */
-    drivetrain_real encoder; /**< angle at the tip [rad] */
+    drivetrain_real tmm_motor_speed; /**< velocity at the base [rad/s] */
+    drivetrain_real tmm_roller_speed; /**< velocity at station 4 [rad/s] */
+    drivetrain_real tmm_shaft_torque; /**< torque at station 4 [N m] */
+    drivetrain_real tmm_encoder; /**< angle at the tip [rad] */
 } drivetrain_outputs;
 
 /**
  * Write the scene's parameters.
  *
- * @param[out] params  parameters
+ * @param[out] params  parameters; nothing is done where it is NULL
  */
 void drivetrain_default_params(drivetrain_params *params);
 
@@ -138,7 +142,7 @@ void drivetrain_default_params(drivetrain_params *params);
  * @param[out] model   what the other functions need
  * @param[in]  params  parameters
  * @param[in]  step    time step [s]
- * @return OK, NON_FINITE_INPUT, INVALID_STEP or VANISHING_PIVOT
+ * @return OK, NON_FINITE_INPUT, NULL_POINTER, INVALID_STEP, VANISHING_PIVOT or NON_FINITE_MODEL
  */
 drivetrain_status drivetrain_prepare(
     drivetrain_model *model,
@@ -150,10 +154,10 @@ drivetrain_status drivetrain_prepare(
  *
  * @param[out] state   motion at the initial instant
  * @param[in]  params  parameters
- * @param[in]  initial_angle  angles to start from [rad]
- * @param[in]  initial_rate  rates to start from [rad/s]
+ * @param[in]  initial_angle  angles to start from [rad]; NULL for the scene's own
+ * @param[in]  initial_rate  rates to start from [rad/s]; NULL for the scene's own
  * @param[in]  inputs  what acts at the initial instant
- * @return OK, NON_FINITE_INPUT, VANISHING_PIVOT or NON_FINITE_STATE
+ * @return OK, NON_FINITE_INPUT, NULL_POINTER, VANISHING_PIVOT or NON_FINITE_STATE
  */
 drivetrain_status drivetrain_initialise(
     drivetrain_state *state,
@@ -168,7 +172,7 @@ drivetrain_status drivetrain_initialise(
  * @param[in]     model   from drivetrain_prepare()
  * @param[in,out] state   motion before the step, and after it
  * @param[in]     inputs  what acts, at 0.555556 of the step
- * @return OK, NON_FINITE_INPUT or NON_FINITE_STATE
+ * @return OK, NON_FINITE_INPUT, NULL_POINTER or NON_FINITE_STATE
  */
 drivetrain_status drivetrain_step(
     const drivetrain_model *model,
@@ -176,7 +180,7 @@ drivetrain_status drivetrain_step(
     const drivetrain_inputs *inputs);
 
 /**
- * Read the outputs off the state.
+ * Read the outputs off the state. Nothing is done where a pointer is NULL.
  *
  * @param[in]  model    from drivetrain_prepare()
  * @param[in]  state    motion
@@ -191,4 +195,4 @@ void drivetrain_output(
 }
 #endif
 
-#endif /* DRIVETRAIN_H */
+#endif /* TMM_GEN_KERNEL_drivetrain */

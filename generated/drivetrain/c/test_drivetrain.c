@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 260c88ca5ffe6b93ea5946fad67187e547942573db1dc2f710bcd9a0610b8738
- * sha256 of the rest of this file: 2ccab4b18795bb0f2103ccc2ea33944d8a37993850ff7ad0c5cddc8c311fc614
+ * sha256 of the rest of this file: 7b60b0b8c0fc5b68baf5f373e389656f5d4ead7bf6d7707ac77b2ef007244010
  *
  * model: torsional chain (linear)
  * stations: 6
@@ -20,9 +20,15 @@
  *
  * @file test_drivetrain.c
  */
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(_M_FP_FAST) \
+    || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "-Ofast and -ffast-math remove checks of this file: use -O3, or put -fno-fast-math behind them"
+#endif
+
 #include "drivetrain.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -42,7 +48,7 @@ static void expect(tally *count, const char *what, real value, real right, real 
     }
 }
 
-static void expect_status(
+static void expect_code(
     tally *count,
     const char *what,
     drivetrain_status value,
@@ -69,7 +75,7 @@ static void test_motion(tally *count)
     memset(&state, 0, sizeof state); /* padding too: it is compared below */
     drivetrain_default_params(&params);
     status = drivetrain_prepare(&model, &params, DRIVETRAIN_STEP);
-    expect_status(count, "prepare", status, DRIVETRAIN_OK);
+    expect_code(count, "prepare", status, DRIVETRAIN_OK);
 
     for (int j = 0; j < DRIVETRAIN_STATIONS; ++j) {
         initial_angle[j] = (real)((7 * j + 3) % 16 - 8) / 64.0;
@@ -77,43 +83,43 @@ static void test_motion(tally *count)
     for (int j = 0; j < DRIVETRAIN_STATIONS; ++j) {
         initial_rate[j] = (real)((7 * j + 3) % 16 - 8) / 64.0;
     }
-    inputs.motor_torque = -0.375;
-    inputs.load_torque = 0.0;
+    inputs.tmm_motor_torque = -0.375;
+    inputs.tmm_load_torque = 0.0;
     status = drivetrain_initialise(&state, &params, initial_angle, initial_rate, &inputs);
-    expect_status(count, "initialise", status, DRIVETRAIN_OK);
+    expect_code(count, "initialise", status, DRIVETRAIN_OK);
 
     /* Step 1. */
-    inputs.motor_torque = 0.25;
-    inputs.load_torque = -0.5;
+    inputs.tmm_motor_torque = 0.25;
+    inputs.tmm_load_torque = -0.5;
     status = drivetrain_step(&model, &state, &inputs);
-    expect_status(count, "step 1", status, DRIVETRAIN_OK);
+    expect_code(count, "step 1", status, DRIVETRAIN_OK);
     drivetrain_output(&model, &state, &outputs);
-    expect(count, "motor_speed", outputs.motor_speed, -61.024806447828844, 5.4e-13);
-    expect(count, "roller_speed", outputs.roller_speed, -0.09904640937712796, 1.6e-14);
-    expect(count, "shaft_torque", outputs.shaft_torque, 167.6346636174372, 7.7e-13);
-    expect(count, "encoder", outputs.encoder, -0.02611482485798894, 3e-16);
+    expect(count, "tmm_motor_speed", outputs.tmm_motor_speed, -61.024806447828844, 5.4e-13);
+    expect(count, "tmm_roller_speed", outputs.tmm_roller_speed, -0.09904640937712796, 1.6e-14);
+    expect(count, "tmm_shaft_torque", outputs.tmm_shaft_torque, 167.6346636174372, 7.7e-13);
+    expect(count, "tmm_encoder", outputs.tmm_encoder, -0.02611482485798894, 3e-16);
 
     /* Step 2. */
-    inputs.motor_torque = -0.25;
-    inputs.load_torque = 0.125;
+    inputs.tmm_motor_torque = -0.25;
+    inputs.tmm_load_torque = 0.125;
     status = drivetrain_step(&model, &state, &inputs);
-    expect_status(count, "step 2", status, DRIVETRAIN_OK);
+    expect_code(count, "step 2", status, DRIVETRAIN_OK);
     drivetrain_output(&model, &state, &outputs);
-    expect(count, "motor_speed", outputs.motor_speed, -98.77387702963955, 5.4e-13);
-    expect(count, "roller_speed", outputs.roller_speed, 0.11255501683301643, 1.6e-14);
-    expect(count, "shaft_torque", outputs.shaft_torque, 96.8496758239049, 7.7e-13);
-    expect(count, "encoder", outputs.encoder, -0.011162430095813669, 3e-16);
+    expect(count, "tmm_motor_speed", outputs.tmm_motor_speed, -98.77387702963955, 5.4e-13);
+    expect(count, "tmm_roller_speed", outputs.tmm_roller_speed, 0.11255501683301643, 1.6e-14);
+    expect(count, "tmm_shaft_torque", outputs.tmm_shaft_torque, 96.8496758239049, 7.7e-13);
+    expect(count, "tmm_encoder", outputs.tmm_encoder, -0.011162430095813669, 3e-16);
 
     /* Step 3. */
-    inputs.motor_torque = 0.375;
-    inputs.load_torque = -0.375;
+    inputs.tmm_motor_torque = 0.375;
+    inputs.tmm_load_torque = -0.375;
     status = drivetrain_step(&model, &state, &inputs);
-    expect_status(count, "step 3", status, DRIVETRAIN_OK);
+    expect_code(count, "step 3", status, DRIVETRAIN_OK);
     drivetrain_output(&model, &state, &outputs);
-    expect(count, "motor_speed", outputs.motor_speed, -111.46094748328005, 5.4e-13);
-    expect(count, "roller_speed", outputs.roller_speed, 0.6278515733339045, 1.6e-14);
-    expect(count, "shaft_torque", outputs.shaft_torque, 44.880339023435965, 7.7e-13);
-    expect(count, "encoder", outputs.encoder, 0.012321368558414677, 3e-16);
+    expect(count, "tmm_motor_speed", outputs.tmm_motor_speed, -111.46094748328005, 5.4e-13);
+    expect(count, "tmm_roller_speed", outputs.tmm_roller_speed, 0.6278515733339045, 1.6e-14);
+    expect(count, "tmm_shaft_torque", outputs.tmm_shaft_torque, 44.880339023435965, 7.7e-13);
+    expect(count, "tmm_encoder", outputs.tmm_encoder, 0.012321368558414677, 3e-16);
 
     /* State after the last step. */
     expect(count, "hub_angle", state.hub_angle, -0.021532709670283718, 1.3e-16);
@@ -143,16 +149,16 @@ static void test_motion(tally *count)
     memcpy(&before, &state, sizeof before);
     const real bad[] = {(real)NAN, (real)INFINITY, -(real)INFINITY};
     for (int k = 0; k < 3; ++k) {
-        const real motor_torque = inputs.motor_torque;
-        inputs.motor_torque = bad[k];
+        const real tmm_motor_torque = inputs.tmm_motor_torque;
+        inputs.tmm_motor_torque = bad[k];
         status = drivetrain_step(&model, &state, &inputs);
-        expect_status(count, "bad motor_torque", status, DRIVETRAIN_NON_FINITE_INPUT);
-        inputs.motor_torque = motor_torque;
-        const real load_torque = inputs.load_torque;
-        inputs.load_torque = bad[k];
+        expect_code(count, "bad motor_torque", status, DRIVETRAIN_NON_FINITE_INPUT);
+        inputs.tmm_motor_torque = tmm_motor_torque;
+        const real tmm_load_torque = inputs.tmm_load_torque;
+        inputs.tmm_load_torque = bad[k];
         status = drivetrain_step(&model, &state, &inputs);
-        expect_status(count, "bad load_torque", status, DRIVETRAIN_NON_FINITE_INPUT);
-        inputs.load_torque = load_torque;
+        expect_code(count, "bad load_torque", status, DRIVETRAIN_NON_FINITE_INPUT);
+        inputs.tmm_load_torque = tmm_load_torque;
     }
     ++count->checks;
     if (memcmp(&before, &state, sizeof state) != 0) {
@@ -169,34 +175,67 @@ static void test_refusals(tally *count)
 
     drivetrain_default_params(&params);
     status = drivetrain_prepare(&model, &params, 0.0);
-    expect_status(count, "no step", status, DRIVETRAIN_INVALID_STEP);
+    expect_code(count, "no step", status, DRIVETRAIN_INVALID_STEP);
     status = drivetrain_prepare(&model, &params, (real)NAN);
-    expect_status(count, "bad step", status, DRIVETRAIN_INVALID_STEP);
+    expect_code(count, "bad step", status, DRIVETRAIN_INVALID_STEP);
 
     drivetrain_default_params(&params);
     params.stiffness[DRIVETRAIN_STATIONS - 1] = (real)NAN;
     status = drivetrain_prepare(&model, &params, DRIVETRAIN_STEP);
-    expect_status(count, "bad stiffness", status, DRIVETRAIN_NON_FINITE_INPUT);
+    expect_code(count, "bad stiffness", status, DRIVETRAIN_NON_FINITE_INPUT);
 
     drivetrain_default_params(&params);
     params.damping[DRIVETRAIN_STATIONS - 1] = (real)NAN;
     status = drivetrain_prepare(&model, &params, DRIVETRAIN_STEP);
-    expect_status(count, "bad damping", status, DRIVETRAIN_NON_FINITE_INPUT);
+    expect_code(count, "bad damping", status, DRIVETRAIN_NON_FINITE_INPUT);
 
     drivetrain_default_params(&params);
     params.inertia[DRIVETRAIN_STATIONS - 1] = (real)NAN;
     status = drivetrain_prepare(&model, &params, DRIVETRAIN_STEP);
-    expect_status(count, "bad inertia", status, DRIVETRAIN_NON_FINITE_INPUT);
+    expect_code(count, "bad inertia", status, DRIVETRAIN_NON_FINITE_INPUT);
 
     drivetrain_default_params(&params);
     params.hub_inertia = (real)NAN;
     status = drivetrain_prepare(&model, &params, DRIVETRAIN_STEP);
-    expect_status(count, "bad hub_inertia", status, DRIVETRAIN_NON_FINITE_INPUT);
+    expect_code(count, "bad hub_inertia", status, DRIVETRAIN_NON_FINITE_INPUT);
 
     drivetrain_default_params(&params);
     params.hub_damping = (real)NAN;
     status = drivetrain_prepare(&model, &params, DRIVETRAIN_STEP);
-    expect_status(count, "bad hub_damping", status, DRIVETRAIN_NON_FINITE_INPUT);
+    expect_code(count, "bad hub_damping", status, DRIVETRAIN_NON_FINITE_INPUT);
+}
+
+/* Arrays that are absent are the scene's own; any other pointer that is absent is refused. */
+static void test_absent(tally *count)
+{
+    drivetrain_params params;
+    drivetrain_model model;
+    drivetrain_state state;
+    drivetrain_inputs inputs;
+    drivetrain_status status;
+
+    memset(&inputs, 0, sizeof inputs);
+    drivetrain_default_params(&params);
+    drivetrain_default_params(NULL);
+    status = drivetrain_prepare(NULL, &params, DRIVETRAIN_STEP);
+    expect_code(count, "no model", status, DRIVETRAIN_NULL_POINTER);
+    status = drivetrain_prepare(&model, NULL, DRIVETRAIN_STEP);
+    expect_code(count, "no parameters", status, DRIVETRAIN_NULL_POINTER);
+    status = drivetrain_prepare(&model, &params, DRIVETRAIN_STEP);
+    expect_code(count, "prepare", status, DRIVETRAIN_OK);
+    status = drivetrain_initialise(NULL, &params, NULL, NULL, &inputs);
+    expect_code(count, "no state", status, DRIVETRAIN_NULL_POINTER);
+    status = drivetrain_initialise(&state, &params, NULL, NULL, &inputs);
+    expect_code(count, "the scene's start", status, DRIVETRAIN_OK);
+    status = drivetrain_step(&model, NULL, &inputs);
+    expect_code(count, "no state", status, DRIVETRAIN_NULL_POINTER);
+    status = drivetrain_step(NULL, &state, &inputs);
+    expect_code(count, "no model", status, DRIVETRAIN_NULL_POINTER);
+    status = drivetrain_initialise(&state, &params, NULL, NULL, NULL);
+    expect_code(count, "no inputs", status, DRIVETRAIN_NULL_POINTER);
+    status = drivetrain_step(&model, &state, NULL);
+    expect_code(count, "no inputs", status, DRIVETRAIN_NULL_POINTER);
+    drivetrain_output(&model, &state, NULL);
 }
 
 int main(void)
@@ -204,6 +243,7 @@ int main(void)
     tally count = {0, 0};
 
     test_motion(&count);
+    test_absent(&count);
     test_refusals(&count);
     if (count.failures > 0) {
         printf("%d of %d checks failed\n", count.failures, count.checks);

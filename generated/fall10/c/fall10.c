@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 225557ccb20983327784b6fc8326b9127fb185b183a5e99d150385ab258b9303
- * sha256 of the rest of this file: 00fbd1e2416fec4628b16914c599d29e497aec5b9834b43691c35b70724694dc
+ * sha256 of the rest of this file: 667cb7e0e6c10a1cf48ae6a1aa350ddc65522abbf311a4ec1f01c2f5ce77aeda
  *
  * model: planar arm, large rotations, gravity
  * stations: 10
@@ -20,9 +20,16 @@
  *
  * @file fall10.c
  */
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(_M_FP_FAST) \
+    || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "-Ofast and -ffast-math remove checks of this file: use -O3, or put -fno-fast-math behind them"
+#endif
+
 #include "fall10.h"
 
+#include <float.h>
 #include <math.h>
+#include <stddef.h>
 
 typedef fall10_real real;
 
@@ -34,6 +41,9 @@ void fall10_default_params(fall10_params *params)
     static const real damping[] = {
         0.064, 0.032, 0.032, 0.032, 0.032, 0.032, 0.032, 0.032, 0.032, 0.032
     };
+    if (params == NULL) {
+        return;
+    }
     params->length = 0.1;
     params->mass = 0.03;
     params->inertia = 2.5e-05;
@@ -52,6 +62,9 @@ fall10_status fall10_prepare(
     const fall10_params *params,
     fall10_real step)
 {
+    if (model == NULL || params == NULL) {
+        return FALL10_NULL_POINTER;
+    }
     if (!isfinite(step) || !(step > 0.0)) {
         return FALL10_INVALID_STEP;
     }
@@ -92,6 +105,15 @@ fall10_status fall10_prepare(
         model->damping[j] = params->damping[j];
     }
     model->gravity = params->gravity;
+
+    real total = 0.0; /* of the model: is all of it finite? */
+    for (int j = 0; j < FALL10_STATIONS; ++j) {
+        total += model->joint_impedance[j];
+    }
+    if (!isfinite(model->half_step_squared + model->angle_per_acceleration + model->rate_per_acceleration
+        + model->end_mass + model->rod_inertia + total)) {
+        return FALL10_NON_FINITE_MODEL;
+    }
     return FALL10_OK;
 }
 
@@ -102,8 +124,12 @@ fall10_status fall10_initialise(
     const fall10_real initial_rate[FALL10_STATIONS],
     const fall10_inputs *inputs)
 {
+    if (state == NULL || params == NULL) {
+        return FALL10_NULL_POINTER;
+    }
     for (int j = 0; j < FALL10_STATIONS; ++j) {
-        if (!isfinite(initial_angle[j]) || !isfinite(initial_rate[j])) {
+        if ((initial_angle != NULL && !isfinite(initial_angle[j]))
+            || (initial_rate != NULL && !isfinite(initial_rate[j]))) {
             return FALL10_NON_FINITE_INPUT;
         }
     }
@@ -122,6 +148,7 @@ fall10_status fall10_initialise(
     real predicted_acceleration[FALL10_STATIONS + 1];
     real predicted_angle[FALL10_STATIONS + 1]; /* angle of base and links as predicted [rad] */
     real predicted_rate[FALL10_STATIONS + 1]; /* rate of base and links as predicted [rad/s] */
+    real total = 0.0; /* of the new motion: is all of it finite? */
 
     /* Masses at the nodes between links, and what they leave over. */
     const real end_mass = -mass * (1.0 - params->center);
@@ -139,8 +166,8 @@ fall10_status fall10_initialise(
     acceleration_x[0] = node_x;
     acceleration_y[0] = params->gravity;
     for (int j = 0; j < FALL10_STATIONS; ++j) {
-        predicted_rate[j + 1] = initial_rate[j];
-        predicted_angle[j + 1] = initial_angle[j];
+        predicted_rate[j + 1] = (initial_rate != NULL ? initial_rate[j] : 0.0);
+        predicted_angle[j + 1] = (initial_angle != NULL ? initial_angle[j] : 0.0);
         predicted_acceleration[j + 1] = 0.0;
         lever_cosine[j] = length * cos(predicted_angle[j + 1]);
         lever_sine[j] = length * sin(predicted_angle[j + 1]);
@@ -176,7 +203,7 @@ fall10_status fall10_initialise(
         const real impedance_uu = rod_inertia - impedance_xu * lever_sine[j] + impedance_yu * lever_cosine[j];
         torque = torque - force_x * lever_sine[j] + force_y * lever_cosine[j]
             + predicted_acceleration[j + 1] * rod_inertia;
-        if (!(impedance_uu > 0.0) || !isfinite(impedance_uu)) {
+        if (!(impedance_uu > 0.0) || !(impedance_uu <= DBL_MAX)) {
             return FALL10_VANISHING_PIVOT;
         }
         const real admittance = 1.0 / impedance_uu;
@@ -205,12 +232,11 @@ fall10_status fall10_initialise(
         state->angle[j] = predicted_angle[j + 1];
         state->rate[j] = predicted_rate[j + 1];
         state->acceleration[j] = predicted_acceleration[j + 1] + unknown;
+        total += state->angle[j] + state->rate[j] + state->acceleration[j];
     }
 
-    for (int j = 0; j < FALL10_STATIONS; ++j) {
-        if (!isfinite(state->angle[j]) || !isfinite(state->rate[j]) || !isfinite(state->acceleration[j])) {
-            return FALL10_NON_FINITE_STATE;
-        }
+    if (!isfinite(total)) {
+        return FALL10_NON_FINITE_STATE;
     }
     return FALL10_OK;
 }
@@ -220,6 +246,9 @@ fall10_status fall10_step(
     fall10_state *state,
     const fall10_inputs *inputs)
 {
+    if (model == NULL || state == NULL) {
+        return FALL10_NULL_POINTER;
+    }
     (void)inputs;
 
     const real step = model->step;
@@ -241,6 +270,7 @@ fall10_status fall10_step(
     real swing_x[FALL10_STATIONS]; /* change of the outer end's acceleration along x per unknown [m] */
     real swing_y[FALL10_STATIONS]; /* change of the outer end's acceleration along y per unknown [m] */
     real transmission[FALL10_STATIONS]; /* share of motion and torque each joint passes on */
+    real total = 0.0; /* of the new motion: is all of it finite? */
 
     /* Predicted motion. */
     predicted_rate[0] = 0.0;
@@ -301,7 +331,7 @@ fall10_status fall10_step(
         torque = torque + state->acceleration[j] * rod_inertia - force_x * lever_sine[j]
             + force_y * lever_cosine[j];
         const real pivot = impedance_uu + model->joint_impedance[j];
-        if (!(pivot > 0.0) || !isfinite(pivot)) {
+        if (!(pivot > 0.0) || !(pivot <= DBL_MAX)) {
             return FALL10_VANISHING_PIVOT;
         }
         const real admittance = 1.0 / pivot;
@@ -336,10 +366,10 @@ fall10_status fall10_step(
         state->angle[j] = predicted_angle[j + 1] + angle_per_acceleration * unknown;
         state->rate[j] = predicted_rate[j + 1] + rate_per_acceleration * unknown;
         state->acceleration[j] = state->acceleration[j] + unknown;
+        total += state->angle[j] + state->rate[j] + state->acceleration[j];
     }
 
-    /* Anything that is not a number has reached this one. */
-    if (!isfinite(state->acceleration[FALL10_STATIONS - 1])) {
+    if (!isfinite(total)) {
         return FALL10_NON_FINITE_STATE;
     }
     return FALL10_OK;
@@ -350,22 +380,25 @@ void fall10_output(
     const fall10_state *state,
     fall10_outputs *outputs)
 {
+    if (model == NULL || state == NULL || outputs == NULL) {
+        return;
+    }
     const real length = model->length;
 
     /* Tip: position. */
-    outputs->tip_x = 0.0;
-    outputs->tip_y = 0.0;
+    outputs->tmm_tip_x = 0.0;
+    outputs->tmm_tip_y = 0.0;
 
     /* Tip: position; speed: velocity. */
-    outputs->speed_x = 0.0;
-    outputs->speed_y = 0.0;
+    outputs->tmm_speed_x = 0.0;
+    outputs->tmm_speed_y = 0.0;
     for (int j = 0; j < FALL10_STATIONS; ++j) {
-        outputs->tip_x = outputs->tip_x + length * cos(state->angle[j]);
-        outputs->tip_y = outputs->tip_y + length * sin(state->angle[j]);
-        outputs->speed_x = outputs->speed_x - length * state->rate[j] * sin(state->angle[j]);
-        outputs->speed_y = outputs->speed_y + length * state->rate[j] * cos(state->angle[j]);
+        outputs->tmm_tip_x = outputs->tmm_tip_x + length * cos(state->angle[j]);
+        outputs->tmm_tip_y = outputs->tmm_tip_y + length * sin(state->angle[j]);
+        outputs->tmm_speed_x = outputs->tmm_speed_x - length * state->rate[j] * sin(state->angle[j]);
+        outputs->tmm_speed_y = outputs->tmm_speed_y + length * state->rate[j] * cos(state->angle[j]);
     }
 
     /* Root: torque. */
-    outputs->root = state->angle[0] * model->stiffness[0] + model->damping[0] * state->rate[0];
+    outputs->tmm_root = state->angle[0] * model->stiffness[0] + model->damping[0] * state->rate[0];
 }

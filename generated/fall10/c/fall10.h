@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 225557ccb20983327784b6fc8326b9127fb185b183a5e99d150385ab258b9303
- * sha256 of the rest of this file: 80ca98a6bf2f5e3b0b74697d83ad7ce6bfdd9c32e2282bb73a432f6f004c162f
+ * sha256 of the rest of this file: 5366805905a1ba1d95248f3d9eee801d8498b84b3edee7c9fb95778d69edb4a3
  *
  * model: planar arm, large rotations, gravity
  * stations: 10
@@ -24,8 +24,8 @@
  *
  * @file fall10.h
  */
-#ifndef FALL10_H
-#define FALL10_H
+#ifndef TMM_GEN_KERNEL_fall10
+#define TMM_GEN_KERNEL_fall10
 
 #ifdef __cplusplus
 extern "C" {
@@ -51,7 +51,11 @@ typedef enum {
     /** No passive arm has such parameters (a negative inertia, say); the model is of no use. */
     FALL10_VANISHING_PIVOT,
     /** The motion has outgrown the number type; initialise anew. */
-    FALL10_NON_FINITE_STATE
+    FALL10_NON_FINITE_STATE,
+    /** A pointer that is needed is NULL; nothing was changed. */
+    FALL10_NULL_POINTER = 6,
+    /** Parameters or time step are too large or too small for the number type; the model is of no use. */
+    FALL10_NON_FINITE_MODEL = 7
 } fall10_status;
 
 /** Physical parameters. */
@@ -107,17 +111,17 @@ typedef struct {
 
 /** What the scene asks to know. */
 typedef struct {
-    fall10_real tip_x; /**< position at the tip, x [m] */
-    fall10_real tip_y; /**< position at the tip, y [m] */
-    fall10_real speed_x; /**< velocity at the tip, x [m/s] */
-    fall10_real speed_y; /**< velocity at the tip, y [m/s] */
-    fall10_real root; /**< torque at station 1 [N m] */
+    fall10_real tmm_tip_x; /**< position at the tip, x [m] */
+    fall10_real tmm_tip_y; /**< position at the tip, y [m] */
+    fall10_real tmm_speed_x; /**< velocity at the tip, x [m/s] */
+    fall10_real tmm_speed_y; /**< velocity at the tip, y [m/s] */
+    fall10_real tmm_root; /**< torque at station 1 [N m] */
 } fall10_outputs;
 
 /**
  * Write the scene's parameters.
  *
- * @param[out] params  parameters
+ * @param[out] params  parameters; nothing is done where it is NULL
  */
 void fall10_default_params(fall10_params *params);
 
@@ -127,7 +131,7 @@ void fall10_default_params(fall10_params *params);
  * @param[out] model   what the other functions need
  * @param[in]  params  parameters
  * @param[in]  step    time step [s]
- * @return OK, NON_FINITE_INPUT, INVALID_STEP or VANISHING_PIVOT
+ * @return OK, NON_FINITE_INPUT, NULL_POINTER, INVALID_STEP, VANISHING_PIVOT or NON_FINITE_MODEL
  */
 fall10_status fall10_prepare(
     fall10_model *model,
@@ -139,10 +143,10 @@ fall10_status fall10_prepare(
  *
  * @param[out] state   motion at the initial instant
  * @param[in]  params  parameters
- * @param[in]  initial_angle  angles to start from [rad]
- * @param[in]  initial_rate  rates to start from [rad/s]
+ * @param[in]  initial_angle  angles to start from [rad]; NULL for the scene's own
+ * @param[in]  initial_rate  rates to start from [rad/s]; NULL for the scene's own
  * @param[in]  inputs  what acts at the initial instant
- * @return OK, NON_FINITE_INPUT, VANISHING_PIVOT or NON_FINITE_STATE
+ * @return OK, NON_FINITE_INPUT, NULL_POINTER, VANISHING_PIVOT or NON_FINITE_STATE
  */
 fall10_status fall10_initialise(
     fall10_state *state,
@@ -157,7 +161,7 @@ fall10_status fall10_initialise(
  * @param[in]     model   from fall10_prepare()
  * @param[in,out] state   motion before the step, and after it
  * @param[in]     inputs  what acts, at the end of the step
- * @return OK, NON_FINITE_INPUT, VANISHING_PIVOT or NON_FINITE_STATE
+ * @return OK, NON_FINITE_INPUT, NULL_POINTER, VANISHING_PIVOT or NON_FINITE_STATE
  */
 fall10_status fall10_step(
     const fall10_model *model,
@@ -165,7 +169,7 @@ fall10_status fall10_step(
     const fall10_inputs *inputs);
 
 /**
- * Read the outputs off the state.
+ * Read the outputs off the state. Nothing is done where a pointer is NULL.
  *
  * @param[in]  model    from fall10_prepare()
  * @param[in]  state    motion
@@ -180,4 +184,4 @@ void fall10_output(
 }
 #endif
 
-#endif /* FALL10_H */
+#endif /* TMM_GEN_KERNEL_fall10 */

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 1ec2a071f5720229c3b5c9d847fa0a44d6fa112015051ca13c1d73444e6eb10a
- * sha256 of the rest of this file: 543dff882afef76554d15ca534efb479ed6daeca299ac55f09e4ae9eaf06c9f1
+ * sha256 of the rest of this file: 5eecaba18f51d7d54e99d90c26216bc17b07850d0feaa037c3f47b9510b9fa61
  *
  * model: torsional chain (linear)
  * stations: 100
@@ -18,15 +18,22 @@
  *
  * @file hundred.c
  */
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(_M_FP_FAST) \
+    || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "-Ofast and -ffast-math remove checks of this file: use -O3, or put -fno-fast-math behind them"
+#endif
+
 #include "hundred.h"
 
+#include <float.h>
 #include <math.h>
+#include <stddef.h>
 
 typedef hundred_real real;
 
 static int inputs_are_finite(const hundred_inputs *inputs)
 {
-    if (!isfinite(inputs->tip_torque)) {
+    if (!isfinite(inputs->tmm_tip_torque)) {
         return 0;
     }
     return 1;
@@ -34,6 +41,9 @@ static int inputs_are_finite(const hundred_inputs *inputs)
 
 void hundred_default_params(hundred_params *params)
 {
+    if (params == NULL) {
+        return;
+    }
     params->stiffness = 400.0;
     params->damping = 0.02;
     params->inertia = 0.01;
@@ -44,6 +54,9 @@ hundred_status hundred_prepare(
     const hundred_params *params,
     hundred_real step)
 {
+    if (model == NULL || params == NULL) {
+        return HUNDRED_NULL_POINTER;
+    }
     if (!isfinite(step) || !(step > 0.0)) {
         return HUNDRED_INVALID_STEP;
     }
@@ -59,7 +72,7 @@ hundred_status hundred_prepare(
     for (int j = HUNDRED_STATIONS - 1; j >= 0; --j) {
         impedance = impedance - inertia;
         const real pivot = joint_impedance - impedance;
-        if (!(pivot > 0.0) || !isfinite(pivot)) {
+        if (!(pivot > 0.0) || !(pivot <= DBL_MAX)) {
             return HUNDRED_VANISHING_PIVOT;
         }
         model->admittance[j] = 1.0 / pivot;
@@ -76,6 +89,14 @@ hundred_status hundred_prepare(
     model->step = step;
     model->stiffness = params->stiffness;
     model->damping = params->damping;
+
+    real total = 0.0; /* of the model: is all of it finite? */
+    for (int j = 0; j < HUNDRED_STATIONS; ++j) {
+        total += model->admittance[j] + model->transmission[j] + model->reflection[j];
+    }
+    if (!isfinite(model->rate_per_acceleration + model->angle_per_acceleration + total)) {
+        return HUNDRED_NON_FINITE_MODEL;
+    }
     return HUNDRED_OK;
 }
 
@@ -86,11 +107,15 @@ hundred_status hundred_initialise(
     const hundred_real initial_rate[HUNDRED_STATIONS],
     const hundred_inputs *inputs)
 {
+    if (state == NULL || params == NULL || inputs == NULL) {
+        return HUNDRED_NULL_POINTER;
+    }
     if (!inputs_are_finite(inputs)) {
         return HUNDRED_NON_FINITE_INPUT;
     }
     for (int j = 0; j < HUNDRED_STATIONS; ++j) {
-        if (!isfinite(initial_angle[j]) || !isfinite(initial_rate[j])) {
+        if ((initial_angle != NULL && !isfinite(initial_angle[j]))
+            || (initial_rate != NULL && !isfinite(initial_rate[j]))) {
             return HUNDRED_NON_FINITE_INPUT;
         }
     }
@@ -99,11 +124,12 @@ hundred_status hundred_initialise(
     const real damping = params->damping;
     real known_angle[HUNDRED_STATIONS + 1]; /* angle of base and links without the unknown's share [rad] */
     real known_rate[HUNDRED_STATIONS + 1]; /* rate of base and links without the unknown's share [rad/s] */
+    real total = 0.0; /* of the new motion: is all of it finite? */
 
     /* What is the same at every station. */
     const real impedance = -params->inertia;
     const real pivot = -impedance;
-    if (!(pivot > 0.0) || !isfinite(pivot)) {
+    if (!(pivot > 0.0) || !(pivot <= DBL_MAX)) {
         return HUNDRED_VANISHING_PIVOT;
     }
     const real admittance = 1.0 / pivot;
@@ -112,12 +138,12 @@ hundred_status hundred_initialise(
     known_rate[0] = 0.0;
     known_angle[0] = 0.0;
     for (int j = 0; j < HUNDRED_STATIONS; ++j) {
-        known_rate[j + 1] = initial_rate[j];
-        known_angle[j + 1] = initial_angle[j];
+        known_rate[j + 1] = (initial_rate != NULL ? initial_rate[j] : 0.0);
+        known_angle[j + 1] = (initial_angle != NULL ? initial_angle[j] : 0.0);
     }
 
     /* Sweep inward: force beyond each joint as an affine function of the motion at it. */
-    real torque = inputs->tip_torque;
+    real torque = inputs->tmm_tip_torque;
 
     /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
      * of the motion at it; sweep outward: the unknown of each station; motion at the end of the step. */
@@ -129,12 +155,11 @@ hundred_status hundred_initialise(
         state->angle[j] = known_angle[j + 1];
         state->rate[j] = known_rate[j + 1];
         state->acceleration[j] = answer_own;
+        total += state->angle[j] + state->rate[j] + state->acceleration[j];
     }
 
-    for (int j = 0; j < HUNDRED_STATIONS; ++j) {
-        if (!isfinite(state->angle[j]) || !isfinite(state->rate[j]) || !isfinite(state->acceleration[j])) {
-            return HUNDRED_NON_FINITE_STATE;
-        }
+    if (!isfinite(total)) {
+        return HUNDRED_NON_FINITE_STATE;
     }
     return HUNDRED_OK;
 }
@@ -144,6 +169,9 @@ hundred_status hundred_step(
     hundred_state *state,
     const hundred_inputs *inputs)
 {
+    if (model == NULL || state == NULL || inputs == NULL) {
+        return HUNDRED_NULL_POINTER;
+    }
     if (!inputs_are_finite(inputs)) {
         return HUNDRED_NON_FINITE_INPUT;
     }
@@ -156,25 +184,31 @@ hundred_status hundred_step(
     real answer_own[HUNDRED_STATIONS]; /* unknown of a station if its inner side kept its motion */
     real known_angle[HUNDRED_STATIONS + 1]; /* angle of base and links without the unknown's share [rad] */
     real known_rate[HUNDRED_STATIONS + 1]; /* rate of base and links without the unknown's share [rad/s] */
+    real total = 0.0; /* of the new motion: is all of it finite? */
 
-    /* Motion known before the sweep. */
+    /* Motion known before the sweep: at the last station. */
     known_rate[0] = 0.0;
     known_angle[0] = 0.0;
-    for (int j = 0; j < HUNDRED_STATIONS; ++j) {
-        known_rate[j + 1] = state->rate[j] + state->acceleration[j] * rate_per_acceleration;
-        known_angle[j + 1] = state->angle[j] + state->acceleration[j] * angle_per_acceleration
-            + state->rate[j] * step;
-    }
+    known_rate[100] = state->rate[99] + state->acceleration[99] * rate_per_acceleration;
+    known_angle[100] = state->angle[99] + state->acceleration[99] * angle_per_acceleration
+        + state->rate[99] * step;
 
-    /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
-     * of the motion at it. */
-    real torque = inputs->tip_torque;
-    for (int j = HUNDRED_STATIONS - 1; j >= 0; --j) {
+    /* Motion known before the sweep; forces of the joints at the motion so far; sweep inward: force beyond
+     * each joint as an affine function of the motion at it. */
+    real torque = inputs->tmm_tip_torque;
+    for (int j = HUNDRED_STATIONS - 1; j >= 1; --j) {
+        known_rate[j] = state->rate[j - 1] + state->acceleration[j - 1] * rate_per_acceleration;
+        known_angle[j] = state->angle[j - 1] + state->acceleration[j - 1] * angle_per_acceleration
+            + state->rate[j - 1] * step;
         const real joint_torque = damping * (known_rate[j + 1] - known_rate[j])
             + stiffness * (known_angle[j + 1] - known_angle[j]);
         answer_own[j] = model->admittance[j] * (torque - joint_torque);
         torque = joint_torque * model->reflection[j] + torque * model->transmission[j];
     }
+    const real first_joint_torque = damping * (known_rate[1] - known_rate[0])
+        + stiffness * (known_angle[1] - known_angle[0]);
+    answer_own[0] = model->admittance[0] * (torque - first_joint_torque);
+    torque = first_joint_torque * model->reflection[0] + torque * model->transmission[0];
 
     /* The base. */
     real unknown = 0.0;
@@ -185,10 +219,10 @@ hundred_status hundred_step(
         state->angle[j] = known_angle[j + 1] + angle_per_acceleration * unknown;
         state->rate[j] = known_rate[j + 1] + rate_per_acceleration * unknown;
         state->acceleration[j] = unknown;
+        total += state->angle[j] + state->rate[j];
     }
 
-    /* Anything that is not a number has reached this one. */
-    if (!isfinite(state->acceleration[HUNDRED_STATIONS - 1])) {
+    if (!isfinite(total + state->acceleration[HUNDRED_STATIONS - 1])) {
         return HUNDRED_NON_FINITE_STATE;
     }
     return HUNDRED_OK;
@@ -199,8 +233,11 @@ void hundred_output(
     const hundred_state *state,
     hundred_outputs *outputs)
 {
+    if (model == NULL || state == NULL || outputs == NULL) {
+        return;
+    }
     /* Outputs. */
-    outputs->tip = state->angle[99];
-    outputs->middle = state->angle[49];
-    outputs->base_torque = state->angle[0] * model->stiffness + model->damping * state->rate[0];
+    outputs->tmm_tip = state->angle[99];
+    outputs->tmm_middle = state->angle[49];
+    outputs->tmm_base_torque = state->angle[0] * model->stiffness + model->damping * state->rate[0];
 }

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 1ec2a071f5720229c3b5c9d847fa0a44d6fa112015051ca13c1d73444e6eb10a
- * sha256 of the rest of this file: 26d75378ce67ed7900e07bfb4e901872c5c328d888bbfc59d06476e195994902
+ * sha256 of the rest of this file: 3234eda869b88c61931ac628c22d09a533ecdde4b92efa5d75110e89088b98b8
  *
  * model: torsional chain (linear)
  * stations: 100
@@ -22,8 +22,8 @@
  *
  * @file hundred.h
  */
-#ifndef HUNDRED_H
-#define HUNDRED_H
+#ifndef TMM_GEN_KERNEL_hundred
+#define TMM_GEN_KERNEL_hundred
 
 #ifdef __cplusplus
 extern "C" {
@@ -49,7 +49,11 @@ typedef enum {
     /** No passive arm has such parameters (a negative inertia, say); the model is of no use. */
     HUNDRED_VANISHING_PIVOT,
     /** The motion has outgrown the number type; initialise anew. */
-    HUNDRED_NON_FINITE_STATE
+    HUNDRED_NON_FINITE_STATE,
+    /** A pointer that is needed is NULL; nothing was changed. */
+    HUNDRED_NULL_POINTER = 6,
+    /** Parameters or time step are too large or too small for the number type; the model is of no use. */
+    HUNDRED_NON_FINITE_MODEL = 7
 } hundred_status;
 
 /** Physical parameters. */
@@ -80,20 +84,20 @@ typedef struct {
 
 /** What acts on the arm. */
 typedef struct {
-    hundred_real tip_torque; /**< torque acting at the tip [N m] */
+    hundred_real tmm_tip_torque; /**< torque acting at the tip [N m] */
 } hundred_inputs;
 
 /** What the scene asks to know. */
 typedef struct {
-    hundred_real tip; /**< angle at the tip [rad] */
-    hundred_real middle; /**< angle at station 50 [rad] */
-    hundred_real base_torque; /**< torque at the base [N m] */
+    hundred_real tmm_tip; /**< angle at the tip [rad] */
+    hundred_real tmm_middle; /**< angle at station 50 [rad] */
+    hundred_real tmm_base_torque; /**< torque at the base [N m] */
 } hundred_outputs;
 
 /**
  * Write the scene's parameters.
  *
- * @param[out] params  parameters
+ * @param[out] params  parameters; nothing is done where it is NULL
  */
 void hundred_default_params(hundred_params *params);
 
@@ -103,7 +107,7 @@ void hundred_default_params(hundred_params *params);
  * @param[out] model   what the other functions need
  * @param[in]  params  parameters
  * @param[in]  step    time step [s]
- * @return OK, NON_FINITE_INPUT, INVALID_STEP or VANISHING_PIVOT
+ * @return OK, NON_FINITE_INPUT, NULL_POINTER, INVALID_STEP, VANISHING_PIVOT or NON_FINITE_MODEL
  */
 hundred_status hundred_prepare(
     hundred_model *model,
@@ -115,10 +119,10 @@ hundred_status hundred_prepare(
  *
  * @param[out] state   motion at the initial instant
  * @param[in]  params  parameters
- * @param[in]  initial_angle  angles to start from [rad]
- * @param[in]  initial_rate  rates to start from [rad/s]
+ * @param[in]  initial_angle  angles to start from [rad]; NULL for the scene's own
+ * @param[in]  initial_rate  rates to start from [rad/s]; NULL for the scene's own
  * @param[in]  inputs  what acts at the initial instant
- * @return OK, NON_FINITE_INPUT, VANISHING_PIVOT or NON_FINITE_STATE
+ * @return OK, NON_FINITE_INPUT, NULL_POINTER, VANISHING_PIVOT or NON_FINITE_STATE
  */
 hundred_status hundred_initialise(
     hundred_state *state,
@@ -133,7 +137,7 @@ hundred_status hundred_initialise(
  * @param[in]     model   from hundred_prepare()
  * @param[in,out] state   motion before the step, and after it
  * @param[in]     inputs  what acts, at the end of the step
- * @return OK, NON_FINITE_INPUT or NON_FINITE_STATE
+ * @return OK, NON_FINITE_INPUT, NULL_POINTER or NON_FINITE_STATE
  */
 hundred_status hundred_step(
     const hundred_model *model,
@@ -141,7 +145,7 @@ hundred_status hundred_step(
     const hundred_inputs *inputs);
 
 /**
- * Read the outputs off the state.
+ * Read the outputs off the state. Nothing is done where a pointer is NULL.
  *
  * @param[in]  model    from hundred_prepare()
  * @param[in]  state    motion
@@ -156,4 +160,4 @@ void hundred_output(
 }
 #endif
 
-#endif /* HUNDRED_H */
+#endif /* TMM_GEN_KERNEL_hundred */

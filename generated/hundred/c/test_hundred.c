@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 1ec2a071f5720229c3b5c9d847fa0a44d6fa112015051ca13c1d73444e6eb10a
- * sha256 of the rest of this file: b7e4d0f9a8c6bf41a15610918e26de5b294f28d516968af545848804c25a5bd3
+ * sha256 of the rest of this file: 8f26b2c963aedafd5f65d6a347fc6ff0e8cf9b14f7692e836c045bc38191d07d
  *
  * model: torsional chain (linear)
  * stations: 100
@@ -20,9 +20,15 @@
  *
  * @file test_hundred.c
  */
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(_M_FP_FAST) \
+    || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "-Ofast and -ffast-math remove checks of this file: use -O3, or put -fno-fast-math behind them"
+#endif
+
 #include "hundred.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -42,7 +48,7 @@ static void expect(tally *count, const char *what, real value, real right, real 
     }
 }
 
-static void expect_status(
+static void expect_code(
     tally *count,
     const char *what,
     hundred_status value,
@@ -69,7 +75,7 @@ static void test_motion(tally *count)
     memset(&state, 0, sizeof state); /* padding too: it is compared below */
     hundred_default_params(&params);
     status = hundred_prepare(&model, &params, HUNDRED_STEP);
-    expect_status(count, "prepare", status, HUNDRED_OK);
+    expect_code(count, "prepare", status, HUNDRED_OK);
 
     for (int j = 0; j < HUNDRED_STATIONS; ++j) {
         initial_angle[j] = (real)((7 * j + 3) % 16 - 8) / 64.0;
@@ -77,36 +83,36 @@ static void test_motion(tally *count)
     for (int j = 0; j < HUNDRED_STATIONS; ++j) {
         initial_rate[j] = (real)((7 * j + 3) % 16 - 8) / 64.0;
     }
-    inputs.tip_torque = -0.375;
+    inputs.tmm_tip_torque = -0.375;
     status = hundred_initialise(&state, &params, initial_angle, initial_rate, &inputs);
-    expect_status(count, "initialise", status, HUNDRED_OK);
+    expect_code(count, "initialise", status, HUNDRED_OK);
 
     /* Step 1. */
-    inputs.tip_torque = 0.25;
+    inputs.tmm_tip_torque = 0.25;
     status = hundred_step(&model, &state, &inputs);
-    expect_status(count, "step 1", status, HUNDRED_OK);
+    expect_code(count, "step 1", status, HUNDRED_OK);
     hundred_output(&model, &state, &outputs);
-    expect(count, "tip", outputs.tip, -0.002115529426724634, 9.4e-17);
-    expect(count, "middle", outputs.middle, 0.02648989912409461, 1.5e-16);
-    expect(count, "base_torque", outputs.base_torque, -29.690193827096046, 1.4e-13);
+    expect(count, "tmm_tip", outputs.tmm_tip, -0.002115529426724634, 9.4e-17);
+    expect(count, "tmm_middle", outputs.tmm_middle, 0.02648989912409461, 1.5e-16);
+    expect(count, "tmm_base_torque", outputs.tmm_base_torque, -29.690193827096046, 1.4e-13);
 
     /* Step 2. */
-    inputs.tip_torque = -0.25;
+    inputs.tmm_tip_torque = -0.25;
     status = hundred_step(&model, &state, &inputs);
-    expect_status(count, "step 2", status, HUNDRED_OK);
+    expect_code(count, "step 2", status, HUNDRED_OK);
     hundred_output(&model, &state, &outputs);
-    expect(count, "tip", outputs.tip, -0.008180260999534927, 9.4e-17);
-    expect(count, "middle", outputs.middle, 0.012917479562693858, 1.5e-16);
-    expect(count, "base_torque", outputs.base_torque, -25.445867355262788, 1.4e-13);
+    expect(count, "tmm_tip", outputs.tmm_tip, -0.008180260999534927, 9.4e-17);
+    expect(count, "tmm_middle", outputs.tmm_middle, 0.012917479562693858, 1.5e-16);
+    expect(count, "tmm_base_torque", outputs.tmm_base_torque, -25.445867355262788, 1.4e-13);
 
     /* Step 3. */
-    inputs.tip_torque = 0.375;
+    inputs.tmm_tip_torque = 0.375;
     status = hundred_step(&model, &state, &inputs);
-    expect_status(count, "step 3", status, HUNDRED_OK);
+    expect_code(count, "step 3", status, HUNDRED_OK);
     hundred_output(&model, &state, &outputs);
-    expect(count, "tip", outputs.tip, -0.017401223594142957, 9.4e-17);
-    expect(count, "middle", outputs.middle, -0.007304781404710103, 1.5e-16);
-    expect(count, "base_torque", outputs.base_torque, -19.079299436850487, 1.4e-13);
+    expect(count, "tmm_tip", outputs.tmm_tip, -0.017401223594142957, 9.4e-17);
+    expect(count, "tmm_middle", outputs.tmm_middle, -0.007304781404710103, 1.5e-16);
+    expect(count, "tmm_base_torque", outputs.tmm_base_torque, -19.079299436850487, 1.4e-13);
 
     /* State after the last step. */
     expect(count, "angle[0]", state.angle[0], -0.04859564964851543, 4.4e-16);
@@ -145,11 +151,11 @@ static void test_motion(tally *count)
     memcpy(&before, &state, sizeof before);
     const real bad[] = {(real)NAN, (real)INFINITY, -(real)INFINITY};
     for (int k = 0; k < 3; ++k) {
-        const real tip_torque = inputs.tip_torque;
-        inputs.tip_torque = bad[k];
+        const real tmm_tip_torque = inputs.tmm_tip_torque;
+        inputs.tmm_tip_torque = bad[k];
         status = hundred_step(&model, &state, &inputs);
-        expect_status(count, "bad tip_torque", status, HUNDRED_NON_FINITE_INPUT);
-        inputs.tip_torque = tip_torque;
+        expect_code(count, "bad tip_torque", status, HUNDRED_NON_FINITE_INPUT);
+        inputs.tmm_tip_torque = tmm_tip_torque;
     }
     ++count->checks;
     if (memcmp(&before, &state, sizeof state) != 0) {
@@ -166,24 +172,57 @@ static void test_refusals(tally *count)
 
     hundred_default_params(&params);
     status = hundred_prepare(&model, &params, 0.0);
-    expect_status(count, "no step", status, HUNDRED_INVALID_STEP);
+    expect_code(count, "no step", status, HUNDRED_INVALID_STEP);
     status = hundred_prepare(&model, &params, (real)NAN);
-    expect_status(count, "bad step", status, HUNDRED_INVALID_STEP);
+    expect_code(count, "bad step", status, HUNDRED_INVALID_STEP);
 
     hundred_default_params(&params);
     params.stiffness = (real)NAN;
     status = hundred_prepare(&model, &params, HUNDRED_STEP);
-    expect_status(count, "bad stiffness", status, HUNDRED_NON_FINITE_INPUT);
+    expect_code(count, "bad stiffness", status, HUNDRED_NON_FINITE_INPUT);
 
     hundred_default_params(&params);
     params.damping = (real)NAN;
     status = hundred_prepare(&model, &params, HUNDRED_STEP);
-    expect_status(count, "bad damping", status, HUNDRED_NON_FINITE_INPUT);
+    expect_code(count, "bad damping", status, HUNDRED_NON_FINITE_INPUT);
 
     hundred_default_params(&params);
     params.inertia = (real)NAN;
     status = hundred_prepare(&model, &params, HUNDRED_STEP);
-    expect_status(count, "bad inertia", status, HUNDRED_NON_FINITE_INPUT);
+    expect_code(count, "bad inertia", status, HUNDRED_NON_FINITE_INPUT);
+}
+
+/* Arrays that are absent are the scene's own; any other pointer that is absent is refused. */
+static void test_absent(tally *count)
+{
+    hundred_params params;
+    hundred_model model;
+    hundred_state state;
+    hundred_inputs inputs;
+    hundred_status status;
+
+    memset(&inputs, 0, sizeof inputs);
+    hundred_default_params(&params);
+    hundred_default_params(NULL);
+    status = hundred_prepare(NULL, &params, HUNDRED_STEP);
+    expect_code(count, "no model", status, HUNDRED_NULL_POINTER);
+    status = hundred_prepare(&model, NULL, HUNDRED_STEP);
+    expect_code(count, "no parameters", status, HUNDRED_NULL_POINTER);
+    status = hundred_prepare(&model, &params, HUNDRED_STEP);
+    expect_code(count, "prepare", status, HUNDRED_OK);
+    status = hundred_initialise(NULL, &params, NULL, NULL, &inputs);
+    expect_code(count, "no state", status, HUNDRED_NULL_POINTER);
+    status = hundred_initialise(&state, &params, NULL, NULL, &inputs);
+    expect_code(count, "the scene's start", status, HUNDRED_OK);
+    status = hundred_step(&model, NULL, &inputs);
+    expect_code(count, "no state", status, HUNDRED_NULL_POINTER);
+    status = hundred_step(NULL, &state, &inputs);
+    expect_code(count, "no model", status, HUNDRED_NULL_POINTER);
+    status = hundred_initialise(&state, &params, NULL, NULL, NULL);
+    expect_code(count, "no inputs", status, HUNDRED_NULL_POINTER);
+    status = hundred_step(&model, &state, NULL);
+    expect_code(count, "no inputs", status, HUNDRED_NULL_POINTER);
+    hundred_output(&model, &state, NULL);
 }
 
 int main(void)
@@ -191,6 +230,7 @@ int main(void)
     tally count = {0, 0};
 
     test_motion(&count);
+    test_absent(&count);
     test_refusals(&count);
     if (count.failures > 0) {
         printf("%d of %d checks failed\n", count.failures, count.checks);

@@ -2,8 +2,8 @@
  * swing: Flexible arm swung by one radian
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 1d772428e2d772ebb733ea95a16abbe042281079aa7667facf050e2b156d94bf
- * sha256 of the rest of this file: 0de6b794a07dfde248853e6eafd6cadfeb8a9076d05e51d0159e0c20e7a72425
+ * scene digest: c9c08efbdc9f2f1b1ddadadab522649e5100f98e9cdabe31fcf56b416283c60f
+ * sha256 of the rest of this file: f53d3f8e4a292de06bf2f10f436b578fddacdb44c6f470627e4e84eaf7fbd9ca
  *
  * model: planar arm, large rotations, tip mass
  * stations: 5
@@ -20,15 +20,22 @@
  *
  * @file swing.c
  */
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(_M_FP_FAST) \
+    || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "-Ofast and -ffast-math remove checks of this file: use -O3, or put -fno-fast-math behind them"
+#endif
+
 #include "swing.h"
 
+#include <float.h>
 #include <math.h>
+#include <stddef.h>
 
 typedef swing_real real;
 
 static int inputs_are_finite(const swing_inputs *inputs)
 {
-    if (!isfinite(inputs->hub_torque)) {
+    if (!isfinite(inputs->tmm_hub_torque)) {
         return 0;
     }
     return 1;
@@ -42,9 +49,12 @@ void swing_default_params(swing_params *params)
     static const real damping[] = {
         0.18, 0.09, 0.09, 0.09, 0.09
     };
+    if (params == NULL) {
+        return;
+    }
     params->length = 0.2;
-    params->mass = 0.08000000000000002;
-    params->inertia = 0.00026666666666666673;
+    params->mass = 0.08;
+    params->inertia = 0.0002666666666666667;
     params->center = 0.5;
     for (int j = 0; j < SWING_STATIONS; ++j) {
         params->stiffness[j] = stiffness[j];
@@ -62,6 +72,9 @@ swing_status swing_prepare(
     const swing_params *params,
     swing_real step)
 {
+    if (model == NULL || params == NULL) {
+        return SWING_NULL_POINTER;
+    }
     if (!isfinite(step) || !(step > 0.0)) {
         return SWING_INVALID_STEP;
     }
@@ -105,6 +118,15 @@ swing_status swing_prepare(
     }
     model->hub_inertia = params->hub_inertia;
     model->hub_damping = params->hub_damping;
+
+    real total = 0.0; /* of the model: is all of it finite? */
+    for (int j = 0; j < SWING_STATIONS; ++j) {
+        total += model->joint_impedance[j];
+    }
+    if (!isfinite(model->half_step_squared + model->angle_per_acceleration + model->rate_per_acceleration
+        + model->end_mass + model->rod_inertia + model->hub_impedance + total)) {
+        return SWING_NON_FINITE_MODEL;
+    }
     return SWING_OK;
 }
 
@@ -115,11 +137,15 @@ swing_status swing_initialise(
     const swing_real initial_rate[SWING_STATIONS],
     const swing_inputs *inputs)
 {
+    if (state == NULL || params == NULL || inputs == NULL) {
+        return SWING_NULL_POINTER;
+    }
     if (!inputs_are_finite(inputs)) {
         return SWING_NON_FINITE_INPUT;
     }
     for (int j = 0; j < SWING_STATIONS; ++j) {
-        if (!isfinite(initial_angle[j]) || !isfinite(initial_rate[j])) {
+        if ((initial_angle != NULL && !isfinite(initial_angle[j]))
+            || (initial_rate != NULL && !isfinite(initial_rate[j]))) {
             return SWING_NON_FINITE_INPUT;
         }
     }
@@ -137,6 +163,7 @@ swing_status swing_initialise(
     real predicted_acceleration[SWING_STATIONS + 1];
     real predicted_angle[SWING_STATIONS + 1]; /* angle of base and links as predicted [rad] */
     real predicted_rate[SWING_STATIONS + 1]; /* rate of base and links as predicted [rad/s] */
+    real total = 0.0; /* of the new motion: is all of it finite? */
 
     /* Masses at the nodes between links, and what they leave over. */
     const real end_mass = params->tip_mass - mass * (1.0 - params->center);
@@ -145,7 +172,7 @@ swing_status swing_initialise(
 
     /* What is the same at every station. */
     const real hub_pivot = params->hub_inertia;
-    if (!(params->hub_inertia > 0.0) || !isfinite(params->hub_inertia)) {
+    if (!(params->hub_inertia > 0.0) || !(params->hub_inertia <= DBL_MAX)) {
         return SWING_VANISHING_PIVOT;
     }
 
@@ -160,8 +187,8 @@ swing_status swing_initialise(
     acceleration_x[0] = node_x;
     acceleration_y[0] = node_y;
     for (int j = 0; j < SWING_STATIONS; ++j) {
-        predicted_rate[j + 1] = initial_rate[j];
-        predicted_angle[j + 1] = initial_angle[j];
+        predicted_rate[j + 1] = (initial_rate != NULL ? initial_rate[j] : 0.0);
+        predicted_angle[j + 1] = (initial_angle != NULL ? initial_angle[j] : 0.0);
         predicted_acceleration[j + 1] = 0.0;
         lever_cosine[j] = length * cos(predicted_angle[j + 1]);
         lever_sine[j] = length * sin(predicted_angle[j + 1]);
@@ -197,7 +224,7 @@ swing_status swing_initialise(
         const real impedance_uu = rod_inertia - impedance_xu * lever_sine[j] + impedance_yu * lever_cosine[j];
         torque = torque - force_x * lever_sine[j] + force_y * lever_cosine[j]
             + predicted_acceleration[j + 1] * rod_inertia;
-        if (!(impedance_uu > 0.0) || !isfinite(impedance_uu)) {
+        if (!(impedance_uu > 0.0) || !(impedance_uu <= DBL_MAX)) {
             return SWING_VANISHING_PIVOT;
         }
         const real admittance = 1.0 / impedance_uu;
@@ -214,7 +241,7 @@ swing_status swing_initialise(
     }
 
     /* The base. */
-    real unknown = (inputs->hub_torque - torque - params->hub_damping * predicted_rate[0]
+    real unknown = (inputs->tmm_hub_torque - torque - params->hub_damping * predicted_rate[0]
         - params->hub_inertia * predicted_acceleration[0]) / hub_pivot;
     const real hub_unknown = unknown;
 
@@ -233,15 +260,11 @@ swing_status swing_initialise(
         state->angle[j] = predicted_angle[j + 1];
         state->rate[j] = predicted_rate[j + 1];
         state->acceleration[j] = predicted_acceleration[j + 1] + unknown;
+        total += state->angle[j] + state->rate[j] + state->acceleration[j];
     }
 
-    if (!isfinite(state->hub_angle) || !isfinite(state->hub_rate) || !isfinite(state->hub_acceleration)) {
+    if (!isfinite(total + state->hub_angle + state->hub_rate + state->hub_acceleration)) {
         return SWING_NON_FINITE_STATE;
-    }
-    for (int j = 0; j < SWING_STATIONS; ++j) {
-        if (!isfinite(state->angle[j]) || !isfinite(state->rate[j]) || !isfinite(state->acceleration[j])) {
-            return SWING_NON_FINITE_STATE;
-        }
     }
     return SWING_OK;
 }
@@ -251,6 +274,9 @@ swing_status swing_step(
     swing_state *state,
     const swing_inputs *inputs)
 {
+    if (model == NULL || state == NULL || inputs == NULL) {
+        return SWING_NULL_POINTER;
+    }
     if (!inputs_are_finite(inputs)) {
         return SWING_NON_FINITE_INPUT;
     }
@@ -274,6 +300,7 @@ swing_status swing_step(
     real swing_x[SWING_STATIONS]; /* change of the outer end's acceleration along x per unknown [m] */
     real swing_y[SWING_STATIONS]; /* change of the outer end's acceleration along y per unknown [m] */
     real transmission[SWING_STATIONS]; /* share of motion and torque each joint passes on */
+    real total = 0.0; /* of the new motion: is all of it finite? */
 
     /* Predicted motion. */
     predicted_rate[0] = state->hub_rate + state->hub_acceleration * step;
@@ -335,7 +362,7 @@ swing_status swing_step(
         torque = torque + state->acceleration[j] * rod_inertia - force_x * lever_sine[j]
             + force_y * lever_cosine[j];
         const real pivot = impedance_uu + model->joint_impedance[j];
-        if (!(pivot > 0.0) || !isfinite(pivot)) {
+        if (!(pivot > 0.0) || !(pivot <= DBL_MAX)) {
             return SWING_VANISHING_PIVOT;
         }
         const real admittance = 1.0 / pivot;
@@ -359,10 +386,10 @@ swing_status swing_step(
 
     /* The base. */
     const real hub_pivot = model->hub_impedance + impedance_uu;
-    if (!(hub_pivot > 0.0) || !isfinite(hub_pivot)) {
+    if (!(hub_pivot > 0.0) || !(hub_pivot <= DBL_MAX)) {
         return SWING_VANISHING_PIVOT;
     }
-    real unknown = (inputs->hub_torque - torque - state->hub_acceleration * model->hub_inertia
+    real unknown = (inputs->tmm_hub_torque - torque - state->hub_acceleration * model->hub_inertia
         - model->hub_damping * predicted_rate[0]) / hub_pivot;
     const real hub_unknown = unknown;
 
@@ -381,10 +408,10 @@ swing_status swing_step(
         state->angle[j] = predicted_angle[j + 1] + angle_per_acceleration * unknown;
         state->rate[j] = predicted_rate[j + 1] + rate_per_acceleration * unknown;
         state->acceleration[j] = state->acceleration[j] + unknown;
+        total += state->angle[j] + state->rate[j] + state->acceleration[j];
     }
 
-    /* Anything that is not a number has reached this one. */
-    if (!isfinite(state->acceleration[SWING_STATIONS - 1])) {
+    if (!isfinite(total + state->hub_angle + state->hub_rate + state->hub_acceleration)) {
         return SWING_NON_FINITE_STATE;
     }
     return SWING_OK;
@@ -395,16 +422,19 @@ void swing_output(
     const swing_state *state,
     swing_outputs *outputs)
 {
+    if (model == NULL || state == NULL || outputs == NULL) {
+        return;
+    }
     const real length = model->length;
 
     /* Tip: position. */
-    outputs->tip_x = 0.0;
-    outputs->tip_y = 0.0;
+    outputs->tmm_tip_x = 0.0;
+    outputs->tmm_tip_y = 0.0;
     for (int j = 0; j < SWING_STATIONS; ++j) {
-        outputs->tip_x = outputs->tip_x + length * cos(state->angle[j]);
-        outputs->tip_y = outputs->tip_y + length * sin(state->angle[j]);
+        outputs->tmm_tip_x = outputs->tmm_tip_x + length * cos(state->angle[j]);
+        outputs->tmm_tip_y = outputs->tmm_tip_y + length * sin(state->angle[j]);
     }
 
     /* Hub: angle. */
-    outputs->hub = state->hub_angle;
+    outputs->tmm_hub = state->hub_angle;
 }

@@ -2,8 +2,8 @@
  * swing: Flexible arm swung by one radian
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 1d772428e2d772ebb733ea95a16abbe042281079aa7667facf050e2b156d94bf
- * sha256 of the rest of this file: 60c40f2b4a8e67fe2c470b461caec1098c040e9c635c417496ebb2752f6f5dd5
+ * scene digest: c9c08efbdc9f2f1b1ddadadab522649e5100f98e9cdabe31fcf56b416283c60f
+ * sha256 of the rest of this file: 9a6a04d70c0d7e976834ce3109df59e1db725c3973d38b2d655593cb86d8981b
  *
  * model: planar arm, large rotations, tip mass
  * stations: 5
@@ -24,8 +24,8 @@
  *
  * @file swing.h
  */
-#ifndef SWING_H
-#define SWING_H
+#ifndef TMM_GEN_KERNEL_swing
+#define TMM_GEN_KERNEL_swing
 
 #ifdef __cplusplus
 extern "C" {
@@ -51,7 +51,11 @@ typedef enum {
     /** No passive arm has such parameters (a negative inertia, say); the model is of no use. */
     SWING_VANISHING_PIVOT,
     /** The motion has outgrown the number type; initialise anew. */
-    SWING_NON_FINITE_STATE
+    SWING_NON_FINITE_STATE,
+    /** A pointer that is needed is NULL; nothing was changed. */
+    SWING_NULL_POINTER = 6,
+    /** Parameters or time step are too large or too small for the number type; the model is of no use. */
+    SWING_NON_FINITE_MODEL = 7
 } swing_status;
 
 /** Physical parameters. */
@@ -97,20 +101,20 @@ typedef struct {
 
 /** What acts on the arm. */
 typedef struct {
-    swing_real hub_torque; /**< torque acting at the base [N m] */
+    swing_real tmm_hub_torque; /**< torque acting at the base [N m] */
 } swing_inputs;
 
 /** What the scene asks to know. */
 typedef struct {
-    swing_real tip_x; /**< position at the tip, x [m] */
-    swing_real tip_y; /**< position at the tip, y [m] */
-    swing_real hub; /**< angle at the base [rad] */
+    swing_real tmm_tip_x; /**< position at the tip, x [m] */
+    swing_real tmm_tip_y; /**< position at the tip, y [m] */
+    swing_real tmm_hub; /**< angle at the base [rad] */
 } swing_outputs;
 
 /**
  * Write the scene's parameters.
  *
- * @param[out] params  parameters
+ * @param[out] params  parameters; nothing is done where it is NULL
  */
 void swing_default_params(swing_params *params);
 
@@ -120,7 +124,7 @@ void swing_default_params(swing_params *params);
  * @param[out] model   what the other functions need
  * @param[in]  params  parameters
  * @param[in]  step    time step [s]
- * @return OK, NON_FINITE_INPUT, INVALID_STEP or VANISHING_PIVOT
+ * @return OK, NON_FINITE_INPUT, NULL_POINTER, INVALID_STEP, VANISHING_PIVOT or NON_FINITE_MODEL
  */
 swing_status swing_prepare(
     swing_model *model,
@@ -132,10 +136,10 @@ swing_status swing_prepare(
  *
  * @param[out] state   motion at the initial instant
  * @param[in]  params  parameters
- * @param[in]  initial_angle  angles to start from [rad]
- * @param[in]  initial_rate  rates to start from [rad/s]
+ * @param[in]  initial_angle  angles to start from [rad]; NULL for the scene's own
+ * @param[in]  initial_rate  rates to start from [rad/s]; NULL for the scene's own
  * @param[in]  inputs  what acts at the initial instant
- * @return OK, NON_FINITE_INPUT, VANISHING_PIVOT or NON_FINITE_STATE
+ * @return OK, NON_FINITE_INPUT, NULL_POINTER, VANISHING_PIVOT or NON_FINITE_STATE
  */
 swing_status swing_initialise(
     swing_state *state,
@@ -150,7 +154,7 @@ swing_status swing_initialise(
  * @param[in]     model   from swing_prepare()
  * @param[in,out] state   motion before the step, and after it
  * @param[in]     inputs  what acts, at the end of the step
- * @return OK, NON_FINITE_INPUT, VANISHING_PIVOT or NON_FINITE_STATE
+ * @return OK, NON_FINITE_INPUT, NULL_POINTER, VANISHING_PIVOT or NON_FINITE_STATE
  */
 swing_status swing_step(
     const swing_model *model,
@@ -158,7 +162,7 @@ swing_status swing_step(
     const swing_inputs *inputs);
 
 /**
- * Read the outputs off the state.
+ * Read the outputs off the state. Nothing is done where a pointer is NULL.
  *
  * @param[in]  model    from swing_prepare()
  * @param[in]  state    motion
@@ -173,4 +177,4 @@ void swing_output(
 }
 #endif
 
-#endif /* SWING_H */
+#endif /* TMM_GEN_KERNEL_swing */

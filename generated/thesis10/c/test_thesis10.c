@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: ee57f7952242f19cc6be0f26d3460a304cc65a1747711d25b990a158587c6f1f
- * sha256 of the rest of this file: 3dfe171edc3485a179aecbe9c76e6080876ddbb9d0b1165c84ccc81d7db04884
+ * sha256 of the rest of this file: 10a3ffc373b7837b7ab2e9a6c11a47a75c3ea82c505c41c828d46827453f12da
  *
  * model: torsional chain (linear)
  * stations: 10
@@ -20,9 +20,15 @@
  *
  * @file test_thesis10.c
  */
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(_M_FP_FAST) \
+    || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "-Ofast and -ffast-math remove checks of this file: use -O3, or put -fno-fast-math behind them"
+#endif
+
 #include "thesis10.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -42,7 +48,7 @@ static void expect(tally *count, const char *what, real value, real right, real 
     }
 }
 
-static void expect_status(
+static void expect_code(
     tally *count,
     const char *what,
     thesis10_status value,
@@ -69,7 +75,7 @@ static void test_motion(tally *count)
     memset(&state, 0, sizeof state); /* padding too: it is compared below */
     thesis10_default_params(&params);
     status = thesis10_prepare(&model, &params, THESIS10_STEP);
-    expect_status(count, "prepare", status, THESIS10_OK);
+    expect_code(count, "prepare", status, THESIS10_OK);
 
     for (int j = 0; j < THESIS10_STATIONS; ++j) {
         initial_angle[j] = (real)((7 * j + 3) % 16 - 8) / 64.0;
@@ -77,33 +83,33 @@ static void test_motion(tally *count)
     for (int j = 0; j < THESIS10_STATIONS; ++j) {
         initial_rate[j] = (real)((7 * j + 3) % 16 - 8) / 64.0;
     }
-    inputs.tip_torque = -0.375;
+    inputs.tmm_tip_torque = -0.375;
     status = thesis10_initialise(&state, &params, initial_angle, initial_rate, &inputs);
-    expect_status(count, "initialise", status, THESIS10_OK);
+    expect_code(count, "initialise", status, THESIS10_OK);
 
     /* Step 1. */
-    inputs.tip_torque = 0.25;
+    inputs.tmm_tip_torque = 0.25;
     status = thesis10_step(&model, &state, &inputs);
-    expect_status(count, "step 1", status, THESIS10_OK);
+    expect_code(count, "step 1", status, THESIS10_OK);
     thesis10_output(&model, &state, &outputs);
-    expect(count, "tip", outputs.tip, -0.0945256050708355, 5.9e-16);
-    expect(count, "base_torque", outputs.base_torque, -1.747460724485656, 7.8e-15);
+    expect(count, "tmm_tip", outputs.tmm_tip, -0.0945256050708355, 5.9e-16);
+    expect(count, "tmm_base_torque", outputs.tmm_base_torque, -1.747460724485656, 7.8e-15);
 
     /* Step 2. */
-    inputs.tip_torque = -0.25;
+    inputs.tmm_tip_torque = -0.25;
     status = thesis10_step(&model, &state, &inputs);
-    expect_status(count, "step 2", status, THESIS10_OK);
+    expect_code(count, "step 2", status, THESIS10_OK);
     thesis10_output(&model, &state, &outputs);
-    expect(count, "tip", outputs.tip, -0.09499464236192906, 5.9e-16);
-    expect(count, "base_torque", outputs.base_torque, -1.5664174789772825, 7.8e-15);
+    expect(count, "tmm_tip", outputs.tmm_tip, -0.09499464236192906, 5.9e-16);
+    expect(count, "tmm_base_torque", outputs.tmm_base_torque, -1.5664174789772825, 7.8e-15);
 
     /* Step 3. */
-    inputs.tip_torque = 0.375;
+    inputs.tmm_tip_torque = 0.375;
     status = thesis10_step(&model, &state, &inputs);
-    expect_status(count, "step 3", status, THESIS10_OK);
+    expect_code(count, "step 3", status, THESIS10_OK);
     thesis10_output(&model, &state, &outputs);
-    expect(count, "tip", outputs.tip, -0.09518934630032247, 5.9e-16);
-    expect(count, "base_torque", outputs.base_torque, -1.4070661368892177, 7.8e-15);
+    expect(count, "tmm_tip", outputs.tmm_tip, -0.09518934630032247, 5.9e-16);
+    expect(count, "tmm_base_torque", outputs.tmm_base_torque, -1.4070661368892177, 7.8e-15);
 
     /* State after the last step. */
     expect(count, "angle[0]", state.angle[0], -0.07867527622852927, 5.9e-16);
@@ -142,11 +148,11 @@ static void test_motion(tally *count)
     memcpy(&before, &state, sizeof before);
     const real bad[] = {(real)NAN, (real)INFINITY, -(real)INFINITY};
     for (int k = 0; k < 3; ++k) {
-        const real tip_torque = inputs.tip_torque;
-        inputs.tip_torque = bad[k];
+        const real tmm_tip_torque = inputs.tmm_tip_torque;
+        inputs.tmm_tip_torque = bad[k];
         status = thesis10_step(&model, &state, &inputs);
-        expect_status(count, "bad tip_torque", status, THESIS10_NON_FINITE_INPUT);
-        inputs.tip_torque = tip_torque;
+        expect_code(count, "bad tip_torque", status, THESIS10_NON_FINITE_INPUT);
+        inputs.tmm_tip_torque = tmm_tip_torque;
     }
     ++count->checks;
     if (memcmp(&before, &state, sizeof state) != 0) {
@@ -163,24 +169,57 @@ static void test_refusals(tally *count)
 
     thesis10_default_params(&params);
     status = thesis10_prepare(&model, &params, 0.0);
-    expect_status(count, "no step", status, THESIS10_INVALID_STEP);
+    expect_code(count, "no step", status, THESIS10_INVALID_STEP);
     status = thesis10_prepare(&model, &params, (real)NAN);
-    expect_status(count, "bad step", status, THESIS10_INVALID_STEP);
+    expect_code(count, "bad step", status, THESIS10_INVALID_STEP);
 
     thesis10_default_params(&params);
     params.stiffness = (real)NAN;
     status = thesis10_prepare(&model, &params, THESIS10_STEP);
-    expect_status(count, "bad stiffness", status, THESIS10_NON_FINITE_INPUT);
+    expect_code(count, "bad stiffness", status, THESIS10_NON_FINITE_INPUT);
 
     thesis10_default_params(&params);
     params.damping = (real)NAN;
     status = thesis10_prepare(&model, &params, THESIS10_STEP);
-    expect_status(count, "bad damping", status, THESIS10_NON_FINITE_INPUT);
+    expect_code(count, "bad damping", status, THESIS10_NON_FINITE_INPUT);
 
     thesis10_default_params(&params);
     params.inertia = (real)NAN;
     status = thesis10_prepare(&model, &params, THESIS10_STEP);
-    expect_status(count, "bad inertia", status, THESIS10_NON_FINITE_INPUT);
+    expect_code(count, "bad inertia", status, THESIS10_NON_FINITE_INPUT);
+}
+
+/* Arrays that are absent are the scene's own; any other pointer that is absent is refused. */
+static void test_absent(tally *count)
+{
+    thesis10_params params;
+    thesis10_model model;
+    thesis10_state state;
+    thesis10_inputs inputs;
+    thesis10_status status;
+
+    memset(&inputs, 0, sizeof inputs);
+    thesis10_default_params(&params);
+    thesis10_default_params(NULL);
+    status = thesis10_prepare(NULL, &params, THESIS10_STEP);
+    expect_code(count, "no model", status, THESIS10_NULL_POINTER);
+    status = thesis10_prepare(&model, NULL, THESIS10_STEP);
+    expect_code(count, "no parameters", status, THESIS10_NULL_POINTER);
+    status = thesis10_prepare(&model, &params, THESIS10_STEP);
+    expect_code(count, "prepare", status, THESIS10_OK);
+    status = thesis10_initialise(NULL, &params, NULL, NULL, &inputs);
+    expect_code(count, "no state", status, THESIS10_NULL_POINTER);
+    status = thesis10_initialise(&state, &params, NULL, NULL, &inputs);
+    expect_code(count, "the scene's start", status, THESIS10_OK);
+    status = thesis10_step(&model, NULL, &inputs);
+    expect_code(count, "no state", status, THESIS10_NULL_POINTER);
+    status = thesis10_step(NULL, &state, &inputs);
+    expect_code(count, "no model", status, THESIS10_NULL_POINTER);
+    status = thesis10_initialise(&state, &params, NULL, NULL, NULL);
+    expect_code(count, "no inputs", status, THESIS10_NULL_POINTER);
+    status = thesis10_step(&model, &state, NULL);
+    expect_code(count, "no inputs", status, THESIS10_NULL_POINTER);
+    thesis10_output(&model, &state, NULL);
 }
 
 int main(void)
@@ -188,6 +227,7 @@ int main(void)
     tally count = {0, 0};
 
     test_motion(&count);
+    test_absent(&count);
     test_refusals(&count);
     if (count.failures > 0) {
         printf("%d of %d checks failed\n", count.failures, count.checks);

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: ee57f7952242f19cc6be0f26d3460a304cc65a1747711d25b990a158587c6f1f
- * sha256 of the rest of this file: 1a3923fd3e2069d05771daca69a6f101717a4cbd1bb087039a05dca52ee11a13
+ * sha256 of the rest of this file: 3c1fbdd61b455af5b028da8e58dea2a8a22ef1aa30794081ee5bf580fb0abe5d
  *
  * model: torsional chain (linear)
  * stations: 10
@@ -18,15 +18,22 @@
  *
  * @file thesis10.c
  */
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(_M_FP_FAST) \
+    || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "-Ofast and -ffast-math remove checks of this file: use -O3, or put -fno-fast-math behind them"
+#endif
+
 #include "thesis10.h"
 
+#include <float.h>
 #include <math.h>
+#include <stddef.h>
 
 typedef thesis10_real real;
 
 static int inputs_are_finite(const thesis10_inputs *inputs)
 {
-    if (!isfinite(inputs->tip_torque)) {
+    if (!isfinite(inputs->tmm_tip_torque)) {
         return 0;
     }
     return 1;
@@ -34,6 +41,9 @@ static int inputs_are_finite(const thesis10_inputs *inputs)
 
 void thesis10_default_params(thesis10_params *params)
 {
+    if (params == NULL) {
+        return;
+    }
     params->stiffness = 20.0;
     params->damping = 5.0;
     params->inertia = 1.0;
@@ -44,6 +54,9 @@ thesis10_status thesis10_prepare(
     const thesis10_params *params,
     thesis10_real step)
 {
+    if (model == NULL || params == NULL) {
+        return THESIS10_NULL_POINTER;
+    }
     if (!isfinite(step) || !(step > 0.0)) {
         return THESIS10_INVALID_STEP;
     }
@@ -59,7 +72,7 @@ thesis10_status thesis10_prepare(
     for (int j = THESIS10_STATIONS - 1; j >= 0; --j) {
         impedance = impedance - inertia;
         const real pivot = joint_impedance - impedance;
-        if (!(pivot > 0.0) || !isfinite(pivot)) {
+        if (!(pivot > 0.0) || !(pivot <= DBL_MAX)) {
             return THESIS10_VANISHING_PIVOT;
         }
         model->admittance[j] = 1.0 / pivot;
@@ -76,6 +89,14 @@ thesis10_status thesis10_prepare(
     model->step = step;
     model->stiffness = params->stiffness;
     model->damping = params->damping;
+
+    real total = 0.0; /* of the model: is all of it finite? */
+    for (int j = 0; j < THESIS10_STATIONS; ++j) {
+        total += model->admittance[j] + model->transmission[j] + model->reflection[j];
+    }
+    if (!isfinite(model->rate_per_acceleration + model->angle_per_acceleration + total)) {
+        return THESIS10_NON_FINITE_MODEL;
+    }
     return THESIS10_OK;
 }
 
@@ -86,11 +107,15 @@ thesis10_status thesis10_initialise(
     const thesis10_real initial_rate[THESIS10_STATIONS],
     const thesis10_inputs *inputs)
 {
+    if (state == NULL || params == NULL || inputs == NULL) {
+        return THESIS10_NULL_POINTER;
+    }
     if (!inputs_are_finite(inputs)) {
         return THESIS10_NON_FINITE_INPUT;
     }
     for (int j = 0; j < THESIS10_STATIONS; ++j) {
-        if (!isfinite(initial_angle[j]) || !isfinite(initial_rate[j])) {
+        if ((initial_angle != NULL && !isfinite(initial_angle[j]))
+            || (initial_rate != NULL && !isfinite(initial_rate[j]))) {
             return THESIS10_NON_FINITE_INPUT;
         }
     }
@@ -99,11 +124,12 @@ thesis10_status thesis10_initialise(
     const real damping = params->damping;
     real known_angle[THESIS10_STATIONS + 1]; /* angle of base and links without the unknown's share [rad] */
     real known_rate[THESIS10_STATIONS + 1]; /* rate of base and links without the unknown's share [rad/s] */
+    real total = 0.0; /* of the new motion: is all of it finite? */
 
     /* What is the same at every station. */
     const real impedance = -params->inertia;
     const real pivot = -impedance;
-    if (!(pivot > 0.0) || !isfinite(pivot)) {
+    if (!(pivot > 0.0) || !(pivot <= DBL_MAX)) {
         return THESIS10_VANISHING_PIVOT;
     }
     const real admittance = 1.0 / pivot;
@@ -112,12 +138,12 @@ thesis10_status thesis10_initialise(
     known_rate[0] = 0.0;
     known_angle[0] = 0.0;
     for (int j = 0; j < THESIS10_STATIONS; ++j) {
-        known_rate[j + 1] = initial_rate[j];
-        known_angle[j + 1] = initial_angle[j];
+        known_rate[j + 1] = (initial_rate != NULL ? initial_rate[j] : 0.0);
+        known_angle[j + 1] = (initial_angle != NULL ? initial_angle[j] : 0.0);
     }
 
     /* Sweep inward: force beyond each joint as an affine function of the motion at it. */
-    real torque = inputs->tip_torque;
+    real torque = inputs->tmm_tip_torque;
 
     /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
      * of the motion at it; sweep outward: the unknown of each station; motion at the end of the step. */
@@ -129,12 +155,11 @@ thesis10_status thesis10_initialise(
         state->angle[j] = known_angle[j + 1];
         state->rate[j] = known_rate[j + 1];
         state->acceleration[j] = answer_own;
+        total += state->angle[j] + state->rate[j] + state->acceleration[j];
     }
 
-    for (int j = 0; j < THESIS10_STATIONS; ++j) {
-        if (!isfinite(state->angle[j]) || !isfinite(state->rate[j]) || !isfinite(state->acceleration[j])) {
-            return THESIS10_NON_FINITE_STATE;
-        }
+    if (!isfinite(total)) {
+        return THESIS10_NON_FINITE_STATE;
     }
     return THESIS10_OK;
 }
@@ -144,6 +169,9 @@ thesis10_status thesis10_step(
     thesis10_state *state,
     const thesis10_inputs *inputs)
 {
+    if (model == NULL || state == NULL || inputs == NULL) {
+        return THESIS10_NULL_POINTER;
+    }
     if (!inputs_are_finite(inputs)) {
         return THESIS10_NON_FINITE_INPUT;
     }
@@ -156,25 +184,31 @@ thesis10_status thesis10_step(
     real answer_own[THESIS10_STATIONS]; /* unknown of a station if its inner side kept its motion */
     real known_angle[THESIS10_STATIONS + 1]; /* angle of base and links without the unknown's share [rad] */
     real known_rate[THESIS10_STATIONS + 1]; /* rate of base and links without the unknown's share [rad/s] */
+    real total = 0.0; /* of the new motion: is all of it finite? */
 
-    /* Motion known before the sweep. */
+    /* Motion known before the sweep: at the last station. */
     known_rate[0] = 0.0;
     known_angle[0] = 0.0;
-    for (int j = 0; j < THESIS10_STATIONS; ++j) {
-        known_rate[j + 1] = state->rate[j] + state->acceleration[j] * rate_per_acceleration;
-        known_angle[j + 1] = state->angle[j] + state->acceleration[j] * angle_per_acceleration
-            + state->rate[j] * step;
-    }
+    known_rate[10] = state->rate[9] + state->acceleration[9] * rate_per_acceleration;
+    known_angle[10] = state->angle[9] + state->acceleration[9] * angle_per_acceleration
+        + state->rate[9] * step;
 
-    /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
-     * of the motion at it. */
-    real torque = inputs->tip_torque;
-    for (int j = THESIS10_STATIONS - 1; j >= 0; --j) {
+    /* Motion known before the sweep; forces of the joints at the motion so far; sweep inward: force beyond
+     * each joint as an affine function of the motion at it. */
+    real torque = inputs->tmm_tip_torque;
+    for (int j = THESIS10_STATIONS - 1; j >= 1; --j) {
+        known_rate[j] = state->rate[j - 1] + state->acceleration[j - 1] * rate_per_acceleration;
+        known_angle[j] = state->angle[j - 1] + state->acceleration[j - 1] * angle_per_acceleration
+            + state->rate[j - 1] * step;
         const real joint_torque = damping * (known_rate[j + 1] - known_rate[j])
             + stiffness * (known_angle[j + 1] - known_angle[j]);
         answer_own[j] = model->admittance[j] * (torque - joint_torque);
         torque = joint_torque * model->reflection[j] + torque * model->transmission[j];
     }
+    const real first_joint_torque = damping * (known_rate[1] - known_rate[0])
+        + stiffness * (known_angle[1] - known_angle[0]);
+    answer_own[0] = model->admittance[0] * (torque - first_joint_torque);
+    torque = first_joint_torque * model->reflection[0] + torque * model->transmission[0];
 
     /* The base. */
     real unknown = 0.0;
@@ -185,10 +219,10 @@ thesis10_status thesis10_step(
         state->angle[j] = known_angle[j + 1] + angle_per_acceleration * unknown;
         state->rate[j] = known_rate[j + 1] + rate_per_acceleration * unknown;
         state->acceleration[j] = unknown;
+        total += state->angle[j] + state->rate[j];
     }
 
-    /* Anything that is not a number has reached this one. */
-    if (!isfinite(state->acceleration[THESIS10_STATIONS - 1])) {
+    if (!isfinite(total + state->acceleration[THESIS10_STATIONS - 1])) {
         return THESIS10_NON_FINITE_STATE;
     }
     return THESIS10_OK;
@@ -199,7 +233,10 @@ void thesis10_output(
     const thesis10_state *state,
     thesis10_outputs *outputs)
 {
+    if (model == NULL || state == NULL || outputs == NULL) {
+        return;
+    }
     /* Outputs. */
-    outputs->tip = state->angle[9];
-    outputs->base_torque = state->angle[0] * model->stiffness + model->damping * state->rate[0];
+    outputs->tmm_tip = state->angle[9];
+    outputs->tmm_base_torque = state->angle[0] * model->stiffness + model->damping * state->rate[0];
 }

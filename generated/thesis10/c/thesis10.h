@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: ee57f7952242f19cc6be0f26d3460a304cc65a1747711d25b990a158587c6f1f
- * sha256 of the rest of this file: 67ba62fa13ff511198d15c7f9a6fd3f7e182d4a8b7c246cd1f53f6ba7b818fbf
+ * sha256 of the rest of this file: 89d9a7cd4ee5a2b7976289933981cf6e3ce46ff2ce69984271049c8ec6fd6aec
  *
  * model: torsional chain (linear)
  * stations: 10
@@ -22,8 +22,8 @@
  *
  * @file thesis10.h
  */
-#ifndef THESIS10_H
-#define THESIS10_H
+#ifndef TMM_GEN_KERNEL_thesis10
+#define TMM_GEN_KERNEL_thesis10
 
 #ifdef __cplusplus
 extern "C" {
@@ -49,7 +49,11 @@ typedef enum {
     /** No passive arm has such parameters (a negative inertia, say); the model is of no use. */
     THESIS10_VANISHING_PIVOT,
     /** The motion has outgrown the number type; initialise anew. */
-    THESIS10_NON_FINITE_STATE
+    THESIS10_NON_FINITE_STATE,
+    /** A pointer that is needed is NULL; nothing was changed. */
+    THESIS10_NULL_POINTER = 6,
+    /** Parameters or time step are too large or too small for the number type; the model is of no use. */
+    THESIS10_NON_FINITE_MODEL = 7
 } thesis10_status;
 
 /** Physical parameters. */
@@ -80,19 +84,19 @@ typedef struct {
 
 /** What acts on the arm. */
 typedef struct {
-    thesis10_real tip_torque; /**< torque acting at the tip [N m] */
+    thesis10_real tmm_tip_torque; /**< torque acting at the tip [N m] */
 } thesis10_inputs;
 
 /** What the scene asks to know. */
 typedef struct {
-    thesis10_real tip; /**< angle at the tip [rad] */
-    thesis10_real base_torque; /**< torque at the base [N m] */
+    thesis10_real tmm_tip; /**< angle at the tip [rad] */
+    thesis10_real tmm_base_torque; /**< torque at the base [N m] */
 } thesis10_outputs;
 
 /**
  * Write the scene's parameters.
  *
- * @param[out] params  parameters
+ * @param[out] params  parameters; nothing is done where it is NULL
  */
 void thesis10_default_params(thesis10_params *params);
 
@@ -102,7 +106,7 @@ void thesis10_default_params(thesis10_params *params);
  * @param[out] model   what the other functions need
  * @param[in]  params  parameters
  * @param[in]  step    time step [s]
- * @return OK, NON_FINITE_INPUT, INVALID_STEP or VANISHING_PIVOT
+ * @return OK, NON_FINITE_INPUT, NULL_POINTER, INVALID_STEP, VANISHING_PIVOT or NON_FINITE_MODEL
  */
 thesis10_status thesis10_prepare(
     thesis10_model *model,
@@ -114,10 +118,10 @@ thesis10_status thesis10_prepare(
  *
  * @param[out] state   motion at the initial instant
  * @param[in]  params  parameters
- * @param[in]  initial_angle  angles to start from [rad]
- * @param[in]  initial_rate  rates to start from [rad/s]
+ * @param[in]  initial_angle  angles to start from [rad]; NULL for the scene's own
+ * @param[in]  initial_rate  rates to start from [rad/s]; NULL for the scene's own
  * @param[in]  inputs  what acts at the initial instant
- * @return OK, NON_FINITE_INPUT, VANISHING_PIVOT or NON_FINITE_STATE
+ * @return OK, NON_FINITE_INPUT, NULL_POINTER, VANISHING_PIVOT or NON_FINITE_STATE
  */
 thesis10_status thesis10_initialise(
     thesis10_state *state,
@@ -132,7 +136,7 @@ thesis10_status thesis10_initialise(
  * @param[in]     model   from thesis10_prepare()
  * @param[in,out] state   motion before the step, and after it
  * @param[in]     inputs  what acts, at the end of the step
- * @return OK, NON_FINITE_INPUT or NON_FINITE_STATE
+ * @return OK, NON_FINITE_INPUT, NULL_POINTER or NON_FINITE_STATE
  */
 thesis10_status thesis10_step(
     const thesis10_model *model,
@@ -140,7 +144,7 @@ thesis10_status thesis10_step(
     const thesis10_inputs *inputs);
 
 /**
- * Read the outputs off the state.
+ * Read the outputs off the state. Nothing is done where a pointer is NULL.
  *
  * @param[in]  model    from thesis10_prepare()
  * @param[in]  state    motion
@@ -155,4 +159,4 @@ void thesis10_output(
 }
 #endif
 
-#endif /* THESIS10_H */
+#endif /* TMM_GEN_KERNEL_thesis10 */

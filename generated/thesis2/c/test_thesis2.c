@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 8302c2fdab02afb73919e09c91c3abafc3d83d0760e2c0e63be40bfdc341e62e
- * sha256 of the rest of this file: 414089da1621b398073a35f7d74adb7e8f6c3a2d6f431d1913abc41c63dc94c4
+ * sha256 of the rest of this file: fa376cb5c0868061775c20a5e12a0765f17b19c2c5c810cfe305fdf6803f14af
  *
  * model: torsional chain (linear)
  * stations: 2
@@ -20,9 +20,15 @@
  *
  * @file test_thesis2.c
  */
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(_M_FP_FAST) \
+    || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "-Ofast and -ffast-math remove checks of this file: use -O3, or put -fno-fast-math behind them"
+#endif
+
 #include "thesis2.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -42,7 +48,7 @@ static void expect(tally *count, const char *what, real value, real right, real 
     }
 }
 
-static void expect_status(
+static void expect_code(
     tally *count,
     const char *what,
     thesis2_status value,
@@ -69,7 +75,7 @@ static void test_motion(tally *count)
     memset(&state, 0, sizeof state); /* padding too: it is compared below */
     thesis2_default_params(&params);
     status = thesis2_prepare(&model, &params, THESIS2_STEP);
-    expect_status(count, "prepare", status, THESIS2_OK);
+    expect_code(count, "prepare", status, THESIS2_OK);
 
     for (int j = 0; j < THESIS2_STATIONS; ++j) {
         initial_angle[j] = (real)((7 * j + 3) % 16 - 8) / 64.0;
@@ -77,33 +83,33 @@ static void test_motion(tally *count)
     for (int j = 0; j < THESIS2_STATIONS; ++j) {
         initial_rate[j] = (real)((7 * j + 3) % 16 - 8) / 64.0;
     }
-    inputs.tip_torque = -0.375;
+    inputs.tmm_tip_torque = -0.375;
     status = thesis2_initialise(&state, &params, initial_angle, initial_rate, &inputs);
-    expect_status(count, "initialise", status, THESIS2_OK);
+    expect_code(count, "initialise", status, THESIS2_OK);
 
     /* Step 1. */
-    inputs.tip_torque = 0.25;
+    inputs.tmm_tip_torque = 0.25;
     status = thesis2_step(&model, &state, &inputs);
-    expect_status(count, "step 1", status, THESIS2_OK);
+    expect_code(count, "step 1", status, THESIS2_OK);
     thesis2_output(&model, &state, &outputs);
-    expect(count, "tip", outputs.tip, 0.03153480002693913, 1.5e-16);
-    expect(count, "base_torque", outputs.base_torque, -1.9213735846959639, 7.6e-15);
+    expect(count, "tmm_tip", outputs.tmm_tip, 0.03153480002693913, 1.5e-16);
+    expect(count, "tmm_base_torque", outputs.tmm_base_torque, -1.9213735846959639, 7.6e-15);
 
     /* Step 2. */
-    inputs.tip_torque = -0.25;
+    inputs.tmm_tip_torque = -0.25;
     status = thesis2_step(&model, &state, &inputs);
-    expect_status(count, "step 2", status, THESIS2_OK);
+    expect_code(count, "step 2", status, THESIS2_OK);
     thesis2_output(&model, &state, &outputs);
-    expect(count, "tip", outputs.tip, 0.03176536713077275, 1.5e-16);
-    expect(count, "base_torque", outputs.base_torque, -1.8886459772451525, 7.6e-15);
+    expect(count, "tmm_tip", outputs.tmm_tip, 0.03176536713077275, 1.5e-16);
+    expect(count, "tmm_base_torque", outputs.tmm_base_torque, -1.8886459772451525, 7.6e-15);
 
     /* Step 3. */
-    inputs.tip_torque = 0.375;
+    inputs.tmm_tip_torque = 0.375;
     status = thesis2_step(&model, &state, &inputs);
-    expect_status(count, "step 3", status, THESIS2_OK);
+    expect_code(count, "step 3", status, THESIS2_OK);
     thesis2_output(&model, &state, &outputs);
-    expect(count, "tip", outputs.tip, 0.03194404375542388, 1.5e-16);
-    expect(count, "base_torque", outputs.base_torque, -1.8549950079465363, 7.6e-15);
+    expect(count, "tmm_tip", outputs.tmm_tip, 0.03194404375542388, 1.5e-16);
+    expect(count, "tmm_base_torque", outputs.tmm_base_torque, -1.8549950079465363, 7.6e-15);
 
     /* State after the last step. */
     expect(count, "angle[0]", state.angle[0], -0.0800550627924514, 3.5e-16);
@@ -118,11 +124,11 @@ static void test_motion(tally *count)
     memcpy(&before, &state, sizeof before);
     const real bad[] = {(real)NAN, (real)INFINITY, -(real)INFINITY};
     for (int k = 0; k < 3; ++k) {
-        const real tip_torque = inputs.tip_torque;
-        inputs.tip_torque = bad[k];
+        const real tmm_tip_torque = inputs.tmm_tip_torque;
+        inputs.tmm_tip_torque = bad[k];
         status = thesis2_step(&model, &state, &inputs);
-        expect_status(count, "bad tip_torque", status, THESIS2_NON_FINITE_INPUT);
-        inputs.tip_torque = tip_torque;
+        expect_code(count, "bad tip_torque", status, THESIS2_NON_FINITE_INPUT);
+        inputs.tmm_tip_torque = tmm_tip_torque;
     }
     ++count->checks;
     if (memcmp(&before, &state, sizeof state) != 0) {
@@ -139,24 +145,57 @@ static void test_refusals(tally *count)
 
     thesis2_default_params(&params);
     status = thesis2_prepare(&model, &params, 0.0);
-    expect_status(count, "no step", status, THESIS2_INVALID_STEP);
+    expect_code(count, "no step", status, THESIS2_INVALID_STEP);
     status = thesis2_prepare(&model, &params, (real)NAN);
-    expect_status(count, "bad step", status, THESIS2_INVALID_STEP);
+    expect_code(count, "bad step", status, THESIS2_INVALID_STEP);
 
     thesis2_default_params(&params);
     params.stiffness = (real)NAN;
     status = thesis2_prepare(&model, &params, THESIS2_STEP);
-    expect_status(count, "bad stiffness", status, THESIS2_NON_FINITE_INPUT);
+    expect_code(count, "bad stiffness", status, THESIS2_NON_FINITE_INPUT);
 
     thesis2_default_params(&params);
     params.damping = (real)NAN;
     status = thesis2_prepare(&model, &params, THESIS2_STEP);
-    expect_status(count, "bad damping", status, THESIS2_NON_FINITE_INPUT);
+    expect_code(count, "bad damping", status, THESIS2_NON_FINITE_INPUT);
 
     thesis2_default_params(&params);
     params.inertia = (real)NAN;
     status = thesis2_prepare(&model, &params, THESIS2_STEP);
-    expect_status(count, "bad inertia", status, THESIS2_NON_FINITE_INPUT);
+    expect_code(count, "bad inertia", status, THESIS2_NON_FINITE_INPUT);
+}
+
+/* Arrays that are absent are the scene's own; any other pointer that is absent is refused. */
+static void test_absent(tally *count)
+{
+    thesis2_params params;
+    thesis2_model model;
+    thesis2_state state;
+    thesis2_inputs inputs;
+    thesis2_status status;
+
+    memset(&inputs, 0, sizeof inputs);
+    thesis2_default_params(&params);
+    thesis2_default_params(NULL);
+    status = thesis2_prepare(NULL, &params, THESIS2_STEP);
+    expect_code(count, "no model", status, THESIS2_NULL_POINTER);
+    status = thesis2_prepare(&model, NULL, THESIS2_STEP);
+    expect_code(count, "no parameters", status, THESIS2_NULL_POINTER);
+    status = thesis2_prepare(&model, &params, THESIS2_STEP);
+    expect_code(count, "prepare", status, THESIS2_OK);
+    status = thesis2_initialise(NULL, &params, NULL, NULL, &inputs);
+    expect_code(count, "no state", status, THESIS2_NULL_POINTER);
+    status = thesis2_initialise(&state, &params, NULL, NULL, &inputs);
+    expect_code(count, "the scene's start", status, THESIS2_OK);
+    status = thesis2_step(&model, NULL, &inputs);
+    expect_code(count, "no state", status, THESIS2_NULL_POINTER);
+    status = thesis2_step(NULL, &state, &inputs);
+    expect_code(count, "no model", status, THESIS2_NULL_POINTER);
+    status = thesis2_initialise(&state, &params, NULL, NULL, NULL);
+    expect_code(count, "no inputs", status, THESIS2_NULL_POINTER);
+    status = thesis2_step(&model, &state, NULL);
+    expect_code(count, "no inputs", status, THESIS2_NULL_POINTER);
+    thesis2_output(&model, &state, NULL);
 }
 
 int main(void)
@@ -164,6 +203,7 @@ int main(void)
     tally count = {0, 0};
 
     test_motion(&count);
+    test_absent(&count);
     test_refusals(&count);
     if (count.failures > 0) {
         printf("%d of %d checks failed\n", count.failures, count.checks);

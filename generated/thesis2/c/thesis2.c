@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 8302c2fdab02afb73919e09c91c3abafc3d83d0760e2c0e63be40bfdc341e62e
- * sha256 of the rest of this file: f0d21b1b11f3dc4bac6ebb9e7084b8d8d3918f043002a457cba7243641968975
+ * sha256 of the rest of this file: 6b0e02fc704b7bdf87d31a2f4b0eb241e69f4ab7d73849391d5bdfafcfae567b
  *
  * model: torsional chain (linear)
  * stations: 2
@@ -18,15 +18,22 @@
  *
  * @file thesis2.c
  */
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(_M_FP_FAST) \
+    || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "-Ofast and -ffast-math remove checks of this file: use -O3, or put -fno-fast-math behind them"
+#endif
+
 #include "thesis2.h"
 
+#include <float.h>
 #include <math.h>
+#include <stddef.h>
 
 typedef thesis2_real real;
 
 static int inputs_are_finite(const thesis2_inputs *inputs)
 {
-    if (!isfinite(inputs->tip_torque)) {
+    if (!isfinite(inputs->tmm_tip_torque)) {
         return 0;
     }
     return 1;
@@ -34,6 +41,9 @@ static int inputs_are_finite(const thesis2_inputs *inputs)
 
 void thesis2_default_params(thesis2_params *params)
 {
+    if (params == NULL) {
+        return;
+    }
     params->stiffness = 20.0;
     params->damping = 5.0;
     params->inertia = 5.0;
@@ -44,6 +54,9 @@ thesis2_status thesis2_prepare(
     const thesis2_params *params,
     thesis2_real step)
 {
+    if (model == NULL || params == NULL) {
+        return THESIS2_NULL_POINTER;
+    }
     if (!isfinite(step) || !(step > 0.0)) {
         return THESIS2_INVALID_STEP;
     }
@@ -59,7 +72,7 @@ thesis2_status thesis2_prepare(
     for (int j = THESIS2_STATIONS - 1; j >= 0; --j) {
         impedance = impedance - inertia;
         const real pivot = joint_impedance - impedance;
-        if (!(pivot > 0.0) || !isfinite(pivot)) {
+        if (!(pivot > 0.0) || !(pivot <= DBL_MAX)) {
             return THESIS2_VANISHING_PIVOT;
         }
         model->admittance[j] = 1.0 / pivot;
@@ -76,6 +89,14 @@ thesis2_status thesis2_prepare(
     model->step = step;
     model->stiffness = params->stiffness;
     model->damping = params->damping;
+
+    real total = 0.0; /* of the model: is all of it finite? */
+    for (int j = 0; j < THESIS2_STATIONS; ++j) {
+        total += model->admittance[j] + model->transmission[j] + model->reflection[j];
+    }
+    if (!isfinite(model->rate_per_acceleration + model->angle_per_acceleration + total)) {
+        return THESIS2_NON_FINITE_MODEL;
+    }
     return THESIS2_OK;
 }
 
@@ -86,11 +107,15 @@ thesis2_status thesis2_initialise(
     const thesis2_real initial_rate[THESIS2_STATIONS],
     const thesis2_inputs *inputs)
 {
+    if (state == NULL || params == NULL || inputs == NULL) {
+        return THESIS2_NULL_POINTER;
+    }
     if (!inputs_are_finite(inputs)) {
         return THESIS2_NON_FINITE_INPUT;
     }
     for (int j = 0; j < THESIS2_STATIONS; ++j) {
-        if (!isfinite(initial_angle[j]) || !isfinite(initial_rate[j])) {
+        if ((initial_angle != NULL && !isfinite(initial_angle[j]))
+            || (initial_rate != NULL && !isfinite(initial_rate[j]))) {
             return THESIS2_NON_FINITE_INPUT;
         }
     }
@@ -99,11 +124,12 @@ thesis2_status thesis2_initialise(
     const real damping = params->damping;
     real known_angle[THESIS2_STATIONS + 1]; /* angle of base and links without the unknown's share [rad] */
     real known_rate[THESIS2_STATIONS + 1]; /* rate of base and links without the unknown's share [rad/s] */
+    real total = 0.0; /* of the new motion: is all of it finite? */
 
     /* What is the same at every station. */
     const real impedance = -params->inertia;
     const real pivot = -impedance;
-    if (!(pivot > 0.0) || !isfinite(pivot)) {
+    if (!(pivot > 0.0) || !(pivot <= DBL_MAX)) {
         return THESIS2_VANISHING_PIVOT;
     }
     const real admittance = 1.0 / pivot;
@@ -112,12 +138,12 @@ thesis2_status thesis2_initialise(
     known_rate[0] = 0.0;
     known_angle[0] = 0.0;
     for (int j = 0; j < THESIS2_STATIONS; ++j) {
-        known_rate[j + 1] = initial_rate[j];
-        known_angle[j + 1] = initial_angle[j];
+        known_rate[j + 1] = (initial_rate != NULL ? initial_rate[j] : 0.0);
+        known_angle[j + 1] = (initial_angle != NULL ? initial_angle[j] : 0.0);
     }
 
     /* Sweep inward: force beyond each joint as an affine function of the motion at it. */
-    real torque = inputs->tip_torque;
+    real torque = inputs->tmm_tip_torque;
 
     /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
      * of the motion at it; sweep outward: the unknown of each station; motion at the end of the step. */
@@ -129,12 +155,11 @@ thesis2_status thesis2_initialise(
         state->angle[j] = known_angle[j + 1];
         state->rate[j] = known_rate[j + 1];
         state->acceleration[j] = answer_own;
+        total += state->angle[j] + state->rate[j] + state->acceleration[j];
     }
 
-    for (int j = 0; j < THESIS2_STATIONS; ++j) {
-        if (!isfinite(state->angle[j]) || !isfinite(state->rate[j]) || !isfinite(state->acceleration[j])) {
-            return THESIS2_NON_FINITE_STATE;
-        }
+    if (!isfinite(total)) {
+        return THESIS2_NON_FINITE_STATE;
     }
     return THESIS2_OK;
 }
@@ -144,6 +169,9 @@ thesis2_status thesis2_step(
     thesis2_state *state,
     const thesis2_inputs *inputs)
 {
+    if (model == NULL || state == NULL || inputs == NULL) {
+        return THESIS2_NULL_POINTER;
+    }
     if (!inputs_are_finite(inputs)) {
         return THESIS2_NON_FINITE_INPUT;
     }
@@ -156,6 +184,7 @@ thesis2_status thesis2_step(
     real answer_own[THESIS2_STATIONS]; /* unknown of a station if its inner side kept its motion */
     real known_angle[THESIS2_STATIONS + 1]; /* angle of base and links without the unknown's share [rad] */
     real known_rate[THESIS2_STATIONS + 1]; /* rate of base and links without the unknown's share [rad/s] */
+    real total = 0.0; /* of the new motion: is all of it finite? */
 
     /* Motion known before the sweep. */
     known_rate[0] = 0.0;
@@ -168,7 +197,7 @@ thesis2_status thesis2_step(
 
     /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
      * of the motion at it. */
-    real torque = inputs->tip_torque;
+    real torque = inputs->tmm_tip_torque;
     for (int j = THESIS2_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = damping * (known_rate[j + 1] - known_rate[j])
             + stiffness * (known_angle[j + 1] - known_angle[j]);
@@ -185,10 +214,10 @@ thesis2_status thesis2_step(
         state->angle[j] = known_angle[j + 1] + angle_per_acceleration * unknown;
         state->rate[j] = known_rate[j + 1] + rate_per_acceleration * unknown;
         state->acceleration[j] = unknown;
+        total += state->angle[j] + state->rate[j];
     }
 
-    /* Anything that is not a number has reached this one. */
-    if (!isfinite(state->acceleration[THESIS2_STATIONS - 1])) {
+    if (!isfinite(total + state->acceleration[THESIS2_STATIONS - 1])) {
         return THESIS2_NON_FINITE_STATE;
     }
     return THESIS2_OK;
@@ -199,7 +228,10 @@ void thesis2_output(
     const thesis2_state *state,
     thesis2_outputs *outputs)
 {
+    if (model == NULL || state == NULL || outputs == NULL) {
+        return;
+    }
     /* Outputs. */
-    outputs->tip = state->angle[1];
-    outputs->base_torque = state->angle[0] * model->stiffness + model->damping * state->rate[0];
+    outputs->tmm_tip = state->angle[1];
+    outputs->tmm_base_torque = state->angle[0] * model->stiffness + model->damping * state->rate[0];
 }

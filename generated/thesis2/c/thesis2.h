@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 8302c2fdab02afb73919e09c91c3abafc3d83d0760e2c0e63be40bfdc341e62e
- * sha256 of the rest of this file: 96d5507a20134861949e4714570a090e59a2b4dbbd1dbebf042500d508f05bdd
+ * sha256 of the rest of this file: 8ea0650a097d72bf77c1d25894b5301f05c0ce07f5918577ba9fe434c1ac7fa4
  *
  * model: torsional chain (linear)
  * stations: 2
@@ -22,8 +22,8 @@
  *
  * @file thesis2.h
  */
-#ifndef THESIS2_H
-#define THESIS2_H
+#ifndef TMM_GEN_KERNEL_thesis2
+#define TMM_GEN_KERNEL_thesis2
 
 #ifdef __cplusplus
 extern "C" {
@@ -49,7 +49,11 @@ typedef enum {
     /** No passive arm has such parameters (a negative inertia, say); the model is of no use. */
     THESIS2_VANISHING_PIVOT,
     /** The motion has outgrown the number type; initialise anew. */
-    THESIS2_NON_FINITE_STATE
+    THESIS2_NON_FINITE_STATE,
+    /** A pointer that is needed is NULL; nothing was changed. */
+    THESIS2_NULL_POINTER = 6,
+    /** Parameters or time step are too large or too small for the number type; the model is of no use. */
+    THESIS2_NON_FINITE_MODEL = 7
 } thesis2_status;
 
 /** Physical parameters. */
@@ -80,19 +84,19 @@ typedef struct {
 
 /** What acts on the arm. */
 typedef struct {
-    thesis2_real tip_torque; /**< torque acting at the tip [N m] */
+    thesis2_real tmm_tip_torque; /**< torque acting at the tip [N m] */
 } thesis2_inputs;
 
 /** What the scene asks to know. */
 typedef struct {
-    thesis2_real tip; /**< angle at the tip [rad] */
-    thesis2_real base_torque; /**< torque at the base [N m] */
+    thesis2_real tmm_tip; /**< angle at the tip [rad] */
+    thesis2_real tmm_base_torque; /**< torque at the base [N m] */
 } thesis2_outputs;
 
 /**
  * Write the scene's parameters.
  *
- * @param[out] params  parameters
+ * @param[out] params  parameters; nothing is done where it is NULL
  */
 void thesis2_default_params(thesis2_params *params);
 
@@ -102,7 +106,7 @@ void thesis2_default_params(thesis2_params *params);
  * @param[out] model   what the other functions need
  * @param[in]  params  parameters
  * @param[in]  step    time step [s]
- * @return OK, NON_FINITE_INPUT, INVALID_STEP or VANISHING_PIVOT
+ * @return OK, NON_FINITE_INPUT, NULL_POINTER, INVALID_STEP, VANISHING_PIVOT or NON_FINITE_MODEL
  */
 thesis2_status thesis2_prepare(
     thesis2_model *model,
@@ -114,10 +118,10 @@ thesis2_status thesis2_prepare(
  *
  * @param[out] state   motion at the initial instant
  * @param[in]  params  parameters
- * @param[in]  initial_angle  angles to start from [rad]
- * @param[in]  initial_rate  rates to start from [rad/s]
+ * @param[in]  initial_angle  angles to start from [rad]; NULL for the scene's own
+ * @param[in]  initial_rate  rates to start from [rad/s]; NULL for the scene's own
  * @param[in]  inputs  what acts at the initial instant
- * @return OK, NON_FINITE_INPUT, VANISHING_PIVOT or NON_FINITE_STATE
+ * @return OK, NON_FINITE_INPUT, NULL_POINTER, VANISHING_PIVOT or NON_FINITE_STATE
  */
 thesis2_status thesis2_initialise(
     thesis2_state *state,
@@ -132,7 +136,7 @@ thesis2_status thesis2_initialise(
  * @param[in]     model   from thesis2_prepare()
  * @param[in,out] state   motion before the step, and after it
  * @param[in]     inputs  what acts, at the end of the step
- * @return OK, NON_FINITE_INPUT or NON_FINITE_STATE
+ * @return OK, NON_FINITE_INPUT, NULL_POINTER or NON_FINITE_STATE
  */
 thesis2_status thesis2_step(
     const thesis2_model *model,
@@ -140,7 +144,7 @@ thesis2_status thesis2_step(
     const thesis2_inputs *inputs);
 
 /**
- * Read the outputs off the state.
+ * Read the outputs off the state. Nothing is done where a pointer is NULL.
  *
  * @param[in]  model    from thesis2_prepare()
  * @param[in]  state    motion
@@ -155,4 +159,4 @@ void thesis2_output(
 }
 #endif
 
-#endif /* THESIS2_H */
+#endif /* TMM_GEN_KERNEL_thesis2 */

@@ -6,9 +6,14 @@ To add a command: write ``cli/<name>.py`` with a click command in it, and add on
 from __future__ import annotations
 
 import contextlib
+import errno
 import os
+import signal
 import sys
-from collections.abc import Sequence
+import threading
+import traceback
+import warnings
+from collections.abc import Iterator, Sequence
 
 import click
 from click.shell_completion import shell_complete
@@ -20,6 +25,8 @@ from tmm_gen.version import __version__
 __all__ = ["COMMANDS", "main", "tmm_gen"]
 
 _PROGRAM = "tmm-gen"
+_OF_OUTPUT = (errno.EBADF, errno.EFBIG, errno.EIO, errno.ENOSPC, errno.EDQUOT)
+"""What goes wrong with standard output, to which errors give no name."""
 
 COMMANDS = {
     "new": LazyCommand("tmm_gen.cli.new:new", "Write a commented scene to start from."),
@@ -74,33 +81,57 @@ def main(arguments: Sequence[str] | None = None) -> int:
     Returns
     -------
     int
-        Exit code: 0 done, 1 a check failed, 2 bad usage or bad scene, 130 interrupted,
-        141 the reader of standard output went away.
+        Exit code: 0 done, 1 a check failed, 2 bad usage, a bad scene, or a file or standard output that cannot be
+        written; 130 interrupted, 143 told to end.
     """
     words = list(sys.argv[1:] if arguments is None else arguments)
     if instruction := os.environ.get("_TMM_GEN_COMPLETE"):
         return shell_complete(tmm_gen, {}, _PROGRAM, "_TMM_GEN_COMPLETE", instruction)
+    if sys.stdout is None:
+        return _fail(
+            "standard output is closed. Leave it open, or send it to /dev/null.", UserError.exit_code
+        )
+    if any("\0" in word for word in words):
+        return _fail("an argument holds a null character. Leave it out.", UserError.exit_code)
+    if arguments is None and not sys.warnoptions:
+        warnings.simplefilter(
+            "ignore"
+        )  # what libraries warn of is for those who write tmm-gen; python -W shows it
+    with _ending_in_order():
+        return _code(words)
+
+
+def _code(words: list[str]) -> int:
+    """Run, and turn every error that the user can mend into one line and an exit code."""
     try:
         code = _invoke(words)
         sys.stdout.flush()
         return code
-    except BrokenPipeError:
-        return _reader_gone()
+    except BrokenPipeError as error:
+        return _printing_failed(error)
     except SystemExit as stop:
         # rich turns a broken pipe into this.
         if isinstance(stop.__context__, BrokenPipeError):
-            return _reader_gone()
+            return _printing_failed(stop.__context__)
         raise
     except KeyboardInterrupt:
-        return 130
+        return _fail("interrupted", 130)
+    except _ToldToEnd:
+        return _fail("told to end", 143)
     except OSError as error:
         if error.filename is None:
-            raise
+            if error.errno not in _OF_OUTPUT:
+                raise
+            return _printing_failed(error)
         return _fail(f"{error.filename}: {error.strerror}", UserError.exit_code)
+    except MemoryError:
+        return _fail("not enough memory for this. Ask for fewer steps, links or modes.", UserError.exit_code)
     except Exception as error:
-        if (mendable := _exit_code(error)) is None:
+        if (mendable := _exit_code(error)) is not None:
+            return _fail(str(error), mendable)
+        if (scene := _scene_in(words)) is None or not _of_numbers(error):
             raise
-        return _fail(str(error), mendable)
+        return _fail(f"{scene}: {_beyond(error)}", UserError.exit_code)
 
 
 def _invoke(words: list[str]) -> int:
@@ -110,12 +141,69 @@ def _invoke(words: list[str]) -> int:
             outcome = tmm_gen.invoke(context)
     except click.exceptions.Exit as finished:
         return finished.exit_code
-    except click.Abort:
-        return 130
-    except click.ClickException as error:
+    except click.Abort as stop:
+        raise KeyboardInterrupt from stop
+    except click.exceptions.NoArgsIsHelpError as error:
         error.show()
-        return 2
+        return UserError.exit_code
+    except click.ClickException as error:
+        return _fail(_usage(error), UserError.exit_code)
     return outcome if isinstance(outcome, int) else 0
+
+
+def _usage(error: click.ClickException) -> str:
+    """Return on one line what click has to say, and where the help is."""
+    said = " ".join(error.format_message().split())
+    context = getattr(error, "ctx", None)
+    if context is None:
+        return said
+    return f"{said.rstrip('.')}. `{context.command_path} --help` shows what there is."
+
+
+class _ToldToEnd(BaseException):
+    """SIGTERM or SIGHUP: everything on the way out is to be put back."""
+
+
+@contextlib.contextmanager
+def _ending_in_order() -> Iterator[None]:
+    """Let signals that end the process unwind it first, so that no scratch is left and no file half written."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+
+    def end(number: int, _frame: object) -> None:
+        signal.signal(number, signal.SIG_IGN)  # once is enough
+        raise _ToldToEnd
+
+    ours = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
+    ours = [number for number in ours if signal.getsignal(number) == signal.SIG_DFL]
+    for number in ours:
+        signal.signal(number, end)
+    try:
+        yield
+    finally:
+        for number in ours:
+            signal.signal(number, signal.SIG_DFL)
+
+
+def _scene_in(words: list[str]) -> str | None:
+    """Return the scene that a command line names."""
+    return next((word for word in words[1:] if word.endswith(".toml")), None)
+
+
+def _of_numbers(error: Exception) -> bool:
+    """Whether an error is what numbers do that leave the range of floating point."""
+    named = {kind.__name__ for kind in type(error).__mro__}
+    return bool(named & {"ArithmeticError", "LinAlgError"})
+
+
+def _beyond(error: Exception) -> str:
+    place = traceback.extract_tb(error.__traceback__)[-1]
+    return (
+        f"its numbers leave the range of floating point ({type(error).__name__}: {error}, in "
+        f"{place.filename.rpartition(os.sep)[2]}:{place.lineno}). Choose units in which they are nearer to 1; if they "
+        "are ordinary ones, this is a defect of tmm-gen."
+    )
 
 
 def _exit_code(error: Exception) -> int | None:
@@ -129,12 +217,14 @@ def _exit_code(error: Exception) -> int | None:
 
 
 def _fail(message: str, code: int) -> int:
-    click.echo(f"error: {message}", err=True)
+    with contextlib.suppress(OSError, ValueError):  # standard error may be closed too: the code tells
+        click.echo(f"error: {message}", err=True)
     return code
 
 
-def _reader_gone() -> int:
-    """Point standard output at nothing, so that the flush at exit stays quiet too."""
+def _printing_failed(error: OSError) -> int:
+    """Say that nobody takes the output; standard output points at nothing then, so that the exit stays quiet."""
     with contextlib.suppress(OSError, ValueError):  # standard output may be no file
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-    return 141
+    reason = "its reader went away" if isinstance(error, BrokenPipeError) else error.strerror or str(error)
+    return _fail(f"standard output: {reason}", UserError.exit_code)

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from difflib import get_close_matches, unified_diff
+from keyword import iskeyword
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -33,6 +35,7 @@ class _Row:
     written: tuple[str, ...]
     removed: tuple[str, ...]
     unchanged: tuple[str, ...]
+    without_motion: bool
 
     def as_dict(self) -> dict[str, object]:
         """Return the row for a table."""
@@ -70,9 +73,38 @@ def build(scenes: tuple[str, ...], check: bool, out: Path, force: bool, json_mod
         for line in drift:
             click.echo(line)
     table([row.as_dict() for row in rows], _columns(check), json_mode)
+    if not json_mode and not check and (names := [s.name for s in loaded if "numpy" in s.emit.backends]):
+        click.echo(import_line(out, names))
+    if not json_mode:
+        for row in rows:
+            if row.without_motion:
+                click.echo(
+                    f"{row.scene}: the C's test holds no motion, as no start leads to steps within range"
+                )
     if differing := [row.scene for row in rows if row.state == _DRIFT]:
         command = " ".join(["tmm-gen build", *scenes])
         raise CheckFailed(f"{out}/ is not what the scenes give: {', '.join(differing)}. Run `{command}`.")
+
+
+def import_line(out: Path, names: Sequence[str]) -> str:
+    """Return how to import packages, and from where: Python looks in the folder of a script, not in the current one.
+
+    Parameters
+    ----------
+    out : Path
+        Folder of the packages.
+    names : sequence of str
+        Of the packages.
+    """
+    folder = out.resolve()
+    package = folder.name.isidentifier() and not iskeyword(folder.name)
+    root = folder.parent if package else folder
+    here = root == Path.cwd()
+    which = names[0] if len(names) == 1 else "NAME"
+    module = f"{folder.name}.{which}" if package else which
+    where = "this folder" if here else str(root)
+    path = "." if here else shlex.quote(str(root))
+    return f"In Python: from {module} import simulate, with {where} on its path: PYTHONPATH={path} python SCRIPT.py"
 
 
 def scene_files(named: Sequence[str]) -> list[Path]:
@@ -149,7 +181,9 @@ def _compare(scene: Scene, out: Path) -> tuple[_Row, list[str]]:
 
 def _difference(path: Path, wanted: str) -> list[str]:
     """Return what a build would change in a file."""
-    held = path.read_bytes().decode("utf-8", errors="replace") if path.is_file() else ""
+    from tmm_gen.emit.write import text_of
+
+    held = text_of(path) if path.is_file() else ""
     name = path.as_posix()
     before, after = (name if held else "/dev/null"), (name if wanted else "/dev/null")
     return list(unified_diff(held.splitlines(), wanted.splitlines(), before, after, lineterm=""))
@@ -166,7 +200,15 @@ def _row(scene: Scene, folder: Path, state: str, changes: Changes) -> _Row:
         tuple(path.relative_to(folder).as_posix() for path in paths)
         for paths in (changes.written, changes.stale, changes.unchanged)
     )
-    return _Row(scene.name, folder, state, written, removed, unchanged)
+    return _Row(scene.name, folder, state, written, removed, unchanged, _without_motion(scene, folder))
+
+
+def _without_motion(scene: Scene, folder: Path) -> bool:
+    """Whether the C's test has nothing to compare a motion with."""
+    from tmm_gen.emit.write import text_of, without_motion
+
+    test = folder / "c" / f"test_{scene.name}.c"
+    return test.is_file() and without_motion(text_of(test))
 
 
 def _columns(check: bool) -> list[Column | str]:

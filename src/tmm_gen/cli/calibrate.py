@@ -10,7 +10,9 @@ import click
 
 from tmm_gen.cli.console import Column, progress, table
 from tmm_gen.cli.given import positive
+from tmm_gen.cli.outputs import OutputFile, force_option, require_new, write_outputs
 from tmm_gen.errors import UserError
+from tmm_gen.reading import open_table, read_file
 
 if TYPE_CHECKING:
     from tmm_gen.control.calibration import Calibration
@@ -66,7 +68,8 @@ if TYPE_CHECKING:
     callback=positive,
     help="What may be left, as a share of the record's standard deviation; more is a failure (exit code 1).",
 )
-@click.option("--out", type=click.Path(dir_okay=False, path_type=Path), help="Write the calibrated scene.")
+@click.option("--out", type=OutputFile(), help="Write the calibrated scene.")
+@force_option
 @click.option("--json", "json_mode", is_flag=True, help="One JSON object instead of a table.")
 def calibrate(
     scene: Path,
@@ -78,6 +81,7 @@ def calibrate(
     loss: Literal["linear", "huber"],
     most_misfit: float,
     out: Path | None,
+    force: bool,
     json_mode: bool,
 ) -> None:
     """Fit stiffness and damping of SCENE to a recorded response.
@@ -88,15 +92,20 @@ def calibrate(
     """
     from tmm_gen.scene import load_scene
 
+    require_new(out, force)
     loaded = load_scene(scene)
     with progress(f"fitting {loaded.name}"):
         from tmm_gen.control.calibration import calibrate as fit
         from tmm_gen.measure.clock import UNITS, from_start
-        from tmm_gen.measure.given import read_inputs, read_tables
+        from tmm_gen.measure.given import input_names, read_inputs, read_tables
 
         names = _columns(loaded, record)
         missing = tuple(item.name for item in loaded.inputs if item.name not in names)
-        signals = {**read_tables(record, names, gaps=True), **read_inputs(given, missing)}
+        _, angles = input_names(loaded)
+        signals = {
+            **read_tables(record, names, angles, gaps=True),
+            **read_inputs(given, missing, angles),
+        }
         unit = UNITS[time_unit]
         done = fit(
             loaded,
@@ -106,7 +115,7 @@ def calibrate(
             loss=loss,
             most_misfit=most_misfit,
         )
-    written = _write(scene, out, done)
+    written = _write(scene, out, done, force)
     _show(loaded, done, written, json_mode)
 
 
@@ -121,10 +130,8 @@ def _columns(scene: Scene, record: Path) -> tuple[str, ...]:
     from tmm_gen.measure.columns import output_columns
 
     try:
-        with record.open(encoding="utf-8-sig", newline="") as file:
+        with open_table(record) as file:
             headings = [cell.strip() for cell in next(csv.reader(file), [])]
-    except FileNotFoundError:
-        raise UserError(f"{record}: no such file. Check the path.") from None
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         raise UserError(f"{record}: cannot be read: {error}. Save it as CSV in UTF-8.") from None
     outputs = [column.name for column in output_columns(scene)]
@@ -135,16 +142,14 @@ def _columns(scene: Scene, record: Path) -> tuple[str, ...]:
     return found
 
 
-def _write(scene: Path, out: Path | None, done: Calibration) -> list[Path]:
+def _write(scene: Path, out: Path | None, done: Calibration, force: bool) -> list[Path]:
     """Write the scene's file with the fitted numbers in place of the old ones."""
     if out is None:
         return []
-    from tmm_gen.files import write_whole
     from tmm_gen.scene.rewrite import rewritten
 
-    text = scene.read_bytes().decode("utf-8-sig")
-    write_whole(out, rewritten(text, str(scene), done.scene, done.changes))
-    return [out]
+    text = read_file(scene).decode("utf-8-sig")
+    return write_outputs({out: rewritten(text, str(scene), done.scene, done.changes)}, force=force)
 
 
 def _show(scene: Scene, done: Calibration, written: list[Path], json_mode: bool) -> None:

@@ -7,6 +7,7 @@ from pathlib import Path
 import click
 
 from tmm_gen.cli.console import Column, progress, table
+from tmm_gen.cli.outputs import write_outputs
 
 # NumPy, SymPy and Matplotlib are imported inside: `tmm-gen --help` has no use for them.
 
@@ -40,8 +41,6 @@ def demo(out: Path, json_mode: bool) -> None:
     exponential, relative to the static deflection; settled is what stays within 2 % of it. Times are medians of nine
     rounds in which all kernels take turns, with half the distance of the quartiles.
     """
-    from tmm_gen.files import write_tree_whole
-
     with progress("deriving", total=10) as advance:
         from tmm_gen.measure.demo import THESIS_STEP, run_demo
         from tmm_gen.measure.demo_picture import demo_picture
@@ -55,7 +54,7 @@ def demo(out: Path, json_mode: bool) -> None:
         "kernels": out / "kernels",
     }
     kernels = {out / path: text for path, text in found.kernels.items()}
-    write_tree_whole({**kernels, files["table"]: csv_text(found.rows), files["picture"]: image})
+    write_outputs({**kernels, files["table"]: csv_text(found.rows), files["picture"]: image})
     table(found.rows, _COLUMNS, json_mode, title="Samples of Gholampour (2018), 1 N m on the tip", more=files)
     if not json_mode:
         click.echo(f"'zhou as printed' has the coefficients of table 3-8; at a step of {THESIS_STEP:g} s")

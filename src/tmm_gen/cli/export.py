@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from tmm_gen.cli.console import print_json, progress
-from tmm_gen.cli.given import refuse_folders
+from tmm_gen.cli.outputs import OutputFile, claim, write_outputs
 from tmm_gen.errors import UserError
 
 if TYPE_CHECKING:
@@ -24,9 +24,7 @@ _SUFFIX = {"fmu": ".fmu", "mjcf": ".xml"}
 @click.option(
     "--to", type=click.Choice(sorted(_SUFFIX)), required=True, help="Functional mock-up unit or MuJoCo."
 )
-@click.option(
-    "--out", type=click.Path(path_type=Path), help="File to write; by default NAME.fmu or NAME.xml."
-)
+@click.option("--out", type=OutputFile(), help="File to write; by default NAME.fmu or NAME.xml.")
 @click.option("--fmi", type=click.Choice(["2", "3"]), help="Version of FMI; by default 2.")
 @click.option("--cc", default="gcc", show_default=True, help="Compiler of the unit's binary.")
 @click.option("--json", "json_mode", is_flag=True, help="One JSON object instead of a report.")
@@ -38,7 +36,7 @@ def export(scene: Path, to: str, out: Path | None, fmi: str | None, cc: str, jso
     """
     from tmm_gen.scene import load_scene
 
-    refuse_folders(out)
+    claim((out,), (scene,))
     if fmi is not None and to != "fmu":
         raise UserError(f"--fmi {fmi}: is for --to fmu only. Leave it out.")
     chosen = load_scene(scene)
@@ -58,10 +56,9 @@ def export(scene: Path, to: str, out: Path | None, fmi: str | None, cc: str, jso
 def _fmu(scene: Scene, target: Path, fmi: str, cc: str) -> tuple[dict[str, object], list[str]]:
     """Write a unit; return what JSON and what a person is told."""
     from tmm_gen.export.fmu import fmu
-    from tmm_gen.files import write_whole
 
     content = fmu(scene, 3 if fmi == "3" else 2, cc)
-    write_whole(target, content)
+    write_outputs({target: content})
     step = scene.integrator.step
     facts: dict[str, object] = {
         "fmi": f"{fmi}.0",
@@ -79,10 +76,9 @@ def _fmu(scene: Scene, target: Path, fmi: str, cc: str) -> tuple[dict[str, objec
 def _mjcf(scene: Scene, target: Path) -> tuple[dict[str, object], list[str]]:
     """Write a model; return what JSON and what a person is told."""
     from tmm_gen.export.mjcf import KEYFRAME, mujoco_model
-    from tmm_gen.files import write_whole
 
     model = mujoco_model(scene)
-    write_whole(target, model.text)
+    write_outputs({target: model.text})
     facts: dict[str, object] = {
         "timestep": model.timestep,
         "keyframe": KEYFRAME,

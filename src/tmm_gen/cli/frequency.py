@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from tmm_gen.cli.console import Column, progress, table
-from tmm_gen.cli.given import PICTURE, constant_inputs, picture_option, positive, refuse_folders
+from tmm_gen.cli.given import PICTURE, constant_inputs, picture_option, positive
 from tmm_gen.cli.links import show_links
+from tmm_gen.cli.outputs import OutputFile, claim, write_outputs
 from tmm_gen.errors import UserError
 
 if TYPE_CHECKING:
@@ -22,6 +23,9 @@ if TYPE_CHECKING:
     from tmm_gen.scene import Input, Output, Scene
 
 # NumPy, SymPy and Matplotlib are imported inside: `tmm-gen --help` has no use for them.
+
+_SHOWN = 8
+"""Modes that fit into the band where none is asked for."""
 
 _IN = {"torque": "N m", "force_x": "N", "force_y": "N", "angle": "rad"}
 
@@ -46,7 +50,7 @@ _IN = {"torque": "N m", "force_x": "N", "force_y": "N", "angle": "rad"}
     multiple=True,
     help="A constant input that a planar arm rests under. Repeatable; the rest is zero.",
 )
-@click.option("--csv", "csv_file", type=click.Path(path_type=Path), help="Write the response.")
+@click.option("--csv", "csv_file", type=OutputFile(), help="Write the response.")
 @click.option(
     "--plot",
     "picture",
@@ -97,7 +101,7 @@ def frequency(
     if error is not None and band is not None:
         show_links(loaded, error, band, json_mode)
         return
-    refuse_folders(csv_file, picture)
+    claim((csv_file, picture), (scene,))
     inputs = constant_inputs(loaded, given)
     chosen = _chosen(scene, loaded.inputs, source, "--from", "[[input]]")
     # energies go with the square of the motion
@@ -105,7 +109,7 @@ def frequency(
     read = _chosen(scene, readable, target, "--to", "[[output]] of a place")
     with progress(f"frequency response of {loaded.name}"):
         answer = _respond(loaded, inputs, chosen, read, (low, high), points)
-        written = _write(answer, csv_file, picture)
+        written = _write(scene, answer, csv_file, picture)
     _show(answer, written, json_mode)
 
 
@@ -157,20 +161,21 @@ def _respond(
 
     from tmm_gen.modal.beam.response import beam_response
     from tmm_gen.modal.matrices import matrices
-    from tmm_gen.modal.modes import find_modes
+    from tmm_gen.modal.modes import find_modes, modes_up_to
     from tmm_gen.modal.response import component_names, frequency_response
     from tmm_gen.modal.situation import resting_arm
 
     arm = resting_arm(scene, inputs)
-    modes = find_modes(matrices(arm))
-    swinging = [mode.hertz for mode in modes if mode.frequency > 0.0]
+    linear = matrices(arm)
+    swinging = [mode.hertz for mode in find_modes(linear, _SHOWN + 1) if mode.frequency > 0.0][:_SHOWN]
     low = limits[0] or (0.1 * swinging[0] if swinging else 0.01)
-    high = limits[1] or (2.0 * swinging[min(7, len(swinging) - 1)] if swinging else 100.0 * low)
+    high = limits[1] or (2.0 * swinging[-1] if swinging else 100.0 * low)
     if low >= high:
         raise click.UsageError(f"the band from {low:g} to {high:g} Hz is empty; give both --low and --high.")
     hertz = np.geomspace(low, high, points)
     number = [item.name for item in scene.inputs].index(given.name)
     names = component_names(arm)[read.name]
+    modes = modes_up_to(linear, 2.0 * np.pi * high)
     inside = [(k, mode) for k, mode in enumerate(modes) if low <= mode.hertz <= high]
     at_modes = np.array([mode.hertz for _, mode in inside])
     with np.errstate(all="ignore"):  # without damping a resonance has no bound
@@ -198,11 +203,9 @@ def _respond(
     )
 
 
-def _write(answer: _Answer, csv_file: Path | None, picture: Path | None) -> list[Path]:
+def _write(scene: Path, answer: _Answer, csv_file: Path | None, picture: Path | None) -> list[Path]:
     """Write the files asked for, all or none; return them."""
     import numpy as np
-
-    from tmm_gen.files import write_tree_whole
 
     files: dict[Path, str | bytes] = {}
     if csv_file is not None:
@@ -221,8 +224,7 @@ def _write(answer: _Answer, csv_file: Path | None, picture: Path | None) -> list
         texts = (answer.arm.scene.title, f"{name} for a unit of {answer.given.name}")
         drawn = (answer.hertz, answer.parts[name], answer.beam)
         files[target] = bode_picture(answer.arm, *drawn, texts, answer.unit, target.suffix[1:].lower())
-    write_tree_whole(files)
-    return list(files)
+    return write_outputs(files, (scene,))
 
 
 def _shown(answer: _Answer) -> str:

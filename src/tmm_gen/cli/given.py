@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from tmm_gen.cli.outputs import OutputFile
 from tmm_gen.errors import UserError
 
 if TYPE_CHECKING:
@@ -20,11 +21,11 @@ PICTURE = "picture"
 _PICTURES = (".png", ".svg", ".pdf")
 
 
-def picture_option(_context: click.Context, parameter: click.Parameter, value: str | None) -> Path | None:
+def picture_option(context: click.Context, parameter: click.Parameter, value: str | None) -> Path | None:
     """Check the name of a picture."""
-    if value not in (None, PICTURE) and Path(str(value)).suffix.lower() not in _PICTURES:
-        raise click.BadParameter(f"'{value}' must end in {', '.join(_PICTURES)}", param=parameter)
-    return None if value is None else Path(value)
+    if value in (None, PICTURE):
+        return None if value is None else Path(value)
+    return OutputFile(*_PICTURES).convert(value, parameter, context)
 
 
 def positive(_context: click.Context, parameter: click.Parameter, value: float | None) -> float | None:
@@ -61,10 +62,3 @@ def constant_inputs(scene: Scene, given: Sequence[str]) -> dict[str, float]:
             raise UserError(f"--input {text}: '{value}' is not a number.")
         found[name] = number
     return found
-
-
-def refuse_folders(*targets: Path | None) -> None:
-    """Refuse a file's name that is a folder's."""
-    for target in targets:
-        if target is not None and target.is_dir():
-            raise UserError(f"{target}: is a directory. Name a file in it.")

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from tmm_gen.cli.console import Column, progress, table
-from tmm_gen.cli.given import PICTURE, constant_inputs, picture_option, refuse_folders
+from tmm_gen.cli.given import PICTURE, constant_inputs, picture_option
+from tmm_gen.cli.outputs import claim, write_outputs
 
 if TYPE_CHECKING:
     from tmm_gen.modal.arm import LinearArm
@@ -17,6 +18,9 @@ if TYPE_CHECKING:
     from tmm_gen.scene import Scene
 
 # NumPy, SymPy and Matplotlib are imported inside: `tmm-gen --help` has no use for them.
+
+_UNSURE = 1e-6
+"""Relative error that a frequency's residual may leave open without a word: the table shows six digits."""
 
 
 @click.command("modes")
@@ -49,7 +53,7 @@ def modes(scene: Path, count: int, given: tuple[str, ...], picture: Path | None,
 
     loaded = load_scene(scene)
     inputs = constant_inputs(loaded, given)
-    refuse_folders(picture)
+    claim((picture,), (scene,))
     with progress(f"finding modes of {loaded.name}"):
         from tmm_gen.modal.matrices import matrices
         from tmm_gen.modal.modes import find_modes
@@ -74,7 +78,7 @@ class _Beside:
         self.straight = arm.rest is None or not any(abs(angle) > 1e-9 for angle in arm.rest.angles.tolist())
         if self.beam is not None:
             self.exact = natural_frequencies(self.beam, count)
-            self.discretised = straight_frequencies(scene)[:count]
+            self.discretised = straight_frequencies(scene, count=count)
             self.errors = relative_errors(self.discretised, self.exact)
 
     def row(self, number: int) -> dict[str, object]:
@@ -90,7 +94,7 @@ class _Beside:
             "straight_hz": straight / (2.0 * math.pi),
             "exact_hz": exact / (2.0 * math.pi),
             "exact_angular_frequency": exact,
-            "exact_damping_ratio": None if pole is None else -pole.real / abs(pole),
+            "exact_damping_ratio": None if pole is None else (0.0 - pole.real) / abs(pole),
             "error": signed,
             "error_percent": None if signed is None else 100.0 * signed,
         }
@@ -105,19 +109,18 @@ def _row(number: int, mode: Mode) -> dict[str, object]:
         "poles": [{"real": pole.real, "imaginary": pole.imag} for pole in mode.poles],
         "motion": "falls over" if mode.unstable else ("swings" if mode.frequency else "turns freely"),
         "shape": mode.shape,
+        "error_bound": mode.bound,
     }
 
 
 def _draw(picture: Path | None, arm: LinearArm, found: tuple[Mode, ...], beside: _Beside) -> list[Path]:
     if picture is None:
         return []
-    from tmm_gen.files import write_whole
     from tmm_gen.modal.picture import mode_picture
 
     target = Path(f"{arm.scene.name}-modes.png") if picture == Path(PICTURE) else picture
     exact = None if beside.beam is None else (beside.beam, beside.exact)
-    write_whole(target, mode_picture(arm, found, exact, target.suffix[1:].lower()))
-    return [target]
+    return write_outputs({target: mode_picture(arm, found, exact, target.suffix[1:].lower())})
 
 
 def _show(
@@ -139,7 +142,7 @@ def _show(
         columns += [
             Column("exact_hz", "continuous beam (Hz)", ".6g"),
             Column("exact_damping_ratio", "its damping ratio", ".4g"),
-            Column("error_percent", "error (%)", "+.3f"),
+            Column("error_percent", "error (%)", "+.3g"),
         ]
     if any(row["motion"] != "swings" for row in rows):
         columns.append(Column("motion"))
@@ -159,6 +162,12 @@ def _show(
     if arm.rest is not None and not beside.straight:
         tip = math.degrees(float(arm.rest.angles[-1]))
         click.echo(f"about the static equilibrium: the last link rests at {tip:.3f} degrees")
+    unsure = [row["mode"] for row in rows if row["error_bound"] > _UNSURE]
+    if unsure:
+        click.echo(
+            f"rounding may spoil more than {_UNSURE:g} of the frequency of mode {', '.join(map(str, unsure))} "
+            "(error_bound in --json says how much)"
+        )
     for path in files:
         click.echo(f"wrote {path}")
     if not files:

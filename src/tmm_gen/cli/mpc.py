@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 import click
 
 from tmm_gen.cli.console import progress
-from tmm_gen.cli.given import PICTURE, picture_option, positive, refuse_folders
+from tmm_gen.cli.given import PICTURE, picture_option, positive
 from tmm_gen.cli.mpc_tune import EVERYTHING, chosen, tuned
+from tmm_gen.cli.outputs import OutputFile, claim, force_option, require_new
 from tmm_gen.cli.study_options import one_thread
 
 if TYPE_CHECKING:
@@ -24,12 +25,6 @@ if TYPE_CHECKING:
 _MOVING = (".gif", ".html")
 _EMITTED = "mpc-modes"
 """What ``--emit`` writes unless another controller is chosen."""
-
-
-def _animated(_context: click.Context, parameter: click.Parameter, value: Path | None) -> Path | None:
-    if value is not None and value.suffix.lower() not in _MOVING:
-        raise click.BadParameter(f"'{value}' must end in {' or '.join(_MOVING)}", param=parameter)
-    return value
 
 
 @click.command("mpc")
@@ -71,8 +66,7 @@ def _animated(_context: click.Context, parameter: click.Parameter, value: Path |
     "--animate",
     "animated",
     metavar="FILE.gif|FILE.html",
-    type=click.Path(path_type=Path),
-    callback=_animated,
+    type=OutputFile(*_MOVING),
     help="Show the arm in motion: the last controller under the last condition.",
 )
 @click.option(
@@ -88,6 +82,12 @@ def _animated(_context: click.Context, parameter: click.Parameter, value: Path |
     default="float64",
     show_default=True,
     help="Number type of the C code.",
+)
+@click.option(
+    "--name",
+    metavar="NAME",
+    help="Prefix of the C code's functions and files, by default SCENE_CONTROLLER: one controller twice in a program "
+    "needs two.",
 )
 @click.option(
     "--tune",
@@ -116,9 +116,10 @@ def _animated(_context: click.Context, parameter: click.Parameter, value: Path |
 )
 @click.option(
     "--out",
-    type=click.Path(dir_okay=False, path_type=Path),
+    type=OutputFile(),
     help="Where --tune writes the tuned scene.",
 )
+@force_option
 @click.option("--json", "json_mode", is_flag=True, help="One JSON object instead of a table.")
 def mpc(
     scene: Path,
@@ -132,11 +133,13 @@ def mpc(
     animated: Path | None,
     folder: Path | None,
     real: str,
+    name: str | None,
     tunables: tuple[str, ...],
     evaluations: int,
     refine: bool,
     workers: int,
     out: Path | None,
+    force: bool,
     json_mode: bool,
 ) -> None:
     """Control the arm of SCENE as its [control] says, and compare controllers.
@@ -150,7 +153,8 @@ def mpc(
 
     one_thread()
     loaded = load_scene(scene)
-    refuse_folders(picture, animated)
+    claim((picture, animated), (scene,))
+    require_new(out, force)
     from tmm_gen.control.condition import CONDITIONS
     from tmm_gen.control.controllers import CONTROLLERS
 
@@ -163,11 +167,11 @@ def mpc(
 
     bench = Bench.of(loaded)
     if tunables:
-        tuned(scene, bench, tunables, evaluations, seed, workers, refine, out, json_mode)
+        tuned(scene, bench, tunables, evaluations, seed, workers, refine, out, force, json_mode)
         return
     if folder is not None:
         names = [kind.name for kind in kinds] or [_EMITTED]
-        emit(bench, names, folder, real, json_mode)
+        emit(bench, names, folder, real, name, force, json_mode)
         return
     kinds = kinds or [kind for kind in CONTROLLERS if kind.default]
     trials = _trials(loaded, bench, kinds, cases, until, seed, compiled)

@@ -9,6 +9,7 @@ import click
 
 from tmm_gen.cli.console import Column, progress, table
 from tmm_gen.cli.given import PICTURE
+from tmm_gen.cli.outputs import write_outputs
 from tmm_gen.errors import UserError
 
 if TYPE_CHECKING:
@@ -68,8 +69,6 @@ def show(scene: Scene, trials: list[Trial], until: float, files: list[Path], jso
 
 def write_files(bench: Bench, trials: list[Trial], picture: Path | None, animated: Path | None) -> list[Path]:
     """Write the pictures asked for, all or none; return them."""
-    from tmm_gen.files import write_tree_whole
-
     files: dict[Path, str | bytes] = {}
     if picture is not None:
         from tmm_gen.control.pictures import comparison_picture
@@ -81,29 +80,32 @@ def write_files(bench: Bench, trials: list[Trial], picture: Path | None, animate
         from tmm_gen.measure.animate import animation
 
         files[animated] = animation(motion(bench.scene, trials[-1]), animated.suffix[1:].lower())
-    write_tree_whole(files)
-    return list(files)
+    return write_outputs(files)
 
 
-def emit(bench: Bench, names: list[str], folder: Path, real: str, json_mode: bool) -> None:
+def emit(
+    bench: Bench, names: list[str], folder: Path, real: str, prefix: str | None, force: bool, json_mode: bool
+) -> None:
     """Write a controller as C.
 
     Raises
     ------
     UserError
-        If there is none of that name in C, or more than one is asked for.
+        If there is none of that name in C, more than one is asked for, or the prefix is no name.
     """
     from tmm_gen.control.emitted.emit import EMITTED, emit_controller
-    from tmm_gen.files import write_tree_whole
+    from tmm_gen.scene.identifier import scene_name_fault
 
     if len(names) != 1 or names[0] not in EMITTED:
         raise UserError(
             f"--emit: cannot write {' and '.join(names)}. Choose one by --controller: {', '.join(EMITTED)}."
         )
+    if prefix is not None and (fault := scene_name_fault(prefix)):
+        raise UserError(f"--name {prefix}: {fault[0]}. {fault[1]}")
     with progress(f"writing {names[0]}"):
-        name, files = emit_controller(bench, names[0], real=real)
+        name, files = emit_controller(bench, names[0], real, prefix)
     written = {folder / path: text for path, text in files.items()}
-    write_tree_whole(dict(written))
+    write_outputs(dict(written), force=force)
     rows: list[dict[str, object]] = [
         {"file": path, "bytes": len(text.encode())} for path, text in written.items()
     ]
@@ -112,3 +114,4 @@ def emit(bench: Bench, names: list[str], folder: Path, real: str, json_mode: boo
     table(rows, ["file", Column("bytes", form="d")], json_mode, title=title, more=facts)
     if not json_mode:
         click.echo(f"call {name}_command() once per sample; {folder / (name + '.h')} says how")
+        click.echo(f"try it: cd {folder} && cc -O2 *.c */*.c -lm && ./a.out")

@@ -10,7 +10,9 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from tmm_gen.cli.console import Column, progress, table
+from tmm_gen.cli.outputs import write_outputs
 from tmm_gen.errors import UserError
+from tmm_gen.reading import read_file
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
@@ -49,6 +51,7 @@ def tuned(
     workers: int,
     refine: bool,
     out: Path | None,
+    force: bool,
     json_mode: bool,
 ) -> None:
     """Tune what is named, one after the other, and write the scene with the numbers found.
@@ -69,6 +72,8 @@ def tuned(
         Whether to begin at the scene's numbers.
     out : Path, optional
         Where the tuned scene is written.
+    force : bool
+        Whether to replace a file that is there.
     json_mode : bool
         Whether to print JSON.
 
@@ -96,10 +101,7 @@ def tuned(
             scene = found[-1].scene
     written = []
     if out is not None:
-        from tmm_gen.files import write_whole
-
-        write_whole(out, _text(file, found[-1].scene, wanted))
-        written.append(out)
+        written = write_outputs({out: _text(file, found[-1].scene, wanted)}, force=force)
     _show(found, evaluations, seed, written, json_mode)
 
 
@@ -114,7 +116,7 @@ def _text(file: Path, scene: Scene, tunables: Iterable[Tunable]) -> str:
     from tmm_gen.scene.rewrite import rewritten
 
     keys = dict.fromkeys(knob.key for tunable in tunables for knob in tunable.knobs)
-    text = file.read_bytes().decode("utf-8-sig")
+    text = read_file(file).decode("utf-8-sig")
     return rewritten(text, str(file), scene, {tuple(key.split(".")): number(scene, key) for key in keys})
 
 

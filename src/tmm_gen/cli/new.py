@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import click
 
+from tmm_gen.cli.outputs import write_outputs
 from tmm_gen.errors import UserError
-from tmm_gen.files import write_whole
 
 if TYPE_CHECKING:
     from tmm_gen.scene.model import Kind
@@ -50,7 +50,7 @@ def new(name: str, kind: Kind, out: Path, control: bool, force: bool) -> None:
             raise UserError(f"{target}: is a directory. Choose another name.")
         if not force:
             raise UserError(f"{target}: exists already. Choose another name, or replace it with --force.")
-    write_whole(target, template(name, kind, control))
+    write_outputs({target: template(name, kind, control)}, force=force)
     click.echo(f"wrote {target}")
     then = "mpc" if control else "run"
     click.echo(f"next: edit it, then `tmm-gen build {target}` and `tmm-gen {then} {target}`")

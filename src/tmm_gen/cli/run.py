@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,6 +11,8 @@ import click
 
 from tmm_gen.cli.changes import changed_scene, set_option
 from tmm_gen.cli.console import Column, progress, table
+from tmm_gen.cli.given import PICTURE, picture_option
+from tmm_gen.cli.outputs import OutputFile, claim, write_outputs
 from tmm_gen.errors import UserError
 
 if TYPE_CHECKING:
@@ -18,13 +21,19 @@ if TYPE_CHECKING:
 
 # NumPy, SymPy and Matplotlib are imported inside: `tmm-gen --help` has no use for them.
 
-_PICTURE = "picture"
-"""What ``--plot`` without a file stands for."""
-
 _MOVING = (".gif", ".html")
-_PICTURES = (".png", ".svg", ".pdf")
 _BALANCED = 1e-2
 """Imbalance of energies, as a share of what moves, that is worth a word on how the step may cause it."""
+
+_PROFILES = """\b
+Profiles; times in s (or 0.8s, 800ms), what is in brackets may be absent:
+  step:FROM:TO[:AT]                 a jump, at 0 s or AT
+  ramp:FROM:TO:TIME[:START]         straight from value to value in a time
+  smooth:FROM:TO:TIME[:START]       the same, at rest at both ends (degree five)
+  sine:AMPLITUDE:FREQUENCY[:PHASE]  FREQUENCY in Hz, PHASE in rad (or 90deg)
+  chirp:AMPLITUDE:FIRST:LAST:TIME   from one frequency (Hz) to another in a time
+"""
+"""What ``--input NAME=`` takes besides numbers and files; click leaves lines behind its mark as they are."""
 
 _COLUMNS: list[Column | str] = [
     "output",
@@ -45,19 +54,7 @@ def _time(_context: click.Context, parameter: click.Parameter, value: float | No
     return value
 
 
-def _picture(_context: click.Context, parameter: click.Parameter, value: str | None) -> Path | None:
-    if value not in (None, _PICTURE) and Path(value).suffix.lower() not in _PICTURES:
-        raise click.BadParameter(f"'{value}' must end in {', '.join(_PICTURES)}", param=parameter)
-    return None if value is None else Path(value)
-
-
-def _animated(_context: click.Context, parameter: click.Parameter, value: Path | None) -> Path | None:
-    if value is not None and value.suffix.lower() not in _MOVING:
-        raise click.BadParameter(f"'{value}' must end in {' or '.join(_MOVING)}", param=parameter)
-    return value
-
-
-@click.command("run")
+@click.command("run", epilog=_PROFILES)
 @click.argument("scene", metavar="SCENE", type=click.Path(path_type=Path))
 @click.option(
     "--until", type=float, callback=_time, help="Time to simulate, s; by default five slow periods."
@@ -66,28 +63,27 @@ def _animated(_context: click.Context, parameter: click.Parameter, value: Path |
 @click.option(
     "--input",
     "given",
-    metavar="NAME=VALUE|NAME=FILE.csv|FILE.csv",
+    metavar="NAME=VALUE|NAME=PROFILE|NAME=FILE.csv|FILE.csv",
     multiple=True,
-    help="An input: a constant, a column of a file, or all from one file. Repeatable; the rest is zero.",
+    help="An input: a constant, a profile, a column of a file, or all from one file. Repeatable; the rest is zero.",
 )
 @set_option
 @click.option("--backend", type=click.Choice(["numpy", "c"]), default="numpy", show_default=True)
-@click.option("--csv", "csv_file", type=click.Path(path_type=Path), help="Write the outputs over time.")
+@click.option("--csv", "csv_file", type=OutputFile(), help="Write the outputs over time.")
 @click.option(
     "--plot",
     "picture",
     metavar="[FILE.png]",
     is_flag=False,
-    flag_value=_PICTURE,
-    callback=_picture,
+    flag_value=PICTURE,
+    callback=picture_option,
     help="Draw inputs and outputs; by default into NAME.png.",
 )
 @click.option(
     "--animate",
     "animated",
     metavar="FILE.gif|FILE.html",
-    type=click.Path(path_type=Path),
-    callback=_animated,
+    type=OutputFile(*_MOVING),
     help="Show a planar arm in motion.",
 )
 @click.option("--json", "json_mode", is_flag=True, help="One JSON object instead of a table.")
@@ -106,21 +102,23 @@ def run(
     """Simulate SCENE with its generated kernel.
 
     Files of inputs have a `time` column and a column for each input; between rows values are linear, and the
-    last one stays.
+    last one stays. The angle of a prescribed base goes smoothly through its rows, with its rate and acceleration;
+    where the rows have a corner its rate jumps. Columns NAME_rate and NAME_acceleration tell them exactly.
+
+    A profile is for example --input base_angle=smooth:0:1.5:0.8s; a prescribed base cannot jump.
     """
     from tmm_gen.measure.clock import refuse_other_clock
     from tmm_gen.measure.duration import default_duration
-    from tmm_gen.measure.given import read_inputs
+    from tmm_gen.measure.given import input_names, read_inputs, table_files
     from tmm_gen.measure.run import number_of_steps, simulate, traceable
 
     chosen = changed_scene(scene, changes, step)
-    signals = read_inputs(given, tuple(item.name for item in chosen.inputs))
+    read = (scene, *table_files(given))
+    signals = read_inputs(given, *input_names(chosen))
     planar = chosen.model.kind == "planar"
     if animated is not None and not planar:
         raise UserError(f"--animate {animated}: a chain has no shape to show. Use --plot.")
-    for target in (csv_file, picture, animated):
-        if target is not None and target.is_dir():
-            raise UserError(f"{target}: is a directory. Name a file in it.")
+    claim((csv_file, picture, animated), read)
     duration = until or default_duration(chosen)
     refuse_other_clock(signals, duration)
     steps = number_of_steps(duration, chosen.integrator.step)
@@ -129,30 +127,31 @@ def run(
         # in NumPy the motion of all links is at hand; compiled C would have to stop at every step
         trace = drawn or (backend == "numpy" and traceable(chosen, steps))
         simulation = simulate(chosen, signals, duration, backend, advance, trace=trace)
-    written = _write(simulation, csv_file, picture, animated)
+    written = _write(simulation, csv_file, picture, animated, read)
     _show(simulation, written, json_mode)
 
 
 def _write(
-    simulation: Simulation, csv_file: Path | None, picture: Path | None, animated: Path | None
+    simulation: Simulation,
+    csv_file: Path | None,
+    picture: Path | None,
+    animated: Path | None,
+    read: Sequence[Path],
 ) -> list[Path]:
     """Write the files asked for, all or none; return them."""
-    from tmm_gen.files import write_tree_whole
-
     files: dict[Path, str | bytes] = {}
     if csv_file is not None:
         files[csv_file] = simulation.csv()
     if picture is not None:
         from tmm_gen.measure.plots import response_picture
 
-        target = Path(f"{simulation.scene.name}.png") if picture == Path(_PICTURE) else picture
+        target = Path(f"{simulation.scene.name}.png") if picture == Path(PICTURE) else picture
         files[target] = response_picture(simulation, target.suffix[1:].lower())
     if animated is not None:
         from tmm_gen.measure.animate import animation
 
         files[animated] = animation(simulation, animated.suffix[1:].lower())
-    write_tree_whole(files)
-    return list(files)
+    return write_outputs(files, read)
 
 
 def _show(simulation: Simulation, written: list[Path], json_mode: bool) -> None:
@@ -168,6 +167,7 @@ def _show(simulation: Simulation, written: list[Path], json_mode: bool) -> None:
         "energy_imbalance": simulation.imbalance,
         "unsolved": simulation.unsolved,
         "step_error": simulation.step_error,
+        "notes": list(simulation.notes),
         "files": written,
     }
     done = f"{last:g} s in {simulation.steps} steps of {scene.integrator.step:g} s by {scene.integrator.name}"
@@ -176,6 +176,8 @@ def _show(simulation: Simulation, written: list[Path], json_mode: bool) -> None:
         return
     if simulation.unsolved is not None and not simulation.still:
         click.echo(_trusted(simulation))
+    for note in simulation.notes:
+        click.echo(note)
     for path in written:
         click.echo(f"wrote {path}")
     if simulation.still and scene.inputs:

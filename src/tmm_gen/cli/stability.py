@@ -11,7 +11,8 @@ import click
 
 from tmm_gen.cli.changes import changed_scene, set_option
 from tmm_gen.cli.console import Column, progress, table
-from tmm_gen.cli.given import PICTURE, picture_option, refuse_folders
+from tmm_gen.cli.given import PICTURE, picture_option
+from tmm_gen.cli.outputs import claim, write_outputs
 
 if TYPE_CHECKING:
     from tmm_gen.measure.stability.limits import Standing
@@ -65,7 +66,7 @@ def stability(
 
     loaded = changed_scene(scene, changes)
     chosen = _known(mapped or (loaded.integrator.name,))
-    refuse_folders(file)
+    claim((file,), (scene,))
     if file is not None and cells == 0:
         raise click.UsageError("--plot draws maps: leave out --cells 0.")
     with progress(f"modes of {loaded.name}", total=len(INTEGRATOR_NAMES)) as advance:
@@ -109,13 +110,12 @@ def _measure(motion: SmallMotion, names: list[str], cells: int | None) -> list[G
 def _draw(maps: list[GrowthMap], file: Path | None, name: str) -> list[Path]:
     if file is None:
         return []
-    from tmm_gen.files import write_whole
     from tmm_gen.measure.stability.picture import map_picture
 
     target = Path(f"{name}-stability.png") if file == Path(PICTURE) else file
     with progress("drawing"):
-        write_whole(target, map_picture(maps, target.suffix[1:].lower()))
-    return [target]
+        image = map_picture(maps, target.suffix[1:].lower())
+    return write_outputs({target: image})
 
 
 def _show(

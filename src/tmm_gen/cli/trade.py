@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from tmm_gen.cli.console import Column, progress, table
-from tmm_gen.cli.given import PICTURE, picture_option, positive, refuse_folders
+from tmm_gen.cli.given import PICTURE, picture_option, positive
+from tmm_gen.cli.outputs import OutputFile, claim, write_outputs
 from tmm_gen.cli.study_options import axes_of, numbers, one_of, one_thread, whole_numbers, words
 from tmm_gen.errors import CheckFailed
 
@@ -22,6 +23,12 @@ if TYPE_CHECKING:
 
 REPORT = "report"
 """What ``--report`` without a file stands for."""
+
+
+def _report_option(context: click.Context, parameter: click.Parameter, value: str | None) -> Path | None:
+    if value in (None, REPORT):
+        return None if value is None else Path(value)
+    return OutputFile().convert(value, parameter, context)
 
 
 def grid_options(command: Callable[..., Any]) -> Callable[..., Any]:
@@ -97,7 +104,7 @@ def grid_options(command: Callable[..., Any]) -> Callable[..., Any]:
     "--links", metavar="N,N", callback=whole_numbers, help="Links of a [beam]; by default the scene's."
 )
 @click.option("--backends", metavar="A,B", callback=one_of("c", "numpy"), help="c, numpy; by default c.")
-@click.option("--csv", "csv_file", type=click.Path(path_type=Path), help="Write all configurations.")
+@click.option("--csv", "csv_file", type=OutputFile(), help="Write all configurations.")
 @click.option(
     "--plot",
     "picture",
@@ -113,7 +120,7 @@ def grid_options(command: Callable[..., Any]) -> Callable[..., Any]:
     metavar="[FILE.html]",
     is_flag=False,
     flag_value=REPORT,
-    type=click.Path(path_type=Path),
+    callback=_report_option,
     help="Write one page that needs no other file; by default NAME-trade.html.",
 )
 @click.option("--all", "show_all", is_flag=True, help="Show all configurations, not only the best.")
@@ -135,27 +142,27 @@ def trade(
     output travels. Costs are those of the generated C, compiled and run on this machine. Shown are the
     configurations that no other beats in both.
     """
-    refuse_folders(csv_file, picture, report_file)
+    claim((csv_file, picture, report_file), (scene,))
     one_thread()
     study = run(scene, {"links": links, "backends": backends, **common})
     if (picture or report_file) and not any(point.finished for point in study.points):
         raise CheckFailed(
             f"{scene}: no configuration finished, so that there is nothing to draw. Try shorter --steps."
         )
-    written = _write(study, csv_file, picture, report_file)
+    written = _write(scene, study, csv_file, picture, report_file)
     _show(study, written, show_all, json_mode)
 
 
 def run(path: Path, options: dict[str, Any]) -> Study:
     """Read a scene and study it."""
-    from tmm_gen.measure.given import read_inputs
+    from tmm_gen.measure.given import input_names, read_inputs
     from tmm_gen.measure.trade.excitation import excitation
     from tmm_gen.measure.trade.grid import configurations
     from tmm_gen.measure.trade.study import run_study
     from tmm_gen.scene import load_scene
 
     scene = load_scene(path)
-    given = read_inputs(options["given"], tuple(item.name for item in scene.inputs))
+    given = read_inputs(options["given"], *input_names(scene))
     went = excitation(scene, given, options["until"], options["output"])
     grid = configurations(scene, axes_of(scene, options), went.until)
     rounds = options["rounds"]
@@ -182,9 +189,10 @@ def executor(options: dict[str, Any]) -> Executor | None:
     return Cluster(options["workers"] or 0, options["scheduler"])
 
 
-def _write(study: Study, csv_file: Path | None, picture: Path | None, report_file: Path | None) -> list[Path]:
+def _write(
+    scene: Path, study: Study, csv_file: Path | None, picture: Path | None, report_file: Path | None
+) -> list[Path]:
     """Write the files asked for, all or none; return them."""
-    from tmm_gen.files import write_tree_whole
     from tmm_gen.measure.rows import csv_text
 
     files: dict[Path, str | bytes] = {}
@@ -200,8 +208,7 @@ def _write(study: Study, csv_file: Path | None, picture: Path | None, report_fil
 
         target = Path(f"{study.scene.name}-trade.html") if report_file == Path(REPORT) else report_file
         files[target] = report(study)
-    write_tree_whole(files)
-    return list(files)
+    return write_outputs(files, (scene,))
 
 
 _COLUMNS: list[Column | str] = [

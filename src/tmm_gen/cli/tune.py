@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from tmm_gen.cli.console import Column, progress, table
-from tmm_gen.cli.given import positive, refuse_folders
+from tmm_gen.cli.given import positive
+from tmm_gen.cli.outputs import OutputFile, force_option, require_new, write_outputs
 from tmm_gen.cli.study_options import axes_of, one_of, one_thread, whole_numbers, words
 from tmm_gen.errors import UserError
 
@@ -69,15 +70,20 @@ if TYPE_CHECKING:
     "--output", metavar="NAME", help="Where the error is measured; by default the tip's place or angle."
 )
 @click.option("--target", metavar="NAME", help="Microcontroller that the scene's [emit.budget] is for.")
-@click.option(
-    "--out", "out_file", type=click.Path(path_type=Path), metavar="FILE", help="Write the tuned scene."
-)
+@click.option("--out", "out_file", type=OutputFile(), metavar="FILE", help="Write the tuned scene.")
 @click.option(
     "--rounds", type=click.IntRange(min=1), default=9, show_default=True, help="Measurements of each time."
 )
+@force_option
 @click.option("--json", "json_mode", is_flag=True, help="One JSON object instead of a table.")
 def tune(
-    scene: Path, max_error: str, max_time: str, out_file: Path | None, json_mode: bool, **options: Any
+    scene: Path,
+    max_error: str,
+    max_time: str,
+    out_file: Path | None,
+    force: bool,
+    json_mode: bool,
+    **options: Any,
 ) -> int:
     """Find the cheapest way to compute SCENE within an error and a time.
 
@@ -85,12 +91,12 @@ def tune(
     running it afresh. A plain number bounds the error relative to how far the output travels. Exits with 1 if
     nothing keeps both bounds, and says what comes nearest.
     """
-    refuse_folders(out_file)
+    require_new(out_file, force)
     one_thread()
     tuning, allowed = _search(scene, max_error, max_time, options)
     written = []
     if out_file is not None and tuning.chosen is not None:
-        written.append(_write(scene, out_file, tuning))
+        written.append(_write(scene, out_file, tuning, force))
     _show(tuning, allowed, written, json_mode)
     return 0 if tuning.chosen is not None else 1
 
@@ -98,7 +104,7 @@ def tune(
 def _search(
     path: Path, max_error: str, max_time: str, options: dict[str, Any]
 ) -> tuple[Tuning, Allowance | None]:
-    from tmm_gen.measure.given import read_inputs
+    from tmm_gen.measure.given import input_names, read_inputs
     from tmm_gen.measure.trade.bounds import read_error, read_time
     from tmm_gen.measure.trade.budgets import allowance
     from tmm_gen.measure.trade.excitation import excitation
@@ -112,7 +118,7 @@ def _search(
     links = () if auto or options["links"] is None else _links(options["links"])
     axes = axes_of(scene, {**options, "links": links, "steps": (), "backends": ("c",)})
     _known_target(options["target"])
-    given = read_inputs(options["given"], tuple(item.name for item in scene.inputs))
+    given = read_inputs(options["given"], *input_names(scene))
     went = excitation(scene, given, options["until"], options["output"])
     allowed = allowance(scene, options["target"])
     with progress(f"tuning {scene.name}", total=len(families(scene, axes)) * (1 + auto)) as advance:
@@ -140,16 +146,16 @@ def _known_target(name: str | None) -> None:
         raise UserError(f"--target {name}: no such microcontroller; there are {', '.join(BOARDS)}.")
 
 
-def _write(scene: Path, target: Path, tuning: Tuning) -> Path:
-    from tmm_gen.files import write_whole
+def _write(scene: Path, target: Path, tuning: Tuning, force: bool) -> Path:
     from tmm_gen.measure.trade.explain import remarks
     from tmm_gen.measure.trade.rewrite import rewritten
+    from tmm_gen.reading import read_file
 
     assert tuning.chosen is not None
-    text = scene.read_text(encoding="utf-8-sig")
+    text = read_file(scene).decode("utf-8-sig")
     accepted = tuning.verified.accepted if tuning.verified is not None else None
     chosen = rewritten(text, tuning.scene, tuning.chosen.configuration, remarks(tuning), accepted)
-    write_whole(target, chosen)
+    write_outputs({target: chosen}, force=force)
     return target
 
 

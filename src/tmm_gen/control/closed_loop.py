@@ -51,7 +51,7 @@ class Loop:
 
     @property
     def fallbacks(self) -> int:
-        """How often the safe law stepped in."""
+        """How many samples had a status other than OK."""
         return sum(status is not Status.OK for status in self.statuses)
 
 

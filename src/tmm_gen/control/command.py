@@ -13,14 +13,26 @@ Array = NDArray[np.float64]
 
 
 class Status(Enum):
-    """How a torque came about."""
+    """How a torque came about.
+
+    The first three are the controller's own law, with all or with less than there should be; with the others the
+    safe law stepped in. In C they have other numbers.
+    """
 
     OK = "ok"
-    MEASUREMENT = "a measurement is not finite"
-    ESTIMATE = "the estimate is not finite"
+    REDUCED = "a sensor was left out"
+    RELAXED = "soft bounds were left out"
+    MEASUREMENT = "the encoder shows nothing that can be"
+    ESTIMATE = "the estimate is of no use"
     INFEASIBLE = "the optimisation has no solution"
     ITERATIONS = "the optimisation ran out of iterations"
     NOT_FINITE = "the optimisation is not finite"
+    MISSING = "a pointer is NULL"
+
+    @property
+    def optimal(self) -> bool:
+        """Whether the torque is that of the controller's own law."""
+        return self in (Status.OK, Status.REDUCED, Status.RELAXED)
 
 
 @dataclass(frozen=True)
@@ -32,7 +44,7 @@ class Command:
     torque : float
         N m, within its bounds.
     status : Status
-        ``OK``, or why the safe law stepped in.
+        ``OK``, or what was not as it should be.
     iterations : int
         Of the solver.
     """

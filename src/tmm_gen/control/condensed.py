@@ -15,6 +15,10 @@ from tmm_gen.control.problem import ControlProblem
 
 Array = NDArray[np.float64]
 
+BEYOND = 0.1
+"""A soft bound that the arm is so far beyond, or will be even if it brakes, is left out until it is back, rad: it would
+be passed at nearly every sample of the horizon, whatever the torques, and pull where the reference pulls already."""
+
 
 @dataclass(frozen=True, eq=False)
 class Outputs:
@@ -145,8 +149,15 @@ class Condensed:
                 found += weight * error @ slope
         return np.concatenate([found, np.zeros(self.size - len(found))])
 
-    def bounds(self, along: Outputs, inputs: Array, last: float) -> tuple[Array, Array]:
-        """Return lower and upper bounds of the inputs and of the rows, with arguments as for :meth:`gradient`."""
+    def bounds(
+        self, along: Outputs, inputs: Array, last: float, stopping: float | None = None
+    ) -> tuple[Array, Array]:
+        """Return lower and upper bounds of the inputs and of the rows, with arguments as for :meth:`gradient`.
+
+        Soft ones that the arm is far beyond at the first sample, or will be even if it brakes, are infinite;
+        ``stopping`` is that of the target unless it is given.
+        """
+        stopping = self.stopping if stopping is None else stopping
         problem, count = self.problem, self.problem.horizon
         low, high = [problem.torque[0] - inputs], [problem.torque[1] - inputs]
         if problem.torque_rate is not None:
@@ -157,10 +168,33 @@ class Condensed:
             high.append(change - changes)
         none = np.full(count, np.inf)
         for present, value in ((problem.tip, along.tip), (problem.hub, along.hub)):
-            if present is not None and np.isfinite(present[1]):
+            if present is None:
+                continue
+            way = float(value[1] - value[0]) if count > 1 else 0.0
+            ahead = value[0] + np.copysign(stopping * way**2, way)
+            near = min(value[0], ahead) >= present[0] - BEYOND and max(value[0], ahead) <= present[1] + BEYOND
+            if np.isfinite(present[1]):
                 low.append(-none)
-                high.append(present[1] - value)
-            if present is not None and np.isfinite(present[0]):
-                low.append(present[0] - value)
+                high.append(present[1] - value if near else none)
+            if np.isfinite(present[0]):
+                low.append(present[0] - value if near else -none)
                 high.append(none)
         return np.concatenate(low), np.concatenate(high)
+
+    @property
+    def stopping(self) -> float:
+        """Half the angle in which the largest torque stops the arm, if it turned by 1 rad per sample, rad.
+
+        From how far a torque throughout turns the hub in the horizon: the rigid arm by half its acceleration times
+        the time squared. Half, since the arm vibrates.
+        """
+        count = self.problem.horizon
+        largest = max(abs(bound) for bound in self.problem.torque)
+        turned = largest * abs(float(np.sum(self.slopes.hub[-1])))
+        return 0.25 * count**2 / (2.0 * turned) if turned > 0.0 else 0.0
+
+    @cached_property
+    def soft(self) -> NDArray[np.bool_]:
+        """Which of the bounds are soft."""
+        hard = self.problem.horizon * (1 if self.problem.torque_rate is None else 2)
+        return np.arange(self.problem.horizon + len(self.rows)) >= hard

@@ -5,9 +5,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from tmm_gen.control.credible import Credible
 from tmm_gen.control.delay import Pair
 from tmm_gen.control.kalman import KalmanFilter
 from tmm_gen.control.linear import LinearModel
+from tmm_gen.control.links import rest_state
 from tmm_gen.control.step_model import StepModel
 
 Array = NDArray[np.float64]
@@ -26,18 +28,34 @@ class NonlinearFilter:
 
     def __init__(self, model: StepModel, linear: LinearModel) -> None:
         self.model = model
-        stationary = KalmanFilter(linear, model.problem)
-        self.gain, self.sensors = stationary.gain, stationary.sensors
+        self._linear, self._stationary = linear, KalmanFilter(linear, model.problem)
+        self.gain, self.sensors = self._stationary.gain, self._stationary.sensors
+        self.home, self.length = linear.start_hub, linear.length
+        self._angles, self._rates = model.places("angle"), model.places("rate")
         self.reset()
 
     def reset(self) -> None:
         """Start from the scene's initial motion."""
         self.estimate = np.append(self.model.initial(), 0.0)
 
-    def correct(self, measured: Array) -> None:
-        """Take a measurement in, (3,), NaN where there is no sensor."""
-        seen = np.array(self.model.sensors(self.estimate[:-1])).ravel()
-        self.estimate = self.estimate + self.gain @ (measured - seen)[self.sensors]
+    def turn(self, angle: float) -> None:
+        """Turn the whole arm by an angle, rad."""
+        self.estimate[self._angles] += angle
+
+    def rest(self, hub: float, rate: float) -> None:
+        """Start anew from an arm of the target's shape: where its hub is, rad, and how fast it turns, rad/s."""
+        self.estimate = np.append(rest_state(self.model, self._linear), 0.0)
+        self.estimate[self._angles] += hub - self._linear.target_hub
+        self.estimate[self._rates] = rate
+
+    def surprise(self, measured: Array) -> Array:
+        """Return how far a measurement is off what is expected, (3,), NaN where there is no sensor."""
+        return np.asarray(measured - np.array(self.model.sensors(self.estimate[:-1])).ravel(), float)
+
+    def correct(self, surprise: Array, sensors: tuple[int, ...], most: float) -> None:
+        """Take in what some sensors are off, (3,); the disturbance stays within ``most`` N m either way."""
+        self.estimate = self.estimate + self._stationary.gain_of(sensors) @ surprise[list(sensors)]
+        self.estimate[-1] = np.clip(self.estimate[-1], -most, most)
 
     def advance(self, torques: Pair, end: float) -> None:
         """Predict a sample with the torques that act in it, and the one at its end, N m."""
@@ -50,9 +68,14 @@ class NonlinearFilter:
             estimate = self._after(estimate, pair)
         return estimate[:-1], float(estimate[-1])
 
-    def finite(self) -> bool:
-        """Return whether the estimate can be used."""
-        return bool(np.all(np.isfinite(self.estimate)))
+    def usable(self, limits: Credible) -> bool:
+        """Return whether the estimate can be that of an arm: finite, no link far out of line, none too fast."""
+        angles = self.estimate[self._angles]
+        return bool(
+            np.all(np.isfinite(self.estimate))
+            and np.max(np.abs(angles - angles[0])) <= limits.bend
+            and np.max(np.abs(self.estimate[self._rates])) <= limits.rate
+        )
 
     def _after(self, estimate: Array, torques: Pair) -> Array:
         after = np.array(self.model.sample(estimate[:-1], np.array(torques) + estimate[-1])).ravel()
@@ -71,7 +94,6 @@ class ExtendedKalmanFilter(NonlinearFilter):
     """
 
     def __init__(self, model: StepModel, linear: LinearModel) -> None:
-        self._stationary = KalmanFilter(linear, model.problem)
         super().__init__(model, linear)
 
     def reset(self) -> None:
@@ -79,13 +101,21 @@ class ExtendedKalmanFilter(NonlinearFilter):
         super().reset()
         self.covariance = self._stationary.covariance
 
-    def correct(self, measured: Array) -> None:
-        """Take a measurement in, (3,), NaN where there is no sensor."""
-        seen, by_state = (np.array(item) for item in self.model.sensor_slopes(self.estimate[:-1]))
-        measure = np.column_stack([by_state, np.zeros(3)])[self.sensors]
+    def rest(self, hub: float, rate: float) -> None:
+        """Start anew; see :class:`NonlinearFilter`."""
+        super().rest(hub, rate)
+        self.covariance = self._stationary.covariance
+
+    def correct(self, surprise: Array, sensors: tuple[int, ...], most: float) -> None:
+        """Take in what some sensors are off, (3,); the disturbance stays within ``most`` N m either way."""
+        _, by_state = (np.array(item) for item in self.model.sensor_slopes(self.estimate[:-1]))
+        seen = list(sensors)
+        measure = np.column_stack([by_state, np.zeros(3)])[seen]
         product = measure @ self.covariance
-        gain = np.linalg.solve(product @ measure.T + self._stationary.noise, product).T
-        self.estimate = self.estimate + gain @ (measured - seen.ravel())[self.sensors]
+        noise = self._stationary.noise_of(sensors)
+        gain = np.linalg.solve(product @ measure.T + noise, product).T
+        self.estimate = self.estimate + gain @ surprise[seen]
+        self.estimate[-1] = np.clip(self.estimate[-1], -most, most)
         self.covariance = self.covariance - gain @ product
 
     def advance(self, torques: Pair, end: float) -> None:
@@ -101,6 +131,6 @@ class ExtendedKalmanFilter(NonlinearFilter):
         spread = transition @ self.covariance @ transition.T
         self.covariance = 0.5 * (spread + spread.T) + self._stationary.driven(np.append(drive, 0.0))
 
-    def finite(self) -> bool:
-        """Return whether the estimate can be used."""
-        return super().finite() and bool(np.all(np.isfinite(self.covariance)))
+    def usable(self, limits: Credible) -> bool:
+        """Return whether the estimate can be that of an arm, and its covariance is finite."""
+        return super().usable(limits) and bool(np.all(np.isfinite(self.covariance)))

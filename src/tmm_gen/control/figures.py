@@ -30,7 +30,7 @@ class Figures:
     offset : float
         Mean of the tip less the reference over the last fifth of that time, rad.
     fallbacks : int
-        Samples in which the safe law stepped in.
+        Samples whose status was not OK.
     """
 
     settling: float | None

@@ -12,6 +12,7 @@ from tmm_gen.control.fitted_keys import changes, replaced
 from tmm_gen.errors import UserError
 from tmm_gen.measure.clock import from_start, refuse_what_is_unknown, spacing
 from tmm_gen.measure.columns import output_columns
+from tmm_gen.measure.prescribed import kernel_signals
 from tmm_gen.measure.signals import Signal, Table
 from tmm_gen.native import NativeKernel, compile_kernel
 from tmm_gen.native.series import Series
@@ -84,7 +85,8 @@ class Fit:
         self.instants = np.unique(times, return_inverse=True)[1]
         self.times = step * np.arange(steps + 1)
         self.kernel: NativeKernel = compile_kernel(program, unlike)
-        self.series = Series(self.kernel, {name: each.at for name, each in signals.items()}, steps, step)
+        taken = {name: each.at for name, each in kernel_signals(unlike, signals).items()}
+        self.series = Series(self.kernel, taken, steps, step)
 
     def remains(self, logarithms: Array) -> Array:
         """Return what the model is off at the recorded instants, relative to the record's standard deviation."""

@@ -74,8 +74,7 @@ class FullNmpc(ModelBased):
         self._guess: Array | None = None
         super().__init__(model.problem, ExtendedKalmanFilter(model, linear), model.delay, inertia)
 
-    def _start(self) -> None:
-        super()._start()
+    def _forget(self) -> None:
         self._guess = None
 
     @cached_property

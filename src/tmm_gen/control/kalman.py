@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.control.delay import Pair
 from tmm_gen.control.linear import LinearModel
 from tmm_gen.control.problem import ControlProblem
+
+if TYPE_CHECKING:
+    from tmm_gen.control.credible import Credible
 
 Array = NDArray[np.float64]
 
@@ -56,7 +61,9 @@ class KalmanFilter:
         self._assumed = problem.estimator
         spreads = np.array([self._assumed.encoder, self._assumed.accelerometer, self._assumed.strain])
         self.noise = np.diag(spreads[self.sensors] ** 2)
-        self.gain, self.covariance = self._stationary()
+        self.home, self.length = model.start_hub, model.length
+        self.gain, self.covariance = self._stationary(tuple(self.sensors))
+        self._gains = {tuple(self.sensors): self.gain}
         self.reset()
 
     def reset(self) -> None:
@@ -64,16 +71,43 @@ class KalmanFilter:
         self.estimate = np.append(self.model.start, 0.0)
         self._direct = 0.0
 
-    def correct(self, measured: Array) -> None:
-        """Take a measurement in, (3,), NaN where there is no sensor."""
+    def turn(self, angle: float) -> None:
+        """Turn the whole arm by an angle, rad."""
+        self.estimate[:-1] += angle * self.model.turned
+
+    def rest(self, hub: float, rate: float) -> None:
+        """Start anew from an arm of the target's shape: where its hub is, rad, and how fast it turns, rad/s."""
+        model = self.model
+        self.estimate = np.append((hub - model.target_hub) * model.turned + rate * model.turn, 0.0)
+
+    def surprise(self, measured: Array) -> Array:
+        """Return how far a measurement is off what is expected, (3,), NaN where there is no sensor."""
         model, state = self.model, self.estimate[:-1]
-        seen = measured - model.target_sensors
+        seen = (
+            measured
+            - model.target_sensors
+            - model.measure @ state
+            - model.feed * (self._direct + self.estimate[-1])
+        )
         rate = float(model.tip_rate @ state)
         seen[1] -= rate * rate * float(model.whirl @ state)
-        seen = seen[self.sensors]
-        self.estimate = self.estimate + self.gain @ (
-            seen - self.measure @ self.estimate - self.feed * self._direct
-        )
+        return np.asarray(seen, float)
+
+    def correct(self, surprise: Array, sensors: tuple[int, ...], most: float) -> None:
+        """Take in what some sensors are off, (3,); the disturbance stays within ``most`` N m either way."""
+        self.estimate = self.estimate + self.gain_of(sensors) @ surprise[list(sensors)]
+        self.estimate[-1] = np.clip(self.estimate[-1], -most, most)
+
+    def noise_of(self, sensors: tuple[int, ...]) -> Array:
+        """Return the covariance of the noise of some sensors."""
+        places = [self.sensors.index(sensor) for sensor in sensors]
+        return self.noise[np.ix_(places, places)]
+
+    def gain_of(self, sensors: tuple[int, ...]) -> Array:
+        """Return the stationary gain of a filter that reads some of the sensors only, (m + 1, those)."""
+        if sensors not in self._gains:
+            self._gains[sensors] = self._stationary(sensors)[0]
+        return self._gains[sensors]
 
     def advance(self, torques: Pair, end: float) -> None:
         """Predict a sample with the torques that act in it, and the one at its end, N m."""
@@ -93,8 +127,8 @@ class KalmanFilter:
         after[:-1] += self.model.before * before + self.model.then * then
         return np.asarray(after, float)
 
-    def finite(self) -> bool:
-        """Return whether the estimate can be used."""
+    def usable(self, limits: Credible) -> bool:
+        """Return whether the estimate can be that of an arm: the filter is stable, so that it need be finite only."""
         return bool(np.all(np.isfinite(self.estimate)))
 
     def driven(self, drive: Array) -> Array:
@@ -105,14 +139,16 @@ class KalmanFilter:
         found[-1, -1] += self._assumed.disturbance**2
         return np.asarray(found, float)
 
-    def _stationary(self) -> tuple[Array, Array]:
+    def _stationary(self, sensors: tuple[int, ...]) -> tuple[Array, Array]:
         """Iterate the Riccati equation until it stands; return gain and covariance before a measurement."""
+        measure = self.measure[[self.sensors.index(sensor) for sensor in sensors]]
+        noise = self.noise_of(sensors)
         driven = self.driven(self.drive)
         covariance: Array = driven.copy()
-        gain: Array = np.zeros((len(driven), len(self.noise)))
+        gain: Array = np.zeros((len(driven), len(noise)))
         for _ in range(_MOST):
-            seen = self.measure @ covariance
-            new: Array = np.asarray(np.linalg.solve(seen @ self.measure.T + self.noise, seen).T, float)
+            seen = measure @ covariance
+            new: Array = np.asarray(np.linalg.solve(seen @ measure.T + noise, seen).T, float)
             corrected = covariance - new @ seen
             covariance[:] = self.transition @ (0.5 * (corrected + corrected.T)) @ self.transition.T + driven
             settled = np.max(np.abs(new - gain)) <= _SETTLED * np.max(np.abs(new))

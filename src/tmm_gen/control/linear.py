@@ -42,6 +42,10 @@ class LinearModel:
         of the line of the last link, is pulled inward across it.
     turn : array, (m,)
         What all rates grown by 1 rad/s are in the state.
+    turned : array, (m,)
+        What all angles grown by 1 rad are in the state.
+    start_hub, length : float
+        Hub angle at time zero, rad; from hub to tip, m.
     start : array, (m,)
         State at time zero.
     delay : Delay
@@ -62,6 +66,9 @@ class LinearModel:
     target_torque: float
     whirl: Array
     turn: Array
+    turned: Array
+    start_hub: float
+    length: float
     start: Array
     delay: Delay
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.control.command import Command, Status
+from tmm_gen.control.command import Command
 from tmm_gen.control.condensed import Condensed
 from tmm_gen.control.kalman import KalmanFilter
 from tmm_gen.control.linear import LinearModel
@@ -40,14 +40,13 @@ class LinearMpc(ModelBased):
         self._program = QuadraticProgram(self.condensed.hessian, self.condensed.rows, problem.horizon)
         super().__init__(problem, KalmanFilter(model, problem), model.delay, inertia)
 
-    def _start(self) -> None:
-        super()._start()
+    def _forget(self) -> None:
         self._program.forget()
 
     def decide(self, state: Array, disturbance: float, last: float) -> Command:
         """Solve the quadratic program about no torque at all; see :class:`ModelBased`."""
         solution = self.planned(state, disturbance, last)
-        torque = float(solution.point[0]) if solution.status is Status.OK else 0.0
+        torque = float(solution.point[0]) if solution.status.optimal else 0.0
         return Command(torque, solution.status, solution.iterations)
 
     def planned(self, state: Array, disturbance: float, last: float) -> Solution:
@@ -56,7 +55,8 @@ class LinearMpc(ModelBased):
         found = self.response.by_state @ state + self.response.by_constant * pushed
         along = self.response.outputs(found + self.response.by_last * last + self.offsets)
         nothing = np.zeros(self.problem.horizon)
-        return self._program.solve(
+        return self._program.solve_softly(
             self.condensed.gradient(along, nothing, last, disturbance),
             *self.condensed.bounds(along, nothing, last),
+            soft=self.condensed.soft,
         )

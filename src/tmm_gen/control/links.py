@@ -41,6 +41,8 @@ def links_model(model: StepModel) -> LinearModel:
     whirl *= model.lengths.sum()
     turn = np.zeros(model.size)
     turn[model.places("rate")] = 1.0
+    turned = np.zeros(model.size)
+    turned[model.places("angle")] = 1.0
     return LinearModel(
         transition=transition,
         before=drives[:, 0],
@@ -56,6 +58,9 @@ def links_model(model: StepModel) -> LinearModel:
         target_torque=target.torque,
         whirl=whirl,
         turn=turn,
+        turned=turned,
+        start_hub=float(model.initial()[model.places("angle")[0]]),
+        length=float(model.lengths.sum()),
         start=model.initial() - state,
         delay=model.delay,
     )

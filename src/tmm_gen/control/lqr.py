@@ -43,6 +43,9 @@ class Regulator(ModelBased):
         self.gain = np.linalg.solve(price + b.T @ value @ b, b.T @ value @ a)[0]
         super().__init__(problem, KalmanFilter(model, problem), model.delay, inertia)
 
+    def _forget(self) -> None:
+        """Do nothing: this one plans nothing."""
+
     def decide(self, state: Array, disturbance: float, last: float) -> Command:
         """Return the torque of the linear law; see :class:`ModelBased`."""
         return Command(self.model.target_torque - disturbance - float(self.gain @ state))

@@ -73,6 +73,9 @@ def modes_model(scene: Scene, problem: ControlProblem) -> LinearModel:
         target_torque=target.torque,
         whirl=np.concatenate([lengths.sum() * (shapes[-1] - tip), still]),
         turn=np.concatenate([still, coordinates @ np.ones(len(mass))]),
+        turned=np.concatenate([coordinates @ np.ones(len(mass)), still]),
+        start_hub=float(shapes[0] @ (coordinates @ start)) + float(target.angles[0]),
+        length=float(lengths.sum()),
         start=np.concatenate([coordinates @ start, coordinates @ rates]),
         delay=delay,
     )

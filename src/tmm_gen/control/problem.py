@@ -33,6 +33,9 @@ The state is first predicted over ``whole`` samples with torques already chosen;
                 tip_low - s_i <= tip_i <= tip_high + s_i      (if there is an overshoot)    i = 1..N
                 hub_low - r_i <= hub_i <= hub_high + r_i      (if there are hub bounds)     i = 1..N
 
+A soft bound gives way, at all i, where the arm is more than 0.1 rad beyond it at i = 1, or will be even if it brakes
+(:meth:`tmm_gen.control.condensed.Condensed.bounds`): it would be passed at nearly every sample, whatever the torques.
+
 The last term is the cost to go: what the first two sums would come to beyond the horizon, without bounds, for the model
 linearised about the target (:mod:`tmm_gen.control.terminal`). Of the tip only the side beyond the reference is bounded,
 by ``reference + overshoot (reference - start)``, where ``start`` is the tip angle of the scene's initial state.
@@ -49,8 +52,9 @@ by ``reference + overshoot (reference - start)``, where ``start`` is the tip ang
 Decision variables are ``z = (u - u^, s, r)``; slacks of absent bounds are absent. The Hessian is the Gauss-Newton
 one. Rows in order: bounds of the torques (N), then rates of change (N), tip (N), hub (N), those present.
 
-**Safe law.** If the QP is not solved (not finite, infeasible, out of iterations), the controller applies
-:func:`tmm_gen.control.safe.safe_torque` and says so. Every torque that leaves a controller is within its bounds.
+**Safe law.** If the QP is not solved, it is once more without its soft bounds. If that fails too, the controller
+applies :func:`tmm_gen.control.safe.safe_torque` and says so. Every torque that leaves a controller is within its
+bounds.
 """
 
 from __future__ import annotations

@@ -70,6 +70,7 @@ class QuadraticProgram:
         self._solver.settings = {"iter_limit": ITERATION_LIMIT}
         width = bounded + len(rows)
         self._cold = True
+        self._left_out = np.ones(2 * width, bool)
         flag, _ = self._solver.setup(
             np.ascontiguousarray(hessian),
             np.zeros(len(hessian)),
@@ -84,6 +85,23 @@ class QuadraticProgram:
     def forget(self) -> None:
         """Start the next solution from no active set."""
         self._cold = True
+
+    def solve_softly(
+        self,
+        gradient: Array,
+        low: Array,
+        high: Array,
+        soft: NDArray[np.bool_],
+        hessian: Array | None = None,
+        rows: Array | None = None,
+    ) -> Solution:
+        """Solve, and if that fails once more without the bounds that are soft: ``RELAXED`` if that works."""
+        found = self.solve(gradient, low, high, hessian, rows)
+        if found.status in (Status.OK, Status.NOT_FINITE):
+            return found
+        again = self.solve(gradient, np.where(soft, -np.inf, low), np.where(soft, np.inf, high))
+        status = Status.RELAXED if again.status is Status.OK else again.status
+        return Solution(again.point, status, found.iterations + again.iterations)
 
     def solve(
         self,
@@ -106,6 +124,10 @@ class QuadraticProgram:
             return Solution(nothing, Status.NOT_FINITE, 0)
         if np.any(low > high):
             return Solution(nothing, Status.INFEASIBLE, 0)
+        left_out = np.abs(np.concatenate([low, high])) >= INFINITE
+        # no bound that is left out may stay active
+        self._cold = self._cold or bool(np.any(left_out != self._left_out))
+        self._left_out = left_out
         flag = self._solver.update(
             H=None if hessian is None else np.ascontiguousarray(hessian),
             f=gradient,

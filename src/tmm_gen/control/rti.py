@@ -12,7 +12,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.control.command import Command, Status
+from tmm_gen.control.command import Command
 from tmm_gen.control.condensed import Condensed, Outputs
 from tmm_gen.control.extended_kalman import ExtendedKalmanFilter, NonlinearFilter
 from tmm_gen.control.linear import LinearModel
@@ -67,8 +67,7 @@ class RealTimeIteration(ModelBased):
         """The state at the target, (m,)."""
         return rest_state(self.model, self.linear)
 
-    def _start(self) -> None:
-        super()._start()
+    def _forget(self) -> None:
         self._program.forget()
         self._plan = np.full(self.problem.horizon, self.linear.target_torque)
 
@@ -83,17 +82,18 @@ class RealTimeIteration(ModelBased):
         along = Outputs(tip, tip_rate, hub, hub_rate, self.end @ left)
         condensed = self.prepared if self.zero_order else self._linearised(state, states, inputs)
         renewed = condensed is not self.prepared
-        solution = self._program.solve(
+        solution = self._program.solve_softly(
             condensed.gradient(along, plan, last, disturbance),
-            *condensed.bounds(along, plan, last),
+            *condensed.bounds(along, plan, last, self.prepared.stopping),
+            soft=condensed.soft,
             hessian=condensed.hessian if renewed else None,
             rows=condensed.rows if renewed else None,
         )
-        if solution.status is not Status.OK:
+        if not solution.status.optimal:
             self._plan = np.full(len(plan), np.clip(self.linear.target_torque - disturbance, low, high))
             return Command(0.0, solution.status, solution.iterations)
         self._plan = plan + solution.point[: len(plan)]
-        return Command(float(self._plan[0]), Status.OK, solution.iterations)
+        return Command(float(self._plan[0]), solution.status, solution.iterations)
 
     def _linearised(self, state: Array, states: Array, inputs: Array) -> Condensed:
         """Return the quadratic program with sensitivities along a trajectory."""

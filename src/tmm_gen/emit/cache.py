@@ -17,8 +17,13 @@ from pathlib import Path
 
 from tmm_gen.emit.write import written_files
 from tmm_gen.files import write_whole
+from tmm_gen.reading import read_file
 from tmm_gen.resources import templates_dir
+from tmm_gen.trusted import digest_of, discard, own_content, own_folder
 from tmm_gen.version import __version__
+
+_LARGEST = 2**22
+"""Bytes of an entry."""
 
 VARIABLE = "TMM_GEN_CACHE"
 """Environment variable that names another folder for the cache."""
@@ -49,7 +54,7 @@ def is_up_to_date(digest: str, folder: Path) -> bool:
     wanted = {folder / path: expected for path, expected in known.items()}
     if any(path not in wanted for path in written_files(folder)):
         return False
-    return all(path.is_file() and _hash(path.read_bytes()) == expected for path, expected in wanted.items())
+    return all(_is_file_with(path, expected) for path, expected in wanted.items())
 
 
 def remember(digest: str, files: Mapping[str, str]) -> None:
@@ -62,9 +67,15 @@ def remember(digest: str, files: Mapping[str, str]) -> None:
     files : mapping from str to str
         Text by path inside the package.
     """
-    hashes = {path: _hash(text.encode()) for path, text in files.items()}
+    hashes = {path: digest_of(text.encode()) for path, text in files.items()}
+    body = json.dumps(hashes, indent=1, sort_keys=True) + "\n"
+    entry = _entry(digest)
     with suppress(OSError):
-        write_whole(_entry(digest), json.dumps(hashes, indent=1, sort_keys=True) + "\n")
+        own_folder(entry.parent)
+        if own_content(entry, _LARGEST) is None:
+            discard(entry)
+        write_whole(entry, f"{_seal(entry, body)}\n{body}")
+        entry.chmod(0o600)
 
 
 @cache
@@ -79,19 +90,31 @@ def generator_digest() -> str:
     return digest.hexdigest()
 
 
+def _is_file_with(path: Path, expected: str) -> bool:
+    try:
+        return digest_of(read_file(path)) == expected
+    except OSError:
+        return False
+
+
 def _entry(digest: str) -> Path:
     key = hashlib.sha256(f"{digest}\n{generator_digest()}".encode()).hexdigest()
     return cache_folder() / "build" / f"{key}.json"
 
 
 def _recorded(digest: str) -> dict[str, str] | None:
-    try:
-        found = json.loads(_entry(digest).read_text())
-    except (OSError, ValueError):
+    """Return what an entry says; None for one that is damaged, or that somebody else could have written."""
+    entry = _entry(digest)
+    content = own_content(entry, _LARGEST)
+    if content is None:
         return None
-    good = isinstance(found, dict) and found and all(isinstance(value, str) for value in found.values())
-    return found if good else None
+    seal, _, body = content.decode(errors="replace").partition("\n")
+    if seal != _seal(entry, body):
+        return None
+    found: dict[str, str] = json.loads(body)  # as it was written: the seal has told
+    return found or None
 
 
-def _hash(content: bytes) -> str:
-    return hashlib.sha256(content).hexdigest()
+def _seal(entry: Path, body: str) -> str:
+    """Return the first line of an entry: the hash of its name and of the rest."""
+    return digest_of(f"{entry.name}\n{body}".encode())

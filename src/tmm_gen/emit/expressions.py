@@ -7,13 +7,39 @@ quotient of literals. A language only says how it writes numbers, references and
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
 
 import sympy as sp
 
+from tmm_gen.errors import UserError
 from tmm_gen.program.variables import Ref
 
 _SUM, _PRODUCT, _ATOM = 1, 2, 3
+
+
+_WHOLE = 2**1000
+"""Beyond this a fraction's terms are no numbers of their own; what follows of absurd parameters of an integrator."""
+
+
+def _float(value: sp.Expr) -> float:
+    """Return the nearest number.
+
+    Raises
+    ------
+    UserError
+        If there is none.
+    """
+    try:
+        nearest = float(value)
+    except OverflowError:
+        nearest = math.inf
+    if math.isinf(nearest) or (nearest == 0.0 and value != 0):
+        raise UserError(
+            f"the integrator's parameters and the step lead to a coefficient of {sp.N(value, 3)}, beyond the range "
+            "of floating point. Choose parameters that are nearer to 1."
+        )
+    return nearest
 
 
 class ExpressionPrinter(ABC):
@@ -65,9 +91,14 @@ class ExpressionPrinter(ABC):
         sign = "-" if e.is_negative else ""
         value = abs(e)
         level = _PRODUCT if sign else _ATOM
-        if isinstance(value, sp.Rational) and sp.Rational(float(value)) != value:
+        nearest = _float(value)
+        if (
+            isinstance(value, sp.Rational)
+            and sp.Rational(nearest) != value
+            and max(value.p, value.q) < _WHOLE
+        ):
             return f"{sign}({self.literal(float(value.p))} / {self.literal(float(value.q))})", level
-        return sign + self.literal(float(value)), level
+        return sign + self.literal(nearest), level
 
     def _sum(self, e: sp.Expr) -> str:
         terms = ordered_terms(e)

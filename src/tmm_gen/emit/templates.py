@@ -7,6 +7,7 @@ from typing import Any
 
 import jinja2
 
+from tmm_gen.emit.c_names import macros, signal
 from tmm_gen.resources import templates_dir
 
 
@@ -28,7 +29,7 @@ def render(template: str, **context: Any) -> str:
 
 @cache
 def _environment() -> jinja2.Environment:
-    return jinja2.Environment(
+    environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(templates_dir()),
         undefined=jinja2.StrictUndefined,
         trim_blocks=True,
@@ -36,3 +37,5 @@ def _environment() -> jinja2.Environment:
         keep_trailing_newline=True,
         autoescape=False,  # code is not markup
     )
+    environment.filters |= {"macros": macros, "signal": signal}
+    return environment

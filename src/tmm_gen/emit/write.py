@@ -9,9 +9,13 @@ from pathlib import Path
 from tmm_gen.emit.seal import is_intact, is_written_by_tmm_gen
 from tmm_gen.errors import UserError
 from tmm_gen.files import write_tree_whole
+from tmm_gen.reading import LARGEST_TEXT, kind_of, read_file
 
 SUFFIXES = frozenset({".py", ".c", ".h", ".txt"})
 """Of the files that tmm-gen writes; only such files are looked at."""
+
+WITHOUT_MOTION = "no motion to compare with: from no start can steps be taken within the range of the numbers"
+"""What a generated test says that has no motion in it."""
 
 
 @dataclass(frozen=True)
@@ -44,7 +48,7 @@ def compare_package(files: Mapping[str, str], folder: Path) -> Changes:
         Of the package; need not exist.
     """
     wanted = {folder / path: text for path, text in files.items()}
-    same = {path for path, text in wanted.items() if path.is_file() and path.read_bytes() == text.encode()}
+    same = {path for path, text in wanted.items() if path.is_file() and _content(path) == text.encode()}
     return Changes(
         written={path: text for path, text in wanted.items() if path not in same},
         stale=tuple(path for path in written_files(folder) if path not in wanted),
@@ -92,7 +96,7 @@ def written_files(folder: Path) -> list[Path]:
     if not folder.is_dir():
         return []
     found = (path for path in folder.rglob("*") if path.suffix in SUFFIXES and path.is_file())
-    return sorted(path for path in found if is_written_by_tmm_gen(_text(path)))
+    return sorted(path for path in found if is_written_by_tmm_gen(text_of(path)))
 
 
 def _require_ours(path: Path) -> None:
@@ -100,7 +104,10 @@ def _require_ours(path: Path) -> None:
         return
     if path.is_dir():
         raise UserError(f"{path}: is a folder where a file is to be written. Move it away.")
-    text = _text(path)
+    if not path.is_file():
+        words = kind_of(path.stat().st_mode)
+        raise UserError(f"{path}: is {words} where a file is to be written. Move it away.")
+    text = text_of(path)
     if is_intact(text):
         return
     if is_written_by_tmm_gen(text):
@@ -110,8 +117,18 @@ def _require_ours(path: Path) -> None:
     raise UserError(f"{path}: {fault}. {keep}, or lose it with --force.")
 
 
-def _text(path: Path) -> str:
-    return path.read_bytes().decode("utf-8", errors="replace")
+def text_of(path: Path) -> str:
+    """Return the text of a file; nothing for one too large to be tmm-gen's."""
+    return _content(path).decode("utf-8", errors="replace")
+
+
+def without_motion(text: str) -> bool:
+    """Whether a generated test says that it has no motion to compare with."""
+    return WITHOUT_MOTION in text
+
+
+def _content(path: Path) -> bytes:
+    return b"" if path.stat().st_size > LARGEST_TEXT else read_file(path)
 
 
 def _remove_empty(folder: Path, top: Path) -> None:

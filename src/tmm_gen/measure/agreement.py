@@ -97,10 +97,14 @@ def reached_vectors(
     takes_step = "step" in inspect.signature(module.initialise).parameters
     for taken in range(len(program.steps)):
         for _ in range(count):
-            inputs = {v.name: float(random.normal()) for v in program.inputs if v.unit != "rad"}
-            # a prescribed base stands where the arm points to
-            points = float(random.uniform(-np.pi, np.pi)) if len(inputs) < len(program.inputs) else 0.0
-            inputs |= {v.name: points for v in program.inputs if v.unit == "rad"}
+            # a prescribed base stands where the arm points to, and turns as gently
+            points = float(random.uniform(-np.pi, np.pi)) if any(map(_of_base, program.inputs)) else 0.0
+            inputs = {
+                v.name: points
+                if v.unit == "rad"
+                else float(random.normal()) * (_BEND if _of_base(v) else 1.0)
+                for v in program.inputs
+            }
             bend, turn = random.normal(size=(2, n)) * _BEND / n
             start = {"initial_angle": points + np.cumsum(bend), "initial_rate": np.cumsum(turn)}
             if takes_step:
@@ -111,6 +115,11 @@ def reached_vectors(
                 state = module.step(model, state, given)
             values = {v.name: np.asarray(getattr(state, v.name)) for v in program.state}
             yield Vector(taken, values, inputs)
+
+
+def _of_base(variable: Any) -> bool:
+    """Whether an input is of a prescribed base: its angle, rate or acceleration."""
+    return str(variable.unit).startswith("rad")
 
 
 def largest_difference(one: Step, other: Step, vectors: Iterable[Vector]) -> float:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,6 +11,7 @@ from numpy.typing import NDArray
 from tmm_gen.measure.simulation import Simulation
 from tmm_gen.measure.style import FAINT, INK, PALETTE, figure, style
 from tmm_gen.scene import Scene
+from tmm_gen.scratch import scratch_folder
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -102,7 +102,7 @@ def animation(simulation: Simulation, form: str) -> bytes:
             return arm, tip, path, clock
 
         moving = FuncAnimation(made, draw, frames=len(shown), blit=False)
-        with tempfile.TemporaryDirectory(prefix="tmm-gen-") as folder:
+        with scratch_folder() as folder:
             target = Path(folder, f"arm.{form}")
             if form == "gif":
                 moving.save(target, writer=PillowWriter(fps=FRAMES_PER_SECOND), dpi=80)

@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class Assembly:
-    """``M q'' + C q' + K q = F u + G u'`` with outputs ``y = Q q + V q' + W q'' + D u + E u'``.
+    """``M q'' + C q' + K q = F u + G u'`` with outputs ``y = Q q + V q' + W q'' + D u + E u' + H u''``.
 
     The coordinates ``q`` are the angles that are free: of a motor's hub, then of the links from base to
     tip.
@@ -33,8 +33,8 @@ class Assembly:
         What inputs and their rates contribute to the torques; the rates only where the base is prescribed.
     from_angle, from_rate, from_acceleration : array, (outputs, m)
         Shares of ``q, q', q''`` in the outputs.
-    from_input, from_input_rate : array, (outputs, inputs)
-        Shares of inputs and their rates in the outputs; of a prescribed base only.
+    from_input, from_input_rate, from_input_acceleration : array, (outputs, inputs)
+        Shares of inputs, their rates and accelerations in the outputs; of a prescribed base only.
     angle, rate : array, (m,)
         Initial values.
     inputs, outputs : tuple of str
@@ -51,6 +51,7 @@ class Assembly:
     from_acceleration: Array
     from_input: Array
     from_input_rate: Array
+    from_input_acceleration: Array
     angle: Array
     rate: Array
     inputs: tuple[str, ...]
@@ -128,6 +129,7 @@ def assemble(scene: Scene) -> Assembly:
         measured.from_acceleration,
         measured.from_input,
         measured.from_input_rate,
+        measured.from_input_acceleration,
         angle=np.array([0.0] * first + list(scene.initial.angles)),
         rate=np.array([0.0] * first + list(scene.initial.rates)),
         inputs=tuple(item.name for item in scene.inputs),
@@ -146,6 +148,7 @@ class _Measured:
         self.from_acceleration = np.zeros((rows, coordinates))
         self.from_input = np.zeros((rows, len(scene.inputs)))
         self.from_input_rate = np.zeros((rows, len(scene.inputs)))
+        self.from_input_acceleration = np.zeros((rows, len(scene.inputs)))
         angles = [k for k, item in enumerate(scene.inputs) if item.acts == "angle"]
         self.base_input = angles[0] if angles else None
 
@@ -161,8 +164,10 @@ class _Measured:
             self._angle(row, station, 1.0)
         elif output.of == "velocity":
             self._rate(row, station, 1.0)
-        elif self._moves(station):  # that of a prescribed base is zero between the knots of its angle
+        elif self._moves(station):
             self.from_acceleration[row, self.first + station - 1] = 1.0
+        elif self.base_input is not None:
+            self.from_input_acceleration[row, self.base_input] = 1.0
 
     def _moves(self, station: int) -> bool:
         return self.first + station >= 1

@@ -56,7 +56,7 @@ _LONGEST_RUN = 2000
 """Steps of a run, unless one slow period takes fewer."""
 
 _SWING = 2.0
-"""rad/s of a prescribed planar base."""
+"""rad/s of a prescribed base."""
 
 _STEPS = (64, 128, 256, 512)
 _TURN = 0.2
@@ -153,15 +153,14 @@ def _one_step(name: str, one: Step, other: Step, vectors: list[Vector], bound: f
 
 
 def unit_inputs(scene: Scene) -> dict[str, Signal]:
-    """Return a constant 1 for every input; a planar arm's base swings from there, as a jump would shatter it."""
-    planar = scene.model.kind == "planar"
+    """Return a constant 1 for every input; a prescribed base swings from there."""
     swing = Sine(1.0, _SWING, math.pi / 2.0)
-    return {i.name: swing if planar and i.acts == "angle" else Constant(1.0) for i in scene.inputs}
+    return {i.name: swing if i.acts == "angle" else Constant(1.0) for i in scene.inputs}
 
 
 def _at_base_angle(scene: Scene) -> Scene:
-    """Return a scene whose links stand along a prescribed planar base at the start."""
-    if scene.model.kind == "chain" or scene.base.kind != "prescribed":
+    """Return a scene whose links stand along a prescribed base at the start."""
+    if scene.base.kind != "prescribed":
         return scene
     return scene.replace(initial={"angles": 1.0, "rates": 0.0})
 
@@ -215,7 +214,8 @@ def _slope(scene: Scene, module: ModuleType, facts: dict[str, object]) -> CheckR
     tip = [{"name": "tip_angle", "at": "tip", "of": "angle"}]
     moving = scene.replace(**{"output": tip, "initial": {"angles": 0.0, "rates": 1.0}})
     times: Array = coarsest * np.arange(1, _STEPS[0] + 1, dtype=float)
-    exact = exact_response(moving, unit_inputs(scene), times)["tip_angle"]
+    held = {item.name: Constant(1.0) for item in scene.inputs}
+    exact = exact_response(moving, held, times)["tip_angle"]
     errors = []
     for steps in _STEPS:
         stride = steps // _STEPS[0]

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from tmm_gen.errors import UserError
+from tmm_gen.measure.curve import Curve
 from tmm_gen.measure.signals import Signal, Table
 
 UNITS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
@@ -66,7 +67,8 @@ def starts_of(outputs: Mapping[str, Table], inputs: Mapping[str, Signal]) -> tup
         If the clock may as well start at zero as at its first instant, and the two are far apart.
     """
     rows = spacing(outputs)
-    early = [float(s.times[0]) for s in inputs.values() if isinstance(s, Table) and s.times[-1] >= rows.first]
+    tables = [table for table in map(_table, inputs.values()) if table is not None]
+    early = [float(table.times[0]) for table in tables if table.times[-1] >= rows.first]
     first = min([rows.first, *early])
     if 0.0 <= first <= _NEAR * min(rows.interval, rows.last - first):
         return tuple(dict.fromkeys((0.0, first)))
@@ -100,13 +102,22 @@ def from_start(signals: Mapping[str, Signal], start: float, scale: float = 1.0) 
 
 def _moved(name: str, signal: Signal, start: float, scale: float) -> Signal:
     if isinstance(signal, Table):
-        return Table(scale * signal.times - start, signal.values)
+        return replace(signal, times=scale * signal.times - start)
+    if isinstance(signal, Curve):
+        return signal.on_clock(start, scale)
     if len(signal.knots) and (start or scale != 1.0):
         raise UserError(
             f"the input '{name}' cannot be put on another clock. Let the record start at 0, in seconds: subtract the "
             "first instant from the columns `time`."
         )
     return signal
+
+
+def _table(signal: Signal) -> Table | None:
+    """Return the rows a signal was made from, if it was."""
+    if isinstance(signal, Curve):
+        return signal.table
+    return signal if isinstance(signal, Table) else None
 
 
 def refuse_what_is_unknown(inputs: Mapping[str, Signal], until: float, interval: float) -> None:
@@ -127,18 +138,19 @@ def refuse_what_is_unknown(inputs: Mapping[str, Signal], until: float, interval:
         If a table lies outside of the record, or begins late and not with zero.
     """
     for name, signal in inputs.items():
-        if not isinstance(signal, Table) or len(signal.times) < 2:  # one row is a constant
+        table = _table(signal)
+        if table is None or len(table.times) < 2:  # one row is a constant
             continue
-        first, last = float(signal.times[0]), float(signal.times[-1])
+        first, last = float(table.times[0]), float(table.times[-1])
         if last < 0.0 or first > until:
             raise UserError(
                 f"the input '{name}' is given from {first:g} s to {last:g} s after the start of the motion, the record "
                 f"from 0 to {until:g} s: their clocks differ. Give both the same clock."
             )
-        if first > _NEAR * interval and signal.values[0] != 0.0:
+        if first > _NEAR * interval and table.values[0] != 0.0:
             raise UserError(
                 f"the input '{name}' is given only from {first:g} s after the start of the motion, where it is "
-                f"{signal.values[0]:g}: what acted before is not known. Add earlier rows, or say when the motion "
+                f"{table.values[0]:g}: what acted before is not known. Add earlier rows, or say when the motion "
                 "started by --start."
             )
 
@@ -159,9 +171,10 @@ def refuse_other_clock(signals: Mapping[str, Signal], until: float) -> None:
         If a table of several rows ends before zero or begins when all is over.
     """
     for name, signal in signals.items():
-        if not isinstance(signal, Table) or len(signal.times) < 2:
+        table = _table(signal)
+        if table is None or len(table.times) < 2:
             continue
-        first, last = float(signal.times[0]), float(signal.times[-1])
+        first, last = float(table.times[0]), float(table.times[-1])
         if first >= until or last < 0.0:
             raise UserError(
                 f"--input: the rows of '{name}' go from {first:.10g} s to {last:.10g} s, the simulation from 0 to "

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import subprocess
-import tempfile
 from pathlib import Path, PurePosixPath
 from typing import Any
 
 from tmm_gen.errors import UserError
 from tmm_gen.scene import Scene
+from tmm_gen.scratch import scratch_folder
 
 STRICT = (
     *("-std=c99", "-O1", "-pedantic", "-Wall", "-Wextra", "-Wconversion", "-Wdouble-promotion"),
@@ -42,8 +42,7 @@ def run_host_test(program: Any, scene: Scene, cc: str = "gcc") -> tuple[int, str
     """
     from tmm_gen.emit.c import emit_c
 
-    with tempfile.TemporaryDirectory(prefix="tmm-gen-") as folder:
-        here = Path(folder)
+    with scratch_folder() as here:
         names = []
         for path, text in emit_c(program, scene).items():
             names.append(PurePosixPath(path).name)

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import sys
-import tempfile
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 from types import ModuleType
 from typing import Any
 
 from tmm_gen.scene import Scene
+from tmm_gen.scratch import scratch_folder
 
 
 def numpy_module(scene: Scene, program: Any = None) -> ModuleType:
@@ -77,13 +77,13 @@ def import_package(files: dict[str, str], name: str) -> ModuleType:
         What it is called in messages.
     """
     unique = f"_tmm_gen_{name}_{len(sys.modules)}"
-    with tempfile.TemporaryDirectory(prefix="tmm-gen-") as folder:
+    with scratch_folder() as folder:
         for path, text in files.items():
             target = Path(folder, path)
             target.parent.mkdir(parents=True, exist_ok=True)
             target.write_text(text, encoding="utf-8")
         spec = spec_from_file_location(
-            unique, Path(folder, "__init__.py"), submodule_search_locations=[folder]
+            unique, Path(folder, "__init__.py"), submodule_search_locations=[str(folder)]
         )
         assert spec is not None
         assert spec.loader is not None

@@ -159,7 +159,7 @@ class Arm:
             place = station_of(item.at, self.scene.stations) - 1 + self.first
             if item.acts == "angle":  # through the spring and the damper of joint 1
                 joint = self.scene.joints[0]
-                rate = np.array([self.signal(item.name).slope(float(t)) for t in times])
+                rate = self.signal(item.name).slope(times)
                 torque[:, 0] += joint.stiffness * values + joint.damping * rate
             else:
                 {"torque": torque, "force_x": along_x, "force_y": along_y}[item.acts][:, place] += values
@@ -171,7 +171,7 @@ class Arm:
         for item in self.scene.inputs:
             if item.acts == "angle":
                 angle += self.signal(item.name).at(times)
-                rate += [self.signal(item.name).slope(float(t)) for t in times]
+                rate += self.signal(item.name).slope(times)
         return angle, rate
 
     # -- equations ----------------------------------------------------------------------------------------------

@@ -31,15 +31,21 @@ class Vibration:
 
 def vibration(scene: Scene) -> Vibration:
     """Return natural frequencies and damping ratios of a planar scene without gravity, straight."""
-    from scipy.linalg import eigh  # slow to import
+    from scipy.linalg import cholesky, svd  # slow to import
 
     arm = Arm(scene, {})
-    stiffness, damping = arm.springs
+    _, damping = arm.springs
     mass = arm.coupling + np.diag(arm.inertias)
-    squares, shapes = eigh(stiffness, mass)
-    squares = np.maximum(squares, 0.0)
-    frequencies = np.sqrt(squares)
-    swinging = frequencies > 1e-6 * frequencies[-1]
+    turning = len(mass) - scene.stations  # a free hub lets the arm turn as a whole, whatever the numbers are
+    # angles for a unit of energy in each joint: no stiffness hides the slowest swing
+    bends = np.tri(len(mass), scene.stations, -turning)
+    bends = bends / np.sqrt([joint.stiffness for joint in scene.joints])
+    whole = np.ones((len(mass), turning))
+    whole = whole / np.sqrt(np.sum(whole * (mass @ whole), axis=0))
+    bends = bends - whole @ (whole.T @ mass @ bends)
+    _, sizes, rows = svd(cholesky(mass) @ bends, full_matrices=False)
+    shapes = np.concatenate([whole, bends @ rows.T / sizes], axis=1)
+    frequencies = np.concatenate([np.zeros(turning), 1.0 / sizes])
     modal = np.einsum("ji,jk,ki->i", shapes, damping, shapes)
-    ratios = np.where(swinging, modal / (2.0 * np.where(swinging, frequencies, 1.0)), 0.0)
-    return Vibration(np.where(swinging, frequencies, 0.0), ratios)
+    ratios = np.divide(modal, 2.0 * frequencies, out=np.zeros_like(modal), where=frequencies > 0.0)
+    return Vibration(frequencies, ratios)

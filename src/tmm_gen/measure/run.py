@@ -12,9 +12,12 @@ from numpy.typing import NDArray
 from tmm_gen.errors import UserError
 from tmm_gen.measure.assembly import assemble
 from tmm_gen.measure.columns import output_columns
+from tmm_gen.measure.curve import Curve
 from tmm_gen.measure.divergence import DivergedError, watch
 from tmm_gen.measure.energy import energy
 from tmm_gen.measure.planar_divergence import PlanarWatch, planar_watch
+from tmm_gen.measure.prescribed import followed, kernel_signals, prescribed
+from tmm_gen.measure.profiles import Step
 from tmm_gen.measure.signals import Constant, Signal
 from tmm_gen.measure.simulation import Simulation
 from tmm_gen.measure.stepping import native_steps, numpy_steps
@@ -92,9 +95,10 @@ def simulate(
     UnsolvedError
         If sweeps leave more unsolved than the step does, or than the scene's ``model.unsolved``.
     UserError
-        If the kernel cannot be made, the steps are too many, or a pivot vanishes.
+        If the kernel cannot be made, the steps are too many, a prescribed angle jumps, or a pivot vanishes.
     """
     steps = number_of_steps(until, scene.integrator.step)
+    signals = prescribed(scene, signals)
     inputs = {item.name: signals.get(item.name, Constant(0.0)) for item in scene.inputs}
     step = scene.integrator.step
     planar = scene.model.kind == "planar"
@@ -106,7 +110,7 @@ def simulate(
     outputs = np.empty((steps + 1, len(names)))
     row = 0
     try:
-        for block in run(scene, inputs, steps, guard, kernel, kept, checked):
+        for block in run(scene, kernel_signals(scene, inputs), steps, guard, kernel, kept, checked):
             outputs[row : row + len(block)] = block
             row += len(block)
             if advance is not None:
@@ -139,6 +143,7 @@ def simulate(
         imbalance=_imbalance(scene, inputs, time, kept),
         unsolved=left,
         step_error=own,
+        notes=tuple(followed(scene, inputs, float(time[-1]))),
     )
 
 
@@ -149,16 +154,19 @@ def traceable(scene: Scene, steps: int) -> bool:
 
 def _imbalance(scene: Scene, signals: Mapping[str, Signal], time: Array, trace: Trace | None) -> float | None:
     """Return how well a planar arm's energies balance; None where a load is too abrupt to know its work."""
-    abrupt = any(_abrupt(signals[item.name], item.acts, scene.integrator.step) for item in scene.inputs)
+    step, until = scene.integrator.step, float(time[-1])
+    abrupt = any(_abrupt(signals[item.name], item.acts, step, until) for item in scene.inputs)
     if trace is None or len(time) < 3 or abrupt:
         return None
     return energy(scene, signals, time, trace.angle, trace.rate).imbalance
 
 
-def _abrupt(signal: Signal, acts: str, step: float) -> bool:
-    """Whether a load changes within a few steps, or a prescribed base jerks."""
+def _abrupt(signal: Signal, acts: str, step: float, until: float) -> bool:
+    """Whether a load changes within a few steps, or the rate of a prescribed base jumps on the way."""
     knots = signal.knots
-    return len(knots) > 0 and (acts == "angle" or bool(np.min(np.diff(knots), initial=np.inf) < _FEW * step))
+    if acts == "angle":
+        return isinstance(signal, Curve) and any(0.0 < knots[row] < until for row, _ in signal.corners)
+    return isinstance(signal, Step) or bool(np.min(np.diff(knots), initial=np.inf) < _FEW * step)
 
 
 def _unsolved(scene: Scene, signals: Mapping[str, Signal], steps: int, backend: Backend) -> Unsolved | None:
@@ -186,7 +194,7 @@ def _rest(scene: Scene, signals: Mapping[str, Signal], until: float) -> dict[str
     if scene.model.kind == "planar":
         return None
     assembly = assemble(scene)
-    moving = any(signal.frequency or np.any(signal.knots > until) for signal in signals.values())
+    moving = any(signal.ends > until for signal in signals.values())
     if moving or assembly.free:
         return None
     last = np.array([float(signal.at(until)) for signal in signals.values()])

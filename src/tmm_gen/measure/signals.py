@@ -1,13 +1,14 @@
 """Inputs as functions of time: constant, harmonic, or a table that is linear in between.
 
-Each consists of pieces on which ``u'' = -w^2 u``, so that a reference solution can carry the input
-along as part of a linear system and be exact.
+Each of these consists of pieces on which ``u'' = -w^2 u``, so that a reference solution can carry the input
+along as part of a linear system and be exact. Others are in :mod:`tmm_gen.measure.profiles` and
+:mod:`tmm_gen.measure.curve`.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Protocol
+from dataclasses import dataclass, field
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -23,14 +24,26 @@ class Signal(Protocol):
         """Instants at which a new piece begins, s, increasing."""
 
     @property
-    def frequency(self) -> float:
-        """Angular frequency ``w`` of all pieces, rad/s."""
+    def ends(self) -> float:
+        """Instant from which on it stays as it is, s; infinite where there is none."""
 
     def at(self, time: ArrayLike) -> Array:
         """Return the values at instants, of the same shape."""
 
-    def slope(self, time: float) -> float:
-        """Return the rate at an instant; at a knot, that of the piece which begins there."""
+    def slope(self, time: ArrayLike) -> Array:
+        """Return the first derivatives at instants; at a knot, that of the piece which begins there."""
+
+    def curvature(self, time: ArrayLike) -> Array:
+        """Return the second derivatives at instants; at a knot, that of the piece which begins there."""
+
+
+@runtime_checkable
+class Harmonic(Signal, Protocol):
+    """An input of pieces on which ``u'' = -w^2 u``."""
+
+    @property
+    def frequency(self) -> float:
+        """Angular frequency ``w`` of all pieces, rad/s."""
 
 
 @dataclass(frozen=True)
@@ -51,13 +64,22 @@ class Constant:
         """None."""
         return np.zeros(0)
 
+    @property
+    def ends(self) -> float:
+        """It never moves."""
+        return -np.inf
+
     def at(self, time: ArrayLike) -> Array:
         """Return the values at instants."""
         return np.full(np.shape(time), self.value)
 
-    def slope(self, time: float) -> float:
-        """Return zero."""
-        return 0.0
+    def slope(self, time: ArrayLike) -> Array:
+        """Return zeros."""
+        return np.zeros(np.shape(time))
+
+    def curvature(self, time: ArrayLike) -> Array:
+        """Return zeros."""
+        return np.zeros(np.shape(time))
 
 
 @dataclass(frozen=True)
@@ -83,13 +105,25 @@ class Sine:
         """None."""
         return np.zeros(0)
 
+    @property
+    def ends(self) -> float:
+        """It never does."""
+        return np.inf
+
     def at(self, time: ArrayLike) -> Array:
         """Return the values at instants."""
         return self.amplitude * np.sin(self.frequency * np.asarray(time) + self.phase)
 
-    def slope(self, time: float) -> float:
-        """Return the rate at an instant."""
-        return float(self.amplitude * self.frequency * np.cos(self.frequency * time + self.phase))
+    def slope(self, time: ArrayLike) -> Array:
+        """Return the first derivatives at instants."""
+        slope: Array = (
+            self.amplitude * self.frequency * np.cos(self.frequency * np.asarray(time) + self.phase)
+        )
+        return slope
+
+    def curvature(self, time: ArrayLike) -> Array:
+        """Return the second derivatives at instants."""
+        return -(self.frequency**2) * self.at(time)
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,26 +136,43 @@ class Table:
         s, increasing.
     values : array, (k,)
         In the unit of the input.
+    source : str
+        Where it is from, for messages.
+    lines : tuple of int
+        Line of each row in its file; empty where there is none.
     """
 
     times: Array
     values: Array
     frequency: float = 0.0
+    source: str = field(default="", compare=False)
+    lines: tuple[int, ...] = field(default=(), compare=False)
 
     @property
     def knots(self) -> Array:
         """The instants of the table."""
         return self.times
 
+    @property
+    def ends(self) -> float:
+        """The last instant."""
+        return float(self.times[-1])
+
+    def row(self, index: int) -> str:
+        """Say where a row is: file and line, or its instant alone."""
+        return f"{self.source}:{self.lines[index]}" if self.lines else f"t = {self.times[index]:g} s"
+
     def at(self, time: ArrayLike) -> Array:
         """Return the values at instants."""
         values: Array = np.interp(np.asarray(time, float), self.times, self.values)
         return values
 
-    def slope(self, time: float) -> float:
-        """Return the slope at an instant; at a knot, that to its right."""
-        right = int(np.searchsorted(self.times, time, side="right"))
-        if right in (0, len(self.times)):
-            return 0.0
-        rise, run = np.diff(self.values[right - 1 : right + 1]), np.diff(self.times[right - 1 : right + 1])
-        return float(rise[0] / run[0])
+    def slope(self, time: ArrayLike) -> Array:
+        """Return the slopes at instants; at a knot, that to its right."""
+        slopes = np.concatenate([[0.0], np.diff(self.values) / np.diff(self.times), [0.0]])
+        found: Array = slopes[np.searchsorted(self.times, np.asarray(time, float), side="right")]
+        return found
+
+    def curvature(self, time: ArrayLike) -> Array:
+        """Return zeros: the second derivative is a blow at each row, and nothing in between."""
+        return np.zeros(np.shape(time))

@@ -43,6 +43,8 @@ class Simulation:
         Of a planar arm: work of what the sweeps left unsolved, as a share of the energy that moved.
     step_error : float, optional
         Of a planar arm: error that the step leaves by itself (:func:`tmm_gen.measure.step_error.step_error`).
+    notes : tuple of str
+        How tables of a prescribed base were followed, where that is not plain.
     """
 
     scene: Scene
@@ -55,6 +57,7 @@ class Simulation:
     imbalance: float | None = None
     unsolved: float | None = None
     step_error: float | None = None
+    notes: tuple[str, ...] = ()
 
     @property
     def steps(self) -> int:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.native import compile_kernel
+from tmm_gen.native.differences import with_derivatives
 from tmm_gen.native.series import Sampled, Series
 from tmm_gen.program.build import build_program
 from tmm_gen.scene import Scene
@@ -78,7 +79,9 @@ def single_precision(
     """
     program = build_program(scene)
     step = scene.integrator.step
-    rounded = {name: _rounded(signal) for name, signal in signals.items()}
+    # rates of a prescribed base are those of the angle as it is, not of its last digits
+    acting = with_derivatives(program, signals, step)
+    rounded = {name: _rounded(signal) for name, signal in acting.items()}
     double, single = (
         Series(compile_kernel(program, _free_of_bounds(scene, real)), rounded, steps, step).run()
         for real in ("float64", "float32")

@@ -13,6 +13,7 @@ from tmm_gen.measure.columns import output_columns
 from tmm_gen.measure.divergence import Watch
 from tmm_gen.measure.module import numpy_module
 from tmm_gen.measure.planar_divergence import PlanarWatch
+from tmm_gen.measure.prescribed import Derivative
 from tmm_gen.measure.signals import Constant, Signal
 from tmm_gen.measure.trace import Trace
 from tmm_gen.scene import Scene
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 Guard = Watch | PlanarWatch
+Sampled = Signal | Derivative
 
 _CHUNK = 1000
 """Steps between two looks at the motion and the progress bar."""
@@ -29,7 +31,7 @@ _CHUNK = 1000
 
 def numpy_steps(
     scene: Scene,
-    signals: Mapping[str, Signal],
+    signals: Mapping[str, Sampled],
     steps: int,
     guard: Guard,
     kernel: Any,
@@ -42,8 +44,8 @@ def numpy_steps(
     ----------
     scene : Scene
         What moves.
-    signals : mapping from str to Signal
-        All its inputs by name.
+    signals : mapping from str to Signal or Derivative
+        All that its kernel takes, by name (:func:`tmm_gen.measure.prescribed.kernel_signals`).
     steps : int
         How many.
     guard : Watch or PlanarWatch
@@ -108,7 +110,7 @@ def numpy_steps(
 
 def native_steps(
     scene: Scene,
-    signals: Mapping[str, Signal],
+    signals: Mapping[str, Sampled],
     steps: int,
     guard: Guard,
     kernel: Any,
@@ -222,5 +224,5 @@ def _located(time: float) -> Iterator[None]:
         raise ArithmeticError(f"at t = {time:.6g} s {error}") from error
 
 
-def _number(signal: Signal) -> Callable[[float], float]:
+def _number(signal: Sampled) -> Callable[[float], float]:
     return lambda time: float(signal.at(time))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from io import BytesIO
@@ -10,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+    from matplotlib.ticker import Formatter, LogFormatterMathtext
 
 PALETTE = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#7f4f24", "#999933")
 """Colours that readers with colour blindness tell apart (Okabe & Ito 2008), and two more."""
@@ -40,6 +43,7 @@ _STYLE: dict[str, Any] = {
     "ytick.minor.size": 0,
     "ytick.color": INK,
     "text.color": INK,
+    "text.parse_math": False,  # a scene's title may hold dollars
     "lines.linewidth": 1.8,
     "lines.solid_capstyle": "round",
     "legend.frameon": False,
@@ -50,12 +54,17 @@ _STYLE: dict[str, Any] = {
 }
 
 
+_RAISED = str.maketrans("-0123456789.", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹·")
+
+
 @contextmanager
 def style() -> Iterator[None]:
     """Draw in this project's style inside the block."""
     import matplotlib as mpl
 
-    with mpl.rc_context(_STYLE):  # type: ignore[arg-type, unused-ignore]
+    with mpl.rc_context(_STYLE), warnings.catch_warnings():  # type: ignore[arg-type, unused-ignore]
+        # a title in a script that the font lacks is drawn as boxes; it is a picture still
+        warnings.filterwarnings("ignore", "Glyph .* missing from", UserWarning)
         yield
 
 
@@ -120,9 +129,50 @@ def picture(made: Figure, form: str) -> bytes:
         Format.
     """
     metadata = {"png": {"Software": "tmm-gen"}, "svg": {"Date": None}, "pdf": {"CreationDate": None}}[form]
+    _write_powers_plainly(made)
     with style(), BytesIO() as buffer:
         made.savefig(buffer, format=form, dpi=160, metadata=metadata)
         return buffer.getvalue()
+
+
+def _write_powers_plainly(made: Figure) -> None:
+    """Label logarithmic axes with plain characters: mathematical text is switched off."""
+    from matplotlib.ticker import LogFormatterMathtext
+
+    for axes in made.axes:
+        for axis in (axes.xaxis, axes.yaxis):
+            for formatter, change in (
+                (axis.get_major_formatter(), axis.set_major_formatter),
+                (axis.get_minor_formatter(), axis.set_minor_formatter),
+            ):
+                if isinstance(formatter, LogFormatterMathtext):
+                    change(_plain(formatter))
+
+
+def _plain(formatter: LogFormatterMathtext) -> Formatter:
+    from matplotlib.ticker import Formatter
+
+    class Plain(Formatter):
+        """Another formatter's labels without mathematical text."""
+
+        def set_axis(self, axis: Any) -> None:
+            super().set_axis(axis)
+            formatter.set_axis(axis)
+
+        def set_locs(self, locs: Any) -> None:
+            super().set_locs(locs)
+            formatter.set_locs(locs)
+
+        def __call__(self, x: float, pos: int | None = None) -> str:
+            return plain_power(formatter(x, pos))
+
+    return Plain()
+
+
+def plain_power(label: str) -> str:
+    """Return Matplotlib's label of a power without its markup: ``10⁻³``, ``2×10⁴``."""
+    bare = label.removeprefix(r"$\mathdefault{").removesuffix("}$").replace(r"\times", "×")
+    return re.sub(r"\^\{([^}]*)\}", lambda found: found[1].replace("\u2212", "-").translate(_RAISED), bare)
 
 
 def subtitle(axes: Axes, title: str, below: str) -> None:

@@ -80,31 +80,27 @@ class Unsolved:
         """
         if not self._looks:
             return 0.0
-        whole = Arm(self.scene, self.signals)
-        held = {item.name for item in self.scene.inputs if item.acts == "angle"}
-        arm = Arm(self.scene, {name: signal for name, signal in self.signals.items() if name not in held})
+        arm = Arm(self.scene, self.signals)
         indices = np.array([index for index, _, _ in self._looks])
         power, rounding = np.zeros((2, len(indices)))
         instants = list(self._equilibria(arm, indices))
-        for times, motion, base in instants:
+        for times, motion in instants:
             q, v, a = motion["q"], motion["v"], motion["a"]
             left = arm.residual(times, q, v, a)
-            if self.scene.base.kind == "prescribed":  # as the kernel has the base, its rate included
-                left[:, 0] -= arm.joints[0][0] * base["q"] + arm.joints[1][0] * base["v"]
             power += np.sum(left * v, axis=1) / len(instants)
-            rounding += self._rounded(arm, motion, base) / len(instants)
+            rounding += self._rounded(arm, times, motion) / len(instants)
         spans = np.diff(indices, prepend=0) * self.scene.integrator.step
         work = np.max(np.abs(np.cumsum(power * spans)))
         # signs of rounding errors are at random: they add up like their squares
         floor = float(np.sqrt(np.sum((rounding * spans) ** 2)))
-        times, motion, _ = instants[-1]
+        times, motion = instants[-1]
         start = np.array([[0.0] * arm.first + list(self.scene.initial.angles)])
         q = np.concatenate([start, motion["q"]])
         times = np.concatenate([[0.0], times])
         moved = float(
-            np.max(kinetic_energy(whole, motion["q"], motion["v"]))
-            + np.ptp(elastic_energy(whole, times, q))
-            + np.ptp(gravitational_energy(whole, q))
+            np.max(kinetic_energy(arm, motion["q"], motion["v"]))
+            + np.ptp(elastic_energy(arm, times, q))
+            + np.ptp(gravitational_energy(arm, q))
         )
         return max(0.0, float(work) - floor) / moved if moved > 0.0 else 0.0
 
@@ -119,30 +115,24 @@ class Unsolved:
 
     # -- where equations hold -----------------------------------------------------------------------------------
 
-    def _equilibria(
-        self, arm: Arm, indices: Array
-    ) -> Iterator[tuple[Array, dict[Kind, Array], dict[Kind, Array]]]:
-        """Yield times, motions of the coordinates and of a prescribed base, where steps looked at are in balance."""
+    def _equilibria(self, arm: Arm, indices: Array) -> Iterator[tuple[Array, dict[Kind, Array]]]:
+        """Yield times and motions of the coordinates where steps looked at are in balance."""
         step = self.scene.integrator.step
         ends = ([b for _, b, _ in self._looks], [a for _, _, a in self._looks])
         before, after = ([_motion(state, arm.first) for state in states] for states in ends)
-        base = [[_base(state, self.scene) for state in states] for states in ends]
         instant, reached = equilibrium(self.scene)
         if reached is not None:
-            found = [
-                _stack([reached(*pair) for pair in zip(*both, strict=True)])
-                for both in ((before, after), base)
-            ]
-            yield (indices - 1 + instant) * step, found[0], found[1]
+            found = _stack([reached(*pair) for pair in zip(before, after, strict=True)])
+            yield (indices - 1 + instant) * step, found
             return
         # the states themselves; two at a time, since some motions alternate from step to step
-        yield np.maximum(indices - 1, 0) * step, _stack(before), _stack(base[0])
-        yield indices * step, _stack(after), _stack(base[1])
+        yield np.maximum(indices - 1, 0) * step, _stack(before)
+        yield indices * step, _stack(after)
 
-    def _rounded(self, arm: Arm, motion: Mapping[Kind, Array], base: Mapping[Kind, Array]) -> Array:
+    def _rounded(self, arm: Arm, times: Array, motion: Mapping[Kind, Array]) -> Array:
         """Return the power of what rounding leaves of the equations, (k,), W: a last place of each of their terms."""
         q, v, a = (np.abs(motion[kind]) for kind in KINDS)
-        largest = np.maximum(q, np.abs(np.asarray(base["q"])).reshape(-1, 1))
+        largest = np.maximum(q, np.abs(arm.base_motion(times)[0])[:, None])
         stiffness = np.zeros(q.shape[1])
         stiffness[arm.first :] += 2.0 * arm.joints[0]
         inertial = arm.gathered(arm.masses * arm.walked(a + v**2)) + arm.inertias * a
@@ -193,11 +183,6 @@ def _collocated(
 def _motion(state: State, first: int) -> dict[Kind, Array]:
     hub = {kind: [state[f"hub_{name}"]] if first else [] for kind, name in _KEYS.items()}
     return {kind: np.array([*hub[kind], *state[name]], float) for kind, name in _KEYS.items()}
-
-
-def _base(state: State, scene: Scene) -> dict[Kind, Any]:
-    moves = scene.base.kind == "prescribed"
-    return {kind: float(state[f"hub_{name}"]) if moves else 0.0 for kind, name in _KEYS.items()}
 
 
 def _stack(motions: list[dict[Kind, Any]]) -> dict[Kind, Array]:

@@ -36,17 +36,17 @@ class ElementFunctions:
     blocks : callable
         From s (f,) and the values of the parameters to the blocks.
     powers : callable
-        From the values of the parameters to the coefficients of ``s^0, s^1, s^2`` in ``U21``, (3, m, m), and
-        to the constants ``U11`` and ``U22``.
+        From the values of the parameters, (k,) each, to the coefficients of ``s^0, s^1, s^2`` in ``U21``,
+        (3, k, m, m), and to the constants ``U11`` and ``U22``, (k, m, m).
     impedance : callable
-        From the values of the parameters to the coefficients of ``s^0, s^1`` in ``1/U12`` of the angle;
-        joints only.
+        From the values of the parameters, (k,) each, to the coefficients of ``s^0, s^1`` in ``1/U12`` of the angle,
+        (k, 2); joints only.
     """
 
     width: int
     blocks: Callable[[Complex, Sequence[float]], Blocks]
-    powers: Callable[[Sequence[float]], tuple[Array, Array, Array]]
-    impedance: Callable[[Sequence[float]], Array]
+    powers: Callable[[Sequence[Array]], tuple[Array, Array, Array]]
+    impedance: Callable[[Sequence[Array]], Array]
 
 
 @cache
@@ -86,8 +86,9 @@ def element_functions(kind: Kind, name: str) -> ElementFunctions:
     inertia = matrix.U21.applyfunc(sp.expand)
     by_power = [_filler(element.parameters, inertia.applyfunc(_coefficient(p))) for p in range(3)]
 
-    def powers(values: Sequence[float]) -> tuple[Array, Array, Array]:
-        coefficients, fixed = np.empty((3, width, width)), np.empty((2, width, width))
+    def powers(values: Sequence[Array]) -> tuple[Array, Array, Array]:
+        count = len(values[0])
+        coefficients, fixed = np.empty((3, count, width, width)), np.empty((2, count, width, width))
         for fill, target in zip(by_power, coefficients, strict=True):
             fill(target, *values)
         for fill, target in zip(constants, fixed, strict=True):
@@ -98,11 +99,10 @@ def element_functions(kind: Kind, name: str) -> ElementFunctions:
     law = sp.zeros(1, 2) if compliance == 0 else _impedance(compliance)
     of_impedance = _filler(element.parameters, law)
 
-    def impedance(values: Sequence[float]) -> Array:
-        found = np.empty((1, 2))
+    def impedance(values: Sequence[Array]) -> Array:
+        found = np.empty((len(values[0]), 1, 2))
         of_impedance(found, *values)
-        law_found: Array = found[0]
-        return law_found
+        return found[:, 0]
 
     return ElementFunctions(width, blocks, powers, impedance)
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from tmm_gen.modal.arm import LinearArm, linear_arm
 from tmm_gen.modal.beam import BeamArm, beam_arm, frequencies_below
 from tmm_gen.modal.matrices import matrices
-from tmm_gen.modal.modes import natural_modes
+from tmm_gen.modal.undamped import undamped_modes
 from tmm_gen.scene import Initial, Scene
 from tmm_gen.scene.beam import Springs, beam_joints, beam_links
 
@@ -57,11 +57,12 @@ def straight_arm(scene: Scene, links: int | None = None) -> LinearArm:
     return linear_arm(with_links(scene, links or scene.stations))
 
 
-def straight_frequencies(scene: Scene, links: int | None = None, springs: Springs | None = None) -> Array:
-    """Return all natural frequencies (rad/s) of the straight, weightless arm."""
+def straight_frequencies(
+    scene: Scene, links: int | None = None, springs: Springs | None = None, count: int | None = None
+) -> Array:
+    """Return the lowest natural frequencies (rad/s) of the straight, weightless arm, by default all."""
     chosen = with_links(scene, links or scene.stations, springs)
-    squares, _ = natural_modes(matrices(linear_arm(chosen)))
-    return np.sqrt(np.maximum(squares, 0.0))
+    return np.sqrt(undamped_modes(matrices(linear_arm(chosen)), count).squares)
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,7 +116,7 @@ def links_needed(scene: Scene, error: float, band: float) -> LinksNeeded:
     first = max(1, len(exact) - int(scene.base.kind == "motor"))
 
     def errors(links: int) -> Array:
-        return relative_errors(straight_frequencies(scene, links), exact)
+        return relative_errors(straight_frequencies(scene, links, count=len(exact)), exact)
 
     def enough(links: int) -> bool:
         return bool(np.max(errors(links), initial=0.0) <= error)
@@ -130,10 +131,10 @@ def links_needed(scene: Scene, error: float, band: float) -> LinksNeeded:
         low, high = (low, middle) if enough(middle) else (middle, high)
     while high > first and enough(high - 1):  # errors need not fall at every step
         high -= 1
-    found = straight_frequencies(scene, high)[: len(exact)]
+    found = straight_frequencies(scene, high, count=len(exact))
     below = None
     if high > 1:
-        fewer = straight_frequencies(scene, high - 1)
+        fewer = straight_frequencies(scene, high - 1, count=len(exact))
         below = relative_errors(fewer, exact[: len(fewer)])
         below = np.concatenate([below, np.full(len(exact) - len(below), np.nan)])
     return LinksNeeded(high, exact, found, errors(high), below)

@@ -11,7 +11,9 @@ from numpy.typing import NDArray
 from tmm_gen.errors import UserError
 from tmm_gen.modal.arm import linear_arm
 from tmm_gen.modal.matrices import Matrices, matrices
+from tmm_gen.modal.parts import Parts
 from tmm_gen.modal.rest import Rest, rest_at, straight
+from tmm_gen.modal.springs import springs_of
 from tmm_gen.scene import Scene
 
 Array = NDArray[np.float64]
@@ -21,6 +23,7 @@ Unbalanced = Callable[[Rest, Matrices], Array]
 _STEPS = 500
 _LARGEST_TURN = 0.5
 _TOLERANCE = 1e-12
+_ROUNDING = 1e-9
 _HALVINGS = 30
 _OVERSHOOT = 0.9
 _NEAR = 1e-6
@@ -36,7 +39,7 @@ def equilibrium(
     """Return the static equilibrium an arm reaches from its initial angles under gravity and loads.
 
     Newton's iteration on the torque out of balance, turned into a descent of the potential energy: where the
-    stiffness has negative directions it is shifted along the mass matrix until it has none (Nocedal & Wright
+    stiffness has negative directions it is shifted along the links' inertia until it has none (Nocedal & Wright
     2006, ch. 3.4), and steps end before the energy rises. So it is a stable equilibrium, unless the arm
     starts on an unstable one.
 
@@ -56,11 +59,15 @@ def equilibrium(
     """
     angles = straight(scene)
     rest, linear, torque = _look(scene, angles, inputs, unbalanced)
+    before = np.inf
     for _ in range(_STEPS):
         turn = _descent(linear, torque)
         largest = float(np.max(np.abs(turn)))
-        if largest <= _TOLERANCE * max(1.0, float(np.max(np.abs(angles)))):
+        size = max(1.0, float(np.max(np.abs(angles))))
+        # many links round more: then turns do not become smaller any more
+        if largest <= _TOLERANCE * size or (largest <= _ROUNDING * size and largest > 0.5 * before):
             return rest
+        before = largest
         share = min(1.0, _LARGEST_TURN / largest)
         slope = float(torque @ turn)  # of the energy, downward
         for _ in range(_HALVINGS):
@@ -85,15 +92,28 @@ def _look(
 
 def _descent(linear: Matrices, torque: Array) -> Array:
     """Return the turn to the minimum of the local energy, or of one made convex."""
-    from scipy.linalg import eigh
-
-    squares, shapes = eigh(linear.stiffness, linear.mass)
-    least = _CONVEX * float(np.max(np.abs(squares)))
-    shift = max(0.0, least - float(squares[0]))
-    if shift > 0.0:
-        shift += least - min(float(squares[0]), 0.0)
-    found: Array = shapes @ ((shapes.T @ torque) / (squares + shift))
+    parts = linear.parts
+    springs = springs_of(parts)
+    if springs.rigid or springs.negative:
+        inertia = parts.diagonal
+        ground, shift = parts.ground_stiffness, _shift(parts, inertia)
+        while springs.rigid or springs.negative:
+            springs = springs_of(replace(parts, ground_stiffness=ground + shift * inertia))
+            shift *= 2.0
+    found: Array = springs.angles(springs.loads(torque[:, None]))[:, 0]
     return found
+
+
+def _shift(parts: Parts, inertia: Array) -> float:
+    """Return how far the stiffness lies below one that is convex, in units of an inertia."""
+    from scipy.linalg import eigvalsh_tridiagonal  # slow to import
+
+    springs = np.append(0.0, parts.spring) if parts.hub else parts.spring
+    root = np.sqrt(inertia)
+    diagonal = (springs + np.append(springs[1:], 0.0) + parts.ground_stiffness) / inertia
+    squares = eigvalsh_tridiagonal(diagonal, -springs[1:] / (root[1:] * root[:-1]))
+    least = _CONVEX * float(np.max(np.abs(squares)))
+    return max(0.0, -2.0 * float(squares[0])) + 2.0 * least
 
 
 def kernel_unbalanced(scene: Scene, inputs: Mapping[str, float] | None = None) -> Unbalanced:

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from tmm_gen.modal.arm import LinearArm, linear_arm
-from tmm_gen.modal.equilibrium import equilibrium, kernel_unbalanced
+from tmm_gen.modal.equilibrium import equilibrium
 from tmm_gen.modal.rest import rest_at, straight
 from tmm_gen.scene import Scene
 
@@ -15,8 +15,8 @@ from tmm_gen.scene import Scene
 def resting_arm(scene: Scene, inputs: Mapping[str, float] | None = None) -> LinearArm:
     """Return a scene's linear arm: a chain, or a planar arm about its static equilibrium.
 
-    Under gravity or constant inputs the equilibrium is where the generated NumPy kernel says that nothing
-    accelerates. Without either the arm lies straight along x.
+    Under gravity or constant inputs the equilibrium is where no link is out of balance. Without either the arm lies
+    straight along x.
 
     Parameters
     ----------
@@ -35,4 +35,4 @@ def resting_arm(scene: Scene, inputs: Mapping[str, float] | None = None) -> Line
     held = {name: value for name, value in (inputs or {}).items() if value != 0.0}
     if not scene.model.gravity and not held:
         return linear_arm(scene, rest_at(scene, np.zeros_like(straight(scene))))
-    return linear_arm(scene, equilibrium(scene, held, kernel_unbalanced(scene, held)))
+    return linear_arm(scene, equilibrium(scene, held))

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+import atexit
 import hashlib
 import shutil
 import subprocess
-import tempfile
 from collections.abc import Mapping, Sequence
 from functools import cache
 from pathlib import Path, PurePosixPath
@@ -13,6 +13,8 @@ from pathlib import Path, PurePosixPath
 import platformdirs
 
 from tmm_gen.errors import UserError
+from tmm_gen.scratch import new_folder, scratch_folder
+from tmm_gen.trusted import digest_of, discard, own_content, own_folder
 
 FLAGS = ("-O2", "-ffp-contract=off")
 """Optimised, and without fused multiply-add, so that results are the same bits everywhere."""
@@ -44,16 +46,34 @@ def compile_library(files: Mapping[str, str], cc: str = "gcc", flags: Sequence[s
     version = _version(cc)
     content = repr((sorted(files.items()), version, tuple(flags), _ALWAYS))
     folder = _cache_folder() / hashlib.sha256(content.encode()).hexdigest()[:32]
-    library = folder / "kernel.so"
-    if not library.exists():
-        _compile(files, cc, flags, library)
-    return library
+    return _intact(folder) or _compile(files, cc, flags, folder)
 
 
-def _compile(files: Mapping[str, str], cc: str, flags: Sequence[str], library: Path) -> None:
-    library.parent.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory(dir=library.parent) as scratch:
-        here = Path(scratch)
+def _intact(folder: Path) -> Path | None:
+    """Return the library of a folder: a file of this user, whose name is the digest of what it holds.
+
+    What is damaged, or could be somebody else's, is never loaded: a truncated library ends the process.
+    """
+    try:
+        own_folder(folder)
+        found = sorted(folder.glob("*.so"))
+    except OSError:
+        return None
+    for library in found:
+        content = own_content(library)
+        if content is not None and digest_of(content) == library.stem:
+            return library
+        discard(library)
+    return None
+
+
+def _compile(files: Mapping[str, str], cc: str, flags: Sequence[str], folder: Path) -> Path:
+    try:
+        own_folder(folder)
+        place = folder
+    except OSError:  # somebody else's: leave it alone
+        place = _own_temporary()
+    with scratch_folder(place) as here:
         names = {PurePosixPath(path).name: text for path, text in files.items()}
         for name, text in names.items():
             (here / name).write_text(text)
@@ -61,8 +81,12 @@ def _compile(files: Mapping[str, str], cc: str, flags: Sequence[str], library: P
         command = [cc, *_ALWAYS, *flags, *sources, "-o", "kernel.so", "-lm"]
         done = subprocess.run(command, cwd=here, capture_output=True, text=True, check=False)
         if done.returncode != 0:
-            raise UserError(f"'{' '.join(command)}' failed:\n{done.stderr.strip()}")
-        (here / "kernel.so").replace(library)
+            raise UserError(f"'{' '.join(command)}' failed: {' '.join(done.stderr.split())}")
+        built = here / "kernel.so"
+        built.chmod(0o700)
+        library = place / f"{digest_of(built.read_bytes())}.so"
+        built.replace(library)
+    return library
 
 
 @cache
@@ -85,8 +109,16 @@ def _cache_folder() -> Path:
     """Return a folder that can be written: the user's cache, or a temporary one."""
     folder = platformdirs.user_cache_path("tmm-gen") / "native"
     try:
-        folder.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=folder):
+        own_folder(folder)
+        with scratch_folder(folder):
             return folder
     except OSError:
-        return Path(tempfile.mkdtemp(prefix="tmm-gen-"))
+        return _own_temporary()
+
+
+@cache
+def _own_temporary() -> Path:
+    """Return a folder for as long as this process lives."""
+    folder = new_folder()
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    return folder

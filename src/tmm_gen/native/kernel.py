@@ -14,6 +14,7 @@ from tmm_gen.emit.c import emit_kernel, free_scene
 from tmm_gen.emit.c.real import real_of
 from tmm_gen.emit.templates import render
 from tmm_gen.native.compiler import FLAGS, compile_library
+from tmm_gen.native.differences import with_derivatives
 from tmm_gen.native.layout import Value, element_values, read, write
 from tmm_gen.native.library import Library
 from tmm_gen.program.statements import Program
@@ -212,7 +213,8 @@ class NativeKernel:
         duration : float
             Time to simulate (s); the last instant is the last whole step within it.
         inputs : mapping from str
-            Constants or functions of time; inputs not named are zero.
+            Constants or functions of time; inputs not named are zero, but rate and acceleration of a prescribed
+            angle that is a function are its derivatives.
         params, step, **given
             As for :meth:`prepare` and :meth:`initialise`.
 
@@ -228,13 +230,14 @@ class NativeKernel:
         FloatingPointError, ValueError, VanishingPivotError
             As :meth:`prepare`, :meth:`initialise` and :meth:`step` do.
         """
-        signals = dict(inputs or {})
+        signals: dict[str, Any] = dict(inputs or {})
         if unknown := sorted(set(signals) - {v.name for v in self.program.inputs}):
             known = ", ".join(v.name for v in self.program.inputs) or "none"
             raise ValueError(f"no input is named {', '.join(unknown)}; there are: {known}")
         if not 0.0 <= duration < np.inf:
             raise ValueError(f"duration must be a time, not {duration!r}")
         self.prepare(params, step)
+        signals = with_derivatives(self.program, signals, self._step)
         self.initialise({name: _at(signal, 0.0) for name, signal in signals.items()}, **given)
         steps = int(np.floor(duration / self._step * (1.0 + 1e-12)))
         rows = [self.output(), *self.advance(signals, 0, steps)]

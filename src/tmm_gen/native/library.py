@@ -117,6 +117,12 @@ class Library:
             raise VanishingPivotError(f"{what}: a pivot is not positive; check parameters and step")
         if status == 5:
             raise OutOfRangeError(f"{what}: an angle or an intermediate result is out of range")
+        if status == 6:
+            raise ValueError(f"{what}: a pointer is NULL")
+        if status == 7:
+            raise FloatingPointError(
+                f"{what}: parameters or step are too large or too small for the number type"
+            )
         if status == 4:
             raise NonFiniteStateError(f"{what}: the motion has outgrown the number type")
 

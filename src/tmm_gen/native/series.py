@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from tmm_gen.native.differences import with_derivatives
 from tmm_gen.native.kernel import NativeKernel
 from tmm_gen.native.layout import Value
 
@@ -26,7 +27,8 @@ class Series:
     kernel : NativeKernel
         Several series may share it: each run overwrites its model and state.
     signals : mapping from str to callable
-        Inputs by name, from instants to values; those not named are zero.
+        Inputs by name, from instants to values; those not named are zero, but rate and acceleration of a prescribed
+        angle are its derivatives.
     steps : int
         How many; positive.
     step : float
@@ -40,8 +42,9 @@ class Series:
         self.steps = steps
         self._inputs: Any = (kernel.types["inputs"] * steps)()
         self._outputs: Any = (kernel.types["outputs"] * steps)()
-        self._first = {name: float(signal(np.zeros(1))[0]) for name, signal in signals.items()}
-        self._fill(signals)
+        acting = with_derivatives(kernel.program, signals, step)
+        self._first = {name: float(signal(np.zeros(1))[0]) for name, signal in acting.items()}
+        self._fill(acting)
 
     def start(self, params: Mapping[str, Value] | None = None) -> None:
         """Prepare the kernel for the step, and go to the scene's initial motion.

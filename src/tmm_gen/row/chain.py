@@ -14,7 +14,8 @@ from tmm_gen.row.words import (
     optional,
     parameter,
     place,
-    signal_of,
+    prescribed_of,
+    signals_of,
     symbol,
 )
 from tmm_gen.scene import Scene, station_of
@@ -74,9 +75,9 @@ def chain_row(scene: Scene, integrator: str) -> Row:
         detail_tail=tail,
         parameters=tuple(p for p in found if p is not None),
         combinations=(),
-        inputs=tuple(signal_of(i) for i in scene.inputs),
+        inputs=signals_of(scene),
         loads=tuple(load for group in loads.values() for load in group.values()),
-        prescribed=tuple(i.name for i in scene.inputs if i.acts == "angle"),
+        prescribed=prescribed_of(scene),
         readings=tuple(_reading(scene, index) for index in range(len(scene.outputs))),
         facts=facts_of(scene, "torsional chain (linear)", integrator),
         angles=tuple(scene.initial.angles),

@@ -17,7 +17,8 @@ from tmm_gen.row.words import (
     optional,
     parameter,
     place,
-    signal_of,
+    prescribed_of,
+    signals_of,
     symbol,
 )
 from tmm_gen.scene import Output, Scene, station_of
@@ -123,9 +124,9 @@ def planar_row(scene: Scene, integrator: str) -> Row:
         detail_tail=(*((_mass(tip_mass),) if tip_mass != 0 else ()), *tip_body, *at_tip),
         parameters=tuple(p for p in named.values() if p is not None),
         combinations=combinations,
-        inputs=tuple(signal_of(i) for i in scene.inputs),
+        inputs=signals_of(scene),
         loads=tuple(load for group in loads.values() for load in group.values()),
-        prescribed=tuple(i.name for i in scene.inputs if i.acts == "angle"),
+        prescribed=prescribed_of(scene),
         readings=tuple(_reading(scene, output) for output in scene.outputs),
         held=_held(scene),
         fall=gravity,

@@ -143,7 +143,7 @@ class Row:
     inputs : tuple of Signal
     loads : tuple of Load
     prescribed : tuple of str
-        Inputs that move the base.
+        Inputs that move the base: its displacement, rate and acceleration; none where nothing does.
     readings : tuple of Reading
     held : dict from str to Signal
         Inputs as they last acted, kept for readings.

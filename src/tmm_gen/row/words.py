@@ -8,6 +8,7 @@ import sympy as sp
 
 from tmm_gen.row.row import Load, Parameter, Signal
 from tmm_gen.scene import Input, Scene, station_of
+from tmm_gen.scene.signal import kernel_names
 
 UNITS = {"torque": "N m", "force_x": "N", "force_y": "N", "angle": "rad"}
 
@@ -17,11 +18,28 @@ def place(at: str | int) -> str:
     return f"station {at}" if isinstance(at, int) else f"the {at}"
 
 
-def signal_of(described: Input) -> Signal:
-    """Return an input of the row."""
-    moves = described.acts == "angle"
-    doc = "prescribed base angle" if moves else f"{described.acts} acting at {place(described.at)}"
-    return Signal(described.name, doc, UNITS[described.acts])
+def signals_of(scene: Scene) -> tuple[Signal, ...]:
+    """Return the inputs of a scene's row: a prescribed angle comes with its rate and its acceleration."""
+    return tuple(signal for described in scene.inputs for signal in _signals(described))
+
+
+def _signals(described: Input) -> tuple[Signal, ...]:
+    if described.acts != "angle":
+        doc = f"{described.acts} acting at {place(described.at)}"
+        return (Signal(described.name, doc, UNITS[described.acts]),)
+    names = kernel_names(described)
+    return tuple(
+        Signal(name, f"prescribed base {word}", unit)
+        for name, (word, unit) in zip(names, BASE_MOTION, strict=True)
+    )
+
+
+BASE_MOTION = (("angle", "rad"), ("rate", "rad/s"), ("acceleration", "rad/s^2"))
+
+
+def prescribed_of(scene: Scene) -> tuple[str, ...]:
+    """Return the names of the inputs that move a prescribed base: angle, rate, acceleration."""
+    return next((kernel_names(item) for item in scene.inputs if item.acts == "angle"), ())
 
 
 def parameter(name: str, doc: str, unit: str, values: Sequence[float]) -> Parameter:

@@ -5,6 +5,8 @@ Gholampour (2018), eqs. 2-1 and 2-2 and the alternatives to them.
 
 from __future__ import annotations
 
+import math
+from fractions import Fraction
 from typing import Annotated, Literal
 
 from pydantic import Field
@@ -88,26 +90,50 @@ def joint_stiffnesses(beam: Beam) -> tuple[float, ...]:
     tuple of float, length n
         N m/rad.
     """
-    n = beam.links
-    k = beam.bending_stiffness * n / beam.length
-    if beam.springs == "uniform":
-        return (k,) * n
-    if beam.springs == "half-clamp":
-        return (2.0 * k,) + (k,) * (n - 1)
-    second = (48 * n - 72) / (42 * n - 71) * k
-    return ((8.0 / 9.0) * k, second, *(k,) * (n - 2))[:n]
+    return tuple(map(_nearest, _exact_stiffnesses(beam)))
 
 
 def beam_joints(beam: Beam) -> tuple[Joint, ...]:
     """Return the joints of a beam, base to tip, length n; see :func:`joint_stiffnesses`."""
+    time = _exact(beam.damping_time)
     return tuple(
-        Joint.model_construct(stiffness=k, damping=beam.damping_time * k) for k in joint_stiffnesses(beam)
+        Joint.model_construct(stiffness=_nearest(k), damping=_nearest(time * k))
+        for k in _exact_stiffnesses(beam)
     )
 
 
 def beam_links(beam: Beam) -> tuple[Link, ...]:
     """Return the links of a beam, base to tip, length n: slender uniform rods of inertia ``m l^2/12``."""
-    length = beam.length / beam.links
-    mass = beam.mass_per_length * length
-    link = Link.model_construct(inertia=mass * length * length / 12.0, mass=mass, length=length, center=0.5)
+    length = _exact(beam.length) / beam.links
+    mass = _exact(beam.mass_per_length) * length
+    link = Link.model_construct(
+        inertia=_nearest(mass * length**2 / 12),
+        mass=_nearest(mass),
+        length=_nearest(length),
+        center=0.5,
+    )
     return (link,) * beam.links
+
+
+def _exact_stiffnesses(beam: Beam) -> tuple[Fraction, ...]:
+    n = beam.links
+    k = _exact(beam.bending_stiffness) * n / _exact(beam.length)
+    if beam.springs == "uniform":
+        return (k,) * n
+    if beam.springs == "half-clamp":
+        return (2 * k,) + (k,) * (n - 1)
+    second = Fraction(48 * n - 72, 42 * n - 71) * k
+    return (Fraction(8, 9) * k, second, *(k,) * (n - 2))[:n]
+
+
+def _exact(value: float) -> Fraction:
+    """Return a number as the scene writes it: the shortest decimal that reads back as the same."""
+    return Fraction(repr(float(value)))
+
+
+def _nearest(value: Fraction) -> float:
+    """Return the nearest number, which is written as shortly as a person would: 34.5, not 34.49999999999999."""
+    try:
+        return float(value)
+    except OverflowError:
+        return math.inf

@@ -1,4 +1,4 @@
-"""Names that can stand in Python, in C and C++, in a file name and in a CSV header alike."""
+"""Names that can stand in Python, in C behind a prefix, in a file name and in a CSV header alike."""
 
 from __future__ import annotations
 
@@ -11,13 +11,16 @@ from typing import Annotated
 from pydantic import AfterValidator
 
 from tmm_gen.scene.table import fault
-from tmm_gen.scene.words import C_AND_CPP, GENERATED, MODULES_AND_HEADERS
+from tmm_gen.scene.words import MODULES_AND_HEADERS, TIME
 
 LONGEST = 48
 
 
 def name_fault(name: str) -> tuple[str, str] | None:
     """Say why a name cannot be used in generated code.
+
+    Only what no generated text could hold is refused: C takes every name behind a prefix, and Python every one that
+    is no keyword.
 
     Parameters
     ----------
@@ -35,10 +38,8 @@ def name_fault(name: str) -> tuple[str, str] | None:
         return f"must have at most {LONGEST} characters", "Choose a shorter name."
     if keyword.iskeyword(name):
         return "is a keyword of Python", f"Choose another, for example '{name}_1'."
-    if name in C_AND_CPP:
-        return "is a reserved word of C or C++", f"Choose another, for example '{name}_1'."
-    if name in GENERATED:
-        return "is a name the generated code uses itself", f"Choose another, for example 'my_{name}'."
+    if name == TIME:
+        return "is the clock's name, in every CSV file", "Choose another, for example 'time_1'."
     return None
 
 

@@ -7,6 +7,7 @@ from difflib import get_close_matches
 from os import PathLike
 from pathlib import Path
 
+from tmm_gen.reading import read_file
 from tmm_gen.scene.check import check_data
 from tmm_gen.scene.locate import locate
 from tmm_gen.scene.problem import Problem, SceneError
@@ -36,7 +37,7 @@ def load_scene(path: str | PathLike[str]) -> Scene:
     path = Path(path)
     origin = str(path)
     try:
-        content = path.read_bytes()
+        content = read_file(path)
     except FileNotFoundError:
         raise _unreadable(origin, "no such file", _missing_file_remedy(path)) from None
     except IsADirectoryError:

@@ -68,7 +68,9 @@ class Base(Table):
     """
 
     kind: Literal["clamp", "motor", "prescribed"] = Field(description="kind of base", examples=['"clamp"'])
-    inertia: NonNegative = Field(default=0.0, description="inertia of the hub in kg m^2", examples=["0.05"])
+    inertia: NonNegative = Field(
+        default=0.0, description="inertia of the hub in kg m^2, above 0 for a motor", examples=["0.05"]
+    )
     damping: NonNegative = Field(
         default=0.0, description="damping of the hub in N m s/rad", examples=["0.01"]
     )

@@ -55,12 +55,24 @@ class Input(Table):
     at : {"base", "tip"} or int
         Where it acts; a link's forces act at its outer end.
     acts : {"torque", "force_x", "force_y", "angle"}
-        N m on the hub or link, N along x or y (planar), or rad of a prescribed base.
+        N m on the hub or link, N along x or y (planar), or rad of a prescribed base, whose kernels take its rate and
+        acceleration too (:func:`kernel_names`).
     """
 
     name: Name = Field(description="identifier", examples=['"tip_torque"'])
     at: Place = Field(description='"base", "tip" or a link number', examples=['"tip"'])
     acts: Acts = Field(description="what the input is", examples=['"torque"'])
+
+
+RATE, ACCELERATION = "_rate", "_acceleration"
+"""What a prescribed angle's rate and acceleration are called after its name."""
+
+
+def kernel_names(item: Input) -> tuple[str, ...]:
+    """Return the names under which kernels take an input: an angle comes with its rate and its acceleration."""
+    if item.acts != "angle":
+        return (item.name,)
+    return (item.name, item.name + RATE, item.name + ACCELERATION)
 
 
 class Output(Table):

@@ -6,15 +6,16 @@ from dataclasses import dataclass
 
 from tmm_gen.emit.c.kernel import Kernel
 from tmm_gen.emit.c.structs import dimension
+from tmm_gen.emit.c_names import c_element
 from tmm_gen.emit.templates import render
 from tmm_gen.program.variables import Variable
 from tmm_gen.scene import Scene
+from tmm_gen.scene.signal import kernel_names
 
 STEPS = 256
 """Steps of a run: two waves of every input."""
 _GENTLE = 320.0
-"""Amplitude of a prescribed angle over the square of the step, 1/s^2: it jumps at every step of the wave, and the
-acceleration in it is this over the wave's 32 steps, times what the integrator makes of a jump."""
+"""Amplitude of a prescribed acceleration, 1/s^2; rate and angle swing by this times the step and its square."""
 
 
 @dataclass(frozen=True)
@@ -64,10 +65,7 @@ def harness(kernel: Kernel, counter: str, steps: int = STEPS) -> str:
 
 def _wave(kernel: Kernel, which: int, variable: Variable) -> Wave:
     low, high = swing(kernel.scene, variable.name)
-    members = tuple(
-        variable.name if variable.length is None else f"{variable.name}[{stage}]"
-        for stage in range(variable.length or 1)
-    )
+    members = tuple(c_element(variable.entry(stage)) for stage in range(variable.length or 1))
     literal = kernel.real.literal
     return Wave(members, which, literal((low + high) / 2.0), literal((high - low) / 2.0))
 
@@ -76,8 +74,10 @@ def swing(scene: Scene, name: str) -> tuple[float, float]:
     """Return the bounds between which the harness moves an input: those of the scene's box, or 1 either way."""
     if scene.emit.box and name in scene.emit.box:
         return scene.emit.box[name]
-    acts = next(item.acts for item in scene.inputs if item.name == name)
-    half = _GENTLE * scene.integrator.step**2 if acts == "angle" else 1.0
+    angle = next((item for item in scene.inputs if item.acts == "angle"), None)
+    if angle is None or name not in kernel_names(angle):
+        return -1.0, 1.0
+    half = _GENTLE * scene.integrator.step ** (2 - kernel_names(angle).index(name))
     return -half, half
 
 

@@ -5,11 +5,12 @@ Each takes texts, so that a test can plant a fault and see which check finds it.
 
 from __future__ import annotations
 
-import tempfile
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
+from tmm_gen.scratch import scratch_folder
 from tmm_gen.target.boards import BOARDS
 from tmm_gen.target.tools import attempt, need
 
@@ -161,22 +162,14 @@ def _compiled(
     return LintRow(check, all(one.returncode == 0 for one in done), _short(said), meaning)
 
 
-class _laid_out:  # noqa: N801 - used like a function
-    """Texts in a folder of their own, for as long as a block lasts."""
-
-    def __init__(self, files: Files) -> None:
-        self._files = files
-        self._scratch = tempfile.TemporaryDirectory(prefix="tmm-gen-")
-
-    def __enter__(self) -> tuple[Path, list[str]]:
-        folder = Path(self._scratch.__enter__())
-        names = [PurePosixPath(path).name for path in self._files]
-        for name, text in zip(names, self._files.values(), strict=True):
+@contextmanager
+def _laid_out(files: Files) -> Iterator[tuple[Path, list[str]]]:
+    """Put texts in a folder of their own, for as long as a block lasts."""
+    with scratch_folder() as folder:
+        names = [PurePosixPath(path).name for path in files]
+        for name, text in zip(names, files.values(), strict=True):
             (folder / name).write_text(text, encoding="utf-8")
-        return folder, sorted(name for name in names if name.endswith(".c"))
-
-    def __exit__(self, *problem: object) -> None:
-        self._scratch.cleanup()
+        yield folder, sorted(name for name in names if name.endswith(".c"))
 
 
 def _is_test(path: str) -> bool:

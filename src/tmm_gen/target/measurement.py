@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -11,6 +10,7 @@ from tmm_gen.emit.c.kernel import Kernel
 from tmm_gen.errors import UserError
 from tmm_gen.program.build import build_program
 from tmm_gen.scene import Scene
+from tmm_gen.scratch import scratch_folder
 from tmm_gen.target.bits import Difference, compare_bits
 from tmm_gen.target.boards import BOARDS, Board
 from tmm_gen.target.build import build_for, build_here
@@ -97,13 +97,13 @@ def measure(scene: Scene, target: str) -> Measurement:
     board = BOARDS[target]
     program = build_program(scene)
     kernel, sources = Kernel.of(program, scene), emit_kernel(program, scene)
-    with tempfile.TemporaryDirectory(prefix="tmm-gen-") as scratch:
+    with scratch_folder() as scratch:
         built = build_for(board, kernel, sources, Path(scratch, "board"))
         there = run_on(board, built.program)
         here = run_here(build_here(kernel, sources, Path(scratch, "host")))
         sizes = sizes_of(board, built.kernel)
         depth = worst_stack(built.callgraph.read_text(), f"{scene.name}_step")
-        measured = there.counts["stack_of_step"][0]
+        measured = there.counts["stack_taken"][0]
         difference = compare_bits(here, there, kernel.real)
         return Measurement(
             target=target,

@@ -8,19 +8,20 @@ alarm is a proof (Buehler, "EVA, an evolved value analysis for Frama-C", Rennes,
 from __future__ import annotations
 
 import re
-import tempfile
 from dataclasses import dataclass
-from pathlib import Path, PurePosixPath
+from pathlib import PurePosixPath
 
 from tmm_gen.emit.c import emit_kernel
 from tmm_gen.emit.c.box import Box, box_of
 from tmm_gen.emit.c.kernel import Kernel
 from tmm_gen.emit.c.structs import dimension
+from tmm_gen.emit.c_names import c_name, macros
 from tmm_gen.emit.templates import render
 from tmm_gen.errors import UserError
 from tmm_gen.program.build import build_program
 from tmm_gen.program.variables import Variable
 from tmm_gen.scene import Scene
+from tmm_gen.scratch import scratch_folder
 from tmm_gen.target.tools import attempt, need
 
 OPTIONS = (
@@ -119,7 +120,7 @@ def driver(kernel: Kernel, box: Box) -> str:
         return literal(low), literal(high)
 
     def members(variables: tuple[Variable, ...]) -> list[tuple[str, str, str, str]]:
-        return [(v.name, dimension(v, program), *bounds(v)) for v in variables]
+        return [(c_name(v), dimension(v, program), *bounds(v)) for v in variables]
 
     step = box.bounds.get("step")
     return render(
@@ -129,7 +130,7 @@ def driver(kernel: Kernel, box: Box) -> str:
         interval="Frama_C_float_interval" if kernel.real.size == 4 else "Frama_C_double_interval",
         step=f"{'any_pair' if kernel.real.pair else 'any'}({literal(step[0])}, {literal(step[1])})"
         if step
-        else f"{program.name.upper()}_STEP",
+        else f"{macros(program.name)}_STEP",
         zero=literal(0.0),
         inputs=members(program.inputs),
         state=members(program.state),
@@ -161,8 +162,7 @@ def analyse(files: dict[str, str], name: str) -> tuple[tuple[Alarm, ...], str]:
         If Frama-C is missing or fails, or never gets to the end of a step (so that its silence would mean nothing).
     """
     program = need("frama-c", "frama-c-base")
-    with tempfile.TemporaryDirectory(prefix="tmm-gen-") as scratch:
-        folder = Path(scratch)
+    with scratch_folder() as folder:
         names = [PurePosixPath(path).name for path in files]
         for short, text in zip(names, files.values(), strict=True):
             (folder / short).write_text(text, encoding="utf-8")

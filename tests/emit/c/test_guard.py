@@ -1,18 +1,15 @@
-"""The number that tells of every NaN."""
+"""What is added up of a new state: finite only if all of it is."""
 
 from __future__ import annotations
 
-from typing import Any
-
-import pytest
-
-from tmm_gen.emit.c.guard import telling_value
+from tmm_gen.emit.c.guard import sums_of
 from tmm_gen.program.statements import Assign, Loop, Order, Routine, Section
 from tmm_gen.program.variables import Role, Variable
 
 N = 4
 ANGLE = Variable("angle", Role.STATE, N)
-OLDER = Variable("angle_1_ago", Role.STATE, N)
+RATE = Variable("rate", Role.STATE, N)
+HUB = Variable("hub_angle", Role.STATE)
 CARRIED = Variable("carried", Role.LOCAL).ref
 
 
@@ -20,41 +17,36 @@ def routine(*statements: Assign | Loop) -> Routine:
     return Routine("step", "", (Section("all", statements),))
 
 
-def sweep(order: Order) -> Routine:
-    return routine(
-        Assign(CARRIED, ANGLE.entry(0) * 2),
-        Loop(order, 0, N, (Assign(CARRIED, CARRIED + ANGLE.at()), Assign(ANGLE.at(), CARRIED * 3))),
-    )
+def test_all_that_is_written_counts() -> None:
+    loop = Loop(Order.OUTWARD, 0, N, (Assign(ANGLE.at(), RATE.at() * 2), Assign(RATE.at(), RATE.at() * 3)))
+    hub = Assign(HUB.ref, HUB.ref * 2)
+    found = sums_of(routine(hub, loop))
+    assert found.inside == {loop: loop.body}
+    assert found.behind == (hub,)
+    assert found.ends == ()
 
 
-def test_the_end_of_a_sweep_tells() -> None:
-    assert telling_value(sweep(Order.OUTWARD), (ANGLE,)) == ANGLE.entry(N - 1)
-    assert telling_value(sweep(Order.INWARD), (ANGLE,)) == ANGLE.entry(0)
+def test_of_what_is_written_over_the_last_counts() -> None:
+    first = Loop(Order.OUTWARD, 0, N, (Assign(ANGLE.at(), RATE.at() * 2),))
+    last = Loop(Order.INWARD, 0, N, (Assign(ANGLE.at(), RATE.at() * 3),))
+    assert sums_of(routine(first, last)).inside == {last: last.body}
 
 
-def test_stations_that_do_not_meet_have_no_such_number() -> None:
-    alone = routine(Loop(Order.OUTWARD, 0, N, (Assign(ANGLE.at(), ANGLE.at() * 2),)))
-    assert telling_value(alone, (ANGLE,)) is None
+def test_half_of_an_array_does_not_write_over_all_of_it() -> None:
+    whole = Loop(Order.OUTWARD, 0, N, (Assign(ANGLE.at(), RATE.at() * 2),))
+    half = Loop(Order.OUTWARD, 0, 2, (Assign(ANGLE.at(), RATE.at() * 3),))
+    assert set(sums_of(routine(whole, half)).inside) == {whole, half}
 
 
-def test_what_is_only_copied_is_told_of_later() -> None:
-    aged = routine(
-        Loop(Order.OUTWARD, 0, N, (Assign(OLDER.at(), ANGLE.at()),)), *sweep(Order.OUTWARD).statements()
-    )
-    assert telling_value(aged, (OLDER, ANGLE)) == ANGLE.entry(N - 1)
+def test_a_number_carried_by_sums_and_products_tells_of_those_before() -> None:
+    for order, end in ((Order.OUTWARD, N - 1), (Order.INWARD, 0)):
+        loop = Loop(order, 0, N, (Assign(CARRIED, RATE.at() * CARRIED + 1), Assign(ANGLE.at(), CARRIED)))
+        assert sums_of(routine(Assign(CARRIED, HUB.ref), loop)).ends == ((ANGLE, end),)
 
 
-@pytest.mark.parametrize(
-    ("kind", "found"),
-    [
-        ({}, True),
-        ({"base": "motor"}, True),
-        ({"sweep": "product"}, True),
-        ({"integrator": "sdirk4", "base": "prescribed"}, True),
-        ({"integrator": "newmark", "parameters": "beta = 0.0", "damped": False}, False),
-    ],
-)
-def test_chains(kind: dict[str, Any], found: bool, chain: Any) -> None:
-    """Implicit sweeps bring all stations together; explicit ones without dampers only neighbours."""
-    program = chain(**kind).program
-    assert (telling_value(program.main, program.state) is not None) is found
+def test_a_number_carried_below_a_line_does_not() -> None:
+    for value in (RATE.at() / CARRIED, RATE.at() + 1 / CARRIED):
+        loop = Loop(Order.OUTWARD, 0, N, (Assign(CARRIED, value), Assign(ANGLE.at(), CARRIED)))
+        found = sums_of(routine(Assign(CARRIED, HUB.ref), loop))
+        assert found.ends == ()
+        assert found.inside == {loop: (loop.body[1],)}

@@ -12,6 +12,7 @@ import pytest
 
 from tmm_gen.export.fmu import FmiVersion
 from tmm_gen.measure.module import numpy_module
+from tmm_gen.measure.profiles import Smooth
 from tmm_gen.native import NativeKernel
 from tmm_gen.scene import Scene
 
@@ -107,7 +108,7 @@ def test_a_communication_step_may_be_many_steps(
 
 
 @pytest.mark.parametrize("version", VERSIONS)
-def test_a_prescribed_angle_is_gone_to_along_a_straight_line(
+def test_a_prescribed_angle_alone_is_gone_to_along_a_straight_line(
     version: FmiVersion, servo: Scene, instance: Any, direct: Any
 ) -> None:
     unit = instance(servo, version)
@@ -125,7 +126,8 @@ def test_a_prescribed_angle_is_gone_to_along_a_straight_line(
         time += many * 2e-3
         for k in range(many):
             way = [reached + ((k + at) / many) * (target - reached) for at in instants]
-            kernel.step({"angle": way, "push": push})
+            rate = (target - reached) / (many * 2e-3)
+            kernel.step({"angle": way, "angle_rate": rate, "push": push})
         reached = target
         assert unit.outputs() == kernel.output()
     assert abs(unit.outputs()["tip_y"]) > 0.002
@@ -185,3 +187,52 @@ def test_the_function_returned_is_callable_without_arguments(
     result = fmpy.simulate_fmu(str(unit_of(scene_named("arm10"), 2)))
     assert len(result) == 1001  # steps of 1 ms, the unit's own, for 1 s
     assert np.isfinite(result["tip_x"]).all()
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+@pytest.mark.parametrize("told", [2, 3])
+def test_a_plan_of_angles_and_rates_is_followed(
+    version: FmiVersion, told: int, servo: Scene, unit_of: Any, direct: Any
+) -> None:
+    """A unit goes where the kernel goes that is given the same plan, one communication step later."""
+    plan, every = Smooth(0.0, 1.2, 0.3), 4e-3
+    times = every * np.arange(81)
+    names = ("angle", "angle_rate", "angle_acceleration")[:told]
+    table = np.zeros(len(times), dtype=[("time", float), *((name, float) for name in names)])
+    table["time"] = times
+    for name, of in zip(names, (plan.at, plan.slope, plan.curvature), strict=False):
+        table[name] = of(times)
+    result = simulated(unit_of(servo, version), table, every)
+    later = Smooth(0.0, 1.2, 0.3, start=every)
+    kernel = direct(servo)
+    signals = {
+        "angle": lambda t: float(later.at(t)),
+        "angle_rate": lambda t: float(later.slope(t)),
+        "angle_acceleration": lambda t: float(later.curvature(t)),
+    }
+    _, expected = kernel.simulate(times[-1], signals)
+    # the way between two communication points is the plan's own to some power of their distance
+    within = 2e-5 if told == 2 else 1e-7
+    for column, values in expected.items():
+        np.testing.assert_allclose(result[column], values[::2], rtol=0, atol=within)
+    assert abs(result["tip_y"][-1]) > 0.3
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_the_base_is_there_at_each_communication_point(
+    version: FmiVersion, servo: Scene, instance: Any
+) -> None:
+    """Rate and acceleration too; and the initial ones are those set before the start."""
+    read = [{"name": f"base_{of}", "at": "base", "of": of} for of in ("angle", "rate")]
+    scene = servo.replace(output=read)
+    unit = instance(scene, version)
+    unit.begin(angle=0.01, angle_rate=0.2, angle_acceleration=1.0)
+    assert (unit.outputs()["base_angle"], unit.outputs()["base_rate"]) == (0.01, 0.2)
+    time = 0.0
+    for many, angle, rate in ((1, 0.0105, 0.21), (3, 0.012, 0.25), (2, 0.0125, 0.0)):
+        unit.set("angle", angle)
+        unit.set("angle_rate", rate)
+        unit.step(time, many * 2e-3)
+        time += many * 2e-3
+        assert unit.outputs()["base_angle"] == pytest.approx(angle, abs=1e-15)
+        assert unit.outputs()["base_rate"] == pytest.approx(rate, abs=1e-12)

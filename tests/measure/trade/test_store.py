@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import gc
 import sqlite3
+import warnings
 from collections.abc import Iterator
+from contextlib import closing
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -35,14 +39,42 @@ def test_a_result_comes_back_as_it_went(tmp_path: Path) -> None:
 def test_other_files_are_refused_and_left_as_they_are(tmp_path: Path) -> None:
     text, other = tmp_path / "notes.txt", tmp_path / "other.sqlite"
     text.write_text("no database, but long enough to look like one\n" * 40)
-    with sqlite3.connect(other) as connection:
+    with closing(sqlite3.connect(other)) as connection, connection:
         connection.execute("CREATE TABLE mine (x)")
-    connection.close()
     before = text.read_bytes(), other.read_bytes()
     for path in (text, other, tmp_path, tmp_path / "no" / "folder.sqlite"):
         with pytest.raises(UserError, match=r"--store .*cannot be used"):
             Store(path)
     assert (text.read_bytes(), other.read_bytes()) == before
+
+
+def test_a_refused_file_is_closed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Python 3.13 warns of a connection left open; here whoever opens one is watched, on any Python."""
+    opened: list[Watched] = []
+
+    class Watched(sqlite3.Connection):
+        closed = False
+
+        def close(self) -> None:
+            self.closed = True
+            super().close()
+
+    def connect(path: Path, **options: Any) -> Watched:
+        opened.append(real(path, factory=Watched, **options))
+        return opened[-1]
+
+    real = sqlite3.connect
+    text = tmp_path / "notes.txt"
+    text.write_text("no database, but long enough to look like one\n" * 40)
+    monkeypatch.setattr(sqlite3, "connect", connect)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        with pytest.raises(UserError, match="cannot be used"):
+            Store(text)
+        with Store(tmp_path / "good.sqlite"):
+            pass
+        gc.collect()
+    assert [each.closed for each in opened] == [True, True]
 
 
 class StudyInterruptedError(Exception):

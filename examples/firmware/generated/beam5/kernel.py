@@ -1,8 +1,8 @@
 # beam5: Five-link arm on a hub, the model of an observer
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 2aa7477fe5a1cf796a596a84ffa48c892dc54bfd3ece90a5d25a43813cf34ab5
-# sha256 of the rest of this file: 073c5e74ad76a6175a3b147d347bbe3ddc166ea4f6e965f86f3c373b60cd76c0
+# scene digest: 7cda6afdfe9f28eb257c67670c83631d86f159a73ec0c14225ebe1e38843e797
+# sha256 of the rest of this file: 40600d34c4300a295fff97aec5d6db96f3571e494718f50f34b9d79e64ed9914
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 5
@@ -11,9 +11,9 @@
 # linearisation: newton
 # sweep: riccati
 # unknown: acceleration
-# operations of a step: 593, 118.6 per station (275 additions, 302 multiplications, 6 divisions, 10 sines and
+# operations of a step: 595, 119 per station (275 additions, 304 multiplications, 6 divisions, 10 sines and
 #     cosines)
-# operations of prepare: 62, 12.4 per station (17 additions, 45 multiplications)
+# operations of prepare: 47, 9.4 per station (10 additions, 37 multiplications)
 """beam5: Five-link arm on a hub, the model of an observer.
 
 A state goes in, a new one comes out: ``model = prepare(params, step)``, ``state = initialise(params,
@@ -22,7 +22,8 @@ inputs)`` for all of them. Arrays are never written in place.
 
 All arrays may have further axes behind, those of a batch: many arms at once, each with its own parameters,
 inputs and state. What is one number for an arm then has the batch's shape; what differs between stations has
-the stations first, base to tip.
+the stations first, base to tip. An arm with numbers that are not finite, or a step or pivot that is not
+positive, is NaN; errors are left for where no other arm is left.
 """
 
 from __future__ import annotations
@@ -82,7 +83,7 @@ class Params:
 
     length: ArrayLike = 0.2
     mass: ArrayLike = 0.1
-    inertia: ArrayLike = 0.00033333333333333343
+    inertia: ArrayLike = 0.0003333333333333333
     center: ArrayLike = 0.5
     stiffness: ArrayLike = (32.0, 16.0, 16.0, 16.0, 16.0)
     damping: ArrayLike = (0.064, 0.032, 0.032, 0.032, 0.032)
@@ -102,6 +103,8 @@ class Model:
         Time step (s).
     length : array, shape (*batch)
         Link length, the same everywhere (m).
+    mass : array, shape (*batch)
+        Link mass, the same everywhere (kg).
     stiffness : array, shape (5, *batch)
         Joint stiffness, base to tip (N m/rad).
     damping : array, shape (5, *batch)
@@ -118,8 +121,8 @@ class Model:
         Angle per unit of acceleration: step**2/4 (s^2).
     rate_per_acceleration : array, shape (*batch)
         Rate per unit of acceleration: step/2 (s).
-    node_mass : array, shape (5, *batch)
-        Mass at the outer end of each link (kg).
+    end_mass : array, shape (*batch)
+        Mass at the tip less the share of a link beyond it (kg).
     rod_inertia : array, shape (*batch)
         Inertia of a link that masses at its ends leave over (kg m^2).
     joint_impedance : array, shape (5, *batch)
@@ -130,6 +133,7 @@ class Model:
 
     step: Array
     length: Array
+    mass: Array
     stiffness: Array
     damping: Array
     gravity: Array
@@ -138,7 +142,7 @@ class Model:
     half_step_squared: Array
     angle_per_acceleration: Array
     rate_per_acceleration: Array
-    node_mass: Array
+    end_mass: Array
     rod_inertia: Array
     joint_impedance: Array
     hub_impedance: Array
@@ -223,6 +227,7 @@ class Result:
     state: State
 
 
+@np.errstate(all="ignore")
 def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     """Compute what depends on parameters and step alone.
 
@@ -236,9 +241,9 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     Raises
     ------
     FloatingPointError
-        If a parameter or the step is not finite.
+        If parameters, step or what follows from them are not finite.
     ValueError
-        If shapes do not fit.
+        If the step is not positive, or shapes do not fit.
     VanishingPivotError
         If parameters or step leave a pivot that is not positive.
     """
@@ -253,16 +258,15 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     hub_inertia = _array(params.hub_inertia, None, "hub_inertia")
     hub_damping = _array(params.hub_damping, None, "hub_damping")
     tip_mass = _array(params.tip_mass, None, "tip_mass")
+    good = _positive(step)
     numbers = (step, length, mass, inertia, center, gravity, hub_inertia, hub_damping, tip_mass)
     arrays = (stiffness, damping)
-    batch, dtype = _common(numbers, arrays)
+    batch, _ = _common(numbers, arrays)
     stiffness = _align(stiffness, batch)
     damping = _align(damping, batch)
-    node_mass = np.zeros((STATIONS, *batch), dtype)
 
     # masses at the nodes between links, and what they leave over
-    node_mass[:4] = center * mass + mass * (1.0 - center)
-    node_mass[4] = tip_mass + center * mass
+    end_mass = tip_mass - mass * (1.0 - center)
     rod_inertia = inertia - center * (length * length) * mass * (1.0 - center)
 
     # factors of the sweep that do not change from step to step
@@ -273,24 +277,46 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     half_step_squared = 0.5 * (step * step)
     angle_per_acceleration = 0.25 * (step * step)
     rate_per_acceleration = 0.5 * step
+
+    numbers = (
+        step,
+        length,
+        mass,
+        gravity,
+        hub_inertia,
+        hub_damping,
+        half_step_squared,
+        angle_per_acceleration,
+        rate_per_acceleration,
+        end_mass,
+        rod_inertia,
+        hub_impedance,
+        inertia,
+        center,
+        tip_mass,
+    )
+    arrays = (stiffness, damping, joint_impedance)
+    good = _judged(good, numbers, arrays, "parameters or step are too large or too small for the number type")
     return Model(
-        step=step,
-        length=length,
-        stiffness=stiffness,
-        damping=damping,
-        gravity=gravity,
-        hub_inertia=hub_inertia,
-        hub_damping=hub_damping,
-        half_step_squared=half_step_squared,
-        angle_per_acceleration=angle_per_acceleration,
-        rate_per_acceleration=rate_per_acceleration,
-        node_mass=node_mass,
-        rod_inertia=rod_inertia,
-        joint_impedance=joint_impedance,
-        hub_impedance=hub_impedance,
+        step=_kept(step, good, False),
+        length=_kept(length, good, False),
+        mass=_kept(mass, good, False),
+        stiffness=_kept(stiffness, good, True),
+        damping=_kept(damping, good, True),
+        gravity=_kept(gravity, good, False),
+        hub_inertia=_kept(hub_inertia, good, False),
+        hub_damping=_kept(hub_damping, good, False),
+        half_step_squared=_kept(half_step_squared, good, False),
+        angle_per_acceleration=_kept(angle_per_acceleration, good, False),
+        rate_per_acceleration=_kept(rate_per_acceleration, good, False),
+        end_mass=_kept(end_mass, good, False),
+        rod_inertia=_kept(rod_inertia, good, False),
+        joint_impedance=_kept(joint_impedance, good, True),
+        hub_impedance=_kept(hub_impedance, good, False),
     )
 
 
+@np.errstate(all="ignore")
 def initialise(
     params: Params = Params(),
     input: Input = Input(),
@@ -314,12 +340,13 @@ def initialise(
     Raises
     ------
     FloatingPointError
-        If an argument is not finite.
+        If an argument or the state is not finite.
     ValueError
         If shapes do not fit.
     VanishingPivotError
         If parameters leave a pivot that is not positive.
     """
+    good: Any = True
     hub_torque = _array(input.hub_torque, None, "input hub_torque")
     length = _array(params.length, None, "length")
     mass = _array(params.mass, None, "mass")
@@ -345,16 +372,18 @@ def initialise(
     answer_own = np.zeros((STATIONS, *batch), dtype)
     answer_x = np.zeros((STATIONS, *batch), dtype)
     answer_y = np.zeros((STATIONS, *batch), dtype)
-    node_mass = np.zeros((STATIONS, *batch), dtype)
     predicted_acceleration = np.zeros((STATIONS + 1, *batch), dtype)
     predicted_angle = np.zeros((STATIONS + 1, *batch), dtype)
     predicted_rate = np.zeros((STATIONS + 1, *batch), dtype)
     solved = np.zeros((STATIONS, *batch), dtype)
 
     # masses at the nodes between links, and what they leave over
-    node_mass[:4] = center * mass + mass * (1.0 - center)
-    node_mass[4] = tip_mass + center * mass
+    end_mass = tip_mass - mass * (1.0 - center)
     rod_inertia = inertia - center * (length * length) * mass * (1.0 - center)
+
+    # what is the same at every station
+    hub_pivot = hub_inertia
+    good = _positive_pivot(good, hub_pivot, "hub_pivot", None)
 
     # predicted motion
     predicted_rate[0] = 0.0
@@ -386,18 +415,18 @@ def initialise(
     )
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
-    force_x: Any = 0.0
-    force_y: Any = 0.0
-    impedance_xx: Any = 0.0
+    impedance_xx = end_mass
+    impedance_yy = end_mass
+    force_x = acceleration_x[5] * end_mass
+    force_y = acceleration_y[5] * end_mass
     impedance_xy: Any = 0.0
     impedance_yx: Any = 0.0
-    impedance_yy: Any = 0.0
     torque: Any = 0.0
     for j in reversed(range(STATIONS)):
-        impedance_xx = impedance_xx + node_mass[j]
-        impedance_yy = impedance_yy + node_mass[j]
-        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
-        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
+        impedance_xx = impedance_xx + mass
+        force_x = force_x + acceleration_x[j + 1] * mass
+        impedance_yy = impedance_yy + mass
+        force_y = force_y + acceleration_y[j + 1] * mass
         impedance_xu = impedance_xy * lever_cosine[j] - impedance_xx * lever_sine[j]
         impedance_yu = impedance_yy * lever_cosine[j] - impedance_yx * lever_sine[j]
         impedance_ux = impedance_yx * lever_cosine[j] - impedance_xx * lever_sine[j]
@@ -410,22 +439,20 @@ def initialise(
             + predicted_acceleration[j + 1] * rod_inertia
         )
         pivot = impedance_uu
-        _require_positive(pivot, "pivot", j)
+        good = _positive_pivot(good, pivot, "pivot", j)
         admittance = 1.0 / pivot
         answer_own[j] = admittance * (joint_torque[j] - torque)
         answer_x[j] = admittance * impedance_ux
         answer_y[j] = admittance * impedance_uy
         impedance_xx = impedance_xx - answer_x[j] * impedance_xu
         impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        force_x = force_x + answer_own[j] * impedance_xu
         impedance_yx = impedance_yx - answer_x[j] * impedance_yu
         impedance_yy = impedance_yy - answer_y[j] * impedance_yu
-        force_x = force_x + answer_own[j] * impedance_xu
         force_y = force_y + answer_own[j] * impedance_yu
         torque = joint_torque[j]
 
     # the base
-    hub_pivot = hub_inertia
-    _require_positive(hub_pivot, "hub_pivot", None)
     unknown = (
         hub_torque - torque - hub_damping * predicted_rate[0] - hub_inertia * predicted_acceleration[0]
     ) / hub_pivot
@@ -447,16 +474,21 @@ def initialise(
     angle = predicted_angle[1:]
     rate = predicted_rate[1:]
     acceleration = predicted_acceleration[1:] + solved
+
+    numbers = (hub_angle, hub_rate, hub_acceleration)
+    arrays = (angle, rate, acceleration)
+    good = _judged(good, numbers, arrays, "the motion has outgrown the number type")
     return State(
-        hub_angle=_spread(hub_angle, batch, False),
-        hub_rate=_spread(hub_rate, batch, False),
-        hub_acceleration=_spread(hub_acceleration, batch, False),
-        angle=_spread(angle, batch, True),
-        rate=_spread(rate, batch, True),
-        acceleration=_spread(acceleration, batch, True),
+        hub_angle=_kept(_spread(hub_angle, batch, False), good, False),
+        hub_rate=_kept(_spread(hub_rate, batch, False), good, False),
+        hub_acceleration=_kept(_spread(hub_acceleration, batch, False), good, False),
+        angle=_kept(_spread(angle, batch, True), good, True),
+        rate=_kept(_spread(rate, batch, True), good, True),
+        acceleration=_kept(_spread(acceleration, batch, True), good, True),
     )
 
 
+@np.errstate(all="ignore")
 def step(model: Model, state: State, input: Input = Input()) -> State:
     """Advance the state by one step.
 
@@ -477,15 +509,17 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     Raises
     ------
     FloatingPointError
-        If an input is not finite.
+        If an input or the new state is not finite.
     ValueError
         If shapes do not fit.
     VanishingPivotError
         If the motion, parameters or step leave a pivot that is not positive.
     """
+    good: Any = True
     hub_torque = _array(input.hub_torque, None, "input hub_torque")
     step = model.step
     length = model.length
+    mass = model.mass
     stiffness = np.asarray(model.stiffness)
     damping = np.asarray(model.damping)
     gravity = model.gravity
@@ -494,7 +528,7 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     half_step_squared = model.half_step_squared
     angle_per_acceleration = model.angle_per_acceleration
     rate_per_acceleration = model.rate_per_acceleration
-    node_mass = np.asarray(model.node_mass)
+    end_mass = model.end_mass
     rod_inertia = model.rod_inertia
     joint_impedance = np.asarray(model.joint_impedance)
     hub_impedance = model.hub_impedance
@@ -508,23 +542,24 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
         hub_torque,
         step,
         length,
+        mass,
         gravity,
         hub_inertia,
         hub_damping,
         half_step_squared,
         angle_per_acceleration,
         rate_per_acceleration,
+        end_mass,
         rod_inertia,
         hub_impedance,
         hub_angle,
         hub_rate,
         hub_acceleration,
     )
-    arrays = (stiffness, damping, node_mass, joint_impedance, angle, rate, acceleration)
+    arrays = (stiffness, damping, joint_impedance, angle, rate, acceleration)
     batch, dtype = _common(numbers, arrays)
     stiffness = _align(stiffness, batch)
     damping = _align(damping, batch)
-    node_mass = _align(node_mass, batch)
     joint_impedance = _align(joint_impedance, batch)
     hub_angle = _spread(hub_angle, batch, False)
     hub_rate = _spread(hub_rate, batch, False)
@@ -537,7 +572,6 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     answer_own = np.zeros((STATIONS, *batch), dtype)
     answer_x = np.zeros((STATIONS, *batch), dtype)
     answer_y = np.zeros((STATIONS, *batch), dtype)
-    predicted_acceleration = np.zeros((STATIONS + 1, *batch), dtype)
     predicted_angle = np.zeros((STATIONS + 1, *batch), dtype)
     predicted_rate = np.zeros((STATIONS + 1, *batch), dtype)
     solved = np.zeros((STATIONS, *batch), dtype)
@@ -546,17 +580,15 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     # predicted motion
     predicted_rate[0] = hub_rate + hub_acceleration * step
     predicted_angle[0] = hub_angle + half_step_squared * hub_acceleration + hub_rate * step
-    predicted_acceleration[0] = hub_acceleration
     predicted_rate[1:] = rate + acceleration * step
     predicted_angle[1:] = angle + acceleration * half_step_squared + rate * step
-    predicted_acceleration[1:] = acceleration
 
     # accelerations of the nodes, seen from a falling frame: gravity is the base's own
     lever_cosine = length * np.cos(predicted_angle[1:])
     lever_sine = length * np.sin(predicted_angle[1:])
     square = predicted_rate[1:] * predicted_rate[1:]
-    relative_x = -lever_cosine * square - lever_sine * predicted_acceleration[1:]
-    relative_y = lever_cosine * predicted_acceleration[1:] - lever_sine * square
+    relative_x = -acceleration * lever_sine - lever_cosine * square
+    relative_y = acceleration * lever_cosine - lever_sine * square
     turning = predicted_rate[1:] * step
     swing_x = -lever_sine - angle_per_acceleration * relative_y - lever_cosine * turning
     swing_y = lever_cosine + angle_per_acceleration * relative_x - lever_sine * turning
@@ -576,23 +608,23 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     )
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
-    force_x: Any = 0.0
-    force_y: Any = 0.0
+    impedance_xx = end_mass
+    impedance_yy = end_mass
+    force_x = acceleration_x[5] * end_mass
+    force_y = acceleration_y[5] * end_mass
     impedance_uu: Any = 0.0
     impedance_ux: Any = 0.0
     impedance_uy: Any = 0.0
     impedance_xu: Any = 0.0
-    impedance_xx: Any = 0.0
     impedance_xy: Any = 0.0
     impedance_yu: Any = 0.0
     impedance_yx: Any = 0.0
-    impedance_yy: Any = 0.0
     torque: Any = 0.0
     for j in reversed(range(STATIONS)):
-        impedance_xx = impedance_xx + node_mass[j]
-        impedance_yy = impedance_yy + node_mass[j]
-        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
-        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
+        impedance_xx = impedance_xx + mass
+        force_x = force_x + acceleration_x[j + 1] * mass
+        impedance_yy = impedance_yy + mass
+        force_y = force_y + acceleration_y[j + 1] * mass
         impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
         impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
         impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
@@ -604,14 +636,9 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
             + lever_cosine[j] * (impedance_yu - angle_per_acceleration * force_x)
             + lever_sine[j] * (-impedance_xu - angle_per_acceleration * force_y)
         )
-        torque = (
-            torque
-            - force_x * lever_sine[j]
-            + force_y * lever_cosine[j]
-            + predicted_acceleration[j + 1] * rod_inertia
-        )
+        torque = torque + acceleration[j] * rod_inertia - force_x * lever_sine[j] + force_y * lever_cosine[j]
         pivot = impedance_uu + joint_impedance[j]
-        _require_positive(pivot, "pivot", j)
+        good = _positive_pivot(good, pivot, "pivot", j)
         admittance = 1.0 / pivot
         answer_own[j] = admittance * (joint_torque[j] - torque)
         answer_x[j] = admittance * impedance_ux
@@ -619,22 +646,22 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
         transmission[j] = admittance * joint_impedance[j]
         impedance_xx = impedance_xx - answer_x[j] * impedance_xu
         impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        force_x = force_x + answer_own[j] * impedance_xu
+        impedance_xu = impedance_xu * transmission[j]
         impedance_yx = impedance_yx - answer_x[j] * impedance_yu
         impedance_yy = impedance_yy - answer_y[j] * impedance_yu
+        force_y = force_y + answer_own[j] * impedance_yu
+        impedance_yu = impedance_yu * transmission[j]
         impedance_ux = answer_x[j] * joint_impedance[j]
         impedance_uy = answer_y[j] * joint_impedance[j]
         impedance_uu = impedance_uu * transmission[j]
-        force_x = force_x + answer_own[j] * impedance_xu
-        impedance_xu = impedance_xu * transmission[j]
-        force_y = force_y + answer_own[j] * impedance_yu
-        impedance_yu = impedance_yu * transmission[j]
         torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
 
     # the base
     hub_pivot = hub_impedance + impedance_uu
-    _require_positive(hub_pivot, "hub_pivot", None)
+    good = _positive_pivot(good, hub_pivot, "hub_pivot", None)
     unknown = (
-        hub_torque - torque - hub_damping * predicted_rate[0] - hub_inertia * predicted_acceleration[0]
+        hub_torque - torque - hub_acceleration * hub_inertia - hub_damping * predicted_rate[0]
     ) / hub_pivot
     hub_unknown = unknown
 
@@ -650,20 +677,25 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     # motion at the end of the step
     hub_angle = predicted_angle[0] + angle_per_acceleration * hub_unknown
     hub_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration
-    hub_acceleration = hub_unknown + predicted_acceleration[0]
+    hub_acceleration = hub_acceleration + hub_unknown
     angle = predicted_angle[1:] + angle_per_acceleration * solved
     rate = predicted_rate[1:] + rate_per_acceleration * solved
-    acceleration = predicted_acceleration[1:] + solved
+    acceleration = acceleration + solved
+
+    numbers = (hub_angle, hub_rate, hub_acceleration)
+    arrays = (angle, rate, acceleration)
+    good = _judged(good, numbers, arrays, "the motion has outgrown the number type")
     return State(
-        hub_angle=_spread(hub_angle, batch, False),
-        hub_rate=_spread(hub_rate, batch, False),
-        hub_acceleration=_spread(hub_acceleration, batch, False),
-        angle=_spread(angle, batch, True),
-        rate=_spread(rate, batch, True),
-        acceleration=_spread(acceleration, batch, True),
+        hub_angle=_kept(_spread(hub_angle, batch, False), good, False),
+        hub_rate=_kept(_spread(hub_rate, batch, False), good, False),
+        hub_acceleration=_kept(_spread(hub_acceleration, batch, False), good, False),
+        angle=_kept(_spread(angle, batch, True), good, True),
+        rate=_kept(_spread(rate, batch, True), good, True),
+        acceleration=_kept(_spread(acceleration, batch, True), good, True),
     )
 
 
+@np.errstate(all="ignore")
 def output(model: Model, state: State) -> Output:
     """Read the outputs off a state.
 
@@ -774,16 +806,50 @@ def _array(value: ArrayLike, length: int | None, what: str) -> Array:
         array = array.astype(float)
     if array.dtype.kind not in "fcO":
         raise TypeError(f"{what} must be numeric, not {value!r}")
-    if array.dtype.kind != "O" and not np.isfinite(array).all():
-        raise FloatingPointError(f"{what} must be finite, not {value!r}")
-    if length is None:
-        return array
-    if array.ndim == 0:
-        return np.full(length, array)
-    if array.shape[0] != length:
+    if length is not None and array.ndim == 0:
+        array = np.full(length, array)
+    if length is not None and array.shape[0] != length:
         expected = f"shape ({length}, *batch), or be one number"
         raise ValueError(f"{what} must have {expected}; it has shape {array.shape}")
+    finite = _finite(array)
+    if array.size and not np.any(finite if length is None else finite.all(axis=0)):
+        raise FloatingPointError(f"{what} must be finite, not {value!r}")
     return array
+
+
+def _finite(value: Any) -> Array:
+    """Return which numbers are finite; of numbers that are objects nobody knows."""
+    array = np.asarray(value)
+    return np.ones(array.shape, dtype=bool) if array.dtype.kind == "O" else np.isfinite(array)
+
+
+def _positive(step: Array) -> Any:
+    """Return for which arms the time step is positive."""
+    good = np.asarray(step > 0.0)
+    if step.size and not good.any():
+        raise ValueError(f"step must be positive, not {step}")
+    return good
+
+
+def _judged(good: Any, numbers: tuple[Any, ...], arrays: tuple[Any, ...], what: str) -> Any:
+    """Return which arms are good so far and have only numbers that are finite; leave if there are none."""
+    for number in numbers:
+        good = good & _finite(number)
+    for array in arrays:
+        good = good & _finite(array).all(axis=0)
+    if np.size(good) and not np.any(good):
+        raise FloatingPointError(what)
+    return good
+
+
+def _kept(value: Any, good: Any, stations: bool) -> Array:
+    """Return a result with NaN for the arms that are not good."""
+    array = np.asarray(value)
+    if np.all(good):
+        return array
+    if stations:
+        array = _align(array, np.shape(good))
+    return np.where(good, array, array.dtype.type(np.nan))
 
 
 def _common(numbers: tuple[Any, ...], arrays: tuple[Array, ...]) -> tuple[tuple[int, ...], np.dtype[Any]]:
@@ -814,13 +880,15 @@ def _spread(value: Any, batch: tuple[int, ...], stations: bool) -> Array:
     return np.broadcast_to(array, batch)
 
 
-def _require_positive(pivot: Any, name: str, station: int | None) -> None:
-    """Leave where a pivot is not positive and finite."""
-    if not np.all((pivot > 0.0) & (pivot < np.inf)):
+def _positive_pivot(good: Any, pivot: Any, name: str, station: int | None) -> Any:
+    """Return which arms are good so far and have a positive pivot; leave if there are none."""
+    good = good & np.asarray((pivot > 0.0) & (pivot < np.inf))
+    if np.size(good) and not np.any(good):
         where = "" if station is None else f" of station {station + 1}"
         raise VanishingPivotError(
             f"{name}{where} must be positive and finite, not {pivot}; check parameters and step"
         )
+    return good
 
 
 def _series(values: list[Array]) -> Array:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from tmm_gen.control.bench import Bench
+from tmm_gen.control.emitted.example_arm import example_arm
 from tmm_gen.control.emitted.linear import emit_linear_mpc
 from tmm_gen.control.emitted.rti import emit_rti
 from tmm_gen.control.linear_mpc import LinearMpc
@@ -13,7 +14,9 @@ EMITTED = ("mpc-links", "mpc-modes", "rti-zero", "rti")
 """Names of the controllers that can be written in C."""
 
 
-def emit_controller(bench: Bench, controller: str, real: str = "float64") -> tuple[str, dict[str, str]]:
+def emit_controller(
+    bench: Bench, controller: str, real: str = "float64", name: str | None = None
+) -> tuple[str, dict[str, str]]:
     """Write a controller of a scene in C.
 
     Parameters
@@ -24,6 +27,8 @@ def emit_controller(bench: Bench, controller: str, real: str = "float64") -> tup
         One of `EMITTED`.
     real : {"float64", "float32"}
         Number type.
+    name : str, optional
+        Prefix of its functions and files, by default those of the scene and of the controller.
 
     Returns
     -------
@@ -37,13 +42,15 @@ def emit_controller(bench: Bench, controller: str, real: str = "float64") -> tup
     UserError
         If that controller cannot be written in C.
     """
-    name = f"{bench.scene.name}_{controller.replace('-', '_')}"
+    if controller not in EMITTED:
+        raise UserError(
+            f"the controller '{controller}' cannot be written in C; these can: {', '.join(EMITTED)}"
+        )
+    name = name or f"{bench.scene.name}_{controller.replace('-', '_')}"
+    arm = example_arm(bench)
     title = bench.scene.title
-    if controller == "mpc-links":
-        return name, emit_linear_mpc(name, title, LinearMpc(bench.links, bench.problem, bench.inertia), real)
-    if controller == "mpc-modes":
-        return name, emit_linear_mpc(name, title, LinearMpc(bench.modes, bench.problem, bench.inertia), real)
     if controller in ("rti", "rti-zero"):
         made = RealTimeIteration(bench.step, bench.links, bench.inertia, controller == "rti-zero")
-        return name, emit_rti(name, title, made, real)
-    raise UserError(f"the controller '{controller}' cannot be written in C; these can: {', '.join(EMITTED)}")
+        return name, emit_rti(name, title, made, arm, real)
+    model = bench.links if controller == "mpc-links" else bench.modes
+    return name, emit_linear_mpc(name, title, LinearMpc(model, bench.problem, bench.inertia), arm, real)

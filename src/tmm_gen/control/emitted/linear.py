@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from tmm_gen.control.emitted.example_arm import ExampleArm
+from tmm_gen.control.emitted.folder import complete
 from tmm_gen.control.emitted.linear_data import linear_mpc_data
 from tmm_gen.control.emitted.solver import solver_files
 from tmm_gen.control.emitted.text import ControllerText
@@ -10,7 +12,9 @@ from tmm_gen.emit.c.real import REALS
 from tmm_gen.emit.templates import render
 
 
-def emit_linear_mpc(name: str, title: str, controller: LinearMpc, real: str = "float64") -> dict[str, str]:
+def emit_linear_mpc(
+    name: str, title: str, controller: LinearMpc, arm: ExampleArm, real: str = "float64"
+) -> dict[str, str]:
     """Write a linear MPC as C.
 
     Parameters
@@ -21,19 +25,22 @@ def emit_linear_mpc(name: str, title: str, controller: LinearMpc, real: str = "f
         One line for its head.
     controller : LinearMpc
         What it is to do.
+    arm : ExampleArm
+        For its example.
     real : {"float64", "float32"}
         Number type.
 
     Returns
     -------
     dict of str to str
-        Texts by path: ``<name>.h``, ``<name>.c`` and the solver's in ``daqp/``.
+        Texts by path: ``<name>.h``, ``<name>.c``, the solver's in ``daqp/``, an example and how to build all.
     """
     data = linear_mpc_data(controller)
     mpc = ControllerText(name, title, controller.problem, "linear MPC, condensed", REALS[real], data)
-    context = {"mpc": mpc, "name": name, "NAME": name.upper()}
-    return {
+    context = {"mpc": mpc, "name": name, "NAME": mpc.NAME}
+    files = {
         f"{name}.h": render("control/linear_mpc.h.jinja", **context),
         f"{name}.c": render("control/linear_mpc.c.jinja", **context),
-        **solver_files(),
+        **solver_files(name, mpc.single),
     }
+    return complete(mpc, files, arm)

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.control.command import Status
+from tmm_gen.control.credible import Credible
 from tmm_gen.control.emitted.program_data import ProgramData, program_data
 from tmm_gen.control.kalman import KalmanFilter
 from tmm_gen.control.linear_mpc import LinearMpc
@@ -18,19 +19,37 @@ Array = NDArray[np.float64]
 _ACTIVE = 1e-9
 """How near a bound an input or a row is that is held by it."""
 
+_ROUNDING = 1e-13
+"""What is left of a column that others make up, relative to the largest."""
+
 
 @dataclass(frozen=True, eq=False)
 class LinearMpcData:
-    """Tables of a linear MPC; ``z = (x, d - u_s, u[-1], 1)`` has ``m + 3`` entries.
+    """Tables of a linear MPC; ``z = (w, d - u_s, u[-1], 1)`` has ``r + 3`` entries.
+
+    ``w`` is what of the state x makes a difference to what comes, r numbers of it: a step that integrates
+    accelerations goes on from angles and rates that these have been added to already.
 
     Parameters
     ----------
     size : int
         Entries of the model's state, m.
-    transition, before, then : array, (m + 1, m + 1), (m + 1,) and (m + 1,)
-        Of state and disturbance over a sample, and by the torques that act in it.
-    measure, feed, gain : array, (p, m + 1), (p,) and (m + 1, p)
+    kept, others : tuple of int, (r,) and (m - r,)
+        Entries of x.
+    fold : array, (r, m - r)
+        ``w = x[kept] + fold x[others]``.
+    transition, before, then : array, (m, r + 1), (m,) and (m,)
+        Of the state over a sample, by w and disturbance, and by the torques that act in it.
+    measure, feed : array, (p, m + 1) and (p,)
         Of the Kalman filter.
+    gains : array, (2^(p - 1), m + 1, p)
+        Of the same, by which sensors behind the encoder are there; see :func:`gains_by_sensors`.
+    credible : Credible
+        What can be believed of a measurement.
+    turned, turning : array, (m,)
+        What the state is of an arm turned by 1 rad, and of one turning at 1 rad/s.
+    target_hub : float
+        rad.
     start : array, (m + 1,)
         Estimate at time zero.
     tip_rate, whirl : array, (m,)
@@ -45,9 +64,9 @@ class LinearMpcData:
         Delay in samples, of the model and of the arm; past torques that count.
     program : ProgramData
         The quadratic program, but for what follows.
-    shift : array, (N, m + 3)
+    shift : array, (N, r + 3)
         ``v = R^-T f`` by ``z``.
-    free : array, (rows, m + 2)
+    free : array, (rows, r + 2)
         What the rows are at without inputs, by ``z`` but for its last entry, less what they are at the target.
     rest : array, (kinds of rows,)
         What the rows are at at the target.
@@ -59,12 +78,19 @@ class LinearMpcData:
     """
 
     size: int
+    kept: tuple[int, ...]
+    others: tuple[int, ...]
+    fold: Array
     transition: Array
     before: Array
     then: Array
     measure: Array
     feed: Array
-    gain: Array
+    gains: Array
+    credible: Credible
+    turned: Array
+    turning: Array
+    target_hub: float
     start: Array
     tip_rate: Array
     whirl: Array
@@ -90,14 +116,24 @@ def linear_mpc_data(controller: LinearMpc) -> LinearMpcData:
     size = model.size
     gradient, free = _affine_maps(controller)
     kinds = len(free) // problem.horizon
+    shift = program.inverse.T @ gradient
+    kept, others, fold = _folded(np.vstack([model.transition, shift[:, :size], free[:, :size]]))
+    known = [*kept, *range(size, size + 3)]
     return LinearMpcData(
         size=size,
-        transition=kalman.transition,
-        before=np.append(model.before, 0.0),
-        then=np.append(model.then, 0.0),
+        kept=kept,
+        others=others,
+        fold=fold,
+        transition=kalman.transition[:size, known[:-2]],
+        before=model.before,
+        then=model.then,
         measure=kalman.measure,
         feed=kalman.feed,
-        gain=kalman.gain,
+        gains=gains_by_sensors(kalman),
+        credible=controller.limits,
+        turned=model.turned,
+        turning=model.turn,
+        target_hub=model.target_hub,
         start=np.append(model.start, 0.0),
         tip_rate=model.tip_rate,
         whirl=model.whirl,
@@ -108,12 +144,40 @@ def linear_mpc_data(controller: LinearMpc) -> LinearMpcData:
         acting=controller.delay.acting,
         memory=controller.delay.memory,
         program=program,
-        shift=program.inverse.T @ gradient,
-        free=free[:, :-1],
+        shift=shift[:, known],
+        free=free[:, known[:-1]],
         rest=free[:: problem.horizon, -1] if kinds else np.zeros(0),
         brake=controller.inertia / BRAKE_TIME,
         first=_first_active(controller, program, free),
     )
+
+
+def _folded(columns: Array) -> tuple[tuple[int, ...], tuple[int, ...], Array]:
+    """Return which columns to keep, the others, and how the others are put together from those kept.
+
+    A column counts as put together only if that is exact but for rounding, so that either answer is right.
+    """
+    from scipy.linalg import qr  # slow to import
+
+    triangle, order = qr(columns, mode="r", pivoting=True)
+    sizes = np.abs(np.diag(triangle[: len(order)]))
+    rank = int(np.sum(sizes > _ROUNDING * sizes[0]))
+    kept, others = tuple(sorted(int(i) for i in order[:rank])), tuple(sorted(int(i) for i in order[rank:]))
+    fold = np.linalg.lstsq(columns[:, kept], columns[:, others], rcond=None)[0]
+    return kept, others, np.where(np.abs(fold) > _ROUNDING, fold, 0.0)
+
+
+def gains_by_sensors(kalman: KalmanFilter) -> Array:
+    """Return the gains of a filter for each set of its sensors that has the encoder in it, (2^(p - 1), m + 1, p).
+
+    Bit ``i`` of a set's number is the sensor ``i + 1``; columns of sensors that are not in it are zero.
+    """
+    sensors = kalman.sensors
+    found = np.zeros((1 << (len(sensors) - 1), len(kalman.estimate), len(sensors)))
+    for number, gain in enumerate(found):
+        places = [0, *(i + 1 for i in range(len(sensors) - 1) if number >> i & 1)]
+        gain[:, places] = kalman.gain_of(tuple(sensors[i] for i in places))
+    return found
 
 
 def _first_active(controller: LinearMpc, program: ProgramData, free: Array) -> tuple[int, ...]:

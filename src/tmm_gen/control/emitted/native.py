@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ctypes
 import subprocess
-import tempfile
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,8 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.control.command import Command, Status
+from tmm_gen.control.emitted.folder import library_sources
+from tmm_gen.control.emitted.text import macro_prefix
 from tmm_gen.emit.templates import render
 from tmm_gen.errors import UserError
+from tmm_gen.scratch import scratch_folder
 
 Array = NDArray[np.float64]
 
@@ -23,9 +25,12 @@ STATUSES = (
     Status.OK,
     Status.MEASUREMENT,
     Status.ESTIMATE,
-    Status.INFEASIBLE,
-    Status.ITERATIONS,
+    Status.REDUCED,
+    Status.RELAXED,
     Status.NOT_FINITE,
+    Status.ITERATIONS,
+    Status.INFEASIBLE,
+    Status.MISSING,
 )
 """By their number in C."""
 FLAGS = ("-O3", "-ffp-contract=off")
@@ -74,8 +79,8 @@ class EmittedController:
     ) -> None:
         self.name, self.sensors = name, list(sensors)
         self._number: Any = ctypes.c_double if real == "float64" else ctypes.c_float
-        with tempfile.TemporaryDirectory(prefix="tmm-gen-") as folder:
-            self._library = ctypes.CDLL(str(_compiled(Path(folder), name, files, real, cc, flags)))
+        with scratch_folder() as folder:
+            self._library = ctypes.CDLL(str(_compiled(folder, name, files, cc, flags)))
         self._library.harness_size.restype = ctypes.c_size_t
         self.bytes = int(self._library.harness_size())
         self._memory = ctypes.create_string_buffer(self.bytes + 64)
@@ -114,22 +119,18 @@ class EmittedController:
         return ctypes.c_void_p(address + -address % 64)
 
 
-def _compiled(
-    folder: Path, name: str, files: Mapping[str, str], real: str, cc: str, flags: Sequence[str]
-) -> Path:
-    harness = {"harness.c": render("control/harness.c.jinja", name=name)}
+def _compiled(folder: Path, name: str, files: Mapping[str, str], cc: str, flags: Sequence[str]) -> Path:
+    harness = {"harness.c": render("control/harness.c.jinja", name=name, NAME=macro_prefix(name))}
     for path, text in {**files, **harness}.items():
         (folder / path).parent.mkdir(parents=True, exist_ok=True)
         (folder / path).write_text(text)
-    sources = sorted(path for path in {**files, **harness} if path.endswith(".c"))
-    single = ["-DDAQP_SINGLE_PRECISION"] if real == "float32" else []
+    sources = library_sources({**files, **harness})
     command = [
         cc,
         "-std=c99",
         "-fPIC",
         "-shared",
         *flags,
-        *single,
         "-I.",
         *sources,
         "-o",

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,10 +9,13 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from tmm_gen.control.emitted.folder import library_sources
 from tmm_gen.control.emitted.tables import table
+from tmm_gen.control.emitted.text import macro_prefix
 from tmm_gen.emit.c.real import REALS
 from tmm_gen.emit.templates import render
 from tmm_gen.errors import UserError
+from tmm_gen.scratch import scratch_folder
 from tmm_gen.target.boards import BOARDS, Board
 from tmm_gen.target.build import CROSS, FLAGS, HOST
 from tmm_gen.target.sizes import sizes_of
@@ -46,7 +48,7 @@ class BoardRun:
     samples : int
         Length of the closed loop.
     fallbacks : int
-        Samples on which the safe law stepped in.
+        Samples whose status was not OK.
     """
 
     target: str
@@ -88,10 +90,10 @@ def run_on_board(
     if target not in BOARDS:
         raise UserError(f"no target is called '{target}'; there are {', '.join(BOARDS)}")
     board = BOARDS[target]
-    with tempfile.TemporaryDirectory(prefix="tmm-gen-") as scratch:
+    with scratch_folder() as scratch:
         folder = Path(scratch, "board")
         sources = _lay_out(folder, name, files, measured, real, board.counter)
-        program, alone, static = _cross_compiled(board, name, sources, folder, real)
+        program, alone, static = _cross_compiled(board, name, sources, folder)
         emulator = need(board.emulator, board.emulator_package)
         there = _lines([emulator, *board.emulate, "-kernel", program], folder, board.title)
         here = _here(Path(scratch, "host"), name, files, measured, real)
@@ -120,7 +122,7 @@ def _here(
 ) -> list[list[str]]:
     sources = _lay_out(folder, name, files, measured, real, "none")
     cc = need(HOST, "gcc libc6-dev")
-    call([cc, *FLAGS, "-O2", *_defines(real), "-I.", *sources, "harness.c", "-lm", "-o", "run"], folder)
+    call([cc, *FLAGS, "-O2", "-I.", *sources, "harness.c", "-lm", "-o", "run"], folder)
     return _lines([folder / "run"], folder, "this machine")
 
 
@@ -133,20 +135,21 @@ def _lay_out(
     counter: str,
 ) -> list[str]:
     """Write all sources into a folder and return those of the controller."""
-    seen = table("measured", measured, f"[SAMPLES][{name.upper()}_SENSORS]", REALS[real])
-    harness = render("control/board.c.jinja", name=name, samples=len(measured), counter=counter, table=seen)
+    prefix = macro_prefix(name)
+    seen = table("measured", measured, f"[SAMPLES][{prefix}_SENSORS]", REALS[real])
+    harness = render(
+        "control/board.c.jinja", name=name, NAME=prefix, samples=len(measured), counter=counter, table=seen
+    )
     for path, text in {**files, "harness.c": harness}.items():
         (folder / path).parent.mkdir(parents=True, exist_ok=True)
         (folder / path).write_text(text)
-    return sorted(path for path in files if path.endswith(".c"))
+    return library_sources(files)
 
 
-def _cross_compiled(
-    board: Board, name: str, sources: list[str], folder: Path, real: str
-) -> tuple[Path, Path, int]:
+def _cross_compiled(board: Board, name: str, sources: list[str], folder: Path) -> tuple[Path, Path, int]:
     """Return the program, the controller linked alone, and its bytes of static variables."""
     cc = need(f"{board.prefix}gcc", board.package)
-    common = (*FLAGS, *CROSS, board.optimisation, *board.machine, *_defines(real), "-I.")
+    common = (*FLAGS, *CROSS, board.optimisation, *board.machine, "-I.")
     objects = []
     static = 0
     for source in (*sources, "harness.c"):
@@ -161,10 +164,6 @@ def _cross_compiled(
     alone = ("-nostartfiles", f"-Wl,-e,{name}_command", *kept)
     call([cc, *link, *alone, *objects, "-lm", "-o", "alone.elf"], folder)
     return folder / "run.elf", folder / "alone.elf", static
-
-
-def _defines(real: str) -> list[str]:
-    return ["-DDAQP_SINGLE_PRECISION"] if real == "float32" else []
 
 
 def _lines(command: list[str | Path], folder: Path, where: str) -> list[list[str]]:

@@ -21,7 +21,8 @@ INFINITE = 1e30
 """DAQP's infinity."""
 ACTIVE_PER_INPUT = 2.4
 """How many bounds per input may be active at once: soft rows can be more, where hard ones could not. All of them would
-be three per input, and half as much memory again."""
+be three per input, and half as much memory again. Where more would be, soft ones are passed at nearly every sample
+anyway, and give way."""
 ITERATIONS_PER_INPUT = 5
 """Iterations of the solver a sample may take, per input."""
 
@@ -40,6 +41,8 @@ class ProgramData:
         Bounds of inputs and rows, infinite as `INFINITE`.
     softness : array, (N + r,)
         ``1 / W`` of soft rows, zero of hard ones.
+    stopping : float
+        See :attr:`~tmm_gen.control.condensed.Condensed.stopping`.
     capacity, iteration_limit : int
         How many bounds may be active at once; how many iterations a solution may take.
     """
@@ -49,6 +52,7 @@ class ProgramData:
     low: Array
     high: Array
     softness: Array
+    stopping: float
     capacity: int
     iteration_limit: int
 
@@ -91,6 +95,7 @@ def program_data(problem: ControlProblem, condensed: Condensed) -> ProgramData:
         low=np.maximum(np.repeat([problem.torque[0], *low], count), -INFINITE),
         high=np.minimum(np.repeat([problem.torque[1], *high], count), INFINITE),
         softness=np.repeat([0.0, *soft], count),
+        stopping=condensed.stopping,
         capacity=round(ACTIVE_PER_INPUT * count),
         iteration_limit=ITERATIONS_PER_INPUT * count,
     )

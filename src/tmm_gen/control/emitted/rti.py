@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 
+from tmm_gen.control.emitted.example_arm import ExampleArm
+from tmm_gen.control.emitted.folder import complete
 from tmm_gen.control.emitted.rti_data import RtiData, rti_data
 from tmm_gen.control.emitted.solver import solver_files
 from tmm_gen.control.emitted.text import ControllerText
@@ -28,12 +32,20 @@ class RtiText(ControllerText):
         Whether sensitivities are computed along the trajectory.
     stages : int
         Instants of a step at which inputs are read.
+    inputs : tuple of str
+        Names of the kernel's, in their order. The C asks for none of them by its name, which a macro may have.
     """
 
     data: RtiData
     model: str
     full: bool
     stages: int
+    inputs: tuple[str, ...]
+
+    @property
+    def torque_at(self) -> int:
+        """Where the hub's torque is among the kernel's inputs, in numbers."""
+        return self.stages * self.inputs.index(self.problem.input_name)
 
     @property
     def needs_tangents(self) -> bool:
@@ -67,7 +79,9 @@ class RtiText(ControllerText):
         return [kind for kind, bound in present if bound is not None]
 
 
-def emit_rti(name: str, title: str, controller: RealTimeIteration, real: str = "float64") -> dict[str, str]:
+def emit_rti(
+    name: str, title: str, controller: RealTimeIteration, arm: ExampleArm, real: str = "float64"
+) -> dict[str, str]:
     """Write a real-time iteration as C.
 
     Parameters
@@ -78,15 +92,19 @@ def emit_rti(name: str, title: str, controller: RealTimeIteration, real: str = "
         One line for its head.
     controller : RealTimeIteration
         What it is to do. Its filter becomes one of constant gain.
+    arm : ExampleArm
+        For its example.
     real : {"float64", "float32"}
         Number type.
 
     Returns
     -------
     dict of str to str
-        Texts by path: ``<name>.h``, ``<name>.c``, the kernel's, and the solver's in ``daqp/``.
+        Texts by path: ``<name>.h``, ``<name>.c``, the kernel's, which has the controller's name too, the solver's in
+        ``daqp/``, an example and how to build all.
     """
     full = not controller.zero_order
+    plain, kernel_name = controller.model.scene, f"{name}_kernel"
     changes = {
         "emit.backends": ["c"],
         "emit.real": real,
@@ -94,7 +112,8 @@ def emit_rti(name: str, title: str, controller: RealTimeIteration, real: str = "
         "emit.compensated": False,
         "emit.parameters": "free",
     }
-    scene = controller.model.scene.replace(**changes)
+    # a name of its own, so that several controllers are in one program
+    scene = replace(plain.replace(**changes), name=kernel_name)
     program = build_program(scene)
     kind = "nonlinear MPC by real-time iteration, " + ("full sensitivities" if full else "zero order")
     mpc = RtiText(
@@ -104,16 +123,46 @@ def emit_rti(name: str, title: str, controller: RealTimeIteration, real: str = "
         kind=kind,
         real=REALS[real],
         data=rti_data(controller),
-        model=scene.name,
+        model=kernel_name,
         full=full,
         stages=max(len(instants) for instants in program.stage_instants),
+        inputs=tuple(item.name for item in scene.inputs),
     )
-    context = {"mpc": mpc, "name": name, "NAME": name.upper()}
+    context = {"mpc": mpc, "name": name, "NAME": mpc.NAME}
     kernel = {path.removeprefix("c/"): text for path, text in emit_kernel(program, scene).items()}
-    unused = () if full else (f"{scene.name}_sensitivities.h", f"{scene.name}_sensitivities.c")
-    return {
+    unused = () if full else (f"{kernel_name}_sensitivities.h", f"{kernel_name}_sensitivities.c")
+    kernel = {path: text for path, text in kernel.items() if path not in unused}
+    files = {
         f"{name}.h": render("control/rti.h.jinja", **context),
         f"{name}.c": render("control/rti.c.jinja", **context),
-        **{path: text for path, text in kernel.items() if path not in unused},
-        **solver_files(),
+        **kernel,
+        **short_names(plain.name, kernel_name, kernel),
+        **solver_files(name, mpc.single),
     }
+    return complete(mpc, files, arm)
+
+
+def short_names(scene: str, kernel: str, files: Mapping[str, str]) -> dict[str, str]:
+    """Return a header that gives the kernel inside a controller the names it has when the scene is built.
+
+    Parameters
+    ----------
+    scene : str
+        Prefix of the short names.
+    kernel : str
+        Prefix of the others.
+    files : mapping of str to str
+        The kernel's.
+    """
+    headers = sorted(path for path in files if path.endswith(".h"))
+    words = {word for path in headers for word in re.findall(rf"\b{kernel}_\w+", files[path], re.IGNORECASE)}
+    names = [
+        (_shortened(word, scene, kernel), word) for word in sorted(words) if not word.endswith(("_H", "_h"))
+    ]
+    text = render("control/short_names.h.jinja", scene=scene, kernel=kernel, headers=headers, names=names)
+    return {f"{scene}.h": text} if f"{scene}.h" not in files else {}
+
+
+def _shortened(word: str, scene: str, kernel: str) -> str:
+    prefix = scene if word.startswith(kernel) else scene.upper()
+    return prefix + word[len(kernel) :]

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from tmm_gen.control.credible import Credible
+from tmm_gen.control.emitted.linear_data import gains_by_sensors
 from tmm_gen.control.emitted.program_data import ProgramData, program_data
 from tmm_gen.control.kalman import KalmanFilter
 from tmm_gen.control.rti import RealTimeIteration
@@ -29,8 +31,14 @@ class RtiData:
         Those of `OUTPUTS` that are weighed or bounded.
     weights, targets : tuple of float
         Of each output.
-    gain, start : array, (m + 1, p) and (m + 1,)
-        Of the filter; estimate at time zero.
+    gains : array, (2^(p - 1), m + 1, p)
+        Of the filter; see :func:`~tmm_gen.control.emitted.linear_data.gains_by_sensors`.
+    start : array, (m + 1,)
+        Estimate at time zero.
+    credible : Credible
+        What can be believed of a measurement.
+    target_hub : float
+        rad.
     lengths : array, (n,)
         Of the links, relative to their sum.
     shares : array, (M,)
@@ -57,7 +65,9 @@ class RtiData:
     outputs: tuple[str, ...]
     weights: tuple[float, ...]
     targets: tuple[float, ...]
-    gain: Array
+    gains: Array
+    credible: Credible
+    target_hub: float
     start: Array
     lengths: Array
     shares: Array
@@ -88,7 +98,9 @@ def rti_data(controller: RealTimeIteration) -> RtiData:
         outputs=outputs,
         weights=tuple(weights[name] for name in outputs),
         targets=tuple(targets[name] for name in outputs),
-        gain=kalman.gain,
+        gains=gains_by_sensors(kalman),
+        credible=controller.limits,
+        target_hub=linear.target_hub,
         start=np.append(model.initial(), 0.0),
         lengths=model.lengths / model.lengths.sum(),
         shares=model.delay.shares(problem.substeps),

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import textwrap
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from tmm_gen.control.condensed import BEYOND
+from tmm_gen.control.credible import FARTHEST, JUMP, PATIENCE, Credible
 from tmm_gen.control.emitted.program_data import ProgramData
 from tmm_gen.control.emitted.tables import number, table
 from tmm_gen.control.emitted.tolerances import TOLERANCES, Tolerances
@@ -47,6 +50,11 @@ class ControllerData(Protocol):
         """The quadratic program."""
         ...
 
+    @property
+    def credible(self) -> Credible:
+        """What can be believed of a measurement."""
+        ...
+
 
 @dataclass(frozen=True, eq=False)
 class ControllerText:
@@ -75,13 +83,38 @@ class ControllerText:
 
     @property
     def NAME(self) -> str:
-        """Prefix of macros."""
-        return self.name.upper()
+        """Prefix of macros: of two names that differ in capitals only, two prefixes."""
+        return macro_prefix(self.name)
 
     @property
     def single(self) -> bool:
         """Whether numbers are ``float``."""
         return self.real.size == 4
+
+    @property
+    def patience(self) -> int:
+        """After how many samples in a row that went wrong the estimate starts anew."""
+        return PATIENCE
+
+    @property
+    def jump(self) -> float:
+        """By how much the hub may turn in a sample, rad."""
+        return JUMP
+
+    @property
+    def farthest(self) -> float:
+        """How far from where the scene starts the hub may be, rad."""
+        return FARTHEST
+
+    @property
+    def beyond(self) -> float:
+        """How far beyond a soft bound the arm must be for that to be left out, rad."""
+        return BEYOND
+
+    @property
+    def largest_surprise(self) -> str:
+        """By how much each sensor may be off, a list of numbers."""
+        return self.numbers(self.data.credible.surprise[i] for i in self.data.sensors)
 
     @property
     def horizon(self) -> int:
@@ -152,6 +185,10 @@ class ControllerText:
         """Write a number."""
         return number(value, self.real)
 
+    def numbers(self, values: Iterable[float]) -> str:
+        """Write a list of numbers."""
+        return ", ".join(self.number(float(value)) for value in values)
+
     def table(self, name: str, values: ArrayLike, dimension: str) -> str:
         """Write a table."""
         return table(name, values, dimension, self.real)
@@ -172,3 +209,8 @@ class ControllerText:
         ]
         wrapped = [part for line in lines for part in (textwrap.wrap(line, WIDTH - len(lead) - 1) or [""])]
         return "\n".join(f"{lead} {line}".rstrip() for line in wrapped)
+
+
+def macro_prefix(name: str) -> str:
+    """Return the prefix of a controller's macros: of two names that differ in capitals only, two prefixes."""
+    return name.upper() if name.islower() else name

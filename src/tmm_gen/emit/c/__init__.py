@@ -5,8 +5,10 @@ from __future__ import annotations
 from tmm_gen.emit.c.kernel import Kernel
 from tmm_gen.emit.c.sensitivities import emit_sensitivities
 from tmm_gen.emit.c.vectors import vectors
+from tmm_gen.emit.c_names import macros
 from tmm_gen.emit.seal import sealed
 from tmm_gen.emit.templates import render
+from tmm_gen.emit.write import WITHOUT_MOTION
 from tmm_gen.program.statements import Program
 from tmm_gen.scene import Scene
 
@@ -48,7 +50,9 @@ def emit_c(program: Program, scene: Scene) -> dict[str, str]:
     kernel = Kernel.of(program, scene)
     return {
         **_kernel_files(kernel),
-        f"c/test_{program.name}.c": _filled("test.c", kernel, vectors=vectors(kernel)),
+        f"c/test_{program.name}.c": _filled(
+            "test.c", kernel, vectors=vectors(kernel), without=WITHOUT_MOTION
+        ),
         "c/CMakeLists.txt": _filled("CMakeLists.txt", kernel),
     }
 
@@ -69,4 +73,4 @@ def _kernel_files(kernel: Kernel) -> dict[str, str]:
 
 def _filled(template: str, kernel: Kernel, **more: object) -> str:
     name = kernel.program.name
-    return sealed(render(f"c/{template}.jinja", kernel=kernel, name=name, NAME=name.upper(), **more))
+    return sealed(render(f"c/{template}.jinja", kernel=kernel, name=name, NAME=macros(name), **more))

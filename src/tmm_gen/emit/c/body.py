@@ -5,18 +5,25 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
+from functools import cached_property
 from itertools import count
 
 from tmm_gen.emit.c.circle import Turns
 from tmm_gen.emit.c.fence import Fence
+from tmm_gen.emit.c.finite import check
+from tmm_gen.emit.c.given import given_element
+from tmm_gen.emit.c.guard import Sums, sums_of
 from tmm_gen.emit.c.pair import PairPrinter, is_pair
-from tmm_gen.emit.c.printer import CPrinter, element
+from tmm_gen.emit.c.printer import CPrinter, element, element_at
 from tmm_gen.emit.c.real import Real
 from tmm_gen.emit.c.scalars import place_scalars
 from tmm_gen.emit.c.structs import described, dimension
 from tmm_gen.emit.c.wrap import INDENT, WIDTH, comment, statement
+from tmm_gen.emit.c_names import c_name, macros
 from tmm_gen.program.statements import Assign, Loop, Order, Program, Require, Routine
 from tmm_gen.program.variables import Ref, Role, Variable, refs_in
+
+TOTAL = "total"
 
 SOURCES: dict[str, dict[Role, str]] = {
     "prepare": {Role.STEP: "", Role.PARAMETER: "params->", Role.COEFFICIENT: "model->"},
@@ -82,6 +89,8 @@ class Body:
     own_circle: bool = False
     fence: Fence = field(default_factory=Fence)
     bound: bool = False
+    judged: bool = False
+    """Whether the new state is added up, for :meth:`verdict` to see whether all of it is finite."""
 
     def reads(self, name: str) -> bool:
         """Whether the function uses one of its pointers."""
@@ -135,10 +144,13 @@ class Body:
         printer = self._printer(lambda ref: self._refer(ref, local))
         for variable in hoisted:
             yield (
-                f"{INDENT}const {self._type(variable)} {variable.name} = {self._source(variable)}{variable.name};"
+                f"{INDENT}const {self._type(variable)} {c_name(variable)} = {self._source(variable)}{c_name(variable)};"
             )
         for variable in (*self._intermediate(), *self.routine.variables(Role.WORK), *placement.at_top):
             yield from self._declaration(variable)
+        sums = self._sums
+        if sums is not None and any(sums.inside.values()):
+            yield f"{INDENT}real {TOTAL} = {self.real.literal(0)}; /* of the new motion: is all of it finite? */"
         positions = iter(range(len(tuple(self.routine.assignments()))))
         names = (f"turn_{number}" for number in count(1))
 
@@ -175,9 +187,42 @@ class Body:
                     for inner in top.body:
                         yield from simple(inner, 2, turns)
                         straight.forget(inner.target) if isinstance(inner, Assign) else None
+                    if sums is not None and (terms := sums.inside.get(top, ())):
+                        text = " + ".join(self._judged(assign, printer) for assign in terms)
+                        yield from statement(f"{TOTAL} += {text};", 2)
                     yield f"{INDENT}}}"
                 else:
                     yield from simple(top, 1, straight)
+
+    def verdict(self) -> str:
+        """Return the check that leaves the function unless the new state is finite."""
+        sums = self._sums
+        if sums is None:
+            raise ValueError(f"{self.routine.name} does not add up its state")
+        printer = self._printer(lambda ref: self._refer(ref, frozenset()))
+        terms = [TOTAL] if any(sums.inside.values()) else []
+        terms += [self._judged(assign, printer) for assign in sums.behind]
+        terms += [element_at(f"state->{c_name(v)}", at, self._last) + self._high for v, at in sums.ends]
+        if not terms:
+            return ""
+        return "\n".join(check([" + ".join(terms)], f"{macros(self.program.name)}_NON_FINITE_STATE", 1))
+
+    @cached_property
+    def _sums(self) -> Sums | None:
+        return sums_of(self.routine) if self.judged else None
+
+    def _last(self, entry: int) -> str:
+        """Return an index of a station, in terms of the kernel's macro where it is the last."""
+        return (
+            f"{macros(self.program.name)}_STATIONS - 1" if entry == self.program.stations - 1 else str(entry)
+        )
+
+    def _judged(self, assign: Assign, printer: CPrinter) -> str:
+        """Return a number that is finite only if what an assignment has set is, whose parts may be two."""
+        target = printer.reference(assign.target)
+        if not self.real.pair or not is_pair(assign.target.variable):
+            return target
+        return f"({target}.high + {target}.low)" if isinstance(assign.value, Ref) else f"{target}.high"
 
     def _printer(self, refer: Callable[[Ref], str]) -> CPrinter:
         return PairPrinter(refer) if self.real.pair else CPrinter(self.real, refer)
@@ -192,7 +237,9 @@ class Body:
 
     def _refer(self, ref: Ref, local: frozenset[Variable]) -> str:
         source = "" if ref.variable in local else self._source(ref.variable)
-        return element(source + ref.variable.name, ref)
+        if ref.variable.role is Role.GIVEN:
+            return given_element(ref, self.real)
+        return element(source + c_name(ref.variable), ref)
 
     def _intermediate(self) -> tuple[Variable, ...]:
         if self.bound:
@@ -200,7 +247,7 @@ class Body:
         return tuple(v for v in self.routine.variables(Role.COEFFICIENT) if not self._source(v))
 
     def _declaration(self, variable: Variable) -> list[str]:
-        line = f"{INDENT}{self._type(variable)} {variable.name}{dimension(variable, self.program)};"
+        line = f"{INDENT}{self._type(variable)} {c_name(variable)}{dimension(variable, self.program)};"
         remark = f" /* {described(variable)} */"
         if variable.doc and len(line) + len(remark) <= WIDTH:
             return [line + remark]
@@ -208,7 +255,7 @@ class Body:
 
     def _loop_head(self, loop: Loop) -> str:
         stop = (
-            f"{self.program.name.upper()}_STATIONS" if loop.stop == self.program.stations else str(loop.stop)
+            f"{macros(self.program.name)}_STATIONS" if loop.stop == self.program.stations else str(loop.stop)
         )
         if loop.order is Order.OUTWARD:
             return f"for (int j = {loop.start}; j < {stop}; ++j)"
@@ -219,7 +266,9 @@ class Body:
     def _required(self, required: Require, value: str, depth: int) -> list[str]:
         least = self.real.literal(self.fence.least_of(required))
         value += self._high
-        return self._unless(f"({value} > {least})", f"isfinite({value})", "VANISHING_PIVOT", depth)
+        return self._unless(
+            f"({value} > {least})", f"({value} <= {self.real.largest_name})", "VANISHING_PIVOT", depth
+        )
 
     def _fenced(self, value: str, largest: float, depth: int) -> list[str]:
         bound, number = self.real.literal(largest), value + self._high
@@ -232,17 +281,19 @@ class Body:
     def _turned(self, angle: str, name: str, depth: int) -> Iterator[str]:
         """Yield sine and cosine of an angle; before them, where the function can refuse, a check of its range."""
         if self.kind != "output":
-            largest, number = f"{self.program.name.upper()}_LARGEST_ANGLE", angle + self._high
-            yield from self._unless(
-                f"({number} >= -{largest})", f"({number} <= {largest})", "OUT_OF_RANGE", depth
-            )
+            largest = f"{macros(self.program.name)}_LARGEST_ANGLE"
+            size = f"{self.real.function('fabs')}({angle}{self._high})"
+            yield from self._leave(f"!({size} <= {largest})", "OUT_OF_RANGE", depth)
         yield from statement(f"const circle {name} = circle_of({angle});", depth)
 
     def _unless(self, one: str, other: str, status: str, depth: int) -> list[str]:
+        return self._leave(f"!{one} || !{other}", status, depth)
+
+    def _leave(self, condition: str, status: str, depth: int) -> list[str]:
         pad = INDENT * depth
         return [
-            *statement(f"if (!{one} || !{other}) {{", depth),
-            f"{pad}{INDENT}return {self.program.name.upper()}_{status};",
+            *statement(f"if ({condition}) {{", depth),
+            f"{pad}{INDENT}return {macros(self.program.name)}_{status};",
             f"{pad}}}",
         ]
 

@@ -1,131 +1,75 @@
-"""Which values to look at so that no NaN stays in the state unnoticed.
+"""What of a step's new state to add up so that nothing infinite and no NaN stays in it unnoticed.
 
-NaN passes through every operation, so one value that depends on the whole state tells about all of it. Which
-value that is follows from the program: walked backward from a number of the new state, it says on which numbers of
-the old one that depends. If on all that enter an operation, it will do.
+Infinities and NaN pass through every sum and product, so a sum of all numbers of the new state is finite only if all
+of them are. Numbers that pass from station to station by sums and products (the unknown of a sweep outward) need not
+be added up: they tell of those before, so the last will do.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import NamedTuple
+from dataclasses import dataclass
 
-from tmm_gen.program.statements import Assign, Loop, Order, Require, Routine
-from tmm_gen.program.variables import Ref, Role, Variable, refs_in
+import sympy as sp
 
-_Number = int
-"""A variable and which of its elements, as one integer: there may be very many."""
-
-
-class _Visit(NamedTuple):
-    """A statement as it is executed once: what it writes, if anything, and what it reads."""
-
-    target: _Number | None
-    reads: list[_Number]
-    copies: bool
+from tmm_gen.program.passes.dependence import carried_scalars
+from tmm_gen.program.statements import Assign, Loop, Order, Routine
+from tmm_gen.program.variables import Ref, Role, Variable
 
 
-def telling_value(routine: Routine, state: tuple[Variable, ...]) -> Ref | None:
-    """Return a number of the new state that is NaN whenever anything a step computes with is NaN.
-
-    Takes time in proportion to the stations, of which there may be very many.
+@dataclass(frozen=True)
+class Sums:
+    """What tells whether a new state is finite.
 
     Parameters
     ----------
-    routine : Routine
-        A step.
-    state : tuple of Variable
-        The program's state.
-
-    Returns
-    -------
-    Ref or None
-        An end of an array or a scalar; None where no single number tells.
+    inside : dict from Loop to tuple of Assign
+        What to add up at the end of a loop's body.
+    behind : tuple of Assign
+        Scalars to add at the end.
+    ends : tuple of (Variable, int)
+        Elements to add at the end, each of which tells of its whole array.
     """
-    numbers = _Numbers()
-    visits = list(_visits(routine, numbers))
-    needed = _computed_with(visits, {numbers.of(v, k) for v in state for k in range(v.length or 1)})
-    for variable in reversed(state):
-        for entry in (0,) if variable.length is None else (variable.length - 1, 0):
-            if needed <= _reached(visits, numbers.of(variable, entry)):
-                return variable.entry(entry)
-    return None
+
+    inside: dict[Loop, tuple[Assign, ...]]
+    behind: tuple[Assign, ...]
+    ends: tuple[tuple[Variable, int], ...]
 
 
-class _Numbers:
-    """Gives each variable a range of integers, one for each of its elements."""
-
-    def __init__(self) -> None:
-        self._first: dict[Variable, int] = {}
-        self._next = 0
-
-    def of(self, variable: Variable, element: int) -> _Number:
-        first = self._first.get(variable)
-        if first is None:
-            first = self._first[variable] = self._next
-            self._next += (variable.length or 0) + 1
-        return first + element
-
-    def place(self, ref: Ref) -> tuple[int, int]:
-        """Return ``first, factor`` with ``first + factor * j`` the number at station ``j``."""
-        if ref.variable.length is None or ref.variable.role is Role.LOCAL:
-            return self.of(ref.variable, 0), 0
-        if ref.offset is None:
-            return self.of(ref.variable, ref.entry or 0), 0
-        return self.of(ref.variable, 0) + ref.offset, 1
-
-
-def _visits(routine: Routine, numbers: _Numbers) -> Iterator[_Visit]:
-    """Yield the statements of a routine as they are executed."""
-    for statement in routine.statements():
-        if isinstance(statement, Loop):
-            body = [_parts(inner, numbers) for inner in statement.body]
-            stations = range(statement.start, statement.stop)
-            for j in reversed(stations) if statement.order is Order.INWARD else stations:
-                for parts in body:
-                    yield _visit(parts, j)
-        else:
-            yield _visit(_parts(statement, numbers), 0)
-
-
-_Place = tuple[int, int]
-_Parts = tuple[_Place | None, list[_Place], bool]
-
-
-def _parts(statement: Assign | Require, numbers: _Numbers) -> _Parts:
-    target = numbers.place(statement.target) if isinstance(statement, Assign) else None
-    reads = [numbers.place(ref) for ref in refs_in(statement.value)]
-    return target, reads, isinstance(statement.value, Ref)
-
-
-def _visit(parts: _Parts, j: int) -> _Visit:
-    target, reads, copies = parts
-    at = [first + factor * j for first, factor in reads]
-    return _Visit(None if target is None else target[0] + target[1] * j, at, copies)
-
-
-def _computed_with(visits: list[_Visit], state: set[_Number]) -> set[_Number]:
-    """Return the numbers of the old state that enter an operation, perhaps as copies."""
-    source: dict[_Number, _Number] = {number: number for number in state}
-    needed: set[_Number] = set()
-    for target, reads, copies in visits:
-        if copies and target is not None:
-            if reads[0] in source:
-                source[target] = source[reads[0]]
+def sums_of(routine: Routine) -> Sums:
+    """Return what of the state that a routine writes to add up; of what is written over, the last counts."""
+    inside: dict[Loop, tuple[Assign, ...]] = {}
+    behind: list[Assign] = []
+    ends: list[tuple[Variable, int]] = []
+    written: set[tuple[Ref, int, int]] = set()
+    for top in reversed(tuple(routine.statements())):
+        for inner in reversed(top.body) if isinstance(top, Loop) else (top,):
+            if not isinstance(inner, Assign) or inner.target.variable.role is not Role.STATE:
+                continue
+            place = (inner.target, top.start, top.stop) if isinstance(top, Loop) else (inner.target, 0, 0)
+            if place in written:
+                continue
+            written.add(place)
+            if not isinstance(top, Loop):
+                behind.insert(0, inner)
+            elif _tells_of_those_before(inner, top):
+                last = top.start if top.order is Order.INWARD else top.stop - 1
+                ends.insert(0, (inner.target.variable, last + (inner.target.offset or 0)))
             else:
-                source.pop(target, None)
-            continue
-        needed.update(source[read] for read in reads if read in source)
-        if target is not None:
-            source.pop(target, None)
-    return needed
+                inside[top] = (inner, *inside.get(top, ()))
+    return Sums(inside, tuple(behind), tuple(ends))
 
 
-def _reached(visits: list[_Visit], number: _Number) -> set[_Number]:
-    """Return what a number depends on when all is done, as it is before anything is done."""
-    live = {number}
-    for target, reads, _ in reversed(visits):
-        if target in live:
-            live.remove(target)
-            live.update(reads)
-    return live
+def _tells_of_those_before(assign: Assign, loop: Loop) -> bool:
+    """Whether what a loop sets is a scalar that it carries along by sums and products of itself."""
+    value = assign.value
+    if not isinstance(value, Ref) or value.variable not in carried_scalars(loop):
+        return False
+    place = loop.body.index(assign)
+    updates = [s for s in loop.body if isinstance(s, Assign) and s.target == value]
+    if len(updates) != 1 or loop.body.index(updates[0]) > place:
+        return False
+    return any(_is_factor(term, value) for term in sp.Add.make_args(updates[0].value))
+
+
+def _is_factor(term: sp.Expr, ref: Ref) -> bool:
+    return any(factor == ref for factor in sp.Mul.make_args(term))

@@ -8,20 +8,21 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from tmm_gen.emit.c.bind import bind
-from tmm_gen.emit.c.body import Body
+from tmm_gen.emit.c.body import TOTAL, Body
 from tmm_gen.emit.c.box import complete_box
 from tmm_gen.emit.c.circle import Circle, PairCircle, has_angles, uses_circle
 from tmm_gen.emit.c.fence import Fence, fence_of
 from tmm_gen.emit.c.finite import check, finite_checks
-from tmm_gen.emit.c.guard import telling_value
+from tmm_gen.emit.c.given import given_checks, given_tables
 from tmm_gen.emit.c.lower import lower
 from tmm_gen.emit.c.pair import functions_in, pair_literal
 from tmm_gen.emit.c.pair_outputs import rounded_last
-from tmm_gen.emit.c.printer import element
 from tmm_gen.emit.c.real import Real, real_of
 from tmm_gen.emit.c.structs import COUNTER, Struct, described, dimension, structs_of
-from tmm_gen.emit.c.wrap import INDENT, WIDTH, comment
+from tmm_gen.emit.c.wrap import INDENT, WIDTH, comment, statement
+from tmm_gen.emit.c_names import macros
 from tmm_gen.emit.header import header_lines
+from tmm_gen.emit.runs import Run, runs
 from tmm_gen.program.statements import Assign, Loop, Program, Require, Routine
 from tmm_gen.program.variables import Variable
 from tmm_gen.scene import Scene
@@ -192,7 +193,7 @@ class Kernel:
         """The comment on the status OUT_OF_RANGE."""
         what = []
         if self.circle is not None:
-            what.append(f"an angle is beyond {self.program.name.upper()}_LARGEST_ANGLE")
+            what.append(f"an angle is beyond {macros(self.program.name)}_LARGEST_ANGLE")
         if self.fenced:
             what.append("an intermediate result is beyond what the box of the scene can lead to")
         text = f"{', or '.join(what)}; nothing was changed."
@@ -212,7 +213,10 @@ class Kernel:
         """
         of = self.program.main.name if kind == "linearise" else routine.name
         fence = self.fences.get(of, Fence())
-        return Body(self.program, routine, kind, self.real, self.circle is not None, fence, self.bound)
+        judged = kind in ("initialise", "step", "linearise")
+        return Body(
+            self.program, routine, kind, self.real, self.circle is not None, fence, self.bound, judged
+        )
 
     @cached_property
     def prepare(self) -> Body:
@@ -239,26 +243,52 @@ class Kernel:
         """The bodies of the start-up steps."""
         return [self.body(routine, "step") for routine in self.program.startup]
 
-    def verdict(self, routine: Routine) -> str:
-        """Return the check of the new state: of one number that tells of all, or of every one."""
-        failure = f"{self.program.name.upper()}_NON_FINITE_STATE"
-        found = telling_value(routine, self.program.state)
-        if found is None:
-            return self.checks("state->", self.program.state, failure)
-        name = element(f"state->{found.variable.name}", found)
-        if found.entry:
-            name = f"state->{found.variable.name}[{self.program.name.upper()}_STATIONS - 1]"
-        name += ".high" if self.real.pair else ""
-        lines = (
-            *comment("Anything that is not a number has reached this one.", 1),
-            *check([name], failure, 1),
-        )
-        return "\n".join(lines)
-
     def checks(self, pointer: str, variables: tuple[Variable, ...], failure: str) -> str:
         """Return statements that leave a function with ``failure`` unless all variables are finite."""
         pairs = self.real.pair and pointer in ("params->", "state->")
         return "\n".join(finite_checks(pointer, variables, self.program, failure, pairs))
+
+    def model_check(self) -> str:
+        """Return statements that leave prepare unless the sum of the model is finite."""
+        failure = f"{macros(self.program.name)}_NON_FINITE_MODEL"
+        sums = "(model->{0}.high + model->{0}.low)" if self.real.pair else "model->{0}"
+        by_length: dict[str, list[str]] = {}
+        checked = (self.program.step, *self.program.parameters)
+        for variable in (v for v in self.program.model if v not in checked):
+            by_length.setdefault(dimension(variable, self.program), []).append(variable.name)
+        single = [sums.format(name) for name in by_length.pop("", [])]
+        lines: list[str] = []
+        if by_length:
+            lines.append(
+                f"{INDENT}real {TOTAL} = {self.real.literal(0)}; /* of the model: is all of it finite? */"
+            )
+            single.append(TOTAL)
+        for length, names in by_length.items():
+            lines.append(f"{INDENT}for (int j = 0; j < {length[1:-1]}; ++j) {{")
+            lines += statement(f"{TOTAL} += {' + '.join(sums.format(f'{name}[j]') for name in names)};", 2)
+            lines.append(f"{INDENT}}}")
+        return "\n".join([*lines, *(check([" + ".join(single)], failure, 1) if single else ())])
+
+    def given_checks(self) -> str:
+        """Return statements that leave initialise where what it is given is not finite."""
+        return "\n".join(given_checks(self.program, f"{macros(self.program.name)}_NON_FINITE_INPUT"))
+
+    @property
+    def given_tables(self) -> list[str]:
+        """Return declarations of the scene's start, for callers who give none."""
+        return list(given_tables(self.program, self.real))
+
+    def absent(self, *names: str | None) -> str:
+        """Return statements that leave a function where one of some pointers is NULL."""
+        condition = " || ".join(f"{name} == NULL" for name in self.pointers(*names))
+        failure = f"{macros(self.program.name)}_NULL_POINTER"
+        return f"{INDENT}if ({condition}) {{\n{INDENT * 2}return {failure};\n{INDENT}}}"
+
+    @property
+    def sources(self) -> list[str]:
+        """The files of C to compile, without the test."""
+        name = self.program.name
+        return [f"{name}.c", *([f"{name}_sensitivities.c"] if self.program.sensitivities else [])]
 
     @property
     def copied(self) -> list[tuple[str, str, str]]:
@@ -287,9 +317,13 @@ class Kernel:
         numbers = textwrap.wrap(", ".join(map(literal, values)), WIDTH - len(INDENT))
         return [*remark, f"{head} {{", *(INDENT + line for line in numbers), "};"]
 
-    def defaults(self) -> list[tuple[Variable, list[str]]]:
-        """Return the scene's parameters as literals, those of arrays in lines that fit."""
-        return [(v, self._literals(v)) for v in self.program.parameters]
+    def defaults(self) -> list[tuple[Variable, list[str], tuple[Run, ...] | None]]:
+        """Return the scene's parameters as literals, those of arrays in lines that fit, and their long runs."""
+        return [(v, self._literals(v), _runs(v)) for v in self.program.parameters]
+
+    def parameter(self, value: float) -> str:
+        """Return a parameter's value as an expression."""
+        return f"(pair){pair_literal(value)}" if self.real.pair else self.real.literal(value)
 
     @property
     def default_step(self) -> str:
@@ -325,14 +359,24 @@ class Kernel:
         return textwrap.wrap(", ".join(numbers), WIDTH - 2 * len(INDENT))
 
 
+def _runs(variable: Variable) -> tuple[Run, ...] | None:
+    return runs(variable.default) if isinstance(variable.default, tuple) else None
+
+
 def _flat(routine: Routine) -> Iterator[Assign | Require]:
-    for statement in routine.statements():
-        yield from statement.body if isinstance(statement, Loop) else (statement,)
+    for top in routine.statements():
+        yield from top.body if isinstance(top, Loop) else (top,)
 
 
 def _statuses(*routines: Routine, ranged: bool) -> str:
     required = any(isinstance(s, Require) for r in routines for s in _flat(r))
-    names = ["OK", "NON_FINITE_INPUT", *(["VANISHING_PIVOT"] if required else []), "NON_FINITE_STATE"]
+    names = [
+        "OK",
+        "NON_FINITE_INPUT",
+        "NULL_POINTER",
+        *(["VANISHING_PIVOT"] if required else []),
+        "NON_FINITE_STATE",
+    ]
     names += ["OUT_OF_RANGE"] if ranged else []
     return f"{', '.join(names[:-1])} or {names[-1]}"
 

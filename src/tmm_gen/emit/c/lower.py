@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import sympy as sp
 
+from tmm_gen.emit.c.interleave import interleave
 from tmm_gen.program.passes.contract import contract
 from tmm_gen.program.passes.dependence import read_before_written
 from tmm_gen.program.passes.fuse import fuse
@@ -35,8 +36,8 @@ def lower(program: Program) -> Program:
         program,
         prepare=_lowered(program.prepare),
         initialise=_lowered(_defining_all_state(program)),
-        startup=tuple(_lowered(routine) for routine in program.startup),
-        main=_lowered(program.main),
+        startup=tuple(interleave(_lowered(routine)) for routine in program.startup),
+        main=interleave(_lowered(program.main)),
         output=_lowered(program.output),
         sensitivities=_lowered_sensitivities(program.sensitivities),
     )
@@ -45,7 +46,7 @@ def lower(program: Program) -> Program:
 def _lowered_sensitivities(found: Sensitivities | None) -> Sensitivities | None:
     if found is None:
         return None
-    return replace(found, linearise=_lowered(found.linearise), tangent=_lowered(found.tangent))
+    return replace(found, linearise=interleave(_lowered(found.linearise)), tangent=_lowered(found.tangent))
 
 
 def _lowered(routine: Routine) -> Routine:

@@ -59,3 +59,8 @@ def element(name: str, ref: Ref) -> str:
     if ref.offset == 0:
         return f"{name}[j]"
     return f"{name}[j {'+' if ref.offset > 0 else '-'} {abs(ref.offset)}]"
+
+
+def element_at(name: str, entry: int | None, index: Callable[[int], str]) -> str:
+    """Write an element with a fixed index, or the scalar itself."""
+    return name if entry is None else f"{name}[{index(entry)}]"

@@ -43,6 +43,21 @@ class Real:
         """Bytes of a number of parameters, model or state."""
         return 2 * self.size if self.pair else self.size
 
+    @property
+    def largest_name(self) -> str:
+        """Largest finite number, as ``<float.h>`` calls it."""
+        return "DBL_MAX" if self.size == 8 else "FLT_MAX"
+
+    @property
+    def smallest(self) -> float:
+        """The smallest positive number held with all its digits."""
+        return 2.0**-126 if self.size == 4 else 2.0**-1022
+
+    @property
+    def largest(self) -> float:
+        """The largest number."""
+        return float(np.finfo(np.float32 if self.size == 4 else np.float64).max)
+
     def literal(self, value: float) -> str:
         """Write a number: the shortest decimal that reads back as the same ``double``.
 

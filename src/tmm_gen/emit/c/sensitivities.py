@@ -9,6 +9,7 @@ from tmm_gen.emit.c.kernel import Kernel
 from tmm_gen.emit.c.lanes import LaneBody
 from tmm_gen.emit.c.structs import described, dimension
 from tmm_gen.emit.c.wrap import INDENT, WIDTH, comment
+from tmm_gen.emit.c_names import c_name, macros
 from tmm_gen.emit.seal import sealed
 from tmm_gen.emit.templates import render
 from tmm_gen.errors import UserError
@@ -64,10 +65,10 @@ class Derivatives:
             "inputs": self.found.inputs,
         }[which]
         name = self.kernel.program.name
-        lanes = "" if which == "point" else f"[{name.upper()}_LANES]"
+        lanes = "" if which == "point" else f"[{macros(name)}_LANES]"
         lines: list[str] = []
         for variable in variables:
-            line = f"{INDENT}{name}_real {variable.name}{self._dimension(variable)}{lanes};"
+            line = f"{INDENT}{name}_real {c_name(variable)}{self._dimension(variable)}{lanes};"
             remark = f" /**< {described(variable)} */"
             if len(line) + len(remark) <= WIDTH:
                 lines.append(line + remark)
@@ -109,7 +110,7 @@ def emit_sensitivities(kernel: Kernel) -> dict[str, str]:
                 kernel=kernel,
                 derivatives=Derivatives(kernel, found),
                 name=name,
-                NAME=name.upper(),
+                NAME=macros(name),
             )
         )
         for end in ("h", "c")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from tmm_gen.emit.c.real import Real
+from tmm_gen.emit.c_names import c_name, macros
 from tmm_gen.program.statements import Program
 from tmm_gen.program.variables import Role, Variable
 
@@ -91,7 +92,7 @@ def dimension(variable: Variable, program: Program) -> str:
     """Return the length of an array in brackets, in terms of the kernel's macros; "" for a scalar."""
     if variable.length is None:
         return ""
-    prefix = program.name.upper()
+    prefix = macros(program.name)
     if variable.role is Role.INPUT:
         return f"[{prefix}_STAGES]"
     beyond = variable.length - program.stations
@@ -107,4 +108,4 @@ def described(variable: Variable) -> str:
 
 
 def _field(variable: Variable, program: Program) -> Field:
-    return Field(variable.name, dimension(variable, program), described(variable), variable.length or 1)
+    return Field(c_name(variable), dimension(variable, program), described(variable), variable.length or 1)

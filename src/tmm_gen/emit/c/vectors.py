@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
-from contextlib import suppress
 from dataclasses import dataclass
+from decimal import ROUND_CEILING, Context
 from typing import Any
 
 import mpmath
@@ -14,7 +13,8 @@ from tmm_gen.emit.c.estimate import FUNCTIONS, Estimate, estimate_of
 from tmm_gen.emit.c.kernel import Kernel
 from tmm_gen.emit.c.pair import is_pair, pair_literal, parts
 from tmm_gen.emit.c.real import FLOAT, Real
-from tmm_gen.program.evaluate import Values, VanishingPivotError, allocate, execute, key
+from tmm_gen.emit.c_names import c_element
+from tmm_gen.program.evaluate import Values, allocate, execute, key
 from tmm_gen.program.statements import Program
 from tmm_gen.program.variables import Ref, Variable
 
@@ -66,46 +66,122 @@ class Vectors:
         In order.
     state : tuple of Expected
         After the last.
-    spread : int
-        Divisor of the initial values, and an eighth of it that of the inputs.
+    origin : Start
+        Where it starts.
     """
 
     start: tuple[tuple[str, str], ...]
     steps: tuple[Step, ...]
     state: tuple[Expected, ...]
+    origin: Start
+
+
+@dataclass(frozen=True)
+class Start:
+    """Where a simulation starts, and how strongly it is driven.
+
+    Parameters
+    ----------
+    spread : int
+        An eighth of it divides the inputs.
+    bent : bool
+        Whether stations start at random, divided by `spread`; at rest otherwise.
+    """
+
     spread: int
+    bent: bool = True
+
+    def value(self, j: int) -> float:
+        """Return where station ``j`` starts, angle and rate: the same formula stands in the template."""
+        return ((7 * j + 3) % 16 - 8) / self.spread if self.bent else 0.0
+
+    def input(self, which: int, k: int, stage: int) -> float:
+        """Return an input at a stage of step ``k``, a number that every type holds exactly."""
+        return ((5 * k + 3 * which + 2 * stage + 1) % 9 - 4) / (self.spread / 8)
 
 
-SPREADS = (64, 4096, 2**18, 2**24)
-"""Divisors of the initial values, from lively to gentle: a stiff arm does not survive being bent at random."""
+_SPREADS = (64, 4096, 2**18, 2**24)
+STARTS = (
+    *(Start(spread) for spread in _SPREADS),
+    *(Start(spread, bent=False) for spread in (*_SPREADS, 2**40)),
+    *(Start(spread) for spread in (2**40, 2**60)),
+)
+"""From lively to gentle: neither a stiff arm nor one of many links survives being bent at random.
+
+At rest the arm grows into its motion under its inputs and its weight. What has neither does not move then, so that the
+last starts are bent again, by next to nothing.
+"""
 WORTHLESS = 1e-3
 """Share of its size beyond which a bound of rounding tells nothing."""
 
 
-def vectors(kernel: Kernel) -> Vectors:
-    """Simulate a program in 30 digits with parameters rounded to the kernel's number type."""
+def vectors(kernel: Kernel) -> Vectors | None:
+    """Simulate a program in 30 digits with parameters rounded to the kernel's number type.
+
+    Returns
+    -------
+    Vectors or None
+        None if from no start a few steps can be taken within the range of the number type.
+    """
     program, real = kernel.source, kernel.real
     shown = [ref for v in program.state for ref in _shown(v)]
-    for spread in SPREADS:
-        with suppress(VanishingPivotError):
-            records = _simulate(program, real, shown, spread)
-            tolerance = _tolerances(records, real)
-            if spread == SPREADS[-1] or _telling(records, tolerance):
+    best: _Motion | None = None
+    for start in STARTS:
+        if not _solvable(program, real, start):
+            continue
+        motion = _motion(program, real, shown, start)
+        if motion is not None:
+            best = motion
+            if _telling(motion.records, motion.tolerance):
                 break
-    else:
-        raise ArithmeticError(f"{program.name}: no initial state leads to a step that can be solved")
+    return _written(program, real, shown, best) if best else None
+
+
+@dataclass(frozen=True)
+class _Motion:
+    """A simulation from a start, and what rounding explains."""
+
+    start: Start
+    records: list[dict[Ref, Estimate]]
+    tolerance: dict[Variable, float]
+
+
+def _motion(program: Program, real: Real, shown: list[Ref], start: Start) -> _Motion | None:
+    """Return the motion from a start; None if it cannot be computed in the number type."""
+    try:
+        records = _simulate(program, real, shown, start)
+        tolerance = _tolerances(records, real)
+    except (ArithmeticError, ValueError):  # a pivot, a division, a number beyond all bounds
+        return None
+    largest = max((abs(estimate.value) for record in records for estimate in record.values()), default=0)
+    bounds = (*tolerance.values(), largest)
+    return _Motion(start, records, tolerance) if all(b < real.largest for b in bounds) else None
+
+
+def _solvable(program: Program, real: Real, start: Start) -> bool:
+    """Whether plain numbers get through the motion: a quick look before the long one."""
+    try:
+        _run(program, lambda value: real.round(float(value)), "math", start, lambda values: None)
+    except (ArithmeticError, ValueError):
+        return False
+    return True
+
+
+def _written(program: Program, real: Real, shown: list[Ref], motion: _Motion) -> Vectors:
+    """Write a motion as literals."""
+    start, records, tolerance = motion.start, motion.records, motion.tolerance
 
     def expected(ref: Ref, record: dict[Ref, Estimate]) -> Expected:
         pair = real.pair and is_pair(ref.variable)
         value = _literal(record[ref].value, real, pair)
-        return Expected(ref.name, value, real.literal(tolerance[ref.variable]))
+        return Expected(c_element(ref), value, real.literal(tolerance[ref.variable]))
 
     steps = tuple(
-        Step(_inputs(program, k + 1, spread, real), tuple(expected(v.ref, record) for v in program.outputs))
+        Step(_inputs(program, k + 1, start, real), tuple(expected(v.ref, record) for v in program.outputs))
         for k, record in enumerate(records)
     )
     state = tuple(expected(ref, records[-1]) for ref in shown)
-    return Vectors(_inputs(program, 0, spread, real), steps, state, spread)
+    return Vectors(_inputs(program, 0, start, real), steps, state, start)
 
 
 def _telling(records: list[dict[Ref, Estimate]], tolerance: dict[Variable, float]) -> bool:
@@ -117,54 +193,60 @@ def _telling(records: list[dict[Ref, Estimate]], tolerance: dict[Variable, float
     return all(bound <= WORTHLESS * size[variable] for variable, bound in tolerance.items() if size[variable])
 
 
-def initial_value(j: int, spread: int) -> float:
-    """Return where station ``j`` starts, angle and rate: the same formula stands in the template."""
-    return ((7 * j + 3) % 16 - 8) / spread
-
-
-def _simulate(program: Program, real: Real, shown: list[Ref], spread: int) -> list[dict[Ref, Estimate]]:
+def _simulate(program: Program, real: Real, shown: list[Ref], start: Start) -> list[dict[Ref, Estimate]]:
     """Return outputs after every step, and the state that is shown."""
 
     def number(value: float) -> Estimate:
         return Estimate(mpmath.mpf(sum(parts(value)) if real.pair else real.round(value)))
 
+    wanted = (*(v.ref for v in program.outputs), *shown)
+    records = []
+
+    def record(values: Values) -> None:
+        records.append({ref: _value(values, ref) for ref in wanted})
+
     with mpmath.workdps(DIGITS):
-        variables = (program.step, *program.parameters, *program.state, *program.inputs, *program.outputs)
-        values = allocate(variables, number)
-        for given in program.given:
-            values[given.name] = [number(initial_value(j, spread)) for j in range(given.length or 1)]
-        _apply(program, values, 0, spread, number)
-        for routine in (program.prepare, program.initialise):
-            execute(routine, values, number, FUNCTIONS)
-        records = []
-        for k in range(len(program.startup) + STEPS):
-            _apply(program, values, k + 1, spread, number)
-            for routine in (program.steps[min(k, len(program.startup))], program.output):
-                execute(routine, values, number, FUNCTIONS)
-            records.append({ref: _value(values, ref) for ref in (*(v.ref for v in program.outputs), *shown)})
-        return records
+        _run(program, number, FUNCTIONS, start, record)
+    return records
 
 
-def _apply(
-    program: Program, values: Values, k: int, spread: int, number: Callable[[float], Estimate]
+def _run(
+    program: Program,
+    number: Callable[[float], Any],
+    modules: Any,
+    start: Start,
+    record: Callable[[Values], None],
 ) -> None:
+    """Take the steps in a type of number; `record` sees the values after each."""
+    variables = (program.step, *program.parameters, *program.state, *program.inputs, *program.outputs)
+    values = allocate(variables, number)
+    for given in program.given:
+        values[given.name] = [number(start.value(j)) for j in range(given.length or 1)]
+    _apply(program, values, 0, start, number)
+    for routine in (program.prepare, program.initialise):
+        execute(routine, values, number, modules)
+    for k in range(len(program.startup) + STEPS):
+        _apply(program, values, k + 1, start, number)
+        for routine in (program.steps[min(k, len(program.startup))], program.output):
+            execute(routine, values, number, modules)
+        record(values)
+
+
+def _apply(program: Program, values: Values, k: int, start: Start, number: Callable[[float], Any]) -> None:
     for which, variable in enumerate(program.inputs):
-        numbers = [number(_input(which, k, stage, spread)) for stage in range(variable.length or 1)]
+        numbers = [number(start.input(which, k, stage)) for stage in range(variable.length or 1)]
         values[key(variable)] = numbers[0] if variable.length is None else numbers
 
 
-def _input(which: int, k: int, stage: int, spread: int) -> float:
-    """Return an input at a stage of step ``k``, a number that every type holds exactly."""
-    return ((5 * k + 3 * which + 2 * stage + 1) % 9 - 4) / (spread / 8)
-
-
-def _inputs(program: Program, k: int, spread: int, real: Real) -> tuple[tuple[str, str], ...]:
+def _inputs(program: Program, k: int, start: Start, real: Real) -> tuple[tuple[str, str], ...]:
     members = [
         (which, stage, variable.entry(stage))
         for which, variable in enumerate(program.inputs)
         for stage in range(variable.length or 1)
     ]
-    return tuple((ref.name, real.literal(_input(which, k, stage, spread))) for which, stage, ref in members)
+    return tuple(
+        (c_element(ref), real.literal(start.input(which, k, stage))) for which, stage, ref in members
+    )
 
 
 def _shown(variable: Variable) -> list[Ref]:
@@ -187,7 +269,8 @@ def _tolerances(records: list[dict[Ref, Estimate]], real: Real) -> dict[Variable
         for ref, estimate in record.items():
             error[ref.variable] = max(error.get(ref.variable, 0.0), estimate.error)
     unit = real.epsilon / 2
-    bounds = {v: _SAFETY * unit * (largest or 1.0) for v, largest in error.items()}
+    # below the smallest normal number roundings are absolute
+    bounds = {v: max(_SAFETY * unit * (largest or 1.0), real.smallest) for v, largest in error.items()}
     if real.pair:  # what callers get is rounded, and so is what it is compared with
         for ref, estimate in (item for record in records for item in record.items()):
             if not is_pair(ref.variable):
@@ -196,11 +279,10 @@ def _tolerances(records: list[dict[Ref, Estimate]], real: Real) -> dict[Variable
 
 
 def _two_digits_up(value: float) -> float:
-    exponent = math.floor(math.log10(value)) - 1
-    return float(f"{math.ceil(value / 10.0**exponent)}e{exponent}")
+    return float(Context(prec=2, rounding=ROUND_CEILING).create_decimal(value))
 
 
 def _literal(value: Any, real: Real, pair: bool) -> str:
     """Write a reference value; what the type cannot tell from zero is zero."""
-    number = 0.0 if abs(value) < 2.0**-126 else float(value)
+    number = 0.0 if abs(value) < FLOAT.smallest else float(value)
     return f"(pair){pair_literal(number)}" if pair else real.literal(number)

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import re
+
 from tmm_gen.emit.casadi.functions import RESERVED, Functions, flat_names
 from tmm_gen.emit.header import header_lines
 from tmm_gen.emit.python.lines import comments, listing, prose, text
 from tmm_gen.emit.python.names import Names
+from tmm_gen.emit.runs import python_items
 from tmm_gen.emit.seal import sealed
 from tmm_gen.emit.templates import render
 from tmm_gen.program.statements import Program
@@ -33,13 +36,16 @@ def emit_casadi(program: Program, scene: Scene) -> dict[str, str]:
     ]
     several_stages = any(v.length is not None for v in program.inputs)
     held = ", held" if several_stages else ""
+    front = symbol(program.name)
     starts = [
-        f'_function("{s["name"]}", _{s["name"]}, STAGE_INSTANTS[{k}]{held})' for k, s in enumerate(steps[:-1])
+        f'_function("{front}_{s["name"]}", _{s["name"]}, STAGE_INSTANTS[{k}]{held})'
+        for k, s in enumerate(steps[:-1])
     ]
     rendered = render(
         "casadi/model.py.jinja",
         header=text(comments(header_lines(program, scene))),
         description=text(_description(program)),
+        symbol=front,
         stations=program.stations,
         state_names=_names("STATE_NAMES", flat_names(program.state)),
         input_names=_names("INPUT_NAMES", flat_names(program.inputs)),
@@ -66,6 +72,19 @@ def emit_casadi(program: Program, scene: Scene) -> dict[str, str]:
     return {"casadi_model.py": sealed(rendered)}
 
 
+def symbol(scene: str) -> str:
+    """Return what CasADi's functions have in front, so that those of two models can be in one program of C.
+
+    CasADi takes no name with two underscores in a row.
+
+    Parameters
+    ----------
+    scene : str
+        Name of a scene.
+    """
+    return re.sub(r"_(?=_|$)", "_0", scene)
+
+
 def _description(program: Program) -> list[str]:
     return [
         *prose(f'"""{program.name}: {program.title.rstrip(".")}. Functions for optimisation and control.'),
@@ -89,5 +108,5 @@ def _defaults(program: Program) -> list[str]:
         default = variable.default
         if default is None:
             raise ValueError(f"{variable.name} has no default")
-        numbers += [repr(float(x)) for x in (default if isinstance(default, tuple) else (default,))]
+        numbers += python_items([float(x) for x in (default if isinstance(default, tuple) else (default,))])
     return numbers

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from tmm_gen.emit.python.lines import listing, prose, text
+from tmm_gen.emit.runs import python_items
 from tmm_gen.program.variables import Variable
 
 _INDENT = "    "
@@ -59,7 +60,7 @@ def _with_default(variable: Variable, kind: str, name: str = "", indent: str = _
     default = variable.default
     head = f"{name or variable.name}: {kind} = "
     if isinstance(default, tuple) and (not name or len(set(default)) > 1):
-        return text(listing(head, [repr(float(x)) for x in default], indent))
+        return text(listing(head, python_items([float(x) for x in default]), indent))
     value = default[0] if isinstance(default, tuple) else default
     if value is None:
         raise ValueError(f"{variable.name} has no default")

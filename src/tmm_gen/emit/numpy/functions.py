@@ -22,6 +22,7 @@ RESERVED = frozenset(
         "arrays",
         "batch",
         "dtype",
+        "good",
         "input",
         "j",
         "model",
@@ -58,12 +59,17 @@ class Functions:
         program = self.program
         taken = (program.step, *program.parameters)
         body = RoutineText(program.prepare, self.names, program.stations)
+        what = '"parameters or step are too large or too small for the number type"'
+        several = (v for v in taken if v.length is not None)
+        single = (v for v in taken if v.length is None)
         return [
             *self._checked(taken, {program.step: "step"}, "params."),
+            f"{_INDENT}good = _positive(step)",
             *self._align(taken, body),
             *self._allocate(body),
             *body.lines(),
-            *call("return Model", [f"{v.name}={v.name}" for v in program.model], _INDENT),
+            *self._judged((*program.model, *single, *several), what),
+            *call("return Model", [self._result(v, "()") for v in program.model], _INDENT),
         ]
 
     def initialise(self) -> list[str]:
@@ -79,6 +85,7 @@ class Functions:
         open_state = [v for v in program.state if v not in routine.written() or v in body.filled]
         return [
             *([f"{_INDENT}stages = (input,)"] if self.several_stages and inputs else []),
+            f"{_INDENT}good: Any = True",
             *self._inputs(inputs),
             *self._checked(taken, sources, "params."),
             *self._align((*inputs, *taken), body, open_state),
@@ -96,6 +103,7 @@ class Functions:
         inputs = [v for v in program.inputs if v in read]
         partly = [v for v in program.state if v in body.filled]
         return [
+            f"{_INDENT}good: Any = True",
             *([f"{_INDENT}stages = _stages(input, {stages})"] if self.several_stages and inputs else []),
             *self._inputs(inputs),
             *self._taken(model, "model"),
@@ -192,7 +200,25 @@ class Functions:
     # -- giving results back
 
     def _return_state(self, steps_taken: str) -> list[str]:
-        fields = [f"{v.name}=_spread({v.name}, batch, {v.length is not None})" for v in self.program.state]
+        fields = [self._result(v, "batch") for v in self.program.state]
         if steps_taken:
             fields.append(f"steps_taken={steps_taken}")
-        return call("return State", fields, _INDENT)
+        judged = self._judged(self.program.state, '"the motion has outgrown the number type"')
+        return [*judged, *call("return State", fields, _INDENT)]
+
+    def _judged(self, variables: Sequence[Variable], what: str) -> list[str]:
+        """Find the arms of which all numbers are finite."""
+        several: dict[str, None] = {v.name: None for v in variables if v.length is not None}
+        single: dict[str, None] = {v.name: None for v in variables if v.length is None}
+        return [
+            "",
+            *listing("numbers = ", list(single), _INDENT),
+            *listing("arrays = ", list(several), _INDENT),
+            f"{_INDENT}good = _judged(good, numbers, arrays, {what})",
+        ]
+
+    def _result(self, variable: Variable, batch: str) -> str:
+        """Give a variable back, NaN for arms that are not good; of a model, in the batch it has."""
+        stations = variable.length is not None
+        whole = f"_spread({variable.name}, batch, {stations})" if batch == "batch" else variable.name
+        return f"{variable.name}=_kept({whole}, good, {stations})"

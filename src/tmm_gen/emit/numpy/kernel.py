@@ -9,6 +9,7 @@ from tmm_gen.emit.python.lines import comments, listing, prose, text
 from tmm_gen.emit.python.names import Names
 from tmm_gen.emit.seal import sealed
 from tmm_gen.emit.templates import render
+from tmm_gen.program.inputs import prescribed_names
 from tmm_gen.program.statements import Loop, Program, Require, Routine
 from tmm_gen.program.variables import Variable
 from tmm_gen.scene import Scene
@@ -79,6 +80,7 @@ def _kernel(program: Program, header: list[str]) -> str:
         output=text(functions.output()),
         simulate_start=", ".join(start),
         several_stages=functions.several_stages,
+        prescribed=prescribed_names(program.inputs),
         requires=_requires(program),
         initialise_requires=_has_require(program.initialise),
         step_requires=any(_has_require(routine) for routine in program.steps),
@@ -99,7 +101,9 @@ def _description(program: Program) -> list[str]:
         *prose(
             "All arrays may have further axes behind, those of a batch: many arms at once, each with its own "
             "parameters, inputs and state. What is one number for an arm then has the batch's shape; what "
-            "differs between stations has the stations first, base to tip."
+            "differs between stations has the stations first, base to tip. An arm "
+            "with numbers that are not finite, or a step or pivot that is not positive, is NaN; errors are left "
+            "for where no other arm is left."
         ),
         '"""',
     ]

@@ -73,7 +73,7 @@ class RoutineText:
         value = printer.text(statement.value)
         if isinstance(statement, Require):
             at = "j" if indent != _INDENT else "None"
-            return [f'{indent}_require_positive({value}, "{value}", {at})']
+            return [f'{indent}good = _positive_pivot(good, {value}, "{value}", {at})']
         target = statement.target
         if self._would_alias(statement, place):
             value = f"np.copy({value})"

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import hashlib
-import tempfile
-from pathlib import Path
 
 from tmm_gen.emit.c import emit_kernel, free_scene
 from tmm_gen.emit.c.kernel import Kernel
 from tmm_gen.emit.c.real import REALS
+from tmm_gen.emit.c_names import macros, signal
 from tmm_gen.emit.templates import render
 from tmm_gen.errors import UserError
 from tmm_gen.export.fmu.archive import archive
@@ -19,8 +18,10 @@ from tmm_gen.export.fmu.identity import FmiVersion, Identity, number
 from tmm_gen.export.fmu.variables import FmuVariable, fmu_variables
 from tmm_gen.native.compiler import FLAGS, compile_library
 from tmm_gen.program.build import build_program
+from tmm_gen.program.inputs import prescribed_names
 from tmm_gen.program.statements import Program
 from tmm_gen.scene import Scene
+from tmm_gen.scratch import scratch_folder
 
 _HIDDEN = "-fvisibility=hidden"
 """The kernel's own functions are nobody's business, so that units can be loaded side by side."""
@@ -93,7 +94,7 @@ def _sources(
 ) -> tuple[dict[str, str], Identity, tuple[FmuVariable, ...]]:
     """Return the C files by name, the identity, and the variables in the order of their numbers."""
     kernel = Kernel.of(program, scene)
-    followed = [item.name for item in scene.inputs if item.acts == "angle"]
+    followed = prescribed_names(program.inputs) or ()
     whole = fmu_variables(program, REALS[scene.emit.real], followed)
     variables = tuple(element for v in whole for element in v.elements()) if version == 2 else whole
     files = {path.removeprefix("c/"): text for path, text in emit_kernel(program, scene).items()}
@@ -109,12 +110,12 @@ def _sources(
                 f"fmu/{template}",
                 kernel=kernel,
                 name=scene.name,
-                NAME=scene.name.upper(),
+                NAME=macros(scene.name),
                 token=token,
                 step=number(scene.integrator.step),
                 variables=variables,
-                followed=followed,
-                held=[v.name for v in program.inputs if v.name not in followed],
+                followed=[signal(name) for name in followed],
+                held=[signal(v.name) for v in program.inputs if v.name not in followed],
                 instants=_rows(program),
             )
             for name, template in templates.items()
@@ -143,8 +144,8 @@ def _validate(packed: bytes, name: str) -> None:
     """Have FMPy judge the unit: schema, names, structure, units, start values."""
     from fmpy.validation import validate_fmu
 
-    with tempfile.TemporaryDirectory(prefix="tmm-gen-") as folder:
-        path = Path(folder) / f"{name}.fmu"
+    with scratch_folder() as folder:
+        path = folder / f"{name}.fmu"
         path.write_bytes(packed)
         problems = validate_fmu(str(path))
     if problems:

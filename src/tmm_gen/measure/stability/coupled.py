@@ -12,7 +12,7 @@ from tmm_gen.derive.integrators.declaration import KINDS, STEP, Integrator, Kind
 from tmm_gen.derive.integrators.history import history_of
 from tmm_gen.derive.integrators.relations import affine_motion
 from tmm_gen.modal.matrices import Matrices
-from tmm_gen.modal.modes import natural_modes
+from tmm_gen.modal.undamped import undamped_modes
 
 Array = NDArray[np.float64]
 _Terms = list[tuple[sp.Symbol, float]]
@@ -32,9 +32,9 @@ class CoupledStep:
     def __init__(self, integrator: Integrator, linear: Matrices) -> None:
         self._scheme = integrator.main
         self._values = history_of([integrator.main], "acceleration")
-        squares, shapes = natural_modes(linear)
-        self._stiffness = squares
-        self._damping: Array = shapes.T @ linear.damping @ shapes
+        modes = undamped_modes(linear)
+        self._stiffness = modes.squares
+        self._damping: Array = modes.shapes.T @ linear.parts.braked(modes.shapes)
 
     @property
     def size(self) -> int:

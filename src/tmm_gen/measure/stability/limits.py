@@ -160,7 +160,7 @@ def _largest_step(motion: SmallMotion, growth: Growth, undamped: float, damped: 
     turning = [k for k in range(len(modes)) if k not in swinging]  # freely: without a frequency
     smallest = min((float(rough[k]) for k in turning), default=math.inf)
     lowest = {int(k) for k in np.argsort(rough, kind="stable")[:_CANDIDATES]}
-    for k in sorted(swinging & (lowest | {min(swinging), max(swinging)})):
+    for k in sorted(swinging & (lowest | {min(swinging, default=0), max(swinging, default=0)})):
         smallest = min(smallest, limit_at(growth, modes[k].damping_ratio or 0.0) / modes[k].frequency)
     return smallest
 

@@ -8,8 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.errors import UserError
+from tmm_gen.modal.damped import damping_time
 from tmm_gen.modal.matrices import Matrices, matrices
-from tmm_gen.modal.modes import Mode, find_modes, natural_modes
+from tmm_gen.modal.modes import Mode, find_modes
 from tmm_gen.modal.situation import resting_arm
 from tmm_gen.scene import Scene
 
@@ -17,9 +18,6 @@ Array = NDArray[np.float64]
 
 MOST_STATIONS = 1000
 """Of what is done with dense matrices."""
-
-_COUPLED = 1e-10
-"""Coupling of modes by damping below this, relative to the largest of their own, is none."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,8 +80,4 @@ def small_motion(scene: Scene) -> SmallMotion:
 
 def motion_of(scene: Scene, linear: Matrices) -> SmallMotion:
     """Return the modes of some matrices."""
-    _, shapes = natural_modes(linear)
-    damping = shapes.T @ linear.damping @ shapes
-    own = np.max(np.abs(np.diag(damping)), initial=0.0)
-    coupled = bool(np.any(np.abs(damping - np.diag(np.diag(damping))) > _COUPLED * own))
-    return SmallMotion(scene, linear, find_modes(linear), coupled)
+    return SmallMotion(scene, linear, find_modes(linear), damping_time(linear) is None)

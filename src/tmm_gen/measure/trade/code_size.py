@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import shutil
 import subprocess
-import tempfile
 from collections.abc import Mapping
 from pathlib import Path, PurePosixPath
 
 from tmm_gen.errors import UserError
+from tmm_gen.scratch import scratch_folder
 
 
 def code_size(files: Mapping[str, str]) -> int | None:
@@ -34,7 +34,7 @@ def code_size(files: Mapping[str, str]) -> int | None:
     size = shutil.which("size")
     if size is None:
         return None
-    with tempfile.TemporaryDirectory() as folder:
+    with scratch_folder() as folder:
         names = {PurePosixPath(path).name: text for path, text in files.items()}
         for name, text in names.items():
             (Path(folder) / name).write_text(text)

@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from tmm_gen.measure.prescribed import kernel_signals
 from tmm_gen.measure.timing import ROUNDS, Cost, by_turns, cost_of
 from tmm_gen.measure.trade.configuration import Configuration, Family
 from tmm_gen.measure.trade.evaluate import family_scene, whole_steps
@@ -67,7 +68,7 @@ def timer(scene: Scene, excitation: Excitation, configuration: Configuration) ->
     steps = max(1, whole_steps(excitation.until, configuration.step))
     if configuration.family.backend != "c":
         return _numpy_timer(built, excitation, configuration.step, min(steps, _NUMPY_STEPS))
-    signals = {name: signal.at for name, signal in excitation.signals.items()}
+    signals = {name: signal.at for name, signal in kernel_signals(built.scene, excitation.signals).items()}
     series = Series(built.native, signals, steps, configuration.step)
 
     return lambda: _once(series)
@@ -84,7 +85,8 @@ def _once(series: Series) -> float:
 
 def _numpy_timer(built: Built, excitation: Excitation, step: float, steps: int) -> Callable[[], float]:
     module: Any = built.module
-    signals = {name: float(signal.at(0.0)) for name, signal in excitation.signals.items()}
+    acting = kernel_signals(built.scene, excitation.signals)
+    signals = {name: float(signal.at(0.0)) for name, signal in acting.items()}
 
     def measure() -> float:
         with np.errstate(all="ignore"):

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.errors import UserError
+from tmm_gen.measure.prescribed import kernel_signals
 from tmm_gen.measure.trade.configuration import Configuration
 from tmm_gen.measure.trade.excitation import Excitation, columns
 from tmm_gen.measure.trade.kernels import Built, build
@@ -96,16 +97,17 @@ def start(
         If a pivot is not positive to begin with. The function returned raises it if the motion leaves all bounds.
     """
     names = columns(built.scene, excitation.output)
+    acting = kernel_signals(built.scene, excitation.signals)
     step = configuration.step
     if configuration.family.backend == "c":
         from tmm_gen.native.series import Series
 
-        sampled = {name: signal.at for name, signal in excitation.signals.items()}
+        sampled = {name: signal.at for name, signal in acting.items()}
         series = Series(built.native, sampled, steps, step)
         series.start()
         return lambda: _picked(series.run(), names)
     module = built.module
-    signals = {name: _number(signal) for name, signal in excitation.signals.items()}
+    signals = {name: _number(signal) for name, signal in acting.items()}
     module.prepare(module.Params(), step)
 
     def simulate() -> Array:

@@ -13,7 +13,9 @@ from dataclasses import dataclass
 
 from tmm_gen.errors import UserError
 from tmm_gen.measure.clock import refuse_other_clock
+from tmm_gen.measure.curve import Curve
 from tmm_gen.measure.duration import default_duration
+from tmm_gen.measure.prescribed import prescribed
 from tmm_gen.measure.signals import Constant, Signal, Sine, Table
 from tmm_gen.measure.trade.rise import Rise
 from tmm_gen.scene import Input, Output, Scene
@@ -79,14 +81,15 @@ def excitation(
     Raises
     ------
     UserError
-        If there is no such output, nothing moves, the time is absurd, or an input has another clock.
+        If there is no such output, nothing moves, the time is absurd, an input has another clock, or a prescribed
+        angle jumps.
     """
     duration = until or default_duration(scene)
     if not _SHORTEST <= duration <= _LONGEST:
         raise UserError(
             f"--until {duration:g}: simulate between {_SHORTEST:g} and {_LONGEST:g} s; a few slow periods tell most."
         )
-    signals = dict(given) if given else _default_signals(scene, duration)
+    signals = prescribed(scene, given) if given else _default_signals(scene, duration)
     refuse_other_clock(signals, duration)
     chosen = Excitation(signals, duration, _output(scene, output).name)
     moving = any(not isinstance(signal, Constant) or signal.value for signal in signals.values())
@@ -139,10 +142,7 @@ def _default_signals(scene: Scene, until: float) -> dict[str, Signal]:
 
 def _signal(scene: Scene, item: Input, frequency: float, until: float) -> Signal:
     if item.acts == "angle":
-        # A chain starts at rest beside its base's angle: a base that started to move would start with a jerk.
-        return (
-            Rise(_TURN, 0.5 * until) if scene.model.kind == "planar" else Sine(_TURN, frequency, math.pi / 2)
-        )
+        return Rise(_TURN, 0.5 * until)
     torque = _torque(scene, frequency)
     return Sine(_rounded(torque if item.acts == "torque" else torque / _length(scene)), frequency)
 
@@ -181,6 +181,6 @@ def _words(signal: Signal) -> str:
         return f"{signal.amplitude:g} {shape}({signal.frequency:.4g} t)"
     if isinstance(signal, Rise):
         return f"rises smoothly from 0 to {signal.amplitude:g} in {signal.duration:g} s, then stays"
-    if isinstance(signal, Table):
+    if isinstance(signal, Table | Curve):
         return f"a table of {len(signal.times)} rows"
     return "as given"

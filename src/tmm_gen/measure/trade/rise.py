@@ -22,12 +22,12 @@ def _way() -> Polynomial:
 
 
 _WAY = _way()
-_RATE = _WAY.deriv()
+_RATE, _ACCELERATION = _WAY.deriv(), _WAY.deriv(2)
 
 
 @dataclass(frozen=True)
 class Rise:
-    """From 0 to an amplitude, then constant. For planar arms: the exact response of a chain has no such piece.
+    """From 0 to an amplitude, then constant.
 
     Parameters
     ----------
@@ -39,20 +39,33 @@ class Rise:
 
     amplitude: float
     duration: float
-    frequency: float = 0.0
 
     @property
     def knots(self) -> Array:
         """Begin and end of the rise, s."""
         return np.array([0.0, self.duration])
 
+    @property
+    def ends(self) -> float:
+        """End of the rise, s."""
+        return self.duration
+
     def at(self, time: ArrayLike) -> Array:
         """Return the values at instants."""
-        u = np.clip(np.asarray(time, float) / self.duration, 0.0, 1.0) - 0.5
-        values: Array = self.amplitude * (0.5 + _WAY(u))
+        values: Array = self.amplitude * (0.5 + _WAY(self._share(time)))
         return values
 
-    def slope(self, time: float) -> float:
-        """Return the rate at an instant."""
-        u = min(max(time / self.duration, 0.0), 1.0) - 0.5
-        return float(self.amplitude * _RATE(u) / self.duration)
+    def slope(self, time: ArrayLike) -> Array:
+        """Return the rates at instants."""
+        slopes: Array = self.amplitude / self.duration * _RATE(self._share(time))
+        return slopes
+
+    def curvature(self, time: ArrayLike) -> Array:
+        """Return the accelerations at instants."""
+        curvatures: Array = self.amplitude / self.duration**2 * _ACCELERATION(self._share(time))
+        return curvatures
+
+    def _share(self, time: ArrayLike) -> Array:
+        """Return how far on the way it is, from -1/2 to 1/2."""
+        share: Array = np.clip(np.asarray(time, float) / self.duration, 0.0, 1.0) - 0.5
+        return share

@@ -85,7 +85,7 @@ def compute(task: Task, truth: Truth, store: Path | None) -> Result:
 
 def _content(signal: Signal) -> list[Any]:
     """Return a signal's class and numbers."""
-    values = [getattr(signal, field.name) for field in fields(signal)]  # type: ignore[arg-type]
+    values = [getattr(signal, field.name) for field in fields(signal) if field.compare]  # type: ignore[arg-type]
     return [type(signal).__name__, *(np.asarray(value, float).tolist() for value in values)]
 
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from tmm_gen.measure.prescribed import kernel_signals
 from tmm_gen.measure.run import simulate
 from tmm_gen.measure.tolerance import to_accept
 from tmm_gen.measure.trade.configuration import Configuration
@@ -64,7 +65,7 @@ def verify(
     inside = simulation.time <= excitation.until * (1.0 + 1e-9)
     exact = truth.at(simulation.time[inside])
     error = float(np.max(np.linalg.norm(found[:, inside] - exact, axis=0)) / truth.travel)
-    signals = {name: signal.at for name, signal in excitation.signals.items()}
+    signals = {name: signal.at for name, signal in kernel_signals(chosen, excitation.signals).items()}
     step = timed_step(configuration.step, excitation.until)
     series = Series(kernel, signals, whole_steps(excitation.until, step), step)
     cost = measured(series, rounds)

@@ -61,9 +61,12 @@ def conditions(arm: BeamArm, s: ArrayLike) -> Complex:
         if body.joint_stiffness is None:
             found[:, row + 3, here], found[:, row + 3, there] = outer[:, psi], -inner[:, psi]
         else:
-            joint = (body.joint_stiffness + body.joint_damping * points)[:, None]
+            member = arm.members[k + 1]
+            spring = body.joint_stiffness + body.joint_damping * points
+            scale = np.abs(spring) + member.bending_stiffness / member.length  # a rigid joint stays a number
+            joint, share = (spring / scale)[:, None], (1.0 / scale)[:, None]
             found[:, row + 3, here] = joint * outer[:, psi]
-            found[:, row + 3, there] = inner[:, moment] - joint * inner[:, psi]
+            found[:, row + 3, there] = share * inner[:, moment] - joint * inner[:, psi]
         row += 4
     return found
 

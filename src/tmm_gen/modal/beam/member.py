@@ -106,6 +106,14 @@ def solutions(member: Member, s: ArrayLike) -> tuple[Complex, Complex]:
 
 def inside(member: Member, s: Complex, at: Array) -> Complex:
     """Return the same motions at places along the beam, 0 inboard to 1 outboard, (k, f, 4, 4)."""
+    bending = member.bending_stiffness * (1.0 + member.damping_time * s)
+    ones = np.ones(len(s))
+    units = [member.length * ones, ones, bending / member.length, bending / member.length**2]
+    scaled: Complex = _dimensionless(member, s, at) * np.stack(units, axis=1)[None, :, :, None]
+    return scaled
+
+
+def _dimensionless(member: Member, s: Complex, at: Array) -> Complex:
     p = member.frequency_number(s)
     found = np.empty((len(at), len(p), 4, 4), complex)
     slow = np.abs(p) < _SERIES_RADIUS
@@ -114,11 +122,7 @@ def inside(member: Member, s: Complex, at: Array) -> Complex:
             target[slow] = _series(member, p[slow], float(place))
         if not np.all(slow):
             target[~slow] = _waves(member, p[~slow], float(place))
-    bending = member.bending_stiffness * (1.0 + member.damping_time * s)
-    ones = np.ones(len(p))
-    units = [member.length * ones, ones, bending / member.length, bending / member.length**2]
-    scaled: Complex = found * np.stack(units, axis=1)[None, :, :, None]
-    return scaled
+    return found
 
 
 def dynamic_stiffness(member: Member, s: ArrayLike) -> Complex:
@@ -148,6 +152,56 @@ def dynamic_stiffness(member: Member, s: ArrayLike) -> Complex:
     found: Complex = np.linalg.solve(motions.transpose(0, 2, 1), forces.transpose(0, 2, 1)).transpose(0, 2, 1)
     symmetric: Complex = 0.5 * (found + found.transpose(0, 2, 1))  # but for rounding
     return symmetric
+
+
+@dataclass(frozen=True, eq=False)
+class Hanging:
+    """A beam seen from its inboard end, ``f`` times: what it carries, how it gives way.
+
+    With motions ``d = (w, psi)`` and forces ``(V, M)`` on the beam,
+
+        d_out = carry d_in + compliance f_out        f_in = inertia d_in - carry^T f_out
+
+    The stiffer the beam, the smaller its compliance; its inertia stays. In a stiffness, the sum of both, the
+    inertia of a stiff beam drowns.
+
+    Parameters
+    ----------
+    inertia, carry, compliance : array, (f, 2, 2)
+        Real, for undamped harmonic motion; the first and the last symmetric.
+    """
+
+    inertia: Array
+    carry: Array
+    compliance: Array
+
+
+def hanging(member: Member, omega: Array) -> Hanging:
+    """Return an undamped beam as seen from its inboard end, in harmonic motion.
+
+    Parameters
+    ----------
+    member : Member
+        The beam; its damping is left out.
+    omega : array, (f,)
+        rad/s, positive.
+    """
+    s = np.asarray(1j * omega, complex)
+    inboard, outboard = _dimensionless(member.undamped(), s, np.array([0.0, 1.0]))
+    known = np.concatenate([inboard[:, :2], outboard[:, 3:1:-1]], axis=1)
+    sought = np.concatenate([-inboard[:, 3:1:-1], outboard[:, :2]], axis=1)
+    size = np.max(np.abs(known), axis=1, keepdims=True)
+    known, sought = known / size, sought / size
+    found = np.linalg.solve(known.transpose(0, 2, 1), sought.transpose(0, 2, 1)).transpose(0, 2, 1).real
+    motions = np.array([member.length, 1.0])
+    forces = member.bending_stiffness / member.length / np.array([member.length, 1.0])
+    inertia = found[:, :2, :2] * (forces[:, None] / motions)
+    compliance = found[:, 2:, 2:] * (motions[:, None] / forces)
+    return Hanging(
+        0.5 * (inertia + inertia.transpose(0, 2, 1)),  # symmetric but for rounding
+        found[:, 2:, :2] * (motions[:, None] / motions),
+        0.5 * (compliance + compliance.transpose(0, 2, 1)),
+    )
 
 
 def clamped_count(member: Member, omega: ArrayLike) -> Integers:

@@ -28,6 +28,8 @@ def damped_pole(arm: BeamArm, omega: float, stages: int = 8) -> complex | None:
         1/s; None where the motion no longer swings.
     """
     s = 1j * omega
+    if arm == arm.undamped():
+        return s
     for stage in range(1, stages + 1):
         s = refine(_with_damping(arm, stage / stages), s)
         if not (np.isfinite(s) and s.imag > 0.0):

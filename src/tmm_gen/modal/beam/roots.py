@@ -12,13 +12,16 @@ from tmm_gen.modal.beam.counting import modes_below, rigid_motions
 Array = NDArray[np.float64]
 
 _SMALLEST = 1e-6
-"""Of the lowest unit frequency: below, inertia drowns in the rounding of the stiffness."""
+"""Of the lowest unit frequency: where the search for the lowest frequency begins, downward if need be."""
 
-_BISECTIONS = 60
+_BISECTIONS = 120
 _WIDTH = 1e-9
 """Relative width of the final bracket: next to a pole of the dynamic stiffness the count is no finer."""
 
 _DOUBLINGS = 200
+
+_LEAST = 1e-60
+"""Of the upper end of the search: its square must stay a number."""
 
 
 def natural_frequencies(arm: BeamArm, count: int) -> Array:
@@ -36,7 +39,6 @@ def natural_frequencies(arm: BeamArm, count: int) -> Array:
     array, (count,)
         rad/s, increasing; multiple ones as often as they occur.
     """
-    low = _SMALLEST * min(member.unit_frequency for member in arm.members)
     high = 10.0 * max(member.unit_frequency for member in arm.members)
     for _ in range(_DOUBLINGS):
         if modes_below(arm, high)[0] >= count:
@@ -44,7 +46,7 @@ def natural_frequencies(arm: BeamArm, count: int) -> Array:
         high *= 2.0
     else:
         raise ArithmeticError(f"fewer than {count} natural frequencies below {high:g} rad/s")
-    return _bisect(arm, count, low, high)
+    return _bisect(arm, count, high)
 
 
 def frequencies_below(arm: BeamArm, limit: float) -> Array:
@@ -52,18 +54,28 @@ def frequencies_below(arm: BeamArm, limit: float) -> Array:
     count = int(modes_below(arm, limit)[0])
     if count == 0:
         return np.zeros(0)
-    low = min(_SMALLEST * min(member.unit_frequency for member in arm.members), limit / 2.0)
-    return _bisect(arm, count, low, limit)
+    return _bisect(arm, count, limit)
 
 
-def _bisect(arm: BeamArm, count: int, low: float, high: float) -> Array:
+def _below_all(arm: BeamArm, high: float) -> float:
+    """Return a frequency below all but those of rigid-body motions: a soft joint's may be tiny."""
+    low = min(_SMALLEST * min(member.unit_frequency for member in arm.members), high / 2.0)
+    rigid = rigid_motions(arm)
+    while modes_below(arm, low)[0] > rigid:
+        low *= _SMALLEST
+        if low < _LEAST * high:
+            raise ArithmeticError(f"a natural frequency below {low:g} rad/s cannot be told from none")
+    return low
+
+
+def _bisect(arm: BeamArm, count: int, high: float) -> Array:
     """Bisect for all modes at once: the k-th lies where the count goes from below k to k."""
     arm = arm.undamped()
     rigid = min(rigid_motions(arm), count)
     numbers = np.arange(rigid + 1, count + 1)
     if not len(numbers):
         return np.zeros(count)
-    below, above = np.full(len(numbers), low), np.full(len(numbers), high)
+    below, above = np.full(len(numbers), _below_all(arm, high)), np.full(len(numbers), high)
     # geometric: frequencies of an arm span many decades
     for _ in range(_BISECTIONS):
         wide = above > 2.0 * below

@@ -6,18 +6,18 @@ from dataclasses import dataclass, replace
 
 import sympy as sp
 
-from tmm_gen.derive.integrators.declaration import CONSISTENT_START, Integrator, past
+from tmm_gen.derive.integrators.declaration import CONSISTENT_START, KINDS, Integrator, past
 from tmm_gen.derive.integrators.relations import Unknown
 from tmm_gen.program.arm.combinations import Combinations
 from tmm_gen.program.arm.heat import heat_after, heat_before
 from tmm_gen.program.arm.layout import Layout, layout_of
-from tmm_gen.program.arm.loads import Loads
 from tmm_gen.program.arm.readings import output_routine
 from tmm_gen.program.arm.step import MakeWalks, StepBuilder
 from tmm_gen.program.arm.thesis import start_places
 from tmm_gen.program.arm.turns import TURNED, start_unturned, take_turns_out
 from tmm_gen.program.arm.walks import Walks
 from tmm_gen.program.fields import gain_names, living_state
+from tmm_gen.program.inputs import input_instants
 from tmm_gen.program.motion import history_values
 from tmm_gen.program.passes.early import EarlySets, lifted
 from tmm_gen.program.passes.hoist import Hoister
@@ -172,9 +172,7 @@ class Assembly:
             startup=startup,
             main=main,
             output=output,
-            stage_instants=tuple(
-                tuple(float(stage.instant) for stage in scheme.stages) for scheme in integrator.schemes
-            ),
+            stage_instants=tuple(input_instants(row, scheme) for scheme in integrator.schemes),
             facts=dict(row.facts),
             sensitivities=sensitivities,
         )
@@ -202,11 +200,7 @@ class Assembly:
             scheme=CONSISTENT_START,
             unknown="acceleration",
             sources={past("q"): angle.at(), past("v"): rate.at(), past("a"): sp.Integer(0)},
-            hub_sources={
-                past("q"): Loads(layout, 0).prescribed,
-                past("v"): sp.Integer(0),
-                past("a"): sp.Integer(0),
-            },
+            hub_sources={past(kind): sp.Integer(0) for kind in KINDS},
         )
         older = tuple(Assign(v.ref, sp.Integer(0)) for p, v in layout.hub.items() if p.lag)
         cold = (Assign(layout.dissipated.ref, sp.Integer(0)),) if layout.dissipated else ()

@@ -8,6 +8,7 @@ from tmm_gen.derive.integrators.declaration import KINDS, Integrator, Past
 from tmm_gen.derive.integrators.history import history
 from tmm_gen.derive.integrators.relations import Unknown
 from tmm_gen.program.fields import state_variable
+from tmm_gen.program.inputs import input_instants
 from tmm_gen.program.variables import Role, Variable
 from tmm_gen.row.row import Parameter, Row
 
@@ -69,15 +70,20 @@ def layout_of(row: Row, integrator: Integrator, step: float, unknown: Unknown, *
     # the newest motion predicts the next; what nothing reads is dropped later
     kept = set(history(integrator, unknown)) | {Past(kind, 0) for kind in KINDS}
     ordered = sorted(kept, key=lambda p: (p.lag, KINDS.index(p.kind)))
-    stages = max(len(scheme.stages) for scheme in integrator.schemes)
+    instants = max((input_instants(row, scheme) for scheme in integrator.schemes), key=len)
+    stages = len(instants)
     also = ", at each stage of the step" if stages > 1 else ""
+    if stages > max(len(scheme.stages) for scheme in integrator.schemes):
+        also += " and at its end"
     carried = [c.name for c in row.coordinates if not c.integrated]
     return Layout(
         row=row,
         step=Variable("step", Role.STEP, doc="time step", unit="s", default=step),
         parameters={p.name: _parameter(p) for p in row.parameters},
         state={p: state_variable(p, "", n) for p in ordered},
-        hub={p: state_variable(p, "hub_", None) for p in ordered} if row.boundary != "held" else {},
+        hub={p: state_variable(p, "hub_", None) for p in ordered if row.boundary == "free" or not p.lag}
+        if row.boundary != "held"
+        else {},
         places={axis: {p: _place(axis, p, n) for p in ordered} for axis in carried} if places else {},
         held={name: Variable(s.name, Role.STATE, doc=s.doc, unit=s.unit) for name, s in row.held.items()},
         dissipated=Variable("dissipated", Role.STATE, doc="energy turned to heat since the start", unit="J")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sympy as sp
 
+from tmm_gen.derive.integrators.declaration import KINDS, Kind
 from tmm_gen.program.arm.layout import Layout
 from tmm_gen.program.statements import Assign, Loop, Order, Statement
 from tmm_gen.program.variables import Role, Variable
@@ -18,14 +19,18 @@ class Loads:
     layout : Layout
         The row's variables.
     stage : int
-        Of the step, from 0: inputs are read there.
+        Instant of the step, from 0, at which inputs are read: its stages, and its end where a prescribed base asks.
     """
 
     def __init__(self, layout: Layout, stage: int) -> None:
         self._n = layout.stations
         self._inputs = {v.name: v.entry(stage) for v in layout.inputs}
         self._loads = layout.row.loads
-        self.prescribed: sp.Expr = sp.Add(*(self._inputs[name] for name in layout.row.prescribed))
+        names = layout.row.prescribed
+        self.prescribed: dict[Kind, sp.Expr] = {
+            k: self._inputs[name] for k, name in zip(KINDS, names, strict=bool(names))
+        }
+        """Motion of a prescribed base."""
         self.values: dict[sp.Symbol, sp.Expr] = {}
         self.fill: list[Statement] = []
         """Statements that fill the arrays of loads on stations."""

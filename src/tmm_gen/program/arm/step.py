@@ -20,7 +20,8 @@ from tmm_gen.program.arm.motion import (
     motion_variable,
     starting_point,
 )
-from tmm_gen.program.arm.walks import BASE, StageOf, Walks, hub_unknown, solved_variable
+from tmm_gen.program.arm.walks import BASE, StageOf, Walks, hub_unknown, prescribed_unknown, solved_variable
+from tmm_gen.program.inputs import input_instants
 from tmm_gen.program.motion import kept_stage_values, stage_variable, update_assignments
 from tmm_gen.program.statements import Assign, Loop, Order, Section, Statement
 from tmm_gen.program.variables import Ref, Variable
@@ -75,7 +76,7 @@ class StepBuilder:
             title = f"Stage {index} of {count}: " if count > 1 else ""
             walks = self._walks(index, motion, point)
             before = "predicted motion" if about == "prediction" else "motion known before the sweep"
-            sections.append(Section(title + before, tuple(self._begin(point))))
+            sections.append(Section(title + before, tuple(self._begin(index, motion, point))))
             for iteration in range(self.iterations):
                 again = f"iteration {iteration + 1}: " if self.iterations > 1 else ""
                 sections += [
@@ -95,19 +96,23 @@ class StepBuilder:
         gain = tuple(motion.gain[k] if motion.gain[k].is_number else GAINS[k] for k in KINDS)
         frame = Frame(row.coordinates, gain, point.still, row.about, row.sign)
         gains = {GAINS[k]: self._gain(motion, k) for k in KINDS}
-        known = self._moving(point)
+        known = self._moving(index, point)
         stage_of = StageOf(self.scheme, index, motion, self.sources)
         loads = Loads(self.layout, index - 1)
         return self.walks(self.layout, self.prepared, frame, gains, known, loads, stage_of)
 
-    def _moving(self, point: StartingPoint) -> dict[Kind, Moving]:
+    def _moving(self, index: int, point: StartingPoint) -> dict[Kind, Moving]:
         """Return where the motion of nodes before the sweep is held."""
         found: dict[Kind, Moving] = {k: self._motion(k) for k in KINDS if k not in point.still}
         if self.iterations > 1 or "a" in point.still or _reads_inner_acceleration(self.layout):
             return found
         stands = point.values["a"].xreplace(self._values("", self.layout.stations))
         if isinstance(stands, Ref):
-            base = sp.Integer(0) if self._held else point.values["a"].xreplace(self._values("hub_", None))
+            base = sp.Integer(0)
+            if self._free:
+                base = point.values["a"].xreplace(self._values("hub_", None))
+            elif not self._held:
+                base = Loads(self.layout, index - 1).prescribed["a"]
             found["a"] = Held(stands, base)
         return found
 
@@ -117,24 +122,37 @@ class StepBuilder:
     def _motion(self, kind: Kind) -> Variable:
         return motion_variable(kind, self.layout.row.about, self.layout.stations)
 
-    def _begin(self, point: StartingPoint) -> list[Statement]:
+    def _begin(self, index: int, motion: AffineMotion, point: StartingPoint) -> list[Statement]:
         n = self.layout.stations
         at_links, at_hub = self._values("", n), self._values("hub_", None)
         rate = self._motion("v")
         body, base = [], []
-        moving = self._moving(point)
+        moving = self._moving(index, point)
         for kind in ("v", "q", "a"):  # rates first: displacements may be written by them
             value, variable = point.values[kind], moving.get(kind)
             if not isinstance(variable, Variable):
                 continue
             body.append(Assign(variable.at(1), value.xreplace({**at_links, KNOWN_RATE: rate.at(1)})))
-            moved = value.xreplace({**at_hub, KNOWN_RATE: rate.entry(BASE)})
-            base.append(Assign(variable.entry(BASE), sp.Integer(0) if self._held else moved))
+            moved = sp.Integer(0)
+            if self._free:
+                moved = value.xreplace({**at_hub, KNOWN_RATE: rate.entry(BASE)})
+            elif not self._held:
+                moved = self._prescribed(index, motion, point, kind)
+            base.append(Assign(variable.entry(BASE), moved))
         return [*base, Loop(Order.OUTWARD, 0, n, tuple(body))] if body else []
+
+    def _prescribed(self, index: int, motion: AffineMotion, point: StartingPoint, kind: Kind) -> sp.Expr:
+        """Return what a prescribed base's unknown leaves of its motion."""
+        loads = Loads(self.layout, index - 1)
+        return loads.prescribed[kind] - self._gain(motion, kind) * prescribed_unknown(point.still, loads)
 
     @property
     def _held(self) -> bool:
         return self.layout.row.boundary == "held"
+
+    @property
+    def _free(self) -> bool:
+        return self.layout.row.boundary == "free"
 
     def _improve(self, motion: AffineMotion) -> list[Statement]:
         n = self.layout.stations
@@ -145,7 +163,7 @@ class StepBuilder:
             ref, entry = self._motion(kind).at(1), self._motion(kind).entry(BASE)
             body.append(Assign(ref, ref + gain * solved.at()))
             base.append(Assign(entry, entry + gain * hub))
-        moved = [] if self._held else base
+        moved = base if self._free else []
         return [*moved, Loop(Order.OUTWARD, 0, n, tuple(a for a in body if a.value != a.target))]
 
     def _values(self, prefix: str, length: int | None) -> dict[sp.Symbol, sp.Expr]:
@@ -168,7 +186,7 @@ class StepBuilder:
     ) -> Section:
         n = self.layout.stations
         zero = sp.Integer(0)
-        moving = self._moving(point)
+        moving = self._moving(index, point)
         links = {
             k: (moving[k].at(1) if k in moving else zero) + self._gain(motion, k) * solved_variable(n).at()
             for k in KINDS
@@ -180,15 +198,18 @@ class StepBuilder:
         statements: list[Statement] = []
         if not last:
             mine = sorted((k, i) for k, i in kept if i == index)
-            if not self._held:
+            if self._free:
                 statements += [Assign(stage_variable(k, i, "hub_", None).ref, hub[k]) for k, i in mine]
             if mine:
                 body = tuple(Assign(stage_variable(k, i, "", n).at(), links[k]) for k, i in mine)
                 statements.append(Loop(Order.OUTWARD, 0, n, body))
             return Section(title + "motion at this stage", tuple(statements))
-        if not self._held:
+        if self._free:
             new = self._new_values(index, hub, self._values("hub_", None))
             statements += update_assignments(self.layout.hub, new, lambda v: v.ref, "")
+        elif not self._held:
+            end = Loads(self.layout, len(input_instants(self.layout.row, self.scheme)) - 1).prescribed
+            statements += [Assign(v.ref, end[p.kind]) for p, v in self.layout.hub.items()]
         new = self._new_values(index, links, self._values("", n))
         statements.append(
             Loop(Order.OUTWARD, 0, n, tuple(update_assignments(self.layout.state, new, lambda v: v.at(), "")))

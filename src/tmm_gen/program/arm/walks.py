@@ -231,13 +231,9 @@ class Walks:
         boundary = self.layout.row.boundary
         if boundary == "held":
             return [Assign(unknown, sp.Integer(0))]
-        hub = Assign(hub_unknown(), unknown)
         if boundary == "prescribed":
-            gain = here.value(self.frame.gains["q"])
-            angle = self.motion["q"].entry(BASE) if "q" in self.motion else sp.Integer(0)
-            value = (self.loads.prescribed - angle) / gain if gain != 0 else sp.Integer(0)
-            return [Assign(unknown, value), hub]
-        return [*here.lines(self._free_base()), hub]
+            return [Assign(unknown, prescribed_unknown(self.frame.still, self.loads))]
+        return [*here.lines(self._free_base()), Assign(hub_unknown(), unknown)]
 
     def _free_base(self) -> list[Line]:
         frame = self.frame
@@ -298,6 +294,11 @@ class Walks:
 def solved_variable(stations: int) -> Variable:
     """Return the scratch array of what a sweep has found."""
     return Variable("solved", Role.WORK, stations, "unknown of each station")
+
+
+def prescribed_unknown(still: frozenset[str], loads: Loads) -> sp.Expr:
+    """Return a prescribed base's unknown: its motion is known, unless the displacement itself is the unknown."""
+    return loads.prescribed["q"] if "q" in still else sp.Integer(0)
 
 
 def hub_unknown() -> Ref:

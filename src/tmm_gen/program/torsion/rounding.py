@@ -148,7 +148,8 @@ def first_period(scene: Scene) -> float:
         moved = np.cumsum(compliance * np.cumsum((inertia * shape)[::-1])[::-1])
         square = float(np.sum(inertia * shape * moved) / np.sum(inertia * moved * moved))
         shape = moved
-    return 2.0 * math.pi / math.sqrt(square)
+    # beyond the range of floating point a joint is as good as none
+    return 2.0 * math.pi / math.sqrt(square) if 0.0 < square < math.inf else 0.0
 
 
 def _place(scene: Scene) -> str:

@@ -16,7 +16,6 @@ from tmm_gen.scene.rules.emission import (
 )
 from tmm_gen.scene.rules.inputs import inputs_possible, prescribed_motion
 from tmm_gen.scene.rules.integration import (
-    explicit_needs_a_free_base,
     explicit_needs_acceleration,
     integrator_parameters,
 )
@@ -35,7 +34,6 @@ RULES: tuple[Rule, ...] = (
     initial_lengths,
     integrator_parameters,
     explicit_needs_acceleration,
-    explicit_needs_a_free_base,
     distinct_names,
     inputs_possible,
     prescribed_motion,

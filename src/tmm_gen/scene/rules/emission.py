@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from tmm_gen.scene.document import Document
 from tmm_gen.scene.emit import Budget, Emit
 from tmm_gen.scene.problem import Finding
+from tmm_gen.scene.signal import kernel_names
 from tmm_gen.scene.table import closest
 
 BOX_STATES = ("angles", "rates", "accelerations", "step")
@@ -84,7 +85,7 @@ def budget_not_empty(document: Document) -> Iterator[Finding]:
 
 def box_names(document: Document) -> Iterator[Finding]:
     """Find bounds on what is neither state nor input of this scene."""
-    known = [*BOX_STATES, *(item.name for item in document.input)]
+    known = [*BOX_STATES, *(name for item in document.input for name in kernel_names(item))]
     for key, bounds in (document.emit.box or {}).items():
         if key not in known:
             yield Finding(

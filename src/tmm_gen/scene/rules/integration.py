@@ -51,23 +51,6 @@ def explicit_needs_acceleration(document: Document) -> Iterator[Finding]:
     )
 
 
-def explicit_needs_a_free_base(document: Document) -> Iterator[Finding]:
-    """Find an explicit method and a base whose angle is prescribed.
-
-    The base's acceleration follows from its new angle by the method's own formulas; in an explicit method the new
-    angle does not depend on it, and the base would stay where it is.
-    """
-    method = _explicit_method(document)
-    if method is None or document.base.kind != "prescribed":
-        return
-    yield Finding(
-        ("integrator", "name"),
-        f"cannot follow a prescribed base: {_explicit_words(method)}",
-        'Choose an implicit method, such as "newmark", or another base.kind.',
-        document.integrator.name,
-    )
-
-
 def _explicit_method(document: Document) -> Method | None:
     """Return the method if it is explicit with the parameters given."""
     method = method_named(document.integrator.name)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 from tmm_gen.scene.document import Document
@@ -73,6 +74,13 @@ def newton_keys(document: Document) -> Iterator[Finding]:
             )
 
 
+def _light_hub(document: Document) -> float:
+    """Return an inertia that changes the arm's motion by little: a thousandth of the first link's about the hub."""
+    link = next(iter(document.links()), None)
+    light = (link.inertia + link.mass * link.length * link.length) / 1000 if link else 0.0
+    return light if 0.0 < light < math.inf else 0.05
+
+
 def base_hub(document: Document) -> Iterator[Finding]:
     """Find a motor without inertia, and a clamp with a hub."""
     base = document.base
@@ -80,8 +88,11 @@ def base_hub(document: Document) -> Iterator[Finding]:
         given = "inertia" in base.model_fields_set
         yield Finding(
             ("base", "inertia"),
-            "must be greater than 0 for a motor" if given else "is missing: a motor turns a hub",
-            "Write for example `inertia = 0.05` (inertia of hub and rotor in kg m^2).",
+            "must be greater than 0 for a motor, whose torques turn the hub"
+            if given
+            else "is missing: a motor turns a hub",
+            "Write the inertia of hub and rotor in kg m^2, for example `inertia = 0.05`; beside this arm "
+            f"{_light_hub(document):.2g} is light.",
             base.inertia if given else None,
         )
     if base.kind == "clamp":

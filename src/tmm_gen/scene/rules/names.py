@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from tmm_gen.scene.document import Document
+from tmm_gen.scene.identifier import name_fault
 from tmm_gen.scene.problem import Finding
 from tmm_gen.scene.quantity import PLANAR
-from tmm_gen.scene.signal import Output
+from tmm_gen.scene.signal import Input, Output, kernel_names
 
 
 def distinct_names(document: Document) -> Iterator[Finding]:
@@ -16,14 +17,19 @@ def distinct_names(document: Document) -> Iterator[Finding]:
     for table in ("input", "output"):
         for index, signal in enumerate(getattr(document, table)):
             place = f"[[{table}]] number {index + 1}"
-            if signal.name in first:
-                yield Finding(
-                    (table, index, "name"),
-                    f"is already the name of {first[signal.name]}",
-                    f"Choose another, for example '{signal.name}_{index + 1}'.",
-                    signal.name,
-                )
-            first.setdefault(signal.name, place)
+            names = kernel_names(signal) if isinstance(signal, Input) else (signal.name,)
+            for name, what in zip(names, ("", "the rate of ", "the acceleration of "), strict=False):
+                comes = f"comes with '{name}', which " if what else ""
+                if name in first:
+                    yield Finding(
+                        (table, index, "name"),
+                        f"{comes}is already the name of {first[name]}",
+                        f"Choose another, for example '{signal.name}_{index + 1}'.",
+                        signal.name,
+                    )
+                elif what and (wrong := name_fault(name)):
+                    yield Finding((table, index, "name"), f"{comes}{wrong[0]}", wrong[1], signal.name)
+                first.setdefault(name, f"{what}{place}")
     if document.model.kind == "planar":
         yield from _distinct_columns(document.output)
 

@@ -2,8 +2,8 @@
  * beam5: Five-link arm on a hub, the model of an observer
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 2aa7477fe5a1cf796a596a84ffa48c892dc54bfd3ece90a5d25a43813cf34ab5
- * sha256 of the rest of this file: 190cf71a1141f8e0aeea1824932400c50a451e8504990f092884df45ebce7033
+ * scene digest: 7cda6afdfe9f28eb257c67670c83631d86f159a73ec0c14225ebe1e38843e797
+ * sha256 of the rest of this file: facb8a17fe72a8ff52bfed4a3f0a5edc8c652d6e56bb944188b18795a780e87d
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 5
@@ -12,17 +12,24 @@
  * linearisation: newton
  * sweep: riccati
  * unknown: acceleration
- * operations of a step: 593, 118.6 per station (275 additions, 302 multiplications, 6 divisions, 10 sines and
+ * operations of a step: 595, 119 per station (275 additions, 304 multiplications, 6 divisions, 10 sines and
  *     cosines)
- * operations of prepare: 62, 12.4 per station (17 additions, 45 multiplications)
+ * operations of prepare: 47, 9.4 per station (10 additions, 37 multiplications)
  * number type: float
  * bytes of the structs: state 72, inputs 4, outputs 12
  *
  * @file beam5.c
  */
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(_M_FP_FAST) \
+    || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "-Ofast and -ffast-math remove checks of this file: use -O3, or put -fno-fast-math behind them"
+#endif
+
 #include "beam5.h"
 
+#include <float.h>
 #include <math.h>
+#include <stddef.h>
 #include <stdint.h>
 
 typedef beam5_real real;
@@ -77,7 +84,7 @@ static circle circle_of(real angle)
 
 static int inputs_are_finite(const beam5_inputs *inputs)
 {
-    if (!isfinite(inputs->hub_torque)) {
+    if (!isfinite(inputs->tmm_hub_torque)) {
         return 0;
     }
     return 1;
@@ -106,10 +113,7 @@ static const real half_step_squared = 5.0000006e-07f; /* step**2/2 [s^2] */
 /* angle per unit of acceleration: step**2/4 [s^2] */
 static const real angle_per_acceleration = 2.5000003e-07f;
 static const real rate_per_acceleration = 0.0005f; /* rate per unit of acceleration: step/2 [s] */
-/* mass at the outer end of each link [kg] */
-static const real node_mass[BEAM5_STATIONS] = {
-    0.1f, 0.1f, 0.1f, 0.1f, 0.15f
-};
+static const real end_mass = 0.05f; /* mass at the tip less the share of a link beyond it [kg] */
 /* inertia of a link that masses at its ends leave over [kg m^2] */
 static const real rod_inertia = -0.0006666667f;
 /* torque of a joint per difference of unknowns [kg m^2] */
@@ -124,11 +128,15 @@ beam5_status beam5_initialise(
     const beam5_real initial_rate[BEAM5_STATIONS],
     const beam5_inputs *inputs)
 {
+    if (state == NULL || inputs == NULL) {
+        return BEAM5_NULL_POINTER;
+    }
     if (!inputs_are_finite(inputs)) {
         return BEAM5_NON_FINITE_INPUT;
     }
     for (int j = 0; j < BEAM5_STATIONS; ++j) {
-        if (!isfinite(initial_angle[j]) || !isfinite(initial_rate[j])) {
+        if ((initial_angle != NULL && !isfinite(initial_angle[j]))
+            || (initial_rate != NULL && !isfinite(initial_rate[j]))) {
             return BEAM5_NON_FINITE_INPUT;
         }
     }
@@ -140,18 +148,21 @@ beam5_status beam5_initialise(
     real answer_y[BEAM5_STATIONS]; /* answer of the unknown to the joint's acceleration along y */
     real lever_cosine[BEAM5_STATIONS]; /* length times cosine of the angle [m] */
     real lever_sine[BEAM5_STATIONS]; /* length times sine of the angle [m] */
-    real node_mass[BEAM5_STATIONS]; /* mass at the outer end of each link [kg] */
     /* acceleration of base and links as predicted [rad/s^2] */
     real predicted_acceleration[BEAM5_STATIONS + 1];
     real predicted_angle[BEAM5_STATIONS + 1]; /* angle of base and links as predicted [rad] */
     real predicted_rate[BEAM5_STATIONS + 1]; /* rate of base and links as predicted [rad/s] */
+    real total = 0.0f; /* of the new motion: is all of it finite? */
 
     /* Masses at the nodes between links, and what they leave over. */
-    for (int j = 0; j < 4; ++j) {
-        node_mass[j] = center * mass + mass * (1.0f - center);
-    }
-    node_mass[4] = tip_mass + center * mass;
+    const real end_mass = tip_mass - mass * (1.0f - center);
     const real rod_inertia = inertia - center * (length * length) * mass * (1.0f - center);
+
+    /* What is the same at every station. */
+    const real hub_pivot = hub_inertia;
+    if (!(hub_inertia > 0.0f) || !(hub_inertia <= FLT_MAX)) {
+        return BEAM5_VANISHING_PIVOT;
+    }
 
     /* Predicted motion. */
     predicted_rate[0] = 0.0f;
@@ -164,11 +175,10 @@ beam5_status beam5_initialise(
     acceleration_x[0] = node_x;
     acceleration_y[0] = gravity;
     for (int j = 0; j < BEAM5_STATIONS; ++j) {
-        predicted_rate[j + 1] = initial_rate[j];
-        predicted_angle[j + 1] = initial_angle[j];
+        predicted_rate[j + 1] = (initial_rate != NULL ? initial_rate[j] : 0.0f);
+        predicted_angle[j + 1] = (initial_angle != NULL ? initial_angle[j] : 0.0f);
         predicted_acceleration[j + 1] = 0.0f;
-        if (!(predicted_angle[j + 1] >= -BEAM5_LARGEST_ANGLE)
-            || !(predicted_angle[j + 1] <= BEAM5_LARGEST_ANGLE)) {
+        if (!(fabsf(predicted_angle[j + 1]) <= BEAM5_LARGEST_ANGLE)) {
             return BEAM5_OUT_OF_RANGE;
         }
         const circle turn_1 = circle_of(predicted_angle[j + 1]);
@@ -185,20 +195,20 @@ beam5_status beam5_initialise(
 
     /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
      * of the motion at it. */
-    real force_x = 0.0f;
-    real force_y = 0.0f;
-    real impedance_xx = 0.0f;
+    real impedance_xx = end_mass;
+    real impedance_yy = end_mass;
+    real force_x = acceleration_x[5] * end_mass;
+    real force_y = acceleration_y[5] * end_mass;
     real impedance_xy = 0.0f;
     real impedance_yx = 0.0f;
-    real impedance_yy = 0.0f;
     real torque = 0.0f;
     for (int j = BEAM5_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
-        impedance_xx = impedance_xx + node_mass[j];
-        impedance_yy = impedance_yy + node_mass[j];
-        force_x = force_x + acceleration_x[j + 1] * node_mass[j];
-        force_y = force_y + acceleration_y[j + 1] * node_mass[j];
+        impedance_xx = impedance_xx + mass;
+        force_x = force_x + acceleration_x[j + 1] * mass;
+        impedance_yy = impedance_yy + mass;
+        force_y = force_y + acceleration_y[j + 1] * mass;
         const real impedance_xu = impedance_xy * lever_cosine[j] - impedance_xx * lever_sine[j];
         const real impedance_yu = impedance_yy * lever_cosine[j] - impedance_yx * lever_sine[j];
         const real impedance_ux = impedance_yx * lever_cosine[j] - impedance_xx * lever_sine[j];
@@ -206,7 +216,7 @@ beam5_status beam5_initialise(
         const real impedance_uu = rod_inertia - impedance_xu * lever_sine[j] + impedance_yu * lever_cosine[j];
         torque = torque - force_x * lever_sine[j] + force_y * lever_cosine[j]
             + predicted_acceleration[j + 1] * rod_inertia;
-        if (!(impedance_uu > 0.0f) || !isfinite(impedance_uu)) {
+        if (!(impedance_uu > 0.0f) || !(impedance_uu <= FLT_MAX)) {
             return BEAM5_VANISHING_PIVOT;
         }
         const real admittance = 1.0f / impedance_uu;
@@ -215,19 +225,16 @@ beam5_status beam5_initialise(
         answer_y[j] = admittance * impedance_uy;
         impedance_xx = impedance_xx - answer_x[j] * impedance_xu;
         impedance_xy = impedance_xy - answer_y[j] * impedance_xu;
+        force_x = force_x + answer_own[j] * impedance_xu;
         impedance_yx = impedance_yx - answer_x[j] * impedance_yu;
         impedance_yy = impedance_yy - answer_y[j] * impedance_yu;
-        force_x = force_x + answer_own[j] * impedance_xu;
         force_y = force_y + answer_own[j] * impedance_yu;
         torque = joint_torque;
     }
 
     /* The base. */
-    if (!(hub_inertia > 0.0f) || !isfinite(hub_inertia)) {
-        return BEAM5_VANISHING_PIVOT;
-    }
-    real unknown = (inputs->hub_torque - torque - hub_damping * predicted_rate[0]
-        - hub_inertia * predicted_acceleration[0]) / hub_inertia;
+    real unknown = (inputs->tmm_hub_torque - torque - hub_damping * predicted_rate[0]
+        - hub_inertia * predicted_acceleration[0]) / hub_pivot;
     const real hub_unknown = unknown;
 
     /* Sweep outward: the unknown of each station. */
@@ -245,15 +252,11 @@ beam5_status beam5_initialise(
         state->angle[j] = predicted_angle[j + 1];
         state->rate[j] = predicted_rate[j + 1];
         state->acceleration[j] = predicted_acceleration[j + 1] + unknown;
+        total += state->angle[j] + state->rate[j] + state->acceleration[j];
     }
 
-    if (!isfinite(state->hub_angle) || !isfinite(state->hub_rate) || !isfinite(state->hub_acceleration)) {
+    if (!isfinite(total + state->hub_angle + state->hub_rate + state->hub_acceleration)) {
         return BEAM5_NON_FINITE_STATE;
-    }
-    for (int j = 0; j < BEAM5_STATIONS; ++j) {
-        if (!isfinite(state->angle[j]) || !isfinite(state->rate[j]) || !isfinite(state->acceleration[j])) {
-            return BEAM5_NON_FINITE_STATE;
-        }
     }
     return BEAM5_OK;
 }
@@ -262,6 +265,9 @@ beam5_status beam5_step(
     beam5_state *state,
     const beam5_inputs *inputs)
 {
+    if (state == NULL || inputs == NULL) {
+        return BEAM5_NULL_POINTER;
+    }
     if (!inputs_are_finite(inputs)) {
         return BEAM5_NON_FINITE_INPUT;
     }
@@ -273,19 +279,17 @@ beam5_status beam5_step(
     real answer_y[BEAM5_STATIONS]; /* answer of the unknown to the joint's acceleration along y */
     real lever_cosine[BEAM5_STATIONS]; /* length times cosine of the angle [m] */
     real lever_sine[BEAM5_STATIONS]; /* length times sine of the angle [m] */
-    /* acceleration of base and links as predicted [rad/s^2] */
-    real predicted_acceleration[BEAM5_STATIONS + 1];
     real predicted_angle[BEAM5_STATIONS + 1]; /* angle of base and links as predicted [rad] */
     real predicted_rate[BEAM5_STATIONS + 1]; /* rate of base and links as predicted [rad/s] */
     real swing_x[BEAM5_STATIONS]; /* change of the outer end's acceleration along x per unknown [m] */
     real swing_y[BEAM5_STATIONS]; /* change of the outer end's acceleration along y per unknown [m] */
     real transmission[BEAM5_STATIONS]; /* share of motion and torque each joint passes on */
+    real total = 0.0f; /* of the new motion: is all of it finite? */
 
     /* Predicted motion. */
     predicted_rate[0] = state->hub_rate + state->hub_acceleration * step;
     predicted_angle[0] = state->hub_angle + half_step_squared * state->hub_acceleration
         + state->hub_rate * step;
-    predicted_acceleration[0] = state->hub_acceleration;
 
     /* Predicted motion; accelerations of the nodes, seen from a falling frame: gravity is the base's own. */
     real node_x = 0.0f;
@@ -296,17 +300,15 @@ beam5_status beam5_step(
         predicted_rate[j + 1] = state->rate[j] + state->acceleration[j] * step;
         predicted_angle[j + 1] = state->angle[j] + state->acceleration[j] * half_step_squared
             + state->rate[j] * step;
-        predicted_acceleration[j + 1] = state->acceleration[j];
-        if (!(predicted_angle[j + 1] >= -BEAM5_LARGEST_ANGLE)
-            || !(predicted_angle[j + 1] <= BEAM5_LARGEST_ANGLE)) {
+        if (!(fabsf(predicted_angle[j + 1]) <= BEAM5_LARGEST_ANGLE)) {
             return BEAM5_OUT_OF_RANGE;
         }
         const circle turn_1 = circle_of(predicted_angle[j + 1]);
         lever_cosine[j] = length * turn_1.cosine;
         lever_sine[j] = length * turn_1.sine;
         const real square = predicted_rate[j + 1] * predicted_rate[j + 1];
-        const real relative_x = -lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1];
-        const real relative_y = lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square;
+        const real relative_x = -state->acceleration[j] * lever_sine[j] - lever_cosine[j] * square;
+        const real relative_y = state->acceleration[j] * lever_cosine[j] - lever_sine[j] * square;
         const real turning = predicted_rate[j + 1] * step;
         swing_x[j] = -lever_sine[j] - angle_per_acceleration * relative_y - lever_cosine[j] * turning;
         swing_y[j] = lever_cosine[j] + angle_per_acceleration * relative_x - lever_sine[j] * turning;
@@ -318,25 +320,25 @@ beam5_status beam5_step(
 
     /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
      * of the motion at it. */
-    real force_x = 0.0f;
-    real force_y = 0.0f;
+    real impedance_xx = end_mass;
+    real impedance_yy = end_mass;
+    real force_x = acceleration_x[5] * end_mass;
+    real force_y = acceleration_y[5] * end_mass;
     real impedance_uu = 0.0f;
     real impedance_ux = 0.0f;
     real impedance_uy = 0.0f;
     real impedance_xu = 0.0f;
-    real impedance_xx = 0.0f;
     real impedance_xy = 0.0f;
     real impedance_yu = 0.0f;
     real impedance_yx = 0.0f;
-    real impedance_yy = 0.0f;
     real torque = 0.0f;
     for (int j = BEAM5_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
-        impedance_xx = impedance_xx + node_mass[j];
-        impedance_yy = impedance_yy + node_mass[j];
-        force_x = force_x + acceleration_x[j + 1] * node_mass[j];
-        force_y = force_y + acceleration_y[j + 1] * node_mass[j];
+        impedance_xx = impedance_xx + mass;
+        force_x = force_x + acceleration_x[j + 1] * mass;
+        impedance_yy = impedance_yy + mass;
+        force_y = force_y + acceleration_y[j + 1] * mass;
         impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j];
         impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j];
         impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j];
@@ -345,10 +347,10 @@ beam5_status beam5_step(
         impedance_uu = impedance_uu + rod_inertia
             + lever_cosine[j] * (impedance_yu - angle_per_acceleration * force_x)
             + lever_sine[j] * (-impedance_xu - angle_per_acceleration * force_y);
-        torque = torque - force_x * lever_sine[j] + force_y * lever_cosine[j]
-            + predicted_acceleration[j + 1] * rod_inertia;
+        torque = torque + state->acceleration[j] * rod_inertia - force_x * lever_sine[j]
+            + force_y * lever_cosine[j];
         const real pivot = impedance_uu + joint_impedance[j];
-        if (!(pivot > 0.0f) || !isfinite(pivot)) {
+        if (!(pivot > 0.0f) || !(pivot <= FLT_MAX)) {
             return BEAM5_VANISHING_PIVOT;
         }
         const real admittance = 1.0f / pivot;
@@ -358,25 +360,25 @@ beam5_status beam5_step(
         transmission[j] = admittance * joint_impedance[j];
         impedance_xx = impedance_xx - answer_x[j] * impedance_xu;
         impedance_xy = impedance_xy - answer_y[j] * impedance_xu;
+        force_x = force_x + answer_own[j] * impedance_xu;
+        impedance_xu = impedance_xu * transmission[j];
         impedance_yx = impedance_yx - answer_x[j] * impedance_yu;
         impedance_yy = impedance_yy - answer_y[j] * impedance_yu;
+        force_y = force_y + answer_own[j] * impedance_yu;
+        impedance_yu = impedance_yu * transmission[j];
         impedance_ux = answer_x[j] * joint_impedance[j];
         impedance_uy = answer_y[j] * joint_impedance[j];
         impedance_uu = impedance_uu * transmission[j];
-        force_x = force_x + answer_own[j] * impedance_xu;
-        impedance_xu = impedance_xu * transmission[j];
-        force_y = force_y + answer_own[j] * impedance_yu;
-        impedance_yu = impedance_yu * transmission[j];
         torque = joint_torque - answer_own[j] * joint_impedance[j];
     }
 
     /* The base. */
     const real hub_pivot = hub_impedance + impedance_uu;
-    if (!(hub_pivot > 0.0f) || !isfinite(hub_pivot)) {
+    if (!(hub_pivot > 0.0f) || !(hub_pivot <= FLT_MAX)) {
         return BEAM5_VANISHING_PIVOT;
     }
-    real unknown = (inputs->hub_torque - torque - hub_damping * predicted_rate[0]
-        - hub_inertia * predicted_acceleration[0]) / hub_pivot;
+    real unknown = (inputs->tmm_hub_torque - torque - state->hub_acceleration * hub_inertia
+        - hub_damping * predicted_rate[0]) / hub_pivot;
     const real hub_unknown = unknown;
 
     /* Sweep outward: the unknown of each station. */
@@ -386,18 +388,18 @@ beam5_status beam5_step(
     /* Sweep outward: the unknown of each station; motion at the end of the step. */
     state->hub_angle = predicted_angle[0] + angle_per_acceleration * hub_unknown;
     state->hub_rate = predicted_rate[0] + hub_unknown * rate_per_acceleration;
-    state->hub_acceleration = hub_unknown + predicted_acceleration[0];
+    state->hub_acceleration = state->hub_acceleration + hub_unknown;
     for (int j = 0; j < BEAM5_STATIONS; ++j) {
         unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y + transmission[j] * unknown;
         change_x = change_x + swing_x[j] * unknown;
         change_y = change_y + swing_y[j] * unknown;
         state->angle[j] = predicted_angle[j + 1] + angle_per_acceleration * unknown;
         state->rate[j] = predicted_rate[j + 1] + rate_per_acceleration * unknown;
-        state->acceleration[j] = predicted_acceleration[j + 1] + unknown;
+        state->acceleration[j] = state->acceleration[j] + unknown;
+        total += state->angle[j] + state->rate[j] + state->acceleration[j];
     }
 
-    /* Anything that is not a number has reached this one. */
-    if (!isfinite(state->acceleration[BEAM5_STATIONS - 1])) {
+    if (!isfinite(total + state->hub_angle + state->hub_rate + state->hub_acceleration)) {
         return BEAM5_NON_FINITE_STATE;
     }
     return BEAM5_OK;
@@ -407,15 +409,18 @@ void beam5_output(
     const beam5_state *state,
     beam5_outputs *outputs)
 {
+    if (state == NULL || outputs == NULL) {
+        return;
+    }
     /* Hub: angle. */
-    outputs->hub = state->hub_angle;
+    outputs->tmm_hub = state->hub_angle;
 
     /* Tip: position. */
-    outputs->tip_x = 0.0f;
-    outputs->tip_y = 0.0f;
+    outputs->tmm_tip_x = 0.0f;
+    outputs->tmm_tip_y = 0.0f;
     for (int j = 0; j < BEAM5_STATIONS; ++j) {
         const circle turn_1 = circle_of(state->angle[j]);
-        outputs->tip_x = outputs->tip_x + length * turn_1.cosine;
-        outputs->tip_y = outputs->tip_y + length * turn_1.sine;
+        outputs->tmm_tip_x = outputs->tmm_tip_x + length * turn_1.cosine;
+        outputs->tmm_tip_y = outputs->tmm_tip_y + length * turn_1.sine;
     }
 }

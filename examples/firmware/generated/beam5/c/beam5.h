@@ -2,8 +2,8 @@
  * beam5: Five-link arm on a hub, the model of an observer
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 2aa7477fe5a1cf796a596a84ffa48c892dc54bfd3ece90a5d25a43813cf34ab5
- * sha256 of the rest of this file: 2d1e80ddc8fe92ab692d5c38006b83a2b42daf5f06794b46afe2279be1daf2c0
+ * scene digest: 7cda6afdfe9f28eb257c67670c83631d86f159a73ec0c14225ebe1e38843e797
+ * sha256 of the rest of this file: ce01cbbbcfe95099f058544a3359fe283bf24bd7a35b42dae1b0b9282bce6174
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 5
@@ -12,9 +12,9 @@
  * linearisation: newton
  * sweep: riccati
  * unknown: acceleration
- * operations of a step: 593, 118.6 per station (275 additions, 302 multiplications, 6 divisions, 10 sines and
+ * operations of a step: 595, 119 per station (275 additions, 304 multiplications, 6 divisions, 10 sines and
  *     cosines)
- * operations of prepare: 62, 12.4 per station (17 additions, 45 multiplications)
+ * operations of prepare: 47, 9.4 per station (10 additions, 37 multiplications)
  * number type: float
  * bytes of the structs: state 72, inputs 4, outputs 12
  *
@@ -24,8 +24,8 @@
  *
  * @file beam5.h
  */
-#ifndef BEAM5_H
-#define BEAM5_H
+#ifndef TMM_GEN_KERNEL_beam5
+#define TMM_GEN_KERNEL_beam5
 
 #ifdef __cplusplus
 extern "C" {
@@ -56,7 +56,9 @@ typedef enum {
     /** The motion has outgrown the number type; initialise anew. */
     BEAM5_NON_FINITE_STATE,
     /** An angle is beyond BEAM5_LARGEST_ANGLE; nothing was changed. */
-    BEAM5_OUT_OF_RANGE
+    BEAM5_OUT_OF_RANGE,
+    /** A pointer that is needed is NULL; nothing was changed. */
+    BEAM5_NULL_POINTER = 6
 } beam5_status;
 
 /** Motion of the arm, and the history its integrator needs. */
@@ -71,24 +73,24 @@ typedef struct {
 
 /** What acts on the arm. */
 typedef struct {
-    beam5_real hub_torque; /**< torque acting at the base [N m] */
+    beam5_real tmm_hub_torque; /**< torque acting at the base [N m] */
 } beam5_inputs;
 
 /** What the scene asks to know. */
 typedef struct {
-    beam5_real hub; /**< angle at the base [rad] */
-    beam5_real tip_x; /**< position at the tip, x [m] */
-    beam5_real tip_y; /**< position at the tip, y [m] */
+    beam5_real tmm_hub; /**< angle at the base [rad] */
+    beam5_real tmm_tip_x; /**< position at the tip, x [m] */
+    beam5_real tmm_tip_y; /**< position at the tip, y [m] */
 } beam5_outputs;
 
 /**
  * Start from given angles and rates with the acceleration that satisfies the equations of motion.
  *
  * @param[out] state   motion at the initial instant
- * @param[in]  initial_angle  angles to start from [rad]
- * @param[in]  initial_rate  rates to start from [rad/s]
+ * @param[in]  initial_angle  angles to start from [rad]; NULL for the scene's own
+ * @param[in]  initial_rate  rates to start from [rad/s]; NULL for the scene's own
  * @param[in]  inputs  what acts at the initial instant
- * @return OK, NON_FINITE_INPUT, VANISHING_PIVOT, NON_FINITE_STATE or OUT_OF_RANGE
+ * @return OK, NON_FINITE_INPUT, NULL_POINTER, VANISHING_PIVOT, NON_FINITE_STATE or OUT_OF_RANGE
  */
 beam5_status beam5_initialise(
     beam5_state *state,
@@ -101,14 +103,14 @@ beam5_status beam5_initialise(
  *
  * @param[in,out] state   motion before the step, and after it
  * @param[in]     inputs  what acts, at the end of the step
- * @return OK, NON_FINITE_INPUT, VANISHING_PIVOT, NON_FINITE_STATE or OUT_OF_RANGE
+ * @return OK, NON_FINITE_INPUT, NULL_POINTER, VANISHING_PIVOT, NON_FINITE_STATE or OUT_OF_RANGE
  */
 beam5_status beam5_step(
     beam5_state *state,
     const beam5_inputs *inputs);
 
 /**
- * Read the outputs off the state.
+ * Read the outputs off the state. Nothing is done where a pointer is NULL.
  *
  * @param[in]  state    motion
  * @param[out] outputs  what the scene asks for
@@ -121,4 +123,4 @@ void beam5_output(
 }
 #endif
 
-#endif /* BEAM5_H */
+#endif /* TMM_GEN_KERNEL_beam5 */

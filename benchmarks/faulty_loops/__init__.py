@@ -1,0 +1,1 @@
+"""Closed loops of emitted controllers whose sensors fail for a while, all in C."""

@@ -1,0 +1,152 @@
+"""What an arm's matrices are made of: a few numbers for each station, gathered from its elements' matrices.
+
+Joints couple neighbours, gravity and loads act on each angle by itself, and links carry motion outward and forces
+inward. So a matrix times a vector takes time in proportion to the stations, and no entry is a difference of large
+numbers: stiff springs and soft ones, and the stiffness that gravity gives, stay apart.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import groupby
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.modal.arm import LinearArm, Placed
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Parts:
+    """An arm in small motion; free angles are those of a motor's hub, then of the n links.
+
+    Parameters
+    ----------
+    hub : bool
+        Whether the hub's angle is free.
+    spring, damper : array, (n,)
+        Of the joint inboard of each link, N m/rad and N m s/rad.
+    ground_stiffness, ground_damping : array, (d,)
+        What gravity, loads and bearings add to each free angle alone.
+    hub_inertia : float
+        kg m^2.
+    reach : array, (n, p)
+        How a link's outer end moves as it turns; ``p`` is 0 in a chain, 2 in the plane.
+    inertia : array, (n, p + 1, p + 1)
+        Inertia of each link against the motion of its inner end and its turning; symmetric.
+    tip : array, (p + 1, p + 1)
+        Inertia of the body at the tip.
+    """
+
+    hub: bool
+    spring: Array
+    damper: Array
+    ground_stiffness: Array
+    ground_damping: Array
+    hub_inertia: float
+    reach: Array
+    inertia: Array
+    tip: Array
+
+    @property
+    def size(self) -> int:
+        """Number of free angles, d."""
+        return len(self.ground_stiffness)
+
+    @property
+    def diagonal(self) -> Array:
+        """The diagonal of the mass matrix, (d,)."""
+        beyond = np.concatenate([self.inertia[1:, :-1, :-1], self.tip[None, :-1, :-1]])
+        pulled = np.cumsum(beyond[::-1], axis=0)[::-1]
+        found = self.inertia[:, -1, -1] + np.einsum("ni,nij,nj->n", self.reach, pulled, self.reach)
+        found[-1] += self.tip[-1, -1]
+        return np.append(self.hub_inertia, found) if self.hub else found
+
+    def twists(self, angles: Array) -> Array:
+        """Return how much each joint is twisted, (n, ...)."""
+        inner = angles[:-1] if self.hub else np.concatenate([np.zeros_like(angles[:1]), angles[:-1]])
+        found: Array = angles[int(self.hub) :] - inner
+        return found
+
+    def weighed(self, angles: Array) -> Array:
+        """Return the mass matrix times angles, (d, k), given as columns."""
+        turned = angles[int(self.hub) :]
+        ends = np.cumsum(self.reach[:, :, None] * turned[:, None, :], axis=0)
+        inner = np.concatenate([np.zeros_like(ends[:1]), ends[:-1]])
+        motion = np.concatenate([inner, turned[:, None, :]], axis=1)
+        force = self.inertia @ motion
+        at_tip = self.tip @ np.concatenate([ends[-1], turned[-1:]])
+        force[-1, -1] += at_tip[-1]
+        beyond = np.concatenate([force[1:, :-1], at_tip[None, :-1]])
+        pulled = np.cumsum(beyond[::-1], axis=0)[::-1]  # what the outer end of each link has to move
+        torque = force[:, -1] + np.sum(self.reach[:, :, None] * pulled, axis=1)
+        return np.concatenate([self.hub_inertia * angles[:1], torque]) if self.hub else torque
+
+    def held(self, angles: Array) -> Array:
+        """Return the stiffness matrix times angles, (d, k)."""
+        return self._between(self.spring, self.ground_stiffness, angles)
+
+    def braked(self, rates: Array) -> Array:
+        """Return the damping matrix times rates, (d, k), complex ones too."""
+        return self._between(self.damper, self.ground_damping, rates)
+
+    def _between(self, joint: Array, ground: Array, angles: Array) -> Array:
+        torque = joint[:, None] * self.twists(angles)
+        found = ground[:, None] * angles
+        found[int(self.hub) :] += torque
+        found[: len(found) - 1] -= torque if self.hub else torque[1:]
+        return found
+
+
+def parts_of(arm: LinearArm) -> Parts:
+    """Gather the numbers of an arm's elements.
+
+    Parameters
+    ----------
+    arm : LinearArm
+        Chain, or planar arm about rest.
+    """
+    n, width, first = arm.scene.stations, arm.width, int(arm.hub)
+    laws, links = np.zeros((n, 2)), np.zeros((3, n, width, width))
+    reach = np.zeros((n, width - 1))
+    bodies = {0: np.zeros((3, width, width)), n: np.zeros((3, width, width))}
+    for name, alike in _alike(arm.elements):
+        functions = arm.functions(alike[0])
+        columns = [np.array(column) for column in zip(*(each.values for each in alike), strict=True)]
+        at = np.array([each.station for each in alike])
+        if name == "joint":
+            laws[at - 1] = arm.sign * functions.impedance(columns)
+            continue
+        by_power, carrying, passing = functions.powers(columns)
+        # forces enter at the inner end: what the element takes, carried there
+        needed = arm.sign * np.linalg.solve(passing, by_power)
+        if name == "link":
+            links[:, at - 1] += needed
+            reach[at - 1] = carrying[:, :-1, -1]
+            continue
+        for station, body in zip(at.tolist(), np.moveaxis(needed, 1, 0), strict=True):
+            bodies[station] += body
+    ground = links[:2, :, -1, -1]
+    ground[:, -1] += bodies[n][:2, -1, -1]
+    if arm.hub:
+        ground = np.concatenate([bodies[0][:2, -1:, -1], ground], axis=1)
+    return Parts(
+        hub=bool(first),
+        spring=laws[:, 0],
+        damper=laws[:, 1],
+        ground_stiffness=ground[0],
+        ground_damping=ground[1],
+        hub_inertia=float(bodies[0][2, -1, -1]),
+        reach=reach,
+        inertia=0.5 * (links[2] + links[2].transpose(0, 2, 1)),  # symmetric but for rounding
+        tip=bodies[n][2],
+    )
+
+
+def _alike(elements: Sequence[Placed]) -> Iterator[tuple[str, list[Placed]]]:
+    """Yield elements of one type together: each is computed for all of them at once."""
+    for name, found in groupby(sorted(elements, key=lambda each: each.name), key=lambda each: each.name):
+        yield name, list(found)

@@ -1,0 +1,110 @@
+"""The stiffness of an arm, taken apart by the Riccati sweep from the tip to the base: what gives way under torques."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.modal.parts import Parts
+
+Array = NDArray[np.float64]
+
+_LEAST = float(np.finfo(float).eps)
+"""Of a joint's spring: a pivot that vanishes exactly becomes this, so that both of its neighbours can be told."""
+
+
+@dataclass(frozen=True, eq=False)
+class Springs:
+    """``K = (1 - R)^-T D (1 - R)^-1`` undone: ``D`` diagonal, ``R`` carries a share of each angle to the next.
+
+    Without gravity all shares are exactly 1, the pivots are the joints' springs, and a free hub's pivot is exactly 0:
+    the arm turns freely. With it, pivots are sums of what acts in parallel, never differences of large numbers.
+
+    Parameters
+    ----------
+    parts : Parts
+        Of the arm.
+    pivot : array, (d,)
+        ``D``: as many are negative as the stiffness has negative eigenvalues (Sylvester).
+    share : array, (d,)
+        ``R``: how much of the angle inboard each angle follows.
+    """
+
+    parts: Parts
+    pivot: Array
+    share: Array
+
+    @property
+    def rigid(self) -> bool:
+        """Whether the arm turns as a whole, without resistance."""
+        return self.parts.hub and self.pivot[0] == 0.0
+
+    @property
+    def negative(self) -> int:
+        """In how many ways the arm falls over."""
+        return int(np.sum(self.pivot < 0.0))
+
+    @cached_property
+    def signs(self) -> Array:
+        """Signs of the pivots, 0 where the arm turns as a whole, (d, 1)."""
+        return np.sign(self.pivot)[:, None]
+
+    @cached_property
+    def _roots(self) -> Array:
+        return np.sqrt(np.abs(self.pivot))[:, None]
+
+    @cached_property
+    def _scale(self) -> Array:
+        return np.divide(1.0, self._roots, out=np.zeros_like(self._roots), where=self._roots != 0.0)
+
+    @cached_property
+    def _band(self) -> Array:
+        return np.array([np.ones(len(self.share)), -np.append(self.share[1:], 0.0)])
+
+    def angles(self, bends: Array) -> Array:
+        """Return ``S b``: the angles, (d, k), of bends scaled so that ``b^T signs b`` is twice the energy."""
+        return self._solved(self._scale * bends, "N")
+
+    def loads(self, torques: Array) -> Array:
+        """Return ``S^T f``: what torques on the angles, (d, k), do to the scaled bends."""
+        found: Array = self._scale * self._solved(torques, "T")
+        return found
+
+    def bends(self, angles: Array) -> Array:
+        """Return the scaled bends of angles, (d, k)."""
+        inner = np.concatenate([np.zeros_like(angles[:1]), angles[:-1]])
+        found: Array = self._roots * (angles - self.share[:, None] * inner)
+        return found
+
+    def _solved(self, right: Array, transposed: str) -> Array:
+        from scipy.linalg.lapack import dtbtrs  # slow to import
+
+        found, _ = dtbtrs(self._band, right, uplo="L", trans=transposed, diag="U")
+        return np.asarray(found, float)
+
+
+def springs_of(parts: Parts) -> Springs:
+    """Sweep the stiffness from the tip to the base.
+
+    Parameters
+    ----------
+    parts : Parts
+        Of the arm.
+    """
+    ground = parts.ground_stiffness.tolist()
+    springs = ([0.0] if parts.hub else []) + parts.spring.tolist()
+    pivot, share = [0.0] * len(ground), [0.0] * len(ground)
+    beyond = 0.0  # stiffness of all that is outboard, as the joint passes it on
+    for i in reversed(range(len(ground))):
+        own = ground[i] + beyond
+        pivot[i] = springs[i] + own
+        if springs[i] == 0.0:
+            continue  # the hub: nothing is inboard
+        if pivot[i] == 0.0:
+            pivot[i] = _LEAST * springs[i]
+        share[i] = springs[i] / pivot[i]
+        beyond = share[i] * own
+    return Springs(parts, np.array(pivot), np.array(share))

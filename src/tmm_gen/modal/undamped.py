@@ -1,0 +1,185 @@
+"""Undamped modes by what gives way, not by what holds: the lowest ones keep their digits.
+
+The squares of an arm's frequencies span as many decades as the fourth power of its number of links. Rounding of the
+stiffest part would hide the slowest mode, so modes are found from the compliance, whose largest eigenvalues they are.
+Each comes with a bound of its error from its residual.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.modal.matrices import Matrices
+from tmm_gen.modal.springs import Springs, springs_of
+
+Array = NDArray[np.float64]
+
+_DENSE = 60
+"""Free angles up to which, or where a third of all modes is asked for, all modes are found at once."""
+
+_MOST_DENSE = 2000
+"""Free angles up to which all modes are found where a few alone are not known well enough."""
+
+_KNOWN = 1e-8
+"""Bound of an error that is good enough."""
+
+_JACOBI = 60
+"""Free angles up to which singular values are found to relative accuracy, whatever the ratios of stiffness."""
+
+
+@dataclass(frozen=True, eq=False)
+class Undamped:
+    """Modes without damping, the lowest first.
+
+    Parameters
+    ----------
+    squares : array, (m,)
+        Of the angular frequencies, rad^2/s^2; exactly zero where the arm turns as a whole, negative where it falls.
+    shapes : array, (d, m)
+        Orthonormal with respect to the mass matrix.
+    bounds : array, (m,)
+        On the relative error of each frequency, from its residual.
+    """
+
+    squares: Array
+    shapes: Array
+    bounds: Array
+
+
+def undamped_modes(linear: Matrices, count: int | None = None) -> Undamped:
+    """Return the lowest modes.
+
+    Parameters
+    ----------
+    linear : Matrices
+        Of an arm in small motion.
+    count : int, optional
+        How many; all by default.
+    """
+    springs = springs_of(linear.parts)
+    size = linear.parts.size
+    wanted = size if count is None else min(count, size)
+    turning = _turning(linear, springs)
+    sought = wanted - turning.shape[1]
+    few = size > _DENSE and 3 * (sought + springs.negative) < size
+    found = _sorted(linear, springs, turning, sought, few)
+    if few and size <= _MOST_DENSE and np.max(found.bounds, initial=0.0) > _KNOWN:
+        # one very soft joint hides the others from an iteration on the whole
+        found = _sorted(linear, springs, turning, sought, few=False)
+    return found
+
+
+def _sorted(linear: Matrices, springs: Springs, turning: Array, sought: int, few: bool) -> Undamped:
+    """Return the lowest modes, those of the arm as a whole at their place."""
+    squares, shapes = np.zeros(0), np.zeros((linear.parts.size, 0))
+    if sought > 0:
+        squares, shapes = (_lowest if few else _all)(linear, springs, turning, sought)
+        order = np.argsort(squares)[:sought]
+        squares, shapes = squares[order], shapes[:, order]
+    place = int(np.sum(squares < 0.0))
+    squares = np.insert(squares, place, np.zeros(turning.shape[1]))
+    shapes = np.concatenate([shapes[:, :place], turning, shapes[:, place:]], axis=1)
+    return Undamped(squares, shapes, _bounds(linear, springs, squares, shapes))
+
+
+def _turning(linear: Matrices, springs: Springs) -> Array:
+    """Return the motion of the arm as a whole, of unit mass, (d, 1), or none, (d, 0)."""
+    whole = np.ones((linear.parts.size, 1))
+    if not springs.rigid:
+        return whole[:, :0]
+    found: Array = whole / np.sqrt(np.sum(whole * linear.parts.weighed(whole)))
+    return found
+
+
+def _lowest(linear: Matrices, springs: Springs, turning: Array, count: int) -> tuple[Array, Array]:
+    """Find a few modes by Lanczos's iteration on the compliance, in time proportional to the stations."""
+    from scipy.sparse.linalg import LinearOperator, eigsh  # slow to import
+
+    parts, size = linear.parts, linear.parts.size
+    moved = parts.weighed(turning)
+
+    def softened(torques: Array) -> Array:
+        torques = np.asarray(torques, float).reshape(size, -1)
+        torques = torques - moved @ (turning.T @ torques)
+        angles = springs.angles(springs.signs * springs.loads(torques))
+        found: Array = angles - turning @ (moved.T @ angles)
+        return found
+
+    def operator(function: object) -> object:
+        return LinearOperator((size, size), matvec=function, matmat=function, dtype=float)
+
+    def column(function: object) -> object:
+        return lambda vector: function(np.asarray(vector, float).reshape(size, -1))  # type: ignore[operator]
+
+    start = np.random.default_rng(0).standard_normal((size, 1))  # the same each time
+    start = softened(parts.weighed(start))[:, 0]
+    number = count + springs.negative
+    while True:
+        squares, shapes = eigsh(
+            operator(column(parts.held)),
+            number,
+            M=operator(column(parts.weighed)),
+            sigma=0.0,
+            OPinv=operator(softened),
+            which="LM",
+            v0=start,
+            ncv=min(size - 1, max(2 * number + 20, 40)),
+        )
+        if np.sum(squares < 0.0) >= springs.negative:
+            return squares, shapes
+        number *= 2  # those that fall over fast are not among the slowest
+        if 3 * number >= size:
+            return _all(linear, springs, turning, count)
+
+
+def _all(linear: Matrices, springs: Springs, turning: Array, count: int) -> tuple[Array, Array]:
+    """Find all modes from dense matrices; those of the arm as a whole left out."""
+    from scipy.linalg import cholesky, eigh, svd  # slow to import
+    from scipy.linalg.lapack import dgejsv
+
+    first = turning.shape[1]
+    size = linear.parts.size
+    bends = springs.angles(np.eye(size)[:, first:])
+    bends = bends - turning @ (linear.parts.weighed(turning).T @ bends)
+    root = cholesky(linear.mass)
+    factor = root @ bends
+    if springs.negative == 0:
+        # squares of the periods are those of the singular values: half as many decades as eigenvalues
+        if size <= _JACOBI:
+            sizes, _, right, work, _, info = dgejsv(factor, joba=0, jobu=3, jobv=0, jobp=1)
+            sizes = sizes * (work[0] / work[1])
+            if info != 0:
+                raise ArithmeticError(f"singular values of an arm's compliance did not converge ({info})")
+        else:
+            _, sizes, rows = svd(factor, full_matrices=False)
+            right = rows.T
+        return 1.0 / sizes**2, bends @ right / sizes
+    signs = springs.signs[first:]
+    values, vectors = eigh(factor @ (signs * factor.T))
+    soft = 1.0 / values
+    shapes = bends @ (signs * (factor.T @ vectors)) * soft
+    order = np.argsort(soft)
+    soft, shapes = soft[order], shapes[:, order]
+    stiff, others = eigh(linear.stiffness, linear.mass)
+    stiff, others = stiff[first:], others[:, first:]
+    low = np.abs(soft) <= np.sqrt(np.min(np.abs(soft)) * np.max(np.abs(stiff)))
+    return np.where(low, soft, stiff), np.where(low, shapes, others)
+
+
+def _bounds(linear: Matrices, springs: Springs, squares: Array, shapes: Array) -> Array:
+    """Return how far each frequency may be off, relatively, by the residual of its shape.
+
+    For a symmetric matrix an eigenvalue lies no further away than the residual is large (Parlett 1998, *The Symmetric
+    Eigenvalue Problem*, ch. 4). The matrix is the compliance in scaled bends, in which stiff parts weigh little.
+    """
+    bends = springs.bends(shapes)
+    if springs.rigid:
+        bends[0] = 0.0
+    left = springs.signs * bends - squares * springs.loads(linear.parts.weighed(shapes))
+    sizes = np.linalg.norm(bends, axis=0)
+    errors = np.divide(0.5 * np.linalg.norm(left, axis=0), sizes, out=np.zeros_like(sizes), where=sizes > 0.0)
+    found: Array = np.where(squares == 0.0, 0.0, errors)
+    return found

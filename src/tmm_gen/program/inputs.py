@@ -1,0 +1,26 @@
+"""When a step reads its inputs, and which of them move a prescribed base."""
+
+from __future__ import annotations
+
+from tmm_gen.derive.integrators.declaration import Scheme
+from tmm_gen.program.variables import Variable
+from tmm_gen.row.row import Row
+from tmm_gen.scene.signal import ACCELERATION, RATE
+
+
+def input_instants(row: Row, scheme: Scheme) -> tuple[float, ...]:
+    """Return the instants of a step, in steps, at which its inputs are read.
+
+    These are those of its stages. Where the last stage is not at the end of the step, a prescribed base is asked
+    there too: no formula of the integrator knows better where it is.
+    """
+    stages = tuple(float(stage.instant) for stage in scheme.stages)
+    if row.boundary != "prescribed" or stages[-1] == 1.0:
+        return stages
+    return (*stages, 1.0)
+
+
+def prescribed_names(inputs: tuple[Variable, ...]) -> tuple[str, str, str] | None:
+    """Return the names of angle, rate and acceleration of a prescribed base among a kernel's inputs, if it has them."""
+    angle = next((variable.name for variable in inputs if variable.unit == "rad"), None)
+    return None if angle is None else (angle, angle + RATE, angle + ACCELERATION)

@@ -1,0 +1,224 @@
+"""Whatever users call inputs, outputs and scenes: macros of any header, keywords of C and C++, names of our own."""
+
+from __future__ import annotations
+
+import keyword
+import re
+import subprocess
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import HealthCheck, Phase, given, settings
+from hypothesis import strategies as st
+
+from tmm_gen.emit.c import emit_c
+from tmm_gen.emit.c_names import PREFIX, macros
+from tmm_gen.program.build import build_program
+from tmm_gen.scene import parse_scene
+from tmm_gen.scene.identifier import name_fault, scene_name_fault
+
+pytestmark = pytest.mark.compiler
+
+HEADERS = """assert complex ctype errno fenv float inttypes iso646 limits locale math setjmp signal stdarg stdbool
+stddef stdint stdio stdlib string tgmath time wchar wctype unistd sys/types sys/socket
+netinet/in pthread poll fcntl termios"""
+DIALECTS = (
+    ("gcc", "-std=c99", "-pedantic", "-Werror"),
+    ("gcc", "-std=gnu17", "-Werror"),
+    ("g++", "-std=gnu++17", "-Werror"),
+)
+CPP = """
+alignas alignof and and_eq asm auto bitand bitor bool break case catch char char16_t class compl
+const constexpr const_cast continue decltype default delete do double dynamic_cast else enum
+explicit export extern false float for friend goto if inline int long mutable namespace new noexcept
+not not_eq nullptr operator or or_eq private protected public register reinterpret_cast restrict
+return short signed sizeof static static_assert static_cast struct switch template this thread_local
+throw true try typedef typeid typename union unsigned using virtual void volatile wchar_t while xor
+xor_eq
+"""
+OWN = """
+k i j x y u p h n t step state model params inputs outputs real pair circle total count status bad
+before none main unknown known_rate known_angle tally expect printf memset memcmp BUFSIZ EOF NULL
+NAN INFINITY HUGE_VAL M_PI linux unix FP_ZERO ARM_STEP ARM_OK ARM_STATIONS tmm_tip
+"""
+
+
+FEW = settings(
+    max_examples=2,
+    phases=[Phase.generate],  # a compiler says what is wrong; making lists shorter would take it long
+    suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
+)
+
+
+def included() -> str:
+    return "".join(f"#include <{header}.h>\n" for header in HEADERS.split())
+
+
+@cache
+def hostile() -> tuple[str, ...]:
+    """Return macros of all standard headers in the loosest dialect, keywords, and names that kernels use."""
+    done = subprocess.run(
+        ["gcc", "-std=gnu17", "-D_GNU_SOURCE", "-dM", "-E", "-"],
+        input=included(),
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    found = {*re.findall(r"^#define (\w+)", done.stdout, re.MULTILINE), *CPP.split(), *OWN.split()}
+    found |= {f"{name}_{end}" for name in ("ARM", "arm") for end in ("STEP", "H", "step", "inputs", "real")}
+    return tuple(sorted(name for name in found if name_fault(name) is None))
+
+
+def names(count: int) -> st.SearchStrategy[list[str]]:
+    """Return lists of different names, most of them hostile."""
+    random = st.from_regex(r"[A-Za-z][A-Za-z0-9_]{0,20}", fullmatch=True).filter(
+        lambda x: name_fault(x) is None
+    )
+    one = st.one_of(st.sampled_from(hostile()), st.sampled_from(hostile()), random)
+    return st.lists(one, min_size=count, max_size=count, unique=True)
+
+
+def scene_text(name: str, called: list[str], real: str = "float64", kind: str = "chain") -> str:
+    """Return a scene of two links whose signals have these names, three of them inputs."""
+    base = 'kind = "motor"\ninertia = 0.3\n'
+    link = "inertia = 0.7\n" + ("mass = 0.5\nlength = 0.4\n" if kind == "planar" else "")
+    stations = f"[[joint]]\nstiffness = 30.0\ndamping = 0.1\n[[link]]\n{link}" * 2
+    inputs = "".join(
+        f'[[input]]\nname = "{x}"\nat = {at}\nacts = "torque"\n'
+        for x, at in zip(called[:3], ('"base"', "1", '"tip"'), strict=True)
+    )
+    outputs = "".join(
+        f'[[output]]\nname = "{x}"\nat = {k % 2 + 1}\nof = "velocity"\n' for k, x in enumerate(called[3:])
+    )
+    return (
+        f'name = "{name}"\n[model]\nkind = "{kind}"\n[integrator]\nname = "newmark"\nstep = 0.01\n'
+        f'[emit]\nreal = "{real}"\n[base]\n{base}{stations}{inputs}{outputs}'
+    )
+
+
+def emitted(text: str) -> dict[str, str]:
+    scene = parse_scene(text)
+    return {Path(path).name: content for path, content in emit_c(build_program(scene), scene).items()}
+
+
+def compile_all(folder: Path, files: dict[str, str], users: dict[str, str]) -> None:
+    """Compile C files in both dialects of C, and the users of headers in C++ too."""
+    for name, text in {**files, **users}.items():
+        (folder / name).write_text(text)
+    for compiler, *flags in DIALECTS:
+        sources = [n for n in (*files, *users) if n.endswith(".c") and (compiler == "gcc" or n in users)]
+        language = ["-x", "c++"] if compiler == "g++" else []
+        done = subprocess.run(
+            [compiler, *flags, "-fsyntax-only", *language, *sources],
+            cwd=folder,
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        assert done.returncode == 0, done.stderr
+
+
+def user_of(scene: str, called: list[str], before: str) -> str:
+    """Return a program that includes everything before a kernel's header, and reads and writes every signal."""
+    lines = [f"    in->{PREFIX}{name} = 1.0f;" for name in called[:3]]
+    lines += [f"    if (out->{PREFIX}{name} > 2.0f) return 1;" for name in called[3:]]
+    body = "\n".join(lines)
+    plain = before.replace("#include <complex.h>", "").replace("#include <tgmath.h>", "")
+    head = f"int use_{scene}({scene}_inputs *in, const {scene}_outputs *out)"
+    return (
+        f"#ifndef __cplusplus\n{before}#else\n{plain}#endif\n"
+        f'#include "{scene}.h"\n#include "{scene}.h"\n{head};\n'
+        f"{head}\n{{\n{body}\n    return (int){macros(scene)}_OK;\n}}\n"
+    )
+
+
+@FEW
+@given(called=names(40))
+def test_signals_may_have_any_name(called: list[str], tmp_path: Path) -> None:
+    users = {"user.c": user_of("arm", called, included())}
+    compile_all(tmp_path, emitted(scene_text("arm", called)), users)
+
+
+@FEW
+@given(scenes=names(2), called=names(5))
+def test_scenes_may_have_any_name_and_share_a_program(
+    scenes: list[str], called: list[str], tmp_path: Path
+) -> None:
+    fine = [name for name in dict.fromkeys([*scenes, "R", "w", "linux"]) if scene_name_fault(name) is None]
+    files: dict[str, str] = {}
+    users: dict[str, str] = {}
+    for name in fine:
+        # the kernel of a scene is the same but for its name, which nothing else contains
+        files |= emitted(scene_text(name, called))
+        users[f"user_{name}.c"] = user_of(name, called, included())
+    compile_all(tmp_path, files, users)
+
+
+def test_macros_of_two_names_differ() -> None:
+    found = [
+        macros(name)
+        for name in ("arm", "Arm", "ARM", "aRM", "tmm_arm", "tmm_Arm", "a", "A", "TMM_A", "tmm_a")
+    ]
+    assert len(set(found)) == len(found)
+
+
+@given(
+    st.lists(st.from_regex(r"[A-Za-z][A-Za-z0-9_]{0,8}", fullmatch=True), min_size=2, max_size=2, unique=True)
+)
+def test_macros_of_any_two_names_differ(pair: list[str]) -> None:
+    assert macros(pair[0]) != macros(pair[1])
+
+
+def test_scenes_of_two_cases_and_precisions_run_in_one_program(tmp_path: Path) -> None:
+    called = ["k", "i", "u", "NAN", "lambda_", "EOF"]
+    body = ""
+    includes = ""
+    for name, real in (("Arm", "float64"), ("ARM", "float32"), ("arm", "float32")):
+        folder = tmp_path / f"in_{real}_{'up' if name == 'ARM' else name}"
+        folder.mkdir()
+        for file, text in emitted(scene_text(name, called, real)).items():
+            (folder / file).write_text(text)
+        includes += f'#include "{folder.name}/{name}.h"\n'
+        body += f"""{{
+    {name}_params params; {name}_model model; {name}_state state; {name}_outputs out;
+    {name}_inputs in = {{.tmm_k = 1.0f}};
+    {name}_default_params(&params);
+    if ({name}_prepare(&model, &params, {macros(name)}_STEP) != {macros(name)}_OK) return 1;
+    if ({name}_initialise(&state, &params, NULL, NULL, &in) != {macros(name)}_OK) return 2;
+    for (int step = 0; step < 10; ++step) if ({name}_step(&model, &state, &in) != {macros(name)}_OK) return 3;
+    {name}_output(&model, &state, &out);
+    printf("%.5e\\n", (double)out.tmm_NAN);
+}}
+"""
+    (tmp_path / "main.c").write_text(
+        f"#include <stdio.h>\n{includes}int main(void)\n{{\n{body}return 0;\n}}\n"
+    )
+    kernels = [str(path) for path in tmp_path.glob("in_*/*.c") if not path.name.startswith("test_")]
+    subprocess.run(["gcc", "-std=gnu17", "main.c", *kernels, "-lm", "-o", "run"], cwd=tmp_path, check=True)
+    lines = subprocess.run(["./run"], cwd=tmp_path, capture_output=True, text=True, check=True).stdout.split()
+    assert len(lines) == 3
+    assert float(lines[0]) == pytest.approx(float(lines[1]), rel=1e-3)
+    assert lines[1] == lines[2]
+
+
+def test_no_name_of_the_kernels_own_looks_like_a_scenes(chain: Any) -> None:
+    """Static functions and local variables never end as the types and functions of some scene would."""
+    ends = [f"_{end}" for end in ("real", "pair", "status", "params", "model", "state", "inputs", "outputs")]
+    ends += [f"_{end}" for end in ("default_params", "prepare", "initialise", "step", "output")]
+    for kind in ({}, {"base": "motor", "integrator": "houbolt"}, {"integrator": "sdirk4", "real": "float32"}):
+        of = chain(**kind, name="qqq")
+        for path, text in of.files.items():
+            code = re.sub(r"/\*.*?\*/|\"[^\"\n]*\"", "", text, flags=re.DOTALL)
+            for word in set(re.findall(r"[A-Za-z]\w*", code)) if path.endswith((".c", ".h")) else ():
+                if not word.lower().startswith(("qqq", "tmm_")):
+                    assert not word.endswith(tuple(ends)), (path, word)
+
+
+@pytest.mark.parametrize("word", [w for w in keyword.kwlist if w.isidentifier()])
+def test_keywords_of_python_are_refused_with_a_remedy(word: str) -> None:
+    found = name_fault(word)
+    assert found is not None
+    assert "Python" in found[0]
+    assert f"'{word}_1'" in found[1]
