@@ -96,7 +96,9 @@ def test_unread_scratch_disappears() -> None:
 def test_operations_of_a_chain_stay(scene: str, integrator: str, sweep: str) -> None:
     changes = {"integrator.name": integrator, "model.sweep": sweep}
     changed = load_scene(scenes_dir() / f"{scene}.toml").replace(**changes)
-    program = build_unchecked(changed, registry.integrator(integrator))  # products may be too long to be of use
+    program = build_unchecked(
+        changed, registry.integrator(integrator)
+    )  # products may be too long to be of use
     for before in (program.prepare, program.initialise, *program.steps, program.output):
         after = contract(fuse(before))
         assert count_routine(after) == count_routine(before)
