@@ -1,0 +1,60 @@
+"""What a station costs in a step, exactly: operations of one more station, for every integrator."""
+
+from __future__ import annotations
+
+import pytest
+
+from tmm_gen.program.build import build_program
+from tmm_gen.program.count import count_routine
+from tmm_gen.scene import parse_scene
+
+BUDGETS = {
+    "newmark": (22, 115),
+    "wilson": (31, 122),
+    "houbolt": (26, 123),
+    "park": (28, 123),
+    "zhai": (17, 82),
+    "zhou": (26, 119),
+    "bathe": (46, 234),
+    "generalized_alpha": (31, 122),
+    "sdirk2": (40, 230),
+    "sdirk4": (122, 589),
+    "fox_euler": (18, 115),
+}
+"""Integrator: operations per station and step of a damped chain, and of a damped planar arm (Riccati sweep)."""
+
+SCENE = """
+name = "counted"
+[model]
+kind = "{kind}"
+[integrator]
+name = "{integrator}"
+step = 1e-3
+[base]
+kind = "clamp"
+[[joint]]
+stiffness = 20.0
+damping = 0.5
+repeat = {stations}
+[[link]]
+inertia = 0.1
+{body}
+repeat = {stations}
+[[output]]
+name = "tip"
+at = "tip"
+of = "angle"
+"""
+BODIES = {"chain": "", "planar": "mass = 0.5\nlength = 0.3"}
+
+
+def operations(kind: str, integrator: str, stations: int) -> int:
+    text = SCENE.format(kind=kind, integrator=integrator, stations=stations, body=BODIES[kind])
+    return count_routine(build_program(parse_scene(text)).main).total
+
+
+@pytest.mark.parametrize("kind", BODIES)
+@pytest.mark.parametrize("integrator", BUDGETS)
+def test_a_station_costs_what_it_should(kind: str, integrator: str) -> None:
+    more = operations(kind, integrator, 4) - operations(kind, integrator, 3)
+    assert more == BUDGETS[integrator][list(BODIES).index(kind)]
