@@ -40,13 +40,13 @@ OUT_OF_BOUNDS = Fault(
     "out of bounds", "j = THESIS10_STATIONS - 1; j >= 0; --j", "j = THESIS10_STATIONS; j >= 0; --j"
 )
 DIVISION = Fault(
-    "division by zero", "= (bias - joint_torque) / inertia", "= (bias - joint_torque) / (inertia - inertia)"
+    "division by zero", "admittance = 1.0f / pivot;", "admittance = 1.0f / (pivot - pivot);"
 )
 UNINITIALISED = Fault("uninitialised", "    known_rate[0] = 0.0f;\n", "")
 OVERFLOW = Fault(
     "overflow", "angle_per_acceleration * unknown;", "angle_per_acceleration * unknown * 1e38f * 1e3f;"
 )
-WRONG_SIGN = Fault("wrong sign", "(bias - joint_torque);", "(bias + joint_torque);")
+WRONG_SIGN = Fault("wrong sign", "(torque - joint_torque);", "(torque + joint_torque);")
 DOUBLE = Fault(
     "implicit double", "real unknown = 0.0f;", "real unknown = (real)(0.1 * inputs->tmm_tip_torque);"
 )

@@ -19,7 +19,7 @@ from tmm_gen.native import NativeKernel, compile_kernel
 from tmm_gen.program.passes.dependence import SCRATCH
 from tmm_gen.program.statements import Loop, Order, Program, Require, Routine
 from tmm_gen.program.build import build_unchecked
-from tmm_gen.program.variables import Ref
+from tmm_gen.program.variables import Ref, Variable
 from tmm_gen.scene import Scene, parse_scene
 
 WARNINGS = [
@@ -194,7 +194,7 @@ class PythonText(ExpressionPrinter):
         index = "" if ref.variable.length is None else f"[{ref.entry}]"
         if ref.offset is not None:
             index = f"[j + {ref.offset}]"
-        return f"v[{ref.variable.name!r}]{index}"
+        return f"v[{_key(ref.variable)!r}]{index}"
 
     def literal(self, value: float) -> str:
         """Make a number of the type."""
@@ -203,6 +203,11 @@ class PythonText(ExpressionPrinter):
     def function(self, name: str) -> str:
         """Take it from NumPy."""
         return f"np.{name}"
+
+
+def _key(variable: Variable) -> str:
+    """Return under which name values hold a variable: one routine's scratch may be called like the model's."""
+    return f"scratch {variable.name}" if variable.role in SCRATCH else variable.name
 
 
 def python_source(routine: Routine) -> str:
@@ -259,7 +264,7 @@ class WrittenOrder:
         """Run a routine."""
         for v in routine.written():
             if v.name not in self.values or v.role in SCRATCH:
-                self.values[v.name] = self.real(0) if v.length is None else [self.real(0)] * v.length
+                self.values[_key(v)] = self.real(0) if v.length is None else [self.real(0)] * v.length
         exec(compiled(routine), {"np": np, "real": self.real}, {"v": self.values})
 
     def step(self, taken: int) -> None:
