@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,19 +14,19 @@ from tmm_gen.measure.assembly import assemble
 from tmm_gen.measure.columns import output_columns
 from tmm_gen.measure.divergence import DivergedError, watch
 from tmm_gen.measure.energy import energy
-from tmm_gen.measure.planar_divergence import PlanarWatch, planar_watch
+from tmm_gen.measure.planar_divergence import PlanarWatch, more_sweeps, planar_watch
 from tmm_gen.measure.signals import Constant, Signal
 from tmm_gen.measure.simulation import Simulation
-from tmm_gen.measure.stepping import native_steps, numpy_steps
-from tmm_gen.measure.tolerance import refuse_unsolved
+from tmm_gen.measure.stepping import Backend, Course, Stepper
+from tmm_gen.measure.tolerance import refuse_inaccurate, refuse_unsolved
 from tmm_gen.measure.trace import Trace
 from tmm_gen.scene import Scene
 
 if TYPE_CHECKING:
+    from tmm_gen.measure.accuracy import Accuracy
     from tmm_gen.measure.unsolved import Unsolved
 
 Array = NDArray[np.float64]
-Backend = Literal["numpy", "c"]
 
 _MOST = 20_000_000
 """Steps whose outputs are sure to fit in memory."""
@@ -63,8 +63,9 @@ def simulate(
     *,
     trace: bool = False,
     refuse: bool = True,
+    judge: bool = True,
 ) -> Simulation:
-    """Simulate a scene at its own step.
+    """Simulate a scene at its own step; where it leaves open how often to sweep, as often as it takes.
 
     Parameters
     ----------
@@ -83,12 +84,17 @@ def simulate(
     trace : bool
         Keep angles and rates of all links too.
     refuse : bool
-        Raise where sweeps leave too much of a planar arm's equations unsolved; the share is in the result either way.
+        Raise where the error is too large or sweeps leave too much of a planar arm's equations unsolved; what is known
+        of both is in the result either way.
+    judge : bool
+        Find out about the error at all, which takes about as long as the simulation.
 
     Raises
     ------
     DivergedError
         If the motion leaves all bounds.
+    InaccurateError
+        If the error is more of the motion than the scene's ``model.accuracy``.
     UnsolvedError
         If sweeps leave more unsolved than the step does, or than the scene's ``model.unsolved``.
     UserError
@@ -98,15 +104,15 @@ def simulate(
     inputs = {item.name: signals.get(item.name, Constant(0.0)) for item in scene.inputs}
     step = scene.integrator.step
     planar = scene.model.kind == "planar"
-    guard = planar_watch(scene, until, step) if planar else watch(scene, inputs, until, step)
-    run = numpy_steps if backend == "numpy" else native_steps
-    kept = _trace(scene, steps) if trace else None
+    guard = planar_watch(scene, step) if planar else watch(scene, inputs, until, step)
+    kept = _trace(scene, steps, whole=trace) if trace or judge else None
     checked = _unsolved(scene, inputs, steps, backend)
     names = [column.name for column in output_columns(scene)]
     outputs = np.empty((steps + 1, len(names)))
     row = 0
+    stepper = Stepper.of(scene, backend, kernel)
     try:
-        for block in run(scene, inputs, steps, guard, kernel, kept, checked):
+        for block in stepper.take(Course(scene, inputs, steps, step, guard, kept, checked)):
             outputs[row : row + len(block)] = block
             row += len(block)
             if advance is not None:
@@ -118,16 +124,20 @@ def simulate(
             ) from error
         smaller = "Look"
         if planar:
-            again = ", or --set model.iterations=2" if scene.model.iterations == 1 else ""
-            smaller = f"Try a smaller step, --step {step / 10:g}{again}; or look"
+            smaller = f"Try a smaller step, --step {step / 10:g}{more_sweeps(scene)}; or look"
         raise UserError(
             f"scene '{scene.name}' cannot be solved: {error}. "
             f"{smaller} for numbers that are far too large or small."
         ) from error
+    sweeps = None if stepper.sweeps is None else stepper.sweeps / steps
+    accuracy = _accuracy(scene, inputs, steps, stepper, kept) if judge and kept is not None else None
     left, own = (None, None) if checked is None else (checked.share(), checked.step_error())
+    if refuse and accuracy is not None:
+        refuse_inaccurate(scene, accuracy)
     if refuse and left is not None and own is not None:
         refuse_unsolved(scene, left, own)
     time: Array = scene.integrator.step * np.arange(steps + 1, dtype=float)
+    whole = kept if kept is not None and kept.every == 1 else None
     return Simulation(
         scene=scene,
         backend=backend,
@@ -135,11 +145,24 @@ def simulate(
         outputs={name: outputs[:, k] for k, name in enumerate(names)},
         inputs={name: signal.at(time) for name, signal in inputs.items()},
         rest=_rest(scene, inputs, float(time[-1])),
-        trace=kept,
-        imbalance=_imbalance(scene, inputs, time, kept),
+        trace=whole,
+        imbalance=_imbalance(scene, inputs, time, whole),
         unsolved=left,
         step_error=own,
+        accuracy=accuracy,
+        sweeps_per_step=sweeps,
     )
+
+
+def _accuracy(
+    scene: Scene, signals: Mapping[str, Signal], steps: int, stepper: Stepper, trace: Trace
+) -> Accuracy:
+    """Return what is known of the error."""
+    from tmm_gen.measure.accuracy import chain_accuracy, planar_accuracy
+
+    if scene.model.kind == "chain":
+        return chain_accuracy(scene, signals, trace)
+    return planar_accuracy(scene, signals, steps, stepper, trace)
 
 
 def traceable(scene: Scene, steps: int) -> bool:
@@ -150,7 +173,7 @@ def traceable(scene: Scene, steps: int) -> bool:
 def _imbalance(scene: Scene, signals: Mapping[str, Signal], time: Array, trace: Trace | None) -> float | None:
     """Return how well a planar arm's energies balance; None where a load is too abrupt to know its work."""
     abrupt = any(_abrupt(signals[item.name], item.acts, scene.integrator.step) for item in scene.inputs)
-    if trace is None or len(time) < 3 or abrupt:
+    if scene.model.kind != "planar" or trace is None or len(time) < 3 or abrupt:
         return None
     return energy(scene, signals, time, trace.angle, trace.rate).imbalance
 
@@ -171,14 +194,16 @@ def _unsolved(scene: Scene, signals: Mapping[str, Signal], steps: int, backend: 
     return Unsolved(scene, signals, steps, real if backend == "c" else "float64")
 
 
-def _trace(scene: Scene, steps: int) -> Trace:
-    """Return room for the motion of all links."""
-    if not traceable(scene, steps):
+def _trace(scene: Scene, steps: int, *, whole: bool) -> Trace:
+    """Return room for the motion of all links, at every instant if need be or if there is room."""
+    if steps * scene.stations <= _MOST:
+        return Trace.empty(scene, steps + 1)
+    if whole:
         raise UserError(
             f"the motion of {scene.stations} links over {steps} steps is too much to keep. "
             "Simulate a shorter time (--until) or take larger steps (--step)."
         )
-    return Trace.empty(scene, steps + 1)
+    return Trace.empty(scene, steps + 1, math.ceil(steps * scene.stations / _MOST))
 
 
 def _rest(scene: Scene, signals: Mapping[str, Signal], until: float) -> dict[str, float] | None:

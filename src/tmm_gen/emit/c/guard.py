@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from tmm_gen.program.statements import Assign, Loop, Order, Require, Routine
+from tmm_gen.program.statements import Assign, Loop, Mark, Order, Require, Routine
 from tmm_gen.program.variables import Ref, Role, Variable, refs_in
 
 _Number = int
@@ -92,7 +92,7 @@ _Place = tuple[int, int]
 _Parts = tuple[_Place | None, list[_Place], bool]
 
 
-def _parts(statement: Assign | Require, numbers: _Numbers) -> _Parts:
+def _parts(statement: Assign | Require | Mark, numbers: _Numbers) -> _Parts:
     target = numbers.place(statement.target) if isinstance(statement, Assign) else None
     reads = [numbers.place(ref) for ref in refs_in(statement.value)]
     return target, reads, isinstance(statement.value, Ref)

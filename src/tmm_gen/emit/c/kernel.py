@@ -22,7 +22,7 @@ from tmm_gen.emit.c.real import Real, real_of
 from tmm_gen.emit.c.structs import COUNTER, Struct, described, dimension, structs_of
 from tmm_gen.emit.c.wrap import INDENT, WIDTH, comment
 from tmm_gen.emit.header import header_lines
-from tmm_gen.program.statements import Assign, Loop, Program, Require, Routine
+from tmm_gen.program.statements import Assign, Loop, Mark, Program, Require, Routine
 from tmm_gen.program.variables import Variable
 from tmm_gen.scene import Scene
 
@@ -325,7 +325,7 @@ class Kernel:
         return textwrap.wrap(", ".join(numbers), WIDTH - 2 * len(INDENT))
 
 
-def _flat(routine: Routine) -> Iterator[Assign | Require]:
+def _flat(routine: Routine) -> Iterator[Assign | Require | Mark]:
     for statement in routine.statements():
         yield from statement.body if isinstance(statement, Loop) else (statement,)
 
