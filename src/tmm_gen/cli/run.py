@@ -13,8 +13,8 @@ from tmm_gen.cli.console import Column, progress, table
 from tmm_gen.errors import UserError
 
 if TYPE_CHECKING:
-    from tmm_gen.measure.stepping import Backend
     from tmm_gen.measure.simulation import Simulation
+    from tmm_gen.measure.stepping import Backend
 
 # NumPy, SymPy and Matplotlib are imported inside: `tmm-gen --help` has no use for them.
 
@@ -237,9 +237,13 @@ def _balance(imbalance: float, step: float) -> str:
     said = f"work, energy and heat balance to {imbalance:.1e}"
     if imbalance <= _BALANCED:
         return said
-    return f"{said}: the step is long for this arm, or the integrator damps it; --step {step / 10:g} would tell"
+    return (
+        f"{said}: the step is long for this arm, or the integrator damps it; --step {step / 10:g} would tell"
+    )
 
 
 def _share(error: float) -> str:
     """Return a share in words that a reader takes in at once."""
-    return f"{100.0 * error:.2g} %" if error >= 1e-3 else f"{error:.0e}" if error > 1e-13 else "the last digits"
+    return (
+        f"{100.0 * error:.2g} %" if error >= 1e-3 else f"{error:.0e}" if error > 1e-13 else "the last digits"
+    )

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -60,11 +60,14 @@ class Accuracy:
         How many times larger a small disturbance of the start has become at most; None for chains, which are linear.
     good_until : float
         s; until then the error is below half of what is refused.
+    from_sweeps : float
+        Of the error, what sweeps have left unsolved; at most.
     """
 
     error: float
     sensitivity: float | None
     good_until: float
+    from_sweeps: float = 0.0
 
 
 def chain_accuracy(scene: Scene, signals: Mapping[str, Signal], trace: Trace) -> Accuracy:
@@ -77,25 +80,29 @@ def chain_accuracy(scene: Scene, signals: Mapping[str, Signal], trace: Trace) ->
     return _judged(off, way, indices * scene.integrator.step, 0.0, None)
 
 
-def planar_accuracy(
-    scene: Scene, signals: Mapping[str, Signal], steps: int, stepper: Stepper, trace: Trace
-) -> Accuracy:
+def planar_accuracy(course: Course, stepper: Stepper, unsolved: float) -> Accuracy:
     """Repeat a run of a planar arm with another step, and with another start.
 
     Parameters
     ----------
-    scene : Scene
-        Of kind "planar".
-    signals : mapping from str to Signal
-        All its inputs by name.
-    steps : int
-        Of the run.
+    course : Course
+        The run, with a trace of its motion.
     stepper : Stepper
-        That took them.
-    trace : Trace
-        What they led to.
+        That has run it.
+    unsolved : float
+        Work of what its sweeps have left unsolved, as a share of the energy that moves. A false energy is a false
+        speed, and that leaves a false angle for every radian turned.
     """
-    again = _Repetition(scene, signals, steps, stepper, trace)
+    assert course.trace is not None
+    found = _repeated(course, stepper)
+    path = float(np.max(np.sum(np.abs(np.diff(course.trace.angle, axis=0)), axis=0)))
+    swept = 0.5 * unsolved * max(1.0, path)
+    return replace(found, error=found.error + swept, from_sweeps=swept)
+
+
+def _repeated(course: Course, stepper: Stepper) -> Accuracy:
+    scene, steps = course.scene, course.steps
+    again = _Repetition(course, stepper)
     order = min(_HIGHEST, _order(scene))
     coarse = None if steps < _FEW else again(2.0)
     if coarse is not None:
@@ -114,20 +121,31 @@ def planar_accuracy(
 class _Repetition:
     """Takes the steps of a run again, longer or shorter ones."""
 
-    scene: Scene
-    signals: Mapping[str, Signal]
-    steps: int
+    course: Course
     stepper: Stepper
-    trace: Trace
+
+    @property
+    def scene(self) -> Scene:
+        return self.course.scene
+
+    @property
+    def trace(self) -> Trace:
+        assert self.course.trace is not None
+        return self.course.trace
 
     def __call__(self, factor: float, moved: Array | None = None) -> Trace | None:
         """Return the motion with steps so many times as long; None if that fails."""
-        count = int(self.steps / factor)
-        every = self._stride(factor)
-        trace = Trace.empty(self.scene, count + 1, every)
+        count = int(self.course.steps / factor)
+        trace = Trace.empty(self.scene, count + 1, self._stride(factor))
         step = self.scene.integrator.step * factor
-        course = Course(
-            self.scene, self.signals, count, step, free_watch(self.scene, step), trace=trace, moved=moved
+        course = replace(
+            self.course,
+            steps=count,
+            step=step,
+            guard=free_watch(self.scene, step),
+            trace=trace,
+            checked=None,
+            moved=moved,
         )
         try:
             for _ in self.stepper.take(course):
@@ -138,7 +156,7 @@ class _Repetition:
 
     def _stride(self, factor: float) -> int:
         """How many of the repetition's steps lie between two instants that are compared."""
-        least = max(1, math.ceil(self.steps / _POINTS))
+        least = max(1, math.ceil(self.course.steps / _POINTS))
         together = math.lcm(self.trace.every, 2 if factor > 1.0 else 1)
         return round(math.ceil(least / together) * together / factor)
 
@@ -146,11 +164,13 @@ class _Repetition:
         """Return what the difference from another motion says, of which so large a share counts."""
         stride = round(other.every * factor / self.trace.every)
         count = min(len(self.trace.angle[::stride]), len(other.angle))
-        mine, others = (_places(self.scene, x) for x in (self.trace.angle[::stride][:count], other.angle[:count]))
+        mine, others = (
+            _places(self.scene, x) for x in (self.trace.angle[::stride][:count], other.angle[:count])
+        )
         # of a sensitive motion what steps change does not fall with their order
         weight = 1.0 if growth is not None and growth > SENSITIVE else share
-        off: Array = weight * np.max(np.hypot(*(mine - others)), axis=1)
-        way = np.max(np.hypot(*(others - others[:, :1])), axis=1)
+        off = weight * np.asarray(np.max(np.hypot(*(mine - others)), axis=1), float)
+        way = np.asarray(np.max(np.hypot(*(others - others[:, :1])), axis=1), float)
         times = self.scene.integrator.step * self.trace.every * stride * np.arange(count)
         length = sum(link.length for link in self.scene.links)
         return _judged(off, way, times, _STILL * length, growth)
@@ -158,7 +178,9 @@ class _Repetition:
     def sensitivity(self, factor: float, undisturbed: Trace) -> float | None:
         """Return how many times larger a small disturbance of the start becomes."""
         emit = self.scene.emit
-        real = "float64" if self.stepper.backend == "numpy" else "compensated" if emit.compensated else emit.real
+        real = (
+            "float64" if self.stepper.backend == "numpy" else "compensated" if emit.compensated else emit.real
+        )
         size = _DISTURBED[real]
         signs = np.where(np.arange(self.scene.stations) % 3 == 0, 1.0, 0.5)
         disturbed = self(factor, size * signs)
@@ -191,5 +213,3 @@ def _order(scene: Scene) -> float:
     """Return the order of an integrator: by what power of the step its derived error falls."""
     coarse, fine = (error_per_radian(scene.integrator, angle) for angle in (0.04, 0.02))
     return max(1.0, round(math.log2(coarse / fine))) if fine > 0.0 else 1.0
-
-

@@ -88,7 +88,9 @@ def exact_angles(scene: Scene, signals: Mapping[str, Signal], step: float, indic
         count = min(_CHUNK, total - first)
         pushed, ends = _pushed(response, ordered, h, first, count)
         for k in range(count):
-            state = np.einsum("bij,bj->bi", transition, state) if len(transition) > 1 else state @ transition[0].T
+            state = (
+                np.einsum("bij,bj->bi", transition, state) if len(transition) > 1 else state @ transition[0].T
+            )
             state = state + pushed[k]
             if (first + k + 1) % per == 0:
                 place = (first + k + 1) // per
@@ -101,7 +103,9 @@ def linear_chain(scene: Scene) -> Linear:
     hub = int(scene.base.kind == "motor")
     n = scene.stations
     inertia = np.array([scene.base.inertia] * hub + [link.inertia for link in scene.links])
-    stiffness, damping = (np.array([getattr(j, name) for j in scene.joints]) for name in ("stiffness", "damping"))
+    stiffness, damping = (
+        np.array([getattr(j, name) for j in scene.joints]) for name in ("stiffness", "damping")
+    )
     load = np.zeros((n + hub, len(scene.inputs)))
     base = np.zeros(len(scene.inputs))
     for k, item in enumerate(scene.inputs):
@@ -109,7 +113,10 @@ def linear_chain(scene: Scene) -> Linear:
             base[k] = 1.0
         else:
             load[station_of(item.at, n) - 1 + hub, k] = 1.0
-    start = np.array([0.0] * hub + list(scene.initial.angles)), np.array([0.0] * hub + list(scene.initial.rates))
+    start = (
+        np.array([0.0] * hub + list(scene.initial.angles)),
+        np.array([0.0] * hub + list(scene.initial.rates)),
+    )
     make = _whole if n + hub <= DENSE else _modal
     return make(inertia, stiffness, damping, scene.base.damping, load, base, *start)
 
@@ -268,7 +275,9 @@ def _piecewise(signal: Signal, begin: float, h: float, knots: Array) -> Array:
     places = edges[:-1, None] + half * (1.0 + _NODES)
     values = np.asarray(signal.at(begin + h * places), float)
     basis = legendre.legvander(2.0 * places - 1.0, _DEGREE)
-    return np.asarray((2 * np.arange(_DEGREE + 1) + 1) * np.einsum("kn,kn,knp->p", half * _WEIGHTS, values, basis))
+    return np.asarray(
+        (2 * np.arange(_DEGREE + 1) + 1) * np.einsum("kn,kn,knp->p", half * _WEIGHTS, values, basis)
+    )
 
 
 def _monomials() -> Array:

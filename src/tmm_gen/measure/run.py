@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,14 +12,13 @@ from numpy.typing import NDArray
 
 from tmm_gen.errors import UserError
 from tmm_gen.measure.assembly import assemble
-from tmm_gen.measure.columns import output_columns
 from tmm_gen.measure.divergence import DivergedError, watch
 from tmm_gen.measure.energy import energy
 from tmm_gen.measure.planar_divergence import PlanarWatch, more_sweeps, planar_watch
 from tmm_gen.measure.signals import Constant, Signal
 from tmm_gen.measure.simulation import Simulation
 from tmm_gen.measure.stepping import Backend, Course, Stepper
-from tmm_gen.measure.tolerance import refuse_inaccurate, refuse_unsolved
+from tmm_gen.measure.tolerance import refuse_inaccurate, refuse_unsolved, tolerance
 from tmm_gen.measure.trace import Trace
 from tmm_gen.scene import Scene
 
@@ -30,6 +30,15 @@ Array = NDArray[np.float64]
 
 _MOST = 20_000_000
 """Steps whose outputs are sure to fit in memory."""
+
+_LEAST_TURN = 1e-8
+"""rad; what a sweep may turn the links by and be the last, where the usual does not do."""
+
+_SMALL_SHARE, _SMALLEST = 0.2, 1e-9
+"""Share of the error that sweeps may have, and an error that is none."""
+
+_SHORT = 100
+"""Links of a planar arm whose equilibrium is looked for."""
 
 _FEW = 5
 """Steps over which a load must spread for its work to be known from its values at them."""
@@ -104,34 +113,28 @@ def simulate(
     inputs = {item.name: signals.get(item.name, Constant(0.0)) for item in scene.inputs}
     step = scene.integrator.step
     planar = scene.model.kind == "planar"
-    guard = planar_watch(scene, step) if planar else watch(scene, inputs, until, step)
-    kept = _trace(scene, steps, whole=trace) if trace or judge else None
-    checked = _unsolved(scene, inputs, steps, backend)
-    names = [column.name for column in output_columns(scene)]
-    outputs = np.empty((steps + 1, len(names)))
-    row = 0
+    if planar:
+        planar_watch(scene, step)  # before a kernel is made
     stepper = Stepper.of(scene, backend, kernel)
-    try:
-        for block in stepper.take(Course(scene, inputs, steps, step, guard, kept, checked)):
-            outputs[row : row + len(block)] = block
-            row += len(block)
-            if advance is not None:
-                advance(len(block))
-    except ArithmeticError as error:  # what generated kernels raise
-        if isinstance(guard, PlanarWatch) and scene.model.linearisation != "newton":
-            raise DivergedError(
-                f"scene '{scene.name}': the simulation has diverged: {error}.\n{guard.cause()}"
-            ) from error
-        smaller = "Look"
-        if planar:
-            smaller = f"Try a smaller step, --step {step / 10:g}{more_sweeps(scene)}; or look"
-        raise UserError(
-            f"scene '{scene.name}' cannot be solved: {error}. "
-            f"{smaller} for numbers that are far too large or small."
-        ) from error
-    sweeps = None if stepper.sweeps is None else stepper.sweeps / steps
-    accuracy = _accuracy(scene, inputs, steps, stepper, kept) if judge and kept is not None else None
-    left, own = (None, None) if checked is None else (checked.share(), checked.step_error())
+
+    def run(parameters: Mapping[str, float], count: Callable[[float], None] | None) -> _Run:
+        guard = planar_watch(scene, step) if planar else watch(scene, inputs, until, step)
+        course = Course(
+            scene,
+            inputs,
+            steps,
+            step,
+            guard,
+            _trace(scene, steps, whole=trace) if trace or judge else None,
+            _unsolved(scene, inputs, steps, backend),
+            parameters=parameters,
+        )
+        return _Run.of(course, stepper, count, judge=judge)
+
+    found = run({}, advance)
+    if found.unfinished:  # more sweeps than are usually enough
+        found = run({"least_turn": _LEAST_TURN}, None)
+    accuracy, left, own, kept = found.accuracy, found.unsolved, found.step_error, found.course.trace
     if refuse and accuracy is not None:
         refuse_inaccurate(scene, accuracy)
     if refuse and left is not None and own is not None:
@@ -142,7 +145,7 @@ def simulate(
         scene=scene,
         backend=backend,
         time=time,
-        outputs={name: outputs[:, k] for k, name in enumerate(names)},
+        outputs={name: found.outputs[:, k] for k, name in enumerate(found.course.names)},
         inputs={name: signal.at(time) for name, signal in inputs.items()},
         rest=_rest(scene, inputs, float(time[-1])),
         trace=whole,
@@ -150,24 +153,74 @@ def simulate(
         unsolved=left,
         step_error=own,
         accuracy=accuracy,
-        sweeps_per_step=sweeps,
+        sweeps_per_step=found.sweeps,
     )
 
 
-def _accuracy(
-    scene: Scene, signals: Mapping[str, Signal], steps: int, stepper: Stepper, trace: Trace
-) -> Accuracy:
-    """Return what is known of the error."""
-    from tmm_gen.measure.accuracy import chain_accuracy, planar_accuracy
+@dataclass(frozen=True, eq=False)
+class _Run:
+    """All steps taken, and what is known of their error; fields as of :class:`Simulation`."""
 
-    if scene.model.kind == "chain":
-        return chain_accuracy(scene, signals, trace)
-    return planar_accuracy(scene, signals, steps, stepper, trace)
+    course: Course
+    outputs: Array
+    accuracy: Accuracy | None
+    unsolved: float | None
+    step_error: float | None
+    sweeps: float | None
+
+    @classmethod
+    def of(
+        cls, course: Course, stepper: Stepper, advance: Callable[[float], None] | None, *, judge: bool
+    ) -> _Run:
+        """Take them."""
+        outputs = _outputs(course, stepper, advance)
+        sweeps = None if stepper.sweeps is None else stepper.sweeps / course.steps
+        checked = course.checked
+        left, own = (None, None) if checked is None else (checked.share(), checked.step_error())
+        accuracy = None
+        if judge and course.trace is not None:
+            from tmm_gen.measure.accuracy import chain_accuracy, planar_accuracy
+
+            if course.scene.model.kind == "chain":
+                accuracy = chain_accuracy(course.scene, course.signals, course.trace)
+            else:
+                accuracy = planar_accuracy(course, stepper, left or 0.0)
+        return cls(course, outputs, accuracy, left, own, sweeps)
+
+    @property
+    def unfinished(self) -> bool:
+        """Whether steps that sweep as often as it takes had better sweep more."""
+        if self.sweeps is None or self.accuracy is None or self.unsolved is None or self.step_error is None:
+            return False
+        if self.unsolved > tolerance(self.course.scene, self.step_error):
+            return True
+        return self.accuracy.from_sweeps > max(_SMALL_SHARE * self.accuracy.error, _SMALLEST)
 
 
-def traceable(scene: Scene, steps: int) -> bool:
-    """Return whether the motion of all links of a planar arm is little enough to keep."""
-    return scene.model.kind == "planar" and steps * scene.stations <= _MOST
+def _outputs(course: Course, stepper: Stepper, advance: Callable[[float], None] | None) -> Array:
+    """Take all steps and return the outputs, (steps + 1, columns)."""
+    scene, step, guard = course.scene, course.step, course.guard
+    outputs = np.empty((course.steps + 1, len(course.names)))
+    row = 0
+    try:
+        for block in stepper.take(course):
+            outputs[row : row + len(block)] = block
+            row += len(block)
+            if advance is not None:
+                advance(len(block))
+    except ArithmeticError as error:  # what generated kernels raise
+        if isinstance(guard, PlanarWatch) and scene.model.linearisation != "newton":
+            raise DivergedError(
+                f"scene '{scene.name}': the simulation has diverged: {error}.\n{guard.cause()}"
+            ) from error
+        smaller = "Look"
+        if isinstance(guard, PlanarWatch):
+            smaller = f"Try a smaller step, --step {step / 10:g}{more_sweeps(scene)}; or look"
+        raise UserError(
+            f"scene '{scene.name}' cannot be solved: {error}. "
+            f"{smaller} for numbers that are far too large or small."
+        ) from error
+    return outputs
 
 
 def _imbalance(scene: Scene, signals: Mapping[str, Signal], time: Array, trace: Trace | None) -> float | None:
@@ -208,11 +261,34 @@ def _trace(scene: Scene, steps: int, *, whole: bool) -> Trace:
 
 def _rest(scene: Scene, signals: Mapping[str, Signal], until: float) -> dict[str, float] | None:
     """Return the outputs at rest under the last values of the inputs; None where there is no such thing."""
+    if any(signal.frequency or np.any(signal.knots > until) for signal in signals.values()):
+        return None
+    last = {name: float(signal.at(until)) for name, signal in signals.items()}
     if scene.model.kind == "planar":
-        return None
+        return _planar_rest(scene, last)
     assembly = assemble(scene)
-    moving = any(signal.frequency or np.any(signal.knots > until) for signal in signals.values())
-    if moving or assembly.free:
+    if assembly.free:
         return None
-    last = np.array([float(signal.at(until)) for signal in signals.values()])
-    return dict(zip(assembly.outputs, assembly.static(last).tolist(), strict=True))
+    found = assembly.static(np.array(list(last.values())))
+    return dict(zip(assembly.outputs, found.tolist(), strict=True))
+
+
+def _planar_rest(scene: Scene, inputs: Mapping[str, float]) -> dict[str, float] | None:
+    """Return the outputs of an arm that hangs still; None where it would turn on, or is too long to be looked at."""
+    if scene.base.kind == "motor" or scene.stations > _SHORT:
+        return None
+    from tmm_gen.measure.planar_arm import Arm
+    from tmm_gen.measure.planar_reference import read
+    from tmm_gen.modal.equilibrium import equilibrium
+
+    try:
+        angles = equilibrium(scene, inputs).free_angles[None]
+    except UserError:
+        return None
+    arm = Arm(scene, {name: Constant(value) for name, value in inputs.items()})
+    still = np.zeros_like(angles)
+    found: dict[str, Array] = {}
+    for output in scene.outputs:
+        if output.of != "dissipated_energy":  # depends on the way there
+            found |= read(arm, output, np.zeros(1), angles, still, still)
+    return {name: float(value[0]) for name, value in found.items()}

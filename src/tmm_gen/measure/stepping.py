@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -53,6 +53,8 @@ class Course:
         Looks at some of the steps.
     moved : array, (n,), optional
         Added to the initial angles, rad.
+    parameters : mapping from str to float
+        Of the kernel, where they differ from the scene's.
     """
 
     scene: Scene
@@ -63,6 +65,7 @@ class Course:
     trace: Trace | None = None
     checked: Unsolved | None = None
     moved: Array | None = None
+    parameters: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def names(self) -> list[str]:
@@ -72,7 +75,9 @@ class Course:
     @property
     def start(self) -> dict[str, Array]:
         """Initial angles where they are not the scene's, as kernels take them."""
-        return {} if self.moved is None else {"initial_angle": np.array(self.scene.initial.angles) + self.moved}
+        return (
+            {} if self.moved is None else {"initial_angle": np.array(self.scene.initial.angles) + self.moved}
+        )
 
 
 @dataclass(eq=False)
@@ -154,8 +159,9 @@ class Stepper:
         constant = read(0.0)
         looks = set(course.checked.instants()) if course.checked is not None else set()
         with np.errstate(all="ignore"):  # kernel and guard tell what becomes of it
-            model = module.prepare(step=h)
-            state = module.initialise(module.Params(), constant, **course.start)
+            parameters = module.Params(**course.parameters)
+            model = module.prepare(parameters, step=h)
+            state = module.initialise(parameters, constant, **course.start)
             rows = [row()]
             for index in range(course.steps):
                 given = constant
@@ -180,8 +186,10 @@ class Stepper:
         from tmm_gen.native.recording import record
 
         kernel, h = self.kernel, course.step
-        kernel.prepare(step=h)
-        kernel.initialise({name: float(signal.at(0.0)) for name, signal in course.signals.items()}, **course.start)
+        kernel.prepare(course.parameters, step=h)
+        kernel.initialise(
+            {name: float(signal.at(0.0)) for name, signal in course.signals.items()}, **course.start
+        )
         first = kernel.output()
         names = course.names
         before = {name: np.asarray(value, float)[None] for name, value in kernel.state.items()}
@@ -207,7 +215,8 @@ class Stepper:
             if course.checked is not None:
                 for index in looks[(looks > taken) & (looks <= taken + count)]:
                     ends = (
-                        {name: values[index - taken + k] for name, values in together.items()} for k in (-1, 0)
+                        {name: values[index - taken + k] for name, values in together.items()}
+                        for k in (-1, 0)
                     )
                     course.checked.look(int(index), *ends)
             before = {name: values[-1:] for name, values in together.items()}
@@ -216,7 +225,9 @@ class Stepper:
         self.sweeps = float(before["sweeps"][0]) if "sweeps" in before else None
 
 
-def _inputs(program: Any, signals: Mapping[str, Signal], h: float, taken: int, count: int) -> dict[str, Array]:
+def _inputs(
+    program: Any, signals: Mapping[str, Signal], h: float, taken: int, count: int
+) -> dict[str, Array]:
     """Return the inputs of some steps at the instants of their stages, (count,) or (count, stages)."""
     instants = program.stage_instants[min(taken, len(program.startup))]
     times = h * (taken + np.arange(count)[:, None] + np.array(instants))

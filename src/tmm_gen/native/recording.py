@@ -63,7 +63,7 @@ def record(kernel: NativeKernel, inputs: Mapping[str, Array], steps: int) -> Rec
 
 def _columns(array: Any) -> dict[str, Any]:
     """Return views of the members of an array of structs."""
-    whole = np.ctypeslib.as_array(array)
+    whole = np.frombuffer(array, np.dtype(array._type_))
     return {name: whole[name] for name in whole.dtype.names or ()}
 
 

@@ -52,7 +52,10 @@ class RoutineText:
             for statement in section.statements:
                 if isinstance(statement, Until):
                     value = self._elements.text(statement.value)
-                    lines += [f"{_INDENT}{inside}if not np.any({value} > 0.0):", f"{_INDENT}{2 * inside}break"]
+                    lines += [
+                        f"{_INDENT}{inside}if not np.any({value} > 0.0):",
+                        f"{_INDENT}{2 * inside}break",
+                    ]
                     inside = ""
                 elif isinstance(statement, Repeat):
                     inside = _INDENT

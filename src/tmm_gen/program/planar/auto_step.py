@@ -21,8 +21,14 @@ from tmm_gen.program.variables import Ref, Role, Variable, local
 MOST_SWEEPS = 12
 """A step that so many sweeps do not solve is not solved by more: what they left is weighed when all is done."""
 
-SMALL = sp.Rational(1, 10**4)
-"""rad; links that a sweep turns by less in all, squares summed, need no further one."""
+LEAST_TURN = Variable(
+    "least_turn",
+    Role.PARAMETER,
+    doc="a sweep that turns the links by less in all, squares summed, is the last of a stage",
+    unit="rad",
+    default=1e-4,
+)
+"""May be made smaller where the equations are to be solved better than steps usually need."""
 
 SWEEPS = Variable("sweeps", Role.STATE, doc="sweeps taken so far")
 """Counted by the step."""
@@ -36,7 +42,8 @@ class AutoStep(PlanarStep):
 
     def _swept(self, title: str, index: int, motion: AffineMotion) -> list[Section]:
         begin = Section(
-            title + f"sweeps, until one changes next to nothing, {MOST_SWEEPS} at most", (Repeat(MOST_SWEEPS),)
+            title + f"sweeps, until one changes next to nothing, {MOST_SWEEPS} at most",
+            (Repeat(MOST_SWEEPS),),
         )
         sweep = [Section(title + s.title, s.statements) for s in self._sweep(index, 0, motion)]
         improve = Section(title + "improved prediction", tuple(self._improve(motion)))
@@ -54,13 +61,11 @@ class AutoStep(PlanarStep):
                 Assign(_TURNED, base),
                 Loop(Order.OUTWARD, 0, n, (Assign(_TURNED, _TURNED + weight * solved(n).at() ** 2),)),
                 Assign(SWEEPS.ref, SWEEPS.ref + 1),
-                Until(_TURNED - SMALL**2),
+                Until(_TURNED - LEAST_TURN.ref**2),
             ),
         )
 
-    def _solved_motion(
-        self, motion: AffineMotion
-    ) -> tuple[Mapping[Kind, sp.Expr], Mapping[Kind, sp.Expr]]:
+    def _solved_motion(self, motion: AffineMotion) -> tuple[Mapping[Kind, sp.Expr], Mapping[Kind, sp.Expr]]:
         """Return what the last improvement made of the prediction: all increments are in it."""
         n = self.layout.stations
 

@@ -24,7 +24,7 @@ from tmm_gen.errors import UserError
 from tmm_gen.program.fields import gain_names, living_state
 from tmm_gen.program.passes.hoist import Hoister
 from tmm_gen.program.passes.prune import prune
-from tmm_gen.program.planar.auto_step import SWEEPS, AutoStep
+from tmm_gen.program.planar.auto_step import LEAST_TURN, SWEEPS, AutoStep
 from tmm_gen.program.planar.energy import heat_after, heat_before
 from tmm_gen.program.planar.layout import PlanarLayout, planar_layout
 from tmm_gen.program.planar.loads import planar_loads
@@ -131,7 +131,7 @@ def build_planar(scene: Scene, integrator: Integrator, *, auto: bool = False) ->
         title=scene.title,
         stations=scene.stations,
         step=layout.step,
-        parameters=tuple(p for p in layout.parameters if p in read),
+        parameters=tuple(p for p in (*layout.parameters, LEAST_TURN) if p in read),
         coefficients=tuple(c for c in coefficients if c in used),
         state=state,
         inputs=layout.inputs,

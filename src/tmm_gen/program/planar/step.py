@@ -107,9 +107,7 @@ class PlanarStep(PlanarSweep):
         statements.append(Loop(Order.OUTWARD, 0, n, body))
         return Section(title + "motion at the end of the step", (*places, *statements))
 
-    def _solved_motion(
-        self, motion: AffineMotion
-    ) -> tuple[Mapping[Kind, sp.Expr], Mapping[Kind, sp.Expr]]:
+    def _solved_motion(self, motion: AffineMotion) -> tuple[Mapping[Kind, sp.Expr], Mapping[Kind, sp.Expr]]:
         """Return the motion of links and hub at a stage: the prediction and what the last sweep found."""
         n = self.layout.stations
         links = {k: predicted(k, n).at(1) + self._gain(motion, k) * solved(n).at() for k in KINDS}
