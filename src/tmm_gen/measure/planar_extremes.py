@@ -8,14 +8,22 @@ order explains; beyond the reach of that reference (many links), the energies ba
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cache
+from typing import Any
 
 import numpy as np
 
+from tmm_gen.derive.integrators.registry import integrator
 from tmm_gen.errors import CheckFailed, UserError
+from tmm_gen.measure.planar_divergence import planar_watch
 from tmm_gen.measure.planar_reference import planar_response
 from tmm_gen.measure.run import simulate
 from tmm_gen.measure.simulation import Simulation
+from tmm_gen.native import NativeKernel, compile_kernel
+from tmm_gen.program.build import build_program
+from tmm_gen.program.planar.layout import planar_layout
 from tmm_gen.scene import Scene, SceneError, parse_scene
 
 MOST_LINKS = 60
@@ -208,7 +216,12 @@ def judge(extreme: Extreme, *, refuse: bool = True) -> Verdict:
     """
     try:
         scene = extreme.scene()
-        run = simulate(scene, {}, extreme.steps * scene.integrator.step, "c", trace=True, refuse=refuse)
+        until = extreme.steps * scene.integrator.step
+        planar_watch(scene, scene.integrator.step)  # before a kernel is made
+        kernel = _With(
+            _kernel(replace(extreme, **_SAME, revolutions=float(extreme.revolutions > 0.0))), scene
+        )
+        run = simulate(scene, {}, until, "c", kernel=kernel, trace=True, refuse=refuse)
     except (UserError, SceneError, CheckFailed) as refusal:
         return Verdict("refused", said=str(refusal))
     assert run.accuracy is not None
@@ -229,6 +242,46 @@ def judge(extreme: Extreme, *, refuse: bool = True) -> Verdict:
         run.imbalance or 0.0,
         said,
     )
+
+
+_SAME: dict[str, Any] = {
+    "stiffness": 1.0,
+    "slenderness": 1.0,
+    "tip_ratio": 1.0,
+    "step": 1e-3,
+    "damping": 2e-3,
+}
+"""What kernels of a kind share: their parameters are free."""
+
+
+@cache
+def _kernel(kind: Extreme) -> NativeKernel:
+    scene = kind.scene()
+    return compile_kernel(build_program(scene, auto=scene.model.auto), scene)
+
+
+class _With:
+    """A kernel that other arms share, with the parameters and the start of one."""
+
+    def __init__(self, kernel: NativeKernel, scene: Scene) -> None:
+        self._kernel = kernel
+        layout = planar_layout(scene, integrator(scene.integrator.name))
+        known = {variable.name for variable in kernel.program.parameters}
+        self._values: dict[str, Any] = {v.name: v.default for v in layout.parameters if v.name in known}
+        self._values["tip_mass"] = scene.tip.mass if scene.tip else 0.0
+        self._start = {
+            "initial_angle": np.array(scene.initial.angles),
+            "initial_rate": np.array(scene.initial.rates),
+        }
+
+    def prepare(self, parameters: Mapping[str, float], step: float) -> None:
+        self._kernel.prepare({**self._values, **parameters}, step)
+
+    def initialise(self, inputs: Mapping[str, float], **start: Any) -> None:
+        self._kernel.initialise(inputs, **{**self._start, **start})
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._kernel, name)
 
 
 def _off(run: Simulation) -> float:

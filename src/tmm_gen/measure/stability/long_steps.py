@@ -125,7 +125,7 @@ def judge(tried: LongStep) -> Outcome:
     try:
         scene = tried.scene()
         signals = {"tip_torque": tried.torque}
-        kernel = _With(_kernel(replace(chain, step=1e-3, **_SAME)), chain)
+        kernel = _With(_kernel(replace(chain, **_SAME)), chain)
         run = simulate(scene, signals, tried.until, "c", kernel=kernel)
     except (UserError, SceneError) as refusal:
         return Outcome("refused", why=str(refusal))
@@ -138,13 +138,15 @@ def judge(tried: LongStep) -> Outcome:
     return Outcome("right" if right else "wrong", error, run.accuracy.error)
 
 
-_SAME: dict[str, Any] = {"stiffness_ratio": 2.0, "inertia_ratio": 2.0, "pattern": "halves", "start": "loaded"}
+_SAME: dict[str, Any] = {
+    **{"stiffness_ratio": 2.0, "inertia_ratio": 2.0, "pattern": "halves"},
+    **{"start": "loaded", "step": 1e-3, "damping": 1.0},
+}
 """What kernels of a kind share: their parameters are free."""
 
 
 @cache
 def _kernel(kind: ChainExtreme) -> NativeKernel:
-    kind = replace(kind, damping=1.0 if kind.damping else 0.0)
     scene = LongStep(kind, 1.0, Constant(0.0)).scene()
     return compile_kernel(build_chain(scene, integrator(kind.integrator)), scene)
 
@@ -154,9 +156,11 @@ class _With:
 
     def __init__(self, kernel: NativeKernel, chain: ChainExtreme) -> None:
         self._kernel = kernel
-        self._values: dict[str, Any] = {"stiffness": chain.stiffness, "inertia": chain.inertia}
-        if chain.damping:
-            self._values["damping"] = chain.stiffness * (chain.damping * chain.period)
+        self._values: dict[str, Any] = {
+            "stiffness": chain.stiffness,
+            "inertia": chain.inertia,
+            "damping": chain.stiffness * (chain.damping * chain.period),
+        }
         if chain.links == 1:
             self._values = {name: float(value[0]) for name, value in self._values.items()}
         self._start = chain.deflection if chain.start == "released" else np.zeros(chain.links)
