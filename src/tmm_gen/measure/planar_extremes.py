@@ -197,8 +197,8 @@ class Verdict:
     said: str = ""
 
 
-SAYS = 3.0
-"""How many times larger than a run says its error may be."""
+SAYS = 5.0
+"""How many times larger than a run says its error may be; mostly it is what it says."""
 
 LEAST = 1e-6
 """Share of the motion below which nothing is promised."""
