@@ -169,9 +169,9 @@ class _Repetition:
         )
         # of a sensitive motion what steps change does not fall with their order
         weight = 1.0 if growth is not None and growth > SENSITIVE else share
-        off = weight * np.asarray(np.max(np.hypot(*(mine - others)), axis=1), float)
-        way = np.asarray(np.max(np.hypot(*(others - others[:, :1])), axis=1), float)
-        times = self.scene.integrator.step * self.trace.every * stride * np.arange(count)
+        off = weight * np.max(np.hypot(*(mine - others)), axis=1)
+        way = np.max(np.hypot(*(others - others[:, :1])), axis=1)
+        times = self.scene.integrator.step * self.trace.every * stride * np.arange(count, dtype=float)
         length = sum(link.length for link in self.scene.links)
         return _judged(off, way, times, _STILL * length, growth)
 
