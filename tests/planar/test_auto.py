@@ -171,3 +171,16 @@ def test_one_that_hangs_straight_is_not(falling: Callable[..., Scene]) -> None:
     assert run.accuracy is not None
     assert run.accuracy.sensitivity is not None
     assert run.accuracy.sensitivity < 30.0
+
+
+@pytest.mark.compiler
+@pytest.mark.parametrize("integrator", ["newmark", "sdirk2", "houbolt"])
+@pytest.mark.parametrize("times", [1.0, 100.0])
+def test_small_vibrations_that_die_within_a_step_are_not_taken_for_rest(
+    integrator: str, times: float, falling: Callable[..., Scene]
+) -> None:
+    """Linear, so that every step can be solved; damping integrators agree on a rest at steps of any such length."""
+    scene = falling(2, **{"model.gravity": None, "beam.damping_time": 0.0})
+    slow = scene.replace(integrator={"name": integrator, "step": times}, initial={"angles": [5e-7, 1e-6]})
+    with pytest.raises(InaccurateError):
+        simulate(slow, {}, 50.0 * times, "c")

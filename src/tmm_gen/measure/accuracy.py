@@ -38,6 +38,12 @@ _POINTS = 1000
 _FEW = 40
 """A run of fewer steps is repeated with half of them: twice their length may be no motion any more."""
 
+_LEAP = 0.5
+"""A step that covers more than this of all motion shows nothing of it; a tenth of a period covers a third."""
+
+_SHORTEST = 4
+"""Runs of fewer steps may be evenly accelerated, and cover as much in their last one."""
+
 _STILL = 1e-7
 """Motion below this share of the arm's length is none: it may be rounding."""
 
@@ -94,10 +100,28 @@ def planar_accuracy(course: Course, stepper: Stepper, unsolved: float) -> Accura
         speed, and that leaves a false angle for every radian turned.
     """
     assert course.trace is not None
+    leapt = _leapt(course.scene, course.trace)
+    if leapt > _LEAP:
+        return Accuracy(leapt, None, 0.0)
     found = _repeated(course, stepper)
     path = float(np.max(np.sum(np.abs(np.diff(course.trace.angle, axis=0)), axis=0)))
     swept = 0.5 * unsolved * max(1.0, path)
     return replace(found, error=found.error + swept, from_sweeps=swept)
+
+
+def _leapt(scene: Scene, trace: Trace) -> float:
+    """Return how much of all motion lies in a single step.
+
+    Integrators that damp fast motion let it die within a step that is far too long, whether that is halved or doubled:
+    repetitions agree on a rest that is none.
+    """
+    if trace.every > 1 or len(trace.angle) <= _SHORTEST:
+        return 0.0
+    places = _places(scene, trace.angle)
+    way = float(np.max(np.hypot(*(places - places[:, :1]))))
+    if way <= _STILL * sum(link.length for link in scene.links):
+        return 0.0
+    return float(np.max(np.hypot(*np.diff(places, axis=1)))) / way
 
 
 def _repeated(course: Course, stepper: Stepper) -> Accuracy:
