@@ -2,16 +2,24 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import BeforeValidator, Field
 
-from tmm_gen.scene.table import Count, NonNegative, Positive, Table
+from tmm_gen.scene.table import Count, NonNegative, Positive, Table, fault
 
 Kind = Literal["chain", "planar"]
 Linearisation = Literal["newton", "taylor", "frozen"]
 Sweep = Literal["riccati", "product"]
 Unknown = Literal["acceleration", "increment", "displacement"]
+
+
+def _sweeps(value: object) -> object:
+    """Reject what is neither a number of sweeps nor "auto", in one sentence for both."""
+    number = isinstance(value, int) and not isinstance(value, bool) and value >= 1
+    if number or value == "auto":
+        return value
+    raise fault('must be "auto" or a whole number from 1', 'Write for example `iterations = "auto"`.')
 
 
 class Model(Table):
@@ -43,7 +51,7 @@ class Model(Table):
         default=None, description="gravity along -y in m/s^2", examples=["9.81"]
     )
     linearisation: Linearisation = Field(default="newton", description="linearisation", examples=['"newton"'])
-    iterations: Count | Literal["auto"] = Field(
+    iterations: Annotated[Count | Literal["auto"], BeforeValidator(_sweeps)] = Field(
         default="auto",
         description='sweeps per stage; with "auto", `run` takes as many as it needs and kernels take one',
         examples=['"auto"', "2"],
