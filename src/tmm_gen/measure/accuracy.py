@@ -38,6 +38,9 @@ _POINTS = 1000
 _FEW = 40
 """A run of fewer steps is repeated with half of them: twice their length may be no motion any more."""
 
+_FIRST, _FINER = 20, 16
+"""Steps at the start that are taken again, and how many times shorter."""
+
 _LEAP = 0.5
 """A step that covers more than this of all motion shows nothing of it; a tenth of a period covers a third."""
 
@@ -104,6 +107,8 @@ def planar_accuracy(course: Course, stepper: Stepper, unsolved: float) -> Accura
     if leapt > _LEAP:
         return Accuracy(leapt, None, 0.0)
     found = _repeated(course, stepper)
+    begun = _Repetition(course, stepper).begun()
+    found = replace(found, error=max(found.error, begun))
     path = float(np.max(np.sum(np.abs(np.diff(course.trace.angle, axis=0)), axis=0)))
     swept = 0.5 * unsolved * max(1.0, path)
     return replace(found, error=found.error + swept, from_sweeps=swept)
@@ -157,10 +162,10 @@ class _Repetition:
         assert self.course.trace is not None
         return self.course.trace
 
-    def __call__(self, factor: float, moved: Array | None = None) -> Trace | None:
+    def __call__(self, factor: float, moved: Array | None = None, every: int | None = None) -> Trace | None:
         """Return the motion with steps so many times as long; None if that fails."""
-        count = int(self.course.steps / factor)
-        trace = Trace.empty(self.scene, count + 1, self._stride(factor))
+        count = round(self.course.steps / factor) if factor < 1.0 else int(self.course.steps / factor)
+        trace = Trace.empty(self.scene, count + 1, every or self._stride(factor))
         step = self.scene.integrator.step * factor
         course = replace(
             self.course,
@@ -183,6 +188,27 @@ class _Repetition:
         least = max(1, math.ceil(self.course.steps / _POINTS))
         together = math.lcm(self.trace.every, 2 if factor > 1.0 else 1)
         return round(math.ceil(least / together) * together / factor)
+
+    def begun(self) -> float:
+        """Return the error that grows from what steps make of the start, as a share of the motion.
+
+        A blow at the start may ring in modes so fast that neither these steps nor such of twice the length follow
+        them: both then leave the same wrong speed. The first few steps are taken again, much shorter; how fast the two
+        motions part is taken to last.
+        """
+        if self.trace.every > 1 or self.course.steps < 2 * _FIRST:
+            return 0.0
+        fine = replace(self, course=replace(self.course, steps=_FIRST))(1.0 / _FINER, every=_FINER)
+        if fine is None:
+            return 0.0
+        mine, others = (_places(self.scene, x) for x in (self.trace.angle[1 : _FIRST + 1], fine.angle[1:]))
+        apart = mine - others
+        half = _FIRST // 2
+        drift = (np.mean(apart[:, half:], axis=1) - np.mean(apart[:, :half], axis=1)) / half
+        places = _places(self.scene, self.trace.angle)
+        way = float(np.max(np.hypot(*(places - places[:, :1]))))
+        least = _STILL * sum(link.length for link in self.scene.links)
+        return float(np.max(np.hypot(*drift))) * self.course.steps / max(way, least)
 
     def judged(self, other: Trace, factor: float, share: float, growth: float | None) -> Accuracy:
         """Return what the difference from another motion says, of which so large a share counts."""
