@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tmm_gen.measure.planar_extremes import Extreme, judge
+from tmm_gen.measure.planar_extremes import SAYS, Extreme, judge
 
 pytestmark = pytest.mark.compiler
 
@@ -60,6 +60,14 @@ NEEDS_MORE = [
     Extreme(links=20, stiffness=1e4, slenderness=100.0, tip_ratio=1e4, step=1e-5, revolutions=0.1),
     Extreme(links=50, stiffness=1e-5, slenderness=1e-3, tip_ratio=0.01, step=1e-6, revolutions=1.0),
 ]
+
+
+def test_a_blow_that_rings_too_fast_for_any_repetition_counts_towards_the_error() -> None:
+    """Steps of twice the length leave the same wrong speed: their difference says a twentieth of the error."""
+    extreme = Extreme(stiffness=0.1, slenderness=1e-3, step=1e-5, revolutions=100.0)
+    verdict = judge(extreme)
+    assert verdict.status == "right", verdict
+    assert 1e-5 < verdict.error <= SAYS * verdict.accuracy < 1e-2
 
 
 def test_a_tenth_of_the_period_is_too_long_however_well_it_is_solved() -> None:
