@@ -13,8 +13,15 @@ from tmm_gen.program.torsion.safety import require_safe_product
 from tmm_gen.scene import Scene
 
 
-def build_program(scene: Scene) -> Program:
+def build_program(scene: Scene, *, auto: bool = False) -> Program:
     """Build the program of a scene.
+
+    Parameters
+    ----------
+    scene : Scene
+        What to build.
+    auto : bool
+        Whether the steps of a planar arm sweep as often as it takes: for simulations, not for controllers.
 
     Raises
     ------
@@ -31,7 +38,7 @@ def build_program(scene: Scene) -> Program:
             require_digits(scene, chosen)
             return build_chain(scene, chosen)
         _refuse_unsupported(scene)
-        return build_planar(scene, chosen)
+        return build_planar(scene, chosen, auto=auto)
     except UnsuitableUnknownError as error:
         raise UserError(
             f"scene '{scene.name}': model.unknown = '{scene.model.unknown}' with model.sweep = "

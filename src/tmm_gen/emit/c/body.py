@@ -20,7 +20,7 @@ from tmm_gen.emit.c.scalars import place_scalars
 from tmm_gen.emit.c.structs import described, dimension
 from tmm_gen.emit.c.wrap import INDENT, WIDTH, comment, statement
 from tmm_gen.emit.c_names import c_name, macros
-from tmm_gen.program.statements import Assign, Loop, Order, Program, Require, Routine
+from tmm_gen.program.statements import Assign, Loop, Mark, Order, Program, Repeat, Require, Routine
 from tmm_gen.program.variables import Ref, Role, Variable, refs_in
 
 TOTAL = "total"
@@ -176,23 +176,39 @@ class Body:
             turns.forget(inner.target)
 
         straight = Turns(names)
+        depth = 1
 
         for section in self.routine.sections:
             yield ""
-            yield from comment(sentence(section.title), 1)
+            yield from comment(sentence(section.title), depth)
             for top in section.statements:
-                if isinstance(top, Loop):
-                    yield f"{INDENT}{self._loop_head(top)} {{"
+                if isinstance(top, Mark):
+                    yield from self._marked(top, printer)
+                    straight = Turns(names)
+                    depth = 2 if isinstance(top, Repeat) else 1
+                elif isinstance(top, Loop):
+                    yield f"{INDENT * depth}{self._loop_head(top)} {{"
                     turns = Turns(names)
                     for inner in top.body:
-                        yield from simple(inner, 2, turns)
+                        yield from simple(inner, depth + 1, turns)
                         straight.forget(inner.target) if isinstance(inner, Assign) else None
                     if sums is not None and (terms := sums.inside.get(top, ())):
                         text = " + ".join(self._judged(assign, printer) for assign in terms)
-                        yield from statement(f"{TOTAL} += {text};", 2)
-                    yield f"{INDENT}}}"
+                        yield from statement(f"{TOTAL} += {text};", depth + 1)
+                    yield f"{INDENT * depth}}}"
                 else:
-                    yield from simple(top, 1, straight)
+                    yield from simple(top, depth, straight)
+
+    def _marked(self, mark: Mark, printer: CPrinter) -> Iterator[str]:
+        """Yield where something repeated begins or ends."""
+        if isinstance(mark, Repeat):
+            yield f"{INDENT}for (int round = 0; round < {mark.most}; ++round) {{"
+            return
+        left = f"({printer.text(mark.value)}){self._high}"
+        yield from statement(f"if (!({left} > {self.real.literal(0.0)})) {{", 2)
+        yield f"{INDENT * 3}break;"
+        yield f"{INDENT * 2}}}"
+        yield f"{INDENT}}}"
 
     def verdict(self) -> str:
         """Return the check that leaves the function unless the new state is finite."""

@@ -23,7 +23,7 @@ from tmm_gen.emit.c.wrap import INDENT, WIDTH, comment, statement
 from tmm_gen.emit.c_names import macros
 from tmm_gen.emit.header import header_lines
 from tmm_gen.emit.runs import Run, runs
-from tmm_gen.program.statements import Assign, Loop, Program, Require, Routine
+from tmm_gen.program.statements import Assign, Loop, Mark, Program, Require, Routine
 from tmm_gen.program.variables import Variable
 from tmm_gen.scene import Scene
 
@@ -363,7 +363,7 @@ def _runs(variable: Variable) -> tuple[Run, ...] | None:
     return runs(variable.default) if isinstance(variable.default, tuple) else None
 
 
-def _flat(routine: Routine) -> Iterator[Assign | Require]:
+def _flat(routine: Routine) -> Iterator[Assign | Require | Mark]:
     for top in routine.statements():
         yield from top.body if isinstance(top, Loop) else (top,)
 

@@ -25,6 +25,7 @@ from tmm_gen.program.fields import gain_names, living_state
 from tmm_gen.program.inputs import input_instants
 from tmm_gen.program.passes.hoist import Hoister
 from tmm_gen.program.passes.prune import prune
+from tmm_gen.program.planar.auto_step import LEAST_TURN, SWEEPS, AutoStep
 from tmm_gen.program.planar.energy import heat_after, heat_before
 from tmm_gen.program.planar.layout import PlanarLayout, planar_layout
 from tmm_gen.program.planar.loads import planar_loads
@@ -39,8 +40,18 @@ from tmm_gen.program.variables import Ref, Role, Variable, refs_in
 from tmm_gen.scene import Scene
 
 
-def build_planar(scene: Scene, integrator: Integrator) -> Program:
+def build_planar(scene: Scene, integrator: Integrator, *, auto: bool = False) -> Program:
     """Build the program of a planar arm (linearisation "newton").
+
+    Parameters
+    ----------
+    scene : Scene
+        Of kind "planar".
+    integrator : Integrator
+        Its integrator.
+    auto : bool
+        Whether each stage sweeps until that changes next to nothing, instead of as often as the scene says; without
+        sensitivities.
 
     Raises
     ------
@@ -50,13 +61,14 @@ def build_planar(scene: Scene, integrator: Integrator) -> Program:
     if scene.model.linearisation != "newton":
         _require_one_implicit_stage(scene, integrator)
     layout = planar_layout(scene, integrator)
-    if scene.emit.sensitivities:
+    derived = scene.emit.sensitivities and not auto
+    if derived:
         require_derivatives(scene, integrator, layout)
     unknown: Unknown = scene.model.unknown
     combined = _Combinations(layout)
     hoister = Hoister(names=gain_names(integrator, unknown, layout.step))
     sources, hub_sources = planar_history(layout)
-    step_of = TangentableStep if scene.emit.sensitivities else _STEPS[scene.model.linearisation]
+    step_of = AutoStep if auto else TangentableStep if derived else _STEPS[scene.model.linearisation]
     routines: dict[str, Routine] = {}
     # the main scheme first: its factors get the plain names
     for position, scheme in sorted(
@@ -75,7 +87,7 @@ def build_planar(scene: Scene, integrator: Integrator) -> Program:
             unknown=unknown,
             sources=sources,
             hub_sources=hub_sources,
-            iterations=scene.model.iterations,
+            iterations=scene.model.sweeps,
         )
         doc = "Advance the state by one step." if name == "step" else f"Start-up: take step {position + 1}."
         sections = (
@@ -92,6 +104,9 @@ def build_planar(scene: Scene, integrator: Integrator) -> Program:
     output = hoister.hoist(output_routine(scene, layout))
     initialise = _initialise(scene, layout)
     state = living_state(layout.all_state, (*startup, main), output)
+    if auto:
+        state = (*state, SWEEPS)
+        initialise = replace(initialise, sections=(*initialise.sections, _none_swept()))
     wanted = frozenset(state)
     startup = tuple(prune(r, wanted) for r in startup)
     main, initialise = prune(main, wanted), prune(initialise, wanted)
@@ -111,13 +126,15 @@ def build_planar(scene: Scene, integrator: Integrator) -> Program:
     )
     coefficients = (*hoister.coefficients, *combined.coefficients)
     read = prepare.read() | used | initialise.read()
-    iterations = f", {scene.model.iterations} iterations" if scene.model.iterations > 1 else ""
+    iterations = f", {scene.model.sweeps} iterations" if scene.model.sweeps > 1 else ""
+    if auto:
+        iterations = ", as many iterations as it takes"
     return Program(
         name=scene.name,
         title=scene.title,
         stations=scene.stations,
         step=layout.step,
-        parameters=tuple(p for p in layout.parameters if p in read),
+        parameters=tuple(p for p in (*layout.parameters, LEAST_TURN) if p in read),
         coefficients=tuple(c for c in coefficients if c in used),
         state=state,
         inputs=layout.inputs,
@@ -143,6 +160,10 @@ def build_planar(scene: Scene, integrator: Integrator) -> Program:
         },
         sensitivities=sensitivities,
     )
+
+
+def _none_swept() -> Section:
+    return Section("no sweep has been taken yet", (Assign(SWEEPS.ref, sp.Integer(0)),))
 
 
 def _require_one_implicit_stage(scene: Scene, integrator: Integrator) -> None:

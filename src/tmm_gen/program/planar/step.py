@@ -37,18 +37,21 @@ class PlanarStep(PlanarSweep):
         for index, (motion, prediction) in enumerate(zip(motions, predictions, strict=True), start=1):
             title = f"Stage {index} of {count}: " if count > 1 else ""
             sections.append(Section(title + "predicted motion", tuple(self._predict(index, prediction))))
-            for iteration in range(self.iterations):
-                again = f"iteration {iteration + 1}: " if self.iterations > 1 else ""
-                sections += [
-                    Section(title + again + s.title, s.statements)
-                    for s in self._sweep(index, iteration, motion)
-                ]
-                if iteration + 1 < self.iterations:
-                    sections.append(
-                        Section(title + again + "improved prediction", tuple(self._improve(motion)))
-                    )
+            sections += self._swept(title, index, motion)
             sections.append(self._finish(title, index, motion, kept, last=index == count))
         return tuple(s for s in sections if s.statements)
+
+    def _swept(self, title: str, index: int, motion: AffineMotion) -> list[Section]:
+        """Return the sweeps of a stage, each from what the one before has found."""
+        sections: list[Section] = []
+        for iteration in range(self.iterations):
+            again = f"iteration {iteration + 1}: " if self.iterations > 1 else ""
+            sections += [
+                Section(title + again + s.title, s.statements) for s in self._sweep(index, iteration, motion)
+            ]
+            if iteration + 1 < self.iterations:
+                sections.append(Section(title + again + "improved prediction", tuple(self._improve(motion))))
+        return sections
 
     # -- prediction ----------------------------------------------------------------------------------------
 
@@ -87,8 +90,7 @@ class PlanarStep(PlanarSweep):
         self, title: str, index: int, motion: AffineMotion, kept: frozenset[tuple[Kind, int]], *, last: bool
     ) -> Section:
         n = self.layout.stations
-        links = {k: predicted(k, n).at(1) + self._gain(motion, k) * solved(n).at() for k in KINDS}
-        hub = {k: predicted(k, n).entry(BASE) + self._gain(motion, k) * HUB_UNKNOWN for k in KINDS}
+        links, hub = self._solved_motion(motion)
         hubbed = self.base == "motor"
         statements: list[Statement] = []
         if not last:
@@ -108,6 +110,13 @@ class PlanarStep(PlanarSweep):
         places = self._after_update(index, motion)
         statements.append(Loop(Order.OUTWARD, 0, n, body))
         return Section(title + "motion at the end of the step", (*places, *statements))
+
+    def _solved_motion(self, motion: AffineMotion) -> tuple[Mapping[Kind, sp.Expr], Mapping[Kind, sp.Expr]]:
+        """Return the motion of links and hub at a stage: the prediction and what the last sweep found."""
+        n = self.layout.stations
+        links = {k: predicted(k, n).at(1) + self._gain(motion, k) * solved(n).at() for k in KINDS}
+        hub = {k: predicted(k, n).entry(BASE) + self._gain(motion, k) * HUB_UNKNOWN for k in KINDS}
+        return links, hub
 
     def _new_values(
         self, index: int, values: Mapping[Kind, sp.Expr], at: Mapping[sp.Symbol, sp.Expr]
