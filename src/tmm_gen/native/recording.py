@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from tmm_gen.emit.c_names import c_name
 from tmm_gen.native.kernel import NativeKernel
 from tmm_gen.native.layout import PairStructure
 
@@ -47,8 +48,9 @@ def record(kernel: NativeKernel, inputs: Mapping[str, Array], steps: int) -> Rec
     """
     given, found, reached = ((kernel.types[which] * steps)() for which in ("inputs", "outputs", "state"))
     columns = _columns(given)
+    members = {v.name: c_name(v) for v in kernel.program.inputs}
     for name, values in inputs.items():
-        columns[name][...] = values  # what is single precision is rounded here, as everywhere
+        columns[members[name]][...] = values  # what is single precision is rounded here, as everywhere
     done, status = kernel.record(given, found, reached)
     failed = None
     if status:
@@ -57,7 +59,8 @@ def record(kernel: NativeKernel, inputs: Mapping[str, Array], steps: int) -> Rec
         except ArithmeticError as error:
             failed = error
     kept = done + bool(status)
-    outputs = {name: values[:done] for name, values in _numbers(found).items()}
+    read = _numbers(found)
+    outputs = {v.name: read[c_name(v)][:done] for v in kernel.program.outputs}
     return Recording(outputs, {name: values[:kept] for name, values in _numbers(reached).items()}, failed)
 
 
