@@ -35,6 +35,9 @@ SENSITIVE = 1e3
 _POINTS = 1000
 """Instants looked at, about."""
 
+_CHAIN_POINTS = 20_000
+"""The same for chains; a blow's largest error may last a step."""
+
 _FEW = 40
 """A run of fewer steps is repeated with half of them: twice their length may be no motion any more."""
 
@@ -81,7 +84,7 @@ class Accuracy:
 
 def chain_accuracy(scene: Scene, signals: Mapping[str, Signal], trace: Trace) -> Accuracy:
     """Compare a chain's angles with those that it would have."""
-    stride = max(1, math.ceil((len(trace.angle) - 1) / _POINTS))
+    stride = max(1, math.ceil((len(trace.angle) - 1) / _CHAIN_POINTS))
     indices, angle = trace.indices[::stride], trace.angle[::stride]
     exact = exact_angles(scene, signals, scene.integrator.step, indices)
     off = np.max(np.abs(angle - exact), axis=1)

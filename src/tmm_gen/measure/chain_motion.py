@@ -7,6 +7,7 @@ looked at in their slowest modes. Nothing here comes from `derive` or `program`.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -14,7 +15,8 @@ import numpy as np
 from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
-from tmm_gen.measure.signals import Constant, Signal
+from tmm_gen.measure.profiles import Chirp
+from tmm_gen.measure.signals import Constant, Harmonic, Signal
 from tmm_gen.scene import Scene, station_of
 
 Array = NDArray[np.float64]
@@ -28,6 +30,11 @@ MODES = 100
 _DEGREE = 3
 _NODES, _WEIGHTS = legendre.leggauss(_DEGREE + 1)
 _CHUNK = 4096
+_LEAST_STEPS, _FINEST = 2000, 4000
+"""Pieces of time in all over which inputs are cubics, and most of them in a step."""
+
+_SWING = 0.5
+"""Radians of a harmonic input in such a piece."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,7 +84,11 @@ def exact_angles(scene: Scene, signals: Mapping[str, Signal], step: float, indic
     ordered = [signals[item.name] for item in scene.inputs]
     stride = round(float(indices[1] - indices[0])) if len(indices) > 1 else 1
     at_rest = all(isinstance(s, Constant) for s in ordered)
-    h, per = (step * stride, 1) if at_rest else (step, stride)
+    # a few long steps may hold many kinks and swings of an input, which no cubic is
+    total = (len(indices) - 1) * stride
+    swing = max((_fastest(s) for s in ordered), default=0.0) * step / _SWING
+    finer = min(_FINEST, max(1, math.ceil(_LEAST_STEPS / max(total, 1)), math.ceil(swing)))
+    h, per = (step * stride, 1) if at_rest else (step / finer, stride * finer)
     transition, response = _transition(linear, h)
     found = np.empty((len(indices), len(linear.through)))
     values = np.array([float(s.at(0.0)) for s in ordered])
@@ -96,6 +107,13 @@ def exact_angles(scene: Scene, signals: Mapping[str, Signal], step: float, indic
                 place = (first + k + 1) // per
                 found[place] = _read(linear, state) + linear.through @ ends[k]
     return found
+
+
+def _fastest(signal: Signal) -> float:
+    """Return the highest angular frequency an input swings at by itself, rad/s."""
+    if isinstance(signal, Chirp):
+        return 2.0 * math.pi * max(signal.first, signal.last)
+    return signal.frequency if isinstance(signal, Harmonic) else 0.0
 
 
 def linear_chain(scene: Scene) -> Linear:
