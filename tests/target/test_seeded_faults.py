@@ -48,7 +48,7 @@ OVERFLOW = Fault(
 )
 WRONG_SIGN = Fault("wrong sign", "(bias - joint_torque);", "(bias + joint_torque);")
 DOUBLE = Fault(
-    "implicit double", "real unknown = 0.0f;", "real unknown = (real)(0.1 * inputs->tmm_tip_torque);"
+    "implicit double", "real unknown = 0.0f;", "real unknown = (real)(0.1 * inputs->tip_torque);"
 )
 
 
@@ -152,7 +152,7 @@ def test_the_analyser_finds_a_null_pointer(
 ) -> None:
     need_tool(*TOOLS["gcc_analyzer"])
     fault = Fault(
-        "null", "    real bias = inputs->tmm_tip_torque;", "    real *none = 0;\n    real bias = *none;"
+        "null", "    real bias = inputs->tip_torque;", "    real *none = 0;\n    real bias = *none;"
     )
     found = CHECKS["gcc_analyzer"](_planted(files, fault))
     assert not found.passed

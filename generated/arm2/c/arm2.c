@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: c5e09abbb61734735cef8cfddf39dd959eb5765da3ad6484bed2957b4fdf212c
- * sha256 of the rest of this file: b2b5578e84b5b097d2287d9b6d9b6e83b6b4c3d3dae019c8e776f87685ed0e42
+ * sha256 of the rest of this file: fc6fcea203cc72df08bffe24f93ae78ac5643bd2947f984bf2cfab9d54cecf9a
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 2
@@ -24,17 +24,24 @@
 #error "-Ofast and -ffast-math remove checks of this file: use -O3, or put -fno-fast-math behind them"
 #endif
 
-#include "arm2.h"
-
 #include <float.h>
 #include <math.h>
 #include <stddef.h>
+
+/* Members of the header below: no macro of a header above may have their names. */
+#undef hub_torque
+#undef tip_x
+#undef tip_y
+#undef hub
+#undef elbow
+
+#include "arm2.h"
 
 typedef arm2_real real;
 
 static int inputs_are_finite(const arm2_inputs *inputs)
 {
-    if (!isfinite(inputs->tmm_hub_torque)) {
+    if (!isfinite(inputs->hub_torque)) {
         return 0;
     }
     return 1;
@@ -289,7 +296,7 @@ arm2_status arm2_initialise(
     if (!(hub_pivot > 0.0) || !(hub_pivot <= DBL_MAX)) {
         return ARM2_VANISHING_PIVOT;
     }
-    real unknown = (inputs->tmm_hub_torque - torque - params->hub_damping * predicted_rate[0]
+    real unknown = (inputs->hub_torque - torque - params->hub_damping * predicted_rate[0]
         - params->hub_inertia * predicted_acceleration[0]) / hub_pivot;
     const real hub_unknown = unknown;
 
@@ -446,7 +453,7 @@ arm2_status arm2_step(
     if (!(hub_pivot > 0.0) || !(hub_pivot <= DBL_MAX)) {
         return ARM2_VANISHING_PIVOT;
     }
-    real unknown = (inputs->tmm_hub_torque - torque - model->hub_damping * predicted_rate[0]
+    real unknown = (inputs->hub_torque - torque - model->hub_damping * predicted_rate[0]
         - model->hub_inertia * predicted_acceleration[0]) / hub_pivot;
     const real hub_unknown = unknown;
 
@@ -484,17 +491,17 @@ void arm2_output(
         return;
     }
     /* Tip: position. */
-    outputs->tmm_tip_x = 0.0;
-    outputs->tmm_tip_y = 0.0;
+    outputs->tip_x = 0.0;
+    outputs->tip_y = 0.0;
     for (int j = 0; j < ARM2_STATIONS; ++j) {
-        outputs->tmm_tip_x = outputs->tmm_tip_x + model->length[j] * cos(state->angle[j]);
-        outputs->tmm_tip_y = outputs->tmm_tip_y + model->length[j] * sin(state->angle[j]);
+        outputs->tip_x = outputs->tip_x + model->length[j] * cos(state->angle[j]);
+        outputs->tip_y = outputs->tip_y + model->length[j] * sin(state->angle[j]);
     }
 
     /* Hub: angle. */
-    outputs->tmm_hub = state->hub_angle;
+    outputs->hub = state->hub_angle;
 
     /* Elbow: torque. */
-    outputs->tmm_elbow = model->damping[1] * (state->rate[1] - state->rate[0])
+    outputs->elbow = model->damping[1] * (state->rate[1] - state->rate[0])
         + model->stiffness[1] * (state->angle[1] - state->angle[0]);
 }

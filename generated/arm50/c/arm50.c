@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
- * sha256 of the rest of this file: fc42e824e67822784b301e6847312b808a62b56d9de5723ee6e1e39ec6b7c5cc
+ * sha256 of the rest of this file: 3d48ef1f165ed804664f205a978d590c89fc588c75516bce49419fc07abda42e
  *
  * model: planar arm, large rotations, tip mass
  * stations: 50
@@ -25,18 +25,27 @@
 #error "-Ofast and -ffast-math remove checks of this file: use -O3, or put -fno-fast-math behind them"
 #endif
 
-#include "arm50.h"
-
 #include <float.h>
 #include <math.h>
 #include <stddef.h>
+
+/* Members of the header below: no macro of a header above may have their names. */
+#undef base_angle
+#undef tip_x
+#undef tip_y
+#undef tip_angle
+#undef reaction_x
+#undef reaction_y
+#undef drive
+
+#include "arm50.h"
 
 typedef arm50_real real;
 
 static int inputs_are_finite(const arm50_inputs *inputs)
 {
     for (int j = 0; j < ARM50_STAGES; ++j) {
-        if (!isfinite(inputs->tmm_base_angle[j])) {
+        if (!isfinite(inputs->base_angle[j])) {
             return 0;
         }
     }
@@ -208,7 +217,7 @@ arm50_status arm50_initialise(
     real total = 0.0; /* of the new motion: is all of it finite? */
 
     /* Predicted motion. */
-    predicted_angle[0] = inputs->tmm_base_angle[0];
+    predicted_angle[0] = inputs->base_angle[0];
     predicted_rate[0] = 0.0;
     predicted_acceleration[0] = 0.0;
 
@@ -476,7 +485,7 @@ arm50_status arm50_step(
     }
 
     /* Stage 1 of 5: the hub. */
-    real unknown = model->step2_inverse_16 * (inputs->tmm_base_angle[0] - predicted_angle[0]);
+    real unknown = model->step2_inverse_16 * (inputs->base_angle[0] - predicted_angle[0]);
     real hub_unknown = unknown;
 
     /* Stage 1 of 5: sweep outward: the increment of each link's unknown. */
@@ -586,7 +595,7 @@ arm50_status arm50_step(
     }
 
     /* Stage 2 of 5: the hub. */
-    unknown = model->step2_inverse_16 * (inputs->tmm_base_angle[1] - predicted_angle[0]);
+    unknown = model->step2_inverse_16 * (inputs->base_angle[1] - predicted_angle[0]);
     hub_unknown = unknown;
 
     /* Stage 2 of 5: sweep outward: the increment of each link's unknown. */
@@ -700,7 +709,7 @@ arm50_status arm50_step(
     }
 
     /* Stage 3 of 5: the hub. */
-    unknown = model->step2_inverse_16 * (inputs->tmm_base_angle[2] - predicted_angle[0]);
+    unknown = model->step2_inverse_16 * (inputs->base_angle[2] - predicted_angle[0]);
     hub_unknown = unknown;
 
     /* Stage 3 of 5: sweep outward: the increment of each link's unknown. */
@@ -816,7 +825,7 @@ arm50_status arm50_step(
     }
 
     /* Stage 4 of 5: the hub. */
-    unknown = model->step2_inverse_16 * (inputs->tmm_base_angle[3] - predicted_angle[0]);
+    unknown = model->step2_inverse_16 * (inputs->base_angle[3] - predicted_angle[0]);
     hub_unknown = unknown;
 
     /* Stage 4 of 5: sweep outward: the increment of each link's unknown. */
@@ -936,7 +945,7 @@ arm50_status arm50_step(
     }
 
     /* Stage 5 of 5: the hub. */
-    unknown = model->step2_inverse_16 * (inputs->tmm_base_angle[4] - predicted_angle[0]);
+    unknown = model->step2_inverse_16 * (inputs->base_angle[4] - predicted_angle[0]);
     hub_unknown = unknown;
 
     /* Stage 5 of 5: sweep outward: the increment of each link's unknown. */
@@ -977,33 +986,33 @@ void arm50_output(
     const real factor_29 = model->factor_29;
 
     /* Tip: position. */
-    outputs->tmm_tip_x = 0.0;
-    outputs->tmm_tip_y = 0.0;
+    outputs->tip_x = 0.0;
+    outputs->tip_y = 0.0;
 
     /* Tip_angle: angle. */
-    outputs->tmm_tip_angle = state->angle[49];
+    outputs->tip_angle = state->angle[49];
 
     /* Tip: position; reaction: force. */
     real node_x = 0.0;
     real node_y = 0.0;
-    outputs->tmm_reaction_x = 0.0;
-    outputs->tmm_reaction_y = 0.0;
+    outputs->reaction_x = 0.0;
+    outputs->reaction_y = 0.0;
     for (int j = 0; j < ARM50_STATIONS; ++j) {
-        outputs->tmm_tip_x = outputs->tmm_tip_x + length * cos(state->angle[j]);
-        outputs->tmm_tip_y = outputs->tmm_tip_y + length * sin(state->angle[j]);
+        outputs->tip_x = outputs->tip_x + length * cos(state->angle[j]);
+        outputs->tip_y = outputs->tip_y + length * sin(state->angle[j]);
         const real inner_x = node_x;
         const real inner_y = node_y;
         node_x = node_x - state->acceleration[j] * length * sin(state->angle[j])
             - length * (state->rate[j] * state->rate[j]) * cos(state->angle[j]);
         node_y = node_y + state->acceleration[j] * length * cos(state->angle[j])
             - length * (state->rate[j] * state->rate[j]) * sin(state->angle[j]);
-        outputs->tmm_reaction_x = outputs->tmm_reaction_x - factor_28 * inner_x + factor_29 * node_x;
-        outputs->tmm_reaction_y = outputs->tmm_reaction_y - factor_28 * inner_y + factor_29 * node_y;
+        outputs->reaction_x = outputs->reaction_x - factor_28 * inner_x + factor_29 * node_x;
+        outputs->reaction_y = outputs->reaction_y - factor_28 * inner_y + factor_29 * node_y;
     }
-    outputs->tmm_reaction_x = outputs->tmm_reaction_x + node_x * model->tip_mass;
-    outputs->tmm_reaction_y = outputs->tmm_reaction_y + node_y * model->tip_mass;
+    outputs->reaction_x = outputs->reaction_x + node_x * model->tip_mass;
+    outputs->reaction_y = outputs->reaction_y + node_y * model->tip_mass;
 
     /* Drive: torque. */
-    outputs->tmm_drive = model->damping[0] * (state->rate[0] - state->hub_rate)
+    outputs->drive = model->damping[0] * (state->rate[0] - state->hub_rate)
         + model->stiffness[0] * (state->angle[0] - state->hub_angle);
 }

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
- * sha256 of the rest of this file: 27b9ea60596eab102830c6ba5331cc90431ab1c86d16858b4fa163ad613564fa
+ * sha256 of the rest of this file: 69d4e87adc38f069f57f4fd0420db647ea476168c901534f0b7141cb8ca08e70
  *
  * model: planar arm, large rotations, tip mass
  * stations: 50
@@ -129,17 +129,45 @@ typedef struct {
 
 /** What acts on the arm. */
 typedef struct {
-    arm50_real tmm_base_angle[ARM50_STAGES]; /**< prescribed base angle, at each stage of the step [rad] */
+#ifndef base_angle
+    arm50_real base_angle[ARM50_STAGES]; /**< prescribed base angle, at each stage of the step [rad] */
+#else /* a macro would replace the name */
+    arm50_real tmm_base_angle[ARM50_STAGES];
+#endif
 } arm50_inputs;
 
 /** What the scene asks to know. */
 typedef struct {
-    arm50_real tmm_tip_x; /**< position at the tip, x [m] */
-    arm50_real tmm_tip_y; /**< position at the tip, y [m] */
-    arm50_real tmm_tip_angle; /**< angle at the tip [rad] */
-    arm50_real tmm_reaction_x; /**< force at the base, x [N] */
-    arm50_real tmm_reaction_y; /**< force at the base, y [N] */
-    arm50_real tmm_drive; /**< torque at the base [N m] */
+#ifndef tip_x
+    arm50_real tip_x; /**< position at the tip, x [m] */
+#else /* a macro would replace the name */
+    arm50_real tmm_tip_x;
+#endif
+#ifndef tip_y
+    arm50_real tip_y; /**< position at the tip, y [m] */
+#else /* a macro would replace the name */
+    arm50_real tmm_tip_y;
+#endif
+#ifndef tip_angle
+    arm50_real tip_angle; /**< angle at the tip [rad] */
+#else /* a macro would replace the name */
+    arm50_real tmm_tip_angle;
+#endif
+#ifndef reaction_x
+    arm50_real reaction_x; /**< force at the base, x [N] */
+#else /* a macro would replace the name */
+    arm50_real tmm_reaction_x;
+#endif
+#ifndef reaction_y
+    arm50_real reaction_y; /**< force at the base, y [N] */
+#else /* a macro would replace the name */
+    arm50_real tmm_reaction_y;
+#endif
+#ifndef drive
+    arm50_real drive; /**< torque at the base [N m] */
+#else /* a macro would replace the name */
+    arm50_real tmm_drive;
+#endif
 } arm50_outputs;
 
 /**

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
- * sha256 of the rest of this file: b6be9116aece1d5c6a2a43ba0219347ddbee2a4dd95a6a82ff2a40c81f13cdc0
+ * sha256 of the rest of this file: c3b8dc18328d82ac818f292ab013e00653a5c407576c8fda53e07a49e5fbfae0
  *
  * model: planar arm, large rotations, tip mass
  * stations: 50
@@ -27,12 +27,21 @@
 #error "-Ofast and -ffast-math remove checks of this file: use -O3, or put -fno-fast-math behind them"
 #endif
 
-#include "arm50.h"
-
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <string.h>
+
+/* Members of the header below: no macro of a header above may have their names. */
+#undef base_angle
+#undef tip_x
+#undef tip_y
+#undef tip_angle
+#undef reaction_x
+#undef reaction_y
+#undef drive
+
+#include "arm50.h"
 
 typedef arm50_real real;
 
@@ -85,61 +94,61 @@ static void test_motion(tally *count)
     for (int j = 0; j < ARM50_STATIONS; ++j) {
         initial_rate[j] = (real)((7 * j + 3) % 16 - 8) / 16777216.0;
     }
-    inputs.tmm_base_angle[0] = -1.430511474609375e-06;
-    inputs.tmm_base_angle[1] = -4.76837158203125e-07;
-    inputs.tmm_base_angle[2] = 4.76837158203125e-07;
-    inputs.tmm_base_angle[3] = 1.430511474609375e-06;
-    inputs.tmm_base_angle[4] = -1.9073486328125e-06;
+    inputs.base_angle[0] = -1.430511474609375e-06;
+    inputs.base_angle[1] = -4.76837158203125e-07;
+    inputs.base_angle[2] = 4.76837158203125e-07;
+    inputs.base_angle[3] = 1.430511474609375e-06;
+    inputs.base_angle[4] = -1.9073486328125e-06;
     status = arm50_initialise(&state, &params, initial_angle, initial_rate, &inputs);
     expect_code(count, "initialise", status, ARM50_OK);
 
     /* Step 1. */
-    inputs.tmm_base_angle[0] = 9.5367431640625e-07;
-    inputs.tmm_base_angle[1] = 1.9073486328125e-06;
-    inputs.tmm_base_angle[2] = -1.430511474609375e-06;
-    inputs.tmm_base_angle[3] = -4.76837158203125e-07;
-    inputs.tmm_base_angle[4] = 4.76837158203125e-07;
+    inputs.base_angle[0] = 9.5367431640625e-07;
+    inputs.base_angle[1] = 1.9073486328125e-06;
+    inputs.base_angle[2] = -1.430511474609375e-06;
+    inputs.base_angle[3] = -4.76837158203125e-07;
+    inputs.base_angle[4] = 4.76837158203125e-07;
     status = arm50_step(&model, &state, &inputs);
     expect_code(count, "step 1", status, ARM50_OK);
     arm50_output(&model, &state, &outputs);
-    expect(count, "tmm_tip_x", outputs.tmm_tip_x, 0.7999999999936437, 5.2e-15);
-    expect(count, "tmm_tip_y", outputs.tmm_tip_y, -2.9246799722947642e-08, 1.6e-16);
-    expect(count, "tmm_tip_angle", outputs.tmm_tip_angle, -3.133217657302007e-08, 1.9e-15);
-    expect(count, "tmm_reaction_x", outputs.tmm_reaction_x, -0.0003276465637738733, 8.4e-15);
-    expect(count, "tmm_reaction_y", outputs.tmm_reaction_y, 2.5796813386601256, 4.3e-11);
-    expect(count, "tmm_drive", outputs.tmm_drive, -0.1589352020161569, 3.9e-12);
+    expect(count, "tip_x", outputs.tip_x, 0.7999999999936437, 5.2e-15);
+    expect(count, "tip_y", outputs.tip_y, -2.9246799722947642e-08, 1.6e-16);
+    expect(count, "tip_angle", outputs.tip_angle, -3.133217657302007e-08, 1.9e-15);
+    expect(count, "reaction_x", outputs.reaction_x, -0.0003276465637738733, 8.4e-15);
+    expect(count, "reaction_y", outputs.reaction_y, 2.5796813386601256, 4.3e-11);
+    expect(count, "drive", outputs.drive, -0.1589352020161569, 3.9e-12);
 
     /* Step 2. */
-    inputs.tmm_base_angle[0] = -9.5367431640625e-07;
-    inputs.tmm_base_angle[1] = 0.0;
-    inputs.tmm_base_angle[2] = 9.5367431640625e-07;
-    inputs.tmm_base_angle[3] = 1.9073486328125e-06;
-    inputs.tmm_base_angle[4] = -1.430511474609375e-06;
+    inputs.base_angle[0] = -9.5367431640625e-07;
+    inputs.base_angle[1] = 0.0;
+    inputs.base_angle[2] = 9.5367431640625e-07;
+    inputs.base_angle[3] = 1.9073486328125e-06;
+    inputs.base_angle[4] = -1.430511474609375e-06;
     status = arm50_step(&model, &state, &inputs);
     expect_code(count, "step 2", status, ARM50_OK);
     arm50_output(&model, &state, &outputs);
-    expect(count, "tmm_tip_x", outputs.tmm_tip_x, 0.7999999999930091, 5.2e-15);
-    expect(count, "tmm_tip_y", outputs.tmm_tip_y, 1.4754792375597243e-08, 1.6e-16);
-    expect(count, "tmm_tip_angle", outputs.tmm_tip_angle, -3.974691784563144e-06, 1.9e-15);
-    expect(count, "tmm_reaction_x", outputs.tmm_reaction_x, -6.965293798188813e-06, 8.4e-15);
-    expect(count, "tmm_reaction_y", outputs.tmm_reaction_y, 0.4174345325587483, 4.3e-11);
-    expect(count, "tmm_drive", outputs.tmm_drive, -0.053923043942192495, 3.9e-12);
+    expect(count, "tip_x", outputs.tip_x, 0.7999999999930091, 5.2e-15);
+    expect(count, "tip_y", outputs.tip_y, 1.4754792375597243e-08, 1.6e-16);
+    expect(count, "tip_angle", outputs.tip_angle, -3.974691784563144e-06, 1.9e-15);
+    expect(count, "reaction_x", outputs.reaction_x, -6.965293798188813e-06, 8.4e-15);
+    expect(count, "reaction_y", outputs.reaction_y, 0.4174345325587483, 4.3e-11);
+    expect(count, "drive", outputs.drive, -0.053923043942192495, 3.9e-12);
 
     /* Step 3. */
-    inputs.tmm_base_angle[0] = 1.430511474609375e-06;
-    inputs.tmm_base_angle[1] = -1.9073486328125e-06;
-    inputs.tmm_base_angle[2] = -9.5367431640625e-07;
-    inputs.tmm_base_angle[3] = 0.0;
-    inputs.tmm_base_angle[4] = 9.5367431640625e-07;
+    inputs.base_angle[0] = 1.430511474609375e-06;
+    inputs.base_angle[1] = -1.9073486328125e-06;
+    inputs.base_angle[2] = -9.5367431640625e-07;
+    inputs.base_angle[3] = 0.0;
+    inputs.base_angle[4] = 9.5367431640625e-07;
     status = arm50_step(&model, &state, &inputs);
     expect_code(count, "step 3", status, ARM50_OK);
     arm50_output(&model, &state, &outputs);
-    expect(count, "tmm_tip_x", outputs.tmm_tip_x, 0.7999999999907428, 5.2e-15);
-    expect(count, "tmm_tip_y", outputs.tmm_tip_y, 4.2879698427023643e-07, 1.6e-16);
-    expect(count, "tmm_tip_angle", outputs.tmm_tip_angle, 1.2390017072473374e-05, 1.9e-15);
-    expect(count, "tmm_reaction_x", outputs.tmm_reaction_x, -0.00015577557233715532, 8.4e-15);
-    expect(count, "tmm_reaction_y", outputs.tmm_reaction_y, 1.6692356643512634, 4.3e-11);
-    expect(count, "tmm_drive", outputs.tmm_drive, -0.10696685184478559, 3.9e-12);
+    expect(count, "tip_x", outputs.tip_x, 0.7999999999907428, 5.2e-15);
+    expect(count, "tip_y", outputs.tip_y, 4.2879698427023643e-07, 1.6e-16);
+    expect(count, "tip_angle", outputs.tip_angle, 1.2390017072473374e-05, 1.9e-15);
+    expect(count, "reaction_x", outputs.reaction_x, -0.00015577557233715532, 8.4e-15);
+    expect(count, "reaction_y", outputs.reaction_y, 1.6692356643512634, 4.3e-11);
+    expect(count, "drive", outputs.drive, -0.10696685184478559, 3.9e-12);
 
     /* State after the last step. */
     expect(count, "hub_angle", state.hub_angle, 9.5367431640625e-07, 7.1e-19);
@@ -181,11 +190,12 @@ static void test_motion(tally *count)
     memcpy(&before, &state, sizeof before);
     const real bad[] = {(real)NAN, (real)INFINITY, -(real)INFINITY};
     for (int k = 0; k < 3; ++k) {
-        const real tmm_base_angle = inputs.tmm_base_angle[ARM50_STAGES - 1];
-        inputs.tmm_base_angle[ARM50_STAGES - 1] = bad[k];
+        real good;
+        good = inputs.base_angle[ARM50_STAGES - 1];
+        inputs.base_angle[ARM50_STAGES - 1] = bad[k];
         status = arm50_step(&model, &state, &inputs);
         expect_code(count, "bad base_angle", status, ARM50_NON_FINITE_INPUT);
-        inputs.tmm_base_angle[ARM50_STAGES - 1] = tmm_base_angle;
+        inputs.base_angle[ARM50_STAGES - 1] = good;
     }
     ++count->checks;
     if (memcmp(&before, &state, sizeof state) != 0) {

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 225557ccb20983327784b6fc8326b9127fb185b183a5e99d150385ab258b9303
- * sha256 of the rest of this file: e8bcef861e1508eed6b5e1b3646c6565b9d6e406cf41b8889be95035667ae0a8
+ * sha256 of the rest of this file: 7c1755e4050d8c4c5bee0451b34666431a597a39c62dfa742b364246dbd2b043
  *
  * model: planar arm, large rotations, gravity
  * stations: 10
@@ -25,11 +25,18 @@
 #error "-Ofast and -ffast-math remove checks of this file: use -O3, or put -fno-fast-math behind them"
 #endif
 
-#include "fall10.h"
-
 #include <float.h>
 #include <math.h>
 #include <stddef.h>
+
+/* Members of the header below: no macro of a header above may have their names. */
+#undef tip_x
+#undef tip_y
+#undef speed_x
+#undef speed_y
+#undef root
+
+#include "fall10.h"
 
 typedef fall10_real real;
 
@@ -418,19 +425,19 @@ void fall10_output(
     const real length = model->length;
 
     /* Tip: position. */
-    outputs->tmm_tip_x = 0.0;
-    outputs->tmm_tip_y = 0.0;
+    outputs->tip_x = 0.0;
+    outputs->tip_y = 0.0;
 
     /* Tip: position; speed: velocity. */
-    outputs->tmm_speed_x = 0.0;
-    outputs->tmm_speed_y = 0.0;
+    outputs->speed_x = 0.0;
+    outputs->speed_y = 0.0;
     for (int j = 0; j < FALL10_STATIONS; ++j) {
-        outputs->tmm_tip_x = outputs->tmm_tip_x + length * cos(state->angle[j]);
-        outputs->tmm_tip_y = outputs->tmm_tip_y + length * sin(state->angle[j]);
-        outputs->tmm_speed_x = outputs->tmm_speed_x - length * state->rate[j] * sin(state->angle[j]);
-        outputs->tmm_speed_y = outputs->tmm_speed_y + length * state->rate[j] * cos(state->angle[j]);
+        outputs->tip_x = outputs->tip_x + length * cos(state->angle[j]);
+        outputs->tip_y = outputs->tip_y + length * sin(state->angle[j]);
+        outputs->speed_x = outputs->speed_x - length * state->rate[j] * sin(state->angle[j]);
+        outputs->speed_y = outputs->speed_y + length * state->rate[j] * cos(state->angle[j]);
     }
 
     /* Root: torque. */
-    outputs->tmm_root = state->angle[0] * model->stiffness[0] + model->damping[0] * state->rate[0];
+    outputs->root = state->angle[0] * model->stiffness[0] + model->damping[0] * state->rate[0];
 }

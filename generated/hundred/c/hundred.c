@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 1ec2a071f5720229c3b5c9d847fa0a44d6fa112015051ca13c1d73444e6eb10a
- * sha256 of the rest of this file: e53f40a05c8914fdedf3a5075d2b5faaf49800abb95d1003ea08a263604590cc
+ * sha256 of the rest of this file: 887e108ab48d977123e0ebc38ceaa6d7489bea1daf6d4ab9eb1a319167cd5450
  *
  * model: torsional chain (linear)
  * stations: 100
@@ -23,17 +23,23 @@
 #error "-Ofast and -ffast-math remove checks of this file: use -O3, or put -fno-fast-math behind them"
 #endif
 
-#include "hundred.h"
-
 #include <float.h>
 #include <math.h>
 #include <stddef.h>
+
+/* Members of the header below: no macro of a header above may have their names. */
+#undef tip_torque
+#undef tip
+#undef middle
+#undef base_torque
+
+#include "hundred.h"
 
 typedef hundred_real real;
 
 static int inputs_are_finite(const hundred_inputs *inputs)
 {
-    if (!isfinite(inputs->tmm_tip_torque)) {
+    if (!isfinite(inputs->tip_torque)) {
         return 0;
     }
     return 1;
@@ -138,7 +144,7 @@ hundred_status hundred_initialise(
     }
 
     /* Sweep inward: torque beyond each joint as if its inner side did not move. */
-    real bias = inputs->tmm_tip_torque;
+    real bias = inputs->tip_torque;
 
     /* Torque of each joint at the known motion; sweep inward: torque beyond each joint as if its inner side
      * did not move; sweep outward: the unknown of each station; motion at the end of the step. */
@@ -192,7 +198,7 @@ hundred_status hundred_step(
 
     /* Motion known before the sweep; torque of each joint at the known motion; sweep inward: torque beyond
      * each joint as if its inner side did not move. */
-    real bias = inputs->tmm_tip_torque;
+    real bias = inputs->tip_torque;
     for (int j = HUNDRED_STATIONS - 1; j >= 1; --j) {
         known_rate[j] = state->rate[j - 1] + state->acceleration[j - 1] * rate_per_acceleration;
         known_angle[j] = state->angle[j - 1] + state->acceleration[j - 1] * angle_per_acceleration
@@ -234,7 +240,7 @@ void hundred_output(
         return;
     }
     /* Outputs. */
-    outputs->tmm_tip = state->angle[99];
-    outputs->tmm_middle = state->angle[49];
-    outputs->tmm_base_torque = state->angle[0] * model->stiffness + model->damping * state->rate[0];
+    outputs->tip = state->angle[99];
+    outputs->middle = state->angle[49];
+    outputs->base_torque = state->angle[0] * model->stiffness + model->damping * state->rate[0];
 }

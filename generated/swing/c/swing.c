@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: c9c08efbdc9f2f1b1ddadadab522649e5100f98e9cdabe31fcf56b416283c60f
- * sha256 of the rest of this file: 2769f5e6383e95e6144d700212b95dbfe6dda01da907791b2c9599c396aac9e6
+ * sha256 of the rest of this file: 55a100c64e6247c8766f70c539c47c3728d9c6d273212b69c4d87f80ccc8322c
  *
  * model: planar arm, large rotations, tip mass
  * stations: 5
@@ -24,17 +24,23 @@
 #error "-Ofast and -ffast-math remove checks of this file: use -O3, or put -fno-fast-math behind them"
 #endif
 
-#include "swing.h"
-
 #include <float.h>
 #include <math.h>
 #include <stddef.h>
+
+/* Members of the header below: no macro of a header above may have their names. */
+#undef hub_torque
+#undef tip_x
+#undef tip_y
+#undef hub
+
+#include "swing.h"
 
 typedef swing_real real;
 
 static int inputs_are_finite(const swing_inputs *inputs)
 {
-    if (!isfinite(inputs->tmm_hub_torque)) {
+    if (!isfinite(inputs->hub_torque)) {
         return 0;
     }
     return 1;
@@ -258,7 +264,7 @@ swing_status swing_initialise(
     if (!(hub_pivot > 0.0) || !(hub_pivot <= DBL_MAX)) {
         return SWING_VANISHING_PIVOT;
     }
-    real unknown = (inputs->tmm_hub_torque - torque - params->hub_damping * predicted_rate[0]
+    real unknown = (inputs->hub_torque - torque - params->hub_damping * predicted_rate[0]
         - params->hub_inertia * predicted_acceleration[0]) / hub_pivot;
     const real hub_unknown = unknown;
 
@@ -418,7 +424,7 @@ swing_status swing_step(
     if (!(hub_pivot > 0.0) || !(hub_pivot <= DBL_MAX)) {
         return SWING_VANISHING_PIVOT;
     }
-    real unknown = (inputs->tmm_hub_torque - torque - model->hub_damping * predicted_rate[0]
+    real unknown = (inputs->hub_torque - torque - model->hub_damping * predicted_rate[0]
         - model->hub_inertia * predicted_acceleration[0]) / hub_pivot;
     const real hub_unknown = unknown;
 
@@ -458,13 +464,13 @@ void swing_output(
     const real length = model->length;
 
     /* Tip: position. */
-    outputs->tmm_tip_x = 0.0;
-    outputs->tmm_tip_y = 0.0;
+    outputs->tip_x = 0.0;
+    outputs->tip_y = 0.0;
     for (int j = 0; j < SWING_STATIONS; ++j) {
-        outputs->tmm_tip_x = outputs->tmm_tip_x + length * cos(state->angle[j]);
-        outputs->tmm_tip_y = outputs->tmm_tip_y + length * sin(state->angle[j]);
+        outputs->tip_x = outputs->tip_x + length * cos(state->angle[j]);
+        outputs->tip_y = outputs->tip_y + length * sin(state->angle[j]);
     }
 
     /* Hub: angle. */
-    outputs->tmm_hub = state->hub_angle;
+    outputs->hub = state->hub_angle;
 }

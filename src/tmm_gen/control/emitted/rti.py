@@ -10,6 +10,7 @@ from tmm_gen.control.emitted.text import ControllerText
 from tmm_gen.control.rti import RealTimeIteration
 from tmm_gen.emit.c import emit_kernel
 from tmm_gen.emit.c.real import REALS
+from tmm_gen.emit.c_names import bare_names
 from tmm_gen.emit.templates import render
 from tmm_gen.program.build import build_program
 
@@ -28,12 +29,15 @@ class RtiText(ControllerText):
         Whether sensitivities are computed along the trajectory.
     stages : int
         Instants of a step at which inputs are read.
+    bare_names : list of str
+        Inputs and outputs whose members have no prefix.
     """
 
     data: RtiData
     model: str
     full: bool
     stages: int
+    bare_names: list[str]
 
     @property
     def needs_tangents(self) -> bool:
@@ -107,6 +111,7 @@ def emit_rti(name: str, title: str, controller: RealTimeIteration, real: str = "
         model=scene.name,
         full=full,
         stages=max(len(instants) for instants in program.stage_instants),
+        bare_names=bare_names(program),
     )
     context = {"mpc": mpc, "name": name, "NAME": name.upper()}
     kernel = {path.removeprefix("c/"): text for path, text in emit_kernel(program, scene).items()}

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from tmm_gen.emit.c.structs import dimension
 from tmm_gen.emit.c.wrap import INDENT, statement
-from tmm_gen.emit.c_names import c_name
+from tmm_gen.emit.c_names import member
 from tmm_gen.program.statements import Program
 from tmm_gen.program.variables import Variable
 
@@ -32,7 +32,7 @@ def finite_checks(
     sums = "{0}.high + {0}.low" if pairs else "{0}"
     by_length: dict[str, list[str]] = {}
     for variable in variables:
-        by_length.setdefault(dimension(variable, program), []).append(pointer + c_name(variable))
+        by_length.setdefault(dimension(variable, program), []).append(pointer + member(variable, program.name))
     for length, names in by_length.items():
         if not length:
             yield from check([sums.format(name) for name in names], failure, 1)

@@ -14,7 +14,7 @@ from tmm_gen.emit.c.estimate import FUNCTIONS, Estimate, estimate_of
 from tmm_gen.emit.c.kernel import Kernel
 from tmm_gen.emit.c.pair import is_pair, pair_literal, parts
 from tmm_gen.emit.c.real import FLOAT, Real
-from tmm_gen.emit.c_names import c_element
+from tmm_gen.emit.c_names import element_name
 from tmm_gen.program.evaluate import Values, VanishingPivotError, allocate, execute, key
 from tmm_gen.program.statements import Program
 from tmm_gen.program.variables import Ref, Variable
@@ -99,7 +99,7 @@ def vectors(kernel: Kernel) -> Vectors:
     def expected(ref: Ref, record: dict[Ref, Estimate]) -> Expected:
         pair = real.pair and is_pair(ref.variable)
         value = _literal(record[ref].value, real, pair)
-        return Expected(c_element(ref), value, real.literal(tolerance[ref.variable]))
+        return Expected(element_name(ref, program.name), value, real.literal(tolerance[ref.variable]))
 
     steps = tuple(
         Step(_inputs(program, k + 1, spread, real), tuple(expected(v.ref, record) for v in program.outputs))
@@ -166,7 +166,7 @@ def _inputs(program: Program, k: int, spread: int, real: Real) -> tuple[tuple[st
         for stage in range(variable.length or 1)
     ]
     return tuple(
-        (c_element(ref), real.literal(_input(which, k, stage, spread))) for which, stage, ref in members
+        (element_name(ref, program.name), real.literal(_input(which, k, stage, spread))) for which, stage, ref in members
     )
 
 
