@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tmm_gen.scene import Problem, SceneError, load_scene
+from tmm_gen.scene import Problem, SceneError, load_scene, parse_scene
 
 
 @dataclass(frozen=True)
@@ -468,3 +468,18 @@ def test_a_scene_without_outputs(tmp_path: Path, chain: str) -> None:
 def test_no_file_is_written(tmp_path: Path, chain: str) -> None:
     problems(tmp_path / "arm.toml", chain.replace("20.0", "-1"))
     assert [path.name for path in tmp_path.iterdir()] == ["arm.toml"]
+
+
+@pytest.mark.parametrize("name", ["angles", "rates", "accelerations", "step"])
+def test_an_input_called_as_a_state_of_the_box_is_refused_with_a_box_only(name: str) -> None:
+    text = (
+        'name = "arm"\n[model]\nkind = "chain"\n[integrator]\nname = "newmark"\nstep = 0.01\n[base]\nkind = "clamp"\n'
+        "[[joint]]\nstiffness = 1.0\n[[link]]\ninertia = 1.0\n"
+        f'[[input]]\nname = "{name}"\nat = "tip"\nacts = "torque"\n[[output]]\nname = "tip"\nat = "tip"\nof = "angle"\n'
+    )
+    assert parse_scene(text).inputs[0].name == name
+    with pytest.raises(SceneError) as refused:
+        parse_scene(f"{text}[emit.box]\n{name} = [0.5, 1.0]\n")
+    (problem,) = refused.value.problems
+    assert (problem.key, problem.value) == ("input[1].name", name)
+    assert f"'{name}_1'" in problem.remedy

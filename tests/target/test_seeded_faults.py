@@ -47,9 +47,7 @@ OVERFLOW = Fault(
     "overflow", "angle_per_acceleration * unknown;", "angle_per_acceleration * unknown * 1e38f * 1e3f;"
 )
 WRONG_SIGN = Fault("wrong sign", "(bias - joint_torque);", "(bias + joint_torque);")
-DOUBLE = Fault(
-    "implicit double", "real unknown = 0.0f;", "real unknown = (real)(0.1 * inputs->tip_torque);"
-)
+DOUBLE = Fault("implicit double", "real unknown = 0.0f;", "real unknown = (real)(0.1 * inputs->tip_torque);")
 
 
 @pytest.fixture(scope="module")

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: c5e09abbb61734735cef8cfddf39dd959eb5765da3ad6484bed2957b4fdf212c
- * sha256 of the rest of this file: fc6fcea203cc72df08bffe24f93ae78ac5643bd2947f984bf2cfab9d54cecf9a
+ * sha256 of the rest of this file: 09b2cfde01ce647d752c808cefbbf9a48d24567f812c69f41fe6ece685738144
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 2
@@ -103,18 +103,19 @@ arm2_status arm2_prepare(
     if (model == NULL || params == NULL) {
         return ARM2_NULL_POINTER;
     }
-    if (!isfinite(step) || !(step > 0.0)) {
+    if (!(step > 0.0) || !(step <= DBL_MAX)) {
         return ARM2_INVALID_STEP;
     }
+    /* Infinities and NaN less themselves are NaN, all other numbers 0. */
+    real lost = (params->gravity - params->gravity) + (params->hub_inertia - params->hub_inertia)
+        + (params->hub_damping - params->hub_damping) + (params->tip_mass - params->tip_mass)
+        + (params->tip_inertia - params->tip_inertia);
     for (int j = 0; j < ARM2_STATIONS; ++j) {
-        if (!isfinite(params->length[j]) || !isfinite(params->mass[j]) || !isfinite(params->inertia[j])
-            || !isfinite(params->center[j]) || !isfinite(params->stiffness[j])
-            || !isfinite(params->damping[j])) {
-            return ARM2_NON_FINITE_INPUT;
-        }
+        lost += (params->length[j] - params->length[j]) + (params->mass[j] - params->mass[j])
+            + (params->inertia[j] - params->inertia[j]) + (params->center[j] - params->center[j])
+            + (params->stiffness[j] - params->stiffness[j]) + (params->damping[j] - params->damping[j]);
     }
-    if (!isfinite(params->gravity) || !isfinite(params->hub_inertia) || !isfinite(params->hub_damping)
-        || !isfinite(params->tip_mass) || !isfinite(params->tip_inertia)) {
+    if (!(lost >= 0.0)) {
         return ARM2_NON_FINITE_INPUT;
     }
 

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 225557ccb20983327784b6fc8326b9127fb185b183a5e99d150385ab258b9303
- * sha256 of the rest of this file: 7c1755e4050d8c4c5bee0451b34666431a597a39c62dfa742b364246dbd2b043
+ * sha256 of the rest of this file: 23d4fcda3b68b8dcb079827b07fb12726b8566105bba01a3335216b7b38e79a5
  *
  * model: planar arm, large rotations, gravity
  * stations: 10
@@ -72,17 +72,18 @@ fall10_status fall10_prepare(
     if (model == NULL || params == NULL) {
         return FALL10_NULL_POINTER;
     }
-    if (!isfinite(step) || !(step > 0.0)) {
+    if (!(step > 0.0) || !(step <= DBL_MAX)) {
         return FALL10_INVALID_STEP;
     }
-    if (!isfinite(params->length) || !isfinite(params->mass) || !isfinite(params->inertia)
-        || !isfinite(params->center) || !isfinite(params->gravity)) {
-        return FALL10_NON_FINITE_INPUT;
-    }
+    /* Infinities and NaN less themselves are NaN, all other numbers 0. */
+    real lost = (params->length - params->length) + (params->mass - params->mass)
+        + (params->inertia - params->inertia) + (params->center - params->center)
+        + (params->gravity - params->gravity);
     for (int j = 0; j < FALL10_STATIONS; ++j) {
-        if (!isfinite(params->stiffness[j]) || !isfinite(params->damping[j])) {
-            return FALL10_NON_FINITE_INPUT;
-        }
+        lost += (params->stiffness[j] - params->stiffness[j]) + (params->damping[j] - params->damping[j]);
+    }
+    if (!(lost >= 0.0)) {
+        return FALL10_NON_FINITE_INPUT;
     }
 
     /* Masses by the ends they act at, and joint impedances. */

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 1ec2a071f5720229c3b5c9d847fa0a44d6fa112015051ca13c1d73444e6eb10a
- * sha256 of the rest of this file: 887e108ab48d977123e0ebc38ceaa6d7489bea1daf6d4ab9eb1a319167cd5450
+ * sha256 of the rest of this file: 315a8a621b1d3e38cc4ba52e600af0eec4120d644a58c0a7ee99ef95a0585350
  *
  * model: torsional chain (linear)
  * stations: 100
@@ -63,10 +63,13 @@ hundred_status hundred_prepare(
     if (model == NULL || params == NULL) {
         return HUNDRED_NULL_POINTER;
     }
-    if (!isfinite(step) || !(step > 0.0)) {
+    if (!(step > 0.0) || !(step <= DBL_MAX)) {
         return HUNDRED_INVALID_STEP;
     }
-    if (!isfinite(params->stiffness) || !isfinite(params->damping) || !isfinite(params->inertia)) {
+    /* Infinities and NaN less themselves are NaN, all other numbers 0. */
+    const real lost = (params->stiffness - params->stiffness) + (params->damping - params->damping)
+        + (params->inertia - params->inertia);
+    if (!(lost >= 0.0)) {
         return HUNDRED_NON_FINITE_INPUT;
     }
 

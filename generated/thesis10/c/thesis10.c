@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: ee57f7952242f19cc6be0f26d3460a304cc65a1747711d25b990a158587c6f1f
- * sha256 of the rest of this file: 2697c5b1acc458359c57345b39d8a5b2293c4494d4b25da73ff7393805c71eff
+ * sha256 of the rest of this file: 838f92a1c2a8d047260cce3b852088366d65879c4432b8e2f1f1dcad8e5d5b44
  *
  * model: torsional chain (linear)
  * stations: 10
@@ -62,10 +62,13 @@ thesis10_status thesis10_prepare(
     if (model == NULL || params == NULL) {
         return THESIS10_NULL_POINTER;
     }
-    if (!isfinite(step) || !(step > 0.0)) {
+    if (!(step > 0.0) || !(step <= DBL_MAX)) {
         return THESIS10_INVALID_STEP;
     }
-    if (!isfinite(params->stiffness) || !isfinite(params->damping) || !isfinite(params->inertia)) {
+    /* Infinities and NaN less themselves are NaN, all other numbers 0. */
+    const real lost = (params->stiffness - params->stiffness) + (params->damping - params->damping)
+        + (params->inertia - params->inertia);
+    if (!(lost >= 0.0)) {
         return THESIS10_NON_FINITE_INPUT;
     }
 

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 8302c2fdab02afb73919e09c91c3abafc3d83d0760e2c0e63be40bfdc341e62e
- * sha256 of the rest of this file: 8090a481815a04dd57206b423424d7bf5e218959ec654ad17b5b22f5a625c547
+ * sha256 of the rest of this file: 7af8f8006b5b368366e689e61a86d42c52546c2232f78a4662b51626ff9263b8
  *
  * model: torsional chain (linear)
  * stations: 2
@@ -62,10 +62,13 @@ thesis2_status thesis2_prepare(
     if (model == NULL || params == NULL) {
         return THESIS2_NULL_POINTER;
     }
-    if (!isfinite(step) || !(step > 0.0)) {
+    if (!(step > 0.0) || !(step <= DBL_MAX)) {
         return THESIS2_INVALID_STEP;
     }
-    if (!isfinite(params->stiffness) || !isfinite(params->damping) || !isfinite(params->inertia)) {
+    /* Infinities and NaN less themselves are NaN, all other numbers 0. */
+    const real lost = (params->stiffness - params->stiffness) + (params->damping - params->damping)
+        + (params->inertia - params->inertia);
+    if (!(lost >= 0.0)) {
         return THESIS2_NON_FINITE_INPUT;
     }
 

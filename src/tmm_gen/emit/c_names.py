@@ -85,13 +85,15 @@ def declared(name: str, head: str, tail: str, doc: str) -> list[str]:
 def macros(scene: str) -> str:
     """Return what stands in front of a scene's macros and statuses.
 
-    Its name in capitals; a name that has capitals itself, so that capitals could not tell it from another (``Arm``,
-    ``ARM``), and one of a single letter, as systems have them (``R_OK`` of POSIX), keep their form behind
-    :data:`PREFIX`. Different for different names, since no name in capitals alone begins with small letters.
+    Its name in capitals. A name that has capitals itself, so that capitals could not tell it from another (``Arm``,
+    ``ARM``), one of a single letter, as systems have them (``R_OK`` of POSIX), and one that ends in ``_invalid``
+    (``ARM_INVALID_STEP`` is a status of ``arm``) keep their form behind :data:`PREFIX`. Different for different names,
+    since no name in capitals alone begins with small letters.
 
     Parameters
     ----------
     scene : str
         Name of a scene.
     """
-    return scene.upper() if scene == scene.lower() and len(scene) > 1 else PREFIX + scene
+    told_apart = scene == scene.lower() and len(scene) > 1 and not scene.endswith("_invalid")
+    return scene.upper() if told_apart else PREFIX + scene

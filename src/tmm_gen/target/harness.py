@@ -65,7 +65,9 @@ def harness(kernel: Kernel, counter: str, steps: int = STEPS) -> str:
 
 def _wave(kernel: Kernel, which: int, variable: Variable) -> Wave:
     low, high = swing(kernel.scene, variable.name)
-    members = tuple(element_name(variable.entry(stage), kernel.program.name) for stage in range(variable.length or 1))
+    members = tuple(
+        element_name(variable.entry(stage), kernel.program.name) for stage in range(variable.length or 1)
+    )
     literal = kernel.real.literal
     return Wave(members, which, literal((low + high) / 2.0), literal((high - low) / 2.0))
 

@@ -13,7 +13,7 @@ import pytest
 from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
-from tmm_gen.emit.c import emit_c
+from tmm_gen.emit.c import emit_c, emit_kernel
 from tmm_gen.emit.c_names import PREFIX, macros, signal
 from tmm_gen.program.build import build_program
 from tmm_gen.scene import parse_scene
@@ -146,7 +146,9 @@ def first_of(scene: str, called: list[str], behind: str) -> str:
     body = "".join(use(scene, name, "in->{} = 1.0f;") for name in called[:3])
     body += "".join(use(scene, name, "if (out->{} > 2.0f) return 1;") for name in called[3:])
     head = f"int first_{scene}({scene}_inputs *in, const {scene}_outputs *out)"
-    return f'#include "{scene}.h"\n{head};\n{head}\n{{\n{body}    return 0;\n}}\n{behind}#include "{scene}.h"\n'
+    return (
+        f'#include "{scene}.h"\n{head};\n{head}\n{{\n{body}    return 0;\n}}\n{behind}#include "{scene}.h"\n'
+    )
 
 
 @FEW
@@ -228,6 +230,42 @@ def test_macros_of_two_names_differ() -> None:
         for name in ("arm", "Arm", "ARM", "aRM", "tmm_arm", "tmm_Arm", "a", "A", "TMM_A", "tmm_a")
     ]
     assert len(set(found)) == len(found)
+
+
+def test_names_of_one_scene_are_never_those_of_another() -> None:
+    """``arm_default_params`` is a function of ``arm``: no scene ``arm_default`` may have params in its program."""
+    called = ["u", "v", "w", "x", "y"]
+    ends: set[str] = set()
+    for kind, integrator, changes in (
+        ("chain", "sdirk2", "sensitivities = true"),
+        ("planar", "newmark", 'trigonometry = "own"'),
+        ("chain", "newmark", 'real = "float32"\ncompensated = true'),
+    ):
+        text = scene_text("arm", called, kind=kind).replace('real = "float64"', changes)
+        scene = parse_scene(text.replace('"newmark"', f'"{integrator}"'))
+        for path, content in emit_kernel(build_program(scene), scene).items():
+            if path.endswith(".h"):
+                code = re.sub(r"/\*.*?\*/", "", content, flags=re.DOTALL)
+                ends |= set(re.findall(r"\b(?:arm|ARM)_(\w+)", code))
+    assert {
+        "default_params",
+        "INVALID_STEP",
+        "STEP",
+        "params",
+        "state_tangents",
+        "pair",
+        "STAGES",
+        "LANES",
+        "LARGEST_ANGLE",
+    } <= ends
+
+    def names_of(scene: str) -> set[str]:
+        return {f"{macros(scene) if end.isupper() else scene}_{end}" for end in ends}
+
+    for base in ("arm", "Arm", "ARM", "a"):
+        for other in {end.rsplit("_", k)[0] for end in ends for k in range(1, end.count("_") + 1)}:
+            for scene in (f"{base}_{other}", f"{base}_{other.lower()}", f"{base}_{other.upper()}"):
+                assert scene_name_fault(scene) is not None or not names_of(base) & names_of(scene), scene
 
 
 @given(

@@ -46,7 +46,7 @@ def needed(text: str) -> set[str]:
     """Return names that a source takes from headers of the C library, functions and macros, and its own macros."""
     code = without_words(text)
     found = re.findall(r"^#include <(\w[\w/]*\.h)>", text, re.MULTILINE)
-    includes = tuple(dict.fromkeys(name for name in found if not name.startswith("fmi")))
+    includes = tuple(dict.fromkeys(name for name in found if not name.startswith(("fmi", "__fc"))))
     own = set(re.findall(r"^#define (\w+)", code, re.MULTILINE))
     used = set(re.findall(r"\b[A-Za-z]\w*", re.sub(r"^#(?:include|undef).*", "", code, flags=re.MULTILINE)))
     library_macros = set(re.findall(r"^#define (\w+)", library(includes, "-dM"), re.MULTILINE))
@@ -65,7 +65,12 @@ def sources(scene: Scene) -> dict[str, str]:
     files["harness.c"] = harness(kernel, "systick")
     if (box := box_of(scene)) is not None:
         files["proof.c"] = driver(kernel, box)
-    if kernel.real.number_size == kernel.real.size and not kernel.bound and box is None and kernel.circle is None:
+    if (
+        kernel.real.number_size == kernel.real.size
+        and not kernel.bound
+        and box is None
+        and kernel.circle is None
+    ):
         files |= _sources(program, scene.replace(**{"emit.sensitivities": None}), 2)[0]
     return files
 

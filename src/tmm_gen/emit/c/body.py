@@ -143,9 +143,7 @@ class Body:
         local = frozenset(hoisted)
         printer = self._printer(lambda ref: self._refer(ref, local))
         for variable in hoisted:
-            yield (
-                f"{INDENT}const {self._type(variable)} {local_name(variable)} = {self._placed(variable)};"
-            )
+            yield (f"{INDENT}const {self._type(variable)} {local_name(variable)} = {self._placed(variable)};")
         for variable in (*self._intermediate(), *self.routine.variables(Role.WORK), *placement.at_top):
             yield from self._declaration(variable)
         sums = self._sums

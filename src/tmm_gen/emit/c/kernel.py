@@ -144,8 +144,12 @@ class Kernel:
             members = [(number, "none", "", "unused: C has no empty structs")]
             chosen = False
         if struct.counter:
-            members.append(("int", COUNTER, "", "how many of the integrator's first steps, which differ, are done"))
-        widest = max(len(f"{INDENT}{kind} {name}{length}; /**< {doc} */") for kind, name, length, doc in members)
+            members.append(
+                ("int", COUNTER, "", "how many of the integrator's first steps, which differ, are done")
+            )
+        widest = max(
+            len(f"{INDENT}{kind} {name}{length}; /**< {doc} */") for kind, name, length, doc in members
+        )
         lines: list[str] = []
         for kind, name, length, doc in members:
             head, tail, remark = f"{INDENT}{kind} ", f"{length};", f" /**< {doc} */"
@@ -254,7 +258,9 @@ class Kernel:
     def checks(self, pointer: str, variables: tuple[Variable, ...], failure: str) -> str:
         """Return statements that leave a function with ``failure`` unless all variables are finite."""
         pairs = self.real.pair and pointer in ("params->", "state->")
-        return "\n".join(finite_checks(pointer, variables, self.program, failure, pairs))
+        return "\n".join(
+            finite_checks(pointer, variables, self.program, failure, self.real.literal(0), pairs)
+        )
 
     def model_check(self) -> str:
         """Return statements that leave prepare unless the sum of the model is finite."""

@@ -166,7 +166,8 @@ def _inputs(program: Program, k: int, spread: int, real: Real) -> tuple[tuple[st
         for stage in range(variable.length or 1)
     ]
     return tuple(
-        (element_name(ref, program.name), real.literal(_input(which, k, stage, spread))) for which, stage, ref in members
+        (element_name(ref, program.name), real.literal(_input(which, k, stage, spread)))
+        for which, stage, ref in members
     )
 
 

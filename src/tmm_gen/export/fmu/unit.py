@@ -115,7 +115,8 @@ def _sources(
                 step=number(scene.integrator.step),
                 variables=variables,
                 followed=[
-                    {"name": each, "member": signal(each, scene.name), "stem": PREFIX + each} for each in followed
+                    {"name": each, "member": signal(each, scene.name), "stem": PREFIX + each}
+                    for each in followed
                 ],
                 held=[signal(v.name, scene.name) for v in program.inputs if v.name not in followed],
                 instants=_rows(program),
