@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
- * sha256 of the rest of this file: 180e9b5f549832657b5634d16b4388d78fb0a510e5420cc781be2ea684ccb6df
+ * sha256 of the rest of this file: 5624c666a48ceb43f22d39715b015f77d62980ee59d4ecad2942cdf69877072a
  *
  * model: planar arm, large rotations, tip mass
  * stations: 50
@@ -25,21 +25,36 @@
 #error "-Ofast and -ffast-math remove checks of this file: use -O3, or put -fno-fast-math behind them"
 #endif
 
-#include "arm50.h"
-
 #include <float.h>
 #include <math.h>
 #include <stddef.h>
+
+/* Members of the header below: no macro of a header above may have their names. */
+#undef base_angle
+#undef base_angle_rate
+#undef base_angle_acceleration
+#undef tip_x
+#undef tip_y
+#undef tip_angle
+#undef reaction_x
+#undef reaction_y
+#undef drive
+
+#include "arm50.h"
 
 typedef arm50_real real;
 
 static int inputs_are_finite(const arm50_inputs *inputs)
 {
+    /* Infinities and NaN less themselves are NaN, all other numbers 0. */
+    real lost = 0.0;
     for (int j = 0; j < ARM50_STAGES; ++j) {
-        if (!isfinite(inputs->tmm_base_angle[j]) || !isfinite(inputs->tmm_base_angle_rate[j])
-            || !isfinite(inputs->tmm_base_angle_acceleration[j])) {
-            return 0;
-        }
+        lost += (inputs->base_angle[j] - inputs->base_angle[j])
+            + (inputs->base_angle_rate[j] - inputs->base_angle_rate[j])
+            + (inputs->base_angle_acceleration[j] - inputs->base_angle_acceleration[j]);
+    }
+    if (!(lost >= 0.0)) {
+        return 0;
     }
     return 1;
 }
@@ -84,17 +99,18 @@ arm50_status arm50_prepare(
     if (model == NULL || params == NULL) {
         return ARM50_NULL_POINTER;
     }
-    if (!isfinite(step) || !(step > 0.0)) {
+    if (!(step > 0.0) || !(step <= 1.7976931348623157e+308)) {
         return ARM50_INVALID_STEP;
     }
-    if (!isfinite(params->length) || !isfinite(params->mass) || !isfinite(params->inertia)
-        || !isfinite(params->center) || !isfinite(params->tip_mass) || !isfinite(params->tip_inertia)) {
-        return ARM50_NON_FINITE_INPUT;
-    }
+    /* Infinities and NaN less themselves are NaN, all other numbers 0. */
+    real lost = (params->length - params->length) + (params->mass - params->mass)
+        + (params->inertia - params->inertia) + (params->center - params->center)
+        + (params->tip_mass - params->tip_mass) + (params->tip_inertia - params->tip_inertia);
     for (int j = 0; j < ARM50_STATIONS; ++j) {
-        if (!isfinite(params->stiffness[j]) || !isfinite(params->damping[j])) {
-            return ARM50_NON_FINITE_INPUT;
-        }
+        lost += (params->stiffness[j] - params->stiffness[j]) + (params->damping[j] - params->damping[j]);
+    }
+    if (!(lost >= 0.0)) {
+        return ARM50_NON_FINITE_INPUT;
     }
 
     /* Masses by the ends they act at, and joint impedances. */
@@ -208,9 +224,9 @@ arm50_status arm50_initialise(
     real total = 0.0; /* of the new motion: is all of it finite? */
 
     /* Predicted motion. */
-    predicted_angle[0] = inputs->tmm_base_angle[0];
-    predicted_rate[0] = inputs->tmm_base_angle_rate[0];
-    predicted_acceleration[0] = inputs->tmm_base_angle_acceleration[0];
+    predicted_angle[0] = inputs->base_angle[0];
+    predicted_rate[0] = inputs->base_angle_rate[0];
+    predicted_acceleration[0] = inputs->base_angle_acceleration[0];
 
     /* Predicted motion; accelerations of the nodes. */
     real node_x = 0.0;
@@ -299,8 +315,8 @@ arm50_status arm50_initialise(
     real change_y = 0.0;
 
     /* Sweep outward: the increment of each link's unknown; motion at the end of the step. */
-    state->hub_angle = inputs->tmm_base_angle[0];
-    state->hub_rate = inputs->tmm_base_angle_rate[0];
+    state->hub_angle = inputs->base_angle[0];
+    state->hub_rate = inputs->base_angle_rate[0];
     for (int j = 0; j < ARM50_STATIONS; ++j) {
         unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y;
         change_x = change_x + swing_x[j] * unknown;
@@ -383,9 +399,9 @@ arm50_status arm50_step(
     real total = 0.0; /* of the new motion: is all of it finite? */
 
     /* Stage 1 of 5: predicted motion. */
-    predicted_angle[0] = inputs->tmm_base_angle[0];
-    predicted_rate[0] = inputs->tmm_base_angle_rate[0];
-    predicted_acceleration[0] = inputs->tmm_base_angle_acceleration[0];
+    predicted_angle[0] = inputs->base_angle[0];
+    predicted_rate[0] = inputs->base_angle_rate[0];
+    predicted_acceleration[0] = inputs->base_angle_acceleration[0];
 
     /* Stage 1 of 5: predicted motion; accelerations of the nodes. */
     real node_x = 0.0;
@@ -480,9 +496,9 @@ arm50_status arm50_step(
     real change_y = 0.0;
 
     /* Stage 2 of 5: predicted motion. */
-    predicted_angle[0] = inputs->tmm_base_angle[1];
-    predicted_rate[0] = inputs->tmm_base_angle_rate[1];
-    predicted_acceleration[0] = inputs->tmm_base_angle_acceleration[1];
+    predicted_angle[0] = inputs->base_angle[1];
+    predicted_rate[0] = inputs->base_angle_rate[1];
+    predicted_acceleration[0] = inputs->base_angle_acceleration[1];
 
     /* Stage 1 of 5: sweep outward: the increment of each link's unknown; motion at this stage. Stage 2 of 5:
      * predicted motion; accelerations of the nodes. */
@@ -584,9 +600,9 @@ arm50_status arm50_step(
     change_y = 0.0;
 
     /* Stage 3 of 5: predicted motion. */
-    predicted_angle[0] = inputs->tmm_base_angle[2];
-    predicted_rate[0] = inputs->tmm_base_angle_rate[2];
-    predicted_acceleration[0] = inputs->tmm_base_angle_acceleration[2];
+    predicted_angle[0] = inputs->base_angle[2];
+    predicted_rate[0] = inputs->base_angle_rate[2];
+    predicted_acceleration[0] = inputs->base_angle_acceleration[2];
 
     /* Stage 2 of 5: sweep outward: the increment of each link's unknown; motion at this stage. Stage 3 of 5:
      * predicted motion; accelerations of the nodes. */
@@ -690,9 +706,9 @@ arm50_status arm50_step(
     change_y = 0.0;
 
     /* Stage 4 of 5: predicted motion. */
-    predicted_angle[0] = inputs->tmm_base_angle[3];
-    predicted_rate[0] = inputs->tmm_base_angle_rate[3];
-    predicted_acceleration[0] = inputs->tmm_base_angle_acceleration[3];
+    predicted_angle[0] = inputs->base_angle[3];
+    predicted_rate[0] = inputs->base_angle_rate[3];
+    predicted_acceleration[0] = inputs->base_angle_acceleration[3];
 
     /* Stage 3 of 5: sweep outward: the increment of each link's unknown; motion at this stage. Stage 4 of 5:
      * predicted motion; accelerations of the nodes. */
@@ -797,9 +813,9 @@ arm50_status arm50_step(
     change_y = 0.0;
 
     /* Stage 5 of 5: predicted motion. */
-    predicted_angle[0] = inputs->tmm_base_angle[4];
-    predicted_rate[0] = inputs->tmm_base_angle_rate[4];
-    predicted_acceleration[0] = inputs->tmm_base_angle_acceleration[4];
+    predicted_angle[0] = inputs->base_angle[4];
+    predicted_rate[0] = inputs->base_angle_rate[4];
+    predicted_acceleration[0] = inputs->base_angle_acceleration[4];
 
     /* Stage 4 of 5: sweep outward: the increment of each link's unknown; motion at this stage. Stage 5 of 5:
      * predicted motion; accelerations of the nodes. */
@@ -906,8 +922,8 @@ arm50_status arm50_step(
     change_y = 0.0;
 
     /* Stage 5 of 5: sweep outward: the increment of each link's unknown; motion at the end of the step. */
-    state->hub_angle = inputs->tmm_base_angle[4];
-    state->hub_rate = inputs->tmm_base_angle_rate[4];
+    state->hub_angle = inputs->base_angle[4];
+    state->hub_rate = inputs->base_angle_rate[4];
     for (int j = 0; j < ARM50_STATIONS; ++j) {
         unknown = answer_own[j] + answer_from_inner[j] * unknown - answer_x[j] * change_x
             - answer_y[j] * change_y;
@@ -938,33 +954,33 @@ void arm50_output(
     const real factor_28 = model->factor_28;
 
     /* Tip: position. */
-    outputs->tmm_tip_x = 0.0;
-    outputs->tmm_tip_y = 0.0;
+    outputs->tip_x = 0.0;
+    outputs->tip_y = 0.0;
 
     /* Tip_angle: angle. */
-    outputs->tmm_tip_angle = state->angle[49];
+    outputs->tip_angle = state->angle[49];
 
     /* Tip: position; reaction: force. */
     real node_x = 0.0;
     real node_y = 0.0;
-    outputs->tmm_reaction_x = 0.0;
-    outputs->tmm_reaction_y = 0.0;
+    outputs->reaction_x = 0.0;
+    outputs->reaction_y = 0.0;
     for (int j = 0; j < ARM50_STATIONS; ++j) {
-        outputs->tmm_tip_x = outputs->tmm_tip_x + length * cos(state->angle[j]);
-        outputs->tmm_tip_y = outputs->tmm_tip_y + length * sin(state->angle[j]);
+        outputs->tip_x = outputs->tip_x + length * cos(state->angle[j]);
+        outputs->tip_y = outputs->tip_y + length * sin(state->angle[j]);
         const real inner_x = node_x;
         const real inner_y = node_y;
         node_x = node_x - state->acceleration[j] * length * sin(state->angle[j])
             - length * (state->rate[j] * state->rate[j]) * cos(state->angle[j]);
         node_y = node_y + state->acceleration[j] * length * cos(state->angle[j])
             - length * (state->rate[j] * state->rate[j]) * sin(state->angle[j]);
-        outputs->tmm_reaction_x = outputs->tmm_reaction_x - factor_27 * inner_x + factor_28 * node_x;
-        outputs->tmm_reaction_y = outputs->tmm_reaction_y - factor_27 * inner_y + factor_28 * node_y;
+        outputs->reaction_x = outputs->reaction_x - factor_27 * inner_x + factor_28 * node_x;
+        outputs->reaction_y = outputs->reaction_y - factor_27 * inner_y + factor_28 * node_y;
     }
-    outputs->tmm_reaction_x = outputs->tmm_reaction_x + node_x * model->tip_mass;
-    outputs->tmm_reaction_y = outputs->tmm_reaction_y + node_y * model->tip_mass;
+    outputs->reaction_x = outputs->reaction_x + node_x * model->tip_mass;
+    outputs->reaction_y = outputs->reaction_y + node_y * model->tip_mass;
 
     /* Drive: torque. */
-    outputs->tmm_drive = model->damping[0] * (state->rate[0] - state->hub_rate)
+    outputs->drive = model->damping[0] * (state->rate[0] - state->hub_rate)
         + model->stiffness[0] * (state->angle[0] - state->hub_angle);
 }

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
- * sha256 of the rest of this file: f31d244d2e45174633fa9e22da02e84b111f589f10605998b431a7fcb7ba9e87
+ * sha256 of the rest of this file: cca17f879b075fb562475e65bdb9ed90edb274915f7caee5022cc9e38466c817
  *
  * model: planar arm, large rotations, tip mass
  * stations: 50
@@ -128,21 +128,57 @@ typedef struct {
 /** What acts on the arm. */
 typedef struct {
     /** prescribed base angle, at each stage of the step [rad] */
+#ifndef base_angle
+    arm50_real base_angle[ARM50_STAGES];
+#else /* a macro would replace the name */
     arm50_real tmm_base_angle[ARM50_STAGES];
+#endif
     /** prescribed base rate, at each stage of the step [rad/s] */
+#ifndef base_angle_rate
+    arm50_real base_angle_rate[ARM50_STAGES];
+#else /* a macro would replace the name */
     arm50_real tmm_base_angle_rate[ARM50_STAGES];
+#endif
     /** prescribed base acceleration, at each stage of the step [rad/s^2] */
+#ifndef base_angle_acceleration
+    arm50_real base_angle_acceleration[ARM50_STAGES];
+#else /* a macro would replace the name */
     arm50_real tmm_base_angle_acceleration[ARM50_STAGES];
+#endif
 } arm50_inputs;
 
 /** What the scene asks to know. */
 typedef struct {
-    arm50_real tmm_tip_x; /**< position at the tip, x [m] */
-    arm50_real tmm_tip_y; /**< position at the tip, y [m] */
-    arm50_real tmm_tip_angle; /**< angle at the tip [rad] */
-    arm50_real tmm_reaction_x; /**< force at the base, x [N] */
-    arm50_real tmm_reaction_y; /**< force at the base, y [N] */
-    arm50_real tmm_drive; /**< torque at the base [N m] */
+#ifndef tip_x
+    arm50_real tip_x; /**< position at the tip, x [m] */
+#else /* a macro would replace the name */
+    arm50_real tmm_tip_x;
+#endif
+#ifndef tip_y
+    arm50_real tip_y; /**< position at the tip, y [m] */
+#else /* a macro would replace the name */
+    arm50_real tmm_tip_y;
+#endif
+#ifndef tip_angle
+    arm50_real tip_angle; /**< angle at the tip [rad] */
+#else /* a macro would replace the name */
+    arm50_real tmm_tip_angle;
+#endif
+#ifndef reaction_x
+    arm50_real reaction_x; /**< force at the base, x [N] */
+#else /* a macro would replace the name */
+    arm50_real tmm_reaction_x;
+#endif
+#ifndef reaction_y
+    arm50_real reaction_y; /**< force at the base, y [N] */
+#else /* a macro would replace the name */
+    arm50_real tmm_reaction_y;
+#endif
+#ifndef drive
+    arm50_real drive; /**< torque at the base [N m] */
+#else /* a macro would replace the name */
+    arm50_real tmm_drive;
+#endif
 } arm50_outputs;
 
 /**

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 260c88ca5ffe6b93ea5946fad67187e547942573db1dc2f710bcd9a0610b8738
- * sha256 of the rest of this file: daee4274a689894816550aac52b3ade608024422f149ae8ac3e4a66d44018c43
+ * sha256 of the rest of this file: 23adddae50fa4d4a52ea743e0933c5365b585501a208932a05e3dc60199e7df9
  *
  * model: torsional chain (linear)
  * stations: 6
@@ -23,17 +23,28 @@
 #error "-Ofast and -ffast-math remove checks of this file: use -O3, or put -fno-fast-math behind them"
 #endif
 
-#include "drivetrain.h"
-
 #include <float.h>
 #include <math.h>
 #include <stddef.h>
+
+/* Members of the header below: no macro of a header above may have their names. */
+#undef motor_torque
+#undef load_torque
+#undef motor_speed
+#undef roller_speed
+#undef shaft_torque
+#undef encoder
+
+#include "drivetrain.h"
 
 typedef drivetrain_real real;
 
 static int inputs_are_finite(const drivetrain_inputs *inputs)
 {
-    if (!isfinite(inputs->tmm_motor_torque) || !isfinite(inputs->tmm_load_torque)) {
+    /* Infinities and NaN less themselves are NaN, all other numbers 0. */
+    const real lost = (inputs->motor_torque - inputs->motor_torque)
+        + (inputs->load_torque - inputs->load_torque);
+    if (!(lost >= 0.0)) {
         return 0;
     }
     return 1;
@@ -74,16 +85,16 @@ drivetrain_status drivetrain_prepare(
     if (model == NULL || params == NULL) {
         return DRIVETRAIN_NULL_POINTER;
     }
-    if (!isfinite(step) || !(step > 0.0)) {
+    if (!(step > 0.0) || !(step <= 1.7976931348623157e+308)) {
         return DRIVETRAIN_INVALID_STEP;
     }
+    /* Infinities and NaN less themselves are NaN, all other numbers 0. */
+    real lost = (params->hub_inertia - params->hub_inertia) + (params->hub_damping - params->hub_damping);
     for (int j = 0; j < DRIVETRAIN_STATIONS; ++j) {
-        if (!isfinite(params->stiffness[j]) || !isfinite(params->damping[j])
-            || !isfinite(params->inertia[j])) {
-            return DRIVETRAIN_NON_FINITE_INPUT;
-        }
+        lost += (params->stiffness[j] - params->stiffness[j]) + (params->damping[j] - params->damping[j])
+            + (params->inertia[j] - params->inertia[j]);
     }
-    if (!isfinite(params->hub_inertia) || !isfinite(params->hub_damping)) {
+    if (!(lost >= 0.0)) {
         return DRIVETRAIN_NON_FINITE_INPUT;
     }
 
@@ -176,7 +187,7 @@ drivetrain_status drivetrain_initialise(
         known_angle[j + 1] = (initial_angle != NULL ? initial_angle[j] : 0.0);
         load[j] = 0.0;
     }
-    load[3] = inputs->tmm_load_torque;
+    load[3] = inputs->load_torque;
     real bias = 0.0;
 
     /* Torque of each joint at the known motion; sweep inward: torque beyond each joint as if its inner side
@@ -190,7 +201,7 @@ drivetrain_status drivetrain_initialise(
     }
 
     /* The base. */
-    const real unknown = (bias + inputs->tmm_motor_torque - params->hub_damping * known_rate[0])
+    const real unknown = (bias + inputs->motor_torque - params->hub_damping * known_rate[0])
         / params->hub_inertia;
     const real hub_unknown = unknown;
 
@@ -250,7 +261,7 @@ drivetrain_status drivetrain_step(
             + state->rate[j] * step_5_over_9;
         load[j] = 0.0;
     }
-    load[3] = inputs->tmm_load_torque;
+    load[3] = inputs->load_torque;
     real bias = 0.0;
 
     /* Torque of each joint at the known motion; sweep inward: torque beyond each joint as if its inner side
@@ -264,8 +275,7 @@ drivetrain_status drivetrain_step(
     }
 
     /* The base. */
-    real unknown = model->hub_admittance * (bias + inputs->tmm_motor_torque)
-        - model->factor_4 * known_rate[0];
+    real unknown = model->hub_admittance * (bias + inputs->motor_torque) - model->factor_4 * known_rate[0];
     const real hub_unknown = unknown;
 
     /* Sweep outward: the unknown of each station; motion at the end of the step. */
@@ -299,9 +309,9 @@ void drivetrain_output(
         return;
     }
     /* Outputs. */
-    outputs->tmm_motor_speed = state->hub_rate;
-    outputs->tmm_roller_speed = state->rate[3];
-    outputs->tmm_shaft_torque = model->damping[3] * (state->rate[3] - state->rate[2])
+    outputs->motor_speed = state->hub_rate;
+    outputs->roller_speed = state->rate[3];
+    outputs->shaft_torque = model->damping[3] * (state->rate[3] - state->rate[2])
         + model->stiffness[3] * (state->angle[3] - state->angle[2]);
-    outputs->tmm_encoder = state->angle[5];
+    outputs->encoder = state->angle[5];
 }

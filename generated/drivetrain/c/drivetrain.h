@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 260c88ca5ffe6b93ea5946fad67187e547942573db1dc2f710bcd9a0610b8738
- * sha256 of the rest of this file: 553386b2e183f4f705eb34657359347167546da44223b85dfa3a6b69fae9db5a
+ * sha256 of the rest of this file: 7b4b67b7879aa67d199ea80e2d8b954fa9e83bd0309178b0df9079ac43bcc4b7
  *
  * model: torsional chain (linear)
  * stations: 6
@@ -117,16 +117,40 @@ typedef struct {
 
 /** What acts on the arm. */
 typedef struct {
-    drivetrain_real tmm_motor_torque; /**< torque acting at the base [N m] */
-    drivetrain_real tmm_load_torque; /**< torque acting at station 4 [N m] */
+#ifndef motor_torque
+    drivetrain_real motor_torque; /**< torque acting at the base [N m] */
+#else /* a macro would replace the name */
+    drivetrain_real tmm_motor_torque;
+#endif
+#ifndef load_torque
+    drivetrain_real load_torque; /**< torque acting at station 4 [N m] */
+#else /* a macro would replace the name */
+    drivetrain_real tmm_load_torque;
+#endif
 } drivetrain_inputs;
 
 /** What the scene asks to know. */
 typedef struct {
-    drivetrain_real tmm_motor_speed; /**< velocity at the base [rad/s] */
-    drivetrain_real tmm_roller_speed; /**< velocity at station 4 [rad/s] */
-    drivetrain_real tmm_shaft_torque; /**< torque at station 4 [N m] */
-    drivetrain_real tmm_encoder; /**< angle at the tip [rad] */
+#ifndef motor_speed
+    drivetrain_real motor_speed; /**< velocity at the base [rad/s] */
+#else /* a macro would replace the name */
+    drivetrain_real tmm_motor_speed;
+#endif
+#ifndef roller_speed
+    drivetrain_real roller_speed; /**< velocity at station 4 [rad/s] */
+#else /* a macro would replace the name */
+    drivetrain_real tmm_roller_speed;
+#endif
+#ifndef shaft_torque
+    drivetrain_real shaft_torque; /**< torque at station 4 [N m] */
+#else /* a macro would replace the name */
+    drivetrain_real tmm_shaft_torque;
+#endif
+#ifndef encoder
+    drivetrain_real encoder; /**< angle at the tip [rad] */
+#else /* a macro would replace the name */
+    drivetrain_real tmm_encoder;
+#endif
 } drivetrain_outputs;
 
 /**

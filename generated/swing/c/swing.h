@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: c9c08efbdc9f2f1b1ddadadab522649e5100f98e9cdabe31fcf56b416283c60f
- * sha256 of the rest of this file: 6ff43f93f5e140c888f4a8541460fd13186d948cf089ed76f065f628615bcbc0
+ * sha256 of the rest of this file: a8177b25f5b18c9a44ad19c99b2da0c03450712fbb5e76cd70b1dbb29f00b1d2
  *
  * model: planar arm, large rotations, tip mass
  * stations: 5
@@ -102,14 +102,30 @@ typedef struct {
 
 /** What acts on the arm. */
 typedef struct {
-    swing_real tmm_hub_torque; /**< torque acting at the base [N m] */
+#ifndef hub_torque
+    swing_real hub_torque; /**< torque acting at the base [N m] */
+#else /* a macro would replace the name */
+    swing_real tmm_hub_torque;
+#endif
 } swing_inputs;
 
 /** What the scene asks to know. */
 typedef struct {
-    swing_real tmm_tip_x; /**< position at the tip, x [m] */
-    swing_real tmm_tip_y; /**< position at the tip, y [m] */
-    swing_real tmm_hub; /**< angle at the base [rad] */
+#ifndef tip_x
+    swing_real tip_x; /**< position at the tip, x [m] */
+#else /* a macro would replace the name */
+    swing_real tmm_tip_x;
+#endif
+#ifndef tip_y
+    swing_real tip_y; /**< position at the tip, y [m] */
+#else /* a macro would replace the name */
+    swing_real tmm_tip_y;
+#endif
+#ifndef hub
+    swing_real hub; /**< angle at the base [rad] */
+#else /* a macro would replace the name */
+    swing_real tmm_hub;
+#endif
 } swing_outputs;
 
 /**

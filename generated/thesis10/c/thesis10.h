@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: ee57f7952242f19cc6be0f26d3460a304cc65a1747711d25b990a158587c6f1f
- * sha256 of the rest of this file: 7f2fa6bfccbaf5fda86a7e6910b7615eef17cdcbea2a5fa3f958e32993d7808e
+ * sha256 of the rest of this file: f4522355abcf84a269c0bdf9acea43bef7b16e0d3362e839054e32324662532e
  *
  * model: torsional chain (linear)
  * stations: 10
@@ -84,13 +84,25 @@ typedef struct {
 
 /** What acts on the arm. */
 typedef struct {
-    thesis10_real tmm_tip_torque; /**< torque acting at the tip [N m] */
+#ifndef tip_torque
+    thesis10_real tip_torque; /**< torque acting at the tip [N m] */
+#else /* a macro would replace the name */
+    thesis10_real tmm_tip_torque;
+#endif
 } thesis10_inputs;
 
 /** What the scene asks to know. */
 typedef struct {
-    thesis10_real tmm_tip; /**< angle at the tip [rad] */
-    thesis10_real tmm_base_torque; /**< torque at the base [N m] */
+#ifndef tip
+    thesis10_real tip; /**< angle at the tip [rad] */
+#else /* a macro would replace the name */
+    thesis10_real tmm_tip;
+#endif
+#ifndef base_torque
+    thesis10_real base_torque; /**< torque at the base [N m] */
+#else /* a macro would replace the name */
+    thesis10_real tmm_base_torque;
+#endif
 } thesis10_outputs;
 
 /**

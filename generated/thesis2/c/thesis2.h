@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 8302c2fdab02afb73919e09c91c3abafc3d83d0760e2c0e63be40bfdc341e62e
- * sha256 of the rest of this file: ef5bb3f27b62d301d0e834c1fff0f5c6f08d4995e03edfb70b79097964bdea81
+ * sha256 of the rest of this file: 043ebda4401b72006c181bad0be0bdc167f11f2ba15d226611121f6a8aab600c
  *
  * model: torsional chain (linear)
  * stations: 2
@@ -84,13 +84,25 @@ typedef struct {
 
 /** What acts on the arm. */
 typedef struct {
-    thesis2_real tmm_tip_torque; /**< torque acting at the tip [N m] */
+#ifndef tip_torque
+    thesis2_real tip_torque; /**< torque acting at the tip [N m] */
+#else /* a macro would replace the name */
+    thesis2_real tmm_tip_torque;
+#endif
 } thesis2_inputs;
 
 /** What the scene asks to know. */
 typedef struct {
-    thesis2_real tmm_tip; /**< angle at the tip [rad] */
-    thesis2_real tmm_base_torque; /**< torque at the base [N m] */
+#ifndef tip
+    thesis2_real tip; /**< angle at the tip [rad] */
+#else /* a macro would replace the name */
+    thesis2_real tmm_tip;
+#endif
+#ifndef base_torque
+    thesis2_real base_torque; /**< torque at the base [N m] */
+#else /* a macro would replace the name */
+    thesis2_real tmm_base_torque;
+#endif
 } thesis2_outputs;
 
 /**

@@ -19,7 +19,7 @@ from tmm_gen.emit.c.real import Real
 from tmm_gen.emit.c.scalars import place_scalars
 from tmm_gen.emit.c.structs import described, dimension
 from tmm_gen.emit.c.wrap import INDENT, WIDTH, comment, statement
-from tmm_gen.emit.c_names import c_name, macros
+from tmm_gen.emit.c_names import local_name, macros, member
 from tmm_gen.program.statements import Assign, Loop, Mark, Order, Program, Repeat, Require, Routine
 from tmm_gen.program.variables import Ref, Role, Variable, refs_in
 
@@ -143,9 +143,7 @@ class Body:
         local = frozenset(hoisted)
         printer = self._printer(lambda ref: self._refer(ref, local))
         for variable in hoisted:
-            yield (
-                f"{INDENT}const {self._type(variable)} {c_name(variable)} = {self._source(variable)}{c_name(variable)};"
-            )
+            yield (f"{INDENT}const {self._type(variable)} {local_name(variable)} = {self._placed(variable)};")
         for variable in (*self._intermediate(), *self.routine.variables(Role.WORK), *placement.at_top):
             yield from self._declaration(variable)
         sums = self._sums
@@ -218,7 +216,7 @@ class Body:
         printer = self._printer(lambda ref: self._refer(ref, frozenset()))
         terms = [TOTAL] if any(sums.inside.values()) else []
         terms += [self._judged(assign, printer) for assign in sums.behind]
-        terms += [element_at(f"state->{c_name(v)}", at, self._last) + self._high for v, at in sums.ends]
+        terms += [element_at(self._placed(v), at, self._last) + self._high for v, at in sums.ends]
         if not terms:
             return ""
         return "\n".join(check([" + ".join(terms)], f"{macros(self.program.name)}_NON_FINITE_STATE", 1))
@@ -252,10 +250,13 @@ class Body:
         return ".high" if self.real.pair else ""
 
     def _refer(self, ref: Ref, local: frozenset[Variable]) -> str:
-        source = "" if ref.variable in local else self._source(ref.variable)
         if ref.variable.role is Role.GIVEN:
             return given_element(ref, self.real)
-        return element(source + c_name(ref.variable), ref)
+        return element(local_name(ref.variable) if ref.variable in local else self._placed(ref.variable), ref)
+
+    def _placed(self, variable: Variable) -> str:
+        """Return where a variable is: a local one, or a member behind its pointer."""
+        return f"{self._source(variable)}{member(variable, self.program.name)}"
 
     def _intermediate(self) -> tuple[Variable, ...]:
         if self.bound:
@@ -263,7 +264,7 @@ class Body:
         return tuple(v for v in self.routine.variables(Role.COEFFICIENT) if not self._source(v))
 
     def _declaration(self, variable: Variable) -> list[str]:
-        line = f"{INDENT}{self._type(variable)} {c_name(variable)}{dimension(variable, self.program)};"
+        line = f"{INDENT}{self._type(variable)} {local_name(variable)}{dimension(variable, self.program)};"
         remark = f" /* {described(variable)} */"
         if variable.doc and len(line) + len(remark) <= WIDTH:
             return [line + remark]
