@@ -65,7 +65,7 @@ void arm_systick_isr(void)
     const uint32_t begin = SYST_CVR;
     (void)SYST_CSR; /* reading it clears the flag */
 
-    const beam5_inputs inputs = {.tmm_hub_torque = recorded_hub_torque[k]};
+    const beam5_inputs inputs = {.hub_torque = recorded_hub_torque[k]};
     const beam5_status status = beam5_step(&state, &inputs);
     if (status != BEAM5_OK && failure == 0) {
         failure = (int)status; /* the state is what it was */
@@ -100,16 +100,16 @@ static void send(const message *next)
     printf(
         "%lu,%.9g,%.9g,%.9g,%.9g\n",
         (unsigned long)next->sample,
-        (double)next->model.tmm_hub,
-        (double)next->model.tmm_tip_x,
-        (double)next->model.tmm_tip_y,
+        (double)next->model.hub,
+        (double)next->model.tip_x,
+        (double)next->model.tip_y,
         (double)next->residual);
 }
 
 int main(void)
 {
     const float at_rest[BEAM5_STATIONS] = {0.0f};
-    const beam5_inputs none = {.tmm_hub_torque = 0.0f};
+    const beam5_inputs none = {.hub_torque = 0.0f};
 
     if (beam5_initialise(&state, at_rest, at_rest, &none) != BEAM5_OK) {
         return 1;

@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
-# sha256 of the rest of this file: a287dcf57b609db3b88ca3edc18d1286cfd2c1e65097402d0d1b798c3d3ac599
+# sha256 of the rest of this file: f38d31c187322ede65f2a0d0ac6a793f4f7b61b4ad06895ad5bda7264a47c798
 #
 # model: planar arm, large rotations, tip mass
 # stations: 50
@@ -270,9 +270,9 @@ def _prepare(p: ca.SX) -> dict[str, Any]:
 
     # Factors of the step that depend on the time step and parameters alone
     rate_per_acceleration = 0.25 * step
-    half_step = 0.5 * step
+    half_timestep = 0.5 * step
     angle_per_acceleration = 0.0625 * (step * step)
-    three_quarters_step = 0.75 * step
+    three_quarters_timestep = 0.75 * step
     predicted_rate_per_stage1_acceleration = (17.0 / 50.0) * step
     predicted_rate_per_stage2_acceleration = (21.0 / 100.0) * step
     predicted_angle_per_stage2_rate = (1.0 / 25.0) * step
@@ -295,9 +295,9 @@ def _prepare(p: ca.SX) -> dict[str, Any]:
         "tip_mass": tip_mass,
         "tip_inertia": tip_inertia,
         "rate_per_acceleration": rate_per_acceleration,
-        "half_step": half_step,
+        "half_timestep": half_timestep,
         "angle_per_acceleration": angle_per_acceleration,
-        "three_quarters_step": three_quarters_step,
+        "three_quarters_timestep": three_quarters_timestep,
         "predicted_rate_per_stage1_acceleration": predicted_rate_per_stage1_acceleration,
         "predicted_rate_per_stage2_acceleration": predicted_rate_per_stage2_acceleration,
         "predicted_angle_per_stage2_rate": predicted_angle_per_stage2_rate,
@@ -441,8 +441,8 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
         solved[j] = unknown
 
     # motion at the end of the step
-    hub_angle = base_angle[1]
-    hub_rate = base_angle_rate[1]
+    hub_angle = base_angle[0]
+    hub_rate = base_angle_rate[0]
     for j in range(STATIONS):
         angle[j] = predicted_angle[j + 1]
         rate[j] = predicted_rate[j + 1]
@@ -458,9 +458,9 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     damping = model["damping"]
     tip_inertia = model["tip_inertia"]
     rate_per_acceleration = model["rate_per_acceleration"]
-    half_step = model["half_step"]
+    half_timestep = model["half_timestep"]
     angle_per_acceleration = model["angle_per_acceleration"]
-    three_quarters_step = model["three_quarters_step"]
+    three_quarters_timestep = model["three_quarters_timestep"]
     predicted_rate_per_stage1_acceleration = model["predicted_rate_per_stage1_acceleration"]
     predicted_rate_per_stage2_acceleration = model["predicted_rate_per_stage2_acceleration"]
     predicted_angle_per_stage2_rate = model["predicted_angle_per_stage2_rate"]
@@ -522,7 +522,7 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         square = predicted_rate[j + 1] * predicted_rate[j + 1]
         relative_x[j] = -acceleration[j] * lever_sine[j] - lever_cosine[j] * square
         relative_y[j] = acceleration[j] * lever_cosine[j] - lever_sine[j] * square
-        turning = half_step * predicted_rate[j + 1]
+        turning = half_timestep * predicted_rate[j + 1]
         swing_x[j] = -lever_sine[j] - angle_per_acceleration * relative_y[j] - lever_cosine[j] * turning
         swing_y[j] = lever_cosine[j] + angle_per_acceleration * relative_x[j] - lever_sine[j] * turning
     node_x: Any = 0.0
@@ -611,9 +611,9 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     predicted_rate[0] = base_angle_rate[1]
     predicted_angle[0] = base_angle[1]
     for j in range(STATIONS):
-        predicted_rate[j + 1] = rate[j] + stage1_acceleration[j] * three_quarters_step
+        predicted_rate[j + 1] = rate[j] + stage1_acceleration[j] * three_quarters_timestep
         predicted_angle[j + 1] = (
-            angle[j] + half_step * stage1_rate[j] + predicted_rate[j + 1] * rate_per_acceleration
+            angle[j] + half_timestep * stage1_rate[j] + predicted_rate[j + 1] * rate_per_acceleration
         )
 
     # Stage 2 of 5: accelerations of the nodes
@@ -623,7 +623,7 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         square = predicted_rate[j + 1] * predicted_rate[j + 1]
         relative_x[j] = -lever_cosine[j] * square - lever_sine[j] * stage1_acceleration[j]
         relative_y[j] = lever_cosine[j] * stage1_acceleration[j] - lever_sine[j] * square
-        turning = half_step * predicted_rate[j + 1]
+        turning = half_timestep * predicted_rate[j + 1]
         swing_x[j] = -lever_sine[j] - angle_per_acceleration * relative_y[j] - lever_cosine[j] * turning
         swing_y[j] = lever_cosine[j] + angle_per_acceleration * relative_x[j] - lever_sine[j] * turning
     node_x = 0.0
@@ -736,7 +736,7 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         square = predicted_rate[j + 1] * predicted_rate[j + 1]
         relative_x[j] = -lever_cosine[j] * square - lever_sine[j] * stage2_acceleration[j]
         relative_y[j] = lever_cosine[j] * stage2_acceleration[j] - lever_sine[j] * square
-        turning = half_step * predicted_rate[j + 1]
+        turning = half_timestep * predicted_rate[j + 1]
         swing_x[j] = -lever_sine[j] - angle_per_acceleration * relative_y[j] - lever_cosine[j] * turning
         swing_y[j] = lever_cosine[j] + angle_per_acceleration * relative_x[j] - lever_sine[j] * turning
     node_x = 0.0
@@ -851,7 +851,7 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         square = predicted_rate[j + 1] * predicted_rate[j + 1]
         relative_x[j] = -lever_cosine[j] * square - lever_sine[j] * stage3_acceleration[j]
         relative_y[j] = lever_cosine[j] * stage3_acceleration[j] - lever_sine[j] * square
-        turning = half_step * predicted_rate[j + 1]
+        turning = half_timestep * predicted_rate[j + 1]
         swing_x[j] = -lever_sine[j] - angle_per_acceleration * relative_y[j] - lever_cosine[j] * turning
         swing_y[j] = lever_cosine[j] + angle_per_acceleration * relative_x[j] - lever_sine[j] * turning
     node_x = 0.0
@@ -968,7 +968,7 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         square = predicted_rate[j + 1] * predicted_rate[j + 1]
         relative_x[j] = -lever_cosine[j] * square - lever_sine[j] * stage4_acceleration[j]
         relative_y[j] = lever_cosine[j] * stage4_acceleration[j] - lever_sine[j] * square
-        turning = half_step * predicted_rate[j + 1]
+        turning = half_timestep * predicted_rate[j + 1]
         swing_x[j] = -lever_sine[j] - angle_per_acceleration * relative_y[j] - lever_cosine[j] * turning
         swing_y[j] = lever_cosine[j] + angle_per_acceleration * relative_x[j] - lever_sine[j] * turning
     node_x = 0.0

@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
-# sha256 of the rest of this file: ae9594ce7c1caf0612e5678f4ae58b50d2d850a1e9f1ced66b85a2385716c5fe
+# sha256 of the rest of this file: 3cd6a37a349911f6968662f2d9037fe0dc8129b0e746e3ba188b51f011f5fb2a
 #
 # model: planar arm, large rotations, tip mass
 # stations: 50
@@ -209,11 +209,11 @@ class Model:
         Inertia at the tip (kg m^2).
     rate_per_acceleration : array, shape (*batch)
         Rate per unit of acceleration: step/4 (s).
-    half_step : array, shape (*batch)
+    half_timestep : array, shape (*batch)
         Step/2 (s).
     angle_per_acceleration : array, shape (*batch)
         Angle per unit of acceleration: step**2/16 (s^2).
-    three_quarters_step : array, shape (*batch)
+    three_quarters_timestep : array, shape (*batch)
         3*step/4 (s).
     predicted_rate_per_stage1_acceleration : array, shape (*batch)
         17*step/50 (s).
@@ -258,9 +258,9 @@ class Model:
     tip_mass: Array
     tip_inertia: Array
     rate_per_acceleration: Array
-    half_step: Array
+    half_timestep: Array
     angle_per_acceleration: Array
-    three_quarters_step: Array
+    three_quarters_timestep: Array
     predicted_rate_per_stage1_acceleration: Array
     predicted_rate_per_stage2_acceleration: Array
     predicted_angle_per_stage2_rate: Array
@@ -416,9 +416,9 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
 
     # Factors of the step that depend on the time step and parameters alone
     rate_per_acceleration = 0.25 * step
-    half_step = 0.5 * step
+    half_timestep = 0.5 * step
     angle_per_acceleration = 0.0625 * (step * step)
-    three_quarters_step = 0.75 * step
+    three_quarters_timestep = 0.75 * step
     predicted_rate_per_stage1_acceleration = (17.0 / 50.0) * step
     predicted_rate_per_stage2_acceleration = (21.0 / 100.0) * step
     predicted_angle_per_stage2_rate = (1.0 / 25.0) * step
@@ -440,9 +440,9 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
         tip_mass,
         tip_inertia,
         rate_per_acceleration,
-        half_step,
+        half_timestep,
         angle_per_acceleration,
-        three_quarters_step,
+        three_quarters_timestep,
         predicted_rate_per_stage1_acceleration,
         predicted_rate_per_stage2_acceleration,
         predicted_angle_per_stage2_rate,
@@ -473,9 +473,9 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
         tip_mass=_kept(tip_mass, good, False),
         tip_inertia=_kept(tip_inertia, good, False),
         rate_per_acceleration=_kept(rate_per_acceleration, good, False),
-        half_step=_kept(half_step, good, False),
+        half_timestep=_kept(half_timestep, good, False),
         angle_per_acceleration=_kept(angle_per_acceleration, good, False),
-        three_quarters_step=_kept(three_quarters_step, good, False),
+        three_quarters_timestep=_kept(three_quarters_timestep, good, False),
         predicted_rate_per_stage1_acceleration=_kept(predicted_rate_per_stage1_acceleration, good, False),
         predicted_rate_per_stage2_acceleration=_kept(predicted_rate_per_stage2_acceleration, good, False),
         predicted_angle_per_stage2_rate=_kept(predicted_angle_per_stage2_rate, good, False),
@@ -656,8 +656,8 @@ def initialise(
         solved[j] = unknown
 
     # motion at the end of the step
-    hub_angle = base_angle[1]
-    hub_rate = base_angle_rate[1]
+    hub_angle = base_angle[0]
+    hub_rate = base_angle_rate[0]
     angle = predicted_angle[1:]
     rate = predicted_rate[1:]
     acceleration = predicted_acceleration[1:] + solved
@@ -711,9 +711,9 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
     damping = np.asarray(model.damping)
     tip_inertia = model.tip_inertia
     rate_per_acceleration = model.rate_per_acceleration
-    half_step = model.half_step
+    half_timestep = model.half_timestep
     angle_per_acceleration = model.angle_per_acceleration
-    three_quarters_step = model.three_quarters_step
+    three_quarters_timestep = model.three_quarters_timestep
     predicted_rate_per_stage1_acceleration = model.predicted_rate_per_stage1_acceleration
     predicted_rate_per_stage2_acceleration = model.predicted_rate_per_stage2_acceleration
     predicted_angle_per_stage2_rate = model.predicted_angle_per_stage2_rate
@@ -741,9 +741,9 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
         mass,
         tip_inertia,
         rate_per_acceleration,
-        half_step,
+        half_timestep,
         angle_per_acceleration,
-        three_quarters_step,
+        three_quarters_timestep,
         predicted_rate_per_stage1_acceleration,
         predicted_rate_per_stage2_acceleration,
         predicted_angle_per_stage2_rate,
@@ -793,7 +793,7 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
     square = predicted_rate[1:] * predicted_rate[1:]
     relative_x = -acceleration * lever_sine - lever_cosine * square
     relative_y = acceleration * lever_cosine - lever_sine * square
-    turning = half_step * predicted_rate[1:]
+    turning = half_timestep * predicted_rate[1:]
     swing_x = -lever_sine - angle_per_acceleration * relative_y - lever_cosine * turning
     swing_y = lever_cosine + angle_per_acceleration * relative_x - lever_sine * turning
     node_x: Any = 0.0
@@ -880,8 +880,8 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
     # Stage 2 of 5: predicted motion
     predicted_rate[0] = base_angle_rate[1]
     predicted_angle[0] = base_angle[1]
-    predicted_rate[1:] = rate + stage1_acceleration * three_quarters_step
-    predicted_angle[1:] = angle + half_step * stage1_rate + predicted_rate[1:] * rate_per_acceleration
+    predicted_rate[1:] = rate + stage1_acceleration * three_quarters_timestep
+    predicted_angle[1:] = angle + half_timestep * stage1_rate + predicted_rate[1:] * rate_per_acceleration
 
     # Stage 2 of 5: accelerations of the nodes
     lever_cosine = length * np.cos(predicted_angle[1:])
@@ -889,7 +889,7 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
     square = predicted_rate[1:] * predicted_rate[1:]
     relative_x = -lever_cosine * square - lever_sine * stage1_acceleration
     relative_y = lever_cosine * stage1_acceleration - lever_sine * square
-    turning = half_step * predicted_rate[1:]
+    turning = half_timestep * predicted_rate[1:]
     swing_x = -lever_sine - angle_per_acceleration * relative_y - lever_cosine * turning
     swing_y = lever_cosine + angle_per_acceleration * relative_x - lever_sine * turning
     node_x = 0.0
@@ -999,7 +999,7 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
     square = predicted_rate[1:] * predicted_rate[1:]
     relative_x = -lever_cosine * square - lever_sine * stage2_acceleration
     relative_y = lever_cosine * stage2_acceleration - lever_sine * square
-    turning = half_step * predicted_rate[1:]
+    turning = half_timestep * predicted_rate[1:]
     swing_x = -lever_sine - angle_per_acceleration * relative_y - lever_cosine * turning
     swing_y = lever_cosine + angle_per_acceleration * relative_x - lever_sine * turning
     node_x = 0.0
@@ -1111,7 +1111,7 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
     square = predicted_rate[1:] * predicted_rate[1:]
     relative_x = -lever_cosine * square - lever_sine * stage3_acceleration
     relative_y = lever_cosine * stage3_acceleration - lever_sine * square
-    turning = half_step * predicted_rate[1:]
+    turning = half_timestep * predicted_rate[1:]
     swing_x = -lever_sine - angle_per_acceleration * relative_y - lever_cosine * turning
     swing_y = lever_cosine + angle_per_acceleration * relative_x - lever_sine * turning
     node_x = 0.0
@@ -1225,7 +1225,7 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
     square = predicted_rate[1:] * predicted_rate[1:]
     relative_x = -lever_cosine * square - lever_sine * stage4_acceleration
     relative_y = lever_cosine * stage4_acceleration - lever_sine * square
-    turning = half_step * predicted_rate[1:]
+    turning = half_timestep * predicted_rate[1:]
     swing_x = -lever_sine - angle_per_acceleration * relative_y - lever_cosine * turning
     swing_y = lever_cosine + angle_per_acceleration * relative_x - lever_sine * turning
     node_x = 0.0

@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 260c88ca5ffe6b93ea5946fad67187e547942573db1dc2f710bcd9a0610b8738
-# sha256 of the rest of this file: d5c4ea62e9b248902c170a29eaa5fed8fc395bfd42e9f622db7b8cf597603c1c
+# sha256 of the rest of this file: 39a7a1de04d20475115abb79576f03772083ad8afbee22312168f2fee1932e27
 #
 # model: torsional chain (linear)
 # stations: 6
@@ -178,24 +178,24 @@ def _prepare(p: ca.SX) -> dict[str, Any]:
     # Factors of the step that depend on the time step and parameters alone
     known_rate_per_acceleration = (5.0 / 108.0) * step
     known_angle_per_acceleration = (5.0 / 243.0) * (step * step)
-    five_ninths_step = (5.0 / 9.0) * step
+    five_ninths_timestep = (5.0 / 9.0) * step
     unknown_per_known_rate = hub_admittance * hub_damping
     angle_per_acceleration_2 = (1.0 / 27.0) * (step * step)
     angle_per_unknown = (25.0 / 54.0) * (step * step)
-    twelfth_step = (1.0 / 12.0) * step
-    eleven_twelfths_step = (11.0 / 12.0) * step
+    twelfth_timestep = (1.0 / 12.0) * step
+    eleven_twelfths_timestep = (11.0 / 12.0) * step
     return {
         "step": step,
         "stiffness": stiffness,
         "damping": damping,
         "known_rate_per_acceleration": known_rate_per_acceleration,
         "known_angle_per_acceleration": known_angle_per_acceleration,
-        "five_ninths_step": five_ninths_step,
+        "five_ninths_timestep": five_ninths_timestep,
         "unknown_per_known_rate": unknown_per_known_rate,
         "angle_per_acceleration_2": angle_per_acceleration_2,
         "angle_per_unknown": angle_per_unknown,
-        "twelfth_step": twelfth_step,
-        "eleven_twelfths_step": eleven_twelfths_step,
+        "twelfth_timestep": twelfth_timestep,
+        "eleven_twelfths_timestep": eleven_twelfths_timestep,
         "admittance": admittance,
         "transmission": transmission,
         "reflection": reflection,
@@ -279,12 +279,12 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     damping = model["damping"]
     known_rate_per_acceleration = model["known_rate_per_acceleration"]
     known_angle_per_acceleration = model["known_angle_per_acceleration"]
-    five_ninths_step = model["five_ninths_step"]
+    five_ninths_timestep = model["five_ninths_timestep"]
     unknown_per_known_rate = model["unknown_per_known_rate"]
     angle_per_acceleration_2 = model["angle_per_acceleration_2"]
     angle_per_unknown = model["angle_per_unknown"]
-    twelfth_step = model["twelfth_step"]
-    eleven_twelfths_step = model["eleven_twelfths_step"]
+    twelfth_timestep = model["twelfth_timestep"]
+    eleven_twelfths_timestep = model["eleven_twelfths_timestep"]
     admittance = model["admittance"]
     transmission = model["transmission"]
     reflection = model["reflection"]
@@ -306,11 +306,13 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
 
     # motion known before the sweep
     known_rate[0] = hub_rate + hub_acceleration * known_rate_per_acceleration
-    known_angle[0] = hub_angle + five_ninths_step * hub_rate + hub_acceleration * known_angle_per_acceleration
+    known_angle[0] = (
+        hub_angle + five_ninths_timestep * hub_rate + hub_acceleration * known_angle_per_acceleration
+    )
     for j in range(STATIONS):
         known_rate[j + 1] = rate[j] + acceleration[j] * known_rate_per_acceleration
         known_angle[j + 1] = (
-            angle[j] + acceleration[j] * known_angle_per_acceleration + five_ninths_step * rate[j]
+            angle[j] + acceleration[j] * known_angle_per_acceleration + five_ninths_timestep * rate[j]
         )
 
     # forces of the joints at the motion so far
@@ -345,7 +347,7 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         + angle_per_unknown * hub_unknown
         + hub_rate * step
     )
-    hub_rate = hub_rate + eleven_twelfths_step * hub_unknown + hub_acceleration * twelfth_step
+    hub_rate = hub_rate + eleven_twelfths_timestep * hub_unknown + hub_acceleration * twelfth_timestep
     hub_acceleration = 1.5 * hub_unknown - 0.5 * hub_acceleration
     for j in range(STATIONS):
         angle[j] = (
@@ -354,7 +356,7 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
             + angle_per_unknown * solved[j]
             + rate[j] * step
         )
-        rate[j] = rate[j] + acceleration[j] * twelfth_step + eleven_twelfths_step * solved[j]
+        rate[j] = rate[j] + acceleration[j] * twelfth_timestep + eleven_twelfths_timestep * solved[j]
         acceleration[j] = 1.5 * solved[j] - 0.5 * acceleration[j]
     return _column(hub_angle, hub_rate, hub_acceleration, *angle, *rate, *acceleration)
 

@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 260c88ca5ffe6b93ea5946fad67187e547942573db1dc2f710bcd9a0610b8738
-# sha256 of the rest of this file: c4e49064426e8202dae6cf0efa93a2603ed711fd2251f1466f8a390eb4681394
+# sha256 of the rest of this file: 7b8302660af94dced6732a64d431d6e0f325f7e5948d6757d8272f4730cbe6ac
 #
 # model: torsional chain (linear)
 # stations: 6
@@ -92,7 +92,7 @@ class Model:
         5*step/108 (s).
     known_angle_per_acceleration : array, shape (*batch)
         5*step**2/243 (s^2).
-    five_ninths_step : array, shape (*batch)
+    five_ninths_timestep : array, shape (*batch)
         5*step/9 (s).
     unknown_per_known_rate : array, shape (*batch)
         Hub_admittance*hub_damping (s/rad).
@@ -100,9 +100,9 @@ class Model:
         Step**2/27 (s^2).
     angle_per_unknown : array, shape (*batch)
         25*step**2/54 (rad).
-    twelfth_step : array, shape (*batch)
+    twelfth_timestep : array, shape (*batch)
         Step/12 (s).
-    eleven_twelfths_step : array, shape (*batch)
+    eleven_twelfths_timestep : array, shape (*batch)
         11*step/12 (s).
     admittance : array, shape (6, *batch)
         Inverse pivot of each joint.
@@ -119,12 +119,12 @@ class Model:
     damping: Array
     known_rate_per_acceleration: Array
     known_angle_per_acceleration: Array
-    five_ninths_step: Array
+    five_ninths_timestep: Array
     unknown_per_known_rate: Array
     angle_per_acceleration_2: Array
     angle_per_unknown: Array
-    twelfth_step: Array
-    eleven_twelfths_step: Array
+    twelfth_timestep: Array
+    eleven_twelfths_timestep: Array
     admittance: Array
     transmission: Array
     reflection: Array
@@ -272,23 +272,23 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     # Factors of the step that depend on the time step and parameters alone
     known_rate_per_acceleration = (5.0 / 108.0) * step
     known_angle_per_acceleration = (5.0 / 243.0) * (step * step)
-    five_ninths_step = (5.0 / 9.0) * step
+    five_ninths_timestep = (5.0 / 9.0) * step
     unknown_per_known_rate = hub_admittance * hub_damping
     angle_per_acceleration_2 = (1.0 / 27.0) * (step * step)
     angle_per_unknown = (25.0 / 54.0) * (step * step)
-    twelfth_step = (1.0 / 12.0) * step
-    eleven_twelfths_step = (11.0 / 12.0) * step
+    twelfth_timestep = (1.0 / 12.0) * step
+    eleven_twelfths_timestep = (11.0 / 12.0) * step
 
     numbers = (
         step,
         known_rate_per_acceleration,
         known_angle_per_acceleration,
-        five_ninths_step,
+        five_ninths_timestep,
         unknown_per_known_rate,
         angle_per_acceleration_2,
         angle_per_unknown,
-        twelfth_step,
-        eleven_twelfths_step,
+        twelfth_timestep,
+        eleven_twelfths_timestep,
         hub_admittance,
         hub_inertia,
         hub_damping,
@@ -301,12 +301,12 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
         damping=_kept(damping, good, True),
         known_rate_per_acceleration=_kept(known_rate_per_acceleration, good, False),
         known_angle_per_acceleration=_kept(known_angle_per_acceleration, good, False),
-        five_ninths_step=_kept(five_ninths_step, good, False),
+        five_ninths_timestep=_kept(five_ninths_timestep, good, False),
         unknown_per_known_rate=_kept(unknown_per_known_rate, good, False),
         angle_per_acceleration_2=_kept(angle_per_acceleration_2, good, False),
         angle_per_unknown=_kept(angle_per_unknown, good, False),
-        twelfth_step=_kept(twelfth_step, good, False),
-        eleven_twelfths_step=_kept(eleven_twelfths_step, good, False),
+        twelfth_timestep=_kept(twelfth_timestep, good, False),
+        eleven_twelfths_timestep=_kept(eleven_twelfths_timestep, good, False),
         admittance=_kept(admittance, good, True),
         transmission=_kept(transmission, good, True),
         reflection=_kept(reflection, good, True),
@@ -456,12 +456,12 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     damping = np.asarray(model.damping)
     known_rate_per_acceleration = model.known_rate_per_acceleration
     known_angle_per_acceleration = model.known_angle_per_acceleration
-    five_ninths_step = model.five_ninths_step
+    five_ninths_timestep = model.five_ninths_timestep
     unknown_per_known_rate = model.unknown_per_known_rate
     angle_per_acceleration_2 = model.angle_per_acceleration_2
     angle_per_unknown = model.angle_per_unknown
-    twelfth_step = model.twelfth_step
-    eleven_twelfths_step = model.eleven_twelfths_step
+    twelfth_timestep = model.twelfth_timestep
+    eleven_twelfths_timestep = model.eleven_twelfths_timestep
     admittance = np.asarray(model.admittance)
     transmission = np.asarray(model.transmission)
     reflection = np.asarray(model.reflection)
@@ -478,12 +478,12 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
         step,
         known_rate_per_acceleration,
         known_angle_per_acceleration,
-        five_ninths_step,
+        five_ninths_timestep,
         unknown_per_known_rate,
         angle_per_acceleration_2,
         angle_per_unknown,
-        twelfth_step,
-        eleven_twelfths_step,
+        twelfth_timestep,
+        eleven_twelfths_timestep,
         hub_admittance,
         hub_angle,
         hub_rate,
@@ -510,9 +510,11 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
 
     # motion known before the sweep
     known_rate[0] = hub_rate + hub_acceleration * known_rate_per_acceleration
-    known_angle[0] = hub_angle + five_ninths_step * hub_rate + hub_acceleration * known_angle_per_acceleration
+    known_angle[0] = (
+        hub_angle + five_ninths_timestep * hub_rate + hub_acceleration * known_angle_per_acceleration
+    )
     known_rate[1:] = rate + acceleration * known_rate_per_acceleration
-    known_angle[1:] = angle + acceleration * known_angle_per_acceleration + five_ninths_step * rate
+    known_angle[1:] = angle + acceleration * known_angle_per_acceleration + five_ninths_timestep * rate
 
     # forces of the joints at the motion so far
     joint_torque = damping * (known_rate[1:] - known_rate[:6]) + stiffness * (
@@ -544,10 +546,10 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
         + angle_per_unknown * hub_unknown
         + hub_rate * step
     )
-    hub_rate = hub_rate + eleven_twelfths_step * hub_unknown + hub_acceleration * twelfth_step
+    hub_rate = hub_rate + eleven_twelfths_timestep * hub_unknown + hub_acceleration * twelfth_timestep
     hub_acceleration = 1.5 * hub_unknown - 0.5 * hub_acceleration
     angle = angle + acceleration * angle_per_acceleration_2 + angle_per_unknown * solved + rate * step
-    rate = rate + acceleration * twelfth_step + eleven_twelfths_step * solved
+    rate = rate + acceleration * twelfth_timestep + eleven_twelfths_timestep * solved
     acceleration = 1.5 * solved - 0.5 * acceleration
 
     numbers = (hub_angle, hub_rate, hub_acceleration)

@@ -12,6 +12,7 @@ from tmm_gen.cli import COMMANDS, main
 
 SCENES = Path(__file__).resolve().parents[2] / "scenes"
 ARGUMENTS = {"calibrate": ["record.csv"], "new": [], "build": [], "export": ["--to", "fmu"], "tune": []}
+ANY_SIGN = {"--start"}
 WITHOUT_SCENE = {"new": ["arm"], "keys": [], "integrators": [], "errata": [], "demo": []}
 
 
@@ -21,7 +22,8 @@ def _cases() -> Iterator[tuple[str, str, str]]:
             if not isinstance(parameter, click.Option) or parameter.is_flag:
                 continue
             for value in _refused(parameter.type):
-                yield name, parameter.opts[0], value
+                if not (value == "-1" and parameter.opts[0] in ANY_SIGN):
+                    yield name, parameter.opts[0], value
 
 
 def _refused(kind: click.ParamType) -> tuple[str, ...]:

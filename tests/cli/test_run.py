@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import csv
 import json
+import re
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -220,19 +223,27 @@ of = "kinetic_energy"
 """
 
 
+@pytest.mark.parametrize("backend", ["numpy", pytest.param("c", marks=pytest.mark.compiler)])
 def test_a_planar_run_says_how_far_it_is_to_be_trusted(
-    folder: Path, capsys: pytest.CaptureFixture[str]
+    backend: str, folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     scene = folder / "falling.toml"
     scene.write_text(FALLING.format(step="5e-3"))
-    said = succeed(str(scene), "--until", "1", capsys=capsys)
-    assert "of the energy that moves, sweeps left" in said
-    assert "unsolved (the step's own error: " in said
+    given = [str(scene), "--until", "1", "--backend", backend]
+    said = succeed(*given, capsys=capsys)
+    assert re.search(
+        r"\naccurate to about \S+ (% )?of the motion \(the step errs by \S+ per radian; sweeps", said
+    )
     assert "work, energy and heat balance to" in said
-    found = json.loads(succeed(str(scene), "--until", "1", "--json", capsys=capsys))
+    found = json.loads(succeed(*given, "--json", capsys=capsys))
     assert 0.0 < found["unsolved"] < 1e-6
     assert found["unsolved"] < found["step_error"] < 1e-3
+    assert 1e-6 < found["accuracy"] < 1e-2
     assert found["energy_imbalance"] < 1e-4
+    assert 1.0 <= found["sensitivity"] < 100.0
+    assert 1.0 <= found["sweeps_per_step"] < 3.0
+    fixed = json.loads(succeed(*given, "--json", "--iterations", "2", capsys=capsys))
+    assert fixed["sweeps_per_step"] is None
 
 
 @pytest.mark.parametrize("backend", ["numpy", pytest.param("c", marks=pytest.mark.compiler)])
@@ -240,21 +251,80 @@ def test_what_sweeps_have_not_solved_is_refused_and_leaves_no_file(
     backend: str, folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     scene, target = folder / "falling.toml", folder / "motion.csv"
-    scene.write_text(FALLING.format(step="0.1"))
-    given = ["run", str(scene), "--until", "1", "--backend", backend, "--csv", str(target)]
+    scene.write_text(FALLING.format(step="0.04"))
+    given = [
+        "run",
+        str(scene),
+        "--until",
+        "1",
+        "--backend",
+        backend,
+        "--csv",
+        str(target),
+        "--iterations",
+        "1",
+    ]
     assert main(given) == 1
     said = capsys.readouterr().err
     assert "one sweep per stage left loads unsolved whose work is" in said
     assert not target.exists()
     # each of the remedies it names is one
-    for remedy in ("model.iterations=2", "--step 0.01", "model.unsolved="):
+    for remedy in ("--iterations auto", "--step 0.004", "model.unsolved="):
         assert remedy in said
     accepted = said.partition("--set model.unsolved=")[2].split()[0].rstrip(".")
     for more in (
         ["--set", f"model.unsolved={accepted}"],
-        ["--set", "model.iterations=2"],
-        ["--step", "0.01"],
+        ["--iterations", "auto"],
+        ["--step", "0.004"],
     ):
         assert main([*given, *more]) == 0, more
         capsys.readouterr()
     assert target.exists()
+
+
+@pytest.mark.parametrize("sweeps", ["auto", "3"])
+def test_long_steps_are_refused_however_often_they_sweep(
+    sweeps: str, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    scene, target = folder / "falling.toml", folder / "motion.csv"
+    scene.write_text(FALLING.format(step="0.1"))
+    given = ["run", str(scene), "--until", "2", "--csv", str(target), "--iterations", sweeps]
+    assert main(given) == 1
+    said = capsys.readouterr().err
+    assert "% of the motion, more than the 5 % that a run may have" in said
+    assert not target.exists()
+    remedies = re.findall(r"--step \S+(?=;)|--until \S+(?=;)|--set \S+(?=\.\n)", said)
+    assert {remedy.split()[0] for remedy in remedies} >= {"--step", "--set"}
+    for remedy in remedies:
+        assert main([*given, *remedy.split()]) == 0, remedy
+        capsys.readouterr()
+
+
+def test_columns_that_say_nothing_are_left_out(capsys: pytest.CaptureFixture[str]) -> None:
+    scenes = {name: str(SCENES / f"{name}.toml") for name in ("arm2", "fall10")}
+    spun = succeed(scenes["arm2"], "--until", "0.05", capsys=capsys)
+    assert "at rest" not in spun
+    assert "overshoot" not in spun
+    hanging = succeed(scenes["fall10"], "--until", "0.5", capsys=capsys)
+    assert "at rest" in hanging
+    assert "-0.222991" in hanging
+
+
+def test_no_warning_of_a_library_reaches_the_terminal(folder: Path) -> None:
+    scene = folder / "falling.toml"
+    scene.write_text(FALLING.format(step="5e-3"))
+    words = [
+        sys.executable,
+        "-W",
+        "always",
+        "-m",
+        "tmm_gen",
+        "run",
+        str(scene),
+        "--until",
+        "0.2",
+        "--plot",
+        "a.png",
+    ]
+    ended = subprocess.run(words, cwd=folder, capture_output=True, text=True, check=False)
+    assert (ended.returncode, ended.stderr) == (0, "")

@@ -51,7 +51,7 @@ def test_a_page_needs_nothing_else(moved: Any) -> None:
 
 
 def test_without_a_trace_there_is_nothing_to_draw(unlike: Callable[..., Scene]) -> None:
-    run = simulate(unlike("clamp"), {}, 0.002)
+    run = simulate(unlike("clamp"), {}, 0.002, judge=False)
     with pytest.raises(ValueError, match="not traced"):
         link_angles(run)
 

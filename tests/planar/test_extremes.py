@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
-from tmm_gen.measure.planar_extremes import Extreme, judge
+from tmm_gen.measure.planar_extremes import SAYS, Extreme, judge
 
 pytestmark = pytest.mark.compiler
 
@@ -22,7 +23,7 @@ RIGHT = [
     Extreme(tip_ratio=1e4),
     Extreme(tip_ratio=1e4, links=1000, slenderness=0.01, iterations=2),
     Extreme(step=1e-6),
-    Extreme(step=0.1, iterations=2),
+    Extreme(step=0.04, iterations=2),
     Extreme(step=0.1, integrator="sdirk4", iterations=2),
     Extreme(revolutions=0.1),
     Extreme(revolutions=100.0, step=1e-4),
@@ -39,6 +40,7 @@ REFUSED = [
 def test_the_motion_is_right(extreme: Extreme) -> None:
     verdict = judge(extreme)
     assert verdict.status == "right", verdict
+    assert verdict.error <= verdict.bound
 
 
 @pytest.mark.parametrize("extreme", REFUSED, ids=str)
@@ -48,7 +50,7 @@ def test_what_a_step_cannot_follow_is_refused(extreme: Extreme) -> None:
     assert "Use a step below" in verdict.said or "must be at most" in verdict.said
 
 
-NEEDS_TWO = [
+NEEDS_MORE = [
     Extreme(links=1000),
     Extreme(links=20, stiffness=10.0, tip_ratio=0.01, step=0.01, revolutions=0.1),
     Extreme(links=20, stiffness=1e4, slenderness=1e-3, tip_ratio=1.0, revolutions=0.1),
@@ -60,12 +62,45 @@ NEEDS_TWO = [
 ]
 
 
-@pytest.mark.parametrize("extreme", NEEDS_TWO, ids=str)
-def test_where_one_sweep_leaves_too_much_it_is_refused_and_a_second_is_right(extreme: Extreme) -> None:
-    """Very many links, and blows (the arm in motion, the hub at rest) whose echoes are short beside the step."""
+def test_a_blow_that_rings_too_fast_for_any_repetition_counts_towards_the_error() -> None:
+    """Steps of twice the length leave the same wrong speed: their difference says a twentieth of the error."""
+    extreme = Extreme(stiffness=0.1, slenderness=1e-3, step=1e-5, revolutions=100.0)
     verdict = judge(extreme)
+    assert verdict.status == "right", verdict
+    assert 1e-5 < verdict.error <= SAYS * verdict.accuracy < 1e-2
+
+
+def test_a_tenth_of_the_period_is_too_long_however_well_it_is_solved() -> None:
+    for sweeps in (None, 2, 3):
+        verdict = judge(Extreme(step=0.1, iterations=sweeps))
+        assert verdict.status == "refused"
+        assert "of the motion, more than the 5 % that a run may have" in verdict.said
+
+
+@pytest.mark.parametrize("extreme", NEEDS_MORE, ids=str)
+def test_where_one_sweep_leaves_too_much_a_run_sweeps_again(extreme: Extreme) -> None:
+    """Very many links, and blows (the arm in motion, the hub at rest) whose echoes are short beside the step."""
+    verdict = judge(replace(extreme, iterations=1))
     assert verdict.status == "refused", verdict
-    assert "model.iterations=2" in verdict.said
-    verdict = judge(replace(extreme, iterations=2))
+    assert "--iterations auto" in verdict.said
+    verdict = judge(extreme)
     assert verdict.status == "right", verdict
     assert verdict.unsolved < 1e-5
+    assert verdict.sweeps > 1.0
+
+
+@pytest.mark.parametrize("times", [1.0, 10.0, 100.0])
+def test_arms_drawn_at_random_are_as_right_as_they_say_or_refused(times: float) -> None:
+    random = np.random.default_rng(int(times))
+    for _ in range(6):
+        drawn = Extreme(
+            links=5,
+            stiffness=float(10.0 ** random.uniform(-2, 2)),
+            tip_ratio=float(random.choice([0.0, 1.0, 10.0])),
+            step=times * float(10.0 ** random.uniform(-2.7, -2.2)),
+            revolutions=float(random.choice([0.0, 0.0, 0.1])),
+        )
+        verdict = judge(drawn)
+        assert verdict.status != "wrong", verdict
+        if times == 100.0:
+            assert verdict.status == "refused", verdict

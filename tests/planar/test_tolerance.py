@@ -12,7 +12,7 @@ from tmm_gen.scene import Scene
 
 @pytest.fixture(scope="module")
 def scene(falling: Callable[..., Scene]) -> Scene:
-    return falling(2)
+    return falling(2, **{"model.iterations": 1})
 
 
 @pytest.mark.parametrize(
@@ -54,7 +54,9 @@ def test_nothing_is_offered_where_nothing_is_refused(scene: Scene) -> None:
         (2e-3, 0.02, {}, "more than the 0.0001 that any step may leave (the error of this one is 2.0e-02):"),
         (2e-5, 1.0, {"model.unsolved": 1e-6}, "more than model.unsolved = 1e-06:"),
         (2e-5, 0.0, {"model.iterations": 3}, "3 sweeps per stage left"),
-        (2e-5, 0.0, {"model.iterations": 3}, "--set model.iterations=4;"),
+        (2e-5, 0.0, {"model.iterations": 3}, "Sweep as often as it takes, --iterations auto;"),
+        (2e-5, 0.0, {"model.iterations": "auto"}, "even many sweeps left"),
+        (2e-5, 0.0, {"model.iterations": "auto"}, "Take shorter steps, --step 0.0001;"),
         (2e-5, 0.0, {}, "--step 0.0001;"),
     ],
 )

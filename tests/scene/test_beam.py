@@ -3,12 +3,18 @@
 from __future__ import annotations
 
 import math
+import re
 from fractions import Fraction
 
 import pytest
-from hypothesis import given
+import sympy
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
+from tmm_gen.emit.c import emit_kernel
+from tmm_gen.emit.numpy import emit_numpy
+from tmm_gen.program.build import build_program
+from tmm_gen.scene import parse_scene
 from tmm_gen.scene.beam import Beam, Springs, beam_joints, beam_links, joint_stiffnesses
 
 RULES: tuple[Springs, ...] = ("half-clamp", "uniform", "thesis")
@@ -88,3 +94,79 @@ def test_mass_length_and_rotary_inertia_are_those_of_rods(links: int, springs: S
 def test_damping_is_proportional_to_stiffness(springs: Springs) -> None:
     for joint in beam_joints(beam(7, springs, damping_time=0.002)):
         assert joint.damping == pytest.approx(0.002 * joint.stiffness)
+
+
+DECIMALS = st.tuples(st.integers(1, 9999), st.integers(0, 3)).map(
+    lambda pair: f"{pair[0] / 10 ** pair[1]:.{pair[1]}f}"
+)
+
+
+@given(
+    ei=DECIMALS,
+    length=DECIMALS,
+    mass=DECIMALS,
+    time=DECIMALS,
+    links=st.integers(1, 60),
+    springs=st.sampled_from(RULES),
+)
+@example(ei="3.45", length="1.0", mass="0.3", time="0.002", links=10, springs="uniform")
+def test_what_is_printed_is_the_shortest_decimal_of_the_exact_value(
+    ei: str, length: str, mass: str, time: str, links: int, springs: Springs
+) -> None:
+    """EI = 3.45 in ten links of 0.1 m is 34.5 N m/rad, not the 34.49999999999999 that floats make of it."""
+    made = Beam(
+        length=float(length),
+        bending_stiffness=float(ei),
+        mass_per_length=float(mass),
+        links=links,
+        springs=springs,
+        damping_time=float(time),
+    )
+    unit = Fraction(ei) * links / Fraction(length)
+    first = {"half-clamp": Fraction(2), "uniform": Fraction(1), "thesis": Fraction(8, 9)}[springs]
+    factors = [first, *[Fraction(1)] * (links - 1)]
+    if springs == "thesis" and links > 1:
+        factors[1] = Fraction(48 * links - 72, 42 * links - 71)
+    for joint, factor in zip(beam_joints(made), factors, strict=True):
+        assert is_shortest(joint.stiffness, factor * unit)
+        assert is_shortest(joint.damping, factor * unit * Fraction(time))
+    link_length = Fraction(length) / links
+    link = beam_links(made)[0]
+    assert is_shortest(link.length, link_length)
+    assert is_shortest(link.mass, Fraction(mass) * link_length)
+    assert is_shortest(link.inertia, Fraction(mass) * link_length**3 / 12)
+
+
+def is_shortest(value: float, exact: Fraction) -> bool:
+    """Whether a number is printed as the exact one, or is the nearest where that has more digits than numbers keep."""
+    printed = Fraction(repr(value))
+    return printed == exact or (
+        not keeps(exact) and abs(Fraction(value) - exact) <= Fraction(math.ulp(value)) / 2
+    )
+
+
+def keeps(exact: Fraction) -> bool:
+    """Whether a fraction is a decimal of at most 15 digits: every such survives the way into a float and back."""
+    if set(sympy.factorint(exact.denominator)) - {2, 5}:
+        return False
+    digits = exact
+    while digits.denominator != 1:
+        digits *= 10
+    return len(str(digits.numerator).rstrip("0")) <= 15
+
+
+@settings(max_examples=5, deadline=None)
+@given(ei=DECIMALS, length=DECIMALS, links=st.integers(2, 12))
+@example(ei="3.45", length="1.0", links=10)
+def test_kernels_print_the_shortest_decimal(ei: str, length: str, links: int) -> None:
+    scene = parse_scene(
+        'name = "beam"\n[model]\nkind = "planar"\n[integrator]\nname = "newmark"\nstep = 1e-3\n[base]\nkind = "clamp"\n'
+        f"[beam]\nlength = {length}\nbending_stiffness = {ei}\nmass_per_length = 0.5\nlinks = {links}\n"
+        'springs = "uniform"\n[[output]]\nname = "tip"\nat = "tip"\nof = "position"\n'
+    )
+    exact = Fraction(ei) * links / Fraction(length)
+    texts = emit_kernel(build_program(scene), scene)
+    for text in (texts["c/beam.c"], emit_numpy(build_program(scene), scene)["kernel.py"]):
+        printed = re.findall(r"\bstiffness(?:|: ArrayLike) = ([0-9.e+-]+)[;\n]", text)
+        assert printed
+        assert all(is_shortest(float(number), exact) and number == repr(float(number)) for number in printed)

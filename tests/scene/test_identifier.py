@@ -26,6 +26,13 @@ def test_scene_names_that_hide_something(name: str) -> None:
     assert scene_name_fault(name) is not None
 
 
+@pytest.mark.parametrize("name", ["arm_default", "Arm_INVALID"])
+def test_scene_names_whose_c_would_be_that_of_another(name: str) -> None:
+    fault = scene_name_fault(name)
+    assert fault is not None
+    assert scene_name_fault(fault[1].split("'")[1]) is None
+
+
 @given(st.one_of(st.text(max_size=8), st.from_regex(r"[A-Za-z0-9_. -]{0,12}", fullmatch=True)))
 def test_accepted_names_are_identifiers_and_suggestions_are_accepted(name: str) -> None:
     fault = name_fault(name)

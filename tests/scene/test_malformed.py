@@ -490,3 +490,18 @@ def test_names_of_a_prescribed_base(angle: str, other: str, said: str, chain: st
     with pytest.raises(SceneError) as caught:
         parse_scene(text)
     assert said in str(caught.value)
+
+
+@pytest.mark.parametrize("name", ["angles", "rates", "accelerations", "step"])
+def test_an_input_called_as_a_state_of_the_box_is_refused_with_a_box_only(name: str) -> None:
+    text = (
+        'name = "arm"\n[model]\nkind = "chain"\n[integrator]\nname = "newmark"\nstep = 0.01\n[base]\nkind = "clamp"\n'
+        "[[joint]]\nstiffness = 1.0\n[[link]]\ninertia = 1.0\n"
+        f'[[input]]\nname = "{name}"\nat = "tip"\nacts = "torque"\n[[output]]\nname = "tip"\nat = "tip"\nof = "angle"\n'
+    )
+    assert parse_scene(text).inputs[0].name == name
+    with pytest.raises(SceneError) as refused:
+        parse_scene(f"{text}[emit.box]\n{name} = [0.5, 1.0]\n")
+    (problem,) = refused.value.problems
+    assert (problem.key, problem.value) == ("input[1].name", name)
+    assert f"'{name}_1'" in problem.remedy

@@ -38,7 +38,7 @@ def test_what_must_be_there_and_what_is_not_modelled() -> None:
     assert by_name["[beam]", "length"].default is None
     assert by_name["[model]", "gravity"].default == ""
     assert by_name["[[link]]", "mass"].default == ""
-    assert by_name["[model]", "iterations"].default == "1"
+    assert by_name["[model]", "iterations"].default == '"auto"'
     assert by_name["[model]", "unsolved"].default == "follows the step's own error"
     assert by_name["[base]", "inertia"].value == "number from 0"
     assert by_name["[base]", "kind"].value == '"clamp", "motor", "prescribed"'

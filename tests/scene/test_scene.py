@@ -35,7 +35,11 @@ def test_chain(chain: str) -> None:
 def test_planar(planar: str) -> None:
     scene = parse_scene(planar)
     assert (scene.title, scene.stations) == ("arm", 5)
-    assert (scene.model.gravity, scene.model.linearisation, scene.model.iterations) == (9.81, "newton", 1)
+    assert (scene.model.gravity, scene.model.linearisation, scene.model.iterations) == (
+        9.81,
+        "newton",
+        "auto",
+    )
     assert scene.beam is not None
     assert scene.tip is not None
     assert (scene.beam.springs, scene.tip.mass, scene.tip.inertia) == ("half-clamp", 0.1, 0.0)

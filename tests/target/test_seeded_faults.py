@@ -47,9 +47,7 @@ OVERFLOW = Fault(
     "overflow", "angle_per_acceleration * unknown;", "angle_per_acceleration * unknown * 1e38f * 1e3f;"
 )
 WRONG_SIGN = Fault("wrong sign", "(torque - joint_torque);", "(torque + joint_torque);")
-DOUBLE = Fault(
-    "implicit double", "real unknown = 0.0f;", "real unknown = (real)(0.1 * inputs->tmm_tip_torque);"
-)
+DOUBLE = Fault("implicit double", "real unknown = 0.0f;", "real unknown = (real)(0.1 * inputs->tip_torque);")
 
 
 @pytest.fixture(scope="module")
@@ -152,7 +150,7 @@ def test_the_analyser_finds_a_null_pointer(
 ) -> None:
     need_tool(*TOOLS["gcc_analyzer"])
     fault = Fault(
-        "null", "    real bias = inputs->tmm_tip_torque;", "    real *none = 0;\n    real bias = *none;"
+        "null", "    real bias = inputs->tip_torque;", "    real *none = 0;\n    real bias = *none;"
     )
     found = CHECKS["gcc_analyzer"](_planted(files, fault))
     assert not found.passed

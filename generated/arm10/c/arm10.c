@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: d9d28dc691ae4f0a1d62cb9cfa9f4612d111fa76a756dd286c77eac7f930ab35
- * sha256 of the rest of this file: f950727245d571ee71bb5d83ee30333771f14c6aa30795b31c21e04f024e0a69
+ * sha256 of the rest of this file: 803c2cc2c61d2e17d06b933a3a63ef0924b879d827f5a767cafe9f5761417068
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 10
@@ -25,12 +25,20 @@
 #error "-Ofast and -ffast-math remove checks of this file: use -O3, or put -fno-fast-math behind them"
 #endif
 
-#include "arm10.h"
-
 #include <float.h>
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
+
+/* Members of the header below: no macro of a header above may have their names. */
+#undef hub_torque
+#undef tip_force
+#undef tip_x
+#undef tip_y
+#undef hub
+#undef root
+
+#include "arm10.h"
 
 typedef arm10_real real;
 
@@ -90,7 +98,9 @@ static circle circle_of(real angle)
 
 static int inputs_are_finite(const arm10_inputs *inputs)
 {
-    if (!isfinite(inputs->tmm_hub_torque) || !isfinite(inputs->tmm_tip_force)) {
+    /* Infinities and NaN less themselves are NaN, all other numbers 0. */
+    const real lost = (inputs->hub_torque - inputs->hub_torque) + (inputs->tip_force - inputs->tip_force);
+    if (!(lost >= 0.0)) {
         return 0;
     }
     return 1;
@@ -131,18 +141,19 @@ arm10_status arm10_prepare(
     if (model == NULL || params == NULL) {
         return ARM10_NULL_POINTER;
     }
-    if (!isfinite(step) || !(step > 0.0)) {
+    if (!(step > 0.0) || !(step <= 1.7976931348623157e+308)) {
         return ARM10_INVALID_STEP;
     }
-    if (!isfinite(params->length) || !isfinite(params->mass) || !isfinite(params->inertia)
-        || !isfinite(params->center) || !isfinite(params->gravity) || !isfinite(params->hub_inertia)
-        || !isfinite(params->hub_damping) || !isfinite(params->tip_mass)) {
-        return ARM10_NON_FINITE_INPUT;
-    }
+    /* Infinities and NaN less themselves are NaN, all other numbers 0. */
+    real lost = (params->length - params->length) + (params->mass - params->mass)
+        + (params->inertia - params->inertia) + (params->center - params->center)
+        + (params->gravity - params->gravity) + (params->hub_inertia - params->hub_inertia)
+        + (params->hub_damping - params->hub_damping) + (params->tip_mass - params->tip_mass);
     for (int j = 0; j < ARM10_STATIONS; ++j) {
-        if (!isfinite(params->stiffness[j]) || !isfinite(params->damping[j])) {
-            return ARM10_NON_FINITE_INPUT;
-        }
+        lost += (params->stiffness[j] - params->stiffness[j]) + (params->damping[j] - params->damping[j]);
+    }
+    if (!(lost >= 0.0)) {
+        return ARM10_NON_FINITE_INPUT;
     }
 
     /* Masses at the nodes between links, and what they leave over. */
@@ -267,7 +278,7 @@ arm10_status arm10_initialise(
     real impedance_xx = end_mass;
     real impedance_yy = end_mass;
     real force_x = acceleration_x[10] * end_mass;
-    real force_y = acceleration_y[10] * end_mass - inputs->tmm_tip_force;
+    real force_y = acceleration_y[10] * end_mass - inputs->tip_force;
     real impedance_xy = 0.0;
     real impedance_yx = 0.0;
     real torque = 0.0;
@@ -311,7 +322,7 @@ arm10_status arm10_initialise(
     }
 
     /* The base. */
-    real unknown = (inputs->tmm_hub_torque - torque - params->hub_damping * predicted_rate[0]
+    real unknown = (inputs->hub_torque - torque - params->hub_damping * predicted_rate[0]
         - params->hub_inertia * predicted_acceleration[0]) / hub_pivot;
     const real hub_unknown = unknown;
 
@@ -409,7 +420,7 @@ arm10_status arm10_step(
     real impedance_xx = model->end_mass;
     real impedance_yy = model->end_mass;
     real force_x = acceleration_x[10] * model->end_mass;
-    real force_y = acceleration_y[10] * model->end_mass - inputs->tmm_tip_force;
+    real force_y = acceleration_y[10] * model->end_mass - inputs->tip_force;
     real impedance_uu = 0.0;
     real impedance_ux = 0.0;
     real impedance_uy = 0.0;
@@ -472,7 +483,7 @@ arm10_status arm10_step(
     if (!(hub_pivot > 0.00048828125) || !(hub_pivot <= DBL_MAX)) {
         return ARM10_VANISHING_PIVOT;
     }
-    real unknown = (inputs->tmm_hub_torque - torque - state->hub_acceleration * model->hub_inertia
+    real unknown = (inputs->hub_torque - torque - state->hub_acceleration * model->hub_inertia
         - model->hub_damping * predicted_rate[0]) / hub_pivot;
     const real hub_unknown = unknown;
 
@@ -511,18 +522,18 @@ void arm10_output(
     const real length = model->length;
 
     /* Tip: position. */
-    outputs->tmm_tip_x = 0.0;
-    outputs->tmm_tip_y = 0.0;
+    outputs->tip_x = 0.0;
+    outputs->tip_y = 0.0;
     for (int j = 0; j < ARM10_STATIONS; ++j) {
         const circle turn_1 = circle_of(state->angle[j]);
-        outputs->tmm_tip_x = outputs->tmm_tip_x + length * turn_1.cosine;
-        outputs->tmm_tip_y = outputs->tmm_tip_y + length * turn_1.sine;
+        outputs->tip_x = outputs->tip_x + length * turn_1.cosine;
+        outputs->tip_y = outputs->tip_y + length * turn_1.sine;
     }
 
     /* Hub: angle. */
-    outputs->tmm_hub = state->hub_angle;
+    outputs->hub = state->hub_angle;
 
     /* Root: torque. */
-    outputs->tmm_root = model->damping[0] * (state->rate[0] - state->hub_rate)
+    outputs->root = model->damping[0] * (state->rate[0] - state->hub_rate)
         + model->stiffness[0] * (state->angle[0] - state->hub_angle);
 }

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: d9d28dc691ae4f0a1d62cb9cfa9f4612d111fa76a756dd286c77eac7f930ab35
- * sha256 of the rest of this file: 17dfb47ba56d0bdfff0efdb85c218ec72b5ebc6a2b572adaeffce847692679f4
+ * sha256 of the rest of this file: aaa8abca0cd5119b0475aa6fc8f2fc796250f90e6bf5eebb43e601d2fc4583a4
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 10
@@ -109,16 +109,40 @@ typedef struct {
 
 /** What acts on the arm. */
 typedef struct {
-    arm10_real tmm_hub_torque; /**< torque acting at the base [N m] */
-    arm10_real tmm_tip_force; /**< force_y acting at the tip [N] */
+#ifndef hub_torque
+    arm10_real hub_torque; /**< torque acting at the base [N m] */
+#else /* a macro would replace the name */
+    arm10_real tmm_hub_torque;
+#endif
+#ifndef tip_force
+    arm10_real tip_force; /**< force_y acting at the tip [N] */
+#else /* a macro would replace the name */
+    arm10_real tmm_tip_force;
+#endif
 } arm10_inputs;
 
 /** What the scene asks to know. */
 typedef struct {
-    arm10_real tmm_tip_x; /**< position at the tip, x [m] */
-    arm10_real tmm_tip_y; /**< position at the tip, y [m] */
-    arm10_real tmm_hub; /**< angle at the base [rad] */
-    arm10_real tmm_root; /**< torque at station 1 [N m] */
+#ifndef tip_x
+    arm10_real tip_x; /**< position at the tip, x [m] */
+#else /* a macro would replace the name */
+    arm10_real tmm_tip_x;
+#endif
+#ifndef tip_y
+    arm10_real tip_y; /**< position at the tip, y [m] */
+#else /* a macro would replace the name */
+    arm10_real tmm_tip_y;
+#endif
+#ifndef hub
+    arm10_real hub; /**< angle at the base [rad] */
+#else /* a macro would replace the name */
+    arm10_real tmm_hub;
+#endif
+#ifndef root
+    arm10_real root; /**< torque at station 1 [N m] */
+#else /* a macro would replace the name */
+    arm10_real tmm_root;
+#endif
 } arm10_outputs;
 
 /**

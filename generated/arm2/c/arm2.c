@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: c5e09abbb61734735cef8cfddf39dd959eb5765da3ad6484bed2957b4fdf212c
- * sha256 of the rest of this file: 4c66e0d44ac70211278b9ca3981acab9f11a29e4c62775974f8de39f75e001b3
+ * sha256 of the rest of this file: 5d65b3c27c4ced3e33c24fe4d0b9ab7c429b2931a7797950fd538cac1615c77b
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 2
@@ -25,17 +25,24 @@
 #error "-Ofast and -ffast-math remove checks of this file: use -O3, or put -fno-fast-math behind them"
 #endif
 
-#include "arm2.h"
-
 #include <float.h>
 #include <math.h>
 #include <stddef.h>
+
+/* Members of the header below: no macro of a header above may have their names. */
+#undef hub_torque
+#undef tip_x
+#undef tip_y
+#undef hub
+#undef elbow
+
+#include "arm2.h"
 
 typedef arm2_real real;
 
 static int inputs_are_finite(const arm2_inputs *inputs)
 {
-    if (!isfinite(inputs->tmm_hub_torque)) {
+    if (!isfinite(inputs->hub_torque)) {
         return 0;
     }
     return 1;
@@ -97,18 +104,19 @@ arm2_status arm2_prepare(
     if (model == NULL || params == NULL) {
         return ARM2_NULL_POINTER;
     }
-    if (!isfinite(step) || !(step > 0.0)) {
+    if (!(step > 0.0) || !(step <= 1.7976931348623157e+308)) {
         return ARM2_INVALID_STEP;
     }
+    /* Infinities and NaN less themselves are NaN, all other numbers 0. */
+    real lost = (params->gravity - params->gravity) + (params->hub_inertia - params->hub_inertia)
+        + (params->hub_damping - params->hub_damping) + (params->tip_mass - params->tip_mass)
+        + (params->tip_inertia - params->tip_inertia);
     for (int j = 0; j < ARM2_STATIONS; ++j) {
-        if (!isfinite(params->length[j]) || !isfinite(params->mass[j]) || !isfinite(params->inertia[j])
-            || !isfinite(params->center[j]) || !isfinite(params->stiffness[j])
-            || !isfinite(params->damping[j])) {
-            return ARM2_NON_FINITE_INPUT;
-        }
+        lost += (params->length[j] - params->length[j]) + (params->mass[j] - params->mass[j])
+            + (params->inertia[j] - params->inertia[j]) + (params->center[j] - params->center[j])
+            + (params->stiffness[j] - params->stiffness[j]) + (params->damping[j] - params->damping[j]);
     }
-    if (!isfinite(params->gravity) || !isfinite(params->hub_inertia) || !isfinite(params->hub_damping)
-        || !isfinite(params->tip_mass) || !isfinite(params->tip_inertia)) {
+    if (!(lost >= 0.0)) {
         return ARM2_NON_FINITE_INPUT;
     }
 
@@ -278,7 +286,7 @@ arm2_status arm2_initialise(
     }
 
     /* The base. */
-    real unknown = (inputs->tmm_hub_torque - torque - params->hub_damping * predicted_rate[0]
+    real unknown = (inputs->hub_torque - torque - params->hub_damping * predicted_rate[0]
         - params->hub_inertia * predicted_acceleration[0]) / hub_pivot;
     const real hub_unknown = unknown;
 
@@ -423,7 +431,7 @@ arm2_status arm2_step(
     if (!(hub_pivot > 0.0) || !(hub_pivot <= DBL_MAX)) {
         return ARM2_VANISHING_PIVOT;
     }
-    real unknown = (inputs->tmm_hub_torque - torque - state->hub_acceleration * model->hub_inertia
+    real unknown = (inputs->hub_torque - torque - state->hub_acceleration * model->hub_inertia
         - model->hub_damping * predicted_rate[0]) / hub_pivot;
     const real hub_unknown = unknown;
 
@@ -460,17 +468,17 @@ void arm2_output(
         return;
     }
     /* Tip: position. */
-    outputs->tmm_tip_x = 0.0;
-    outputs->tmm_tip_y = 0.0;
+    outputs->tip_x = 0.0;
+    outputs->tip_y = 0.0;
     for (int j = 0; j < ARM2_STATIONS; ++j) {
-        outputs->tmm_tip_x = outputs->tmm_tip_x + model->length[j] * cos(state->angle[j]);
-        outputs->tmm_tip_y = outputs->tmm_tip_y + model->length[j] * sin(state->angle[j]);
+        outputs->tip_x = outputs->tip_x + model->length[j] * cos(state->angle[j]);
+        outputs->tip_y = outputs->tip_y + model->length[j] * sin(state->angle[j]);
     }
 
     /* Hub: angle. */
-    outputs->tmm_hub = state->hub_angle;
+    outputs->hub = state->hub_angle;
 
     /* Elbow: torque. */
-    outputs->tmm_elbow = model->damping[1] * (state->rate[1] - state->rate[0])
+    outputs->elbow = model->damping[1] * (state->rate[1] - state->rate[0])
         + model->stiffness[1] * (state->angle[1] - state->angle[0]);
 }

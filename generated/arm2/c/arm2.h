@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: c5e09abbb61734735cef8cfddf39dd959eb5765da3ad6484bed2957b4fdf212c
- * sha256 of the rest of this file: 1b6da6d9ec433a1f9b95bb2f530230a3b52eac8898708294b824857ce145f559
+ * sha256 of the rest of this file: 35f8f0a80dd462af824f105d00f626209898eddfb4db011f3ff910c50e352aef
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 2
@@ -119,15 +119,35 @@ typedef struct {
 
 /** What acts on the arm. */
 typedef struct {
-    arm2_real tmm_hub_torque; /**< torque acting at the base [N m] */
+#ifndef hub_torque
+    arm2_real hub_torque; /**< torque acting at the base [N m] */
+#else /* a macro would replace the name */
+    arm2_real tmm_hub_torque;
+#endif
 } arm2_inputs;
 
 /** What the scene asks to know. */
 typedef struct {
-    arm2_real tmm_tip_x; /**< position at the tip, x [m] */
-    arm2_real tmm_tip_y; /**< position at the tip, y [m] */
-    arm2_real tmm_hub; /**< angle at the base [rad] */
-    arm2_real tmm_elbow; /**< torque at station 2 [N m] */
+#ifndef tip_x
+    arm2_real tip_x; /**< position at the tip, x [m] */
+#else /* a macro would replace the name */
+    arm2_real tmm_tip_x;
+#endif
+#ifndef tip_y
+    arm2_real tip_y; /**< position at the tip, y [m] */
+#else /* a macro would replace the name */
+    arm2_real tmm_tip_y;
+#endif
+#ifndef hub
+    arm2_real hub; /**< angle at the base [rad] */
+#else /* a macro would replace the name */
+    arm2_real tmm_hub;
+#endif
+#ifndef elbow
+    arm2_real elbow; /**< torque at station 2 [N m] */
+#else /* a macro would replace the name */
+    arm2_real tmm_elbow;
+#endif
 } arm2_outputs;
 
 /**

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
- * sha256 of the rest of this file: c63e44edfc682c63fbdbcd9b28f44a791e9a8ebbbeef379af450edf1d06d5589
+ * sha256 of the rest of this file: a5c0de3054083bbc4010f9b4992d20610633e17bea303ef7594a99e3bb054344
  *
  * model: planar arm, large rotations, tip mass
  * stations: 50
@@ -25,21 +25,36 @@
 #error "-Ofast and -ffast-math remove checks of this file: use -O3, or put -fno-fast-math behind them"
 #endif
 
-#include "arm50.h"
-
 #include <float.h>
 #include <math.h>
 #include <stddef.h>
+
+/* Members of the header below: no macro of a header above may have their names. */
+#undef base_angle
+#undef base_angle_rate
+#undef base_angle_acceleration
+#undef tip_x
+#undef tip_y
+#undef tip_angle
+#undef reaction_x
+#undef reaction_y
+#undef drive
+
+#include "arm50.h"
 
 typedef arm50_real real;
 
 static int inputs_are_finite(const arm50_inputs *inputs)
 {
+    /* Infinities and NaN less themselves are NaN, all other numbers 0. */
+    real lost = 0.0;
     for (int j = 0; j < ARM50_STAGES; ++j) {
-        if (!isfinite(inputs->tmm_base_angle[j]) || !isfinite(inputs->tmm_base_angle_rate[j])
-            || !isfinite(inputs->tmm_base_angle_acceleration[j])) {
-            return 0;
-        }
+        lost += (inputs->base_angle[j] - inputs->base_angle[j])
+            + (inputs->base_angle_rate[j] - inputs->base_angle_rate[j])
+            + (inputs->base_angle_acceleration[j] - inputs->base_angle_acceleration[j]);
+    }
+    if (!(lost >= 0.0)) {
+        return 0;
     }
     return 1;
 }
@@ -84,17 +99,18 @@ arm50_status arm50_prepare(
     if (model == NULL || params == NULL) {
         return ARM50_NULL_POINTER;
     }
-    if (!isfinite(step) || !(step > 0.0)) {
+    if (!(step > 0.0) || !(step <= 1.7976931348623157e+308)) {
         return ARM50_INVALID_STEP;
     }
-    if (!isfinite(params->length) || !isfinite(params->mass) || !isfinite(params->inertia)
-        || !isfinite(params->center) || !isfinite(params->tip_mass) || !isfinite(params->tip_inertia)) {
-        return ARM50_NON_FINITE_INPUT;
-    }
+    /* Infinities and NaN less themselves are NaN, all other numbers 0. */
+    real lost = (params->length - params->length) + (params->mass - params->mass)
+        + (params->inertia - params->inertia) + (params->center - params->center)
+        + (params->tip_mass - params->tip_mass) + (params->tip_inertia - params->tip_inertia);
     for (int j = 0; j < ARM50_STATIONS; ++j) {
-        if (!isfinite(params->stiffness[j]) || !isfinite(params->damping[j])) {
-            return ARM50_NON_FINITE_INPUT;
-        }
+        lost += (params->stiffness[j] - params->stiffness[j]) + (params->damping[j] - params->damping[j]);
+    }
+    if (!(lost >= 0.0)) {
+        return ARM50_NON_FINITE_INPUT;
     }
 
     /* Masses at the nodes between links, and what they leave over. */
@@ -110,9 +126,9 @@ arm50_status arm50_prepare(
 
     /* Factors of the step that depend on the time step and parameters alone. */
     model->rate_per_acceleration = 0.25 * step;
-    model->half_step = 0.5 * step;
+    model->half_timestep = 0.5 * step;
     model->angle_per_acceleration = 0.0625 * (step * step);
-    model->three_quarters_step = 0.75 * step;
+    model->three_quarters_timestep = 0.75 * step;
     model->predicted_rate_per_stage1_acceleration = (17.0 / 50.0) * step;
     model->predicted_rate_per_stage2_acceleration = (21.0 / 100.0) * step;
     model->predicted_angle_per_stage2_rate = (1.0 / 25.0) * step;
@@ -144,8 +160,8 @@ arm50_status arm50_prepare(
     for (int j = 0; j < ARM50_STATIONS; ++j) {
         total += model->joint_impedance[j];
     }
-    if (!isfinite(model->rate_per_acceleration + model->half_step + model->angle_per_acceleration
-        + model->three_quarters_step + model->predicted_rate_per_stage1_acceleration
+    if (!isfinite(model->rate_per_acceleration + model->half_timestep + model->angle_per_acceleration
+        + model->three_quarters_timestep + model->predicted_rate_per_stage1_acceleration
         + model->predicted_rate_per_stage2_acceleration + model->predicted_angle_per_stage2_rate
         + model->predicted_rate_per_stage1_acceleration_2 + model->predicted_rate_per_stage2_acceleration_2
         + model->predicted_rate_per_stage3_acceleration + model->predicted_angle_per_stage3_rate
@@ -199,9 +215,9 @@ arm50_status arm50_initialise(
         - params->center * (length * length) * mass * (1.0 - params->center);
 
     /* Predicted motion. */
-    predicted_rate[0] = inputs->tmm_base_angle_rate[0];
-    predicted_angle[0] = inputs->tmm_base_angle[0];
-    predicted_acceleration[0] = inputs->tmm_base_angle_acceleration[0];
+    predicted_rate[0] = inputs->base_angle_rate[0];
+    predicted_angle[0] = inputs->base_angle[0];
+    predicted_acceleration[0] = inputs->base_angle_acceleration[0];
 
     /* Predicted motion; accelerations of the nodes. */
     real node_x = 0.0;
@@ -273,8 +289,8 @@ arm50_status arm50_initialise(
     real change_y = 0.0;
 
     /* Sweep outward: the unknown of each station; motion at the end of the step. */
-    state->hub_angle = inputs->tmm_base_angle[1];
-    state->hub_rate = inputs->tmm_base_angle_rate[1];
+    state->hub_angle = inputs->base_angle[0];
+    state->hub_rate = inputs->base_angle_rate[0];
     for (int j = 0; j < ARM50_STATIONS; ++j) {
         unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y;
         change_x = change_x - lever_sine[j] * unknown;
@@ -306,9 +322,9 @@ arm50_status arm50_step(
     const real length = model->length;
     const real mass = model->mass;
     const real rate_per_acceleration = model->rate_per_acceleration;
-    const real half_step = model->half_step;
+    const real half_timestep = model->half_timestep;
     const real angle_per_acceleration = model->angle_per_acceleration;
-    const real three_quarters_step = model->three_quarters_step;
+    const real three_quarters_timestep = model->three_quarters_timestep;
     const real predicted_rate_per_stage1_acceleration = model->predicted_rate_per_stage1_acceleration;
     const real predicted_rate_per_stage2_acceleration = model->predicted_rate_per_stage2_acceleration;
     const real predicted_angle_per_stage2_rate = model->predicted_angle_per_stage2_rate;
@@ -344,8 +360,8 @@ arm50_status arm50_step(
     real total = 0.0; /* of the new motion: is all of it finite? */
 
     /* Stage 1 of 5: predicted motion. */
-    predicted_rate[0] = inputs->tmm_base_angle_rate[0];
-    predicted_angle[0] = inputs->tmm_base_angle[0];
+    predicted_rate[0] = inputs->base_angle_rate[0];
+    predicted_angle[0] = inputs->base_angle[0];
 
     /* Stage 1 of 5: predicted motion; accelerations of the nodes. */
     real node_x = 0.0;
@@ -360,7 +376,7 @@ arm50_status arm50_step(
         const real square = predicted_rate[j + 1] * predicted_rate[j + 1];
         const real relative_x = -state->acceleration[j] * lever_sine[j] - lever_cosine[j] * square;
         const real relative_y = state->acceleration[j] * lever_cosine[j] - lever_sine[j] * square;
-        const real turning = half_step * predicted_rate[j + 1];
+        const real turning = half_timestep * predicted_rate[j + 1];
         swing_x[j] = -lever_sine[j] - angle_per_acceleration * relative_y - lever_cosine[j] * turning;
         swing_y[j] = lever_cosine[j] + angle_per_acceleration * relative_x - lever_sine[j] * turning;
         node_x = node_x + relative_x;
@@ -431,8 +447,8 @@ arm50_status arm50_step(
     real change_y = 0.0;
 
     /* Stage 2 of 5: predicted motion. */
-    predicted_rate[0] = inputs->tmm_base_angle_rate[1];
-    predicted_angle[0] = inputs->tmm_base_angle[1];
+    predicted_rate[0] = inputs->base_angle_rate[1];
+    predicted_angle[0] = inputs->base_angle[1];
 
     /* Stage 1 of 5: sweep outward: the unknown of each station; motion at this stage. Stage 2 of 5: predicted
      * motion; accelerations of the nodes. */
@@ -446,15 +462,15 @@ arm50_status arm50_step(
         change_y = change_y + swing_y[j] * unknown;
         stage1_acceleration[j] = state->acceleration[j] + unknown;
         stage1_rate[j] = predicted_rate[j + 1] + rate_per_acceleration * unknown;
-        predicted_rate[j + 1] = state->rate[j] + stage1_acceleration[j] * three_quarters_step;
-        predicted_angle[j + 1] = state->angle[j] + half_step * stage1_rate[j]
+        predicted_rate[j + 1] = state->rate[j] + stage1_acceleration[j] * three_quarters_timestep;
+        predicted_angle[j + 1] = state->angle[j] + half_timestep * stage1_rate[j]
             + predicted_rate[j + 1] * rate_per_acceleration;
         lever_cosine[j] = length * cos(predicted_angle[j + 1]);
         lever_sine[j] = length * sin(predicted_angle[j + 1]);
         const real square = predicted_rate[j + 1] * predicted_rate[j + 1];
         const real relative_x = -lever_cosine[j] * square - lever_sine[j] * stage1_acceleration[j];
         const real relative_y = lever_cosine[j] * stage1_acceleration[j] - lever_sine[j] * square;
-        const real turning = half_step * predicted_rate[j + 1];
+        const real turning = half_timestep * predicted_rate[j + 1];
         swing_x[j] = -lever_sine[j] - angle_per_acceleration * relative_y - lever_cosine[j] * turning;
         swing_y[j] = lever_cosine[j] + angle_per_acceleration * relative_x - lever_sine[j] * turning;
         node_x = node_x + relative_x;
@@ -525,8 +541,8 @@ arm50_status arm50_step(
     change_y = 0.0;
 
     /* Stage 3 of 5: predicted motion. */
-    predicted_rate[0] = inputs->tmm_base_angle_rate[2];
-    predicted_angle[0] = inputs->tmm_base_angle[2];
+    predicted_rate[0] = inputs->base_angle_rate[2];
+    predicted_angle[0] = inputs->base_angle[2];
 
     /* Stage 2 of 5: sweep outward: the unknown of each station; motion at this stage. Stage 3 of 5: predicted
      * motion; accelerations of the nodes. */
@@ -552,7 +568,7 @@ arm50_status arm50_step(
         const real square = predicted_rate[j + 1] * predicted_rate[j + 1];
         const real relative_x = -lever_cosine[j] * square - lever_sine[j] * stage2_acceleration[j];
         const real relative_y = lever_cosine[j] * stage2_acceleration[j] - lever_sine[j] * square;
-        const real turning = half_step * predicted_rate[j + 1];
+        const real turning = half_timestep * predicted_rate[j + 1];
         swing_x[j] = -lever_sine[j] - angle_per_acceleration * relative_y - lever_cosine[j] * turning;
         swing_y[j] = lever_cosine[j] + angle_per_acceleration * relative_x - lever_sine[j] * turning;
         node_x = node_x + relative_x;
@@ -623,8 +639,8 @@ arm50_status arm50_step(
     change_y = 0.0;
 
     /* Stage 4 of 5: predicted motion. */
-    predicted_rate[0] = inputs->tmm_base_angle_rate[3];
-    predicted_angle[0] = inputs->tmm_base_angle[3];
+    predicted_rate[0] = inputs->base_angle_rate[3];
+    predicted_angle[0] = inputs->base_angle[3];
 
     /* Stage 3 of 5: sweep outward: the unknown of each station; motion at this stage. Stage 4 of 5: predicted
      * motion; accelerations of the nodes. */
@@ -652,7 +668,7 @@ arm50_status arm50_step(
         const real square = predicted_rate[j + 1] * predicted_rate[j + 1];
         const real relative_x = -lever_cosine[j] * square - lever_sine[j] * stage3_acceleration[j];
         const real relative_y = lever_cosine[j] * stage3_acceleration[j] - lever_sine[j] * square;
-        const real turning = half_step * predicted_rate[j + 1];
+        const real turning = half_timestep * predicted_rate[j + 1];
         swing_x[j] = -lever_sine[j] - angle_per_acceleration * relative_y - lever_cosine[j] * turning;
         swing_y[j] = lever_cosine[j] + angle_per_acceleration * relative_x - lever_sine[j] * turning;
         node_x = node_x + relative_x;
@@ -723,8 +739,8 @@ arm50_status arm50_step(
     change_y = 0.0;
 
     /* Stage 5 of 5: predicted motion. */
-    predicted_rate[0] = inputs->tmm_base_angle_rate[4];
-    predicted_angle[0] = inputs->tmm_base_angle[4];
+    predicted_rate[0] = inputs->base_angle_rate[4];
+    predicted_angle[0] = inputs->base_angle[4];
 
     /* Stage 4 of 5: sweep outward: the unknown of each station; motion at this stage. Stage 5 of 5: predicted
      * motion; accelerations of the nodes. */
@@ -754,7 +770,7 @@ arm50_status arm50_step(
         const real square = predicted_rate[j + 1] * predicted_rate[j + 1];
         const real relative_x = -lever_cosine[j] * square - lever_sine[j] * stage4_acceleration[j];
         const real relative_y = lever_cosine[j] * stage4_acceleration[j] - lever_sine[j] * square;
-        const real turning = half_step * predicted_rate[j + 1];
+        const real turning = half_timestep * predicted_rate[j + 1];
         swing_x[j] = -lever_sine[j] - angle_per_acceleration * relative_y - lever_cosine[j] * turning;
         swing_y[j] = lever_cosine[j] + angle_per_acceleration * relative_x - lever_sine[j] * turning;
         node_x = node_x + relative_x;
@@ -825,8 +841,8 @@ arm50_status arm50_step(
     change_y = 0.0;
 
     /* Stage 5 of 5: sweep outward: the unknown of each station; motion at the end of the step. */
-    state->hub_angle = inputs->tmm_base_angle[4];
-    state->hub_rate = inputs->tmm_base_angle_rate[4];
+    state->hub_angle = inputs->base_angle[4];
+    state->hub_rate = inputs->base_angle_rate[4];
     for (int j = 0; j < ARM50_STATIONS; ++j) {
         unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y + transmission[j] * unknown;
         change_x = change_x + swing_x[j] * unknown;
@@ -859,11 +875,11 @@ void arm50_output(
     real acceleration_y[ARM50_STATIONS + 1]; /* acceleration of the nodes along y [m/s^2] */
 
     /* Tip: position. */
-    outputs->tmm_tip_x = 0.0;
-    outputs->tmm_tip_y = 0.0;
+    outputs->tip_x = 0.0;
+    outputs->tip_y = 0.0;
 
     /* Tip_angle: angle. */
-    outputs->tmm_tip_angle = state->angle[49];
+    outputs->tip_angle = state->angle[49];
 
     /* Tip: position; reaction: force. */
     real a_x = 0.0;
@@ -871,8 +887,8 @@ void arm50_output(
     acceleration_x[0] = a_x;
     acceleration_y[0] = a_y;
     for (int j = 0; j < ARM50_STATIONS; ++j) {
-        outputs->tmm_tip_x = outputs->tmm_tip_x + length * cos(state->angle[j]);
-        outputs->tmm_tip_y = outputs->tmm_tip_y + length * sin(state->angle[j]);
+        outputs->tip_x = outputs->tip_x + length * cos(state->angle[j]);
+        outputs->tip_y = outputs->tip_y + length * sin(state->angle[j]);
         a_x = a_x - state->acceleration[j] * length * sin(state->angle[j])
             - length * (state->rate[j] * state->rate[j]) * cos(state->angle[j]);
         a_y = a_y + state->acceleration[j] * length * cos(state->angle[j])
@@ -880,20 +896,16 @@ void arm50_output(
         acceleration_x[j + 1] = a_x;
         acceleration_y[j + 1] = a_y;
     }
-    outputs->tmm_reaction_x = acceleration_x[50] * model->tip_mass;
-    outputs->tmm_reaction_y = acceleration_y[50] * model->tip_mass;
+    outputs->reaction_x = acceleration_x[50] * model->tip_mass;
+    outputs->reaction_y = acceleration_y[50] * model->tip_mass;
     for (int j = ARM50_STATIONS - 1; j >= 0; --j) {
-        outputs->tmm_reaction_x = outputs->tmm_reaction_x
-            + acceleration_x[j + 1] * reaction_x_per_acceleration_x;
-        outputs->tmm_reaction_y = outputs->tmm_reaction_y
-            + acceleration_y[j + 1] * reaction_x_per_acceleration_x;
-        outputs->tmm_reaction_x = outputs->tmm_reaction_x
-            - acceleration_x[j] * reaction_x_per_acceleration_x_2;
-        outputs->tmm_reaction_y = outputs->tmm_reaction_y
-            - acceleration_y[j] * reaction_x_per_acceleration_x_2;
+        outputs->reaction_x = outputs->reaction_x + acceleration_x[j + 1] * reaction_x_per_acceleration_x;
+        outputs->reaction_y = outputs->reaction_y + acceleration_y[j + 1] * reaction_x_per_acceleration_x;
+        outputs->reaction_x = outputs->reaction_x - acceleration_x[j] * reaction_x_per_acceleration_x_2;
+        outputs->reaction_y = outputs->reaction_y - acceleration_y[j] * reaction_x_per_acceleration_x_2;
     }
 
     /* Drive: torque. */
-    outputs->tmm_drive = model->damping[0] * (state->rate[0] - state->hub_rate)
+    outputs->drive = model->damping[0] * (state->rate[0] - state->hub_rate)
         + model->stiffness[0] * (state->angle[0] - state->hub_angle);
 }

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
- * sha256 of the rest of this file: 82d986fc76049422e19d7c8a0e8567169605e446be7365c9e64ba75e9e44f073
+ * sha256 of the rest of this file: 19947f254d7191181ae863aaee5f73e63d3bce1c34deb8905f09921c659ed641
  *
  * model: planar arm, large rotations, tip mass
  * stations: 50
@@ -83,9 +83,9 @@ typedef struct {
     arm50_real tip_mass; /**< mass at the tip [kg] */
     arm50_real tip_inertia; /**< inertia at the tip [kg m^2] */
     arm50_real rate_per_acceleration; /**< rate per unit of acceleration: step/4 [s] */
-    arm50_real half_step; /**< step/2 [s] */
+    arm50_real half_timestep; /**< step/2 [s] */
     arm50_real angle_per_acceleration; /**< angle per unit of acceleration: step**2/16 [s^2] */
-    arm50_real three_quarters_step; /**< 3*step/4 [s] */
+    arm50_real three_quarters_timestep; /**< 3*step/4 [s] */
     arm50_real predicted_rate_per_stage1_acceleration; /**< 17*step/50 [s] */
     arm50_real predicted_rate_per_stage2_acceleration; /**< 21*step/100 [s] */
     arm50_real predicted_angle_per_stage2_rate; /**< step/25 [s] */
@@ -117,21 +117,57 @@ typedef struct {
 /** What acts on the arm. */
 typedef struct {
     /** prescribed base angle, at each stage of the step [rad] */
+#ifndef base_angle
+    arm50_real base_angle[ARM50_STAGES];
+#else /* a macro would replace the name */
     arm50_real tmm_base_angle[ARM50_STAGES];
+#endif
     /** prescribed base rate, at each stage of the step [rad/s] */
+#ifndef base_angle_rate
+    arm50_real base_angle_rate[ARM50_STAGES];
+#else /* a macro would replace the name */
     arm50_real tmm_base_angle_rate[ARM50_STAGES];
+#endif
     /** prescribed base acceleration, at each stage of the step [rad/s^2] */
+#ifndef base_angle_acceleration
+    arm50_real base_angle_acceleration[ARM50_STAGES];
+#else /* a macro would replace the name */
     arm50_real tmm_base_angle_acceleration[ARM50_STAGES];
+#endif
 } arm50_inputs;
 
 /** What the scene asks to know. */
 typedef struct {
-    arm50_real tmm_tip_x; /**< position at the tip, x [m] */
-    arm50_real tmm_tip_y; /**< position at the tip, y [m] */
-    arm50_real tmm_tip_angle; /**< angle at the tip [rad] */
-    arm50_real tmm_reaction_x; /**< force at the base, x [N] */
-    arm50_real tmm_reaction_y; /**< force at the base, y [N] */
-    arm50_real tmm_drive; /**< torque at the base [N m] */
+#ifndef tip_x
+    arm50_real tip_x; /**< position at the tip, x [m] */
+#else /* a macro would replace the name */
+    arm50_real tmm_tip_x;
+#endif
+#ifndef tip_y
+    arm50_real tip_y; /**< position at the tip, y [m] */
+#else /* a macro would replace the name */
+    arm50_real tmm_tip_y;
+#endif
+#ifndef tip_angle
+    arm50_real tip_angle; /**< angle at the tip [rad] */
+#else /* a macro would replace the name */
+    arm50_real tmm_tip_angle;
+#endif
+#ifndef reaction_x
+    arm50_real reaction_x; /**< force at the base, x [N] */
+#else /* a macro would replace the name */
+    arm50_real tmm_reaction_x;
+#endif
+#ifndef reaction_y
+    arm50_real reaction_y; /**< force at the base, y [N] */
+#else /* a macro would replace the name */
+    arm50_real tmm_reaction_y;
+#endif
+#ifndef drive
+    arm50_real drive; /**< torque at the base [N m] */
+#else /* a macro would replace the name */
+    arm50_real tmm_drive;
+#endif
 } arm50_outputs;
 
 /**

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
- * sha256 of the rest of this file: 0c6d0d84a2d71fefe36e24359171a11fced094e7293f17bdc6229d3109b4957d
+ * sha256 of the rest of this file: 51962db9113d4664b714d325265f3f8d33dc7a806a5ba6bd97ed3f43d922cd67
  *
  * model: planar arm, large rotations, tip mass
  * stations: 50
@@ -27,12 +27,23 @@
 #error "-Ofast and -ffast-math remove checks of this file: use -O3, or put -fno-fast-math behind them"
 #endif
 
-#include "arm50.h"
-
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <string.h>
+
+/* Members of the header below: no macro of a header above may have their names. */
+#undef base_angle
+#undef base_angle_rate
+#undef base_angle_acceleration
+#undef tip_x
+#undef tip_y
+#undef tip_angle
+#undef reaction_x
+#undef reaction_y
+#undef drive
+
+#include "arm50.h"
 
 typedef arm50_real real;
 
@@ -85,101 +96,101 @@ static void test_motion(tally *count)
     for (int j = 0; j < ARM50_STATIONS; ++j) {
         initial_rate[j] = (real)((7 * j + 3) % 16 - 8) / 16777216.0;
     }
-    inputs.tmm_base_angle[0] = -1.430511474609375e-06;
-    inputs.tmm_base_angle[1] = -4.76837158203125e-07;
-    inputs.tmm_base_angle[2] = 4.76837158203125e-07;
-    inputs.tmm_base_angle[3] = 1.430511474609375e-06;
-    inputs.tmm_base_angle[4] = -1.9073486328125e-06;
-    inputs.tmm_base_angle_rate[0] = 0.0;
-    inputs.tmm_base_angle_rate[1] = 9.5367431640625e-07;
-    inputs.tmm_base_angle_rate[2] = 1.9073486328125e-06;
-    inputs.tmm_base_angle_rate[3] = -1.430511474609375e-06;
-    inputs.tmm_base_angle_rate[4] = -4.76837158203125e-07;
-    inputs.tmm_base_angle_acceleration[0] = 1.430511474609375e-06;
-    inputs.tmm_base_angle_acceleration[1] = -1.9073486328125e-06;
-    inputs.tmm_base_angle_acceleration[2] = -9.5367431640625e-07;
-    inputs.tmm_base_angle_acceleration[3] = 0.0;
-    inputs.tmm_base_angle_acceleration[4] = 9.5367431640625e-07;
+    inputs.base_angle[0] = -1.430511474609375e-06;
+    inputs.base_angle[1] = -4.76837158203125e-07;
+    inputs.base_angle[2] = 4.76837158203125e-07;
+    inputs.base_angle[3] = 1.430511474609375e-06;
+    inputs.base_angle[4] = -1.9073486328125e-06;
+    inputs.base_angle_rate[0] = 0.0;
+    inputs.base_angle_rate[1] = 9.5367431640625e-07;
+    inputs.base_angle_rate[2] = 1.9073486328125e-06;
+    inputs.base_angle_rate[3] = -1.430511474609375e-06;
+    inputs.base_angle_rate[4] = -4.76837158203125e-07;
+    inputs.base_angle_acceleration[0] = 1.430511474609375e-06;
+    inputs.base_angle_acceleration[1] = -1.9073486328125e-06;
+    inputs.base_angle_acceleration[2] = -9.5367431640625e-07;
+    inputs.base_angle_acceleration[3] = 0.0;
+    inputs.base_angle_acceleration[4] = 9.5367431640625e-07;
     status = arm50_initialise(&state, &params, initial_angle, initial_rate, &inputs);
     expect_code(count, "initialise", status, ARM50_OK);
 
     /* Step 1. */
-    inputs.tmm_base_angle[0] = 9.5367431640625e-07;
-    inputs.tmm_base_angle[1] = 1.9073486328125e-06;
-    inputs.tmm_base_angle[2] = -1.430511474609375e-06;
-    inputs.tmm_base_angle[3] = -4.76837158203125e-07;
-    inputs.tmm_base_angle[4] = 4.76837158203125e-07;
-    inputs.tmm_base_angle_rate[0] = -1.9073486328125e-06;
-    inputs.tmm_base_angle_rate[1] = -9.5367431640625e-07;
-    inputs.tmm_base_angle_rate[2] = 0.0;
-    inputs.tmm_base_angle_rate[3] = 9.5367431640625e-07;
-    inputs.tmm_base_angle_rate[4] = 1.9073486328125e-06;
-    inputs.tmm_base_angle_acceleration[0] = -4.76837158203125e-07;
-    inputs.tmm_base_angle_acceleration[1] = 4.76837158203125e-07;
-    inputs.tmm_base_angle_acceleration[2] = 1.430511474609375e-06;
-    inputs.tmm_base_angle_acceleration[3] = -1.9073486328125e-06;
-    inputs.tmm_base_angle_acceleration[4] = -9.5367431640625e-07;
+    inputs.base_angle[0] = 9.5367431640625e-07;
+    inputs.base_angle[1] = 1.9073486328125e-06;
+    inputs.base_angle[2] = -1.430511474609375e-06;
+    inputs.base_angle[3] = -4.76837158203125e-07;
+    inputs.base_angle[4] = 4.76837158203125e-07;
+    inputs.base_angle_rate[0] = -1.9073486328125e-06;
+    inputs.base_angle_rate[1] = -9.5367431640625e-07;
+    inputs.base_angle_rate[2] = 0.0;
+    inputs.base_angle_rate[3] = 9.5367431640625e-07;
+    inputs.base_angle_rate[4] = 1.9073486328125e-06;
+    inputs.base_angle_acceleration[0] = -4.76837158203125e-07;
+    inputs.base_angle_acceleration[1] = 4.76837158203125e-07;
+    inputs.base_angle_acceleration[2] = 1.430511474609375e-06;
+    inputs.base_angle_acceleration[3] = -1.9073486328125e-06;
+    inputs.base_angle_acceleration[4] = -9.5367431640625e-07;
     status = arm50_step(&model, &state, &inputs);
     expect_code(count, "step 1", status, ARM50_OK);
     arm50_output(&model, &state, &outputs);
-    expect(count, "tmm_tip_x", outputs.tmm_tip_x, 0.7999999999942251, 9.4e-15);
-    expect(count, "tmm_tip_y", outputs.tmm_tip_y, -2.880113430839688e-08, 1.8e-16);
-    expect(count, "tmm_tip_angle", outputs.tmm_tip_angle, -2.381432336305946e-08, 1.6e-15);
-    expect(count, "tmm_reaction_x", outputs.tmm_reaction_x, -4.975183846760653e-05, 9.1e-15);
-    expect(count, "tmm_reaction_y", outputs.tmm_reaction_y, 1.6583070962886979, 3.5e-11);
-    expect(count, "tmm_drive", outputs.tmm_drive, -0.08772188480999438, 2.9e-12);
+    expect(count, "tip_x", outputs.tip_x, 0.7999999999942251, 9.4e-15);
+    expect(count, "tip_y", outputs.tip_y, -2.880113430839688e-08, 1.8e-16);
+    expect(count, "tip_angle", outputs.tip_angle, -2.381432336305946e-08, 1.6e-15);
+    expect(count, "reaction_x", outputs.reaction_x, -4.975183846760653e-05, 9.1e-15);
+    expect(count, "reaction_y", outputs.reaction_y, 1.6583070962886979, 3.5e-11);
+    expect(count, "drive", outputs.drive, -0.08772188480999438, 2.9e-12);
 
     /* Step 2. */
-    inputs.tmm_base_angle[0] = -9.5367431640625e-07;
-    inputs.tmm_base_angle[1] = 0.0;
-    inputs.tmm_base_angle[2] = 9.5367431640625e-07;
-    inputs.tmm_base_angle[3] = 1.9073486328125e-06;
-    inputs.tmm_base_angle[4] = -1.430511474609375e-06;
-    inputs.tmm_base_angle_rate[0] = 4.76837158203125e-07;
-    inputs.tmm_base_angle_rate[1] = 1.430511474609375e-06;
-    inputs.tmm_base_angle_rate[2] = -1.9073486328125e-06;
-    inputs.tmm_base_angle_rate[3] = -9.5367431640625e-07;
-    inputs.tmm_base_angle_rate[4] = 0.0;
-    inputs.tmm_base_angle_acceleration[0] = 1.9073486328125e-06;
-    inputs.tmm_base_angle_acceleration[1] = -1.430511474609375e-06;
-    inputs.tmm_base_angle_acceleration[2] = -4.76837158203125e-07;
-    inputs.tmm_base_angle_acceleration[3] = 4.76837158203125e-07;
-    inputs.tmm_base_angle_acceleration[4] = 1.430511474609375e-06;
+    inputs.base_angle[0] = -9.5367431640625e-07;
+    inputs.base_angle[1] = 0.0;
+    inputs.base_angle[2] = 9.5367431640625e-07;
+    inputs.base_angle[3] = 1.9073486328125e-06;
+    inputs.base_angle[4] = -1.430511474609375e-06;
+    inputs.base_angle_rate[0] = 4.76837158203125e-07;
+    inputs.base_angle_rate[1] = 1.430511474609375e-06;
+    inputs.base_angle_rate[2] = -1.9073486328125e-06;
+    inputs.base_angle_rate[3] = -9.5367431640625e-07;
+    inputs.base_angle_rate[4] = 0.0;
+    inputs.base_angle_acceleration[0] = 1.9073486328125e-06;
+    inputs.base_angle_acceleration[1] = -1.430511474609375e-06;
+    inputs.base_angle_acceleration[2] = -4.76837158203125e-07;
+    inputs.base_angle_acceleration[3] = 4.76837158203125e-07;
+    inputs.base_angle_acceleration[4] = 1.430511474609375e-06;
     status = arm50_step(&model, &state, &inputs);
     expect_code(count, "step 2", status, ARM50_OK);
     arm50_output(&model, &state, &outputs);
-    expect(count, "tmm_tip_x", outputs.tmm_tip_x, 0.7999999999931233, 9.4e-15);
-    expect(count, "tmm_tip_y", outputs.tmm_tip_y, 4.799431743542084e-09, 1.8e-16);
-    expect(count, "tmm_tip_angle", outputs.tmm_tip_angle, -3.823199472629874e-06, 1.6e-15);
-    expect(count, "tmm_reaction_x", outputs.tmm_reaction_x, -1.6342636196468835e-05, 9.1e-15);
-    expect(count, "tmm_reaction_y", outputs.tmm_reaction_y, 0.8010694573375713, 3.5e-11);
-    expect(count, "tmm_drive", outputs.tmm_drive, -0.04984730647904703, 2.9e-12);
+    expect(count, "tip_x", outputs.tip_x, 0.7999999999931233, 9.4e-15);
+    expect(count, "tip_y", outputs.tip_y, 4.799431743542084e-09, 1.8e-16);
+    expect(count, "tip_angle", outputs.tip_angle, -3.823199472629874e-06, 1.6e-15);
+    expect(count, "reaction_x", outputs.reaction_x, -1.6342636196468835e-05, 9.1e-15);
+    expect(count, "reaction_y", outputs.reaction_y, 0.8010694573375713, 3.5e-11);
+    expect(count, "drive", outputs.drive, -0.04984730647904703, 2.9e-12);
 
     /* Step 3. */
-    inputs.tmm_base_angle[0] = 1.430511474609375e-06;
-    inputs.tmm_base_angle[1] = -1.9073486328125e-06;
-    inputs.tmm_base_angle[2] = -9.5367431640625e-07;
-    inputs.tmm_base_angle[3] = 0.0;
-    inputs.tmm_base_angle[4] = 9.5367431640625e-07;
-    inputs.tmm_base_angle_rate[0] = -1.430511474609375e-06;
-    inputs.tmm_base_angle_rate[1] = -4.76837158203125e-07;
-    inputs.tmm_base_angle_rate[2] = 4.76837158203125e-07;
-    inputs.tmm_base_angle_rate[3] = 1.430511474609375e-06;
-    inputs.tmm_base_angle_rate[4] = -1.9073486328125e-06;
-    inputs.tmm_base_angle_acceleration[0] = 0.0;
-    inputs.tmm_base_angle_acceleration[1] = 9.5367431640625e-07;
-    inputs.tmm_base_angle_acceleration[2] = 1.9073486328125e-06;
-    inputs.tmm_base_angle_acceleration[3] = -1.430511474609375e-06;
-    inputs.tmm_base_angle_acceleration[4] = -4.76837158203125e-07;
+    inputs.base_angle[0] = 1.430511474609375e-06;
+    inputs.base_angle[1] = -1.9073486328125e-06;
+    inputs.base_angle[2] = -9.5367431640625e-07;
+    inputs.base_angle[3] = 0.0;
+    inputs.base_angle[4] = 9.5367431640625e-07;
+    inputs.base_angle_rate[0] = -1.430511474609375e-06;
+    inputs.base_angle_rate[1] = -4.76837158203125e-07;
+    inputs.base_angle_rate[2] = 4.76837158203125e-07;
+    inputs.base_angle_rate[3] = 1.430511474609375e-06;
+    inputs.base_angle_rate[4] = -1.9073486328125e-06;
+    inputs.base_angle_acceleration[0] = 0.0;
+    inputs.base_angle_acceleration[1] = 9.5367431640625e-07;
+    inputs.base_angle_acceleration[2] = 1.9073486328125e-06;
+    inputs.base_angle_acceleration[3] = -1.430511474609375e-06;
+    inputs.base_angle_acceleration[4] = -4.76837158203125e-07;
     status = arm50_step(&model, &state, &inputs);
     expect_code(count, "step 3", status, ARM50_OK);
     arm50_output(&model, &state, &outputs);
-    expect(count, "tmm_tip_x", outputs.tmm_tip_x, 0.7999999999914352, 9.4e-15);
-    expect(count, "tmm_tip_y", outputs.tmm_tip_y, 4.1740593813060265e-07, 1.8e-16);
-    expect(count, "tmm_tip_angle", outputs.tmm_tip_angle, 1.1947586103501569e-05, 1.6e-15);
-    expect(count, "tmm_reaction_x", outputs.tmm_reaction_x, -3.46850610367445e-05, 9.1e-15);
-    expect(count, "tmm_reaction_y", outputs.tmm_reaction_y, 1.2065779130309793, 3.5e-11);
-    expect(count, "tmm_drive", outputs.tmm_drive, -0.06330408711891466, 2.9e-12);
+    expect(count, "tip_x", outputs.tip_x, 0.7999999999914352, 9.4e-15);
+    expect(count, "tip_y", outputs.tip_y, 4.1740593813060265e-07, 1.8e-16);
+    expect(count, "tip_angle", outputs.tip_angle, 1.1947586103501569e-05, 1.6e-15);
+    expect(count, "reaction_x", outputs.reaction_x, -3.46850610367445e-05, 9.1e-15);
+    expect(count, "reaction_y", outputs.reaction_y, 1.2065779130309793, 3.5e-11);
+    expect(count, "drive", outputs.drive, -0.06330408711891466, 2.9e-12);
 
     /* State after the last step. */
     expect(count, "hub_angle", state.hub_angle, 9.5367431640625e-07, 1.3e-21);
@@ -220,21 +231,22 @@ static void test_motion(tally *count)
     memcpy(&before, &state, sizeof before);
     const real bad[] = {(real)NAN, (real)INFINITY, -(real)INFINITY};
     for (int k = 0; k < 3; ++k) {
-        const real tmm_base_angle = inputs.tmm_base_angle[ARM50_STAGES - 1];
-        inputs.tmm_base_angle[ARM50_STAGES - 1] = bad[k];
+        real good;
+        good = inputs.base_angle[ARM50_STAGES - 1];
+        inputs.base_angle[ARM50_STAGES - 1] = bad[k];
         status = arm50_step(&model, &state, &inputs);
         expect_code(count, "bad base_angle", status, ARM50_NON_FINITE_INPUT);
-        inputs.tmm_base_angle[ARM50_STAGES - 1] = tmm_base_angle;
-        const real tmm_base_angle_rate = inputs.tmm_base_angle_rate[ARM50_STAGES - 1];
-        inputs.tmm_base_angle_rate[ARM50_STAGES - 1] = bad[k];
+        inputs.base_angle[ARM50_STAGES - 1] = good;
+        good = inputs.base_angle_rate[ARM50_STAGES - 1];
+        inputs.base_angle_rate[ARM50_STAGES - 1] = bad[k];
         status = arm50_step(&model, &state, &inputs);
         expect_code(count, "bad base_angle_rate", status, ARM50_NON_FINITE_INPUT);
-        inputs.tmm_base_angle_rate[ARM50_STAGES - 1] = tmm_base_angle_rate;
-        const real tmm_base_angle_acceleration = inputs.tmm_base_angle_acceleration[ARM50_STAGES - 1];
-        inputs.tmm_base_angle_acceleration[ARM50_STAGES - 1] = bad[k];
+        inputs.base_angle_rate[ARM50_STAGES - 1] = good;
+        good = inputs.base_angle_acceleration[ARM50_STAGES - 1];
+        inputs.base_angle_acceleration[ARM50_STAGES - 1] = bad[k];
         status = arm50_step(&model, &state, &inputs);
         expect_code(count, "bad base_angle_acceleration", status, ARM50_NON_FINITE_INPUT);
-        inputs.tmm_base_angle_acceleration[ARM50_STAGES - 1] = tmm_base_angle_acceleration;
+        inputs.base_angle_acceleration[ARM50_STAGES - 1] = good;
     }
     ++count->checks;
     if (memcmp(&before, &state, sizeof state) != 0) {

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 260c88ca5ffe6b93ea5946fad67187e547942573db1dc2f710bcd9a0610b8738
- * sha256 of the rest of this file: e6b8148ba7deb330418be400189a87165613fc5e6b36d5b7ed0f0cb99a101690
+ * sha256 of the rest of this file: ad036d956bc6b20475dcce10799bd1652667386976dc6733b837b03506834fe7
  *
  * model: torsional chain (linear)
  * stations: 6
@@ -23,17 +23,28 @@
 #error "-Ofast and -ffast-math remove checks of this file: use -O3, or put -fno-fast-math behind them"
 #endif
 
-#include "drivetrain.h"
-
 #include <float.h>
 #include <math.h>
 #include <stddef.h>
+
+/* Members of the header below: no macro of a header above may have their names. */
+#undef motor_torque
+#undef load_torque
+#undef motor_speed
+#undef roller_speed
+#undef shaft_torque
+#undef encoder
+
+#include "drivetrain.h"
 
 typedef drivetrain_real real;
 
 static int inputs_are_finite(const drivetrain_inputs *inputs)
 {
-    if (!isfinite(inputs->tmm_motor_torque) || !isfinite(inputs->tmm_load_torque)) {
+    /* Infinities and NaN less themselves are NaN, all other numbers 0. */
+    const real lost = (inputs->motor_torque - inputs->motor_torque)
+        + (inputs->load_torque - inputs->load_torque);
+    if (!(lost >= 0.0)) {
         return 0;
     }
     return 1;
@@ -74,16 +85,16 @@ drivetrain_status drivetrain_prepare(
     if (model == NULL || params == NULL) {
         return DRIVETRAIN_NULL_POINTER;
     }
-    if (!isfinite(step) || !(step > 0.0)) {
+    if (!(step > 0.0) || !(step <= 1.7976931348623157e+308)) {
         return DRIVETRAIN_INVALID_STEP;
     }
+    /* Infinities and NaN less themselves are NaN, all other numbers 0. */
+    real lost = (params->hub_inertia - params->hub_inertia) + (params->hub_damping - params->hub_damping);
     for (int j = 0; j < DRIVETRAIN_STATIONS; ++j) {
-        if (!isfinite(params->stiffness[j]) || !isfinite(params->damping[j])
-            || !isfinite(params->inertia[j])) {
-            return DRIVETRAIN_NON_FINITE_INPUT;
-        }
+        lost += (params->stiffness[j] - params->stiffness[j]) + (params->damping[j] - params->damping[j])
+            + (params->inertia[j] - params->inertia[j]);
     }
-    if (!isfinite(params->hub_inertia) || !isfinite(params->hub_damping)) {
+    if (!(lost >= 0.0)) {
         return DRIVETRAIN_NON_FINITE_INPUT;
     }
 
@@ -112,12 +123,12 @@ drivetrain_status drivetrain_prepare(
     /* Factors of the step that depend on the time step and parameters alone. */
     model->known_rate_per_acceleration = (5.0 / 108.0) * step;
     model->known_angle_per_acceleration = (5.0 / 243.0) * (step * step);
-    model->five_ninths_step = (5.0 / 9.0) * step;
+    model->five_ninths_timestep = (5.0 / 9.0) * step;
     model->unknown_per_known_rate = model->hub_admittance * params->hub_damping;
     model->angle_per_acceleration_2 = (1.0 / 27.0) * (step * step);
     model->angle_per_unknown = (25.0 / 54.0) * (step * step);
-    model->twelfth_step = (1.0 / 12.0) * step;
-    model->eleven_twelfths_step = (11.0 / 12.0) * step;
+    model->twelfth_timestep = (1.0 / 12.0) * step;
+    model->eleven_twelfths_timestep = (11.0 / 12.0) * step;
 
     /* What the step needs as it is. */
     model->step = step;
@@ -133,8 +144,8 @@ drivetrain_status drivetrain_prepare(
         total += model->admittance[j] + model->transmission[j] + model->reflection[j];
     }
     if (!isfinite(model->known_rate_per_acceleration + model->known_angle_per_acceleration
-        + model->five_ninths_step + model->unknown_per_known_rate + model->angle_per_acceleration_2
-        + model->angle_per_unknown + model->twelfth_step + model->eleven_twelfths_step
+        + model->five_ninths_timestep + model->unknown_per_known_rate + model->angle_per_acceleration_2
+        + model->angle_per_unknown + model->twelfth_timestep + model->eleven_twelfths_timestep
         + model->hub_admittance + total)) {
         return DRIVETRAIN_NON_FINITE_MODEL;
     }
@@ -176,7 +187,7 @@ drivetrain_status drivetrain_initialise(
         known_angle[j + 1] = (initial_angle != NULL ? initial_angle[j] : 0.0);
         load_torque[j] = 0.0;
     }
-    load_torque[3] = inputs->tmm_load_torque;
+    load_torque[3] = inputs->load_torque;
     real torque = 0.0;
 
     /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
@@ -201,7 +212,7 @@ drivetrain_status drivetrain_initialise(
     }
     const real hub_admittance = 1.0 / params->hub_inertia;
     const real unknown = hub_admittance
-        * (inputs->tmm_motor_torque + torque - params->hub_damping * known_rate[0]);
+        * (inputs->motor_torque + torque - params->hub_damping * known_rate[0]);
     const real hub_unknown = unknown;
 
     /* Sweep outward: the unknown of each station; motion at the end of the step. */
@@ -236,11 +247,11 @@ drivetrain_status drivetrain_step(
     const real step = model->step;
     const real known_rate_per_acceleration = model->known_rate_per_acceleration;
     const real known_angle_per_acceleration = model->known_angle_per_acceleration;
-    const real five_ninths_step = model->five_ninths_step;
+    const real five_ninths_timestep = model->five_ninths_timestep;
     const real angle_per_acceleration_2 = model->angle_per_acceleration_2;
     const real angle_per_unknown = model->angle_per_unknown;
-    const real twelfth_step = model->twelfth_step;
-    const real eleven_twelfths_step = model->eleven_twelfths_step;
+    const real twelfth_timestep = model->twelfth_timestep;
+    const real eleven_twelfths_timestep = model->eleven_twelfths_timestep;
     real answer_own[DRIVETRAIN_STATIONS]; /* unknown of a station if its inner side kept its motion */
     real known_angle[DRIVETRAIN_STATIONS + 1]; /* angle of base and links without the unknown's share [rad] */
     real known_rate[DRIVETRAIN_STATIONS + 1]; /* rate of base and links without the unknown's share [rad/s] */
@@ -250,15 +261,15 @@ drivetrain_status drivetrain_step(
     /* Motion known before the sweep; sweep inward: force beyond each joint as an affine function of the
      * motion at it. */
     known_rate[0] = state->hub_rate + state->hub_acceleration * known_rate_per_acceleration;
-    known_angle[0] = state->hub_angle + five_ninths_step * state->hub_rate
+    known_angle[0] = state->hub_angle + five_ninths_timestep * state->hub_rate
         + state->hub_acceleration * known_angle_per_acceleration;
     for (int j = 0; j < DRIVETRAIN_STATIONS; ++j) {
         known_rate[j + 1] = state->rate[j] + state->acceleration[j] * known_rate_per_acceleration;
         known_angle[j + 1] = state->angle[j] + state->acceleration[j] * known_angle_per_acceleration
-            + five_ninths_step * state->rate[j];
+            + five_ninths_timestep * state->rate[j];
         load_torque[j] = 0.0;
     }
-    load_torque[3] = inputs->tmm_load_torque;
+    load_torque[3] = inputs->load_torque;
     real torque = 0.0;
 
     /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
@@ -272,22 +283,22 @@ drivetrain_status drivetrain_step(
     }
 
     /* The base. */
-    real unknown = model->hub_admittance * (inputs->tmm_motor_torque + torque)
+    real unknown = model->hub_admittance * (inputs->motor_torque + torque)
         - known_rate[0] * model->unknown_per_known_rate;
     const real hub_unknown = unknown;
 
     /* Sweep outward: the unknown of each station; motion at the end of the step. */
     state->hub_angle = state->hub_angle + angle_per_acceleration_2 * state->hub_acceleration
         + angle_per_unknown * hub_unknown + state->hub_rate * step;
-    state->hub_rate = state->hub_rate + eleven_twelfths_step * hub_unknown
-        + state->hub_acceleration * twelfth_step;
+    state->hub_rate = state->hub_rate + eleven_twelfths_timestep * hub_unknown
+        + state->hub_acceleration * twelfth_timestep;
     state->hub_acceleration = 1.5 * hub_unknown - 0.5 * state->hub_acceleration;
     for (int j = 0; j < DRIVETRAIN_STATIONS; ++j) {
         unknown = answer_own[j] + model->transmission[j] * unknown;
         state->angle[j] = state->angle[j] + state->acceleration[j] * angle_per_acceleration_2
             + angle_per_unknown * unknown + state->rate[j] * step;
-        state->rate[j] = state->rate[j] + state->acceleration[j] * twelfth_step
-            + eleven_twelfths_step * unknown;
+        state->rate[j] = state->rate[j] + state->acceleration[j] * twelfth_timestep
+            + eleven_twelfths_timestep * unknown;
         state->acceleration[j] = 1.5 * unknown - 0.5 * state->acceleration[j];
         total += state->angle[j] + state->rate[j] + state->acceleration[j];
     }
@@ -307,9 +318,9 @@ void drivetrain_output(
         return;
     }
     /* Outputs. */
-    outputs->tmm_motor_speed = state->hub_rate;
-    outputs->tmm_roller_speed = state->rate[3];
-    outputs->tmm_shaft_torque = model->damping[3] * (state->rate[3] - state->rate[2])
+    outputs->motor_speed = state->hub_rate;
+    outputs->roller_speed = state->rate[3];
+    outputs->shaft_torque = model->damping[3] * (state->rate[3] - state->rate[2])
         + model->stiffness[3] * (state->angle[3] - state->angle[2]);
-    outputs->tmm_encoder = state->angle[5];
+    outputs->encoder = state->angle[5];
 }

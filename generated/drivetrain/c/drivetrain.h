@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 260c88ca5ffe6b93ea5946fad67187e547942573db1dc2f710bcd9a0610b8738
- * sha256 of the rest of this file: 9d0095e5aae759acf0142d51e005935c371a90a0f663c4af3551d00dd0c305ce
+ * sha256 of the rest of this file: d6a1a346359a040b8c1d199406c6e04833728ad478fb1becf368d80eedb72038
  *
  * model: torsional chain (linear)
  * stations: 6
@@ -78,7 +78,7 @@ typedef struct {
     /** 5*step**2/243 [s^2] */
     drivetrain_real known_angle_per_acceleration;
     /** 5*step/9 [s] */
-    drivetrain_real five_ninths_step;
+    drivetrain_real five_ninths_timestep;
     /** hub_admittance*hub_damping [s/rad] */
     drivetrain_real unknown_per_known_rate;
     /** step**2/27 [s^2] */
@@ -86,9 +86,9 @@ typedef struct {
     /** 25*step**2/54 [rad] */
     drivetrain_real angle_per_unknown;
     /** step/12 [s] */
-    drivetrain_real twelfth_step;
+    drivetrain_real twelfth_timestep;
     /** 11*step/12 [s] */
-    drivetrain_real eleven_twelfths_step;
+    drivetrain_real eleven_twelfths_timestep;
     /** inverse pivot of each joint */
     drivetrain_real admittance[DRIVETRAIN_STATIONS];
     /** share of motion and torque each joint passes on */
@@ -117,16 +117,40 @@ typedef struct {
 
 /** What acts on the arm. */
 typedef struct {
-    drivetrain_real tmm_motor_torque; /**< torque acting at the base [N m] */
-    drivetrain_real tmm_load_torque; /**< torque acting at station 4 [N m] */
+#ifndef motor_torque
+    drivetrain_real motor_torque; /**< torque acting at the base [N m] */
+#else /* a macro would replace the name */
+    drivetrain_real tmm_motor_torque;
+#endif
+#ifndef load_torque
+    drivetrain_real load_torque; /**< torque acting at station 4 [N m] */
+#else /* a macro would replace the name */
+    drivetrain_real tmm_load_torque;
+#endif
 } drivetrain_inputs;
 
 /** What the scene asks to know. */
 typedef struct {
-    drivetrain_real tmm_motor_speed; /**< velocity at the base [rad/s] */
-    drivetrain_real tmm_roller_speed; /**< velocity at station 4 [rad/s] */
-    drivetrain_real tmm_shaft_torque; /**< torque at station 4 [N m] */
-    drivetrain_real tmm_encoder; /**< angle at the tip [rad] */
+#ifndef motor_speed
+    drivetrain_real motor_speed; /**< velocity at the base [rad/s] */
+#else /* a macro would replace the name */
+    drivetrain_real tmm_motor_speed;
+#endif
+#ifndef roller_speed
+    drivetrain_real roller_speed; /**< velocity at station 4 [rad/s] */
+#else /* a macro would replace the name */
+    drivetrain_real tmm_roller_speed;
+#endif
+#ifndef shaft_torque
+    drivetrain_real shaft_torque; /**< torque at station 4 [N m] */
+#else /* a macro would replace the name */
+    drivetrain_real tmm_shaft_torque;
+#endif
+#ifndef encoder
+    drivetrain_real encoder; /**< angle at the tip [rad] */
+#else /* a macro would replace the name */
+    drivetrain_real tmm_encoder;
+#endif
 } drivetrain_outputs;
 
 /**

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 260c88ca5ffe6b93ea5946fad67187e547942573db1dc2f710bcd9a0610b8738
- * sha256 of the rest of this file: 7b60b0b8c0fc5b68baf5f373e389656f5d4ead7bf6d7707ac77b2ef007244010
+ * sha256 of the rest of this file: 33e86fa79453a8bd63d424911ba3f0b143a8a7d4614c2fd3f652b243b58a7145
  *
  * model: torsional chain (linear)
  * stations: 6
@@ -25,12 +25,20 @@
 #error "-Ofast and -ffast-math remove checks of this file: use -O3, or put -fno-fast-math behind them"
 #endif
 
-#include "drivetrain.h"
-
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <string.h>
+
+/* Members of the header below: no macro of a header above may have their names. */
+#undef motor_torque
+#undef load_torque
+#undef motor_speed
+#undef roller_speed
+#undef shaft_torque
+#undef encoder
+
+#include "drivetrain.h"
 
 typedef drivetrain_real real;
 
@@ -83,43 +91,43 @@ static void test_motion(tally *count)
     for (int j = 0; j < DRIVETRAIN_STATIONS; ++j) {
         initial_rate[j] = (real)((7 * j + 3) % 16 - 8) / 64.0;
     }
-    inputs.tmm_motor_torque = -0.375;
-    inputs.tmm_load_torque = 0.0;
+    inputs.motor_torque = -0.375;
+    inputs.load_torque = 0.0;
     status = drivetrain_initialise(&state, &params, initial_angle, initial_rate, &inputs);
     expect_code(count, "initialise", status, DRIVETRAIN_OK);
 
     /* Step 1. */
-    inputs.tmm_motor_torque = 0.25;
-    inputs.tmm_load_torque = -0.5;
+    inputs.motor_torque = 0.25;
+    inputs.load_torque = -0.5;
     status = drivetrain_step(&model, &state, &inputs);
     expect_code(count, "step 1", status, DRIVETRAIN_OK);
     drivetrain_output(&model, &state, &outputs);
-    expect(count, "tmm_motor_speed", outputs.tmm_motor_speed, -61.024806447828844, 5.4e-13);
-    expect(count, "tmm_roller_speed", outputs.tmm_roller_speed, -0.09904640937712796, 1.6e-14);
-    expect(count, "tmm_shaft_torque", outputs.tmm_shaft_torque, 167.6346636174372, 7.7e-13);
-    expect(count, "tmm_encoder", outputs.tmm_encoder, -0.02611482485798894, 3e-16);
+    expect(count, "motor_speed", outputs.motor_speed, -61.024806447828844, 5.4e-13);
+    expect(count, "roller_speed", outputs.roller_speed, -0.09904640937712796, 1.6e-14);
+    expect(count, "shaft_torque", outputs.shaft_torque, 167.6346636174372, 7.7e-13);
+    expect(count, "encoder", outputs.encoder, -0.02611482485798894, 3e-16);
 
     /* Step 2. */
-    inputs.tmm_motor_torque = -0.25;
-    inputs.tmm_load_torque = 0.125;
+    inputs.motor_torque = -0.25;
+    inputs.load_torque = 0.125;
     status = drivetrain_step(&model, &state, &inputs);
     expect_code(count, "step 2", status, DRIVETRAIN_OK);
     drivetrain_output(&model, &state, &outputs);
-    expect(count, "tmm_motor_speed", outputs.tmm_motor_speed, -98.77387702963955, 5.4e-13);
-    expect(count, "tmm_roller_speed", outputs.tmm_roller_speed, 0.11255501683301643, 1.6e-14);
-    expect(count, "tmm_shaft_torque", outputs.tmm_shaft_torque, 96.8496758239049, 7.7e-13);
-    expect(count, "tmm_encoder", outputs.tmm_encoder, -0.011162430095813669, 3e-16);
+    expect(count, "motor_speed", outputs.motor_speed, -98.77387702963955, 5.4e-13);
+    expect(count, "roller_speed", outputs.roller_speed, 0.11255501683301643, 1.6e-14);
+    expect(count, "shaft_torque", outputs.shaft_torque, 96.8496758239049, 7.7e-13);
+    expect(count, "encoder", outputs.encoder, -0.011162430095813669, 3e-16);
 
     /* Step 3. */
-    inputs.tmm_motor_torque = 0.375;
-    inputs.tmm_load_torque = -0.375;
+    inputs.motor_torque = 0.375;
+    inputs.load_torque = -0.375;
     status = drivetrain_step(&model, &state, &inputs);
     expect_code(count, "step 3", status, DRIVETRAIN_OK);
     drivetrain_output(&model, &state, &outputs);
-    expect(count, "tmm_motor_speed", outputs.tmm_motor_speed, -111.46094748328005, 5.4e-13);
-    expect(count, "tmm_roller_speed", outputs.tmm_roller_speed, 0.6278515733339045, 1.6e-14);
-    expect(count, "tmm_shaft_torque", outputs.tmm_shaft_torque, 44.880339023435965, 7.7e-13);
-    expect(count, "tmm_encoder", outputs.tmm_encoder, 0.012321368558414677, 3e-16);
+    expect(count, "motor_speed", outputs.motor_speed, -111.46094748328005, 5.4e-13);
+    expect(count, "roller_speed", outputs.roller_speed, 0.6278515733339045, 1.6e-14);
+    expect(count, "shaft_torque", outputs.shaft_torque, 44.880339023435965, 7.7e-13);
+    expect(count, "encoder", outputs.encoder, 0.012321368558414677, 3e-16);
 
     /* State after the last step. */
     expect(count, "hub_angle", state.hub_angle, -0.021532709670283718, 1.3e-16);
@@ -149,16 +157,17 @@ static void test_motion(tally *count)
     memcpy(&before, &state, sizeof before);
     const real bad[] = {(real)NAN, (real)INFINITY, -(real)INFINITY};
     for (int k = 0; k < 3; ++k) {
-        const real tmm_motor_torque = inputs.tmm_motor_torque;
-        inputs.tmm_motor_torque = bad[k];
+        real good;
+        good = inputs.motor_torque;
+        inputs.motor_torque = bad[k];
         status = drivetrain_step(&model, &state, &inputs);
         expect_code(count, "bad motor_torque", status, DRIVETRAIN_NON_FINITE_INPUT);
-        inputs.tmm_motor_torque = tmm_motor_torque;
-        const real tmm_load_torque = inputs.tmm_load_torque;
-        inputs.tmm_load_torque = bad[k];
+        inputs.motor_torque = good;
+        good = inputs.load_torque;
+        inputs.load_torque = bad[k];
         status = drivetrain_step(&model, &state, &inputs);
         expect_code(count, "bad load_torque", status, DRIVETRAIN_NON_FINITE_INPUT);
-        inputs.tmm_load_torque = tmm_load_torque;
+        inputs.load_torque = good;
     }
     ++count->checks;
     if (memcmp(&before, &state, sizeof state) != 0) {

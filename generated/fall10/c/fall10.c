@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 225557ccb20983327784b6fc8326b9127fb185b183a5e99d150385ab258b9303
- * sha256 of the rest of this file: 667cb7e0e6c10a1cf48ae6a1aa350ddc65522abbf311a4ec1f01c2f5ce77aeda
+ * sha256 of the rest of this file: b07965f617e6b909c830bf5214c3e4818b5e24a8b64008660ad20d89a0a7e584
  *
  * model: planar arm, large rotations, gravity
  * stations: 10
@@ -25,11 +25,18 @@
 #error "-Ofast and -ffast-math remove checks of this file: use -O3, or put -fno-fast-math behind them"
 #endif
 
-#include "fall10.h"
-
 #include <float.h>
 #include <math.h>
 #include <stddef.h>
+
+/* Members of the header below: no macro of a header above may have their names. */
+#undef tip_x
+#undef tip_y
+#undef speed_x
+#undef speed_y
+#undef root
+
+#include "fall10.h"
 
 typedef fall10_real real;
 
@@ -65,17 +72,18 @@ fall10_status fall10_prepare(
     if (model == NULL || params == NULL) {
         return FALL10_NULL_POINTER;
     }
-    if (!isfinite(step) || !(step > 0.0)) {
+    if (!(step > 0.0) || !(step <= 1.7976931348623157e+308)) {
         return FALL10_INVALID_STEP;
     }
-    if (!isfinite(params->length) || !isfinite(params->mass) || !isfinite(params->inertia)
-        || !isfinite(params->center) || !isfinite(params->gravity)) {
-        return FALL10_NON_FINITE_INPUT;
-    }
+    /* Infinities and NaN less themselves are NaN, all other numbers 0. */
+    real lost = (params->length - params->length) + (params->mass - params->mass)
+        + (params->inertia - params->inertia) + (params->center - params->center)
+        + (params->gravity - params->gravity);
     for (int j = 0; j < FALL10_STATIONS; ++j) {
-        if (!isfinite(params->stiffness[j]) || !isfinite(params->damping[j])) {
-            return FALL10_NON_FINITE_INPUT;
-        }
+        lost += (params->stiffness[j] - params->stiffness[j]) + (params->damping[j] - params->damping[j]);
+    }
+    if (!(lost >= 0.0)) {
+        return FALL10_NON_FINITE_INPUT;
     }
 
     /* Masses at the nodes between links, and what they leave over. */
@@ -386,19 +394,19 @@ void fall10_output(
     const real length = model->length;
 
     /* Tip: position. */
-    outputs->tmm_tip_x = 0.0;
-    outputs->tmm_tip_y = 0.0;
+    outputs->tip_x = 0.0;
+    outputs->tip_y = 0.0;
 
     /* Tip: position; speed: velocity. */
-    outputs->tmm_speed_x = 0.0;
-    outputs->tmm_speed_y = 0.0;
+    outputs->speed_x = 0.0;
+    outputs->speed_y = 0.0;
     for (int j = 0; j < FALL10_STATIONS; ++j) {
-        outputs->tmm_tip_x = outputs->tmm_tip_x + length * cos(state->angle[j]);
-        outputs->tmm_tip_y = outputs->tmm_tip_y + length * sin(state->angle[j]);
-        outputs->tmm_speed_x = outputs->tmm_speed_x - length * state->rate[j] * sin(state->angle[j]);
-        outputs->tmm_speed_y = outputs->tmm_speed_y + length * state->rate[j] * cos(state->angle[j]);
+        outputs->tip_x = outputs->tip_x + length * cos(state->angle[j]);
+        outputs->tip_y = outputs->tip_y + length * sin(state->angle[j]);
+        outputs->speed_x = outputs->speed_x - length * state->rate[j] * sin(state->angle[j]);
+        outputs->speed_y = outputs->speed_y + length * state->rate[j] * cos(state->angle[j]);
     }
 
     /* Root: torque. */
-    outputs->tmm_root = state->angle[0] * model->stiffness[0] + model->damping[0] * state->rate[0];
+    outputs->root = state->angle[0] * model->stiffness[0] + model->damping[0] * state->rate[0];
 }

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 225557ccb20983327784b6fc8326b9127fb185b183a5e99d150385ab258b9303
- * sha256 of the rest of this file: 5366805905a1ba1d95248f3d9eee801d8498b84b3edee7c9fb95778d69edb4a3
+ * sha256 of the rest of this file: 10c403fe61462b56c5a6b92dc98f67babc0acba4d4ded5509001e391011954a4
  *
  * model: planar arm, large rotations, gravity
  * stations: 10
@@ -111,11 +111,31 @@ typedef struct {
 
 /** What the scene asks to know. */
 typedef struct {
-    fall10_real tmm_tip_x; /**< position at the tip, x [m] */
-    fall10_real tmm_tip_y; /**< position at the tip, y [m] */
-    fall10_real tmm_speed_x; /**< velocity at the tip, x [m/s] */
-    fall10_real tmm_speed_y; /**< velocity at the tip, y [m/s] */
-    fall10_real tmm_root; /**< torque at station 1 [N m] */
+#ifndef tip_x
+    fall10_real tip_x; /**< position at the tip, x [m] */
+#else /* a macro would replace the name */
+    fall10_real tmm_tip_x;
+#endif
+#ifndef tip_y
+    fall10_real tip_y; /**< position at the tip, y [m] */
+#else /* a macro would replace the name */
+    fall10_real tmm_tip_y;
+#endif
+#ifndef speed_x
+    fall10_real speed_x; /**< velocity at the tip, x [m/s] */
+#else /* a macro would replace the name */
+    fall10_real tmm_speed_x;
+#endif
+#ifndef speed_y
+    fall10_real speed_y; /**< velocity at the tip, y [m/s] */
+#else /* a macro would replace the name */
+    fall10_real tmm_speed_y;
+#endif
+#ifndef root
+    fall10_real root; /**< torque at station 1 [N m] */
+#else /* a macro would replace the name */
+    fall10_real tmm_root;
+#endif
 } fall10_outputs;
 
 /**

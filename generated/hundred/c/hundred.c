@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 1ec2a071f5720229c3b5c9d847fa0a44d6fa112015051ca13c1d73444e6eb10a
- * sha256 of the rest of this file: 5eecaba18f51d7d54e99d90c26216bc17b07850d0feaa037c3f47b9510b9fa61
+ * sha256 of the rest of this file: 178b9c91acfa543592c57b495357fae00a3d0215f0baab83155385f2d7d3651f
  *
  * model: torsional chain (linear)
  * stations: 100
@@ -23,17 +23,23 @@
 #error "-Ofast and -ffast-math remove checks of this file: use -O3, or put -fno-fast-math behind them"
 #endif
 
-#include "hundred.h"
-
 #include <float.h>
 #include <math.h>
 #include <stddef.h>
+
+/* Members of the header below: no macro of a header above may have their names. */
+#undef tip_torque
+#undef tip
+#undef middle
+#undef base_torque
+
+#include "hundred.h"
 
 typedef hundred_real real;
 
 static int inputs_are_finite(const hundred_inputs *inputs)
 {
-    if (!isfinite(inputs->tmm_tip_torque)) {
+    if (!isfinite(inputs->tip_torque)) {
         return 0;
     }
     return 1;
@@ -57,10 +63,13 @@ hundred_status hundred_prepare(
     if (model == NULL || params == NULL) {
         return HUNDRED_NULL_POINTER;
     }
-    if (!isfinite(step) || !(step > 0.0)) {
+    if (!(step > 0.0) || !(step <= 1.7976931348623157e+308)) {
         return HUNDRED_INVALID_STEP;
     }
-    if (!isfinite(params->stiffness) || !isfinite(params->damping) || !isfinite(params->inertia)) {
+    /* Infinities and NaN less themselves are NaN, all other numbers 0. */
+    const real lost = (params->stiffness - params->stiffness) + (params->damping - params->damping)
+        + (params->inertia - params->inertia);
+    if (!(lost >= 0.0)) {
         return HUNDRED_NON_FINITE_INPUT;
     }
 
@@ -143,7 +152,7 @@ hundred_status hundred_initialise(
     }
 
     /* Sweep inward: force beyond each joint as an affine function of the motion at it. */
-    real torque = inputs->tmm_tip_torque;
+    real torque = inputs->tip_torque;
 
     /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
      * of the motion at it; sweep outward: the unknown of each station; motion at the end of the step. */
@@ -195,7 +204,7 @@ hundred_status hundred_step(
 
     /* Motion known before the sweep; forces of the joints at the motion so far; sweep inward: force beyond
      * each joint as an affine function of the motion at it. */
-    real torque = inputs->tmm_tip_torque;
+    real torque = inputs->tip_torque;
     for (int j = HUNDRED_STATIONS - 1; j >= 1; --j) {
         known_rate[j] = state->rate[j - 1] + state->acceleration[j - 1] * rate_per_acceleration;
         known_angle[j] = state->angle[j - 1] + state->acceleration[j - 1] * angle_per_acceleration
@@ -237,7 +246,7 @@ void hundred_output(
         return;
     }
     /* Outputs. */
-    outputs->tmm_tip = state->angle[99];
-    outputs->tmm_middle = state->angle[49];
-    outputs->tmm_base_torque = state->angle[0] * model->stiffness + model->damping * state->rate[0];
+    outputs->tip = state->angle[99];
+    outputs->middle = state->angle[49];
+    outputs->base_torque = state->angle[0] * model->stiffness + model->damping * state->rate[0];
 }

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 1ec2a071f5720229c3b5c9d847fa0a44d6fa112015051ca13c1d73444e6eb10a
- * sha256 of the rest of this file: 3234eda869b88c61931ac628c22d09a533ecdde4b92efa5d75110e89088b98b8
+ * sha256 of the rest of this file: 06082d0371ddffd0b6a3321cf8d4bae0f2f3f23d257c3f7198ceafd826c23a56
  *
  * model: torsional chain (linear)
  * stations: 100
@@ -84,14 +84,30 @@ typedef struct {
 
 /** What acts on the arm. */
 typedef struct {
-    hundred_real tmm_tip_torque; /**< torque acting at the tip [N m] */
+#ifndef tip_torque
+    hundred_real tip_torque; /**< torque acting at the tip [N m] */
+#else /* a macro would replace the name */
+    hundred_real tmm_tip_torque;
+#endif
 } hundred_inputs;
 
 /** What the scene asks to know. */
 typedef struct {
-    hundred_real tmm_tip; /**< angle at the tip [rad] */
-    hundred_real tmm_middle; /**< angle at station 50 [rad] */
-    hundred_real tmm_base_torque; /**< torque at the base [N m] */
+#ifndef tip
+    hundred_real tip; /**< angle at the tip [rad] */
+#else /* a macro would replace the name */
+    hundred_real tmm_tip;
+#endif
+#ifndef middle
+    hundred_real middle; /**< angle at station 50 [rad] */
+#else /* a macro would replace the name */
+    hundred_real tmm_middle;
+#endif
+#ifndef base_torque
+    hundred_real base_torque; /**< torque at the base [N m] */
+#else /* a macro would replace the name */
+    hundred_real tmm_base_torque;
+#endif
 } hundred_outputs;
 
 /**

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: c9c08efbdc9f2f1b1ddadadab522649e5100f98e9cdabe31fcf56b416283c60f
- * sha256 of the rest of this file: f53d3f8e4a292de06bf2f10f436b578fddacdb44c6f470627e4e84eaf7fbd9ca
+ * sha256 of the rest of this file: 2a4fc100712366aee7b169d817aac1dea73bcdd0964c97a71b7901e94d3edb02
  *
  * model: planar arm, large rotations, tip mass
  * stations: 5
@@ -25,17 +25,23 @@
 #error "-Ofast and -ffast-math remove checks of this file: use -O3, or put -fno-fast-math behind them"
 #endif
 
-#include "swing.h"
-
 #include <float.h>
 #include <math.h>
 #include <stddef.h>
+
+/* Members of the header below: no macro of a header above may have their names. */
+#undef hub_torque
+#undef tip_x
+#undef tip_y
+#undef hub
+
+#include "swing.h"
 
 typedef swing_real real;
 
 static int inputs_are_finite(const swing_inputs *inputs)
 {
-    if (!isfinite(inputs->tmm_hub_torque)) {
+    if (!isfinite(inputs->hub_torque)) {
         return 0;
     }
     return 1;
@@ -75,18 +81,19 @@ swing_status swing_prepare(
     if (model == NULL || params == NULL) {
         return SWING_NULL_POINTER;
     }
-    if (!isfinite(step) || !(step > 0.0)) {
+    if (!(step > 0.0) || !(step <= 1.7976931348623157e+308)) {
         return SWING_INVALID_STEP;
     }
-    if (!isfinite(params->length) || !isfinite(params->mass) || !isfinite(params->inertia)
-        || !isfinite(params->center) || !isfinite(params->hub_inertia) || !isfinite(params->hub_damping)
-        || !isfinite(params->tip_mass)) {
-        return SWING_NON_FINITE_INPUT;
-    }
+    /* Infinities and NaN less themselves are NaN, all other numbers 0. */
+    real lost = (params->length - params->length) + (params->mass - params->mass)
+        + (params->inertia - params->inertia) + (params->center - params->center)
+        + (params->hub_inertia - params->hub_inertia) + (params->hub_damping - params->hub_damping)
+        + (params->tip_mass - params->tip_mass);
     for (int j = 0; j < SWING_STATIONS; ++j) {
-        if (!isfinite(params->stiffness[j]) || !isfinite(params->damping[j])) {
-            return SWING_NON_FINITE_INPUT;
-        }
+        lost += (params->stiffness[j] - params->stiffness[j]) + (params->damping[j] - params->damping[j]);
+    }
+    if (!(lost >= 0.0)) {
+        return SWING_NON_FINITE_INPUT;
     }
 
     /* Masses at the nodes between links, and what they leave over. */
@@ -241,7 +248,7 @@ swing_status swing_initialise(
     }
 
     /* The base. */
-    real unknown = (inputs->tmm_hub_torque - torque - params->hub_damping * predicted_rate[0]
+    real unknown = (inputs->hub_torque - torque - params->hub_damping * predicted_rate[0]
         - params->hub_inertia * predicted_acceleration[0]) / hub_pivot;
     const real hub_unknown = unknown;
 
@@ -389,7 +396,7 @@ swing_status swing_step(
     if (!(hub_pivot > 0.0) || !(hub_pivot <= DBL_MAX)) {
         return SWING_VANISHING_PIVOT;
     }
-    real unknown = (inputs->tmm_hub_torque - torque - state->hub_acceleration * model->hub_inertia
+    real unknown = (inputs->hub_torque - torque - state->hub_acceleration * model->hub_inertia
         - model->hub_damping * predicted_rate[0]) / hub_pivot;
     const real hub_unknown = unknown;
 
@@ -428,13 +435,13 @@ void swing_output(
     const real length = model->length;
 
     /* Tip: position. */
-    outputs->tmm_tip_x = 0.0;
-    outputs->tmm_tip_y = 0.0;
+    outputs->tip_x = 0.0;
+    outputs->tip_y = 0.0;
     for (int j = 0; j < SWING_STATIONS; ++j) {
-        outputs->tmm_tip_x = outputs->tmm_tip_x + length * cos(state->angle[j]);
-        outputs->tmm_tip_y = outputs->tmm_tip_y + length * sin(state->angle[j]);
+        outputs->tip_x = outputs->tip_x + length * cos(state->angle[j]);
+        outputs->tip_y = outputs->tip_y + length * sin(state->angle[j]);
     }
 
     /* Hub: angle. */
-    outputs->tmm_hub = state->hub_angle;
+    outputs->hub = state->hub_angle;
 }

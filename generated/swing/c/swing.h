@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: c9c08efbdc9f2f1b1ddadadab522649e5100f98e9cdabe31fcf56b416283c60f
- * sha256 of the rest of this file: 9a6a04d70c0d7e976834ce3109df59e1db725c3973d38b2d655593cb86d8981b
+ * sha256 of the rest of this file: ff5980e2f49dd4ca74b88b5b990987ffaf1029a2604e11140c30fee805439be9
  *
  * model: planar arm, large rotations, tip mass
  * stations: 5
@@ -101,14 +101,30 @@ typedef struct {
 
 /** What acts on the arm. */
 typedef struct {
-    swing_real tmm_hub_torque; /**< torque acting at the base [N m] */
+#ifndef hub_torque
+    swing_real hub_torque; /**< torque acting at the base [N m] */
+#else /* a macro would replace the name */
+    swing_real tmm_hub_torque;
+#endif
 } swing_inputs;
 
 /** What the scene asks to know. */
 typedef struct {
-    swing_real tmm_tip_x; /**< position at the tip, x [m] */
-    swing_real tmm_tip_y; /**< position at the tip, y [m] */
-    swing_real tmm_hub; /**< angle at the base [rad] */
+#ifndef tip_x
+    swing_real tip_x; /**< position at the tip, x [m] */
+#else /* a macro would replace the name */
+    swing_real tmm_tip_x;
+#endif
+#ifndef tip_y
+    swing_real tip_y; /**< position at the tip, y [m] */
+#else /* a macro would replace the name */
+    swing_real tmm_tip_y;
+#endif
+#ifndef hub
+    swing_real hub; /**< angle at the base [rad] */
+#else /* a macro would replace the name */
+    swing_real tmm_hub;
+#endif
 } swing_outputs;
 
 /**

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: ee57f7952242f19cc6be0f26d3460a304cc65a1747711d25b990a158587c6f1f
- * sha256 of the rest of this file: 3c1fbdd61b455af5b028da8e58dea2a8a22ef1aa30794081ee5bf580fb0abe5d
+ * sha256 of the rest of this file: 505053b9236665634d2d2581d95191585b6a3f36828f8db690508fa4441c5532
  *
  * model: torsional chain (linear)
  * stations: 10
@@ -23,17 +23,22 @@
 #error "-Ofast and -ffast-math remove checks of this file: use -O3, or put -fno-fast-math behind them"
 #endif
 
-#include "thesis10.h"
-
 #include <float.h>
 #include <math.h>
 #include <stddef.h>
+
+/* Members of the header below: no macro of a header above may have their names. */
+#undef tip_torque
+#undef tip
+#undef base_torque
+
+#include "thesis10.h"
 
 typedef thesis10_real real;
 
 static int inputs_are_finite(const thesis10_inputs *inputs)
 {
-    if (!isfinite(inputs->tmm_tip_torque)) {
+    if (!isfinite(inputs->tip_torque)) {
         return 0;
     }
     return 1;
@@ -57,10 +62,13 @@ thesis10_status thesis10_prepare(
     if (model == NULL || params == NULL) {
         return THESIS10_NULL_POINTER;
     }
-    if (!isfinite(step) || !(step > 0.0)) {
+    if (!(step > 0.0) || !(step <= 1.7976931348623157e+308)) {
         return THESIS10_INVALID_STEP;
     }
-    if (!isfinite(params->stiffness) || !isfinite(params->damping) || !isfinite(params->inertia)) {
+    /* Infinities and NaN less themselves are NaN, all other numbers 0. */
+    const real lost = (params->stiffness - params->stiffness) + (params->damping - params->damping)
+        + (params->inertia - params->inertia);
+    if (!(lost >= 0.0)) {
         return THESIS10_NON_FINITE_INPUT;
     }
 
@@ -143,7 +151,7 @@ thesis10_status thesis10_initialise(
     }
 
     /* Sweep inward: force beyond each joint as an affine function of the motion at it. */
-    real torque = inputs->tmm_tip_torque;
+    real torque = inputs->tip_torque;
 
     /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
      * of the motion at it; sweep outward: the unknown of each station; motion at the end of the step. */
@@ -195,7 +203,7 @@ thesis10_status thesis10_step(
 
     /* Motion known before the sweep; forces of the joints at the motion so far; sweep inward: force beyond
      * each joint as an affine function of the motion at it. */
-    real torque = inputs->tmm_tip_torque;
+    real torque = inputs->tip_torque;
     for (int j = THESIS10_STATIONS - 1; j >= 1; --j) {
         known_rate[j] = state->rate[j - 1] + state->acceleration[j - 1] * rate_per_acceleration;
         known_angle[j] = state->angle[j - 1] + state->acceleration[j - 1] * angle_per_acceleration
@@ -237,6 +245,6 @@ void thesis10_output(
         return;
     }
     /* Outputs. */
-    outputs->tmm_tip = state->angle[9];
-    outputs->tmm_base_torque = state->angle[0] * model->stiffness + model->damping * state->rate[0];
+    outputs->tip = state->angle[9];
+    outputs->base_torque = state->angle[0] * model->stiffness + model->damping * state->rate[0];
 }

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: ee57f7952242f19cc6be0f26d3460a304cc65a1747711d25b990a158587c6f1f
- * sha256 of the rest of this file: 89d9a7cd4ee5a2b7976289933981cf6e3ce46ff2ce69984271049c8ec6fd6aec
+ * sha256 of the rest of this file: 86aadd8915478b57f9d5724a2ff60afb0784b1e85c9579c978ef16841b1c910a
  *
  * model: torsional chain (linear)
  * stations: 10
@@ -84,13 +84,25 @@ typedef struct {
 
 /** What acts on the arm. */
 typedef struct {
-    thesis10_real tmm_tip_torque; /**< torque acting at the tip [N m] */
+#ifndef tip_torque
+    thesis10_real tip_torque; /**< torque acting at the tip [N m] */
+#else /* a macro would replace the name */
+    thesis10_real tmm_tip_torque;
+#endif
 } thesis10_inputs;
 
 /** What the scene asks to know. */
 typedef struct {
-    thesis10_real tmm_tip; /**< angle at the tip [rad] */
-    thesis10_real tmm_base_torque; /**< torque at the base [N m] */
+#ifndef tip
+    thesis10_real tip; /**< angle at the tip [rad] */
+#else /* a macro would replace the name */
+    thesis10_real tmm_tip;
+#endif
+#ifndef base_torque
+    thesis10_real base_torque; /**< torque at the base [N m] */
+#else /* a macro would replace the name */
+    thesis10_real tmm_base_torque;
+#endif
 } thesis10_outputs;
 
 /**

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 8302c2fdab02afb73919e09c91c3abafc3d83d0760e2c0e63be40bfdc341e62e
- * sha256 of the rest of this file: 6b0e02fc704b7bdf87d31a2f4b0eb241e69f4ab7d73849391d5bdfafcfae567b
+ * sha256 of the rest of this file: 3e14906e859caf6ebf94cb3c6d31374c68faf12fd2c7a1968794c4c7890f77c9
  *
  * model: torsional chain (linear)
  * stations: 2
@@ -23,17 +23,22 @@
 #error "-Ofast and -ffast-math remove checks of this file: use -O3, or put -fno-fast-math behind them"
 #endif
 
-#include "thesis2.h"
-
 #include <float.h>
 #include <math.h>
 #include <stddef.h>
+
+/* Members of the header below: no macro of a header above may have their names. */
+#undef tip_torque
+#undef tip
+#undef base_torque
+
+#include "thesis2.h"
 
 typedef thesis2_real real;
 
 static int inputs_are_finite(const thesis2_inputs *inputs)
 {
-    if (!isfinite(inputs->tmm_tip_torque)) {
+    if (!isfinite(inputs->tip_torque)) {
         return 0;
     }
     return 1;
@@ -57,10 +62,13 @@ thesis2_status thesis2_prepare(
     if (model == NULL || params == NULL) {
         return THESIS2_NULL_POINTER;
     }
-    if (!isfinite(step) || !(step > 0.0)) {
+    if (!(step > 0.0) || !(step <= 1.7976931348623157e+308)) {
         return THESIS2_INVALID_STEP;
     }
-    if (!isfinite(params->stiffness) || !isfinite(params->damping) || !isfinite(params->inertia)) {
+    /* Infinities and NaN less themselves are NaN, all other numbers 0. */
+    const real lost = (params->stiffness - params->stiffness) + (params->damping - params->damping)
+        + (params->inertia - params->inertia);
+    if (!(lost >= 0.0)) {
         return THESIS2_NON_FINITE_INPUT;
     }
 
@@ -143,7 +151,7 @@ thesis2_status thesis2_initialise(
     }
 
     /* Sweep inward: force beyond each joint as an affine function of the motion at it. */
-    real torque = inputs->tmm_tip_torque;
+    real torque = inputs->tip_torque;
 
     /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
      * of the motion at it; sweep outward: the unknown of each station; motion at the end of the step. */
@@ -197,7 +205,7 @@ thesis2_status thesis2_step(
 
     /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
      * of the motion at it. */
-    real torque = inputs->tmm_tip_torque;
+    real torque = inputs->tip_torque;
     for (int j = THESIS2_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = damping * (known_rate[j + 1] - known_rate[j])
             + stiffness * (known_angle[j + 1] - known_angle[j]);
@@ -232,6 +240,6 @@ void thesis2_output(
         return;
     }
     /* Outputs. */
-    outputs->tmm_tip = state->angle[1];
-    outputs->tmm_base_torque = state->angle[0] * model->stiffness + model->damping * state->rate[0];
+    outputs->tip = state->angle[1];
+    outputs->base_torque = state->angle[0] * model->stiffness + model->damping * state->rate[0];
 }

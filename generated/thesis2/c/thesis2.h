@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 8302c2fdab02afb73919e09c91c3abafc3d83d0760e2c0e63be40bfdc341e62e
- * sha256 of the rest of this file: 8ea0650a097d72bf77c1d25894b5301f05c0ce07f5918577ba9fe434c1ac7fa4
+ * sha256 of the rest of this file: 389c01d5b5031b574ed2392b875e4504736e242adf298e4981c1e3391eded977
  *
  * model: torsional chain (linear)
  * stations: 2
@@ -84,13 +84,25 @@ typedef struct {
 
 /** What acts on the arm. */
 typedef struct {
-    thesis2_real tmm_tip_torque; /**< torque acting at the tip [N m] */
+#ifndef tip_torque
+    thesis2_real tip_torque; /**< torque acting at the tip [N m] */
+#else /* a macro would replace the name */
+    thesis2_real tmm_tip_torque;
+#endif
 } thesis2_inputs;
 
 /** What the scene asks to know. */
 typedef struct {
-    thesis2_real tmm_tip; /**< angle at the tip [rad] */
-    thesis2_real tmm_base_torque; /**< torque at the base [N m] */
+#ifndef tip
+    thesis2_real tip; /**< angle at the tip [rad] */
+#else /* a macro would replace the name */
+    thesis2_real tmm_tip;
+#endif
+#ifndef base_torque
+    thesis2_real base_torque; /**< torque at the base [N m] */
+#else /* a macro would replace the name */
+    thesis2_real tmm_base_torque;
+#endif
 } thesis2_outputs;
 
 /**

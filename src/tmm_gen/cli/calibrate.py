@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Literal
 import click
 
 from tmm_gen.cli.console import Column, progress, table
-from tmm_gen.cli.given import positive
+from tmm_gen.cli.given import finite, positive
 from tmm_gen.cli.outputs import OutputFile, force_option, require_new, write_outputs
 from tmm_gen.errors import UserError
 from tmm_gen.reading import open_table, read_file
@@ -50,6 +50,7 @@ if TYPE_CHECKING:
     "--start",
     type=float,
     metavar="T",
+    callback=finite,
     help="When the arm was in the scene's initial state, in the unit of `time`; by default where the clock starts.",
 )
 @click.option(

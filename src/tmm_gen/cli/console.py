@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import shutil
 import sys
 import threading
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -141,7 +142,9 @@ def table(
     from rich.text import Text
 
     shown = [column if isinstance(column, Column) else Column(column) for column in columns]
-    grid = Table(title=title, title_justify="left")
+    width = shutil.get_terminal_size().columns if sys.stdout.isatty() else _WIDE
+    # as wide as its title, which would be broken otherwise
+    grid = Table(title=title, title_justify="left", min_width=min(len(title or ""), width))
     for column in shown:
         grid.add_column(
             Text(column.heading or column.key.replace("_", " ")),

@@ -35,6 +35,13 @@ def positive(_context: click.Context, parameter: click.Parameter, value: float |
     return value
 
 
+def finite(_context: click.Context, parameter: click.Parameter, value: float | None) -> float | None:
+    """Check a finite number."""
+    if value is not None and not math.isfinite(value):
+        raise click.BadParameter("must be a finite number", param=parameter)
+    return value
+
+
 def constant_inputs(scene: Scene, given: Sequence[str]) -> dict[str, float]:
     """Read ``NAME=VALUE`` words.
 

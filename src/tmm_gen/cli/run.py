@@ -16,8 +16,8 @@ from tmm_gen.cli.outputs import OutputFile, claim, write_outputs
 from tmm_gen.errors import UserError
 
 if TYPE_CHECKING:
-    from tmm_gen.measure.run import Backend
     from tmm_gen.measure.simulation import Simulation
+    from tmm_gen.measure.stepping import Backend
 
 # NumPy, SymPy and Matplotlib are imported inside: `tmm-gen --help` has no use for them.
 
@@ -54,6 +54,14 @@ def _time(_context: click.Context, parameter: click.Parameter, value: float | No
     return value
 
 
+def _sweeps(_context: click.Context, parameter: click.Parameter, value: str | None) -> str | int | None:
+    if value is None or value == "auto":
+        return value
+    if not (value.isdecimal() and int(value) >= 1):
+        raise click.BadParameter("must be auto or a whole number from 1", param=parameter)
+    return int(value)
+
+
 @click.command("run", epilog=_PROFILES)
 @click.argument("scene", metavar="SCENE", type=click.Path(path_type=Path))
 @click.option(
@@ -68,6 +76,12 @@ def _time(_context: click.Context, parameter: click.Parameter, value: float | No
     help="An input: a constant, a profile, a column of a file, or all from one file. Repeatable; the rest is zero.",
 )
 @set_option
+@click.option(
+    "--iterations",
+    metavar="auto|N",
+    callback=_sweeps,
+    help="Sweeps per stage of a planar arm; by default the scene's, or else as many as it takes.",
+)
 @click.option("--backend", type=click.Choice(["numpy", "c"]), default="numpy", show_default=True)
 @click.option("--csv", "csv_file", type=OutputFile(), help="Write the outputs over time.")
 @click.option(
@@ -93,6 +107,7 @@ def run(
     step: float | None,
     given: tuple[str, ...],
     changes: tuple[str, ...],
+    iterations: str | int | None,
     backend: Backend,
     csv_file: Path | None,
     picture: Path | None,
@@ -110,9 +125,11 @@ def run(
     from tmm_gen.measure.clock import refuse_other_clock
     from tmm_gen.measure.duration import default_duration
     from tmm_gen.measure.given import input_names, read_inputs, table_files
-    from tmm_gen.measure.run import number_of_steps, simulate, traceable
+    from tmm_gen.measure.run import number_of_steps, simulate
 
     chosen = changed_scene(scene, changes, step)
+    if iterations is not None:
+        chosen = chosen.replace(**{"model.iterations": iterations})
     read = (scene, *table_files(given))
     signals = read_inputs(given, *input_names(chosen))
     planar = chosen.model.kind == "planar"
@@ -124,9 +141,7 @@ def run(
     steps = number_of_steps(duration, chosen.integrator.step)
     with progress(f"simulating {chosen.name}", total=steps) as advance:
         drawn = planar and (picture is not None or animated is not None)
-        # in NumPy the motion of all links is at hand; compiled C would have to stop at every step
-        trace = drawn or (backend == "numpy" and traceable(chosen, steps))
-        simulation = simulate(chosen, signals, duration, backend, advance, trace=trace)
+        simulation = simulate(chosen, signals, duration, backend, advance, trace=drawn)
     written = _write(simulation, csv_file, picture, animated, read)
     _show(simulation, written, json_mode)
 
@@ -156,7 +171,7 @@ def _write(
 
 def _show(simulation: Simulation, written: list[Path], json_mode: bool) -> None:
     """Print the figures, what was done, and what could be done next."""
-    scene, last = simulation.scene, float(simulation.time[-1])
+    scene, last, accuracy = simulation.scene, float(simulation.time[-1]), simulation.accuracy
     facts = {
         "scene": scene.name,
         "integrator": scene.integrator.name,
@@ -164,6 +179,9 @@ def _show(simulation: Simulation, written: list[Path], json_mode: bool) -> None:
         "step": scene.integrator.step,
         "steps": simulation.steps,
         "until": last,
+        "accuracy": accuracy and accuracy.error,
+        "sensitivity": accuracy and accuracy.sensitivity,
+        "sweeps_per_step": simulation.sweeps_per_step,
         "energy_imbalance": simulation.imbalance,
         "unsolved": simulation.unsolved,
         "step_error": simulation.step_error,
@@ -171,11 +189,12 @@ def _show(simulation: Simulation, written: list[Path], json_mode: bool) -> None:
         "files": written,
     }
     done = f"{last:g} s in {simulation.steps} steps of {scene.integrator.step:g} s by {scene.integrator.name}"
-    table(list(simulation.rows()), _COLUMNS, json_mode, title=f"{scene.title}: {done}", more=facts)
+    rows = list(simulation.rows())
+    table(rows, _telling(rows), json_mode, title=f"{scene.title}: {done}", more=facts)
     if json_mode:
         return
-    if simulation.unsolved is not None and not simulation.still:
-        click.echo(_trusted(simulation))
+    if accuracy is not None and not simulation.still:
+        click.echo(trusted(simulation))
     for note in simulation.notes:
         click.echo(note)
     for path in written:
@@ -186,15 +205,49 @@ def _show(simulation: Simulation, written: list[Path], json_mode: bool) -> None:
         click.echo("more: --plot draws it, --csv FILE writes it, --until and --step change it")
 
 
-def _trusted(simulation: Simulation) -> str:
-    """Say how well a planar arm's equations were solved, and how well its energies balance for that."""
-    share = f"{simulation.unsolved:.1e}" if simulation.unsolved else "nothing but rounding"
-    step = f"the step's own error: {simulation.step_error:.1e} per radian"
-    said = f"of the energy that moves, sweeps left {share} unsolved ({step})"
-    if not simulation.imbalance:
+def _telling(rows: list[dict[str, object]]) -> list[Column | str]:
+    """Return the columns in which something stands."""
+    return [c for c in _COLUMNS if any(row[c if isinstance(c, str) else c.key] is not None for row in rows)]
+
+
+def trusted(simulation: Simulation) -> str:
+    """Say how good a run is, and from what that is known."""
+    from tmm_gen.measure.accuracy import SENSITIVE
+
+    accuracy = simulation.accuracy
+    assert accuracy is not None
+    said = [f"accurate to about {_share(accuracy.error)} of the motion{_why(simulation)}"]
+    if accuracy.sensitivity is not None and accuracy.sensitivity > SENSITIVE:
+        said.append(
+            f"the motion is sensitive: a small disturbance of its start grows {accuracy.sensitivity:.0e}-fold, so that "
+            "another machine may see another one"
+        )
+    if simulation.imbalance:
+        said.append(_balance(simulation.imbalance, simulation.scene.integrator.step))
+    return "\n".join(said)
+
+
+def _why(simulation: Simulation) -> str:
+    """Name the figures behind the accuracy."""
+    if simulation.unsolved is None:
+        return ""
+    left = f"{simulation.unsolved:.0e} of the energy" if simulation.unsolved else "nothing but rounding"
+    sweeps = simulation.sweeps_per_step
+    count = f" ({sweeps:.3g} a step)" if sweeps is not None else ""
+    return f" (the step errs by {simulation.step_error:.0e} per radian; sweeps{count} left {left} unsolved)"
+
+
+def _balance(imbalance: float, step: float) -> str:
+    said = f"work, energy and heat balance to {imbalance:.1e}"
+    if imbalance <= _BALANCED:
         return said
-    said += f"; work, energy and heat balance to {simulation.imbalance:.1e}"
-    if simulation.imbalance <= _BALANCED:
-        return said
-    smaller = f"{simulation.scene.integrator.step / 10:g}"
-    return f"{said}: the step is long for this arm, or the integrator damps it; --step {smaller} would tell"
+    return (
+        f"{said}: the step is long for this arm, or the integrator damps it; --step {step / 10:g} would tell"
+    )
+
+
+def _share(error: float) -> str:
+    """Return a share in words that a reader takes in at once."""
+    return (
+        f"{100.0 * error:.2g} %" if error >= 1e-3 else f"{error:.0e}" if error > 1e-13 else "the last digits"
+    )

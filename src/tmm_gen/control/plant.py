@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from tmm_gen.control.condition import Condition
 from tmm_gen.control.prediction import fine_scene
 from tmm_gen.control.problem import ControlProblem
-from tmm_gen.emit.c_names import signal
 from tmm_gen.native import NativeKernel, compile_kernel
 from tmm_gen.program.build import build_program
 from tmm_gen.scene import Scene
@@ -91,7 +90,7 @@ class Plant:
         types = self.kernel.types
         self._inputs = (types["inputs"] * self.substeps)()
         self._outputs = (types["outputs"] * self.substeps)()
-        field: Any = getattr(types["inputs"], signal(problem.input_name))
+        field: Any = getattr(types["inputs"], problem.input_name)
         first, last = field.offset // 8, (field.offset + field.size) // 8
         self._driven = _numbers(self._inputs)[:, first:last]
         names = [variable.name for variable in self.kernel.program.outputs]

@@ -31,13 +31,10 @@ class PlanarWatch:
         What is simulated.
     step : float
         s.
-    bound : float
-        rad; no angle can be larger after the whole run.
     """
 
     scene: Scene
     step: float
-    bound: float
     _before: Array | None = field(default=None, repr=False)
 
     def look(self, time: float, angles: Array) -> None:
@@ -78,11 +75,22 @@ class PlanarWatch:
         told = integrator_cause(self.scene, self.step)
         return told or (
             f"The integrator is within its limits: a step of {self.step:g} s is too long for the speed of the "
-            f"arm or for a sudden load. Try --step {self.step / 4:g}, or --set model.iterations=2."
+            f"arm or for a sudden load. Try --step {self.step / 10:g}{more_sweeps(self.scene)}."
         )
 
 
-def planar_watch(scene: Scene, until: float, step: float) -> PlanarWatch:
+def more_sweeps(scene: Scene) -> str:
+    """Return the offer to sweep as often as it takes, where the scene says how often."""
+    fixed = scene.model.linearisation == "newton" and not scene.model.auto
+    return ", or --iterations auto" if fixed else ""
+
+
+def free_watch(scene: Scene, step: float) -> PlanarWatch:
+    """Watch a planar scene that may start as fast as it likes."""
+    return PlanarWatch(scene, step)
+
+
+def planar_watch(scene: Scene, step: float) -> PlanarWatch:
     """Watch a planar scene.
 
     Raises
@@ -91,11 +99,10 @@ def planar_watch(scene: Scene, until: float, step: float) -> PlanarWatch:
         If it starts too fast for its step.
     """
     fastest = max((abs(rate) for rate in scene.initial.rates), default=0.0)
-    most = START_TURN[scene.model.iterations > 1]
+    most = START_TURN[scene.model.auto or scene.model.sweeps > 1]
     if fastest * step > most:
         raise UserError(
             f"scene '{scene.name}': a link starts at {fastest:g} rad/s and would turn by {fastest * step:.3g} rad in "
             f"one step of {step:g} s, more than a step can follow. Use a step below {most / fastest:.1g} s."
         )
-    steps = math.ceil(until / step) + 1
-    return PlanarWatch(scene, step, max(map(abs, scene.initial.angles)) + steps * TURN)
+    return PlanarWatch(scene, step)

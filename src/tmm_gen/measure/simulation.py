@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from tmm_gen.measure.accuracy import Accuracy
 from tmm_gen.measure.columns import OutputColumn, output_columns
 from tmm_gen.measure.metrics import step_figures
 from tmm_gen.measure.trace import Trace
@@ -45,6 +46,10 @@ class Simulation:
         Of a planar arm: error that the step leaves by itself (:func:`tmm_gen.measure.step_error.step_error`).
     notes : tuple of str
         How tables of a prescribed base were followed, where that is not plain.
+    accuracy : Accuracy, optional
+        What is known of the error, where that was asked for.
+    sweeps_per_step : float, optional
+        On average, where the kernel sweeps as often as it takes.
     """
 
     scene: Scene
@@ -58,6 +63,8 @@ class Simulation:
     unsolved: float | None = None
     step_error: float | None = None
     notes: tuple[str, ...] = ()
+    accuracy: Accuracy | None = None
+    sweeps_per_step: float | None = None
 
     @property
     def steps(self) -> int:
@@ -95,7 +102,7 @@ class Simulation:
             "overshoot_percent": None,
             "settling_time": None,
         }
-        if self.rest is not None:
+        if self.rest is not None and column.name in self.rest:
             figures = step_figures(self.time, values, self.rest[column.name])
             row["rest"] = figures.final
             row["settling_time"] = figures.settling_time

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 
 from tmm_gen.errors import CheckFailed
+from tmm_gen.measure.accuracy import MOST, SENSITIVE, Accuracy
 from tmm_gen.scene import Scene
 
 SMALLEST, LARGEST = 1e-7, 1e-4
@@ -18,6 +19,60 @@ SMALLEST, LARGEST = 1e-7, 1e-4
 
 class UnsolvedError(CheckFailed):
     """The sweeps of a run left too much of its equations: the message says how much, and what to do."""
+
+
+class InaccurateError(CheckFailed):
+    """The steps of a run are too long for its motion: the message says how wrong it is, and what to do."""
+
+
+def largest_error(scene: Scene) -> float:
+    """Return the largest error of a run, as a share of the motion."""
+    return MOST if scene.model.accuracy is None else scene.model.accuracy
+
+
+def refuse_inaccurate(scene: Scene, accuracy: Accuracy) -> None:
+    """Refuse a run that is too far from the motion it stands for.
+
+    Raises
+    ------
+    InaccurateError
+        With the error and the remedies.
+    """
+    most = largest_error(scene)
+    if accuracy.error <= most:
+        return
+    known = math.isfinite(accuracy.error)
+    error = f"about {100.0 * accuracy.error:.2g} % of the motion" if known else "unknown: shorter steps fail"
+    sensitive = ""
+    if accuracy.sensitivity is not None and accuracy.sensitivity > SENSITIVE:
+        sensitive = (
+            f" The motion is sensitive: a small disturbance of its start grows {accuracy.sensitivity:.0e}-fold, and so "
+            "do the errors of each step."
+        )
+    step = shorter_step(scene, accuracy)
+    remedies = [f"Take shorter steps, --step {step:g}"]
+    if accuracy.good_until >= scene.integrator.step:
+        remedies.append(f"end sooner, --until {_rounded_down(accuracy.good_until):g}")
+    if known:
+        accepted = float(f"{1.2 * accuracy.error:.2g}")
+        remedies.append(f"accept it, --set model.accuracy={accepted:g}")
+    raise InaccurateError(
+        f"scene '{scene.name}': with steps of {scene.integrator.step:g} s the error is {error}, more than the "
+        f"{100.0 * most:g} % that a run may have.{sensitive}\n{'; or '.join(remedies)}."
+    )
+
+
+def shorter_step(scene: Scene, accuracy: Accuracy) -> float:
+    """Return a step that is short enough, as far as can be told: for a tenth of what is accepted at least."""
+    fall = 100.0
+    if math.isfinite(accuracy.error):
+        fall = min(fall, max(10.0, math.sqrt(10.0 * accuracy.error / largest_error(scene))))
+    return float(f"{scene.integrator.step / fall:.2g}")
+
+
+def _rounded_down(value: float) -> float:
+    unit = 10.0 ** (math.floor(math.log10(value)) - 2)
+    return float(f"{math.floor(value / unit * (1.0 + 1e-12)) * unit:.3g}")
 
 
 def tolerance(scene: Scene, step_error: float) -> float:
@@ -64,12 +119,14 @@ def refuse_unsolved(scene: Scene, share: float, step_error: float) -> None:
     if accepted is None:
         return
     sweeps, step = scene.model.iterations, scene.integrator.step
-    done = "one sweep per stage" if sweeps == 1 else f"{sweeps} sweeps per stage"
+    done = {"auto": "even many sweeps", 1: "one sweep per stage"}.get(sweeps, f"{sweeps} sweeps per stage")
+    again = f"Take shorter steps, --step {step / 10:g}"
+    if not scene.model.auto:
+        again = f"Sweep as often as it takes, --iterations auto; mostly a smaller step helps too, --step {step / 10:g}"
     raise UnsolvedError(
         f"scene '{scene.name}': {done} left loads unsolved whose work is {share:.1e} of the energy that moves, "
         f"{_limit(scene, step_error)}: the motion cannot be trusted.\n"
-        f"Sweep again, --set model.iterations={sweeps + 1}; mostly a smaller step helps too, --step {step / 10:g}; or "
-        f"accept it, --set model.unsolved={accepted:g}."
+        f"{again}; or accept it, --set model.unsolved={accepted:g}."
     )
 
 

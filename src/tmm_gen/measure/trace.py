@@ -21,36 +21,49 @@ class Trace:
     Parameters
     ----------
     angle, rate : array, (k, m)
-        rad, rad/s; filled one instant at a time.
+        rad, rad/s; filled as steps are taken. Rates are zero where the integrator remembers none.
+    every : int
+        How many steps lie from one instant to the next.
     count : int
-        Instants filled.
+        States seen so far, the start among them.
     """
 
     angle: Array
     rate: Array
+    every: int = 1
     count: int = 0
 
     @classmethod
-    def empty(cls, scene: Scene, instants: int) -> Trace:
-        """Return room for some instants."""
+    def empty(cls, scene: Scene, instants: int, every: int = 1) -> Trace:
+        """Return room for the start and what each so many of some steps lead to."""
         columns = scene.stations + (scene.base.kind == "motor")
-        return cls(np.zeros((instants, columns)), np.zeros((instants, columns)))
+        kept = (instants - 1) // every + 1
+        return cls(np.zeros((kept, columns)), np.zeros((kept, columns)), every)
+
+    @property
+    def indices(self) -> Array:
+        """Numbers of the steps that the instants lie behind, (k,)."""
+        return self.every * np.arange(len(self.angle), dtype=float)
 
     def add(self, state: Mapping[str, Any] | Any) -> None:
-        """Keep a kernel's state.
+        """Keep a kernel's state: `angle` and `rate`, those of a hub, and turns that are kept apart from angles."""
+        named = state if isinstance(state, Mapping) else vars(state)
+        self.extend({name: np.asarray(value)[None] for name, value in named.items()})
 
-        Parameters
-        ----------
-        state : mapping or object
-            With `angle` and `rate`, and those of the hub if there is one; and the turns that are kept apart from
-            its angles, if they are.
-        """
-        get = state.__getitem__ if isinstance(state, Mapping) else lambda name: getattr(state, name)
-        moved = self.angle.shape[1] > len(np.atleast_1d(get("angle")))
+    def extend(self, states: Mapping[str, Array]) -> None:
+        """Keep states of a kernel, (k, ...) by name, one a step."""
+        found = states["angle"] if states["angle"].ndim > 1 else states["angle"][:, None]
+        first = -self.count % self.every
+        place = slice((self.count + first) // self.every, (self.count + len(found) - 1) // self.every + 1)
+        self.count += len(found)
+        if len(found) <= first:
+            return
+        hub = self.angle.shape[1] > found.shape[1]
         for target, name in ((self.angle, "angle"), (self.rate, "rate")):
-            target[self.count] = [get(f"hub_{name}"), *get(name)] if moved else get(name)
-        if isinstance(state, Mapping):
-            self.angle[self.count] += state.get("turned", 0.0)
-        else:
-            self.angle[self.count] += getattr(state, "turned", 0.0)
-        self.count += 1
+            if name in states:
+                target[place, int(hub) :] = states[name].reshape(found.shape)[first :: self.every]
+            if hub and f"hub_{name}" in states:
+                target[place, 0] = states[f"hub_{name}"][first :: self.every]
+        if "turned" in states:
+            turned = states["turned"][first :: self.every]
+            self.angle[place] += turned if turned.ndim > 1 else turned[:, None]

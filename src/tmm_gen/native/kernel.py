@@ -175,6 +175,14 @@ class NativeKernel:
         """
         self._library.run(self._model, self._state, inputs, outputs)
 
+    def record(self, inputs: Any, outputs: Any, states: Any) -> tuple[int, int]:
+        """Do the same, and keep the states; see :meth:`Library.record`."""
+        return self._library.record(self._model, self._state, inputs, outputs, states)
+
+    def raise_for(self, status: int) -> None:
+        """Raise what a status of :meth:`record` stands for."""
+        self._library.raise_for(status, "step")
+
     @property
     def types(self) -> Mapping[str, type[ctypes.Structure]]:
         """Structs of the kernel as ctypes has them: "params", "model", "state", "inputs", "outputs"."""

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from tmm_gen.emit.c.real import Real
 from tmm_gen.emit.c.structs import COUNTER, Struct
-from tmm_gen.emit.c_names import c_name
 from tmm_gen.program.variables import Variable
 
 Value = float | Sequence[float] | NDArray[np.floating[Any]]
@@ -50,7 +49,7 @@ def structure_of(struct: Struct, real: Real) -> type[ctypes.Structure]:
 
 def read(instance: ctypes.Structure, struct: Struct) -> dict[str, Any]:
     """Return the members of a struct: floats, arrays, and the counter if it has one."""
-    members = {v.name: _python(getattr(instance, c_name(v))) for v in struct.variables}
+    members = {v.name: _python(getattr(instance, v.name)) for v in struct.variables}
     return members | ({COUNTER: getattr(instance, COUNTER)} if struct.counter else {})
 
 
@@ -67,8 +66,7 @@ def write(instance: ctypes.Structure, struct: Struct, values: Mapping[str, Value
         if name == COUNTER and struct.counter:
             setattr(instance, COUNTER, int(value))  # type: ignore[arg-type]
         elif name in variables:
-            member = c_name(variables[name])
-            setattr(instance, member, element_values(variables[name], value, type(getattr(instance, member))))
+            setattr(instance, name, element_values(variables[name], value, type(getattr(instance, name))))
         else:
             raise ValueError(f"{struct.name} has no {name!r}; it has: {', '.join(variables) or 'none'}")
 

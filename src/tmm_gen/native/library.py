@@ -84,6 +84,20 @@ class Library:
         status = self._handle.harness_run(*passed, ctypes.c_long(len(inputs)), ctypes.byref(done))
         self.raise_for(status, f"step {done.value + 1}")
 
+    def record(self, model: Any, state: Any, inputs: Any, outputs: Any, states: Any) -> tuple[int, int]:
+        """Take as many steps as there are inputs, and keep outputs and states after each.
+
+        Returns
+        -------
+        done, status : int
+            Steps that succeeded, and the status of the one that did not (:meth:`raise_for`); that one's state is kept
+            too. Zero where all did.
+        """
+        done = ctypes.c_long()
+        passed = map(self._passed, (model, state, inputs, outputs, states))
+        status: int = self._handle.harness_record(*passed, ctypes.c_long(len(inputs)), ctypes.byref(done))
+        return done.value, status
+
     def seconds(self, model: Any, state: Any, inputs: Any, steps: int) -> float:
         """Return how long a number of steps takes with constant inputs.
 

@@ -20,8 +20,15 @@ from tmm_gen.row.scene import row_of
 from tmm_gen.scene import Scene
 
 
-def build_program(scene: Scene) -> Program:
+def build_program(scene: Scene, *, auto: bool = False) -> Program:
     """Build the program of a scene.
+
+    Parameters
+    ----------
+    scene : Scene
+        What to build.
+    auto : bool
+        Whether the steps of a planar arm sweep as often as it takes: for simulations, not for controllers.
 
     Raises
     ------
@@ -38,7 +45,7 @@ def build_program(scene: Scene) -> Program:
             require_digits(scene, chosen)
         else:
             _refuse_unsupported(scene)
-        return build_unchecked(scene, chosen)
+        return build_unchecked(scene, chosen, auto=auto)
     except UnsuitableUnknownError as error:
         raise UserError(
             f"scene '{scene.name}': model.unknown = '{scene.model.unknown}' with model.sweep = "
@@ -46,18 +53,23 @@ def build_program(scene: Scene) -> Program:
         ) from error
 
 
-def build_unchecked(scene: Scene, chosen: Integrator) -> Program:
+def build_unchecked(scene: Scene, chosen: Integrator, *, auto: bool = False) -> Program:
     """Build the program of a scene without asking whether it keeps enough digits.
 
     Parameters
     ----------
     chosen : Integrator
         With its parameters bound to numbers.
+    auto : bool
+        Whether each stage sweeps until that changes next to nothing, instead of as often as the scene says; without
+        sensitivities.
     """
     if scene.model.linearisation != "newton":
         _require_one_implicit_stage(scene, chosen)
     row = row_of(scene, chosen)
-    if scene.emit.sensitivities:
+    auto = auto and row.about == "prediction"
+    derived = scene.emit.sensitivities and not auto
+    if derived:
         require_derivatives(scene, chosen, row)
     return build(
         row,
@@ -65,20 +77,21 @@ def build_unchecked(scene: Scene, chosen: Integrator) -> Program:
         Choices(
             step=scene.integrator.step,
             unknown=scene.model.unknown,
-            iterations=scene.model.iterations,
-            walks=_walks(scene, row),
+            iterations=scene.model.sweeps,
+            walks=_walks(scene, row, derived=derived),
             places=scene.model.linearisation != "newton",
             turns_apart=scene.emit.compensated and row.boundary == "free",
-            sensitivities=scene.emit.sensitivities,
+            auto=auto,
+            sensitivities=derived,
         ),
     )
 
 
-def _walks(scene: Scene, row: Row) -> type[Walks]:
+def _walks(scene: Scene, row: Row, *, derived: bool) -> type[Walks]:
     """Return what walks a scene's sweeps take."""
     if scene.model.sweep == "product":
         return ProductWalks
-    if scene.emit.sensitivities and row.about == "prediction":
+    if derived and row.about == "prediction":
         return TangentableWalks
     return WALKS[scene.model.linearisation]
 

@@ -63,7 +63,7 @@ def count_expression(e: sp.Expr) -> Operations:
 
 
 def count_routine(routine: Routine) -> Operations:
-    """Count the operations of one call of a routine."""
+    """Count the operations of one call of a routine; of what it repeats, one round."""
     total = Operations()
     for statement in routine.statements():
         if isinstance(statement, Loop):

@@ -11,7 +11,7 @@ from typing import Any
 
 import sympy as sp
 
-from tmm_gen.program.statements import Assign, Loop, Order, Require, Routine
+from tmm_gen.program.statements import Assign, Loop, Order, Repeat, Require, Routine, Until
 from tmm_gen.program.variables import Ref, Role, Variable
 
 Values = dict[str, Any]
@@ -84,8 +84,18 @@ def execute(
         else:
             _write(values, statement.target, j, result)
 
-    for statement in routine.statements():
-        if isinstance(statement, Loop):
+    statements = tuple(routine.statements())
+    place = begin = left = 0
+    while place < len(statements):
+        statement = statements[place]
+        place += 1
+        if isinstance(statement, Repeat):
+            begin, left = place, statement.most
+        elif isinstance(statement, Until):
+            left -= 1
+            if left > 0 and compute(statement.value, None) > 0:
+                place = begin
+        elif isinstance(statement, Loop):
             stations = range(statement.start, statement.stop)
             for j in reversed(stations) if statement.order is Order.INWARD else stations:
                 for inner in statement.body:

@@ -30,6 +30,24 @@ class Require:
     value: sp.Expr
 
 
+@dataclass(frozen=True)
+class Repeat:
+    """Do what stands up to the next :class:`Until` again and again, so often at most: a mark, which may not nest."""
+
+    most: int
+    value: sp.Expr = field(default=sp.Integer(0), init=False)
+
+
+@dataclass(frozen=True)
+class Until:
+    """End what :class:`Repeat` began; leave it unless ``value`` is positive."""
+
+    value: sp.Expr
+
+
+Mark = Repeat | Until
+
+
 class Order(Enum):
     """In which order a loop visits stations."""
 
@@ -70,10 +88,10 @@ class Section:
     """Statements under a title; titles become comments in the generated code."""
 
     title: str
-    statements: tuple[Assign | Require | Loop, ...]
+    statements: tuple[Assign | Require | Loop | Mark, ...]
 
 
-Statement = Assign | Require | Loop
+Statement = Assign | Require | Loop | Mark
 
 
 @dataclass(frozen=True)

@@ -109,7 +109,7 @@ def planar_row(scene: Scene, integrator: str) -> Row:
     model = "planar arm, large rotations"
     model += ", gravity" if named["gravity"] else ""
     model += ", tip mass" if named["tip_mass"] else ""
-    iterations = f", {scene.model.iterations} iterations" if scene.model.iterations > 1 else ""
+    iterations = f", {scene.model.sweeps} iterations" if scene.model.sweeps > 1 else ""
     return Row(
         name=scene.name,
         title=scene.title,

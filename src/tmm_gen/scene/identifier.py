@@ -14,6 +14,8 @@ from tmm_gen.scene.table import fault
 from tmm_gen.scene.words import MODULES_AND_HEADERS, TIME
 
 LONGEST = 48
+_ENDS_OF_OTHERS = ("_default", "_INVALID")
+"""A scene ``arm`` has a function ``arm_default_params``, ``Arm`` a status ``tmm_Arm_INVALID_STEP``."""
 
 
 def name_fault(name: str) -> tuple[str, str] | None:
@@ -58,6 +60,12 @@ def scene_name_fault(name: str) -> tuple[str, str] | None:
     """
     if found := name_fault(name):
         return found
+    for end in _ENDS_OF_OTHERS:
+        if name.endswith(end) and name != end:
+            return (
+                f"ends in {end}: names in its C could be those of a scene '{name.removesuffix(end)}'",
+                f"Choose another, for example '{name}_1'.",
+            )
     lower = name.lower()
     if lower in sys.stdlib_module_names or lower in MODULES_AND_HEADERS:
         return (

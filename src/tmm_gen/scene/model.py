@@ -2,16 +2,24 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import BeforeValidator, Field
 
-from tmm_gen.scene.table import Count, NonNegative, Positive, Table
+from tmm_gen.scene.table import Count, NonNegative, Positive, Table, fault
 
 Kind = Literal["chain", "planar"]
 Linearisation = Literal["newton", "taylor", "frozen"]
 Sweep = Literal["riccati", "product"]
 Unknown = Literal["acceleration", "increment", "displacement"]
+
+
+def _sweeps(value: object) -> object:
+    """Reject what is neither a number of sweeps nor "auto", in one sentence for both."""
+    number = isinstance(value, int) and not isinstance(value, bool) and value >= 1
+    if number or value == "auto":
+        return value
+    raise fault('must be "auto" or a whole number from 1', 'Write for example `iterations = "auto"`.')
 
 
 class Model(Table):
@@ -25,11 +33,13 @@ class Model(Table):
         m/s^2 along -y, not negative; planar only.
     linearisation : {"newton", "taylor", "frozen"}
         Planar only.
-    iterations : int
-        Sweeps per stage; with ``newton`` only.
+    iterations : int or "auto"
+        Sweeps per stage; with ``newton`` only. "auto": a simulation sweeps as often as it takes, kernels once.
     unsolved : float, optional
         Most work of what sweeps leave unsolved, as a share of the energy that moves; absent, what the step leaves by
         itself (:mod:`tmm_gen.measure.tolerance`). With ``newton`` only.
+    accuracy : float, optional
+        Largest error of a run, as a share of how far the motion goes (:mod:`tmm_gen.measure.accuracy`); absent, 0.05.
     sweep : {"riccati", "product"}
         How the stations' matrices are combined.
     unknown : {"acceleration", "increment", "displacement"}
@@ -41,17 +51,37 @@ class Model(Table):
         default=None, description="gravity along -y in m/s^2", examples=["9.81"]
     )
     linearisation: Linearisation = Field(default="newton", description="linearisation", examples=['"newton"'])
-    iterations: Count = Field(default=1, description="sweeps per stage", examples=["1"])
+    iterations: Annotated[Count | Literal["auto"], BeforeValidator(_sweeps)] = Field(
+        default="auto",
+        description='sweeps per stage; with "auto", `run` takes as many as it needs and kernels take one',
+        examples=['"auto"', "2"],
+    )
     unsolved: Positive | None = Field(
         default=None,
         description="most work of what sweeps leave unsolved, as a share of the energy that moves",
         examples=["1e-3"],
         json_schema_extra={"absent": "follows the step's own error"},
     )
+    accuracy: Positive | None = Field(
+        default=None,
+        description="largest error of a run, as a share of the motion",
+        examples=["0.2"],
+        json_schema_extra={"absent": "0.05"},
+    )
     sweep: Sweep = Field(default="riccati", description="sweep", examples=['"riccati"'])
     unknown: Unknown = Field(
         default="acceleration", description="unknown of the sweep", examples=['"acceleration"']
     )
+
+    @property
+    def sweeps(self) -> int:
+        """Sweeps per stage of a kernel."""
+        return 1 if self.iterations == "auto" else self.iterations
+
+    @property
+    def auto(self) -> bool:
+        """Whether a simulation sweeps as often as it takes."""
+        return self.kind == "planar" and self.linearisation == "newton" and self.iterations == "auto"
 
 
 class Base(Table):

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from tmm_gen.emit.c.kernel import Kernel
 from tmm_gen.emit.c.structs import dimension
-from tmm_gen.emit.c_names import c_element
+from tmm_gen.emit.c_names import element_name
 from tmm_gen.emit.templates import render
 from tmm_gen.program.variables import Variable
 from tmm_gen.scene import Scene
@@ -65,7 +65,9 @@ def harness(kernel: Kernel, counter: str, steps: int = STEPS) -> str:
 
 def _wave(kernel: Kernel, which: int, variable: Variable) -> Wave:
     low, high = swing(kernel.scene, variable.name)
-    members = tuple(c_element(variable.entry(stage)) for stage in range(variable.length or 1))
+    members = tuple(
+        element_name(variable.entry(stage), kernel.program.name) for stage in range(variable.length or 1)
+    )
     literal = kernel.real.literal
     return Wave(members, which, literal((low + high) / 2.0), literal((high - low) / 2.0))
 

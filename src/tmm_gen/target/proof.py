@@ -15,7 +15,7 @@ from tmm_gen.emit.c import emit_kernel
 from tmm_gen.emit.c.box import Box, box_of
 from tmm_gen.emit.c.kernel import Kernel
 from tmm_gen.emit.c.structs import dimension
-from tmm_gen.emit.c_names import c_name, macros
+from tmm_gen.emit.c_names import macros, member
 from tmm_gen.emit.templates import render
 from tmm_gen.errors import UserError
 from tmm_gen.program.build import build_program
@@ -120,7 +120,7 @@ def driver(kernel: Kernel, box: Box) -> str:
         return literal(low), literal(high)
 
     def members(variables: tuple[Variable, ...]) -> list[tuple[str, str, str, str]]:
-        return [(c_name(v), dimension(v, program), *bounds(v)) for v in variables]
+        return [(member(v, program.name), dimension(v, program), *bounds(v)) for v in variables]
 
     step = box.bounds.get("step")
     return render(

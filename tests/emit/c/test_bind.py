@@ -14,7 +14,6 @@ from tmm_gen.emit.c.bind import bind
 from tmm_gen.emit.c.lower import lower
 from tmm_gen.emit.c.real import REALS
 from tmm_gen.emit.c.structs import structs_of
-from tmm_gen.emit.c_names import c_name
 from tmm_gen.errors import UserError
 from tmm_gen.native import compile_kernel
 from tmm_gen.native.compiler import compile_library
@@ -56,7 +55,7 @@ def _state_after(scene: Scene, steps: int) -> bytes:
     given = [(number * (v.length or 1))(*([0.05] * (v.length or 1))) for v in program.given]
     assert getattr(library, f"{scene.name}_initialise")(*map(ctypes.byref, (state, *given, inputs))) == 0
     for k in range(steps):
-        setattr(inputs, c_name(program.inputs[0]), 0.25 * (k % 5 - 2))
+        setattr(inputs, program.inputs[0].name, 0.25 * (k % 5 - 2))
         assert getattr(library, f"{scene.name}_step")(ctypes.byref(state), ctypes.byref(inputs)) == 0
     return bytes(state)
 

@@ -13,8 +13,8 @@ import pytest
 from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
-from tmm_gen.emit.c import emit_c
-from tmm_gen.emit.c_names import PREFIX, macros
+from tmm_gen.emit.c import emit_c, emit_kernel
+from tmm_gen.emit.c_names import PREFIX, macros, signal
 from tmm_gen.program.build import build_program
 from tmm_gen.scene import parse_scene
 from tmm_gen.scene.identifier import name_fault, scene_name_fault
@@ -120,17 +120,34 @@ def compile_all(folder: Path, files: dict[str, str], users: dict[str, str]) -> N
         assert done.returncode == 0, done.stderr
 
 
+def use(scene: str, name: str, text: str) -> str:
+    """Return a line that uses a member as any program can: by its name, or with the prefix where that is a macro."""
+    prefixed = text.format(PREFIX + name)
+    if signal(name, scene) != name:
+        return f"    {prefixed}\n"
+    return f"#ifdef {name}\n    {prefixed}\n#else\n    {text.format(name)}\n#endif\n"
+
+
 def user_of(scene: str, called: list[str], before: str) -> str:
     """Return a program that includes everything before a kernel's header, and reads and writes every signal."""
-    lines = [f"    in->{PREFIX}{name} = 1.0f;" for name in called[:3]]
-    lines += [f"    if (out->{PREFIX}{name} > 2.0f) return 1;" for name in called[3:]]
-    body = "\n".join(lines)
+    body = "".join(use(scene, name, "in->{} = 1.0f;") for name in called[:3])
+    body += "".join(use(scene, name, "if (out->{} > 2.0f) return 1;") for name in called[3:])
     plain = before.replace("#include <complex.h>", "").replace("#include <tgmath.h>", "")
     head = f"int use_{scene}({scene}_inputs *in, const {scene}_outputs *out)"
     return (
         f"#ifndef __cplusplus\n{before}#else\n{plain}#endif\n"
         f'#include "{scene}.h"\n#include "{scene}.h"\n{head};\n'
-        f"{head}\n{{\n{body}\n    return (int){macros(scene)}_OK;\n}}\n"
+        f"{head}\n{{\n{body}    return (int){macros(scene)}_OK;\n}}\n"
+    )
+
+
+def first_of(scene: str, called: list[str], behind: str) -> str:
+    """Return a program that includes a kernel's header before all others: bare names, but for macros of gcc itself."""
+    body = "".join(use(scene, name, "in->{} = 1.0f;") for name in called[:3])
+    body += "".join(use(scene, name, "if (out->{} > 2.0f) return 1;") for name in called[3:])
+    head = f"int first_{scene}({scene}_inputs *in, const {scene}_outputs *out)"
+    return (
+        f'#include "{scene}.h"\n{head};\n{head}\n{{\n{body}    return 0;\n}}\n{behind}#include "{scene}.h"\n'
     )
 
 
@@ -138,7 +155,58 @@ def user_of(scene: str, called: list[str], before: str) -> str:
 @given(called=names(40))
 def test_signals_may_have_any_name(called: list[str], tmp_path: Path) -> None:
     users = {"user.c": user_of("arm", called, included())}
+    users["first.c"] = first_of("arm", called, "#include <math.h>\n#include <stdio.h>\n#include <string.h>\n")
     compile_all(tmp_path, emitted(scene_text("arm", called)), users)
+
+
+def test_every_dialect_finds_the_same_member(tmp_path: Path) -> None:
+    """Kernels and programs of different dialects disagree on what is a macro, never on where a signal lies."""
+    hostile = ["linux", "NAN", "EOF", "register", "M_PI", "k", "unix", "ARM_STEP", "tmm_k", "xor", "arm_real"]
+    printed: dict[tuple[str, ...], set[str]] = {}
+    for called in (hostile, [f"plain_{n}" for n in range(len(hostile))]):
+        folder = tmp_path / called[0]
+        folder.mkdir()
+        files = emitted(scene_text("arm", called))
+        for name, text in files.items():
+            (folder / name).write_text(text)
+        sets = "".join(use("arm", name, f"in.{{}} = {k + 1}.25;") for k, name in enumerate(called[:3]))
+        shows = "".join(use("arm", name, 'printf("%.17g\\n", out.{});') for name in called[3:])
+        (folder / "main.c").write_text(
+            "#include <stdio.h>\n#include <math.h>\n#include <stdlib.h>\n#include <unistd.h>\n"
+            f"""#include "arm.h"
+int main(void)
+{{
+    arm_params params; arm_model model; arm_state state; arm_inputs in; arm_outputs out;
+{sets}    arm_default_params(&params);
+    if (arm_prepare(&model, &params, ARM_STEP) != ARM_OK) return 1;
+    if (arm_initialise(&state, &params, NULL, NULL, &in) != ARM_OK) return 2;
+    for (int n = 0; n < 10; ++n) if (arm_step(&model, &state, &in) != ARM_OK) return 3;
+    arm_output(&model, &state, &out);
+{shows}    return 0;
+}}
+"""
+        )
+        subprocess.run(["gcc", "-std=c99", "-c", "arm.c"], cwd=folder, check=True)
+        for compiler, *flags in DIALECTS:
+            language = ["-x", "c++"] if compiler == "g++" else []
+            command = [compiler, *flags, *language, "main.c", "-x", "none", "arm.o", "-lm", "-o", "run"]
+            subprocess.run(command, cwd=folder, check=True)
+            done = subprocess.run(["./run"], cwd=folder, capture_output=True, text=True, check=True)
+            printed.setdefault(tuple(called), set()).add(done.stdout)
+    first, second = printed.values()
+    assert len(first) == 1
+    assert first == second
+    assert len(set(next(iter(first)).split())) == 2  # rates of the first and of the last station, in turn
+
+
+def test_signals_of_own_names_stay_apart() -> None:
+    called = ["NAN", "tmm_NAN", "tmm_tmm_NAN", "NaN", "tmm_Arm_STEP", "Arm_STEP"]
+    for scene in ("arm", "Arm", "k"):
+        members: list[str] = []
+        for name in called:
+            bare = signal(name, scene) == name
+            members += [name, PREFIX + name] if bare else [PREFIX + name]
+        assert len(set(members)) == len(members)
 
 
 @FEW
@@ -164,6 +232,42 @@ def test_macros_of_two_names_differ() -> None:
     assert len(set(found)) == len(found)
 
 
+def test_names_of_one_scene_are_never_those_of_another() -> None:
+    """``arm_default_params`` is a function of ``arm``: no scene ``arm_default`` may have params in its program."""
+    called = ["u", "v", "w", "x", "y"]
+    ends: set[str] = set()
+    for kind, integrator, changes in (
+        ("chain", "sdirk2", "sensitivities = true"),
+        ("planar", "newmark", 'trigonometry = "own"'),
+        ("chain", "newmark", 'real = "float32"\ncompensated = true'),
+    ):
+        text = scene_text("arm", called, kind=kind).replace('real = "float64"', changes)
+        scene = parse_scene(text.replace('"newmark"', f'"{integrator}"'))
+        for path, content in emit_kernel(build_program(scene), scene).items():
+            if path.endswith(".h"):
+                code = re.sub(r"/\*.*?\*/", "", content, flags=re.DOTALL)
+                ends |= set(re.findall(r"\b(?:arm|ARM)_(\w+)", code))
+    assert {
+        "default_params",
+        "INVALID_STEP",
+        "STEP",
+        "params",
+        "state_tangents",
+        "pair",
+        "STAGES",
+        "LANES",
+        "LARGEST_ANGLE",
+    } <= ends
+
+    def names_of(scene: str) -> set[str]:
+        return {f"{macros(scene) if end.isupper() else scene}_{end}" for end in ends}
+
+    for base in ("arm", "Arm", "ARM", "a"):
+        for other in {end.rsplit("_", k)[0] for end in ends for k in range(1, end.count("_") + 1)}:
+            for scene in (f"{base}_{other}", f"{base}_{other.lower()}", f"{base}_{other.upper()}"):
+                assert scene_name_fault(scene) is not None or not names_of(base) & names_of(scene), scene
+
+
 @given(
     st.lists(st.from_regex(r"[A-Za-z][A-Za-z0-9_]{0,8}", fullmatch=True), min_size=2, max_size=2, unique=True)
 )
@@ -183,7 +287,7 @@ def test_scenes_of_two_cases_and_precisions_run_in_one_program(tmp_path: Path) -
         includes += f'#include "{folder.name}/{name}.h"\n'
         body += f"""{{
     {name}_params params; {name}_model model; {name}_state state; {name}_outputs out;
-    {name}_inputs in = {{.tmm_k = 1.0f}};
+    {name}_inputs in = {{.k = 1.0f}};
     {name}_default_params(&params);
     if ({name}_prepare(&model, &params, {macros(name)}_STEP) != {macros(name)}_OK) return 1;
     if ({name}_initialise(&state, &params, NULL, NULL, &in) != {macros(name)}_OK) return 2;

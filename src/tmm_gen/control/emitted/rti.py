@@ -14,6 +14,7 @@ from tmm_gen.control.emitted.text import ControllerText
 from tmm_gen.control.rti import RealTimeIteration
 from tmm_gen.emit.c import emit_kernel
 from tmm_gen.emit.c.real import REALS
+from tmm_gen.emit.c_names import bare_names
 from tmm_gen.emit.templates import render
 from tmm_gen.program.build import build_program
 
@@ -34,6 +35,8 @@ class RtiText(ControllerText):
         Instants of a step at which inputs are read.
     inputs : tuple of str
         Names of the kernel's, in their order. The C asks for none of them by its name, which a macro may have.
+    bare_names : list of str
+        Inputs and outputs whose members have no prefix.
     """
 
     data: RtiData
@@ -41,6 +44,7 @@ class RtiText(ControllerText):
     full: bool
     stages: int
     inputs: tuple[str, ...]
+    bare_names: list[str]
 
     @property
     def torque_at(self) -> int:
@@ -127,6 +131,7 @@ def emit_rti(
         full=full,
         stages=max(len(instants) for instants in program.stage_instants),
         inputs=tuple(item.name for item in scene.inputs),
+        bare_names=bare_names(program),
     )
     context = {"mpc": mpc, "name": name, "NAME": mpc.NAME}
     kernel = {path.removeprefix("c/"): text for path, text in emit_kernel(program, scene).items()}

@@ -14,7 +14,7 @@ from tmm_gen.emit.c import pair
 from tmm_gen.emit.c.real import Real
 from tmm_gen.emit.expressions import ExpressionPrinter
 from tmm_gen.errors import UserError
-from tmm_gen.program.statements import Assign, Loop, Order, Program, Require, Routine
+from tmm_gen.program.statements import Assign, Loop, Mark, Order, Program, Require, Routine
 from tmm_gen.program.variables import Ref, Variable
 
 Bound = dict[Variable, tuple[float, ...]]
@@ -107,6 +107,8 @@ def _python(routine: Routine, real: Real) -> str:
 
     lines = []
     for statement in routine.statements():
+        if isinstance(statement, Mark):
+            raise NotImplementedError("prepare repeats nothing")
         if isinstance(statement, Loop):
             stations = f"range({statement.start}, {statement.stop})"
             order = f"reversed({stations})" if statement.order is Order.INWARD else stations

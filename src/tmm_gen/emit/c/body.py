@@ -19,8 +19,8 @@ from tmm_gen.emit.c.real import Real
 from tmm_gen.emit.c.scalars import place_scalars
 from tmm_gen.emit.c.structs import described, dimension
 from tmm_gen.emit.c.wrap import INDENT, WIDTH, comment, statement
-from tmm_gen.emit.c_names import c_name, macros
-from tmm_gen.program.statements import Assign, Loop, Order, Program, Require, Routine
+from tmm_gen.emit.c_names import local_name, macros, member
+from tmm_gen.program.statements import Assign, Loop, Mark, Order, Program, Repeat, Require, Routine
 from tmm_gen.program.variables import Ref, Role, Variable, refs_in
 
 TOTAL = "total"
@@ -143,9 +143,7 @@ class Body:
         local = frozenset(hoisted)
         printer = self._printer(lambda ref: self._refer(ref, local))
         for variable in hoisted:
-            yield (
-                f"{INDENT}const {self._type(variable)} {c_name(variable)} = {self._source(variable)}{c_name(variable)};"
-            )
+            yield (f"{INDENT}const {self._type(variable)} {local_name(variable)} = {self._placed(variable)};")
         for variable in (*self._intermediate(), *self.routine.variables(Role.WORK), *placement.at_top):
             yield from self._declaration(variable)
         sums = self._sums
@@ -176,23 +174,39 @@ class Body:
             turns.forget(inner.target)
 
         straight = Turns(names)
+        depth = 1
 
         for section in self.routine.sections:
             yield ""
-            yield from comment(sentence(section.title), 1)
+            yield from comment(sentence(section.title), depth)
             for top in section.statements:
-                if isinstance(top, Loop):
-                    yield f"{INDENT}{self._loop_head(top)} {{"
+                if isinstance(top, Mark):
+                    yield from self._marked(top, printer)
+                    straight = Turns(names)
+                    depth = 2 if isinstance(top, Repeat) else 1
+                elif isinstance(top, Loop):
+                    yield f"{INDENT * depth}{self._loop_head(top)} {{"
                     turns = Turns(names)
                     for inner in top.body:
-                        yield from simple(inner, 2, turns)
+                        yield from simple(inner, depth + 1, turns)
                         straight.forget(inner.target) if isinstance(inner, Assign) else None
                     if sums is not None and (terms := sums.inside.get(top, ())):
                         text = " + ".join(self._judged(assign, printer) for assign in terms)
-                        yield from statement(f"{TOTAL} += {text};", 2)
-                    yield f"{INDENT}}}"
+                        yield from statement(f"{TOTAL} += {text};", depth + 1)
+                    yield f"{INDENT * depth}}}"
                 else:
-                    yield from simple(top, 1, straight)
+                    yield from simple(top, depth, straight)
+
+    def _marked(self, mark: Mark, printer: CPrinter) -> Iterator[str]:
+        """Yield where something repeated begins or ends."""
+        if isinstance(mark, Repeat):
+            yield f"{INDENT}for (int round = 0; round < {mark.most}; ++round) {{"
+            return
+        left = f"({printer.text(mark.value)}){self._high}"
+        yield from statement(f"if (!({left} > {self.real.literal(0.0)})) {{", 2)
+        yield f"{INDENT * 3}break;"
+        yield f"{INDENT * 2}}}"
+        yield f"{INDENT}}}"
 
     def verdict(self) -> str:
         """Return the check that leaves the function unless the new state is finite."""
@@ -202,7 +216,7 @@ class Body:
         printer = self._printer(lambda ref: self._refer(ref, frozenset()))
         terms = [TOTAL] if any(sums.inside.values()) else []
         terms += [self._judged(assign, printer) for assign in sums.behind]
-        terms += [element_at(f"state->{c_name(v)}", at, self._last) + self._high for v, at in sums.ends]
+        terms += [element_at(self._placed(v), at, self._last) + self._high for v, at in sums.ends]
         if not terms:
             return ""
         return "\n".join(check([" + ".join(terms)], f"{macros(self.program.name)}_NON_FINITE_STATE", 1))
@@ -236,10 +250,13 @@ class Body:
         return ".high" if self.real.pair else ""
 
     def _refer(self, ref: Ref, local: frozenset[Variable]) -> str:
-        source = "" if ref.variable in local else self._source(ref.variable)
         if ref.variable.role is Role.GIVEN:
             return given_element(ref, self.real)
-        return element(source + c_name(ref.variable), ref)
+        return element(local_name(ref.variable) if ref.variable in local else self._placed(ref.variable), ref)
+
+    def _placed(self, variable: Variable) -> str:
+        """Return where a variable is: a local one, or a member behind its pointer."""
+        return f"{self._source(variable)}{member(variable, self.program.name)}"
 
     def _intermediate(self) -> tuple[Variable, ...]:
         if self.bound:
@@ -247,7 +264,7 @@ class Body:
         return tuple(v for v in self.routine.variables(Role.COEFFICIENT) if not self._source(v))
 
     def _declaration(self, variable: Variable) -> list[str]:
-        line = f"{INDENT}{self._type(variable)} {c_name(variable)}{dimension(variable, self.program)};"
+        line = f"{INDENT}{self._type(variable)} {local_name(variable)}{dimension(variable, self.program)};"
         remark = f" /* {described(variable)} */"
         if variable.doc and len(line) + len(remark) <= WIDTH:
             return [line + remark]

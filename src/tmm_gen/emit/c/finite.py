@@ -5,14 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from tmm_gen.emit.c.structs import dimension
-from tmm_gen.emit.c.wrap import INDENT, statement
-from tmm_gen.emit.c_names import c_name
+from tmm_gen.emit.c.wrap import INDENT, comment, statement
+from tmm_gen.emit.c_names import member
 from tmm_gen.program.statements import Program
 from tmm_gen.program.variables import Variable
 
 
 def finite_checks(
-    pointer: str, variables: tuple[Variable, ...], program: Program, failure: str, pairs: bool = False
+    pointer: str,
+    variables: tuple[Variable, ...],
+    program: Program,
+    failure: str,
+    zero: str,
+    pairs: bool = False,
 ) -> Iterator[str]:
     """Yield lines that leave a function unless all of some variables are finite.
 
@@ -26,20 +31,31 @@ def finite_checks(
         Whose macros give the lengths of arrays.
     failure : str
         What to return.
+    zero : str
+        Literal.
     pairs : bool
         Whether they are sums of two numbers, of which both are looked at.
     """
-    sums = "{0}.high + {0}.low" if pairs else "{0}"
     by_length: dict[str, list[str]] = {}
     for variable in variables:
-        by_length.setdefault(dimension(variable, program), []).append(pointer + c_name(variable))
+        name = pointer + member(variable, program.name)
+        by_length.setdefault(dimension(variable, program), []).append(name)
+    numbers = ("{0}.high", "{0}.low") if pairs else ("{0}",)
+    single = [number.format(name) for name in by_length.pop("", []) for number in numbers]
+    if len(single) == 1 and not by_length:
+        yield from check(single, failure, 1)
+        return
+    lost = " + ".join(f"({name} - {name})" for name in single) or zero
+    yield from comment("Infinities and NaN less themselves are NaN, all other numbers 0.", 1)
+    yield from statement(f"{'' if by_length else 'const '}real lost = {lost};", 1)
     for length, names in by_length.items():
-        if not length:
-            yield from check([sums.format(name) for name in names], failure, 1)
-            continue
+        each = [number.format(f"{name}[j]") for name in names for number in numbers]
         yield f"{INDENT}for (int j = 0; j < {length[1:-1]}; ++j) {{"
-        yield from check([sums.format(f"{name}[j]") for name in names], failure, 2)
+        yield from statement(f"lost += {' + '.join(f'({name} - {name})' for name in each)};", 2)
         yield f"{INDENT}}}"
+    yield f"{INDENT}if (!(lost >= {zero})) {{"
+    yield f"{INDENT * 2}return {failure};"
+    yield f"{INDENT}}}"
 
 
 def check(names: list[str], failure: str, depth: int) -> Iterator[str]:

@@ -20,10 +20,10 @@ from tmm_gen.emit.c.pair_outputs import rounded_last
 from tmm_gen.emit.c.real import Real, real_of
 from tmm_gen.emit.c.structs import COUNTER, Struct, described, dimension, structs_of
 from tmm_gen.emit.c.wrap import INDENT, WIDTH, comment, statement
-from tmm_gen.emit.c_names import macros
+from tmm_gen.emit.c_names import bare_names, declared, macros, signal
 from tmm_gen.emit.header import header_lines
 from tmm_gen.emit.runs import Run, runs
-from tmm_gen.program.statements import Assign, Loop, Program, Require, Routine
+from tmm_gen.program.statements import Assign, Loop, Mark, Program, Require, Routine
 from tmm_gen.program.variables import Variable
 from tmm_gen.scene import Scene
 
@@ -136,21 +136,34 @@ class Kernel:
         """Return the members of a struct, documented beside, or above where that is too wide."""
         struct = self.structs[which]
         number = f"{self.program.name}_{'pair' if struct.holds_pairs(self.real) else 'real'}"
-        members = [(f"{number} {f.name}{f.dimension};", f.doc) for f in struct.fields]
+        chosen = which in ("inputs", "outputs")
+        members = [
+            (number, signal(f.name, self.program.name) if chosen else f.name, f.dimension, f.doc)
+            for f in struct.fields
+        ]
         if not members:
-            members = [(f"{number} none;", "unused: C has no empty structs")]
+            members = [(number, "none", "", "unused: C has no empty structs")]
+            chosen = False
         if struct.counter:
             members.append(
-                (f"int {COUNTER};", "how many of the integrator's first steps, which differ, are done")
+                ("int", COUNTER, "", "how many of the integrator's first steps, which differ, are done")
             )
-        beside = [f"{declaration} /**< {doc} */" for declaration, doc in members]
-        if max(map(len, beside)) <= WIDTH - len(INDENT):
-            return beside
-        return [
-            line.removeprefix(INDENT)
-            for declaration, doc in members
-            for line in (*comment(doc, 1, "/**"), declaration)
-        ]
+        widest = max(
+            len(f"{INDENT}{kind} {name}{length}; /**< {doc} */") for kind, name, length, doc in members
+        )
+        lines: list[str] = []
+        for kind, name, length, doc in members:
+            head, tail, remark = f"{INDENT}{kind} ", f"{length};", f" /**< {doc} */"
+            if widest > WIDTH:
+                lines += comment(doc, 1, "/**")
+                remark = ""
+            lines += declared(name, head, tail, remark) if chosen else [f"{head}{name}{tail}{remark}"]
+        return lines
+
+    @property
+    def bare_names(self) -> list[str]:
+        """Inputs and outputs whose members have no prefix in the sources emitted for the scene."""
+        return bare_names(self.program)
 
     @property
     def given(self) -> list[tuple[str, str, str]]:
@@ -246,7 +259,9 @@ class Kernel:
     def checks(self, pointer: str, variables: tuple[Variable, ...], failure: str) -> str:
         """Return statements that leave a function with ``failure`` unless all variables are finite."""
         pairs = self.real.pair and pointer in ("params->", "state->")
-        return "\n".join(finite_checks(pointer, variables, self.program, failure, pairs))
+        return "\n".join(
+            finite_checks(pointer, variables, self.program, failure, self.real.literal(0), pairs)
+        )
 
     def model_check(self) -> str:
         """Return statements that leave prepare unless the sum of the model is finite."""
@@ -363,7 +378,7 @@ def _runs(variable: Variable) -> tuple[Run, ...] | None:
     return runs(variable.default) if isinstance(variable.default, tuple) else None
 
 
-def _flat(routine: Routine) -> Iterator[Assign | Require]:
+def _flat(routine: Routine) -> Iterator[Assign | Require | Mark]:
     for top in routine.statements():
         yield from top.body if isinstance(top, Loop) else (top,)
 

@@ -13,7 +13,7 @@ from itertools import groupby
 from tmm_gen.emit.c.body import Body, sentence
 from tmm_gen.emit.c.printer import CPrinter
 from tmm_gen.emit.c.wrap import INDENT, comment, statement
-from tmm_gen.emit.c_names import c_name, macros
+from tmm_gen.emit.c_names import local_name, macros
 from tmm_gen.program.passes.dependence import accesses, carried_scalars
 from tmm_gen.program.statements import Assign, Loop, Statement
 from tmm_gen.program.variables import Ref, Role, Variable
@@ -36,7 +36,7 @@ class LaneBody(Body):
         narrow = self._narrow()
         printer = CPrinter(self.real, lambda ref: self._lane(ref, hoisted, narrow))
         for variable in self._hoisted():
-            yield f"{INDENT}const real {c_name(variable)} = {self._source(variable)}{c_name(variable)};"
+            yield f"{INDENT}const real {local_name(variable)} = {self._placed(variable)};"
         for variable in (*self.routine.variables(Role.WORK), *self.routine.variables(Role.LOCAL)):
             if variable not in narrow:
                 yield from self._wide_declaration(variable)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from tmm_gen.program.statements import Assign, Loop, Require, Routine, Section, Statement
+from tmm_gen.program.statements import Assign, Loop, Mark, Require, Routine, Section, Statement
 from tmm_gen.program.variables import Ref, Role, local
 
 
@@ -19,6 +19,8 @@ def rounded_last(routine: Routine) -> Routine:
         return routine
 
     def moved(statement: Statement) -> Statement:
+        if isinstance(statement, Mark):  # no output repeats anything
+            return statement
         if isinstance(statement, Loop):
             return replace(statement, body=tuple(_moved(inner, held) for inner in statement.body))
         return _moved(statement, held)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from tmm_gen.program.passes.dependence import accesses, carried_scalars
-from tmm_gen.program.statements import Assign, Loop, Routine, Statement
+from tmm_gen.program.statements import Assign, Loop, Mark, Routine, Statement
 from tmm_gen.program.variables import Role, Variable
 
 
@@ -30,6 +30,7 @@ def place_scalars(routine: Routine) -> Placement:
     """Decide where each scratch scalar of a routine is declared."""
     statements = tuple(routine.statements())
     settings = _settings(statements)
+    repeats = any(isinstance(s, Mark) for s in statements)  # what is declared in there is not known behind
     at_top: list[Variable] = []
     constant: dict[int, bool] = {}
     for variable in routine.variables(Role.LOCAL):
@@ -42,7 +43,7 @@ def place_scalars(routine: Routine) -> Placement:
         }
         if all(_private(statements[user], variable) for user in users):
             constant |= {found[0]: len(found) == 1 for found in by_user.values()}
-        elif isinstance(statements[users[0]], Assign):
+        elif isinstance(statements[users[0]], Assign) and not repeats:
             constant[by_user[users[0]][0]] = sum(map(len, by_user.values())) == 1
         else:
             at_top.append(variable)

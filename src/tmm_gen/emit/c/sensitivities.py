@@ -9,7 +9,7 @@ from tmm_gen.emit.c.kernel import Kernel
 from tmm_gen.emit.c.lanes import LaneBody
 from tmm_gen.emit.c.structs import described, dimension
 from tmm_gen.emit.c.wrap import INDENT, WIDTH, comment
-from tmm_gen.emit.c_names import c_name, macros
+from tmm_gen.emit.c_names import declared, macros, signal
 from tmm_gen.emit.seal import sealed
 from tmm_gen.emit.templates import render
 from tmm_gen.errors import UserError
@@ -68,12 +68,15 @@ class Derivatives:
         lanes = "" if which == "point" else f"[{macros(name)}_LANES]"
         lines: list[str] = []
         for variable in variables:
-            line = f"{INDENT}{name}_real {c_name(variable)}{self._dimension(variable)}{lanes};"
+            head, tail = f"{INDENT}{name}_real ", f"{self._dimension(variable)}{lanes};"
             remark = f" /**< {described(variable)} */"
-            if len(line) + len(remark) <= WIDTH:
-                lines.append(line + remark)
+            if len(head + variable.name + tail + remark) > WIDTH:
+                lines += comment(described(variable), 1, "/**")
+                remark = ""
+            if which == "inputs":
+                lines += declared(signal(variable.name, name), head, tail, remark)
             else:
-                lines += [*comment(described(variable), 1, "/**"), line]
+                lines.append(f"{head}{variable.name}{tail}{remark}")
         return lines or [f"{INDENT}{name}_real none; /**< unused: C has no empty structs */"]
 
     def _dimension(self, variable: Variable) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from tmm_gen.emit.c.real import Real
-from tmm_gen.emit.c_names import c_name, macros
+from tmm_gen.emit.c_names import macros
 from tmm_gen.program.statements import Program
 from tmm_gen.program.variables import Role, Variable
 
@@ -21,7 +21,7 @@ class Field:
     Parameters
     ----------
     name, dimension, doc : str
-        ``dimension`` is "" or the brackets behind the name.
+        The name is the variable's, whatever C calls it; ``dimension`` is "" or the brackets behind it.
     numbers : int
         How many it holds.
     """
@@ -108,4 +108,4 @@ def described(variable: Variable) -> str:
 
 
 def _field(variable: Variable, program: Program) -> Field:
-    return Field(c_name(variable), dimension(variable, program), described(variable), variable.length or 1)
+    return Field(variable.name, dimension(variable, program), described(variable), variable.length or 1)

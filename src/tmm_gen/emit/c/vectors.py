@@ -13,7 +13,7 @@ from tmm_gen.emit.c.estimate import FUNCTIONS, Estimate, estimate_of
 from tmm_gen.emit.c.kernel import Kernel
 from tmm_gen.emit.c.pair import is_pair, pair_literal, parts
 from tmm_gen.emit.c.real import FLOAT, Real
-from tmm_gen.emit.c_names import c_element
+from tmm_gen.emit.c_names import element_name
 from tmm_gen.program.evaluate import Values, allocate, execute, key
 from tmm_gen.program.statements import Program
 from tmm_gen.program.variables import Ref, Variable
@@ -174,7 +174,7 @@ def _written(program: Program, real: Real, shown: list[Ref], motion: _Motion) ->
     def expected(ref: Ref, record: dict[Ref, Estimate]) -> Expected:
         pair = real.pair and is_pair(ref.variable)
         value = _literal(record[ref].value, real, pair)
-        return Expected(c_element(ref), value, real.literal(tolerance[ref.variable]))
+        return Expected(element_name(ref, program.name), value, real.literal(tolerance[ref.variable]))
 
     steps = tuple(
         Step(_inputs(program, k + 1, start, real), tuple(expected(v.ref, record) for v in program.outputs))
@@ -245,7 +245,8 @@ def _inputs(program: Program, k: int, start: Start, real: Real) -> tuple[tuple[s
         for stage in range(variable.length or 1)
     ]
     return tuple(
-        (c_element(ref), real.literal(start.input(which, k, stage))) for which, stage, ref in members
+        (element_name(ref, program.name), real.literal(start.input(which, k, stage)))
+        for which, stage, ref in members
     )
 
 

@@ -6,7 +6,7 @@ from tmm_gen.emit.python.lines import assignment, comment
 from tmm_gen.emit.python.names import Names
 from tmm_gen.emit.python.printer import PythonPrinter, element
 from tmm_gen.emit.python.scratch import ScratchTypes
-from tmm_gen.program.statements import Assign, Loop, Order, Require, Routine
+from tmm_gen.program.statements import Assign, Loop, Mark, Order, Require, Routine
 from tmm_gen.program.variables import Role, Variable
 
 _INDENT = "    "
@@ -41,6 +41,8 @@ class RoutineText:
         for section in self._routine.sections:
             lines += ["", *comment(section.title, _INDENT)]
             for statement in section.statements:
+                if isinstance(statement, Mark):
+                    raise NotImplementedError("symbols cannot tell whether to sweep again")
                 if isinstance(statement, Loop):
                     lines.append(f"{_INDENT}for j in {self._range(statement)}:")
                     for inner in statement.body:

@@ -7,7 +7,7 @@ from tmm_gen.emit.python.names import Names
 from tmm_gen.emit.python.printer import PythonPrinter, element
 from tmm_gen.emit.python.scratch import ScratchTypes
 from tmm_gen.emit.python.storage import rebound, vectorised, written_later
-from tmm_gen.program.statements import Assign, Loop, Order, Require, Routine, Statement
+from tmm_gen.program.statements import Assign, Loop, Order, Repeat, Require, Routine, Statement, Until
 from tmm_gen.program.variables import Ref, Variable
 
 _INDENT = "    "
@@ -44,17 +44,30 @@ class RoutineText:
         """Return the statements, indented once, with the sections' titles as comments."""
         lines: list[str] = []
         place = 0
+        inside = ""  # what is repeated
         for section in self._routine.sections:
             if lines:
                 lines.append("")
-            lines += comment(section.title, _INDENT)
+            lines += comment(section.title, _INDENT + inside)
             for statement in section.statements:
-                lines += self._statement(statement, place)
+                if isinstance(statement, Until):
+                    value = self._elements.text(statement.value)
+                    lines += [
+                        f"{_INDENT}{inside}if not np.any({value} > 0.0):",
+                        f"{_INDENT}{2 * inside}break",
+                    ]
+                    inside = ""
+                elif isinstance(statement, Repeat):
+                    inside = _INDENT
+                    lines.append(f"{_INDENT}for _ in range({statement.most}):")
+                else:
+                    lines += [inside + line for line in self._statement(statement, place)]
                 place += 1
         return lines
 
     def _statement(self, statement: Statement, place: int) -> list[str]:
         if not isinstance(statement, Loop):
+            assert isinstance(statement, Assign | Require)
             return self._single(statement, self._elements, place, _INDENT)
         lines: list[str] = []
         if place in self._whole:

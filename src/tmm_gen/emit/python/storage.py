@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from tmm_gen.program.statements import Assign, Loop, Require, Routine, Statement
+from tmm_gen.program.statements import Assign, Loop, Mark, Require, Routine, Statement
 from tmm_gen.program.variables import Ref, Variable, refs_in
 
 
@@ -73,7 +73,7 @@ def _reads_first(scalar: Variable, statements: Sequence[Statement]) -> bool:
     return False
 
 
-def _body(statement: Statement) -> Iterator[Assign | Require]:
+def _body(statement: Statement) -> Iterator[Assign | Require | Mark]:
     if isinstance(statement, Loop):
         yield from statement.body
     else:

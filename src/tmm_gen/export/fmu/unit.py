@@ -7,7 +7,7 @@ import hashlib
 from tmm_gen.emit.c import emit_kernel, free_scene
 from tmm_gen.emit.c.kernel import Kernel
 from tmm_gen.emit.c.real import REALS
-from tmm_gen.emit.c_names import macros, signal
+from tmm_gen.emit.c_names import PREFIX, macros, signal
 from tmm_gen.emit.templates import render
 from tmm_gen.errors import UserError
 from tmm_gen.export.fmu.archive import archive
@@ -114,8 +114,11 @@ def _sources(
                 token=token,
                 step=number(scene.integrator.step),
                 variables=variables,
-                followed=[signal(name) for name in followed],
-                held=[signal(v.name) for v in program.inputs if v.name not in followed],
+                followed=[
+                    {"name": each, "member": signal(each, scene.name), "stem": PREFIX + each}
+                    for each in followed
+                ],
+                held=[signal(v.name, scene.name) for v in program.inputs if v.name not in followed],
                 instants=_rows(program),
             )
             for name, template in templates.items()

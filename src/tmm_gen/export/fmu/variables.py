@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from tmm_gen.emit.c.real import Real
-from tmm_gen.emit.c_names import c_name, signal
+from tmm_gen.emit.c_names import PREFIX, member
 from tmm_gen.program.statements import Program
 from tmm_gen.program.variables import Variable
 
@@ -93,8 +93,8 @@ def fmu_variables(program: Program, real: Real, followed: Sequence[str]) -> tupl
     return (
         *(_known(v, f"parameters.{v.name}", f"params.{v.name}", real) for v in program.parameters),
         *(_known(v, f"initial.{v.name.removeprefix('initial_')}", v.name, real) for v in program.given),
-        *(_input(v, v.name in followed) for v in program.inputs),
-        *(_result(v, v.name, f"outputs.{c_name(v)}", "output") for v in program.outputs),
+        *(_input(v, v.name in followed, program.name) for v in program.inputs),
+        *(_result(v, v.name, f"outputs.{member(v, program.name)}", "output") for v in program.outputs),
         *(_result(v, f"state.{v.name}", f"state.{v.name}", "local") for v in program.state if _is_motion(v)),
     )
 
@@ -112,13 +112,13 @@ def _known(variable: Variable, name: str, member: str, real: Real) -> FmuVariabl
     )
 
 
-def _input(variable: Variable, followed: bool) -> FmuVariable:
-    member = f"inputs.{c_name(variable)}" + ("[0]" if variable.length else "")
+def _input(variable: Variable, followed: bool, scene: str) -> FmuVariable:
+    place = f"inputs.{member(variable, scene)}" + ("[0]" if variable.length else "")
     doc = variable.doc.partition(", at each stage")[0]
     if followed:
-        member = f"{signal(variable.name)}_target"
+        place = f"{PREFIX}{variable.name}_target"
         doc += ", reached at the end of a communication step"
-    return FmuVariable(variable.name, member, "input", variable.unit, doc, (0.0,))
+    return FmuVariable(variable.name, place, "input", variable.unit, doc, (0.0,))
 
 
 def _result(variable: Variable, name: str, member: str, causality: Causality) -> FmuVariable:

@@ -53,7 +53,7 @@ def _gravity(scene: Scene) -> Term:
 
 
 def _iterations(scene: Scene) -> Term:
-    count = scene.model.iterations
+    count = scene.model.sweeps
     why = f"model.iterations = {count}"
     changed = 1 if count > 1 else 2
     return Term("a second sweep in each stage", count > 1, why, lambda s: _with_model(s, iterations=changed))

@@ -67,7 +67,7 @@ class Family:
         wanted: dict[str, tuple[object, object]] = {
             "integrator.name": (scene.integrator.name, self.integrator),
             "emit.real": (scene.emit.real, self.real),
-            "model.iterations": (scene.model.iterations, self.iterations),
+            "model.iterations": (scene.model.sweeps, self.iterations),
         }
         if scene.emit.compensated and self.real == "float64":
             wanted["emit.compensated"] = (True, False)
@@ -115,7 +115,7 @@ def own(scene: Scene) -> Configuration:
         integrator=underscored(scene.integrator.name),
         links=scene.beam.links if scene.beam else None,
         linearisation=scene.model.linearisation if planar else None,
-        iterations=scene.model.iterations,
+        iterations=scene.model.sweeps,
         real=scene.emit.real,
         backend="c",
     )

@@ -130,7 +130,7 @@ def _allowed(built: Built, configuration: Configuration) -> None:
     from tmm_gen.measure.planar_divergence import planar_watch
 
     if built.scene.model.kind == "planar":
-        planar_watch(built.scene, configuration.step, configuration.step)
+        planar_watch(built.scene, configuration.step)
 
 
 def _counts(built: Built, configuration: Configuration) -> dict[str, Any]:

@@ -8,6 +8,7 @@ import sympy as sp
 
 from tmm_gen.derive.integrators.declaration import CONSISTENT_START, KINDS, Integrator, past
 from tmm_gen.derive.integrators.relations import Unknown
+from tmm_gen.program.arm.auto import LEAST_TURN, SWEEPS, AutoStep
 from tmm_gen.program.arm.combinations import Combinations
 from tmm_gen.program.arm.heat import heat_after, heat_before
 from tmm_gen.program.arm.layout import Layout, layout_of
@@ -47,6 +48,8 @@ class Choices:
         Whether the nodes' places are integrated on their own.
     turns_apart : bool
         Whether the turns of a base that turns on and on are kept apart from angles.
+    auto : bool
+        Whether each stage sweeps until that changes next to nothing, instead of so many times.
     sensitivities : bool
         Whether the step's derivatives are built too.
     """
@@ -57,6 +60,7 @@ class Choices:
     walks: MakeWalks = Walks
     places: bool = False
     turns_apart: bool = False
+    auto: bool = False
     sensitivities: bool = False
 
 
@@ -104,7 +108,7 @@ class Assembly:
             enumerate(integrator.schemes), key=lambda item: item[1] is not integrator.main
         ):
             main = scheme is integrator.main
-            builder = StepBuilder(
+            builder = (AutoStep if self.choices.auto else StepBuilder)(
                 layout=layout,
                 prepared=self.combinations.variables,
                 scheme=scheme,
@@ -141,6 +145,11 @@ class Assembly:
             initialise = start_unturned(initialise)
         kept = (*((turned,) if turned is not None else ()), *layout.all_state)
         state = living_state(kept, (*startup, main), output)
+        parameters = tuple(layout.parameters.values())
+        if self.choices.auto:
+            state, parameters = (*state, SWEEPS), (*parameters, LEAST_TURN)
+            none = Section("no sweep has been taken yet", (Assign(SWEEPS.ref, sp.Integer(0)),))
+            initialise = replace(initialise, sections=(*initialise.sections, none))
         wanted = frozenset(state)
         startup = tuple(prune(r, wanted) for r in startup)
         main, initialise = prune(main, wanted), prune(initialise, wanted)
@@ -161,7 +170,7 @@ class Assembly:
             title=row.title,
             stations=layout.stations,
             step=layout.step,
-            parameters=tuple(p for p in layout.parameters.values() if p in read),
+            parameters=tuple(p for p in parameters if p in read),
             coefficients=tuple(c for c in coefficients if c in used),
             state=state,
             inputs=layout.inputs,
@@ -173,9 +182,15 @@ class Assembly:
             main=main,
             output=output,
             stage_instants=tuple(input_instants(row, scheme) for scheme in integrator.schemes),
-            facts=dict(row.facts),
+            facts=self._facts(),
             sensitivities=sensitivities,
         )
+
+    def _facts(self) -> dict[str, str]:
+        facts = dict(self.row.facts)
+        if self.choices.auto:
+            facts["linearisation"] = "newton, as many iterations as it takes"
+        return facts
 
     def _sensitivities(self, main: Routine, state: tuple[Variable, ...]) -> Sensitivities | None:
         if not self.choices.sensitivities:

@@ -77,17 +77,23 @@ class StepBuilder:
             walks = self._walks(index, motion, point)
             before = "predicted motion" if about == "prediction" else "motion known before the sweep"
             sections.append(Section(title + before, tuple(self._begin(index, motion, point))))
-            for iteration in range(self.iterations):
-                again = f"iteration {iteration + 1}: " if self.iterations > 1 else ""
-                sections += [
-                    Section(title + again + s.title, s.statements) for s in self.split(walks.sections())
-                ]
-                if iteration + 1 < self.iterations:
-                    sections.append(
-                        Section(title + again + "improved prediction", tuple(self._improve(motion)))
-                    )
+            sections += self._swept(title, walks, motion)
             sections.append(self._finish(title, index, motion, point, walks, kept, last=index == count))
         return tuple(s for s in sections if s.statements)
+
+    def _swept(self, title: str, walks: Walks, motion: AffineMotion) -> list[Section]:
+        """Return the sweeps of a stage, each from what the one before has found."""
+        sections: list[Section] = []
+        for iteration in range(self.iterations):
+            again = f"iteration {iteration + 1}: " if self.iterations > 1 else ""
+            sections += [Section(title + again + s.title, s.statements) for s in self.split(walks.sections())]
+            if iteration + 1 < self.iterations:
+                sections.append(Section(title + again + "improved prediction", tuple(self._improve(motion))))
+        return sections
+
+    def _stays(self) -> bool:
+        """Whether motion before the sweep stays what it was until the step ends."""
+        return self.iterations == 1
 
     # -- before the sweep --------------------------------------------------------------------------------------
 
@@ -104,7 +110,7 @@ class StepBuilder:
     def _moving(self, index: int, point: StartingPoint) -> dict[Kind, Moving]:
         """Return where the motion of nodes before the sweep is held."""
         found: dict[Kind, Moving] = {k: self._motion(k) for k in KINDS if k not in point.still}
-        if self.iterations > 1 or "a" in point.still or _reads_inner_acceleration(self.layout):
+        if not self._stays() or "a" in point.still or _reads_inner_acceleration(self.layout):
             return found
         stands = point.values["a"].xreplace(self._values("", self.layout.stations))
         if isinstance(stands, Ref):
@@ -185,16 +191,7 @@ class StepBuilder:
         last: bool,
     ) -> Section:
         n = self.layout.stations
-        zero = sp.Integer(0)
-        moving = self._moving(index, point)
-        links = {
-            k: (moving[k].at(1) if k in moving else zero) + self._gain(motion, k) * solved_variable(n).at()
-            for k in KINDS
-        }
-        hub = {
-            k: (moving[k].entry(BASE) if k in moving else zero) + self._gain(motion, k) * hub_unknown()
-            for k in KINDS
-        }
+        links, hub = self._solved_motion(motion, self._moving(index, point), point)
         statements: list[Statement] = []
         if not last:
             mine = sorted((k, i) for k, i in kept if i == index)
@@ -216,6 +213,22 @@ class StepBuilder:
         )
         places = walks.after_update()
         return Section(title + "motion at the end of the step", (*places, *statements))
+
+    def _solved_motion(
+        self, motion: AffineMotion, moving: dict[Kind, Moving], point: StartingPoint
+    ) -> tuple[dict[Kind, sp.Expr], dict[Kind, sp.Expr]]:
+        """Return the motion of stations and base at a stage: that before the sweep, and what the sweep found."""
+        n, zero = self.layout.stations, sp.Integer(0)
+        del point
+        links = {
+            k: (moving[k].at(1) if k in moving else zero) + self._gain(motion, k) * solved_variable(n).at()
+            for k in KINDS
+        }
+        hub = {
+            k: (moving[k].entry(BASE) if k in moving else zero) + self._gain(motion, k) * hub_unknown()
+            for k in KINDS
+        }
+        return links, hub
 
     def _new_values(
         self, index: int, values: Mapping[Kind, sp.Expr], at: Mapping[sp.Symbol, sp.Expr]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import Any
 
 import sympy as sp
 
@@ -29,7 +30,7 @@ from tmm_gen.program.arm.binding import Binding, Scratch, composed
 from tmm_gen.program.arm.layout import Layout
 from tmm_gen.program.arm.loads import Loads
 from tmm_gen.program.arm.motion import Held, Moving
-from tmm_gen.program.statements import Assign, Loop, Order, Require, Section, Statement
+from tmm_gen.program.statements import Assign, Loop, Order, Section, Statement
 from tmm_gen.program.variables import Ref, Role, Variable, local, refs_in
 
 BASE = 0
@@ -329,10 +330,10 @@ def spread(sections: list[Section], scratch: Scratch, n: int) -> list[Section]:
     }
     arrays = {v.ref: replace(v, role=Role.WORK, length=n).at() for v in names & set_in_loops}
 
-    def changed(statement: Assign | Require) -> Assign | Require:
+    def changed(statement: Any) -> Any:
         value = statement.value.xreplace(arrays)
-        if isinstance(statement, Require):
-            return Require(value)
+        if not isinstance(statement, Assign):
+            return replace(statement, value=value)
         return Assign(arrays.get(statement.target, statement.target), value)
 
     return [

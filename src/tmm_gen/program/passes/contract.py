@@ -14,7 +14,7 @@ import sympy as sp
 
 from tmm_gen.program.passes.dependence import SCRATCH, accesses, dead_after
 from tmm_gen.program.passes.prune import prune
-from tmm_gen.program.statements import Assign, Loop, Require, Routine, Statement
+from tmm_gen.program.statements import Assign, Loop, Mark, Require, Routine, Statement
 from tmm_gen.program.variables import Ref, Role, Variable, refs_in
 
 
@@ -67,7 +67,7 @@ def _as_scalar(routine: Routine, variable: Variable) -> Routine:
         return routine
 
     def renamed(block: tuple[Statement, ...]) -> tuple[Statement, ...]:
-        return tuple(s if isinstance(s, Loop) else _rename(s, names, target=True) for s in block)
+        return tuple(s if isinstance(s, Loop | Mark) else _rename(s, names, target=True) for s in block)
 
     return _map_blocks(routine, renamed)
 
@@ -80,6 +80,10 @@ def _propagate_copies(block: tuple[Statement, ...]) -> tuple[Statement, ...]:
     copies: dict[Ref, Ref] = {}
     changed: list[Statement] = []
     for statement in block:
+        if isinstance(statement, Mark):
+            copies = {}
+            changed.append(statement)
+            continue
         if isinstance(statement, Loop):
             written = {a.variable for a in accesses(statement) if a.writes}
             copies = {x: y for x, y in copies.items() if not {x.variable, y.variable} & written}
@@ -126,7 +130,7 @@ def _loop_without_dead_copies(loop: Loop, later: tuple[Statement, ...]) -> Loop:
     return replace(loop, body=tuple(body))
 
 
-def _copies_into_scratch(statement: Assign | Require) -> bool:
+def _copies_into_scratch(statement: Assign | Require | Mark) -> bool:
     return (
         isinstance(statement, Assign)
         and statement.target.variable.role is Role.LOCAL

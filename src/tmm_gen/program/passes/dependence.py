@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import lru_cache
 
-from tmm_gen.program.statements import Assign, Loop, Order, Require, Routine, Statement
+from tmm_gen.program.statements import Assign, Loop, Mark, Order, Require, Routine, Statement
 from tmm_gen.program.variables import Ref, Role, Variable, refs_in
 
 SCRATCH = frozenset({Role.WORK, Role.LOCAL})
@@ -63,10 +63,13 @@ class Footprint:
     ----------
     reads, writes : dict from Variable to frozenset of (int, int)
         First and last elements touched, by variable.
+    mark : bool
+        Whether it is one between which and what stands around it nothing may change places.
     """
 
     reads: dict[Variable, frozenset[tuple[int, int]]]
     writes: dict[Variable, frozenset[tuple[int, int]]]
+    mark: bool = False
 
     @classmethod
     def of(cls, statement: Statement) -> Footprint:
@@ -75,12 +78,14 @@ class Footprint:
         for access in accesses(statement):
             found[access.writes].setdefault(access.variable, set()).add((access.first, access.last))
         reads, writes = ({v: frozenset(spans) for v, spans in each.items()} for each in found)
-        return cls(reads, writes)
+        return cls(reads, writes, isinstance(statement, Mark))
 
     def independent(self, other: Footprint) -> bool:
         """Whether the two statements may change places."""
         return not (
-            _overlap(self.writes, other.writes)
+            self.mark
+            or other.mark
+            or _overlap(self.writes, other.writes)
             or _overlap(self.writes, other.reads)
             or _overlap(self.reads, other.writes)
         )
@@ -125,6 +130,8 @@ def reversible(loop: Loop) -> bool:
 def dead_after(variable: Variable, later: tuple[Statement, ...]) -> bool:
     """Whether nothing reads a scalar before it is assigned anew."""
     for statement in later:
+        if isinstance(statement, Mark):  # what comes next is not only what stands next
+            return False
         for access in accesses(statement):
             if access.variable == variable:
                 return access.writes
@@ -154,7 +161,7 @@ def order_keeping_dependences(first: Loop, second: Loop, later: tuple[Statement,
     return None
 
 
-def _of(statement: Assign | Require, low: int, high: int) -> list[Access]:
+def _of(statement: Assign | Require | Mark, low: int, high: int) -> list[Access]:
     found = [_access(ref, False, low, high) for ref in sorted(refs_in(statement.value), key=lambda r: r.name)]
     if isinstance(statement, Assign):
         found.append(_access(statement.target, True, low, high))

@@ -8,10 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import sympy as sp
 
-from tmm_gen.program.statements import Assign, Loop, Require, Section, Statement
+from tmm_gen.program.statements import Assign, Loop, Repeat, Require, Section, Statement
 from tmm_gen.program.variables import Ref, Role, Variable, refs_in
 
 SCRATCH = (Role.LOCAL, Role.WORK)
@@ -167,8 +168,10 @@ def _divided(sections: list[Section], early: set[Variable]) -> tuple[list[list[S
             )
             late = tuple(s for s in inside if s not in soon)
             for part, into in ((soon, mine), (late, kept)):
-                if part:
-                    into += [replace(statement, body=part)] if isinstance(statement, Loop) else list(part)
+                if part and isinstance(statement, Loop):
+                    into.append(Loop(statement.order, statement.start, statement.stop, part))  # type: ignore[arg-type]
+                else:
+                    into += part
         taken.append(mine)
         if kept:
             left.append(replace(section, statements=tuple(kept)))
@@ -241,9 +244,9 @@ def _renamed(section: Section, names: dict[Ref, Ref]) -> Section:
         found = {r: _moved(r, every) for r in refs_in(e)}
         return e.xreplace({r: f for r, f in found.items() if f is not None})
 
-    def changed(s: Assign | Require) -> Assign | Require:
-        if isinstance(s, Require):
-            return Require(value(s.value))
+    def changed(s: Any) -> Any:
+        if not isinstance(s, Assign):
+            return s if isinstance(s, Repeat) else replace(s, value=value(s.value))
         moved = _moved(s.target, every)
         return Assign(moved if moved is not None else s.target, value(s.value))
 

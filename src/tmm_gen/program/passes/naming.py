@@ -54,7 +54,11 @@ def _power_of_step(factor: sp.Expr) -> tuple[str, str, str] | None:
     share = counts if number.q == 1 else parts if number.p == 1 else f"{counts}_{plural}"
     if power < 0:
         return f"{share}_over_{step}", str(factor), unit
-    return "step" if number == 1 and power == 1 else step if number == 1 else f"{share}_{step}", str(factor), unit
+    return (
+        "step" if number == 1 and power == 1 else step if number == 1 else f"{share}_{step}",
+        str(factor),
+        unit,
+    )
 
 
 def _by_use(factor: sp.Expr, target: Ref | None, of: sp.Expr | None) -> tuple[str, str, str]:

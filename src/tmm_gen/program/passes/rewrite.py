@@ -7,16 +7,18 @@ from dataclasses import replace
 
 import sympy as sp
 
-from tmm_gen.program.statements import Assign, Loop, Require, Routine, Section
+from tmm_gen.program.statements import Assign, Loop, Repeat, Routine, Section, Statement
 from tmm_gen.program.variables import Ref
 
 
 def map_values(routine: Routine, change: Callable[[sp.Expr], sp.Expr]) -> Routine:
     """Return the routine with every expression changed."""
 
-    def changed(statement: Assign | Require | Loop) -> Assign | Require | Loop:
+    def changed(statement: Statement) -> Statement:
         if isinstance(statement, Loop):
             return replace(statement, body=tuple(changed(s) for s in statement.body))  # type: ignore[misc]
+        if isinstance(statement, Repeat):
+            return statement
         return replace(statement, value=change(statement.value))
 
     sections = tuple(
@@ -29,9 +31,11 @@ def map_values(routine: Routine, change: Callable[[sp.Expr], sp.Expr]) -> Routin
 def map_assigned(routine: Routine, change: Callable[[sp.Expr, Ref | None], sp.Expr]) -> Routine:
     """Return the routine with every expression changed, told what it is assigned to."""
 
-    def changed(statement: Assign | Require | Loop) -> Assign | Require | Loop:
+    def changed(statement: Statement) -> Statement:
         if isinstance(statement, Loop):
             return replace(statement, body=tuple(changed(s) for s in statement.body))  # type: ignore[misc]
+        if isinstance(statement, Repeat):
+            return statement
         target = statement.target if isinstance(statement, Assign) else None
         return replace(statement, value=change(statement.value, target))
 
@@ -45,12 +49,12 @@ def map_assigned(routine: Routine, change: Callable[[sp.Expr, Ref | None], sp.Ex
 def keep_assignments(routine: Routine, keep: Callable[[Assign], bool]) -> Routine:
     """Return the routine without the assignments that are not kept, nor loops and sections left empty."""
 
-    def kept(statement: Assign | Require | Loop) -> bool:
+    def kept(statement: Statement) -> bool:
         return not isinstance(statement, Assign) or keep(statement)
 
     sections: list[Section] = []
     for section in routine.sections:
-        statements: list[Assign | Require | Loop] = []
+        statements: list[Statement] = []
         for statement in section.statements:
             if isinstance(statement, Loop):
                 body = tuple(s for s in statement.body if kept(s))

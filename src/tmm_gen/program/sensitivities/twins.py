@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from tmm_gen.program.passes.dependence import SCRATCH
 from tmm_gen.program.passes.rewrite import map_values
-from tmm_gen.program.statements import Assign, Loop, Require, Routine
+from tmm_gen.program.statements import Assign, Loop, Routine, Statement
 from tmm_gen.program.variables import Ref, Role, Variable, refs_in
 
 _ROLES = {Role.STATE: Role.TANGENT, Role.INPUT: Role.INPUT_TANGENT}
@@ -34,7 +34,7 @@ def as_tangent(routine: Routine) -> Routine:
             return Ref(change_of(ref.variable), ref.offset, ref.entry)
         return ref
 
-    def target(statement: Assign | Require | Loop) -> Assign | Require | Loop:
+    def target(statement: Statement) -> Statement:
         if isinstance(statement, Loop):
             return replace(statement, body=tuple(target(s) for s in statement.body))  # type: ignore[misc]
         return (

@@ -84,7 +84,15 @@ def budget_not_empty(document: Document) -> Iterator[Finding]:
 
 
 def box_names(document: Document) -> Iterator[Finding]:
-    """Find bounds on what is neither state nor input of this scene."""
+    """Find bounds on what is neither state nor input of this scene, and inputs called as a key of the state."""
+    for index, item in enumerate(document.input if document.emit.box is not None else ()):
+        if item.name in BOX_STATES:
+            yield Finding(
+                ("input", index, "name"),
+                "is a key of [emit.box], where it bounds something else",
+                f"Choose another, for example '{item.name}_1'.",
+                item.name,
+            )
     known = [*BOX_STATES, *(name for item in document.input for name in kernel_names(item))]
     for key, bounds in (document.emit.box or {}).items():
         if key not in known:

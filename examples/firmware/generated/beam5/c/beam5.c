@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 7cda6afdfe9f28eb257c67670c83631d86f159a73ec0c14225ebe1e38843e797
- * sha256 of the rest of this file: facb8a17fe72a8ff52bfed4a3f0a5edc8c652d6e56bb944188b18795a780e87d
+ * sha256 of the rest of this file: c6158d8ed59bd9cea49428e2867d15be523c44ced6dc03832d6cec3cdc760bd9
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 5
@@ -25,12 +25,18 @@
 #error "-Ofast and -ffast-math remove checks of this file: use -O3, or put -fno-fast-math behind them"
 #endif
 
-#include "beam5.h"
-
 #include <float.h>
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
+
+/* Members of the header below: no macro of a header above may have their names. */
+#undef hub_torque
+#undef hub
+#undef tip_x
+#undef tip_y
+
+#include "beam5.h"
 
 typedef beam5_real real;
 
@@ -84,7 +90,7 @@ static circle circle_of(real angle)
 
 static int inputs_are_finite(const beam5_inputs *inputs)
 {
-    if (!isfinite(inputs->tmm_hub_torque)) {
+    if (!isfinite(inputs->hub_torque)) {
         return 0;
     }
     return 1;
@@ -233,7 +239,7 @@ beam5_status beam5_initialise(
     }
 
     /* The base. */
-    real unknown = (inputs->tmm_hub_torque - torque - hub_damping * predicted_rate[0]
+    real unknown = (inputs->hub_torque - torque - hub_damping * predicted_rate[0]
         - hub_inertia * predicted_acceleration[0]) / hub_pivot;
     const real hub_unknown = unknown;
 
@@ -377,7 +383,7 @@ beam5_status beam5_step(
     if (!(hub_pivot > 0.0f) || !(hub_pivot <= FLT_MAX)) {
         return BEAM5_VANISHING_PIVOT;
     }
-    real unknown = (inputs->tmm_hub_torque - torque - state->hub_acceleration * hub_inertia
+    real unknown = (inputs->hub_torque - torque - state->hub_acceleration * hub_inertia
         - hub_damping * predicted_rate[0]) / hub_pivot;
     const real hub_unknown = unknown;
 
@@ -413,14 +419,14 @@ void beam5_output(
         return;
     }
     /* Hub: angle. */
-    outputs->tmm_hub = state->hub_angle;
+    outputs->hub = state->hub_angle;
 
     /* Tip: position. */
-    outputs->tmm_tip_x = 0.0f;
-    outputs->tmm_tip_y = 0.0f;
+    outputs->tip_x = 0.0f;
+    outputs->tip_y = 0.0f;
     for (int j = 0; j < BEAM5_STATIONS; ++j) {
         const circle turn_1 = circle_of(state->angle[j]);
-        outputs->tmm_tip_x = outputs->tmm_tip_x + length * turn_1.cosine;
-        outputs->tmm_tip_y = outputs->tmm_tip_y + length * turn_1.sine;
+        outputs->tip_x = outputs->tip_x + length * turn_1.cosine;
+        outputs->tip_y = outputs->tip_y + length * turn_1.sine;
     }
 }

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 7cda6afdfe9f28eb257c67670c83631d86f159a73ec0c14225ebe1e38843e797
- * sha256 of the rest of this file: ce01cbbbcfe95099f058544a3359fe283bf24bd7a35b42dae1b0b9282bce6174
+ * sha256 of the rest of this file: 607d21d5838502701786f13e51fec4195eff3ea0c332aaf278f66aa531d65ac1
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 5
@@ -73,14 +73,30 @@ typedef struct {
 
 /** What acts on the arm. */
 typedef struct {
-    beam5_real tmm_hub_torque; /**< torque acting at the base [N m] */
+#ifndef hub_torque
+    beam5_real hub_torque; /**< torque acting at the base [N m] */
+#else /* a macro would replace the name */
+    beam5_real tmm_hub_torque;
+#endif
 } beam5_inputs;
 
 /** What the scene asks to know. */
 typedef struct {
-    beam5_real tmm_hub; /**< angle at the base [rad] */
-    beam5_real tmm_tip_x; /**< position at the tip, x [m] */
-    beam5_real tmm_tip_y; /**< position at the tip, y [m] */
+#ifndef hub
+    beam5_real hub; /**< angle at the base [rad] */
+#else /* a macro would replace the name */
+    beam5_real tmm_hub;
+#endif
+#ifndef tip_x
+    beam5_real tip_x; /**< position at the tip, x [m] */
+#else /* a macro would replace the name */
+    beam5_real tmm_tip_x;
+#endif
+#ifndef tip_y
+    beam5_real tip_y; /**< position at the tip, y [m] */
+#else /* a macro would replace the name */
+    beam5_real tmm_tip_y;
+#endif
 } beam5_outputs;
 
 /**

@@ -1,0 +1,78 @@
+"""The step that sweeps until one changes next to nothing: for runs on a computer, which may take their time.
+
+Kernels for controllers sweep a fixed number of times. Newton's iteration squares what is wrong: behind a sweep that
+has turned the links by d in all, about d^2 is left.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import sympy as sp
+
+from tmm_gen.derive.integrators.declaration import Kind
+from tmm_gen.derive.integrators.relations import AffineMotion
+from tmm_gen.program.arm.motion import Moving, StartingPoint
+from tmm_gen.program.arm.step import StepBuilder
+from tmm_gen.program.arm.walks import BASE, Walks, hub_unknown, solved_variable
+from tmm_gen.program.statements import Assign, Loop, Order, Repeat, Section, Until
+from tmm_gen.program.variables import Role, Variable, local
+
+MOST_SWEEPS = 12
+"""A step that so many sweeps do not solve is not solved by more: what they left is weighed when all is done."""
+
+LEAST_TURN = Variable(
+    "least_turn",
+    Role.PARAMETER,
+    doc="a sweep that turns the links by less in all, squares summed, is the last of a stage",
+    unit="rad",
+    default=1e-4,
+)
+"""May be made smaller where the equations are to be solved better than steps usually need."""
+
+SWEEPS = Variable("sweeps", Role.STATE, doc="sweeps taken so far")
+"""Counted by the step."""
+
+_TURNED = local("turned", "sum of squares of what this sweep changes angles by", "rad^2")
+
+
+@dataclass(frozen=True)
+class AutoStep(StepBuilder):
+    """Builds the sections of one scheme's step; fields are those of :class:`StepBuilder`, but iterations."""
+
+    def _swept(self, title: str, walks: Walks, motion: AffineMotion) -> list[Section]:
+        begin = Section(
+            title + f"sweeps, until one changes next to nothing, {MOST_SWEEPS} at most",
+            (Repeat(MOST_SWEEPS),),
+        )
+        sweep = [Section(title + s.title, s.statements) for s in self.split(walks.sections())]
+        improve = Section(title + "improved prediction", tuple(self._improve(motion)))
+        return [begin, *sweep, improve, self._judged(title, motion)]
+
+    def _stays(self) -> bool:
+        return False
+
+    def _judged(self, title: str, motion: AffineMotion) -> Section:
+        """Add up how far the sweep has turned the links; a changed rate counts as what it turns them by in a step."""
+        n = self.layout.stations
+        turn, rate = self._gain(motion, "q"), self._gain(motion, "v") * self.layout.step.ref
+        weight = sp.expand(turn**2 + rate**2)
+        base = weight * hub_unknown() ** 2 if self._free else sp.Integer(0)
+        return Section(
+            title + "whether it has changed next to nothing",
+            (
+                Assign(_TURNED, base),
+                Loop(
+                    Order.OUTWARD, 0, n, (Assign(_TURNED, _TURNED + weight * solved_variable(n).at() ** 2),)
+                ),
+                Assign(SWEEPS.ref, SWEEPS.ref + 1),
+                Until(_TURNED - LEAST_TURN.ref**2),
+            ),
+        )
+
+    def _solved_motion(
+        self, motion: AffineMotion, moving: dict[Kind, Moving], point: StartingPoint
+    ) -> tuple[dict[Kind, sp.Expr], dict[Kind, sp.Expr]]:
+        """Return what the last improvement made of the prediction: all increments are in it."""
+        del motion, point
+        return {k: v.at(1) for k, v in moving.items()}, {k: v.entry(BASE) for k, v in moving.items()}
