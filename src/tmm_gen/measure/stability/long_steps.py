@@ -17,7 +17,7 @@ from tmm_gen.measure.run import simulate
 from tmm_gen.measure.signals import Constant, Signal, Sine, Table
 from tmm_gen.measure.stability.extreme import ChainExtreme
 from tmm_gen.native import NativeKernel, compile_kernel
-from tmm_gen.program.torsion.build import build_chain
+from tmm_gen.program.build import build_unchecked
 from tmm_gen.scene import Scene, SceneError
 from tmm_gen.scene.integrator import METHODS
 
@@ -148,7 +148,7 @@ _SAME: dict[str, Any] = {
 @cache
 def _kernel(kind: ChainExtreme) -> NativeKernel:
     scene = LongStep(kind, 1.0, Constant(0.0)).scene()
-    return compile_kernel(build_chain(scene, integrator(kind.integrator)), scene)
+    return compile_kernel(build_unchecked(scene, integrator(kind.integrator)), scene)
 
 
 class _With:
