@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 1ec2a071f5720229c3b5c9d847fa0a44d6fa112015051ca13c1d73444e6eb10a
- * sha256 of the rest of this file: 178b9c91acfa543592c57b495357fae00a3d0215f0baab83155385f2d7d3651f
+ * sha256 of the rest of this file: cb764943dd09384b76a1c98f1b1e42492b6a2928b650853465d585491569206b
  *
  * model: torsional chain (linear)
  * stations: 100
@@ -138,9 +138,6 @@ hundred_status hundred_initialise(
     /* What is the same at every station. */
     const real impedance = -params->inertia;
     const real pivot = -impedance;
-    if (!(pivot > 0.0) || !(pivot <= DBL_MAX)) {
-        return HUNDRED_VANISHING_PIVOT;
-    }
     const real admittance = 1.0 / pivot;
 
     /* Motion known before the sweep. */

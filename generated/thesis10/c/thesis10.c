@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: ee57f7952242f19cc6be0f26d3460a304cc65a1747711d25b990a158587c6f1f
- * sha256 of the rest of this file: 505053b9236665634d2d2581d95191585b6a3f36828f8db690508fa4441c5532
+ * sha256 of the rest of this file: 4f4e66260a6ba519b582b041a599e5de4f7b2b4cc39b65e86a312747c0cf411e
  *
  * model: torsional chain (linear)
  * stations: 10
@@ -137,9 +137,6 @@ thesis10_status thesis10_initialise(
     /* What is the same at every station. */
     const real impedance = -params->inertia;
     const real pivot = -impedance;
-    if (!(pivot > 0.0) || !(pivot <= DBL_MAX)) {
-        return THESIS10_VANISHING_PIVOT;
-    }
     const real admittance = 1.0 / pivot;
 
     /* Motion known before the sweep. */

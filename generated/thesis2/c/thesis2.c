@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 8302c2fdab02afb73919e09c91c3abafc3d83d0760e2c0e63be40bfdc341e62e
- * sha256 of the rest of this file: 3e14906e859caf6ebf94cb3c6d31374c68faf12fd2c7a1968794c4c7890f77c9
+ * sha256 of the rest of this file: 7457136afd6bb963d52060c11ea149e6342355a185bb24744a0ebccb0a904d88
  *
  * model: torsional chain (linear)
  * stations: 2
@@ -137,9 +137,6 @@ thesis2_status thesis2_initialise(
     /* What is the same at every station. */
     const real impedance = -params->inertia;
     const real pivot = -impedance;
-    if (!(pivot > 0.0) || !(pivot <= DBL_MAX)) {
-        return THESIS2_VANISHING_PIVOT;
-    }
     const real admittance = 1.0 / pivot;
 
     /* Motion known before the sweep. */
