@@ -140,8 +140,8 @@ def test_what_is_printed_is_the_shortest_decimal_of_the_exact_value(
 def is_shortest(value: float, exact: Fraction) -> bool:
     """Whether a number is printed as the exact one, or is the nearest where that has more digits than numbers keep."""
     printed = Fraction(repr(value))
-    return (
-        printed == exact or (not keeps(exact) and abs(Fraction(value) - exact) <= Fraction(math.ulp(value)) / 2)
+    return printed == exact or (
+        not keeps(exact) and abs(Fraction(value) - exact) <= Fraction(math.ulp(value)) / 2
     )
 
 

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: d9d28dc691ae4f0a1d62cb9cfa9f4612d111fa76a756dd286c77eac7f930ab35
- * sha256 of the rest of this file: 193e42d826a90159573263b5bfff068655453b1a3f382725f92f1d3c1f18d0b6
+ * sha256 of the rest of this file: ebd303f2e14b21ea30e46994283ef8cf158be492280d066fbee26cfda08e87c0
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 10
@@ -98,9 +98,7 @@ static circle circle_of(real angle)
 
 static int inputs_are_finite(const arm10_inputs *inputs)
 {
-    /* Infinities and NaN less themselves are NaN, all other numbers 0. */
-    const real lost = (inputs->hub_torque - inputs->hub_torque) + (inputs->tip_force - inputs->tip_force);
-    if (!(lost >= 0.0)) {
+    if (!isfinite(inputs->hub_torque) || !isfinite(inputs->tip_force)) {
         return 0;
     }
     return 1;

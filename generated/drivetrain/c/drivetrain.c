@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 260c88ca5ffe6b93ea5946fad67187e547942573db1dc2f710bcd9a0610b8738
- * sha256 of the rest of this file: d47dde6f8d7a74e3bb712164e6b0f1743fa15a0de99b17edf256188c3867b020
+ * sha256 of the rest of this file: eaad34c615efe763ec3569a05d26193a6b185a98ebbc9c34da906d3d56e30e3d
  *
  * model: torsional chain (linear)
  * stations: 6
@@ -41,10 +41,7 @@ typedef drivetrain_real real;
 
 static int inputs_are_finite(const drivetrain_inputs *inputs)
 {
-    /* Infinities and NaN less themselves are NaN, all other numbers 0. */
-    const real lost = (inputs->motor_torque - inputs->motor_torque)
-        + (inputs->load_torque - inputs->load_torque);
-    if (!(lost >= 0.0)) {
+    if (!isfinite(inputs->motor_torque) || !isfinite(inputs->load_torque)) {
         return 0;
     }
     return 1;
