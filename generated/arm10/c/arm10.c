@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: d9d28dc691ae4f0a1d62cb9cfa9f4612d111fa76a756dd286c77eac7f930ab35
- * sha256 of the rest of this file: 7d8785f1208aa99068b318720739949a58d79924470dc6cc1da7618235a2efdc
+ * sha256 of the rest of this file: f92a93a0ff40cd6931ba0743cbf4f380c49b271dbf63b57419af02f38be822e1
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 10
@@ -139,7 +139,7 @@ arm10_status arm10_prepare(
     if (model == NULL || params == NULL) {
         return ARM10_NULL_POINTER;
     }
-    if (!(step > 0.0) || !(step <= 1.7976931348623157e+308)) {
+    if (!(step > 0.0) || !(step <= DBL_MAX)) {
         return ARM10_INVALID_STEP;
     }
     /* Infinities and NaN less themselves are NaN, all other numbers 0. */

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 260c88ca5ffe6b93ea5946fad67187e547942573db1dc2f710bcd9a0610b8738
- * sha256 of the rest of this file: 7e17428ed985338ede473ab527db30c46a915ef264ba0522689f923c848915c4
+ * sha256 of the rest of this file: 510f9d53869b458b168650af624911184d9270a0f7919697db1be8e1d924b5a8
  *
  * model: torsional chain (linear)
  * stations: 6
@@ -82,7 +82,7 @@ drivetrain_status drivetrain_prepare(
     if (model == NULL || params == NULL) {
         return DRIVETRAIN_NULL_POINTER;
     }
-    if (!(step > 0.0) || !(step <= 1.7976931348623157e+308)) {
+    if (!(step > 0.0) || !(step <= DBL_MAX)) {
         return DRIVETRAIN_INVALID_STEP;
     }
     /* Infinities and NaN less themselves are NaN, all other numbers 0. */

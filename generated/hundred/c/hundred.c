@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 1ec2a071f5720229c3b5c9d847fa0a44d6fa112015051ca13c1d73444e6eb10a
- * sha256 of the rest of this file: 178b9c91acfa543592c57b495357fae00a3d0215f0baab83155385f2d7d3651f
+ * sha256 of the rest of this file: 6aa19a128b44d9a917c443c9eb6f878c610cbc5b1738ddcc578d1dc4ec59c26e
  *
  * model: torsional chain (linear)
  * stations: 100
@@ -63,7 +63,7 @@ hundred_status hundred_prepare(
     if (model == NULL || params == NULL) {
         return HUNDRED_NULL_POINTER;
     }
-    if (!(step > 0.0) || !(step <= 1.7976931348623157e+308)) {
+    if (!(step > 0.0) || !(step <= DBL_MAX)) {
         return HUNDRED_INVALID_STEP;
     }
     /* Infinities and NaN less themselves are NaN, all other numbers 0. */

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: ee57f7952242f19cc6be0f26d3460a304cc65a1747711d25b990a158587c6f1f
- * sha256 of the rest of this file: 505053b9236665634d2d2581d95191585b6a3f36828f8db690508fa4441c5532
+ * sha256 of the rest of this file: 0614189540ff67d5e867ecfcf8174b77bfe0c39ad283dda764a0c85c49199b19
  *
  * model: torsional chain (linear)
  * stations: 10
@@ -62,7 +62,7 @@ thesis10_status thesis10_prepare(
     if (model == NULL || params == NULL) {
         return THESIS10_NULL_POINTER;
     }
-    if (!(step > 0.0) || !(step <= 1.7976931348623157e+308)) {
+    if (!(step > 0.0) || !(step <= DBL_MAX)) {
         return THESIS10_INVALID_STEP;
     }
     /* Infinities and NaN less themselves are NaN, all other numbers 0. */

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 8302c2fdab02afb73919e09c91c3abafc3d83d0760e2c0e63be40bfdc341e62e
- * sha256 of the rest of this file: 3e14906e859caf6ebf94cb3c6d31374c68faf12fd2c7a1968794c4c7890f77c9
+ * sha256 of the rest of this file: 66800722187ac28835ed285f5e3af78ff345c2ebea66f53b44ec72161aa950fc
  *
  * model: torsional chain (linear)
  * stations: 2
@@ -62,7 +62,7 @@ thesis2_status thesis2_prepare(
     if (model == NULL || params == NULL) {
         return THESIS2_NULL_POINTER;
     }
-    if (!(step > 0.0) || !(step <= 1.7976931348623157e+308)) {
+    if (!(step > 0.0) || !(step <= DBL_MAX)) {
         return THESIS2_INVALID_STEP;
     }
     /* Infinities and NaN less themselves are NaN, all other numbers 0. */
