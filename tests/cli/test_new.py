@@ -41,7 +41,7 @@ def test_does_not_overwrite_unless_forced(tmp_path: Path, capsys: pytest.Capture
 
 @pytest.mark.parametrize(
     ("name", "remedy"),
-    [("my arm", "'my_arm'?"), ("arm.toml", "'arm'?"), ("step", "'my_step'"), ("math", "another")],
+    [("my arm", "'my_arm'?"), ("arm.toml", "'arm'?"), ("class", "'class_1'"), ("math", "another")],
 )
 def test_bad_names(tmp_path: Path, capsys: pytest.CaptureFixture[str], name: str, remedy: str) -> None:
     assert main(["new", name, "--out", str(tmp_path)]) == 2

@@ -14,9 +14,9 @@ from tmm_gen.measure.run import simulate
 from tmm_gen.measure.signals import Constant
 from tmm_gen.measure.tolerance import InaccurateError
 from tmm_gen.native import compile_kernel
+from tmm_gen.program.arm.auto import MOST_SWEEPS
 from tmm_gen.program.build import build_program
 from tmm_gen.program.evaluate import allocate, execute, key
-from tmm_gen.program.arm.auto import MOST_SWEEPS
 from tmm_gen.program.statements import Until
 from tmm_gen.scene import Scene, parse_scene
 

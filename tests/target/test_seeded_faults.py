@@ -39,9 +39,7 @@ class Fault:
 OUT_OF_BOUNDS = Fault(
     "out of bounds", "j = THESIS10_STATIONS - 1; j >= 0; --j", "j = THESIS10_STATIONS; j >= 0; --j"
 )
-DIVISION = Fault(
-    "division by zero", "admittance = 1.0f / pivot;", "admittance = 1.0f / (pivot - pivot);"
-)
+DIVISION = Fault("division by zero", "admittance = 1.0f / pivot;", "admittance = 1.0f / (pivot - pivot);")
 UNINITIALISED = Fault("uninitialised", "    known_rate[0] = 0.0f;\n", "")
 OVERFLOW = Fault(
     "overflow", "angle_per_acceleration * unknown;", "angle_per_acceleration * unknown * 1e38f * 1e3f;"

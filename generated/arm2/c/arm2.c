@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: c5e09abbb61734735cef8cfddf39dd959eb5765da3ad6484bed2957b4fdf212c
- * sha256 of the rest of this file: 5d65b3c27c4ced3e33c24fe4d0b9ab7c429b2931a7797950fd538cac1615c77b
+ * sha256 of the rest of this file: fa17967860506cef425051599067b2663056a09ec455c70d899b207424742a82
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 2
@@ -104,7 +104,7 @@ arm2_status arm2_prepare(
     if (model == NULL || params == NULL) {
         return ARM2_NULL_POINTER;
     }
-    if (!(step > 0.0) || !(step <= 1.7976931348623157e+308)) {
+    if (!(step > 0.0) || !(step <= DBL_MAX)) {
         return ARM2_INVALID_STEP;
     }
     /* Infinities and NaN less themselves are NaN, all other numbers 0. */

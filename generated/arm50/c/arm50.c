@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
- * sha256 of the rest of this file: a5c0de3054083bbc4010f9b4992d20610633e17bea303ef7594a99e3bb054344
+ * sha256 of the rest of this file: d413f49471bfb8937c2b341ad4d38c82118e73c59568f87df62ceed3ae009db2
  *
  * model: planar arm, large rotations, tip mass
  * stations: 50
@@ -99,7 +99,7 @@ arm50_status arm50_prepare(
     if (model == NULL || params == NULL) {
         return ARM50_NULL_POINTER;
     }
-    if (!(step > 0.0) || !(step <= 1.7976931348623157e+308)) {
+    if (!(step > 0.0) || !(step <= DBL_MAX)) {
         return ARM50_INVALID_STEP;
     }
     /* Infinities and NaN less themselves are NaN, all other numbers 0. */

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 260c88ca5ffe6b93ea5946fad67187e547942573db1dc2f710bcd9a0610b8738
- * sha256 of the rest of this file: ad036d956bc6b20475dcce10799bd1652667386976dc6733b837b03506834fe7
+ * sha256 of the rest of this file: 510f9d53869b458b168650af624911184d9270a0f7919697db1be8e1d924b5a8
  *
  * model: torsional chain (linear)
  * stations: 6
@@ -41,10 +41,7 @@ typedef drivetrain_real real;
 
 static int inputs_are_finite(const drivetrain_inputs *inputs)
 {
-    /* Infinities and NaN less themselves are NaN, all other numbers 0. */
-    const real lost = (inputs->motor_torque - inputs->motor_torque)
-        + (inputs->load_torque - inputs->load_torque);
-    if (!(lost >= 0.0)) {
+    if (!isfinite(inputs->motor_torque) || !isfinite(inputs->load_torque)) {
         return 0;
     }
     return 1;
@@ -85,7 +82,7 @@ drivetrain_status drivetrain_prepare(
     if (model == NULL || params == NULL) {
         return DRIVETRAIN_NULL_POINTER;
     }
-    if (!(step > 0.0) || !(step <= 1.7976931348623157e+308)) {
+    if (!(step > 0.0) || !(step <= DBL_MAX)) {
         return DRIVETRAIN_INVALID_STEP;
     }
     /* Infinities and NaN less themselves are NaN, all other numbers 0. */

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 225557ccb20983327784b6fc8326b9127fb185b183a5e99d150385ab258b9303
- * sha256 of the rest of this file: b07965f617e6b909c830bf5214c3e4818b5e24a8b64008660ad20d89a0a7e584
+ * sha256 of the rest of this file: db8bcf150cf5bea4428010423133b4fdab2853bb7f46c31e93cfa2715d02be9b
  *
  * model: planar arm, large rotations, gravity
  * stations: 10
@@ -72,7 +72,7 @@ fall10_status fall10_prepare(
     if (model == NULL || params == NULL) {
         return FALL10_NULL_POINTER;
     }
-    if (!(step > 0.0) || !(step <= 1.7976931348623157e+308)) {
+    if (!(step > 0.0) || !(step <= DBL_MAX)) {
         return FALL10_INVALID_STEP;
     }
     /* Infinities and NaN less themselves are NaN, all other numbers 0. */

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 1ec2a071f5720229c3b5c9d847fa0a44d6fa112015051ca13c1d73444e6eb10a
- * sha256 of the rest of this file: cb764943dd09384b76a1c98f1b1e42492b6a2928b650853465d585491569206b
+ * sha256 of the rest of this file: 28486a80e2a83b1f57d6466f926786aeedd96e08ccc69ee7a0c226251a50e927
  *
  * model: torsional chain (linear)
  * stations: 100
@@ -63,7 +63,7 @@ hundred_status hundred_prepare(
     if (model == NULL || params == NULL) {
         return HUNDRED_NULL_POINTER;
     }
-    if (!(step > 0.0) || !(step <= 1.7976931348623157e+308)) {
+    if (!(step > 0.0) || !(step <= DBL_MAX)) {
         return HUNDRED_INVALID_STEP;
     }
     /* Infinities and NaN less themselves are NaN, all other numbers 0. */

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: c9c08efbdc9f2f1b1ddadadab522649e5100f98e9cdabe31fcf56b416283c60f
- * sha256 of the rest of this file: 2a4fc100712366aee7b169d817aac1dea73bcdd0964c97a71b7901e94d3edb02
+ * sha256 of the rest of this file: 944a7992f3e2c6abea0e5aeaa0be86e1d7193db6adf62f0d98569bbdc6cf91b4
  *
  * model: planar arm, large rotations, tip mass
  * stations: 5
@@ -81,7 +81,7 @@ swing_status swing_prepare(
     if (model == NULL || params == NULL) {
         return SWING_NULL_POINTER;
     }
-    if (!(step > 0.0) || !(step <= 1.7976931348623157e+308)) {
+    if (!(step > 0.0) || !(step <= DBL_MAX)) {
         return SWING_INVALID_STEP;
     }
     /* Infinities and NaN less themselves are NaN, all other numbers 0. */

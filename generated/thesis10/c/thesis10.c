@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: ee57f7952242f19cc6be0f26d3460a304cc65a1747711d25b990a158587c6f1f
- * sha256 of the rest of this file: 4f4e66260a6ba519b582b041a599e5de4f7b2b4cc39b65e86a312747c0cf411e
+ * sha256 of the rest of this file: fc298e784e5d88531366729e091fa127b71925a4b70e3ead8d13efebdc9e5d74
  *
  * model: torsional chain (linear)
  * stations: 10
@@ -62,7 +62,7 @@ thesis10_status thesis10_prepare(
     if (model == NULL || params == NULL) {
         return THESIS10_NULL_POINTER;
     }
-    if (!(step > 0.0) || !(step <= 1.7976931348623157e+308)) {
+    if (!(step > 0.0) || !(step <= DBL_MAX)) {
         return THESIS10_INVALID_STEP;
     }
     /* Infinities and NaN less themselves are NaN, all other numbers 0. */

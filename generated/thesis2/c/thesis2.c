@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 8302c2fdab02afb73919e09c91c3abafc3d83d0760e2c0e63be40bfdc341e62e
- * sha256 of the rest of this file: 7457136afd6bb963d52060c11ea149e6342355a185bb24744a0ebccb0a904d88
+ * sha256 of the rest of this file: 0328ecec5be43c1b15edc0c3df34552da9fcbe9aee7e8e8e3123c09719ca04ea
  *
  * model: torsional chain (linear)
  * stations: 2
@@ -62,7 +62,7 @@ thesis2_status thesis2_prepare(
     if (model == NULL || params == NULL) {
         return THESIS2_NULL_POINTER;
     }
-    if (!(step > 0.0) || !(step <= 1.7976931348623157e+308)) {
+    if (!(step > 0.0) || !(step <= DBL_MAX)) {
         return THESIS2_INVALID_STEP;
     }
     /* Infinities and NaN less themselves are NaN, all other numbers 0. */

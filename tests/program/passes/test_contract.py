@@ -10,12 +10,11 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from tmm_gen.derive.integrators import registry
-from tmm_gen.program.build import build_program
+from tmm_gen.program.build import build_program, build_unchecked
 from tmm_gen.program.count import count_routine
 from tmm_gen.program.passes.contract import contract
 from tmm_gen.program.passes.fuse import fuse
 from tmm_gen.program.statements import Assign, Loop, Order, Routine, Section
-from tmm_gen.program.build import build_unchecked
 from tmm_gen.program.variables import Role, Variable
 from tmm_gen.resources import scenes_dir
 from tmm_gen.scene import load_scene

@@ -42,7 +42,7 @@ def finite_checks(
         by_length.setdefault(dimension(variable, program), []).append(name)
     numbers = ("{0}.high", "{0}.low") if pairs else ("{0}",)
     single = [number.format(name) for name in by_length.pop("", []) for number in numbers]
-    if len(single) == 1 and not by_length:
+    if len(single) <= 2 and not by_length:
         yield from check(single, failure, 1)
         return
     lost = " + ".join(f"({name} - {name})" for name in single) or zero
