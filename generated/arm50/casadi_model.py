@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
-# sha256 of the rest of this file: f38d31c187322ede65f2a0d0ac6a793f4f7b61b4ad06895ad5bda7264a47c798
+# sha256 of the rest of this file: bbc069e8e8eba5e250431493a5814e1c5e38a03d3e5229c554c88afafd235a71
 #
 # model: planar arm, large rotations, tip mass
 # stations: 50
@@ -352,8 +352,8 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
     solved: list[Any] = [0.0] * STATIONS
 
     # masses at the nodes between links, and what they leave over
-    end_mass = tip_mass - mass * (1.0 - center)
-    rod_inertia = inertia - center * (length * length) * mass * (1.0 - center)
+    start_end_mass = tip_mass - mass * (1.0 - center)
+    start_rod_inertia = inertia - center * (length * length) * mass * (1.0 - center)
 
     # predicted motion
     predicted_rate[0] = base_angle_rate[0]
@@ -388,11 +388,11 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
         )
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
-    impedance_xx = end_mass
-    impedance_yy = end_mass
+    impedance_xx = start_end_mass
+    impedance_yy = start_end_mass
     impedance_uu = tip_inertia
-    force_x = acceleration_x[50] * end_mass
-    force_y = acceleration_y[50] * end_mass
+    force_x = acceleration_x[50] * start_end_mass
+    force_y = acceleration_y[50] * start_end_mass
     torque = predicted_acceleration[50] * tip_inertia
     impedance_xy: Any = 0.0
     impedance_yx: Any = 0.0
@@ -406,13 +406,13 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
         impedance_ux = impedance_yx * lever_cosine[j] - impedance_xx * lever_sine[j]
         impedance_uy = impedance_yy * lever_cosine[j] - impedance_xy * lever_sine[j]
         impedance_uu = (
-            impedance_uu + rod_inertia - impedance_xu * lever_sine[j] + impedance_yu * lever_cosine[j]
+            impedance_uu + start_rod_inertia - impedance_xu * lever_sine[j] + impedance_yu * lever_cosine[j]
         )
         torque = (
             torque
             - force_x * lever_sine[j]
             + force_y * lever_cosine[j]
-            + predicted_acceleration[j + 1] * rod_inertia
+            + predicted_acceleration[j + 1] * start_rod_inertia
         )
         pivot = impedance_uu
         admittance = 1.0 / pivot

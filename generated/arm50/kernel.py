@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
-# sha256 of the rest of this file: 3cd6a37a349911f6968662f2d9037fe0dc8129b0e746e3ba188b51f011f5fb2a
+# sha256 of the rest of this file: 048e11eeaec0c866e18d75d4b6149cb235038ec0b97cf826c7fdc873e48f60fb
 #
 # model: planar arm, large rotations, tip mass
 # stations: 50
@@ -569,8 +569,8 @@ def initialise(
     solved = np.zeros((STATIONS, *batch), dtype)
 
     # masses at the nodes between links, and what they leave over
-    end_mass = tip_mass - mass * (1.0 - center)
-    rod_inertia = inertia - center * (length * length) * mass * (1.0 - center)
+    start_end_mass = tip_mass - mass * (1.0 - center)
+    start_rod_inertia = inertia - center * (length * length) * mass * (1.0 - center)
 
     # predicted motion
     predicted_rate[0] = base_angle_rate[0]
@@ -602,11 +602,11 @@ def initialise(
     )
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
-    impedance_xx = end_mass
-    impedance_yy = end_mass
+    impedance_xx = start_end_mass
+    impedance_yy = start_end_mass
     impedance_uu = tip_inertia
-    force_x = acceleration_x[50] * end_mass
-    force_y = acceleration_y[50] * end_mass
+    force_x = acceleration_x[50] * start_end_mass
+    force_y = acceleration_y[50] * start_end_mass
     torque = predicted_acceleration[50] * tip_inertia
     impedance_xy: Any = 0.0
     impedance_yx: Any = 0.0
@@ -620,13 +620,13 @@ def initialise(
         impedance_ux = impedance_yx * lever_cosine[j] - impedance_xx * lever_sine[j]
         impedance_uy = impedance_yy * lever_cosine[j] - impedance_xy * lever_sine[j]
         impedance_uu = (
-            impedance_uu + rod_inertia - impedance_xu * lever_sine[j] + impedance_yu * lever_cosine[j]
+            impedance_uu + start_rod_inertia - impedance_xu * lever_sine[j] + impedance_yu * lever_cosine[j]
         )
         torque = (
             torque
             - force_x * lever_sine[j]
             + force_y * lever_cosine[j]
-            + predicted_acceleration[j + 1] * rod_inertia
+            + predicted_acceleration[j + 1] * start_rod_inertia
         )
         pivot = impedance_uu
         good = _positive_pivot(good, pivot, "pivot", j)
