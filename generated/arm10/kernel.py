@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: d9d28dc691ae4f0a1d62cb9cfa9f4612d111fa76a756dd286c77eac7f930ab35
-# sha256 of the rest of this file: c94079882847e708e9d8139f59b0c1535ed612301b736099a0b86e5db5fd8e8e
+# sha256 of the rest of this file: c47dbb0daa7dfadc77e82f9d935256778a477ed28839ae3152634cd6013cc9a7
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 10
@@ -434,11 +434,11 @@ def initialise(
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
     impedance_xx = start_end_mass
+    impedance_xy: Any = 0.0
+    impedance_yx: Any = 0.0
     impedance_yy = start_end_mass
     force_x = acceleration_x[10] * start_end_mass
     force_y = acceleration_y[10] * start_end_mass - tip_force
-    impedance_xy: Any = 0.0
-    impedance_yx: Any = 0.0
     torque: Any = 0.0
     for j in reversed(range(STATIONS)):
         impedance_xx = impedance_xx + mass
@@ -629,16 +629,16 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
     impedance_xx = end_mass
+    impedance_xy: Any = 0.0
+    impedance_xu: Any = 0.0
+    impedance_yx: Any = 0.0
     impedance_yy = end_mass
-    force_x = acceleration_x[10] * end_mass
-    force_y = acceleration_y[10] * end_mass - tip_force
-    impedance_uu: Any = 0.0
+    impedance_yu: Any = 0.0
     impedance_ux: Any = 0.0
     impedance_uy: Any = 0.0
-    impedance_xu: Any = 0.0
-    impedance_xy: Any = 0.0
-    impedance_yu: Any = 0.0
-    impedance_yx: Any = 0.0
+    impedance_uu: Any = 0.0
+    force_x = acceleration_x[10] * end_mass
+    force_y = acceleration_y[10] * end_mass - tip_force
     torque: Any = 0.0
     for j in reversed(range(STATIONS)):
         impedance_xx = impedance_xx + mass

@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: c5e09abbb61734735cef8cfddf39dd959eb5765da3ad6484bed2957b4fdf212c
-# sha256 of the rest of this file: ccca4f352624787d07e31ef59e1ab8786abfb840d87bd35c2798bc1f28e54657
+# sha256 of the rest of this file: 2bb44dd11245507ff5ca04997249f3091fba816b62f10d9ba2b9ef9f62c8a73e
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 2
@@ -286,14 +286,14 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
         )
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
-    impedance_uu = tip_inertia
-    torque = predicted_acceleration[2] * tip_inertia
-    force_x: Any = 0.0
-    force_y: Any = 0.0
     impedance_xx: Any = 0.0
     impedance_xy: Any = 0.0
     impedance_yx: Any = 0.0
     impedance_yy: Any = 0.0
+    impedance_uu = tip_inertia
+    force_x: Any = 0.0
+    force_y: Any = 0.0
+    torque = predicted_acceleration[2] * tip_inertia
     for j in reversed(range(STATIONS)):
         impedance_xx = impedance_xx + start_node_mass[j]
         force_x = force_x + acceleration_x[j + 1] * start_node_mass[j]
@@ -430,18 +430,18 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         )
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
-    impedance_uu = tip_inertia
-    torque = acceleration[1] * tip_inertia
-    force_x: Any = 0.0
-    force_y: Any = 0.0
-    impedance_ux: Any = 0.0
-    impedance_uy: Any = 0.0
-    impedance_xu: Any = 0.0
     impedance_xx: Any = 0.0
     impedance_xy: Any = 0.0
-    impedance_yu: Any = 0.0
+    impedance_xu: Any = 0.0
     impedance_yx: Any = 0.0
     impedance_yy: Any = 0.0
+    impedance_yu: Any = 0.0
+    impedance_ux: Any = 0.0
+    impedance_uy: Any = 0.0
+    impedance_uu = tip_inertia
+    force_x: Any = 0.0
+    force_y: Any = 0.0
+    torque = acceleration[1] * tip_inertia
     for j in reversed(range(STATIONS)):
         impedance_xx = impedance_xx + node_mass[j]
         force_x = force_x + acceleration_x[j + 1] * node_mass[j]

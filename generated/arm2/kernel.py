@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: c5e09abbb61734735cef8cfddf39dd959eb5765da3ad6484bed2957b4fdf212c
-# sha256 of the rest of this file: 813968697c8a16742a140fa537ba7722f0dbaf001c8ac750fe745c06869a51f0
+# sha256 of the rest of this file: fd473e231a12119cf64c208b84026ed11bb532deb378b2bd65c2e323fbd47df4
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 2
@@ -430,14 +430,14 @@ def initialise(
     )
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
-    impedance_uu = tip_inertia
-    torque = predicted_acceleration[2] * tip_inertia
-    force_x: Any = 0.0
-    force_y: Any = 0.0
     impedance_xx: Any = 0.0
     impedance_xy: Any = 0.0
     impedance_yx: Any = 0.0
     impedance_yy: Any = 0.0
+    impedance_uu = tip_inertia
+    force_x: Any = 0.0
+    force_y: Any = 0.0
+    torque = predicted_acceleration[2] * tip_inertia
     for j in reversed(range(STATIONS)):
         impedance_xx = impedance_xx + start_node_mass[j]
         force_x = force_x + acceleration_x[j + 1] * start_node_mass[j]
@@ -630,18 +630,18 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     )
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
-    impedance_uu = tip_inertia
-    torque = acceleration[1] * tip_inertia
-    force_x: Any = 0.0
-    force_y: Any = 0.0
-    impedance_ux: Any = 0.0
-    impedance_uy: Any = 0.0
-    impedance_xu: Any = 0.0
     impedance_xx: Any = 0.0
     impedance_xy: Any = 0.0
-    impedance_yu: Any = 0.0
+    impedance_xu: Any = 0.0
     impedance_yx: Any = 0.0
     impedance_yy: Any = 0.0
+    impedance_yu: Any = 0.0
+    impedance_ux: Any = 0.0
+    impedance_uy: Any = 0.0
+    impedance_uu = tip_inertia
+    force_x: Any = 0.0
+    force_y: Any = 0.0
+    torque = acceleration[1] * tip_inertia
     for j in reversed(range(STATIONS)):
         impedance_xx = impedance_xx + node_mass[j]
         force_x = force_x + acceleration_x[j + 1] * node_mass[j]

@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 225557ccb20983327784b6fc8326b9127fb185b183a5e99d150385ab258b9303
-# sha256 of the rest of this file: c4f2657742b28a905ad3fdd44f7db48fb50e4909bf4841054f4c9a3730ae6804
+# sha256 of the rest of this file: 4c539ab94e8fb406fc8a43e0aecfa24308a9d1e6cd191efa27be5a0a22f47e54
 #
 # model: planar arm, large rotations, gravity
 # stations: 10
@@ -262,11 +262,11 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
     impedance_xx = start_end_mass
+    impedance_xy: Any = 0.0
+    impedance_yx: Any = 0.0
     impedance_yy = start_end_mass
     force_x = acceleration_x[10] * start_end_mass
     force_y = acceleration_y[10] * start_end_mass
-    impedance_xy: Any = 0.0
-    impedance_yx: Any = 0.0
     torque: Any = 0.0
     for j in reversed(range(STATIONS)):
         impedance_xx = impedance_xx + mass
@@ -386,16 +386,16 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
     impedance_xx = end_mass
+    impedance_xy: Any = 0.0
+    impedance_xu: Any = 0.0
+    impedance_yx: Any = 0.0
     impedance_yy = end_mass
-    force_x = acceleration_x[10] * end_mass
-    force_y = acceleration_y[10] * end_mass
-    impedance_uu: Any = 0.0
+    impedance_yu: Any = 0.0
     impedance_ux: Any = 0.0
     impedance_uy: Any = 0.0
-    impedance_xu: Any = 0.0
-    impedance_xy: Any = 0.0
-    impedance_yu: Any = 0.0
-    impedance_yx: Any = 0.0
+    impedance_uu: Any = 0.0
+    force_x = acceleration_x[10] * end_mass
+    force_y = acceleration_y[10] * end_mass
     torque: Any = 0.0
     for j in reversed(range(STATIONS)):
         impedance_xx = impedance_xx + mass

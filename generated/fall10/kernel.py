@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 225557ccb20983327784b6fc8326b9127fb185b183a5e99d150385ab258b9303
-# sha256 of the rest of this file: 8a442c50156b0c6d1be075a32307699bc9863b58ea8be31b7133f2b07da25791
+# sha256 of the rest of this file: 45f1ffc5c766c8cdbac3a60ff9455d3170e815db44fcbe41607cdf704d6f7f78
 #
 # model: planar arm, large rotations, gravity
 # stations: 10
@@ -368,11 +368,11 @@ def initialise(
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
     impedance_xx = start_end_mass
+    impedance_xy: Any = 0.0
+    impedance_yx: Any = 0.0
     impedance_yy = start_end_mass
     force_x = acceleration_x[10] * start_end_mass
     force_y = acceleration_y[10] * start_end_mass
-    impedance_xy: Any = 0.0
-    impedance_yx: Any = 0.0
     torque: Any = 0.0
     for j in reversed(range(STATIONS)):
         impedance_xx = impedance_xx + mass
@@ -535,16 +535,16 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
     impedance_xx = end_mass
+    impedance_xy: Any = 0.0
+    impedance_xu: Any = 0.0
+    impedance_yx: Any = 0.0
     impedance_yy = end_mass
-    force_x = acceleration_x[10] * end_mass
-    force_y = acceleration_y[10] * end_mass
-    impedance_uu: Any = 0.0
+    impedance_yu: Any = 0.0
     impedance_ux: Any = 0.0
     impedance_uy: Any = 0.0
-    impedance_xu: Any = 0.0
-    impedance_xy: Any = 0.0
-    impedance_yu: Any = 0.0
-    impedance_yx: Any = 0.0
+    impedance_uu: Any = 0.0
+    force_x = acceleration_x[10] * end_mass
+    force_y = acceleration_y[10] * end_mass
     torque: Any = 0.0
     for j in reversed(range(STATIONS)):
         impedance_xx = impedance_xx + mass

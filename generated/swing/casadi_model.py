@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: c9c08efbdc9f2f1b1ddadadab522649e5100f98e9cdabe31fcf56b416283c60f
-# sha256 of the rest of this file: 277867c4bf27eaf37fdc7d879195706427645843bc6896964665e685eada5525
+# sha256 of the rest of this file: 731c08c0d8fc823169630c6ae6353f2d5982a86bd334ef4ba3af12a3788d2de0
 #
 # model: planar arm, large rotations, tip mass
 # stations: 5
@@ -270,11 +270,11 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
     impedance_xx = start_end_mass
+    impedance_xy: Any = 0.0
+    impedance_yx: Any = 0.0
     impedance_yy = start_end_mass
     force_x = acceleration_x[5] * start_end_mass
     force_y = acceleration_y[5] * start_end_mass
-    impedance_xy: Any = 0.0
-    impedance_yx: Any = 0.0
     torque: Any = 0.0
     for j in reversed(range(STATIONS)):
         impedance_xx = impedance_xx + mass
@@ -406,16 +406,16 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
     impedance_xx = end_mass
+    impedance_xy: Any = 0.0
+    impedance_xu: Any = 0.0
+    impedance_yx: Any = 0.0
     impedance_yy = end_mass
-    force_x = acceleration_x[5] * end_mass
-    force_y = acceleration_y[5] * end_mass
-    impedance_uu: Any = 0.0
+    impedance_yu: Any = 0.0
     impedance_ux: Any = 0.0
     impedance_uy: Any = 0.0
-    impedance_xu: Any = 0.0
-    impedance_xy: Any = 0.0
-    impedance_yu: Any = 0.0
-    impedance_yx: Any = 0.0
+    impedance_uu: Any = 0.0
+    force_x = acceleration_x[5] * end_mass
+    force_y = acceleration_y[5] * end_mass
     torque: Any = 0.0
     for j in reversed(range(STATIONS)):
         impedance_xx = impedance_xx + mass

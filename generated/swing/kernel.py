@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: c9c08efbdc9f2f1b1ddadadab522649e5100f98e9cdabe31fcf56b416283c60f
-# sha256 of the rest of this file: c008a2bf7b31c6b24941c7d1eb9c8ab297bbe082e2cb66e9863a6e8795fd856c
+# sha256 of the rest of this file: f35ba52f0ebf0c9db624f4e4e02f211c5e222229777a6f0bca224aa324c0d0a2
 #
 # model: planar arm, large rotations, tip mass
 # stations: 5
@@ -406,11 +406,11 @@ def initialise(
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
     impedance_xx = start_end_mass
+    impedance_xy: Any = 0.0
+    impedance_yx: Any = 0.0
     impedance_yy = start_end_mass
     force_x = acceleration_x[5] * start_end_mass
     force_y = acceleration_y[5] * start_end_mass
-    impedance_xy: Any = 0.0
-    impedance_yx: Any = 0.0
     torque: Any = 0.0
     for j in reversed(range(STATIONS)):
         impedance_xx = impedance_xx + mass
@@ -597,16 +597,16 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
     impedance_xx = end_mass
+    impedance_xy: Any = 0.0
+    impedance_xu: Any = 0.0
+    impedance_yx: Any = 0.0
     impedance_yy = end_mass
-    force_x = acceleration_x[5] * end_mass
-    force_y = acceleration_y[5] * end_mass
-    impedance_uu: Any = 0.0
+    impedance_yu: Any = 0.0
     impedance_ux: Any = 0.0
     impedance_uy: Any = 0.0
-    impedance_xu: Any = 0.0
-    impedance_xy: Any = 0.0
-    impedance_yu: Any = 0.0
-    impedance_yx: Any = 0.0
+    impedance_uu: Any = 0.0
+    force_x = acceleration_x[5] * end_mass
+    force_y = acceleration_y[5] * end_mass
     torque: Any = 0.0
     for j in reversed(range(STATIONS)):
         impedance_xx = impedance_xx + mass

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: d9d28dc691ae4f0a1d62cb9cfa9f4612d111fa76a756dd286c77eac7f930ab35
- * sha256 of the rest of this file: bbafeef15e2a870adff61452bcbaf37f3bfca2e77d2e6fba9255bd2df3d405a2
+ * sha256 of the rest of this file: 043845da71374296134c0bc9fb9b9092019c1334ce31ca36ed10983f791ae77c
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 10
@@ -274,11 +274,11 @@ arm10_status arm10_initialise(
     /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
      * of the motion at it. */
     real impedance_xx = start_end_mass;
+    real impedance_xy = 0.0;
+    real impedance_yx = 0.0;
     real impedance_yy = start_end_mass;
     real force_x = acceleration_x[10] * start_end_mass;
     real force_y = acceleration_y[10] * start_end_mass - inputs->tip_force;
-    real impedance_xy = 0.0;
-    real impedance_yx = 0.0;
     real torque = 0.0;
     for (int j = ARM10_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = params->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
@@ -417,16 +417,16 @@ arm10_status arm10_step(
     /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
      * of the motion at it. */
     real impedance_xx = model->end_mass;
+    real impedance_xy = 0.0;
+    real impedance_xu = 0.0;
+    real impedance_yx = 0.0;
     real impedance_yy = model->end_mass;
-    real force_x = acceleration_x[10] * model->end_mass;
-    real force_y = acceleration_y[10] * model->end_mass - inputs->tip_force;
-    real impedance_uu = 0.0;
+    real impedance_yu = 0.0;
     real impedance_ux = 0.0;
     real impedance_uy = 0.0;
-    real impedance_xu = 0.0;
-    real impedance_xy = 0.0;
-    real impedance_yu = 0.0;
-    real impedance_yx = 0.0;
+    real impedance_uu = 0.0;
+    real force_x = acceleration_x[10] * model->end_mass;
+    real force_y = acceleration_y[10] * model->end_mass - inputs->tip_force;
     real torque = 0.0;
     for (int j = ARM10_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = model->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])

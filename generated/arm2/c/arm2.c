@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: c5e09abbb61734735cef8cfddf39dd959eb5765da3ad6484bed2957b4fdf212c
- * sha256 of the rest of this file: a1d0b6b0142c0345925b8cdb4e93e435e37ddac9f709901c89eae3cee31a9adc
+ * sha256 of the rest of this file: 5e5f30ff3dce473fe2cbffa5c6c28dd507a058dce3332cb5ac093da501e13464
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 2
@@ -242,14 +242,14 @@ arm2_status arm2_initialise(
 
     /* Masses at the nodes between links, and what they leave over; forces of the joints at the motion so far;
      * sweep inward: force beyond each joint as an affine function of the motion at it. */
-    real impedance_uu = params->tip_inertia;
-    real torque = predicted_acceleration[2] * params->tip_inertia;
-    real force_x = 0.0;
-    real force_y = 0.0;
     real impedance_xx = 0.0;
     real impedance_xy = 0.0;
     real impedance_yx = 0.0;
     real impedance_yy = 0.0;
+    real impedance_uu = params->tip_inertia;
+    real force_x = 0.0;
+    real force_y = 0.0;
+    real torque = predicted_acceleration[2] * params->tip_inertia;
     for (int j = ARM2_STATIONS - 1; j >= 0; --j) {
         const real start_rod_inertia = params->inertia[j]
             - params->center[j] * (params->length[j] * params->length[j]) * params->mass[j]
@@ -374,18 +374,18 @@ arm2_status arm2_step(
 
     /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
      * of the motion at it. */
-    real impedance_uu = model->tip_inertia;
-    real torque = state->acceleration[1] * model->tip_inertia;
-    real force_x = 0.0;
-    real force_y = 0.0;
-    real impedance_ux = 0.0;
-    real impedance_uy = 0.0;
-    real impedance_xu = 0.0;
     real impedance_xx = 0.0;
     real impedance_xy = 0.0;
-    real impedance_yu = 0.0;
+    real impedance_xu = 0.0;
     real impedance_yx = 0.0;
     real impedance_yy = 0.0;
+    real impedance_yu = 0.0;
+    real impedance_ux = 0.0;
+    real impedance_uy = 0.0;
+    real impedance_uu = model->tip_inertia;
+    real force_x = 0.0;
+    real force_y = 0.0;
+    real torque = state->acceleration[1] * model->tip_inertia;
     for (int j = ARM2_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = model->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + model->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
- * sha256 of the rest of this file: 9042d07802b4b030074b49befacdf58840604e4ae19e167d85db09fdc8dbb3a8
+ * sha256 of the rest of this file: 136e230a3e2170508469a52add55a5337fdaad5aad71efe49cc10f7f4ba680da
  *
  * model: planar arm, large rotations, tip mass
  * stations: 50
@@ -242,13 +242,13 @@ arm50_status arm50_initialise(
     /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
      * of the motion at it. */
     real impedance_xx = start_end_mass;
+    real impedance_xy = 0.0;
+    real impedance_yx = 0.0;
     real impedance_yy = start_end_mass;
     real impedance_uu = params->tip_inertia;
     real force_x = acceleration_x[50] * start_end_mass;
     real force_y = acceleration_y[50] * start_end_mass;
     real torque = predicted_acceleration[50] * params->tip_inertia;
-    real impedance_xy = 0.0;
-    real impedance_yx = 0.0;
     for (int j = ARM50_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = params->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + params->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
@@ -388,17 +388,17 @@ arm50_status arm50_step(
     /* Stage 1 of 5: forces of the joints at the motion so far; sweep inward: force beyond each joint as an
      * affine function of the motion at it. */
     real impedance_xx = model->end_mass;
+    real impedance_xy = 0.0;
+    real impedance_xu = 0.0;
+    real impedance_yx = 0.0;
     real impedance_yy = model->end_mass;
+    real impedance_yu = 0.0;
+    real impedance_ux = 0.0;
+    real impedance_uy = 0.0;
     real impedance_uu = model->tip_inertia;
     real force_x = acceleration_x[50] * model->end_mass;
     real force_y = acceleration_y[50] * model->end_mass;
     real torque = state->acceleration[49] * model->tip_inertia;
-    real impedance_ux = 0.0;
-    real impedance_uy = 0.0;
-    real impedance_xu = 0.0;
-    real impedance_xy = 0.0;
-    real impedance_yu = 0.0;
-    real impedance_yx = 0.0;
     for (int j = ARM50_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = model->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + model->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
@@ -482,17 +482,17 @@ arm50_status arm50_step(
     /* Stage 2 of 5: forces of the joints at the motion so far; sweep inward: force beyond each joint as an
      * affine function of the motion at it. */
     impedance_xx = model->end_mass;
+    impedance_xy = 0.0;
+    impedance_xu = 0.0;
+    impedance_yx = 0.0;
     impedance_yy = model->end_mass;
+    impedance_yu = 0.0;
+    impedance_ux = 0.0;
+    impedance_uy = 0.0;
     impedance_uu = model->tip_inertia;
     force_x = acceleration_x[50] * model->end_mass;
     force_y = acceleration_y[50] * model->end_mass;
     torque = stage1_acceleration[49] * model->tip_inertia;
-    impedance_ux = 0.0;
-    impedance_uy = 0.0;
-    impedance_xu = 0.0;
-    impedance_xy = 0.0;
-    impedance_yu = 0.0;
-    impedance_yx = 0.0;
     for (int j = ARM50_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = model->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + model->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
@@ -580,17 +580,17 @@ arm50_status arm50_step(
     /* Stage 3 of 5: forces of the joints at the motion so far; sweep inward: force beyond each joint as an
      * affine function of the motion at it. */
     impedance_xx = model->end_mass;
+    impedance_xy = 0.0;
+    impedance_xu = 0.0;
+    impedance_yx = 0.0;
     impedance_yy = model->end_mass;
+    impedance_yu = 0.0;
+    impedance_ux = 0.0;
+    impedance_uy = 0.0;
     impedance_uu = model->tip_inertia;
     force_x = acceleration_x[50] * model->end_mass;
     force_y = acceleration_y[50] * model->end_mass;
     torque = stage2_acceleration[49] * model->tip_inertia;
-    impedance_ux = 0.0;
-    impedance_uy = 0.0;
-    impedance_xu = 0.0;
-    impedance_xy = 0.0;
-    impedance_yu = 0.0;
-    impedance_yx = 0.0;
     for (int j = ARM50_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = model->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + model->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
@@ -680,17 +680,17 @@ arm50_status arm50_step(
     /* Stage 4 of 5: forces of the joints at the motion so far; sweep inward: force beyond each joint as an
      * affine function of the motion at it. */
     impedance_xx = model->end_mass;
+    impedance_xy = 0.0;
+    impedance_xu = 0.0;
+    impedance_yx = 0.0;
     impedance_yy = model->end_mass;
+    impedance_yu = 0.0;
+    impedance_ux = 0.0;
+    impedance_uy = 0.0;
     impedance_uu = model->tip_inertia;
     force_x = acceleration_x[50] * model->end_mass;
     force_y = acceleration_y[50] * model->end_mass;
     torque = stage3_acceleration[49] * model->tip_inertia;
-    impedance_ux = 0.0;
-    impedance_uy = 0.0;
-    impedance_xu = 0.0;
-    impedance_xy = 0.0;
-    impedance_yu = 0.0;
-    impedance_yx = 0.0;
     for (int j = ARM50_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = model->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + model->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
@@ -782,17 +782,17 @@ arm50_status arm50_step(
     /* Stage 5 of 5: forces of the joints at the motion so far; sweep inward: force beyond each joint as an
      * affine function of the motion at it. */
     impedance_xx = model->end_mass;
+    impedance_xy = 0.0;
+    impedance_xu = 0.0;
+    impedance_yx = 0.0;
     impedance_yy = model->end_mass;
+    impedance_yu = 0.0;
+    impedance_ux = 0.0;
+    impedance_uy = 0.0;
     impedance_uu = model->tip_inertia;
     force_x = acceleration_x[50] * model->end_mass;
     force_y = acceleration_y[50] * model->end_mass;
     torque = stage4_acceleration[49] * model->tip_inertia;
-    impedance_ux = 0.0;
-    impedance_uy = 0.0;
-    impedance_xu = 0.0;
-    impedance_xy = 0.0;
-    impedance_yu = 0.0;
-    impedance_yx = 0.0;
     for (int j = ARM50_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = model->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + model->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 225557ccb20983327784b6fc8326b9127fb185b183a5e99d150385ab258b9303
- * sha256 of the rest of this file: 5c7d1d23f05f6b53289e5bf0b0792c6f1c3a6f9bea51740f54f18d20e6c35bc1
+ * sha256 of the rest of this file: 9a4b332449e7a39c16af42cb65bb8431891ff2401a11b53c105e63a62b4abae8
  *
  * model: planar arm, large rotations, gravity
  * stations: 10
@@ -191,11 +191,11 @@ fall10_status fall10_initialise(
     /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
      * of the motion at it. */
     real impedance_xx = start_end_mass;
+    real impedance_xy = 0.0;
+    real impedance_yx = 0.0;
     real impedance_yy = start_end_mass;
     real force_x = acceleration_x[10] * start_end_mass;
     real force_y = acceleration_y[10] * start_end_mass;
-    real impedance_xy = 0.0;
-    real impedance_yx = 0.0;
     real torque = 0.0;
     for (int j = FALL10_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = params->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
@@ -311,16 +311,16 @@ fall10_status fall10_step(
     /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
      * of the motion at it. */
     real impedance_xx = model->end_mass;
+    real impedance_xy = 0.0;
+    real impedance_xu = 0.0;
+    real impedance_yx = 0.0;
     real impedance_yy = model->end_mass;
-    real force_x = acceleration_x[10] * model->end_mass;
-    real force_y = acceleration_y[10] * model->end_mass;
-    real impedance_uu = 0.0;
+    real impedance_yu = 0.0;
     real impedance_ux = 0.0;
     real impedance_uy = 0.0;
-    real impedance_xu = 0.0;
-    real impedance_xy = 0.0;
-    real impedance_yu = 0.0;
-    real impedance_yx = 0.0;
+    real impedance_uu = 0.0;
+    real force_x = acceleration_x[10] * model->end_mass;
+    real force_y = acceleration_y[10] * model->end_mass;
     real torque = 0.0;
     for (int j = FALL10_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = model->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])

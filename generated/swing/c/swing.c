@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: c9c08efbdc9f2f1b1ddadadab522649e5100f98e9cdabe31fcf56b416283c60f
- * sha256 of the rest of this file: c191a74f8496a242a505cffcfb50d8813b3418e1defaf503b20b93dc39aba24e
+ * sha256 of the rest of this file: 7c7864a75aceecade8e2fae18d23d89092a01eb269ca013fe48a883e5d142fb2
  *
  * model: planar arm, large rotations, tip mass
  * stations: 5
@@ -211,11 +211,11 @@ swing_status swing_initialise(
     /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
      * of the motion at it. */
     real impedance_xx = start_end_mass;
+    real impedance_xy = 0.0;
+    real impedance_yx = 0.0;
     real impedance_yy = start_end_mass;
     real force_x = acceleration_x[5] * start_end_mass;
     real force_y = acceleration_y[5] * start_end_mass;
-    real impedance_xy = 0.0;
-    real impedance_yx = 0.0;
     real torque = 0.0;
     for (int j = SWING_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = params->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
@@ -341,16 +341,16 @@ swing_status swing_step(
     /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
      * of the motion at it. */
     real impedance_xx = model->end_mass;
+    real impedance_xy = 0.0;
+    real impedance_xu = 0.0;
+    real impedance_yx = 0.0;
     real impedance_yy = model->end_mass;
-    real force_x = acceleration_x[5] * model->end_mass;
-    real force_y = acceleration_y[5] * model->end_mass;
-    real impedance_uu = 0.0;
+    real impedance_yu = 0.0;
     real impedance_ux = 0.0;
     real impedance_uy = 0.0;
-    real impedance_xu = 0.0;
-    real impedance_xy = 0.0;
-    real impedance_yu = 0.0;
-    real impedance_yx = 0.0;
+    real impedance_uu = 0.0;
+    real force_x = acceleration_x[5] * model->end_mass;
+    real force_y = acceleration_y[5] * model->end_mass;
     real torque = 0.0;
     for (int j = SWING_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = model->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
