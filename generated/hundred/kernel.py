@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 1ec2a071f5720229c3b5c9d847fa0a44d6fa112015051ca13c1d73444e6eb10a
-# sha256 of the rest of this file: 356d87c773bbc3563db0561b29d43c1aab0d207508cb6cc11a3f105030e04d52
+# sha256 of the rest of this file: 82a3400c1cc406c45bf4735931416f2968bfefb1fe409ae1fa0e305cfd96905b
 #
 # model: torsional chain (linear)
 # stations: 100
@@ -264,8 +264,6 @@ def initialise(
         If an argument or the state is not finite.
     ValueError
         If shapes do not fit.
-    VanishingPivotError
-        If parameters leave a pivot that is not positive.
     """
     good: Any = True
     tip_torque = _array(input.tip_torque, None, "input tip_torque")
@@ -286,7 +284,6 @@ def initialise(
     # what is the same at every station
     impedance = -inertia
     pivot = -impedance
-    good = _positive_pivot(good, pivot, "pivot", None)
     admittance = 1.0 / pivot
 
     # motion known before the sweep

@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 8302c2fdab02afb73919e09c91c3abafc3d83d0760e2c0e63be40bfdc341e62e
-# sha256 of the rest of this file: 8d130ba0bda0344059ccc4b70b1f5155dfc99456edc910b7f71eaf8ca8699d90
+# sha256 of the rest of this file: d1dab135e452ac0c2fa65556aec301ee8c3cd288c0f673fcf3de1c00aa2e45ef
 #
 # model: torsional chain (linear)
 # stations: 2
@@ -261,8 +261,6 @@ def initialise(
         If an argument or the state is not finite.
     ValueError
         If shapes do not fit.
-    VanishingPivotError
-        If parameters leave a pivot that is not positive.
     """
     good: Any = True
     tip_torque = _array(input.tip_torque, None, "input tip_torque")
@@ -283,7 +281,6 @@ def initialise(
     # what is the same at every station
     impedance = -inertia
     pivot = -impedance
-    good = _positive_pivot(good, pivot, "pivot", None)
     admittance = 1.0 / pivot
 
     # motion known before the sweep

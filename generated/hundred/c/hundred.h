@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 1ec2a071f5720229c3b5c9d847fa0a44d6fa112015051ca13c1d73444e6eb10a
- * sha256 of the rest of this file: 06082d0371ddffd0b6a3321cf8d4bae0f2f3f23d257c3f7198ceafd826c23a56
+ * sha256 of the rest of this file: bea88def2303132e95a080d870f1f6253d44f7e415df09cfe027e4c0892dfdd9
  *
  * model: torsional chain (linear)
  * stations: 100
@@ -138,7 +138,7 @@ hundred_status hundred_prepare(
  * @param[in]  initial_angle  angles to start from [rad]; NULL for the scene's own
  * @param[in]  initial_rate  rates to start from [rad/s]; NULL for the scene's own
  * @param[in]  inputs  what acts at the initial instant
- * @return OK, NON_FINITE_INPUT, NULL_POINTER, VANISHING_PIVOT or NON_FINITE_STATE
+ * @return OK, NON_FINITE_INPUT, NULL_POINTER or NON_FINITE_STATE
  */
 hundred_status hundred_initialise(
     hundred_state *state,

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: ee57f7952242f19cc6be0f26d3460a304cc65a1747711d25b990a158587c6f1f
- * sha256 of the rest of this file: 0614189540ff67d5e867ecfcf8174b77bfe0c39ad283dda764a0c85c49199b19
+ * sha256 of the rest of this file: fc298e784e5d88531366729e091fa127b71925a4b70e3ead8d13efebdc9e5d74
  *
  * model: torsional chain (linear)
  * stations: 10
@@ -137,9 +137,6 @@ thesis10_status thesis10_initialise(
     /* What is the same at every station. */
     const real impedance = -params->inertia;
     const real pivot = -impedance;
-    if (!(pivot > 0.0) || !(pivot <= DBL_MAX)) {
-        return THESIS10_VANISHING_PIVOT;
-    }
     const real admittance = 1.0 / pivot;
 
     /* Motion known before the sweep. */

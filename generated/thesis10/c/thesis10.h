@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: ee57f7952242f19cc6be0f26d3460a304cc65a1747711d25b990a158587c6f1f
- * sha256 of the rest of this file: 86aadd8915478b57f9d5724a2ff60afb0784b1e85c9579c978ef16841b1c910a
+ * sha256 of the rest of this file: fbfec7261e7e78bc646692d91b6f0c186abad7ae15c969c1ed0a9224d41c372a
  *
  * model: torsional chain (linear)
  * stations: 10
@@ -133,7 +133,7 @@ thesis10_status thesis10_prepare(
  * @param[in]  initial_angle  angles to start from [rad]; NULL for the scene's own
  * @param[in]  initial_rate  rates to start from [rad/s]; NULL for the scene's own
  * @param[in]  inputs  what acts at the initial instant
- * @return OK, NON_FINITE_INPUT, NULL_POINTER, VANISHING_PIVOT or NON_FINITE_STATE
+ * @return OK, NON_FINITE_INPUT, NULL_POINTER or NON_FINITE_STATE
  */
 thesis10_status thesis10_initialise(
     thesis10_state *state,

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 8302c2fdab02afb73919e09c91c3abafc3d83d0760e2c0e63be40bfdc341e62e
- * sha256 of the rest of this file: 66800722187ac28835ed285f5e3af78ff345c2ebea66f53b44ec72161aa950fc
+ * sha256 of the rest of this file: 0328ecec5be43c1b15edc0c3df34552da9fcbe9aee7e8e8e3123c09719ca04ea
  *
  * model: torsional chain (linear)
  * stations: 2
@@ -137,9 +137,6 @@ thesis2_status thesis2_initialise(
     /* What is the same at every station. */
     const real impedance = -params->inertia;
     const real pivot = -impedance;
-    if (!(pivot > 0.0) || !(pivot <= DBL_MAX)) {
-        return THESIS2_VANISHING_PIVOT;
-    }
     const real admittance = 1.0 / pivot;
 
     /* Motion known before the sweep. */

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 8302c2fdab02afb73919e09c91c3abafc3d83d0760e2c0e63be40bfdc341e62e
- * sha256 of the rest of this file: 389c01d5b5031b574ed2392b875e4504736e242adf298e4981c1e3391eded977
+ * sha256 of the rest of this file: 007c2539d40127b17d75d20b68ab468c1c132d04d381dd3ffd02e1bc20c2fa9a
  *
  * model: torsional chain (linear)
  * stations: 2
@@ -133,7 +133,7 @@ thesis2_status thesis2_prepare(
  * @param[in]  initial_angle  angles to start from [rad]; NULL for the scene's own
  * @param[in]  initial_rate  rates to start from [rad/s]; NULL for the scene's own
  * @param[in]  inputs  what acts at the initial instant
- * @return OK, NON_FINITE_INPUT, NULL_POINTER, VANISHING_PIVOT or NON_FINITE_STATE
+ * @return OK, NON_FINITE_INPUT, NULL_POINTER or NON_FINITE_STATE
  */
 thesis2_status thesis2_initialise(
     thesis2_state *state,

@@ -221,7 +221,7 @@ class Assembly:
         cold = (Assign(layout.dissipated.ref, sp.Integer(0)),) if layout.dissipated else ()
         sections = (
             combined.section,
-            *lifted(list(builder.sections())),
+            *lifted(list(builder.sections()), ask=self.row.about == "prediction"),
             *((start_places(layout),) if layout.places else ()),
             Section("older history of the hub", older),
             *hold(layout, 1),

@@ -80,17 +80,22 @@ class EarlySets:
         return replace(variable, name=name, role=Role.COEFFICIENT, length=length)
 
 
-def lifted(sections: list[Section]) -> list[Section]:
+def lifted(sections: list[Section], *, ask: bool) -> list[Section]:
     """Return sections in which what is alike at every station, and bound early, is computed once, before loops.
 
-    For routines that keep nothing: where it takes a loop of its own, it stays where it is. Pivots of parameters
-    alone are not asked for again: what they are not shows in the state.
+    For routines that keep nothing: where it takes a loop of its own, it stays where it is.
+
+    Parameters
+    ----------
+    ask : bool
+        Whether pivots of parameters alone are asked for; otherwise what is wrong with them shows in the state.
     """
     early = _early(sections)
     taken, left = _divided(sections, early)
     statements = _lifted([s for group in taken for s in group])
     if not statements or any(isinstance(s, Loop) for s in statements):
         return sections
+    statements = [s for s in statements if ask or not isinstance(s, Require)]
     targets = {a.target.variable.name: a.target for a in _assigns(statements)}
     names = {
         r: targets[r.variable.name]
