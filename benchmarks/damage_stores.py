@@ -21,10 +21,10 @@ from pathlib import Path
 import numpy as np
 
 from tmm_gen.cli.console import Column, progress, table
-from tmm_gen.measure.trade import store as stores
-from tmm_gen.measure.trade.outcome import Outcome, Result
-from tmm_gen.measure.trade.store import Store
-from tmm_gen.measure.trade.store_errors import StoreError
+from tmm_gen.study import store as stores
+from tmm_gen.study.outcome import Outcome, Result
+from tmm_gen.study.store import Store
+from tmm_gen.study.store_errors import StoreError
 
 Random = np.random.Generator
 Damage = Callable[[Path, Random], None]

@@ -12,9 +12,9 @@ from pathlib import Path
 
 import numpy as np
 
-from tmm_gen.measure.energy import energy
 from tmm_gen.native import compile_kernel
 from tmm_gen.program.build import build_program
+from tmm_gen.reference.energy import energy
 from tmm_gen.scene import Scene, load_scene
 
 DURATION = 100.0

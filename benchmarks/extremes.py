@@ -16,14 +16,14 @@ from itertools import product
 from pathlib import Path
 
 import numpy as np
+from extremes_of_chains.chains import WRONG, judge_all
+from extremes_of_chains.endurance import ENDURED, endure
+from extremes_of_chains.extreme import ChainExtreme
+from extremes_of_chains.extremes_picture import extremes_picture
 
 from tmm_gen.cli.console import Column, progress, table
+from tmm_gen.csv_text import csv_text
 from tmm_gen.files import write_whole
-from tmm_gen.measure.rows import csv_text
-from tmm_gen.measure.stability.chain_extremes import WRONG, judge_all
-from tmm_gen.measure.stability.endurance import ENDURED, endure
-from tmm_gen.measure.stability.extreme import ChainExtreme
-from tmm_gen.measure.stability.extremes_picture import extremes_picture
 from tmm_gen.scene.integrator import METHODS
 
 RATIOS = (1e-12, 1e-6, 1.0, 1e6, 1e12)

@@ -16,11 +16,11 @@ from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
+from extremes_of_arms.arms import Extreme, Verdict, judge
 
 from tmm_gen.cli.console import Column, progress, table
+from tmm_gen.csv_text import csv_text
 from tmm_gen.files import write_whole
-from tmm_gen.measure.planar_extremes import Extreme, Verdict, judge
-from tmm_gen.measure.rows import csv_text
 
 ALONE: dict[str, tuple[float, ...]] = {
     "links": (1, 2, 3, 5, 10, 20, 50, 60, 100, 200, 500, 1000),

@@ -15,17 +15,17 @@ import argparse
 from pathlib import Path
 
 import numpy as np
+from support.float32_error import single_precision
 
 from tmm_gen.cli.console import Column, progress, table
+from tmm_gen.csv_text import csv_text
 from tmm_gen.files import write_whole
-from tmm_gen.measure.metrics import largest_error
-from tmm_gen.measure.reference import exact_response
-from tmm_gen.measure.rows import csv_text
-from tmm_gen.measure.signals import Constant
-from tmm_gen.measure.single_precision import single_precision
+from tmm_gen.inputs.signals import Constant
 from tmm_gen.native import compile_kernel
 from tmm_gen.program.build import build_program
+from tmm_gen.reference.reference import exact_response
 from tmm_gen.scene import Scene, load_scene
+from tmm_gen.simulate.metrics import largest_error
 
 UNKNOWNS = ("displacement", "increment", "acceleration")
 STEPS = (1e-2, 1e-3, 1e-4)

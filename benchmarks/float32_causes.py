@@ -15,9 +15,9 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
+from support.float32_error import SingleError
 
 from tmm_gen.cli.console import Column, progress, table
-from tmm_gen.measure.single_precision import SingleError
 
 STEPS = 1_000_000
 WINDOWS = 20

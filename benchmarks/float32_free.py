@@ -16,8 +16,8 @@ from pathlib import Path
 import numpy as np
 
 from tmm_gen.cli.console import Column, progress, table
+from tmm_gen.csv_text import csv_text
 from tmm_gen.files import write_whole
-from tmm_gen.measure.rows import csv_text
 from tmm_gen.native import NativeKernel, compile_kernel
 from tmm_gen.native.series import Series
 from tmm_gen.program.build import build_program

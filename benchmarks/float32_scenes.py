@@ -16,13 +16,13 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
+from support.float32_error import SingleError, single_precision
 
 from tmm_gen.cli.console import Column, progress, table
+from tmm_gen.csv_text import csv_text
 from tmm_gen.files import write_whole
-from tmm_gen.measure.rows import csv_text
-from tmm_gen.measure.single_precision import SingleError, single_precision
-from tmm_gen.measure.style import FAINT, PALETTE, figure, picture, style
 from tmm_gen.scene import load_scene
+from tmm_gen.style import FAINT, PALETTE, figure, picture, style
 
 SCENES = Path(__file__).resolve().parents[1] / "scenes"
 DURATION = 60.0

@@ -25,8 +25,9 @@ from pathlib import Path
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
+from support.scene_fuzz import Outcome, attempt, mutated, toml
+
 from tmm_gen.cli import main as command
-from tmm_gen.measure.scene_fuzz import Outcome, attempt, mutated, toml
 from tmm_gen.resources import scenes_dir
 from tmm_gen.scene import Scene, SceneError, parse_scene
 

@@ -9,11 +9,12 @@ import argparse
 import sys
 from pathlib import Path
 
+from thesis.headline_picture import headline_picture
+from thesis.headline_response import OTHERS, STEPS, HeadlineRow, exact_settling_time, headline_rows
+
 from tmm_gen.cli.console import Column, progress, table
+from tmm_gen.csv_text import csv_text
 from tmm_gen.files import write_whole
-from tmm_gen.measure.headline import OTHERS, STEPS, HeadlineRow, exact_settling_time, headline_rows
-from tmm_gen.measure.headline_picture import headline_picture
-from tmm_gen.measure.rows import csv_text
 
 
 def main() -> int:

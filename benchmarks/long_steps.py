@@ -12,10 +12,11 @@ from collections import Counter
 from dataclasses import asdict
 from pathlib import Path
 
+from extremes_of_chains.long_steps import judge, long_steps
+
 from tmm_gen.cli.console import progress, table
+from tmm_gen.csv_text import csv_text
 from tmm_gen.files import write_whole
-from tmm_gen.measure.rows import csv_text
-from tmm_gen.measure.stability.long_steps import judge, long_steps
 
 
 def main() -> int:

@@ -15,13 +15,13 @@ from pathlib import Path
 
 import numpy as np
 from marks import renewed
+from support.mpc_on_board import BoardRun, run_on_board
 
 from tmm_gen.cli.console import plain, progress, table
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.condition import CONDITIONS
 from tmm_gen.control.controllers import BY_NAME
 from tmm_gen.control.emitted.emit import emit_controller
-from tmm_gen.control.emitted.on_board import BoardRun, run_on_board
 from tmm_gen.control.kalman import present_sensors
 from tmm_gen.control.plant import Plant
 from tmm_gen.files import write_whole

@@ -25,6 +25,7 @@ from pathlib import Path
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 from marks import renewed
+from support.mpc_random_loops import RandomOutcome, draw, run_case
 
 from tmm_gen.cli.console import Column, plain, progress, table
 from tmm_gen.control.bench import Bench
@@ -33,7 +34,6 @@ from tmm_gen.control.condition import CONDITIONS
 from tmm_gen.control.controllers import BY_NAME, CONTROLLERS
 from tmm_gen.control.emitted.emit import EMITTED
 from tmm_gen.control.pictures import comparison_picture
-from tmm_gen.control.robustness import RandomOutcome, draw, run_case
 from tmm_gen.files import write_tree_whole, write_whole
 from tmm_gen.scene import load_scene
 

@@ -46,9 +46,9 @@ from tmm_gen.control.emitted.emit import emit_controller
 from tmm_gen.control.emitted.native import EmittedController
 from tmm_gen.control.extended_kalman import NonlinearFilter
 from tmm_gen.control.rti import RealTimeIteration
+from tmm_gen.csv_text import csv_text
 from tmm_gen.files import write_tree_whole, write_whole
-from tmm_gen.measure.rows import csv_text
-from tmm_gen.measure.style import PALETTE, figure, picture, style
+from tmm_gen.style import PALETTE, figure, picture, style
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGE, FIGURE = ROOT / "docs" / "mpc-speed.md", ROOT / "docs" / "figures" / "mpc-speed.png"

@@ -14,14 +14,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from tmm_gen.measure.prescribed import kernel_signals
-from tmm_gen.measure.profiles import Smooth
-from tmm_gen.measure.reference import exact_response
-from tmm_gen.measure.signals import Signal, Sine, Table
+from tmm_gen.inputs.profiles import Smooth
+from tmm_gen.inputs.signals import Signal, Sine, Table
 from tmm_gen.native import compile_kernel
 from tmm_gen.native.series import Series
 from tmm_gen.program.build import build_program
+from tmm_gen.reference.reference import exact_response
 from tmm_gen.scene import Scene, parse_scene
+from tmm_gen.simulate.prescribed import kernel_signals
 
 Array = NDArray[np.float64]
 

@@ -13,10 +13,11 @@ import argparse
 import math
 from pathlib import Path
 
+from thesis.product_safety import ProductLoss, product_loss
+
 from tmm_gen.cli.console import Column, progress, table
+from tmm_gen.csv_text import csv_text
 from tmm_gen.files import write_whole
-from tmm_gen.measure.product_safety import ProductLoss, product_loss
-from tmm_gen.measure.rows import csv_text
 from tmm_gen.scene import load_scene
 
 STATIONS = (2, 3, 4, 5, 6, 8, 10, 12, 15, 20, 50)

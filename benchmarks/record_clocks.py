@@ -16,7 +16,7 @@ import numpy as np
 from tmm_gen.cli.console import progress, table
 from tmm_gen.control.calibration import calibrate
 from tmm_gen.errors import UserError
-from tmm_gen.measure.signals import Table
+from tmm_gen.inputs.signals import Table
 from tmm_gen.native.kernel import compile_kernel
 from tmm_gen.native.series import Series
 from tmm_gen.program.build import build_program

@@ -20,10 +20,10 @@ import casadi as ca
 import numpy as np
 
 from tmm_gen.cli.console import Column, progress, table
+from tmm_gen.csv_text import csv_text
 from tmm_gen.files import write_whole
-from tmm_gen.measure.module import casadi_module, numpy_module
-from tmm_gen.measure.rows import csv_text
 from tmm_gen.native import compile_kernel
+from tmm_gen.native.python_module import casadi_module, numpy_module
 from tmm_gen.program.build import build_program
 from tmm_gen.program.count import count_routine
 from tmm_gen.scene import Scene, load_scene

@@ -12,12 +12,12 @@ import argparse
 from pathlib import Path
 
 import numpy as np
+from thesis.spring_rule_errors import RULES, Convergence, convergence
 
 from tmm_gen.cli.console import Column, progress, table
 from tmm_gen.files import write_whole
-from tmm_gen.measure.style import FAINT, PALETTE, figure, picture, style, subtitle
-from tmm_gen.modal.spring_rules import RULES, Convergence, convergence
 from tmm_gen.scene import Scene, parse_scene
+from tmm_gen.style import FAINT, PALETTE, figure, picture, style, subtitle
 
 LINKS = (2, 3, 4, 5, 6, 7, 8, 10, 12, 15, 20, 26, 34, 45, 60, 80, 110, 150, 200)
 MODES = 5

@@ -9,17 +9,17 @@ integrator's period error and numerical damping, which its own analysis predicts
 from __future__ import annotations
 
 import numpy as np
+from support.identify import identify_poles
 
 from tmm_gen.cli.console import Column, progress, table
 from tmm_gen.derive.integrators.accuracy import principal_exponent
 from tmm_gen.derive.integrators.amplification import amplification
 from tmm_gen.derive.integrators.registry import integrator
-from tmm_gen.measure.run import simulate
 from tmm_gen.modal.arm import linear_arm
-from tmm_gen.modal.identify import identify_poles
 from tmm_gen.modal.matrices import matrices
 from tmm_gen.modal.modes import find_modes
 from tmm_gen.scene import INTEGRATOR_NAMES, parse_scene
+from tmm_gen.simulate.run import simulate
 
 STEP = 0.02
 UNTIL = 9.0

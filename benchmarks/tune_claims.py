@@ -83,12 +83,12 @@ def compared(name: str, bounds: tuple[str, ...], target: Path) -> dict[str, obje
 
 def verified(path: Path, until: float) -> dict[str, float]:
     """Run a scene file as it is: its error, and its time for a simulated second."""
-    from tmm_gen.measure.reference import exact_response
-    from tmm_gen.measure.run import simulate
-    from tmm_gen.measure.trade.excitation import columns, excitation
     from tmm_gen.native import compile_kernel
     from tmm_gen.program.build import build_program
+    from tmm_gen.reference.reference import exact_response
     from tmm_gen.scene import load_scene
+    from tmm_gen.simulate.run import simulate
+    from tmm_gen.study.excitation import columns, excitation
 
     scene = load_scene(path)
     went = excitation(scene, until=until)

@@ -13,8 +13,8 @@ import numpy as np
 import pytest
 
 from tmm_gen.cli import main
-from tmm_gen.measure.reference import exact_response
-from tmm_gen.measure.signals import Constant, Table
+from tmm_gen.inputs.signals import Constant, Table
+from tmm_gen.reference.reference import exact_response
 from tmm_gen.scene import load_scene
 
 SCENES = Path(__file__).resolve().parents[2] / "scenes"

@@ -9,7 +9,7 @@ import pytest
 
 from tmm_gen.control.calibration import calibrate
 from tmm_gen.errors import UserError
-from tmm_gen.measure.signals import Table
+from tmm_gen.inputs.signals import Table
 from tmm_gen.native import compile_kernel
 from tmm_gen.program.build import build_program
 from tmm_gen.scene import Scene

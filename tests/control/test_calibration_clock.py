@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from tmm_gen.cli import main
 from tmm_gen.control.calibration import Calibration, calibrate
 from tmm_gen.errors import UserError
-from tmm_gen.measure.signals import Table
+from tmm_gen.inputs.signals import Table
 from tmm_gen.native.kernel import compile_kernel
 from tmm_gen.native.series import Series
 from tmm_gen.program.build import build_program

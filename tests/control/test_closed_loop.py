@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from support.mpc_random_loops import draw, run_case
 
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.compare import compare, worst
@@ -12,7 +13,6 @@ from tmm_gen.control.controllers import BY_NAME
 from tmm_gen.control.motion import motion
 from tmm_gen.control.pictures import comparison_picture
 from tmm_gen.control.plant import Plant
-from tmm_gen.control.robustness import draw, run_case
 
 pytestmark = pytest.mark.compiler
 

@@ -9,7 +9,7 @@ from numpy.testing import assert_allclose
 
 from tmm_gen.control.acados import acados_fields
 from tmm_gen.control.bench import Bench
-from tmm_gen.measure.planar_arm import Arm
+from tmm_gen.reference.planar_arm import Arm
 
 
 def test_acados_fields_of_the_discrete_model(small: Bench) -> None:

@@ -7,13 +7,13 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 from scipy.linalg import eigvals
+from thesis.spring_rule_errors import convergence
 
 from tmm_gen.modal.arm import linear_arm
 from tmm_gen.modal.beam import beam_arm, damped_pole, natural_frequencies
 from tmm_gen.modal.discretised import links_needed, straight_arm, straight_frequencies
 from tmm_gen.modal.matrices import Matrices, matrices
 from tmm_gen.modal.modes import find_modes
-from tmm_gen.modal.spring_rules import convergence
 from tmm_gen.modal.sweep import sweep
 from tmm_gen.scene import Scene
 

@@ -8,15 +8,15 @@ import mpmath
 import numpy as np
 import pytest
 from scipy.linalg import solve
+from thesis.product_frequency import product_tip_motion
 
-from tmm_gen.measure.assembly import Assembly, assemble
 from tmm_gen.modal.arm import linear_arm
 from tmm_gen.modal.beam.response import beam_response
 from tmm_gen.modal.equilibrium import equilibrium
 from tmm_gen.modal.matrices import matrices
 from tmm_gen.modal.modes import find_modes
-from tmm_gen.modal.product import product_tip_motion
 from tmm_gen.modal.response import frequency_response
+from tmm_gen.reference.assembly import Assembly, assemble
 from tmm_gen.scene import Scene
 
 

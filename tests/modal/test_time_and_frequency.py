@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from support.identify import identify_poles
 
 from tmm_gen.derive.integrators.accuracy import leading_terms, principal_exponent
 from tmm_gen.derive.integrators.amplification import OMEGA, amplification
 from tmm_gen.derive.integrators.registry import integrator
-from tmm_gen.measure.run import simulate
 from tmm_gen.modal.arm import linear_arm
-from tmm_gen.modal.identify import identify_poles
 from tmm_gen.modal.matrices import matrices
 from tmm_gen.modal.modes import find_modes
 from tmm_gen.scene import INTEGRATOR_NAMES, Scene, parse_scene
+from tmm_gen.simulate.run import simulate
 
 STEP = 0.02
 DROPPED = 40

@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tmm_gen.measure.reference import exact_response
-from tmm_gen.measure.signals import Constant
+from tmm_gen.inputs.signals import Constant
 from tmm_gen.native import NativeKernel, NonFiniteStateError, compile_kernel
 from tmm_gen.program.build import build_program
+from tmm_gen.reference.reference import exact_response
 from tmm_gen.resources import scenes_dir
 from tmm_gen.scene import load_scene
 

@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tmm_gen.measure.prescribed import kernel_signals
-from tmm_gen.measure.signals import Sine
-from tmm_gen.measure.trace import Trace
+from tmm_gen.inputs.signals import Sine
 from tmm_gen.native import NativeKernel, compile_kernel
 from tmm_gen.program.build import build_program
 from tmm_gen.scene import Scene, parse_scene
+from tmm_gen.simulate.prescribed import kernel_signals
+from tmm_gen.simulate.trace import Trace
 
 FIRST_ROOT = 1.875104068711961
 """Of 1 + cos x cosh x: the first bending mode of a clamped beam."""

@@ -10,10 +10,10 @@ import pytest
 
 from tmm_gen.derive.integrators.order import order
 from tmm_gen.derive.integrators.registry import integrator
-from tmm_gen.measure.metrics import convergence_slope
-from tmm_gen.measure.planar_reference import planar_response
 from tmm_gen.native import NativeKernel
+from tmm_gen.reference.planar_reference import planar_response
 from tmm_gen.scene import METHODS, Scene
+from tmm_gen.simulate.metrics import convergence_slope
 
 pytestmark = pytest.mark.compiler
 

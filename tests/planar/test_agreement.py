@@ -7,7 +7,11 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from tmm_gen.measure.agreement import (
+from tmm_gen.native import compile_kernel
+from tmm_gen.native.python_module import casadi_module, numpy_module
+from tmm_gen.program.build import build_program
+from tmm_gen.scene import METHODS, Scene
+from tmm_gen.verify.agreement import (
     casadi_step,
     largest_difference,
     native_step,
@@ -15,10 +19,6 @@ from tmm_gen.measure.agreement import (
     random_vectors,
     reached_vectors,
 )
-from tmm_gen.measure.module import casadi_module, numpy_module
-from tmm_gen.native import compile_kernel
-from tmm_gen.program.build import build_program
-from tmm_gen.scene import METHODS, Scene
 
 pytestmark = pytest.mark.compiler
 

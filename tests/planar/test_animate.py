@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from tmm_gen.measure.animate import animation, frame_instants, link_angles, node_positions
-from tmm_gen.measure.run import simulate
+from tmm_gen.report.animate import animation, frame_instants, link_angles, node_positions
 from tmm_gen.scene import Scene, load_scene
+from tmm_gen.simulate.run import simulate
 
 ROOT = Path(__file__).resolve().parents[2]
 

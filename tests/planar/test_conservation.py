@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tmm_gen.measure.energy import angular_momentum, energy
-from tmm_gen.measure.metrics import convergence_slope
-from tmm_gen.measure.run import simulate
+from tmm_gen.reference.energy import angular_momentum, energy
 from tmm_gen.scene import Scene
+from tmm_gen.simulate.metrics import convergence_slope
+from tmm_gen.simulate.run import simulate
 
 pytestmark = pytest.mark.compiler
 

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from tmm_gen.errors import UserError
-from tmm_gen.measure.divergence import DivergedError
-from tmm_gen.measure.run import simulate
 from tmm_gen.scene import Scene
+from tmm_gen.simulate.divergence import DivergedError
+from tmm_gen.simulate.run import simulate
 
 pytestmark = pytest.mark.compiler
 

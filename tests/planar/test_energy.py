@@ -11,10 +11,10 @@ import sympy as sp
 
 from tmm_gen.derive.integrators.declaration import STEP
 from tmm_gen.derive.station import reading as energy
-from tmm_gen.measure.metrics import convergence_slope
-from tmm_gen.measure.planar_reference import planar_response
 from tmm_gen.program.build import build_program
+from tmm_gen.reference.planar_reference import planar_response
 from tmm_gen.scene import Scene
+from tmm_gen.simulate.metrics import convergence_slope
 
 
 def test_heat_of_a_step_is_exact_for_cubics_and_not_beyond() -> None:

@@ -6,8 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-
-from tmm_gen.measure.planar_extremes import SAYS, Extreme, judge
+from extremes_of_arms.arms import SAYS, Extreme, judge
 
 pytestmark = pytest.mark.compiler
 

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 import sympy as sp
 
-from tmm_gen.measure.module import casadi_module, numpy_module
+from tmm_gen.native.python_module import casadi_module, numpy_module
 from tmm_gen.program.build import build_program
 from tmm_gen.program.evaluate import allocate, execute, key
 from tmm_gen.program.statements import Loop, Order, Program, Routine

@@ -8,7 +8,7 @@ import casadi as ca
 import numpy as np
 import pytest
 
-from tmm_gen.measure.module import casadi_module
+from tmm_gen.native.python_module import casadi_module
 from tmm_gen.program.build import build_program
 from tmm_gen.scene import Scene, station_of
 

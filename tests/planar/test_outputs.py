@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tmm_gen.measure.planar_reference import planar_response
+from tmm_gen.reference.planar_reference import planar_response
 from tmm_gen.scene import Scene
 
 pytestmark = pytest.mark.compiler

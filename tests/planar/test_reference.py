@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from tmm_gen.measure.collocation import ReferenceError, integrate
-from tmm_gen.measure.energy import energy
-from tmm_gen.measure.planar_arm import Arm
-from tmm_gen.measure.planar_reference import planar_response
+from tmm_gen.reference.collocation import ReferenceError, integrate
+from tmm_gen.reference.energy import energy
+from tmm_gen.reference.planar_arm import Arm
+from tmm_gen.reference.planar_reference import planar_response
 from tmm_gen.scene import Scene
 
 

@@ -10,9 +10,9 @@ import pytest
 from tmm_gen.derive.integrators.accuracy import leading_terms
 from tmm_gen.derive.integrators.amplification import OMEGA, amplification
 from tmm_gen.derive.integrators.registry import integrator
-from tmm_gen.measure.planar_arm import Arm
-from tmm_gen.measure.step_error import error_per_radian, step_error
+from tmm_gen.reference.planar_arm import Arm
 from tmm_gen.scene import Integrator, Scene
+from tmm_gen.simulate.step_error import error_per_radian, step_error
 
 STEP, FREQUENCY = 1e-3, 5.0
 NEWMARK = (FREQUENCY * STEP) ** 2 / 12.0

@@ -6,8 +6,8 @@ from collections.abc import Callable
 
 import pytest
 
-from tmm_gen.measure.tolerance import LARGEST, SMALLEST, UnsolvedError, refuse_unsolved, to_accept, tolerance
 from tmm_gen.scene import Scene
+from tmm_gen.simulate.tolerance import LARGEST, SMALLEST, UnsolvedError, refuse_unsolved, to_accept, tolerance
 
 
 @pytest.fixture(scope="module")

@@ -8,14 +8,14 @@ from typing import Any
 
 import numpy as np
 import pytest
+from extremes_of_arms.arms import Extreme
 
 from tmm_gen.derive.integrators.registry import all_integrators
-from tmm_gen.measure.planar_extremes import Extreme
-from tmm_gen.measure.run import simulate
-from tmm_gen.measure.signals import Constant, Table
-from tmm_gen.measure.tolerance import UnsolvedError, tolerance
-from tmm_gen.measure.unsolved import Unsolved
+from tmm_gen.inputs.signals import Constant, Table
 from tmm_gen.scene import Scene, load_scene
+from tmm_gen.simulate.run import simulate
+from tmm_gen.simulate.tolerance import UnsolvedError, tolerance
+from tmm_gen.simulate.unsolved import Unsolved
 
 pytestmark = pytest.mark.compiler
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from tmm_gen.measure.module import numpy_module
+from tmm_gen.native.python_module import numpy_module
 from tmm_gen.program.build import build_program
 from tmm_gen.resources import scenes_dir
 from tmm_gen.scene import Scene, load_scene

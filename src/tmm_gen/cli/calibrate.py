@@ -97,8 +97,8 @@ def calibrate(
     loaded = load_scene(scene)
     with progress(f"fitting {loaded.name}"):
         from tmm_gen.control.calibration import calibrate as fit
-        from tmm_gen.measure.clock import UNITS, from_start
-        from tmm_gen.measure.given import input_names, read_inputs, read_tables
+        from tmm_gen.inputs.clock import UNITS, from_start
+        from tmm_gen.inputs.given import input_names, read_inputs, read_tables
 
         names = _columns(loaded, record)
         missing = tuple(item.name for item in loaded.inputs if item.name not in names)
@@ -128,7 +128,7 @@ def _columns(scene: Scene, record: Path) -> tuple[str, ...]:
     UserError
         If the file cannot be read, or has none.
     """
-    from tmm_gen.measure.columns import output_columns
+    from tmm_gen.simulate.columns import output_columns
 
     try:
         with open_table(record) as file:

@@ -83,7 +83,7 @@ def check(
     if target is not None:
         return check_target(loaded, target, json_mode)
     with progress(f"checking {loaded.name}", total=1.0) as advance:
-        from tmm_gen.measure.check import check_scene
+        from tmm_gen.verify.check import check_scene
 
         report = check_scene(loaded, advance)
     rows = [

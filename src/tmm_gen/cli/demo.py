@@ -42,9 +42,9 @@ def demo(out: Path, json_mode: bool) -> None:
     rounds in which all kernels take turns, with half the distance of the quartiles.
     """
     with progress("deriving", total=10) as advance:
-        from tmm_gen.measure.demo import THESIS_STEP, run_demo
-        from tmm_gen.measure.demo_picture import demo_picture
-        from tmm_gen.measure.rows import csv_text
+        from tmm_gen.csv_text import csv_text
+        from tmm_gen.report.demo import THESIS_STEP, run_demo
+        from tmm_gen.report.demo_picture import demo_picture
 
         found = run_demo(advance)
         image = demo_picture(found.samples)

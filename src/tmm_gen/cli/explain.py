@@ -11,7 +11,7 @@ from tmm_gen.cli.changes import changed_scene, set_option
 from tmm_gen.cli.console import Column, progress, table
 
 if TYPE_CHECKING:
-    from tmm_gen.measure.explain.explanation import Explained, Explanation
+    from tmm_gen.explain.explanation import Explained, Explanation
 
 # SymPy is imported inside: `tmm-gen --help` has no use for it.
 
@@ -28,7 +28,7 @@ def explain(scene: Path, changes: tuple[str, ...], json_mode: bool) -> None:
     """
     loaded = changed_scene(scene, changes)
     with progress(f"counting {loaded.name}") as advance:
-        from tmm_gen.measure.explain.explanation import explain as explained
+        from tmm_gen.explain.explanation import explain as explained
 
         found = explained(loaded, lambda term: advance(1, doing=f"counted {term}"))
     _show(found, json_mode)

@@ -77,7 +77,7 @@ def write_files(bench: Bench, trials: list[Trial], picture: Path | None, animate
         files[target] = comparison_picture(trials, bench.problem, target.suffix[1:].lower())
     if animated is not None:
         from tmm_gen.control.motion import motion
-        from tmm_gen.measure.animate import animation
+        from tmm_gen.report.animate import animation
 
         files[animated] = animation(motion(bench.scene, trials[-1]), animated.suffix[1:].lower())
     return write_outputs(files)

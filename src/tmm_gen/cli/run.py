@@ -16,8 +16,8 @@ from tmm_gen.cli.outputs import OutputFile, claim, write_outputs
 from tmm_gen.errors import UserError
 
 if TYPE_CHECKING:
-    from tmm_gen.measure.simulation import Simulation
-    from tmm_gen.measure.stepping import Backend
+    from tmm_gen.simulate.simulation import Simulation
+    from tmm_gen.simulate.stepping import Backend
 
 # NumPy, SymPy and Matplotlib are imported inside: `tmm-gen --help` has no use for them.
 
@@ -122,10 +122,10 @@ def run(
 
     A profile is for example --input base_angle=smooth:0:1.5:0.8s; a prescribed base cannot jump.
     """
-    from tmm_gen.measure.clock import refuse_other_clock
-    from tmm_gen.measure.duration import default_duration
-    from tmm_gen.measure.given import input_names, read_inputs, table_files
-    from tmm_gen.measure.run import number_of_steps, simulate
+    from tmm_gen.inputs.clock import refuse_other_clock
+    from tmm_gen.inputs.given import input_names, read_inputs, table_files
+    from tmm_gen.reference.duration import default_duration
+    from tmm_gen.simulate.run import number_of_steps, simulate
 
     chosen = changed_scene(scene, changes, step)
     if iterations is not None:
@@ -158,12 +158,12 @@ def _write(
     if csv_file is not None:
         files[csv_file] = simulation.csv()
     if picture is not None:
-        from tmm_gen.measure.plots import response_picture
+        from tmm_gen.report.plots import response_picture
 
         target = Path(f"{simulation.scene.name}.png") if picture == Path(PICTURE) else picture
         files[target] = response_picture(simulation, target.suffix[1:].lower())
     if animated is not None:
-        from tmm_gen.measure.animate import animation
+        from tmm_gen.report.animate import animation
 
         files[animated] = animation(simulation, animated.suffix[1:].lower())
     return write_outputs(files, read)
@@ -212,7 +212,7 @@ def _telling(rows: list[dict[str, object]]) -> list[Column | str]:
 
 def trusted(simulation: Simulation) -> str:
     """Say how good a run is, and from what that is known."""
-    from tmm_gen.measure.accuracy import SENSITIVE
+    from tmm_gen.simulate.accuracy import SENSITIVE
 
     accuracy = simulation.accuracy
     assert accuracy is not None

@@ -15,9 +15,9 @@ from tmm_gen.cli.given import PICTURE, picture_option
 from tmm_gen.cli.outputs import claim, write_outputs
 
 if TYPE_CHECKING:
-    from tmm_gen.measure.stability.limits import Standing
-    from tmm_gen.measure.stability.map import GrowthMap
-    from tmm_gen.measure.stability.motion import SmallMotion
+    from tmm_gen.stability.limits import Standing
+    from tmm_gen.stability.map import GrowthMap
+    from tmm_gen.stability.motion import SmallMotion
 
 # NumPy, SymPy and Matplotlib are imported inside: `tmm-gen --help` has no use for them.
 
@@ -70,8 +70,8 @@ def stability(
     if file is not None and cells == 0:
         raise click.UsageError("--plot draws maps: leave out --cells 0.")
     with progress(f"modes of {loaded.name}", total=len(INTEGRATOR_NAMES)) as advance:
-        from tmm_gen.measure.stability.limits import scene_integrators, standings
-        from tmm_gen.measure.stability.motion import small_motion
+        from tmm_gen.stability.limits import scene_integrators, standings
+        from tmm_gen.stability.motion import small_motion
 
         motion = small_motion(loaded)
         found = standings(motion, scene_integrators(loaded), lambda name: advance(1, doing=f"derived {name}"))
@@ -96,8 +96,8 @@ def _measure(motion: SmallMotion, names: list[str], cells: int | None) -> list[G
     """Derive and measure maps; none for zero cells."""
     if cells == 0:
         return []
-    from tmm_gen.measure.stability.limits import scene_integrators
-    from tmm_gen.measure.stability.map import growth_map, map_cells, sensible_columns
+    from tmm_gen.stability.limits import scene_integrators
+    from tmm_gen.stability.map import growth_map, map_cells, sensible_columns
 
     columns = cells or sensible_columns(motion.scene)
     with progress("measuring growth", total=2 * map_cells(columns) * len(names)) as advance:
@@ -110,7 +110,7 @@ def _measure(motion: SmallMotion, names: list[str], cells: int | None) -> list[G
 def _draw(maps: list[GrowthMap], file: Path | None, name: str) -> list[Path]:
     if file is None:
         return []
-    from tmm_gen.measure.stability.picture import map_picture
+    from tmm_gen.stability.picture import map_picture
 
     target = Path(f"{name}-stability.png") if file == Path(PICTURE) else file
     with progress("drawing"):

@@ -12,8 +12,8 @@ import click
 from tmm_gen.errors import UserError
 
 if TYPE_CHECKING:
-    from tmm_gen.measure.trade.grid import Axes
     from tmm_gen.scene import Scene
+    from tmm_gen.study.grid import Axes
 
 
 def one_thread() -> None:
@@ -74,8 +74,8 @@ def axes_of(scene: Scene, options: dict[str, Any]) -> Axes:
     UserError
         If an option does not suit the scene, or names no integrator.
     """
-    from tmm_gen.measure.trade.grid import Axes
     from tmm_gen.scene.integrator import INTEGRATOR_NAMES, underscored
+    from tmm_gen.study.grid import Axes
 
     names = tuple(underscored(name) for name in options["integrators"])
     for name in names:

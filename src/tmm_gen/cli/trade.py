@@ -15,9 +15,9 @@ from tmm_gen.cli.study_options import axes_of, numbers, one_of, one_thread, whol
 from tmm_gen.errors import CheckFailed
 
 if TYPE_CHECKING:
-    from tmm_gen.measure.trade.findings import Finding
-    from tmm_gen.measure.trade.study import Study
-    from tmm_gen.measure.trade.tasks import Executor
+    from tmm_gen.study.findings import Finding
+    from tmm_gen.study.study import Study
+    from tmm_gen.study.tasks import Executor
 
 # NumPy, SymPy, Dask and Matplotlib are imported inside: `tmm-gen --help` has no use for them.
 
@@ -155,11 +155,11 @@ def trade(
 
 def run(path: Path, options: dict[str, Any]) -> Study:
     """Read a scene and study it."""
-    from tmm_gen.measure.given import input_names, read_inputs
-    from tmm_gen.measure.trade.excitation import excitation
-    from tmm_gen.measure.trade.grid import configurations
-    from tmm_gen.measure.trade.study import run_study
+    from tmm_gen.inputs.given import input_names, read_inputs
     from tmm_gen.scene import load_scene
+    from tmm_gen.study.excitation import excitation
+    from tmm_gen.study.grid import configurations
+    from tmm_gen.study.study import run_study
 
     scene = load_scene(path)
     given = read_inputs(options["given"], *input_names(scene))
@@ -184,7 +184,7 @@ def executor(options: dict[str, Any]) -> Executor | None:
         return None
     if options["workers"] is not None and options["scheduler"] is not None:
         raise click.UsageError("--workers starts a cluster, --scheduler names one: give one of them.")
-    from tmm_gen.measure.trade.cluster import Cluster
+    from tmm_gen.study.cluster import Cluster
 
     return Cluster(options["workers"] or 0, options["scheduler"])
 
@@ -193,18 +193,18 @@ def _write(
     scene: Path, study: Study, csv_file: Path | None, picture: Path | None, report_file: Path | None
 ) -> list[Path]:
     """Write the files asked for, all or none; return them."""
-    from tmm_gen.measure.rows import csv_text
+    from tmm_gen.csv_text import csv_text
 
     files: dict[Path, str | bytes] = {}
     if csv_file is not None:
         files[csv_file] = csv_text([point.values() for point in study.points])
     if picture is not None:
-        from tmm_gen.measure.trade.figures import trade_picture
+        from tmm_gen.study.figures import trade_picture
 
         target = Path(f"{study.scene.name}-trade.png") if picture == Path(PICTURE) else picture
         files[target] = trade_picture(study, target.suffix[1:].lower())
     if report_file is not None:
-        from tmm_gen.measure.trade.report import report
+        from tmm_gen.study.report import report
 
         target = Path(f"{study.scene.name}-trade.html") if report_file == Path(REPORT) else report_file
         files[target] = report(study)
@@ -228,9 +228,9 @@ _COLUMNS: list[Column | str] = [
 
 
 def _show(study: Study, written: list[Path], show_all: bool, json_mode: bool) -> None:
-    from tmm_gen.measure.trade.excitation import unit
-    from tmm_gen.measure.trade.findings import findings
-    from tmm_gen.measure.trade.outcome import Outcome
+    from tmm_gen.study.excitation import unit
+    from tmm_gen.study.findings import findings
+    from tmm_gen.study.outcome import Outcome
 
     scene, went = study.scene, study.excitation
     front = study.front()

@@ -14,9 +14,9 @@ from tmm_gen.cli.study_options import axes_of, one_of, one_thread, whole_numbers
 from tmm_gen.errors import UserError
 
 if TYPE_CHECKING:
-    from tmm_gen.measure.trade.budgets import Allowance
-    from tmm_gen.measure.trade.point import Point
-    from tmm_gen.measure.trade.tune import Tuning
+    from tmm_gen.study.budgets import Allowance
+    from tmm_gen.study.point import Point
+    from tmm_gen.study.tune import Tuning
 
 # NumPy, SymPy and tomlkit are imported inside: `tmm-gen --help` has no use for them.
 
@@ -104,13 +104,13 @@ def tune(
 def _search(
     path: Path, max_error: str, max_time: str, options: dict[str, Any]
 ) -> tuple[Tuning, Allowance | None]:
-    from tmm_gen.measure.given import input_names, read_inputs
-    from tmm_gen.measure.trade.bounds import read_error, read_time
-    from tmm_gen.measure.trade.budgets import allowance
-    from tmm_gen.measure.trade.excitation import excitation
-    from tmm_gen.measure.trade.grid import families
-    from tmm_gen.measure.trade.tune import tune as search
+    from tmm_gen.inputs.given import input_names, read_inputs
     from tmm_gen.scene import load_scene
+    from tmm_gen.study.bounds import read_error, read_time
+    from tmm_gen.study.budgets import allowance
+    from tmm_gen.study.excitation import excitation
+    from tmm_gen.study.grid import families
+    from tmm_gen.study.tune import tune as search
 
     bounds = read_error(max_error), read_time(max_time)
     scene = load_scene(path)
@@ -147,9 +147,9 @@ def _known_target(name: str | None) -> None:
 
 
 def _write(scene: Path, target: Path, tuning: Tuning, force: bool) -> Path:
-    from tmm_gen.measure.trade.explain import remarks
-    from tmm_gen.measure.trade.rewrite import rewritten
     from tmm_gen.reading import read_file
+    from tmm_gen.study.explain import remarks
+    from tmm_gen.study.rewrite import rewritten
 
     assert tuning.chosen is not None
     text = read_file(scene).decode("utf-8-sig")
@@ -172,7 +172,7 @@ _COLUMNS: list[Column | str] = [
 
 
 def _show(tuning: Tuning, allowed: Allowance | None, written: list[Path], json_mode: bool) -> None:
-    from tmm_gen.measure.trade.explain import explained
+    from tmm_gen.study.explain import explained
 
     lines = explained(tuning)
     if allowed is not None and allowed.unchecked:

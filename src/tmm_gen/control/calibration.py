@@ -13,8 +13,8 @@ from tmm_gen.control.fit import MAD, Fit, sorted_out
 from tmm_gen.control.fitted_keys import changes, default_keys, number_of, replaced
 from tmm_gen.control.uncertainty import SURE, deviations
 from tmm_gen.errors import CheckFailed, UserError
-from tmm_gen.measure.clock import starts_of
-from tmm_gen.measure.signals import Signal
+from tmm_gen.inputs.clock import starts_of
+from tmm_gen.inputs.signals import Signal
 from tmm_gen.scene import Scene
 from tmm_gen.scene.problem import Path
 
@@ -127,7 +127,7 @@ def calibrate(
         Dotted keys of positive numbers in the scene, or ``stiffness`` and ``damping`` for factors of all joints; see
         :func:`default_keys`.
     start : float, optional
-        When, on that clock, the arm was in the scene's initial state; see :func:`tmm_gen.measure.clock.starts_of`.
+        When, on that clock, the arm was in the scene's initial state; see :func:`tmm_gen.inputs.clock.starts_of`.
     loss : {"linear", "huber"}
         Least squares, or Huber's loss, by which samples that are far off count as if they were less so.
     most_misfit : float

@@ -42,7 +42,7 @@ def _gains(bench: Bench, gains: tuple[float, float] | None) -> tuple[float, floa
     """Return gains, by default critical damping of the rigid arm at a quarter of its first frequency."""
     if gains is not None:
         return gains
-    from tmm_gen.measure.planar_linear import vibration
+    from tmm_gen.reference.planar_linear import vibration
 
     frequencies = vibration(bench.scene).frequencies
     slow = 0.25 * float(frequencies[frequencies > 0.0][0])

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tmm_gen.control.closed_loop import Loop
-from tmm_gen.measure.metrics import step_figures
+from tmm_gen.simulate.metrics import step_figures
 
 BAND = 0.005
 """Half-width of the band the tip has to stay in, relative to its way."""

@@ -10,14 +10,14 @@ from numpy.typing import NDArray
 
 from tmm_gen.control.fitted_keys import changes, replaced
 from tmm_gen.errors import UserError
-from tmm_gen.measure.clock import from_start, refuse_what_is_unknown, spacing
-from tmm_gen.measure.columns import output_columns
-from tmm_gen.measure.prescribed import kernel_signals
-from tmm_gen.measure.signals import Signal, Table
+from tmm_gen.inputs.clock import from_start, refuse_what_is_unknown, spacing
+from tmm_gen.inputs.signals import Signal, Table
 from tmm_gen.native import NativeKernel, compile_kernel
 from tmm_gen.native.series import Series
 from tmm_gen.program.build import build_program
 from tmm_gen.scene import Scene
+from tmm_gen.simulate.columns import output_columns
+from tmm_gen.simulate.prescribed import kernel_signals
 
 Array = NDArray[np.float64]
 

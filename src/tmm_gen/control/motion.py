@@ -6,9 +6,9 @@ import numpy as np
 
 from tmm_gen.control.compare import Trial
 from tmm_gen.control.plant import plant_scene
-from tmm_gen.measure.simulation import Simulation
-from tmm_gen.measure.trace import Trace
 from tmm_gen.scene import Scene
+from tmm_gen.simulate.simulation import Simulation
+from tmm_gen.simulate.trace import Trace
 
 
 def motion(scene: Scene, trial: Trial) -> Simulation:

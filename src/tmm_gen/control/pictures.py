@@ -10,7 +10,7 @@ import numpy as np
 from tmm_gen.control.compare import Trial
 from tmm_gen.control.figures import BAND
 from tmm_gen.control.problem import ControlProblem
-from tmm_gen.measure.style import FAINT, PALETTE, figure, picture, style
+from tmm_gen.style import FAINT, PALETTE, figure, picture, style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

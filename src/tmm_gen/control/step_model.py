@@ -25,7 +25,7 @@ HUB, ACCELERATION, STRAIN = "hub", "acceleration", "strain"
 @cache
 def _module(scene: Scene) -> Any:
     """Return the generated module of a scene, made once."""
-    from tmm_gen.measure.module import casadi_module
+    from tmm_gen.native.python_module import casadi_module
 
     return casadi_module(scene)
 

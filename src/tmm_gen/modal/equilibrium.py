@@ -138,7 +138,7 @@ def kernel_accelerations(scene: Scene, inputs: Mapping[str, float] | None = None
     ``initialise`` answers for a base that is held. It starts a free hub at angle zero, so a motor's arm, hub
     first, is let go for one step too short to move.
     """
-    from tmm_gen.measure.module import numpy_module
+    from tmm_gen.native.python_module import numpy_module
 
     if scene.base.kind == "motor":
         scene = scene.replace(**{"integrator.name": "newmark", "model.linearisation": "newton"})

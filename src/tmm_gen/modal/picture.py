@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.measure.style import FAINT, PALETTE, figure, picture, style, subtitle
 from tmm_gen.modal.arm import LinearArm
 from tmm_gen.modal.beam import BeamArm, beam_shape
 from tmm_gen.modal.modes import Mode
+from tmm_gen.style import FAINT, PALETTE, figure, picture, style, subtitle
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -37,9 +37,9 @@ class Model(Table):
         Sweeps per stage; with ``newton`` only. "auto": a simulation sweeps as often as it takes, kernels once.
     unsolved : float, optional
         Most work of what sweeps leave unsolved, as a share of the energy that moves; absent, what the step leaves by
-        itself (:mod:`tmm_gen.measure.tolerance`). With ``newton`` only.
+        itself (:mod:`tmm_gen.simulate.tolerance`). With ``newton`` only.
     accuracy : float, optional
-        Largest error of a run, as a share of how far the motion goes (:mod:`tmm_gen.measure.accuracy`); absent, 0.05.
+        Largest error of a run, as a share of how far the motion goes (:mod:`tmm_gen.simulate.accuracy`); absent, 0.05.
     sweep : {"riccati", "product"}
         How the stations' matrices are combined.
     unknown : {"acceleration", "increment", "displacement"}

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import pytest
+from support.mpc_on_board import run_on_board
 
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.emitted.emit import emit_controller
-from tmm_gen.control.emitted.on_board import run_on_board
 
 pytestmark = pytest.mark.compiler
 

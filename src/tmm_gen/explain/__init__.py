@@ -1,0 +1,1 @@
+"""What a scene models and what it leaves out."""

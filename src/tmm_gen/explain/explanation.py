@@ -1,0 +1,140 @@
+"""An explanation of a scene: its terms, and what each costs or saves, counted in programs with and without it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from tmm_gen.derive.integrators.history import history_depth
+from tmm_gen.derive.integrators.registry import integrator
+from tmm_gen.emit.c.real import Real, real_of
+from tmm_gen.explain.footprint import Footprint, footprint, footprint_of
+from tmm_gen.explain.terms import Term, terms_of
+from tmm_gen.program.build import build_program
+from tmm_gen.program.statements import Program
+from tmm_gen.program.variables import Variable
+from tmm_gen.scene import Scene
+
+NOTHING = Footprint(0, 0, 0, 0, 0)
+
+
+@dataclass(frozen=True)
+class Explained:
+    """One term.
+
+    Parameters
+    ----------
+    term : str
+        What it is.
+    modelled : bool
+        Whether the scene has it.
+    why : str
+        What in the scene, or in the way programs are built, says so.
+    worth : Footprint
+        What it costs where it is modelled, what leaving it out saves where it is not; negative where that costs
+        something.
+    """
+
+    term: str
+    modelled: bool
+    why: str
+    worth: Footprint
+
+
+@dataclass(frozen=True)
+class Explanation:
+    """What a scene makes the generator model.
+
+    Parameters
+    ----------
+    scene : Scene
+        What is explained.
+    own : Footprint
+        Of its program.
+    terms : tuple of Explained
+        In the order of the scene file, then what the way of building programs saves.
+    everything : Footprint
+        Of the program with every term that was left out put in at once, prepare's work done in each step.
+    """
+
+    scene: Scene
+    own: Footprint
+    terms: tuple[Explained, ...]
+    everything: Footprint
+
+
+def number_of_terms(scene: Scene) -> int:
+    """Return how many programs :func:`explain` builds."""
+    return len(terms_of(scene)) + 2
+
+
+def explain(scene: Scene, advance: Callable[[str], None] = lambda term: None) -> Explanation:
+    """List what was modelled and what was left out, with costs.
+
+    Parameters
+    ----------
+    scene : Scene
+        What to explain.
+    advance : callable, optional
+        Called with the name of each term as it is counted.
+    """
+    program = build_program(scene)
+    own = footprint_of(program, real_of(scene.emit))
+    advance("the scene")
+    found = []
+    full = scene
+    for term in terms_of(scene):
+        found.append(_explained(term, scene, own))
+        if not term.modelled:
+            full = term.other(full)
+        advance(term.name)
+    found += [_history(scene, program), _hoisted(scene, program, own)]
+    whole = build_program(full)
+    everything = footprint_of(whole, real_of(scene.emit))
+    everything = everything - Footprint(
+        -everything.prepare,
+        0,
+        everything.prepare,
+        -_history(full, whole).worth.state_bytes,
+        _coefficient_bytes(whole, real_of(scene.emit)),
+    )
+    advance("everything")
+    return Explanation(scene, own, tuple(found), everything)
+
+
+def _explained(term: Term, scene: Scene, own: Footprint) -> Explained:
+    other = footprint(term.other(scene))
+    worth = own - other if term.modelled else other - own
+    return Explained(term.name, term.modelled, term.why, worth)
+
+
+def _history(scene: Scene, program: Program) -> Explained:
+    """Count the numbers a state would hold if it kept angle, rate and acceleration of each instant looked back to."""
+    method = integrator(scene.integrator.name, **scene.integrator.parameters)
+    depth = history_depth(method)
+    turning = scene.stations + (scene.base.kind != "clamp")
+    motion = [v for v in program.state if _is_motion(v)]
+    kept = sum(v.length or 1 for v in motion)
+    saved = (3 * depth * turning - kept) * real_of(scene.emit).number_size
+    per_link = sum(1 for v in motion if v.length is not None)
+    why = f"{method.name} looks back {depth} instant{'s' * (depth > 1)}: {per_link} numbers a link are read"
+    return Explained("history that no step reads", False, why, Footprint(0, 0, 0, saved, 0))
+
+
+def _is_motion(variable: Variable) -> bool:
+    names = ("angle", "rate", "acceleration")
+    return variable.name.removeprefix("hub_").partition("_")[0] in names
+
+
+def _hoisted(scene: Scene, program: Program, own: Footprint) -> Explained:
+    """Count what each step would repeat if parameters or step could change between steps."""
+    why = "parameters and step stay as they are: prepare computes what depends on them alone, once"
+    bytes_kept = _coefficient_bytes(program, real_of(scene.emit))
+    return Explained(
+        "parameters that change between steps", False, why, Footprint(own.prepare, 0, 0, 0, -bytes_kept)
+    )
+
+
+def _coefficient_bytes(program: Program, real: Real) -> int:
+    """Return the bytes of what prepare computes and the model keeps."""
+    return sum(v.length or 1 for v in program.coefficients) * real.number_size

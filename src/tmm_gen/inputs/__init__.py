@@ -1,0 +1,1 @@
+"""What acts on an arm over time: tables, profiles, constants."""

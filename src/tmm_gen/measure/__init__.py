@@ -1,1 +1,0 @@
-"""Measurements of generated kernels: independent references, errors, stability, speed."""

@@ -1,1 +1,0 @@
-"""Where a scene stands against the derived limits of stability, and maps of growth: derived and measured."""

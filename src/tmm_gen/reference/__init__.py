@@ -1,0 +1,1 @@
+"""Independent truths: other equations, other solvers; nothing of derive, program or emit."""

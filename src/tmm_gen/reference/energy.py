@@ -1,0 +1,150 @@
+"""Energy of a planar arm along a motion: where it is, where it comes from, where it goes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.inputs.signals import Signal
+from tmm_gen.reference.planar_arm import Arm
+from tmm_gen.scene import Scene
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Energy:
+    """Energies and powers over time, (k,) each.
+
+    Parameters
+    ----------
+    time : array
+        s.
+    kinetic, elastic, gravitational : array
+        J; gravitational from the height of the base.
+    dissipation : array
+        W; what dampers of joints and hub turn to heat.
+    supply : array
+        W; what loads, motor and prescribed base put in.
+    """
+
+    time: Array
+    kinetic: Array
+    elastic: Array
+    gravitational: Array
+    dissipation: Array
+    supply: Array
+
+    @property
+    def total(self) -> Array:
+        """Kinetic, elastic and gravitational energy together, J."""
+        return self.kinetic + self.elastic + self.gravitational
+
+    @property
+    def dissipated(self) -> Array:
+        """Energy turned to heat so far, J."""
+        return _integral(self.time, self.dissipation)
+
+    @property
+    def supplied(self) -> Array:
+        """Work done on the arm so far, J."""
+        return _integral(self.time, self.supply)
+
+    @property
+    def imbalance(self) -> float:
+        """Largest imbalance as a share of the energy that moves; zero where nothing does."""
+        moved = float(np.max(self.kinetic) + np.ptp(self.elastic) + np.ptp(self.gravitational))
+        return float(np.max(np.abs(self.unbalanced))) / moved if moved > 0.0 else 0.0
+
+    @property
+    def unbalanced(self) -> Array:
+        """Work done less energy gained and dissipated, J: zero but for the errors of integration."""
+        left: Array = self.supplied - self.dissipated - (self.total - self.total[0])
+        return left
+
+
+def energy(scene: Scene, signals: Mapping[str, Signal], time: Array, angle: Array, rate: Array) -> Energy:
+    """Return the energies of a motion.
+
+    Parameters
+    ----------
+    scene : Scene
+        Of kind "planar".
+    signals : mapping from str to Signal
+        Inputs by name; those not given are zero.
+    time : array, (k,)
+        s.
+    angle, rate : array, (k, m)
+        Of the links, and of the hub first where the base is a motor (see :class:`tmm_gen.simulate.trace.Trace`).
+    """
+    arm = Arm(scene, signals)
+    s, c = np.sin(angle), np.cos(angle)
+    torque, force_x, force_y = arm.loads(time)
+    beyond_x, beyond_y = (np.cumsum(f[:, ::-1], axis=1)[:, ::-1] for f in (force_x, force_y))
+    supply = np.sum(rate * (torque + arm.lengths * (c * beyond_y - s * beyond_x)), axis=1)
+    if scene.base.kind == "prescribed":
+        joint = scene.joints[0]
+        base_angle, base_rate = arm.base_motion(time)
+        spring = joint.stiffness * (base_angle - angle[:, 0]) + joint.damping * (base_rate - rate[:, 0])
+        # of the load on link 1 as Lagrange's equations have it, only what the base itself does is work put in
+        supply += base_rate * spring - rate[:, 0] * (joint.stiffness * base_angle + joint.damping * base_rate)
+    return Energy(
+        time,
+        kinetic_energy(arm, angle, rate),
+        elastic_energy(arm, time, angle),
+        gravitational_energy(arm, angle),
+        dissipation(arm, time, rate),
+        supply,
+    )
+
+
+def kinetic_energy(arm: Arm, angle: Array, rate: Array) -> Array:
+    """Return the kinetic energy of hub, links and tip, (k,), J."""
+    along_x, along_y = arm.walked(np.sin(angle) * rate), arm.walked(np.cos(angle) * rate)
+    found: Array = 0.5 * (along_x**2 + along_y**2) @ arm.masses + 0.5 * rate**2 @ arm.inertias
+    return found
+
+
+def elastic_energy(arm: Arm, time: Array, angle: Array) -> Array:
+    """Return the energy of the bent joints, (k,), J."""
+    found: Array = 0.5 * arm.bent(angle) ** 2 @ arm.joints[0]
+    if arm.scene.base.kind == "prescribed":  # joint 1 stands between the base and link 1
+        base_angle, _ = arm.base_motion(time)
+        found += arm.scene.joints[0].stiffness * (0.5 * base_angle**2 - base_angle * angle[:, 0])
+    return found
+
+
+def gravitational_energy(arm: Arm, angle: Array) -> Array:
+    """Return the energy of height above the base, (k,), J."""
+    found: Array = arm.gravity * (np.sin(angle) @ arm.moments)
+    return found
+
+
+def dissipation(arm: Arm, time: Array, rate: Array) -> Array:
+    """Return what dampers of joints and hub turn to heat, (k,), W."""
+    found: Array = np.sum(rate * arm.damper_torques(rate), axis=1)
+    if arm.scene.base.kind == "prescribed":
+        _, base_rate = arm.base_motion(time)
+        found += arm.scene.joints[0].damping * (base_rate**2 - 2.0 * base_rate * rate[:, 0])
+    return found
+
+
+def angular_momentum(scene: Scene, angle: Array, rate: Array) -> Array:
+    """Return the angular momentum of hub and arm about the base point, (k,), kg m^2/s."""
+    arm = Arm(scene, {})
+    s, c = np.sin(angle), np.cos(angle)
+    place = (arm.walked(c), arm.walked(s))
+    speed = (-arm.walked(s * rate), arm.walked(c * rate))
+    found: Array = (place[0] * speed[1] - place[1] * speed[0]) @ arm.masses + rate @ arm.inertias
+    return found
+
+
+def _integral(time: Array, power: Array) -> Array:
+    """Integrate from the first instant, by a cubic spline: fourth order, so that kernels of that order show theirs."""
+    from scipy.interpolate import CubicSpline
+
+    found: Array = CubicSpline(time, power).antiderivative()(time)
+    return found

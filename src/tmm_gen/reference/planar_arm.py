@@ -1,0 +1,232 @@
+"""Lagrange's equations of a planar arm, written down on their own: nothing here comes from `derive` or `program`.
+
+The coordinates are the absolute angles of hub and links; with the place of each mass a sum of
+``l_j (cos q_j, sin q_j)``, the equations are
+
+    sum_k B_jk (cos(q_j - q_k) q_k'' + sin(q_j - q_k) q_k'^2) + J_j q_j'' + g b_j cos q_j + springs + dampers = loads
+
+with ``B_jk`` the masses times the lever arms they have in ``j`` and in ``k``, and ``b_j`` the first moments. No
+forces between links occur.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.inputs.signals import Constant, Signal
+from tmm_gen.reference.collocation import Trajectory, integrate
+from tmm_gen.scene import Scene, station_of
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Arm:
+    """Lagrange's equations of a scene; index 0 is the hub where the base is a motor.
+
+    Parameters
+    ----------
+    scene : Scene
+        Of kind "planar".
+    signals : mapping from str to Signal
+        Inputs by name; those not given are zero.
+    """
+
+    scene: Scene
+    signals: Mapping[str, Signal]
+
+    @property
+    def first(self) -> int:
+        """Place of link 1 among the coordinates."""
+        return int(self.scene.base.kind == "motor")
+
+    @cached_property
+    def lengths(self) -> Array:
+        """Lengths by coordinate, (n,); the hub's is zero."""
+        return np.array([0.0] * self.first + [link.length for link in self.scene.links])
+
+    @cached_property
+    def masses(self) -> Array:
+        """Masses of the links and of the body at the tip, (bodies,), kg."""
+        tip = self.scene.tip
+        return np.array([link.mass for link in self.scene.links] + [tip.mass if tip else 0.0])
+
+    @cached_property
+    def moments(self) -> Array:
+        """First moments ``b``, (n,), kg m."""
+        return self.gathered(self.masses)
+
+    @cached_property
+    def inertias(self) -> Array:
+        """Inertias about the own centres, (n,), kg m^2; the tip's turns with the last link."""
+        tip = self.scene.tip
+        own = [self.scene.base.inertia] * self.first + [link.inertia for link in self.scene.links]
+        own[-1] += tip.inertia if tip else 0.0
+        return np.array(own)
+
+    @property
+    def gravity(self) -> float:
+        """Along -y, m/s^2."""
+        return self.scene.model.gravity or 0.0
+
+    # -- sums over the chain, each as long as the chain -------------------------------------------------------
+
+    @cached_property
+    def _centers(self) -> Array:
+        """How far the centres of mass stand off along their own links, (n,); the hub has none."""
+        return np.array([0.0] * self.first + [link.center * link.length for link in self.scene.links])
+
+    def walked(self, x: Array) -> Array:
+        """Sum lever arms times values from the base to each body, (..., n) to (..., bodies); the tip is last."""
+        ends = np.cumsum(self.lengths * x, axis=-1)
+        found = np.empty((*x.shape[:-1], x.shape[-1] + 1 - self.first))
+        found[..., :-1] = (ends - self.lengths * x + self._centers * x)[..., self.first :]
+        found[..., -1] = ends[..., -1]
+        return found
+
+    def gathered(self, forces: Array) -> Array:
+        """Sum forces on the bodies times their lever arms in each link, (..., bodies) to (..., n)."""
+        beyond = np.cumsum(forces[..., ::-1], axis=-1)[..., ::-1]
+        found = np.zeros((*forces.shape[:-1], len(self.lengths)))
+        own = slice(self.first, None)
+        found[..., own] = self.lengths[own] * beyond[..., 1:] + self._centers[own] * forces[..., :-1]
+        return found
+
+    @cached_property
+    def joints(self) -> tuple[Array, Array]:
+        """Stiffness and damping of the joints, (joints,) each; joint 1 is at the base."""
+        joints = self.scene.joints
+        return np.array([j.stiffness for j in joints]), np.array([j.damping for j in joints])
+
+    def bent(self, x: Array) -> Array:
+        """Return differences across the joints, (..., n) to (..., joints); a base that is no coordinate is zero."""
+        padded = x if self.first else np.concatenate([np.zeros((*x.shape[:-1], 1)), x], axis=-1)
+        return np.diff(padded, axis=-1)
+
+    def _pulled(self, torques: Array) -> Array:
+        """Return what torques in the joints do to the coordinates, (..., joints) to (..., n)."""
+        found = np.zeros((*torques.shape[:-1], len(self.lengths)))
+        found[..., self.first :] += torques
+        inner = torques if self.first else torques[..., 1:]
+        found[..., : inner.shape[-1]] -= inner
+        return found
+
+    def spring_torques(self, q: Array) -> Array:
+        """Return what springs exert against angles, (..., n), N m."""
+        return self._pulled(self.joints[0] * self.bent(q))
+
+    def damper_torques(self, v: Array) -> Array:
+        """Return what dampers of joints and hub exert against rates, (..., n), N m."""
+        found = self._pulled(self.joints[1] * self.bent(v))
+        if self.first:
+            found[..., 0] += self.scene.base.damping * v[..., 0]
+        return found
+
+    # -- the same as matrices ----------------------------------------------------------------------------------
+
+    @cached_property
+    def levers(self) -> Array:
+        """Lever arms, (bodies, n): how far each centre of mass stands off along each link; the tip mass last."""
+        return self.walked(np.eye(len(self.lengths))).T
+
+    @cached_property
+    def coupling(self) -> Array:
+        """``B``, (n, n), kg m^2."""
+        return (self.levers.T * self.masses) @ self.levers
+
+    @cached_property
+    def springs(self) -> tuple[Array, Array]:
+        """Stiffness and damping matrices of joints and hub bearing, (n, n)."""
+        unit = np.eye(len(self.lengths))
+        return self.spring_torques(unit), self.damper_torques(unit)
+
+    # -- loads --------------------------------------------------------------------------------------------------
+
+    def signal(self, name: str) -> Signal:
+        """Return an input over time."""
+        return self.signals.get(name, Constant(0.0))
+
+    def loads(self, times: Array) -> tuple[Array, Array, Array]:
+        """Return torques on the coordinates and forces along x and y at the outer ends, (k, n) each."""
+        torque, along_x, along_y = np.zeros((3, len(times), len(self.lengths)))
+        for item in self.scene.inputs:
+            values = np.broadcast_to(self.signal(item.name).at(times), times.shape)
+            place = station_of(item.at, self.scene.stations) - 1 + self.first
+            if item.acts == "angle":  # through the spring and the damper of joint 1
+                joint = self.scene.joints[0]
+                rate = self.signal(item.name).slope(times)
+                torque[:, 0] += joint.stiffness * values + joint.damping * rate
+            else:
+                {"torque": torque, "force_x": along_x, "force_y": along_y}[item.acts][:, place] += values
+        return torque, along_x, along_y
+
+    def base_motion(self, times: Array) -> tuple[Array, Array]:
+        """Return angle and rate of a prescribed base, zero for a clamp, (k,) each."""
+        angle, rate = np.zeros((2, len(times)))
+        for item in self.scene.inputs:
+            if item.acts == "angle":
+                angle += self.signal(item.name).at(times)
+                rate += self.signal(item.name).slope(times)
+        return angle, rate
+
+    # -- equations ----------------------------------------------------------------------------------------------
+
+    def residual(self, times: Array, q: Array, v: Array, a: Array) -> Array:
+        """Return what is left of Lagrange's equations, (k, n), N m."""
+        torque, force_x, force_y = self.loads(times)
+        s, c = np.sin(q), np.cos(q)
+        # cos(qj - qk) ak + sin(qj - qk) vk^2, summed over k with B, from the accelerations of the bodies
+        along = self.gathered(self.masses * self.walked(c * a - s * v**2))
+        across = self.gathered(self.masses * self.walked(s * a + c * v**2))
+        inertial = c * along + s * across + self.inertias * a
+        weight = self.gravity * self.moments * c
+        beyond_x, beyond_y = (np.cumsum(f[:, ::-1], axis=1)[:, ::-1] for f in (force_x, force_y))
+        pushed = self.lengths * (c * beyond_y - s * beyond_x)
+        return inertial + weight + self.spring_torques(q) + self.damper_torques(v) - torque - pushed
+
+    def slopes(self, times: Array, q: Array, v: Array, a: Array) -> tuple[Array, Array, Array]:
+        """Return the derivatives of the residual by angles, rates and accelerations, (k, n, n) each."""
+        stiffness, damping = self.springs
+        _, force_x, force_y = self.loads(times)
+        apart = q[:, :, None] - q[:, None, :]
+        cosine, sine = self.coupling * np.cos(apart), self.coupling * np.sin(apart)
+        pull = sine * a[:, None, :] - cosine * v[:, None, :] ** 2
+        diagonal = np.arange(len(self.lengths))
+        by_q = pull + stiffness
+        by_q[:, diagonal, diagonal] -= pull.sum(axis=2)
+        by_q[:, diagonal, diagonal] -= self.gravity * self.moments * np.sin(q)
+        beyond_x, beyond_y = (np.cumsum(f[:, ::-1], axis=1)[:, ::-1] for f in (force_x, force_y))
+        by_q[:, diagonal, diagonal] += self.lengths * (np.sin(q) * beyond_y + np.cos(q) * beyond_x)
+        by_v = 2.0 * sine * v[:, None, :] + damping
+        by_a = cosine + np.diag(self.inertias)
+        return by_q, by_v, by_a
+
+    def trajectory(self, until: float, tolerance: float = 1e-11) -> Trajectory:
+        """Integrate from the scene's initial motion."""
+        knots = np.concatenate([[0.0, until], *(self.signal(i.name).knots for i in self.scene.inputs)])
+        breaks = np.unique(knots[(knots >= 0.0) & (knots <= until)])
+        initial = self.scene.initial
+        start = [np.array([0.0] * self.first + list(x)) for x in (initial.angles, initial.rates)]
+        return integrate(self.residual, self.slopes, start[0], start[1], breaks, tolerance)
+
+    def accelerations(self, times: Array, q: Array, v: Array) -> Array:
+        """Solve Lagrange's equations for the accelerations, (k, n)."""
+        rest = self.residual(times, q, v, np.zeros_like(q))
+        _, _, mass = self.slopes(times, q, v, np.zeros_like(q))
+        found: Array = np.asarray(np.linalg.solve(mass, -rest[:, :, None])[:, :, 0], np.float64)
+        return found
+
+    @staticmethod
+    def point(of: str, lever: Array, q: Array, v: Array, a: Array) -> tuple[Array, Array]:
+        """Return position, velocity or acceleration of a point with given lever arms, (k,) along x and y."""
+        s, c = np.sin(q), np.cos(q)
+        if of == "position":
+            return c @ lever, s @ lever
+        if of == "velocity":
+            return -(s * v) @ lever, (c * v) @ lever
+        return -(s * a + c * v**2) @ lever, (c * a - s * v**2) @ lever

@@ -1,0 +1,133 @@
+"""The response of a planar arm by Lagrange's equations, to many digits; see :mod:`tmm_gen.reference.planar_arm`.
+
+Where a force is an output it is the balance of momentum of everything beyond it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.inputs.signals import Signal
+from tmm_gen.reference.collocation import Trajectory
+from tmm_gen.reference.energy import dissipation, elastic_energy, gravitational_energy, kinetic_energy
+from tmm_gen.reference.planar_arm import Arm
+from tmm_gen.scene import Output, Scene, station_of
+
+Array = NDArray[np.float64]
+
+_NODES = 20
+"""Gauss points per step of the reference for the energy turned to heat."""
+
+
+def planar_response(
+    scene: Scene, signals: Mapping[str, Signal], times: Array, tolerance: float = 1e-11
+) -> dict[str, Array]:
+    """Return the outputs of a planar scene, to about ten digits.
+
+    Parameters
+    ----------
+    scene : Scene
+        Of kind "planar".
+    signals : mapping from str to Signal
+        Inputs by name; those not given are zero.
+    times : array, (k,)
+        Instants, s, increasing, from 0 on; at least one.
+    tolerance : float
+        See :func:`tmm_gen.reference.collocation.integrate`.
+
+    Returns
+    -------
+    dict from str to array, (k,)
+        Outputs by name, vectors as ``NAME_x`` and ``NAME_y``.
+
+    Raises
+    ------
+    ReferenceError
+        If the equations cannot be integrated.
+    """
+    arm = Arm(scene, signals)
+    times = np.asarray(times, float)
+    trajectory = arm.trajectory(max(float(times[-1]), 1e-9), tolerance)
+    motion = trajectory.at(times)
+    found: dict[str, Array] = {}
+    for output in scene.outputs:
+        if output.of == "dissipated_energy":
+            found[output.name] = dissipated(arm, trajectory, times)
+        else:
+            found |= read(arm, output, times, *motion)
+    return found
+
+
+def read(arm: Arm, output: Output, times: Array, q: Array, v: Array, a: Array) -> dict[str, Array]:
+    """Return an output's columns by name from the motion at some instants, (k, n) each."""
+    station = station_of(output.at, arm.scene.stations)
+    if output.of == "angle":
+        place = station - 1 + arm.first
+        return {output.name: q[:, place] if place >= 0 else arm.base_motion(times)[0]}
+    if output.of == "rate":
+        place = station - 1 + arm.first
+        return {output.name: v[:, place] if place >= 0 else arm.base_motion(times)[1]}
+    if output.of == "kinetic_energy":
+        return {output.name: kinetic_energy(arm, q, v)}
+    if output.of == "elastic_energy":
+        return {output.name: elastic_energy(arm, times, q)}
+    if output.of == "gravitational_energy":
+        return {output.name: gravitational_energy(arm, q)}
+    if output.of == "torque":
+        return {output.name: _torque(arm, output, times, q, v, a)}
+    if output.of == "force":
+        joint = arm.scene.stations + 1 if output.at == "tip" else max(station, 1)
+        x, y = _force(arm, joint, times, q, v, a)
+    else:
+        lever = np.where(np.arange(len(arm.lengths)) < station + arm.first, arm.lengths, 0.0)
+        x, y = arm.point(output.of, lever, q, v, a)
+    return {f"{output.name}_x": x, f"{output.name}_y": y}
+
+
+def _torque(arm: Arm, output: Output, times: Array, q: Array, v: Array, a: Array) -> Array:
+    """Return a joint's torque, positive when bent upward; at the tip, that the tip's inertia exerts."""
+    if output.at == "tip":
+        assert arm.scene.tip is not None
+        outside = sum(
+            (
+                np.broadcast_to(arm.signal(i.name).at(times), times.shape)
+                for i in arm.scene.inputs
+                if i.acts == "torque" and station_of(i.at, arm.scene.stations) == arm.scene.stations
+            ),
+            np.zeros(len(times)),
+        )
+        return np.asarray(outside - arm.scene.tip.inertia * a[:, -1])
+    number = max(station_of(output.at, arm.scene.stations), 1)
+    joint, outer = arm.scene.joints[number - 1], number - 1 + arm.first
+    angle, rate = q[:, outer], v[:, outer]
+    if outer:
+        return joint.stiffness * (angle - q[:, outer - 1]) + joint.damping * (rate - v[:, outer - 1])
+    base_angle, base_rate = arm.base_motion(times)
+    return joint.stiffness * (angle - base_angle) + joint.damping * (rate - base_rate)
+
+
+def _force(arm: Arm, joint: int, times: Array, q: Array, v: Array, a: Array) -> tuple[Array, Array]:
+    """Return the force on everything beyond a joint: its change of momentum, less weight and loads."""
+    _, load_x, load_y = arm.loads(times)
+    x, y = np.zeros((2, len(times)))
+    for body in range(joint - 1, arm.scene.stations + 1):
+        ax, ay = arm.point("acceleration", arm.levers[body], q, v, a)
+        x, y = x + arm.masses[body] * ax, y + arm.masses[body] * (ay + arm.gravity)
+    beyond = min(joint, arm.scene.stations) - 1 + arm.first
+    return x - load_x[:, beyond:].sum(axis=1), y - load_y[:, beyond:].sum(axis=1)
+
+
+def dissipated(arm: Arm, trajectory: Trajectory, times: Array) -> Array:
+    """Return the energy turned to heat since the start, (k,), J, by Gauss quadrature between steps and instants."""
+    inside = trajectory.ends[trajectory.ends < times[-1]]
+    ends = np.unique(np.concatenate([[0.0], inside, times]))
+    nodes, weights = np.polynomial.legendre.leggauss(_NODES)
+    half = 0.5 * np.diff(ends)
+    instants = (ends[:-1] + half)[:, None] + half[:, None] * nodes
+    _, rate, _ = trajectory.at(instants.ravel())
+    power = dissipation(arm, instants.ravel(), rate).reshape(instants.shape)
+    heat = np.concatenate([[0.0], np.cumsum(half * (power @ weights))])
+    return np.asarray(heat[np.searchsorted(ends, times)], np.float64)

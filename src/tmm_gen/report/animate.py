@@ -1,0 +1,162 @@
+"""An arm in motion: GIF or self-contained HTML, and its shapes over time for still pictures."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.scene import Scene
+from tmm_gen.scratch import scratch_folder
+from tmm_gen.simulate.simulation import Simulation
+from tmm_gen.style import FAINT, INK, PALETTE, figure, style
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+Array = NDArray[np.float64]
+
+FRAMES_PER_SECOND = 25
+MOST_FRAMES = 250
+"""Longer motions are shown faster than they are."""
+
+SHAPES = 12
+"""Positions of the arm in a still picture."""
+
+FORMS = (".gif", ".html")
+
+
+def node_positions(scene: Scene, angles: Array) -> tuple[Array, Array]:
+    """Return the places of base and nodes, (k, n + 1) along x and along y, from angles of the links, (k, n)."""
+    length = np.array([link.length for link in scene.links])
+    zero = np.zeros((len(angles), 1))
+    x = np.hstack([zero, np.cumsum(length * np.cos(angles), axis=1)])
+    y = np.hstack([zero, np.cumsum(length * np.sin(angles), axis=1)])
+    return x, y
+
+
+def link_angles(simulation: Simulation) -> Array:
+    """Return the traced angles of the links, (k + 1, n).
+
+    Raises
+    ------
+    ValueError
+        If the motion was not traced.
+    """
+    if simulation.trace is None:
+        raise ValueError("the motion was not traced")
+    return simulation.trace.angle[:, -simulation.scene.stations :]
+
+
+def frame_instants(simulation: Simulation) -> tuple[Array, float]:
+    """Return which instants are shown, (frames,), and how many times faster than they pass."""
+    duration = float(simulation.time[-1])
+    frames = int(min(MOST_FRAMES, max(2, round(duration * FRAMES_PER_SECOND)), simulation.steps + 1))
+    shown = np.unique(np.round(np.linspace(0, simulation.steps, frames)).astype(int))
+    return shown, duration / ((len(shown) - 1) / FRAMES_PER_SECOND)
+
+
+def animation(simulation: Simulation, form: str) -> bytes:
+    """Draw the motion of an arm.
+
+    Parameters
+    ----------
+    simulation : Simulation
+        Of a planar scene, traced.
+    form : {"gif", "html"}
+        An endless GIF, or a page with buttons that needs nothing else.
+    """
+    from matplotlib.animation import FuncAnimation, HTMLWriter, PillowWriter
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+    scene = simulation.scene
+    shown, speed = frame_instants(simulation)
+    x, y = node_positions(scene, link_angles(simulation))
+    with style():
+        made, axes = figure(5.6, 5.2)
+        FigureCanvasAgg(made)
+        _ground(axes, scene, x[shown], y[shown])
+        axes.set_title(scene.title)
+        (path,) = axes.plot([], [], color=PALETTE[5], linewidth=1.2, zorder=1)
+        (arm,) = axes.plot(
+            [],
+            [],
+            color=PALETTE[0],
+            linewidth=3.0,
+            solid_capstyle="round",
+            marker="o",
+            markersize=_dots(scene),
+        )
+        (tip,) = axes.plot([], [], "o", color=PALETTE[1], markersize=9.0 if scene.tip else 5.0, zorder=4)
+        faster = "" if abs(speed - 1.0) < 0.05 else f", shown {speed:.2g} times as fast"
+        clock = axes.text(0.02, 0.98, "", transform=axes.transAxes, va="top", color=INK)
+
+        def draw(index: int) -> tuple[Any, ...]:
+            k = shown[index]
+            arm.set_data(x[k], y[k])
+            tip.set_data(x[k, -1:], y[k, -1:])
+            path.set_data(x[: k + 1, -1], y[: k + 1, -1])
+            clock.set_text(f"{simulation.time[k]:.2f} s{faster}")
+            return arm, tip, path, clock
+
+        moving = FuncAnimation(made, draw, frames=len(shown), blit=False)
+        with scratch_folder() as folder:
+            target = Path(folder, f"arm.{form}")
+            if form == "gif":
+                moving.save(target, writer=PillowWriter(fps=FRAMES_PER_SECOND), dpi=80)
+            else:
+                moving.save(target, writer=HTMLWriter(fps=FRAMES_PER_SECOND, embed_frames=True), dpi=80)
+            return target.read_bytes()
+
+
+def draw_shapes(axes: Axes, simulation: Simulation) -> None:
+    """Draw the arm at instants spread over the motion, the later the darker, and the way of its tip."""
+    import matplotlib as mpl
+
+    scene = simulation.scene
+    x, y = node_positions(scene, link_angles(simulation))
+    shown = np.unique(np.round(np.linspace(0, simulation.steps, SHAPES)).astype(int))
+    _ground(axes, scene, x, y)
+    colours = mpl.colormaps["Blues"](np.linspace(0.25, 1.0, len(shown)))
+    axes.plot(x[:, -1], y[:, -1], color=PALETTE[4], linewidth=1.0, zorder=1)
+    for k, colour in zip(shown, colours, strict=True):
+        axes.plot(x[k], y[k], color=colour, linewidth=2.0)
+        axes.plot(x[k, -1], y[k, -1], "o", color=colour, markersize=6.0 if scene.tip else 3.5)
+    for k, colour in ((shown[0], colours[0]), (shown[-1], colours[-1])):
+        axes.annotate(
+            f"{simulation.time[k]:.3g} s",
+            (x[k, -1], y[k, -1]),
+            (6, 4),
+            textcoords="offset points",
+            color=colour,
+        )
+
+
+def _ground(axes: Axes, scene: Scene, x: Array, y: Array) -> None:
+    """Set out a field in true proportion, with the base in it."""
+    reach = sum(link.length for link in scene.links)
+    left, right = float(min(x.min(), -0.1 * reach)), float(max(x.max(), 0.1 * reach))
+    low, high = float(min(y.min(), -0.1 * reach)), float(max(y.max(), 0.1 * reach))
+    margin = 0.08 * reach
+    axes.set_xlim(left - margin, right + margin)
+    axes.set_ylim(low - margin, high + margin)
+    axes.set_aspect("equal", adjustable="box")
+    axes.set_xlabel("x (m)")
+    axes.set_ylabel("y (m)")
+    if scene.base.kind == "clamp":
+        axes.plot([0.0, 0.0], [-0.07 * reach, 0.07 * reach], color=INK, linewidth=5.0, zorder=3)
+    else:
+        axes.plot(
+            0.0, 0.0, "o", color="white", markeredgecolor=INK, markeredgewidth=2.0, markersize=13, zorder=3
+        )
+    if scene.model.gravity:
+        axes.annotate(
+            "", (0.96, 0.86), (0.96, 0.97), "axes fraction", arrowprops={"arrowstyle": "->", "color": FAINT}
+        )
+        axes.text(0.945, 0.915, "g", transform=axes.transAxes, ha="right", va="center", color=FAINT)
+
+
+def _dots(scene: Scene) -> float:
+    return 4.0 if scene.stations <= 20 else 0.0

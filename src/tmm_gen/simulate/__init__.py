@@ -1,0 +1,1 @@
+"""Runs of generated kernels, and how far they are to be trusted."""

@@ -1,0 +1,302 @@
+"""Simulating a scene with its generated kernel, in NumPy or in C."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.errors import UserError
+from tmm_gen.inputs.curve import Curve
+from tmm_gen.inputs.profiles import Step
+from tmm_gen.inputs.signals import Constant, Signal
+from tmm_gen.reference.assembly import assemble
+from tmm_gen.reference.energy import energy
+from tmm_gen.scene import Scene
+from tmm_gen.simulate.divergence import DivergedError, watch
+from tmm_gen.simulate.planar_divergence import PlanarWatch, more_sweeps, planar_watch
+from tmm_gen.simulate.prescribed import followed, prescribed
+from tmm_gen.simulate.simulation import Simulation
+from tmm_gen.simulate.stepping import Backend, Course, Stepper
+from tmm_gen.simulate.tolerance import refuse_inaccurate, refuse_unsolved, tolerance
+from tmm_gen.simulate.trace import Trace
+
+if TYPE_CHECKING:
+    from tmm_gen.simulate.accuracy import Accuracy
+    from tmm_gen.simulate.unsolved import Unsolved
+
+Array = NDArray[np.float64]
+
+_MOST = 20_000_000
+"""Steps whose outputs are sure to fit in memory."""
+
+_LEAST_TURN = 1e-8
+"""rad; what a sweep may turn the links by and be the last, where the usual does not do."""
+
+_SMALL_SHARE, _SMALLEST = 0.2, 1e-9
+"""Share of the error that sweeps may have, and an error that is none."""
+
+_SHORT = 100
+"""Links of a planar arm whose equilibrium is looked for."""
+
+_FEW = 5
+"""Steps over which a load must spread for its work to be known from its values at them."""
+
+
+def number_of_steps(until: float, step: float) -> int:
+    """Return how many steps it takes to reach a time; the last one may end behind it.
+
+    Raises
+    ------
+    UserError
+        If they are too many to keep.
+    """
+    ratio = until / step
+    if not ratio <= _MOST:
+        count = f"{ratio:.0f}" if ratio < 1e15 else "far too many"
+        raise UserError(
+            f"simulating {until:g} s at a step of {step:g} s takes {count} steps, more than {_MOST:.0f}. "
+            "Simulate a shorter time (--until) or take larger steps (--step)."
+        )
+    return max(1, math.ceil(ratio * (1.0 - 1e-12)))
+
+
+def simulate(
+    scene: Scene,
+    signals: Mapping[str, Signal],
+    until: float,
+    backend: Backend = "numpy",
+    advance: Callable[[float], None] | None = None,
+    kernel: Any = None,
+    *,
+    trace: bool = False,
+    refuse: bool = True,
+    judge: bool = True,
+) -> Simulation:
+    """Simulate a scene at its own step; where it leaves open how often to sweep, as often as it takes.
+
+    Parameters
+    ----------
+    scene : Scene
+        What to simulate.
+    signals : mapping from str to Signal
+        Inputs by name; those not given are zero.
+    until : float
+        s; the last step ends there or just behind.
+    backend : {"numpy", "c"}
+        Which generated kernel.
+    advance : callable, optional
+        Called with the number of steps taken since the last call.
+    kernel : module or NativeKernel, optional
+        The scene's generated NumPy package, or its compiled C, if it is there already.
+    trace : bool
+        Keep angles and rates of all links too.
+    refuse : bool
+        Raise where the error is too large or sweeps leave too much of a planar arm's equations unsolved; what is known
+        of both is in the result either way.
+    judge : bool
+        Find out about the error at all, which takes about as long as the simulation.
+
+    Raises
+    ------
+    DivergedError
+        If the motion leaves all bounds.
+    InaccurateError
+        If the error is more of the motion than the scene's ``model.accuracy``.
+    UnsolvedError
+        If sweeps leave more unsolved than the step does, or than the scene's ``model.unsolved``.
+    UserError
+        If the kernel cannot be made, the steps are too many, a prescribed angle jumps, or a pivot vanishes.
+    """
+    steps = number_of_steps(until, scene.integrator.step)
+    signals = prescribed(scene, signals)
+    inputs = {item.name: signals.get(item.name, Constant(0.0)) for item in scene.inputs}
+    step = scene.integrator.step
+    planar = scene.model.kind == "planar"
+    if planar:
+        planar_watch(scene, step)  # before a kernel is made
+    stepper = Stepper.of(scene, backend, kernel)
+
+    def run(parameters: Mapping[str, float], count: Callable[[float], None] | None) -> _Run:
+        guard = planar_watch(scene, step) if planar else watch(scene, inputs, until, step)
+        course = Course(
+            scene,
+            inputs,
+            steps,
+            step,
+            guard,
+            _trace(scene, steps, whole=trace) if trace or judge else None,
+            _unsolved(scene, inputs, steps, backend),
+            parameters=parameters,
+        )
+        return _Run.of(course, stepper, count, judge=judge)
+
+    found = run({}, advance)
+    if found.unfinished:  # more sweeps than are usually enough
+        found = run({"least_turn": _LEAST_TURN}, None)
+    accuracy, left, own, kept = found.accuracy, found.unsolved, found.step_error, found.course.trace
+    if refuse and accuracy is not None:
+        refuse_inaccurate(scene, accuracy)
+    if refuse and left is not None and own is not None:
+        refuse_unsolved(scene, left, own)
+    time: Array = scene.integrator.step * np.arange(steps + 1, dtype=float)
+    whole = kept if kept is not None and kept.every == 1 else None
+    return Simulation(
+        scene=scene,
+        backend=backend,
+        time=time,
+        outputs={name: found.outputs[:, k] for k, name in enumerate(found.course.names)},
+        inputs={name: signal.at(time) for name, signal in inputs.items()},
+        rest=_rest(scene, inputs, float(time[-1])),
+        trace=whole,
+        imbalance=_imbalance(scene, inputs, time, whole),
+        unsolved=left,
+        step_error=own,
+        accuracy=accuracy,
+        sweeps_per_step=found.sweeps,
+        notes=tuple(followed(scene, inputs, float(time[-1]))),
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _Run:
+    """All steps taken, and what is known of their error; fields as of :class:`Simulation`."""
+
+    course: Course
+    outputs: Array
+    accuracy: Accuracy | None
+    unsolved: float | None
+    step_error: float | None
+    sweeps: float | None
+
+    @classmethod
+    def of(
+        cls, course: Course, stepper: Stepper, advance: Callable[[float], None] | None, *, judge: bool
+    ) -> _Run:
+        """Take them."""
+        outputs = _outputs(course, stepper, advance)
+        sweeps = None if stepper.sweeps is None else stepper.sweeps / course.steps
+        checked = course.checked
+        left, own = (None, None) if checked is None else (checked.share(), checked.step_error())
+        accuracy = None
+        if judge and course.trace is not None:
+            from tmm_gen.simulate.accuracy import chain_accuracy, planar_accuracy
+
+            if course.scene.model.kind == "chain":
+                accuracy = chain_accuracy(course.scene, course.signals, course.trace)
+            else:
+                accuracy = planar_accuracy(course, stepper, left or 0.0)
+        return cls(course, outputs, accuracy, left, own, sweeps)
+
+    @property
+    def unfinished(self) -> bool:
+        """Whether steps that sweep as often as it takes had better sweep more."""
+        if self.sweeps is None or self.accuracy is None or self.unsolved is None or self.step_error is None:
+            return False
+        if self.unsolved > tolerance(self.course.scene, self.step_error):
+            return True
+        return self.accuracy.from_sweeps > max(_SMALL_SHARE * self.accuracy.error, _SMALLEST)
+
+
+def _outputs(course: Course, stepper: Stepper, advance: Callable[[float], None] | None) -> Array:
+    """Take all steps and return the outputs, (steps + 1, columns)."""
+    scene, step, guard = course.scene, course.step, course.guard
+    outputs = np.empty((course.steps + 1, len(course.names)))
+    row = 0
+    try:
+        for block in stepper.take(course):
+            outputs[row : row + len(block)] = block
+            row += len(block)
+            if advance is not None:
+                advance(len(block))
+    except ArithmeticError as error:  # what generated kernels raise
+        if isinstance(guard, PlanarWatch) and scene.model.linearisation != "newton":
+            raise DivergedError(
+                f"scene '{scene.name}': the simulation has diverged: {error}.\n{guard.cause()}"
+            ) from error
+        smaller = "Look"
+        if isinstance(guard, PlanarWatch):
+            smaller = f"Try a smaller step, --step {step / 10:g}{more_sweeps(scene)}; or look"
+        raise UserError(
+            f"scene '{scene.name}' cannot be solved: {error}. "
+            f"{smaller} for numbers that are far too large or small."
+        ) from error
+    return outputs
+
+
+def _imbalance(scene: Scene, signals: Mapping[str, Signal], time: Array, trace: Trace | None) -> float | None:
+    """Return how well a planar arm's energies balance; None where a load is too abrupt to know its work."""
+    step, until = scene.integrator.step, float(time[-1])
+    abrupt = any(_abrupt(signals[item.name], item.acts, step, until) for item in scene.inputs)
+    if scene.model.kind != "planar" or trace is None or len(time) < 3 or abrupt:
+        return None
+    return energy(scene, signals, time, trace.angle, trace.rate).imbalance
+
+
+def _abrupt(signal: Signal, acts: str, step: float, until: float) -> bool:
+    """Whether a load changes within a few steps, or the rate of a prescribed base jumps on the way."""
+    knots = signal.knots
+    if acts == "angle":
+        return isinstance(signal, Curve) and any(0.0 < knots[row] < until for row, _ in signal.corners)
+    return isinstance(signal, Step) or bool(np.min(np.diff(knots), initial=np.inf) < _FEW * step)
+
+
+def _unsolved(scene: Scene, signals: Mapping[str, Signal], steps: int, backend: Backend) -> Unsolved | None:
+    """Return who looks at what sweeps leave unsolved; None where nothing is solved by iteration."""
+    if scene.model.kind != "planar" or scene.model.linearisation != "newton":
+        return None
+    from tmm_gen.simulate.unsolved import Unsolved  # SymPy comes with it
+
+    real = "compensated" if scene.emit.compensated else scene.emit.real
+    return Unsolved(scene, signals, steps, real if backend == "c" else "float64")
+
+
+def _trace(scene: Scene, steps: int, *, whole: bool) -> Trace:
+    """Return room for the motion of all links, at every instant if need be or if there is room."""
+    if steps * scene.stations <= _MOST:
+        return Trace.empty(scene, steps + 1)
+    if whole:
+        raise UserError(
+            f"the motion of {scene.stations} links over {steps} steps is too much to keep. "
+            "Simulate a shorter time (--until) or take larger steps (--step)."
+        )
+    return Trace.empty(scene, steps + 1, math.ceil(steps * scene.stations / _MOST))
+
+
+def _rest(scene: Scene, signals: Mapping[str, Signal], until: float) -> dict[str, float] | None:
+    """Return the outputs at rest under the last values of the inputs; None where there is no such thing."""
+    if any(signal.ends > until for signal in signals.values()):
+        return None
+    last = {name: float(signal.at(until)) for name, signal in signals.items()}
+    if scene.model.kind == "planar":
+        return _planar_rest(scene, last)
+    assembly = assemble(scene)
+    if assembly.free:
+        return None
+    found = assembly.static(np.array(list(last.values())))
+    return dict(zip(assembly.outputs, found.tolist(), strict=True))
+
+
+def _planar_rest(scene: Scene, inputs: Mapping[str, float]) -> dict[str, float] | None:
+    """Return the outputs of an arm that hangs still; None where it would turn on, or is too long to be looked at."""
+    if scene.base.kind == "motor" or scene.stations > _SHORT:
+        return None
+    from tmm_gen.modal.equilibrium import equilibrium
+    from tmm_gen.reference.planar_arm import Arm
+    from tmm_gen.reference.planar_reference import read
+
+    try:
+        angles = equilibrium(scene, inputs).free_angles[None]
+    except UserError:
+        return None
+    arm = Arm(scene, {name: Constant(value) for name, value in inputs.items()})
+    still = np.zeros_like(angles)
+    found: dict[str, Array] = {}
+    for output in scene.outputs:
+        if output.of != "dissipated_energy":  # depends on the way there
+            found |= read(arm, output, np.zeros(1), angles, still, still)
+    return {name: float(value[0]) for name, value in found.items()}

@@ -1,0 +1,111 @@
+"""What a simulation leaves, and its files."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.scene import Scene
+from tmm_gen.simulate.accuracy import Accuracy
+from tmm_gen.simulate.columns import OutputColumn, output_columns
+from tmm_gen.simulate.metrics import step_figures
+from tmm_gen.simulate.trace import Trace
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Simulation:
+    """Outputs over time.
+
+    Parameters
+    ----------
+    scene : Scene
+        What was simulated, with the step that was used.
+    backend : str
+        "numpy" or "c".
+    time : array, (k + 1,)
+        Instants, s, from 0 on.
+    outputs : dict from str to array, (k + 1,)
+        By name, in the order of the scene; vectors as ``NAME_x`` and ``NAME_y``.
+    inputs : dict from str to array, (k + 1,)
+        The inputs at the same instants.
+    rest : dict from str to float, optional
+        The outputs once all motion has died out; None where it need not come to rest, or is not known.
+    trace : Trace, optional
+        The motion of all links, where it was asked for.
+    imbalance : float, optional
+        Where the motion of all links is known: largest difference between work done and energy gained and
+        dissipated, as a share of the energy that moved.
+    unsolved : float, optional
+        Of a planar arm: work of what the sweeps left unsolved, as a share of the energy that moved.
+    step_error : float, optional
+        Of a planar arm: error that the step leaves by itself (:func:`tmm_gen.simulate.step_error.step_error`).
+    notes : tuple of str
+        How tables of a prescribed base were followed, where that is not plain.
+    accuracy : Accuracy, optional
+        What is known of the error, where that was asked for.
+    sweeps_per_step : float, optional
+        On average, where the kernel sweeps as often as it takes.
+    """
+
+    scene: Scene
+    backend: str
+    time: Array
+    outputs: dict[str, Array]
+    inputs: dict[str, Array]
+    rest: dict[str, float] | None
+    trace: Trace | None = None
+    imbalance: float | None = None
+    unsolved: float | None = None
+    step_error: float | None = None
+    notes: tuple[str, ...] = ()
+    accuracy: Accuracy | None = None
+    sweeps_per_step: float | None = None
+
+    @property
+    def steps(self) -> int:
+        """Number of steps taken."""
+        return len(self.time) - 1
+
+    @property
+    def still(self) -> bool:
+        """Whether nothing happens: no input, no motion."""
+        return not any(np.any(values) for values in (*self.inputs.values(), *self.outputs.values()))
+
+    def csv(self) -> str:
+        """Return a table of outputs over time with 17 significant digits: every bit of a double."""
+        lines = [",".join(("time", *self.outputs))]
+        columns = [self.time.tolist(), *(values.tolist() for values in self.outputs.values())]
+        lines += [",".join(f"{value:.17g}" for value in row) for row in zip(*columns, strict=True)]
+        return "\n".join(lines) + "\n"
+
+    def rows(self) -> Iterator[dict[str, object]]:
+        """Yield one row of figures for each column of the outputs."""
+        for column in output_columns(self.scene):
+            yield self._row(column)
+
+    def _row(self, column: OutputColumn) -> dict[str, object]:
+        values = self.outputs[column.name]
+        largest = int(np.argmax(np.abs(values)))
+        row: dict[str, object] = {
+            "output": column.name,
+            "what": column.what,
+            "unit": column.unit,
+            "final": float(values[-1]),
+            "rest": None,
+            "peak": float(values[largest]),
+            "peak_time": float(self.time[largest]),
+            "overshoot_percent": None,
+            "settling_time": None,
+        }
+        if self.rest is not None and column.name in self.rest:
+            figures = step_figures(self.time, values, self.rest[column.name])
+            row["rest"] = figures.final
+            row["settling_time"] = figures.settling_time
+            if figures.start != figures.final:
+                row["overshoot_percent"] = 100.0 * figures.overshoot
+        return row

@@ -1,0 +1,1 @@
+"""Where a scene stands against the limits of integrators."""

@@ -1,0 +1,1 @@
+"""Error against cost: trade, tune, their store and workers."""

@@ -1,0 +1,186 @@
+"""What moves the arm during a study: loads that are smooth after the start, so that orders show.
+
+A load that jumps or kinks on the way would cut every integrator down to the first or second order, and the study
+would compare nothing but how they meet the kink. Amplitudes follow from the scene: a joint torque that turns the arm
+by about a radian, a force that does the same by its lever, a base that is moved by one radian.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from tmm_gen.errors import UserError
+from tmm_gen.inputs.clock import refuse_other_clock
+from tmm_gen.inputs.curve import Curve
+from tmm_gen.inputs.signals import Constant, Signal, Sine, Table
+from tmm_gen.reference.duration import default_duration
+from tmm_gen.scene import Input, Output, Scene
+from tmm_gen.scene.quantity import quantities
+from tmm_gen.simulate.prescribed import prescribed
+from tmm_gen.study.rise import Rise
+
+_TURN = 1.0
+"""rad; what an input does to the arm, about."""
+
+_SHORTEST, _LONGEST = 1e-12, 1e12
+"""s; beyond these, numbers that are derived from a time run out of range."""
+
+_SWINGS = 1.5
+"""Periods of the first load over the whole time; of the next half as many more, and so on."""
+
+
+@dataclass(frozen=True)
+class Excitation:
+    """What the arm goes through, and what is looked at.
+
+    Parameters
+    ----------
+    signals : mapping from str to Signal
+        Inputs by name.
+    until : float
+        Time simulated, s.
+    output : str
+        Output that errors are measured at.
+    """
+
+    signals: Mapping[str, Signal]
+    until: float
+    output: str
+
+    def told(self, scene: Scene) -> list[str]:
+        """Say in words what the arm goes through, one line for each load."""
+        lines = [f"{name}: {_words(signal)}" for name, signal in self.signals.items()]
+        if scene.model.gravity:
+            lines.append(f"gravity of {scene.model.gravity:g} m/s^2")
+        if any(scene.initial.angles) or any(scene.initial.rates):
+            lines.append("the scene's initial motion")
+        return lines or ["nothing"]
+
+
+def excitation(
+    scene: Scene,
+    given: Mapping[str, Signal] | None = None,
+    until: float | None = None,
+    output: str | None = None,
+) -> Excitation:
+    """Return what a scene goes through in a study.
+
+    Parameters
+    ----------
+    scene : Scene
+        What is computed.
+    given : mapping from str to Signal, optional
+        Inputs that the user gives; others are then zero. Without any, all inputs act as described above.
+    until : float, optional
+        s; by default five slow periods.
+    output : str, optional
+        Output that errors are measured at; by default place or angle of the tip, or the first output.
+
+    Raises
+    ------
+    UserError
+        If there is no such output, nothing moves, the time is absurd, an input has another clock, or a prescribed
+        angle jumps.
+    """
+    duration = until or default_duration(scene)
+    if not _SHORTEST <= duration <= _LONGEST:
+        raise UserError(
+            f"--until {duration:g}: simulate between {_SHORTEST:g} and {_LONGEST:g} s; a few slow periods tell most."
+        )
+    signals = prescribed(scene, given) if given else _default_signals(scene, duration)
+    refuse_other_clock(signals, duration)
+    chosen = Excitation(signals, duration, _output(scene, output).name)
+    moving = any(not isinstance(signal, Constant) or signal.value for signal in signals.values())
+    initial = any(scene.initial.angles) or any(scene.initial.rates)
+    if not (moving or initial or scene.model.gravity):
+        raise UserError(
+            f"scene '{scene.name}': nothing moves: there is no load, no gravity and no initial motion. "
+            "Add an [[input]] or [initial] to it."
+        )
+    return chosen
+
+
+def unit(scene: Scene, output: str) -> str:
+    """Return the unit of an output."""
+    of = next(item.of for item in scene.outputs if item.name == output)
+    return quantities(scene.model.kind)[of].unit
+
+
+def columns(scene: Scene, output: str) -> tuple[str, ...]:
+    """Return the columns of an output: one, or two of a vector."""
+    of = next(item.of for item in scene.outputs if item.name == output)
+    vector = quantities(scene.model.kind)[of].vector
+    return tuple(f"{output}_{axis}" for axis in "xy") if vector else (output,)
+
+
+def _output(scene: Scene, name: str | None) -> Output:
+    if name is not None:
+        for item in scene.outputs:
+            if item.name == name:
+                return item
+        names = ", ".join(item.name for item in scene.outputs)
+        raise UserError(f"--output {name}: no such output; choose from {names}.")
+    if not scene.outputs:
+        raise UserError(f"scene '{scene.name}' has no [[output]] to measure errors at. Add one.")
+    at_tip = [item for item in scene.outputs if item.at == "tip"]
+    for wanted in ("position", "angle"):
+        for item in at_tip:
+            if item.of == wanted:
+                return item
+    return (at_tip or list(scene.outputs))[0]
+
+
+def _default_signals(scene: Scene, until: float) -> dict[str, Signal]:
+    frequency = 2.0 * math.pi * _SWINGS / until
+    return {
+        item.name: _signal(scene, item, frequency * (1.0 + 0.5 * k), until)
+        for k, item in enumerate(scene.inputs)
+    }
+
+
+def _signal(scene: Scene, item: Input, frequency: float, until: float) -> Signal:
+    if item.acts == "angle":
+        return Rise(_TURN, 0.5 * until)
+    torque = _torque(scene, frequency)
+    return Sine(_rounded(torque if item.acts == "torque" else torque / _length(scene)), frequency)
+
+
+def _torque(scene: Scene, frequency: float) -> float:
+    """Return a torque, N m, that turns the arm by about `_TURN`: against its springs, or its inertia if it is free."""
+    if scene.base.kind != "motor":
+        return _TURN / sum(1.0 / joint.stiffness for joint in scene.joints)
+    if scene.model.kind == "chain":
+        inertia = scene.base.inertia + sum(link.inertia for link in scene.links)
+        return inertia * frequency**2 * _TURN
+    return _inertia_about_base(scene) * frequency**2 * _TURN
+
+
+def _inertia_about_base(scene: Scene) -> float:
+    inertia, way = scene.base.inertia, 0.0
+    for link in scene.links:
+        inertia += link.inertia + link.mass * (way + link.center * link.length) ** 2
+        way += link.length
+    return inertia + (scene.tip.mass * way**2 + scene.tip.inertia if scene.tip else 0.0)
+
+
+def _length(scene: Scene) -> float:
+    return sum(link.length for link in scene.links) or 1.0
+
+
+def _rounded(value: float) -> float:
+    return float(f"{value:.1g}")
+
+
+def _words(signal: Signal) -> str:
+    if isinstance(signal, Constant):
+        return f"{signal.value:g}, constant"
+    if isinstance(signal, Sine):
+        shape = "cos" if signal.phase else "sin"
+        return f"{signal.amplitude:g} {shape}({signal.frequency:.4g} t)"
+    if isinstance(signal, Rise):
+        return f"rises smoothly from 0 to {signal.amplitude:g} in {signal.duration:g} s, then stays"
+    if isinstance(signal, Table | Curve):
+        return f"a table of {len(signal.times)} rows"
+    return "as given"

@@ -1,0 +1,89 @@
+"""The grid of a study: which configurations are tried."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import product
+
+from tmm_gen.scene import INTEGRATOR_NAMES, Scene
+from tmm_gen.study.configuration import Configuration, Family, own
+
+COARSEST = 40
+"""Steps over the whole time at the coarsest of the default steps: eight in a slow period."""
+
+HALVINGS = 10
+"""Default steps, each half of the one before."""
+
+
+@dataclass(frozen=True)
+class Axes:
+    """What is varied; an empty axis stands for the scene's own choice.
+
+    Parameters
+    ----------
+    integrators : tuple of str
+        With underscores; empty for all.
+    steps : tuple of float
+        s; empty for default steps.
+    links : tuple of int
+        Of a beam.
+    linearisations : tuple of str
+        Of a planar arm.
+    iterations : tuple of int
+        Sweeps per stage, with linearisation "newton".
+    reals : tuple of str
+        "float64", "float32".
+    backends : tuple of str
+        "c", "numpy".
+    """
+
+    integrators: tuple[str, ...] = ()
+    steps: tuple[float, ...] = ()
+    links: tuple[int, ...] = ()
+    linearisations: tuple[str, ...] = ()
+    iterations: tuple[int, ...] = ()
+    reals: tuple[str, ...] = ()
+    backends: tuple[str, ...] = ()
+
+
+def default_steps(until: float) -> tuple[float, ...]:
+    """Return steps that divide a time, longest first."""
+    return tuple(until / (COARSEST * 2**k) for k in range(HALVINGS))
+
+
+def configurations(scene: Scene, axes: Axes, until: float) -> tuple[Configuration, ...]:
+    """Return the grid: every combination of the axes, and the scene's own configuration.
+
+    Parameters
+    ----------
+    scene : Scene
+        What is computed.
+    axes : Axes
+        What is varied.
+    until : float
+        s, for the default steps.
+    """
+    mine = own(scene)
+    steps = axes.steps or default_steps(until)
+    found = [Configuration(family, step) for family in families(scene, axes) for step in steps]
+    return tuple(dict.fromkeys([*found, mine]))
+
+
+def families(scene: Scene, axes: Axes) -> tuple[Family, ...]:
+    """Return what is generated: every combination of the axes without the steps."""
+    mine = own(scene).family
+    choices = product(
+        axes.integrators or INTEGRATOR_NAMES,
+        axes.links or (mine.links,),
+        axes.linearisations or (mine.linearisation,),
+        axes.iterations or (mine.iterations,),
+        axes.reals or (mine.real,),
+        axes.backends or (mine.backend,),
+    )
+    found = []
+    for integrator, links, linearisation, iterations, real, backend in choices:
+        # only Newton's linearisation sweeps again; NumPy has one number type
+        sweeps = iterations if linearisation == "newton" else 1
+        number = real if backend == "c" else "float64"
+        found.append(Family(integrator, links, linearisation, sweeps, number, backend))
+    return tuple(dict.fromkeys(found))

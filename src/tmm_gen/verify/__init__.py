@@ -1,0 +1,1 @@
+"""`tmm-gen check`: backends against each other and against references."""

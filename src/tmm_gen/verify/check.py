@@ -1,0 +1,246 @@
+"""Checks of a scene: its backends against each other, and against the exact response."""
+
+from __future__ import annotations
+
+import inspect
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.inputs.signals import Constant, Signal, Sine
+from tmm_gen.native.python_module import casadi_module, numpy_module
+from tmm_gen.native.timing import by_turns
+from tmm_gen.reference.duration import default_duration
+from tmm_gen.reference.frequency import fastest_mode
+from tmm_gen.reference.reference import exact_response
+from tmm_gen.scene import Scene
+from tmm_gen.simulate.metrics import convergence_slope, largest_error, rms_error
+from tmm_gen.simulate.run import simulate
+from tmm_gen.verify.agreement import (
+    Step,
+    Vector,
+    casadi_step,
+    largest_difference,
+    native_step,
+    numpy_step,
+    random_vectors,
+    reached_vectors,
+)
+from tmm_gen.verify.check_row import CheckRow
+from tmm_gen.verify.host_test import run_host_test
+from tmm_gen.verify.planar_order import planar_slope
+
+Array = NDArray[np.float64]
+
+ONE_STEP = {"float64": 1e-13, "float32": 2e-5}
+"""Relative difference allowed between backends after one step, by the number type of the C code."""
+
+PLANAR_STEP = {"float64": 1e-12, "float32": 2e-3}
+"""The same for a planar arm, whose forces cancel where it is stiff."""
+
+RUN = {"float64": 1e-9, "float32": 1e-3}
+"""The same over a whole run, in which differences add up."""
+
+ERROR = 0.05
+"""RMS error over a run, relative to the peak, beyond which a step is too coarse for its scene."""
+
+SLOPE = 0.1
+"""How far the fitted order may be from the derived one."""
+
+_LONGEST_RUN = 2000
+"""Steps of a run, unless one slow period takes fewer."""
+
+_SWING = 2.0
+"""rad/s of a prescribed base."""
+
+_STEPS = (64, 128, 256, 512)
+_TURN = 0.2
+"""Highest natural frequency, or decay rate, times the coarsest step of the slope."""
+
+
+@dataclass(frozen=True)
+class CheckReport:
+    """All comparisons of a scene.
+
+    Parameters
+    ----------
+    rows : tuple of CheckRow
+        In the order in which they were made.
+    facts : dict from str to object
+        Further figures by key: ``ns_per_step``, ``ns_spread``, ``operations_per_step``, ``fitted_order``,
+        ``derived_order``.
+    """
+
+    rows: tuple[CheckRow, ...]
+    facts: Mapping[str, object]
+
+    @property
+    def passed(self) -> bool:
+        """Whether every value is within its bound."""
+        return all(row.passed for row in self.rows)
+
+
+def check_scene(scene: Scene, advance: Callable[[float, str], None]) -> CheckReport:
+    """Compile and compare every backend of a scene.
+
+    Parameters
+    ----------
+    scene : Scene
+        Of either kind.
+    advance : callable
+        Called with the share of the work that is done and what comes next.
+
+    Raises
+    ------
+    UserError
+        If the scene asks for something that does not exist, or there is no C compiler.
+    """
+    from tmm_gen.native import compile_kernel
+    from tmm_gen.program.build import build_program
+    from tmm_gen.program.count import count_routine
+
+    backends, real = scene.emit.backends, scene.emit.real
+    planar = scene.model.kind == "planar"
+    program = build_program(scene)
+    facts: dict[str, object] = {"operations_per_step": count_routine(program.main).total}
+    module = numpy_module(scene, program)
+    reference = numpy_step(module, program)
+    vectors = list(reached_vectors(module, program) if planar else random_vectors(program))
+    allowed = PLANAR_STEP if planar else ONE_STEP
+    rows: list[CheckRow] = []
+    kernel = None
+    if "c" in backends:
+        advance(0.1, "compiling the C")
+        rows.append(_host_test(program, scene))
+        kernel = compile_kernel(program, scene)
+        cost = by_turns({"c": kernel.timer()})["c"]
+        facts |= {"ns_per_step": cost.ns_per_step, "ns_spread": cost.spread}
+        rows.append(_one_step("c", reference, native_step(kernel, program), vectors, allowed[real]))
+    if "casadi" in backends:
+        advance(0.2, "building the CasADi model")
+        step = casadi_step(casadi_module(scene, program), program)
+        rows.append(_one_step("casadi", reference, step, vectors, allowed["float64"]))
+    advance(0.2, "simulating")
+    rows += _runs(scene, module, kernel)
+    advance(0.3, "refining the step")
+    rows.append(planar_slope(scene, module, facts) if planar else _slope(scene, module, facts))
+    advance(0.2, "done")
+    return CheckReport(tuple(rows), facts)
+
+
+def _host_test(program: Any, scene: Scene) -> CheckRow:
+    failures, said = run_host_test(program, scene)
+    return CheckRow(
+        "c_host_test",
+        failures,
+        0,
+        f"the generated C compiles without a warning and passes its own test ({said})",
+    )
+
+
+def _one_step(name: str, one: Step, other: Step, vectors: list[Vector], bound: float) -> CheckRow:
+    return CheckRow(
+        f"numpy_against_{name}",
+        largest_difference(one, other, vectors),
+        bound,
+        f"largest relative difference after one step from {len(vectors)} random states",
+    )
+
+
+def unit_inputs(scene: Scene) -> dict[str, Signal]:
+    """Return a constant 1 for every input; a prescribed base swings from there."""
+    swing = Sine(1.0, _SWING, math.pi / 2.0)
+    return {i.name: swing if i.acts == "angle" else Constant(1.0) for i in scene.inputs}
+
+
+def _at_base_angle(scene: Scene) -> Scene:
+    """Return a scene whose links stand along a prescribed base at the start."""
+    if scene.base.kind != "prescribed":
+        return scene
+    return scene.replace(initial={"angles": 1.0, "rates": 0.0})
+
+
+def _runs(scene: Scene, module: ModuleType, kernel: Any) -> list[CheckRow]:
+    """Compare a run with the exact response, and in C with that in NumPy."""
+    loads = unit_inputs(scene)
+    duration = min(default_duration(scene) / 5, _LONGEST_RUN * scene.integrator.step)
+    started = _at_base_angle(scene)
+    if started is not scene:  # where a kernel starts by itself stands in it
+        from tmm_gen.native import compile_kernel
+        from tmm_gen.program.build import build_program
+
+        program = build_program(started)
+        module = numpy_module(started, program)
+        kernel = compile_kernel(program, started) if kernel is not None else None
+    found = simulate(started, loads, duration, kernel=module, judge=False)
+    exact = exact_response(started, loads, found.time)
+    scale = {name: float(np.max(np.abs(values))) or 1.0 for name, values in exact.items()}
+    worst = max(exact, key=lambda name: rms_error(found.outputs[name], exact[name], scale[name]))
+    rows = [
+        CheckRow(
+            "error_against_exact",
+            rms_error(found.outputs[worst], exact[worst], scale[worst]),
+            ERROR,
+            f"RMS error of {worst} over {found.time[-1]:.3g} s under unit inputs, relative to its peak",
+        )
+    ]
+    if kernel is not None:
+        native = simulate(started, loads, duration, "c", kernel=kernel, judge=False)
+        apart = max(largest_error(native.outputs[k], found.outputs[k], scale[k]) for k in scale)
+        rows.append(
+            CheckRow(
+                "c_run_against_numpy",
+                apart,
+                RUN[scene.emit.real],
+                f"largest difference over the same {found.steps} steps, relative to the peak",
+            )
+        )
+    return rows
+
+
+def _slope(scene: Scene, module: ModuleType, facts: dict[str, object]) -> CheckRow:
+    """Fit the order of convergence of the tip angle under unit inputs, the links moving from the start."""
+    from tmm_gen.derive.integrators.order import order
+    from tmm_gen.derive.integrators.registry import integrator
+
+    derived = order(integrator(scene.integrator.name, **scene.integrator.parameters))
+    mode = fastest_mode(scene)
+    coarsest = _TURN / (mode.frequency * max(1.0, 2.0 * mode.damping_ratio))
+    tip = [{"name": "tip_angle", "at": "tip", "of": "angle"}]
+    moving = scene.replace(**{"output": tip, "initial": {"angles": 0.0, "rates": 1.0}})
+    times: Array = coarsest * np.arange(1, _STEPS[0] + 1, dtype=float)
+    held = {item.name: Constant(1.0) for item in scene.inputs}
+    exact = exact_response(moving, held, times)["tip_angle"]
+    errors = []
+    for steps in _STEPS:
+        stride = steps // _STEPS[0]
+        found = _moving_tip(module, scene, coarsest / stride, steps)
+        errors.append(largest_error(found[stride - 1 :: stride], exact, float(np.max(np.abs(exact)))))
+    fitted = convergence_slope([1.0 / steps for steps in _STEPS], errors).order
+    facts |= {"fitted_order": fitted, "derived_order": derived}
+    return CheckRow(
+        "order_against_derived",
+        abs(fitted - derived),
+        SLOPE,
+        f"error goes with step^{fitted:.3f}, fitted on {len(_STEPS)} steps from {coarsest:.2g} s down; "
+        f"derived: step^{derived}",
+    )
+
+
+def _moving_tip(module: ModuleType, scene: Scene, step: float, steps: int) -> Array:
+    """Return the tip angle after each step under unit inputs, all links turning at 1 rad/s at first."""
+    given = module.Input(**{item.name: 1.0 for item in scene.inputs})
+    start = {"initial_angle": 0.0, "initial_rate": 1.0}
+    if "step" in inspect.signature(module.initialise).parameters:
+        start["step"] = step
+    model, state = module.prepare(step=step), module.initialise(module.Params(), given, **start)
+    tip = np.empty(steps)
+    for index in range(steps):
+        state = module.step(model, state, given)
+        tip[index] = state.angle[-1] + getattr(state, "turned", 0.0)
+    return tip

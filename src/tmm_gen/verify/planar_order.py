@@ -1,0 +1,101 @@
+"""The order of convergence of a planar arm's kernel, on a softened copy of its scene.
+
+On the arm itself a step that resolves the fastest vibration is over before anything has turned, and one that does not
+shows the integrator's treatment of what it cannot resolve rather than its order. With all springs and dampers scaled
+down alike, the same code and the same links make a motion whose every vibration is as slow as its rotation.
+"""
+
+from __future__ import annotations
+
+import inspect
+from dataclasses import replace
+from types import ModuleType
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.reference.frequency import fastest_mode
+from tmm_gen.reference.planar_arm import Arm
+from tmm_gen.scene import Joint, Scene
+from tmm_gen.simulate.metrics import convergence_slope
+from tmm_gen.verify.check_row import CheckRow
+
+Array = NDArray[np.float64]
+
+RATE = 1.0
+"""rad/s at which all links turn at first."""
+_FASTEST = 40.0
+"""rad/s of the fastest vibration of the softened arm, and of its decay."""
+_COARSEST = 0.004
+"""s."""
+_STEPS = (64, 128, 256, 512)
+SLOPE = 0.1
+"""How far the fitted order may be from the derived one."""
+
+
+def planar_slope(scene: Scene, module: ModuleType, facts: dict[str, object]) -> CheckRow:
+    """Compare the fitted order of the angles of all links with the derived one.
+
+    Parameters
+    ----------
+    scene : Scene
+        Of kind "planar".
+    module : module
+        Its generated NumPy package.
+    facts : dict
+        Receives ``fitted_order`` and ``derived_order``.
+    """
+    from tmm_gen.derive.integrators.order import order
+    from tmm_gen.derive.integrators.registry import integrator
+
+    derived = order(integrator(scene.integrator.name, **scene.integrator.parameters))
+    soft = softened(scene)
+    times: Array = _COARSEST * np.arange(1, _STEPS[0] + 1, dtype=float)
+    moving = replace(
+        soft, initial=replace(soft.initial, angles=(0.0,) * scene.stations, rates=(RATE,) * scene.stations)
+    )
+    arm = Arm(moving, {})
+    exact = arm.trajectory(float(times[-1])).at(times)[0][:, arm.first :]
+    errors = []
+    for steps in _STEPS:
+        stride = steps // _STEPS[0]
+        found = _angles(module, soft, _COARSEST / stride, steps)
+        errors.append(float(np.max(np.abs(found[stride - 1 :: stride] - exact))))
+    fitted = convergence_slope([1.0 / steps for steps in _STEPS], errors).order
+    facts |= {"fitted_order": fitted, "derived_order": derived}
+    return CheckRow(
+        "order_against_derived",
+        abs(fitted - derived),
+        SLOPE,
+        f"error goes with step^{fitted:.3f}, fitted on {len(_STEPS)} steps from {_COARSEST:g} s down on the arm "
+        f"with softened joints; derived: step^{derived}",
+    )
+
+
+def softened(scene: Scene) -> Scene:
+    """Return a scene with all springs and dampers scaled down until the fastest vibration is slow."""
+    mode = fastest_mode(scene)
+    share = min(1.0, (_FASTEST / mode.frequency) ** 2)
+    joints = tuple(
+        Joint.model_construct(stiffness=share * j.stiffness, damping=share * j.damping) for j in scene.joints
+    )
+    return replace(scene, joints=joints)
+
+
+def _angles(module: ModuleType, soft: Scene, step: float, steps: int) -> Array:
+    """Return the angles after each step, (steps, n), all links turning alike at first, no input acting."""
+    params = module.Params()
+    changed = {"stiffness": [j.stiffness for j in soft.joints]}
+    if hasattr(params, "damping"):
+        changed["damping"] = [j.damping for j in soft.joints]
+    params = replace(params, **{name: np.array(values) for name, values in changed.items()})
+    given = module.Input(**{item.name: 0.0 for item in soft.inputs})
+    start = {"initial_angle": 0.0, "initial_rate": RATE}
+    if "step" in inspect.signature(module.initialise).parameters:
+        start["step"] = step
+    model, state = module.prepare(params, step=step), module.initialise(params, given, **start)
+    found = np.empty((steps, soft.stations))
+    for index in range(steps):
+        state = module.step(model, state, given)
+        found[index] = state.angle
+    return found

@@ -1,0 +1,56 @@
+"""What moves the arm is smooth, said in words, and of the scene's size."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from tmm_gen.errors import UserError
+from tmm_gen.inputs.signals import Constant
+from tmm_gen.scene import Scene, load_scene
+from tmm_gen.study.excitation import columns, excitation, unit
+from tmm_gen.study.rise import SMOOTH, Rise
+
+
+def test_rise_is_smooth_at_both_ends() -> None:
+    rise = Rise(2.0, 3.0)
+    assert abs(float(rise.at(0.0))) < 1e-15
+    assert float(rise.at(3.0)) == float(rise.at(7.0)) == pytest.approx(2.0, rel=1e-15)
+    assert float(rise.at(1.5)) == 1.0
+    # the first derivatives vanish, so that the way out of an end goes with the next power of time
+    for end in (0.0, 3.0):
+        away = [abs(float(rise.at(abs(end - x))) - float(rise.at(end))) for x in (0.1, 0.05)]
+        assert np.log2(away[0] / away[1]) == pytest.approx(SMOOTH + 1, abs=0.2)
+
+
+@pytest.mark.parametrize("time", [-1.0, 0.0, 0.4, 1.5, 2.9, 3.0, 4.0])
+def test_slope_is_the_derivative(time: float) -> None:
+    rise, d = Rise(2.0, 3.0), 1e-5
+    numeric = (float(rise.at(time + d)) - float(rise.at(time - d))) / (2.0 * d)
+    assert rise.slope(time) == pytest.approx(numeric, abs=1e-9)
+
+
+def test_defaults_of_a_scene_with_two_inputs_and_gravity() -> None:
+    scene = load_scene("scenes/arm10.toml")
+    went = excitation(scene)
+    assert set(went.signals) == {"hub_torque", "tip_force"}
+    assert went.output == "tip"
+    assert (unit(scene, went.output), columns(scene, went.output)) == ("m", ("tip_x", "tip_y"))
+    told = went.told(scene)
+    assert told[-1] == "gravity of 9.81 m/s^2"
+    assert told[0].startswith("hub_torque: 3 sin(")
+
+
+def test_given_inputs_replace_the_defaults(chain: Scene) -> None:
+    went = excitation(chain, {"torque": Constant(2.0)}, until=1.0)
+    assert went.told(chain) == ["torque: 2, constant"]
+
+
+def test_nothing_that_moves_is_refused(chain: Scene) -> None:
+    with pytest.raises(UserError, match="nothing moves"):
+        excitation(chain, {"torque": Constant(0.0)})
+
+
+def test_unknown_output_is_refused(chain: Scene) -> None:
+    with pytest.raises(UserError, match="no such output; choose from tip"):
+        excitation(chain, output="hub")

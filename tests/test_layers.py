@@ -1,0 +1,107 @@
+"""Data flows one way: a folder of the package imports only from folders below it, and no modules import in a circle."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from graphlib import CycleError, TopologicalSorter
+from pathlib import Path
+
+import pytest
+
+PACKAGE = Path(__file__).resolve().parents[1] / "src" / "tmm_gen"
+
+LAYERS = (
+    {"backends", "csv_text", "errors", "resources", "style", "trusted", "version"},
+    {"extras", "reading", "scratch"},
+    {"files"},
+    {"scene"},
+    {"inputs"},
+    {"reference", "derive"},
+    {"row"},
+    {"program"},
+    {"emit"},
+    {"native", "target"},
+    {"modal"},
+    {"simulate", "explain"},
+    {"stability", "verify", "study"},
+    {"control", "export"},
+    {"report"},
+    {"cli"},
+    {"__main__"},
+)
+"""From the ground up; what stands in one layer does not import from each other."""
+
+INDEPENDENT = {"reference": {"derive", "program", "emit", "native"}}
+"""What must not be seen from where, directly or by way of others: a reference is a truth of its own."""
+
+
+def _modules() -> dict[str, Path]:
+    found = {}
+    for path in PACKAGE.rglob("*.py"):
+        parts = path.relative_to(PACKAGE).with_suffix("").parts
+        found[".".join(p for p in ("tmm_gen", *parts) if p != "__init__")] = path
+    return found
+
+
+MODULES = _modules()
+
+
+def _imports(path: Path) -> Iterator[str]:
+    """Modules of the package that a file imports, inside of functions too; not those for type checkers alone."""
+    tree = ast.parse(path.read_text())
+    for node in ast.walk(tree):
+        if isinstance(node, ast.If) and "TYPE_CHECKING" in ast.dump(node.test):
+            node.body = []
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names if alias.name.startswith("tmm_gen"))
+        elif isinstance(node, ast.ImportFrom) and (node.module or "").startswith("tmm_gen"):
+            for alias in node.names:
+                inner = f"{node.module}.{alias.name}"
+                yield inner if inner in MODULES else str(node.module)
+
+
+IMPORTS = {name: set(_imports(path)) - {"tmm_gen"} for name, path in MODULES.items() if name != "tmm_gen"}
+
+
+def _folder(module: str) -> str:
+    return module.split(".")[1]
+
+
+RANK = {folder: rank for rank, layer in enumerate(LAYERS) for folder in layer}
+
+
+def test_every_folder_has_a_place() -> None:
+    assert {_folder(name) for name in IMPORTS} == set(RANK)
+
+
+@pytest.mark.parametrize("folder", sorted(RANK))
+def test_no_arrow_upward(folder: str) -> None:
+    upward = {
+        f"{name} -> {other}"
+        for name, others in IMPORTS.items()
+        if _folder(name) == folder
+        for other in others
+        if _folder(other) != folder and RANK[_folder(other)] >= RANK[folder]
+    }
+    assert not upward
+
+
+def test_no_circles() -> None:
+    try:
+        TopologicalSorter(IMPORTS).prepare()
+    except CycleError as error:
+        pytest.fail(" -> ".join(error.args[1]))
+
+
+@pytest.mark.parametrize(("folder", "hidden"), INDEPENDENT.items())
+def test_references_are_independent(folder: str, hidden: set[str]) -> None:
+    seen: set[str] = set()
+    reached = [name for name in IMPORTS if _folder(name) == folder]
+    while reached:
+        name = reached.pop()
+        if name not in seen:
+            seen.add(name)
+            reached.extend(IMPORTS[name])
+    assert not {name for name in seen if _folder(name) in hidden}
