@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: d9d28dc691ae4f0a1d62cb9cfa9f4612d111fa76a756dd286c77eac7f930ab35
-# sha256 of the rest of this file: feefe88ff591e00bbf77a72d9d3bf458f57ef4c882a8ab2beda70c40248f94b1
+# sha256 of the rest of this file: c47dbb0daa7dfadc77e82f9d935256778a477ed28839ae3152634cd6013cc9a7
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 10
@@ -396,8 +396,8 @@ def initialise(
     solved = np.zeros((STATIONS, *batch), dtype)
 
     # masses at the nodes between links, and what they leave over
-    end_mass = tip_mass - mass * (1.0 - center)
-    rod_inertia = inertia - center * (length * length) * mass * (1.0 - center)
+    start_end_mass = tip_mass - mass * (1.0 - center)
+    start_rod_inertia = inertia - center * (length * length) * mass * (1.0 - center)
 
     # what is the same at every station
     hub_pivot = hub_inertia
@@ -433,12 +433,12 @@ def initialise(
     )
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
-    impedance_xx = end_mass
-    impedance_yy = end_mass
-    force_x = acceleration_x[10] * end_mass
-    force_y = acceleration_y[10] * end_mass - tip_force
+    impedance_xx = start_end_mass
     impedance_xy: Any = 0.0
     impedance_yx: Any = 0.0
+    impedance_yy = start_end_mass
+    force_x = acceleration_x[10] * start_end_mass
+    force_y = acceleration_y[10] * start_end_mass - tip_force
     torque: Any = 0.0
     for j in reversed(range(STATIONS)):
         impedance_xx = impedance_xx + mass
@@ -449,12 +449,12 @@ def initialise(
         impedance_yu = impedance_yy * lever_cosine[j] - impedance_yx * lever_sine[j]
         impedance_ux = impedance_yx * lever_cosine[j] - impedance_xx * lever_sine[j]
         impedance_uy = impedance_yy * lever_cosine[j] - impedance_xy * lever_sine[j]
-        impedance_uu = rod_inertia - impedance_xu * lever_sine[j] + impedance_yu * lever_cosine[j]
+        impedance_uu = start_rod_inertia - impedance_xu * lever_sine[j] + impedance_yu * lever_cosine[j]
         torque = (
             torque
             - force_x * lever_sine[j]
             + force_y * lever_cosine[j]
-            + predicted_acceleration[j + 1] * rod_inertia
+            + predicted_acceleration[j + 1] * start_rod_inertia
         )
         pivot = impedance_uu
         good = _positive_pivot(good, pivot, "pivot", j)
@@ -629,16 +629,16 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
     impedance_xx = end_mass
+    impedance_xy: Any = 0.0
+    impedance_xu: Any = 0.0
+    impedance_yx: Any = 0.0
     impedance_yy = end_mass
-    force_x = acceleration_x[10] * end_mass
-    force_y = acceleration_y[10] * end_mass - tip_force
-    impedance_uu: Any = 0.0
+    impedance_yu: Any = 0.0
     impedance_ux: Any = 0.0
     impedance_uy: Any = 0.0
-    impedance_xu: Any = 0.0
-    impedance_xy: Any = 0.0
-    impedance_yu: Any = 0.0
-    impedance_yx: Any = 0.0
+    impedance_uu: Any = 0.0
+    force_x = acceleration_x[10] * end_mass
+    force_y = acceleration_y[10] * end_mass - tip_force
     torque: Any = 0.0
     for j in reversed(range(STATIONS)):
         impedance_xx = impedance_xx + mass

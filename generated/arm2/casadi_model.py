@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: c5e09abbb61734735cef8cfddf39dd959eb5765da3ad6484bed2957b4fdf212c
-# sha256 of the rest of this file: 2e8e682163332ced047d8bdc65a4e532088e280bd70e517235d489f1aad33428
+# sha256 of the rest of this file: 2bb44dd11245507ff5ca04997249f3091fba816b62f10d9ba2b9ef9f62c8a73e
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 2
@@ -233,22 +233,22 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
     joint_torque: list[Any] = [0.0] * STATIONS
     lever_cosine: list[Any] = [0.0] * STATIONS
     lever_sine: list[Any] = [0.0] * STATIONS
-    node_mass: list[Any] = [0.0] * STATIONS
     predicted_acceleration: list[Any] = [0.0] * (STATIONS + 1)
     predicted_angle: list[Any] = [0.0] * (STATIONS + 1)
     predicted_rate: list[Any] = [0.0] * (STATIONS + 1)
     rate: list[Any] = [0.0] * STATIONS
     relative_x: list[Any] = [0.0] * STATIONS
     relative_y: list[Any] = [0.0] * STATIONS
-    rod_inertia: list[Any] = [0.0] * STATIONS
     solved: list[Any] = [0.0] * STATIONS
+    start_node_mass: list[Any] = [0.0] * STATIONS
+    start_rod_inertia: list[Any] = [0.0] * STATIONS
 
     # masses at the nodes between links, and what they leave over
     for j in range(1):
-        node_mass[j] = center[j] * mass[j] + mass[j + 1] * (1.0 - center[j + 1])
-    node_mass[1] = tip_mass + center[1] * mass[1]
+        start_node_mass[j] = center[j] * mass[j] + mass[j + 1] * (1.0 - center[j + 1])
+    start_node_mass[1] = tip_mass + center[1] * mass[1]
     for j in range(STATIONS):
-        rod_inertia[j] = inertia[j] - center[j] * (length[j] * length[j]) * mass[j] * (1.0 - center[j])
+        start_rod_inertia[j] = inertia[j] - center[j] * (length[j] * length[j]) * mass[j] * (1.0 - center[j])
 
     # what is the same at every station
     hub_pivot = hub_inertia
@@ -286,31 +286,34 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
         )
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
-    impedance_uu = tip_inertia
-    torque = predicted_acceleration[2] * tip_inertia
-    force_x: Any = 0.0
-    force_y: Any = 0.0
     impedance_xx: Any = 0.0
     impedance_xy: Any = 0.0
     impedance_yx: Any = 0.0
     impedance_yy: Any = 0.0
+    impedance_uu = tip_inertia
+    force_x: Any = 0.0
+    force_y: Any = 0.0
+    torque = predicted_acceleration[2] * tip_inertia
     for j in reversed(range(STATIONS)):
-        impedance_xx = impedance_xx + node_mass[j]
-        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
-        impedance_yy = impedance_yy + node_mass[j]
-        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
+        impedance_xx = impedance_xx + start_node_mass[j]
+        force_x = force_x + acceleration_x[j + 1] * start_node_mass[j]
+        impedance_yy = impedance_yy + start_node_mass[j]
+        force_y = force_y + acceleration_y[j + 1] * start_node_mass[j]
         impedance_xu = impedance_xy * lever_cosine[j] - impedance_xx * lever_sine[j]
         impedance_yu = impedance_yy * lever_cosine[j] - impedance_yx * lever_sine[j]
         impedance_ux = impedance_yx * lever_cosine[j] - impedance_xx * lever_sine[j]
         impedance_uy = impedance_yy * lever_cosine[j] - impedance_xy * lever_sine[j]
         impedance_uu = (
-            impedance_uu + rod_inertia[j] - impedance_xu * lever_sine[j] + impedance_yu * lever_cosine[j]
+            impedance_uu
+            + start_rod_inertia[j]
+            - impedance_xu * lever_sine[j]
+            + impedance_yu * lever_cosine[j]
         )
         torque = (
             torque
             - force_x * lever_sine[j]
             + force_y * lever_cosine[j]
-            + predicted_acceleration[j + 1] * rod_inertia[j]
+            + predicted_acceleration[j + 1] * start_rod_inertia[j]
         )
         pivot = impedance_uu
         admittance = 1.0 / pivot
@@ -427,18 +430,18 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         )
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
-    impedance_uu = tip_inertia
-    torque = acceleration[1] * tip_inertia
-    force_x: Any = 0.0
-    force_y: Any = 0.0
-    impedance_ux: Any = 0.0
-    impedance_uy: Any = 0.0
-    impedance_xu: Any = 0.0
     impedance_xx: Any = 0.0
     impedance_xy: Any = 0.0
-    impedance_yu: Any = 0.0
+    impedance_xu: Any = 0.0
     impedance_yx: Any = 0.0
     impedance_yy: Any = 0.0
+    impedance_yu: Any = 0.0
+    impedance_ux: Any = 0.0
+    impedance_uy: Any = 0.0
+    impedance_uu = tip_inertia
+    force_x: Any = 0.0
+    force_y: Any = 0.0
+    torque = acceleration[1] * tip_inertia
     for j in reversed(range(STATIONS)):
         impedance_xx = impedance_xx + node_mass[j]
         force_x = force_x + acceleration_x[j + 1] * node_mass[j]

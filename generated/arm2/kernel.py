@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: c5e09abbb61734735cef8cfddf39dd959eb5765da3ad6484bed2957b4fdf212c
-# sha256 of the rest of this file: e7289792d9cd3d5481bf44353a724ba03ac28d36762cf4e983d0b539d7fdb440
+# sha256 of the rest of this file: fd473e231a12119cf64c208b84026ed11bb532deb378b2bd65c2e323fbd47df4
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 2
@@ -385,16 +385,16 @@ def initialise(
     answer_own = np.zeros((STATIONS, *batch), dtype)
     answer_x = np.zeros((STATIONS, *batch), dtype)
     answer_y = np.zeros((STATIONS, *batch), dtype)
-    node_mass = np.zeros((STATIONS, *batch), dtype)
     predicted_acceleration = np.zeros((STATIONS + 1, *batch), dtype)
     predicted_angle = np.zeros((STATIONS + 1, *batch), dtype)
     predicted_rate = np.zeros((STATIONS + 1, *batch), dtype)
     solved = np.zeros((STATIONS, *batch), dtype)
+    start_node_mass = np.zeros((STATIONS, *batch), dtype)
 
     # masses at the nodes between links, and what they leave over
-    node_mass[:1] = center[:1] * mass[:1] + mass[1:] * (1.0 - center[1:])
-    node_mass[1] = tip_mass + center[1] * mass[1]
-    rod_inertia = inertia - center * (length * length) * mass * (1.0 - center)
+    start_node_mass[:1] = center[:1] * mass[:1] + mass[1:] * (1.0 - center[1:])
+    start_node_mass[1] = tip_mass + center[1] * mass[1]
+    start_rod_inertia = inertia - center * (length * length) * mass * (1.0 - center)
 
     # what is the same at every station
     hub_pivot = hub_inertia
@@ -430,31 +430,34 @@ def initialise(
     )
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
-    impedance_uu = tip_inertia
-    torque = predicted_acceleration[2] * tip_inertia
-    force_x: Any = 0.0
-    force_y: Any = 0.0
     impedance_xx: Any = 0.0
     impedance_xy: Any = 0.0
     impedance_yx: Any = 0.0
     impedance_yy: Any = 0.0
+    impedance_uu = tip_inertia
+    force_x: Any = 0.0
+    force_y: Any = 0.0
+    torque = predicted_acceleration[2] * tip_inertia
     for j in reversed(range(STATIONS)):
-        impedance_xx = impedance_xx + node_mass[j]
-        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
-        impedance_yy = impedance_yy + node_mass[j]
-        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
+        impedance_xx = impedance_xx + start_node_mass[j]
+        force_x = force_x + acceleration_x[j + 1] * start_node_mass[j]
+        impedance_yy = impedance_yy + start_node_mass[j]
+        force_y = force_y + acceleration_y[j + 1] * start_node_mass[j]
         impedance_xu = impedance_xy * lever_cosine[j] - impedance_xx * lever_sine[j]
         impedance_yu = impedance_yy * lever_cosine[j] - impedance_yx * lever_sine[j]
         impedance_ux = impedance_yx * lever_cosine[j] - impedance_xx * lever_sine[j]
         impedance_uy = impedance_yy * lever_cosine[j] - impedance_xy * lever_sine[j]
         impedance_uu = (
-            impedance_uu + rod_inertia[j] - impedance_xu * lever_sine[j] + impedance_yu * lever_cosine[j]
+            impedance_uu
+            + start_rod_inertia[j]
+            - impedance_xu * lever_sine[j]
+            + impedance_yu * lever_cosine[j]
         )
         torque = (
             torque
             - force_x * lever_sine[j]
             + force_y * lever_cosine[j]
-            + predicted_acceleration[j + 1] * rod_inertia[j]
+            + predicted_acceleration[j + 1] * start_rod_inertia[j]
         )
         pivot = impedance_uu
         good = _positive_pivot(good, pivot, "pivot", j)
@@ -627,18 +630,18 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     )
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
-    impedance_uu = tip_inertia
-    torque = acceleration[1] * tip_inertia
-    force_x: Any = 0.0
-    force_y: Any = 0.0
-    impedance_ux: Any = 0.0
-    impedance_uy: Any = 0.0
-    impedance_xu: Any = 0.0
     impedance_xx: Any = 0.0
     impedance_xy: Any = 0.0
-    impedance_yu: Any = 0.0
+    impedance_xu: Any = 0.0
     impedance_yx: Any = 0.0
     impedance_yy: Any = 0.0
+    impedance_yu: Any = 0.0
+    impedance_ux: Any = 0.0
+    impedance_uy: Any = 0.0
+    impedance_uu = tip_inertia
+    force_x: Any = 0.0
+    force_y: Any = 0.0
+    torque = acceleration[1] * tip_inertia
     for j in reversed(range(STATIONS)):
         impedance_xx = impedance_xx + node_mass[j]
         force_x = force_x + acceleration_x[j + 1] * node_mass[j]

@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
-# sha256 of the rest of this file: f38d31c187322ede65f2a0d0ac6a793f4f7b61b4ad06895ad5bda7264a47c798
+# sha256 of the rest of this file: 89b606d1079352ae7609d6b423b3ba7aa6fe32708914c0509d586077222f5bb5
 #
 # model: planar arm, large rotations, tip mass
 # stations: 50
@@ -352,8 +352,8 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
     solved: list[Any] = [0.0] * STATIONS
 
     # masses at the nodes between links, and what they leave over
-    end_mass = tip_mass - mass * (1.0 - center)
-    rod_inertia = inertia - center * (length * length) * mass * (1.0 - center)
+    start_end_mass = tip_mass - mass * (1.0 - center)
+    start_rod_inertia = inertia - center * (length * length) * mass * (1.0 - center)
 
     # predicted motion
     predicted_rate[0] = base_angle_rate[0]
@@ -388,14 +388,14 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
         )
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
-    impedance_xx = end_mass
-    impedance_yy = end_mass
-    impedance_uu = tip_inertia
-    force_x = acceleration_x[50] * end_mass
-    force_y = acceleration_y[50] * end_mass
-    torque = predicted_acceleration[50] * tip_inertia
+    impedance_xx = start_end_mass
     impedance_xy: Any = 0.0
     impedance_yx: Any = 0.0
+    impedance_yy = start_end_mass
+    impedance_uu = tip_inertia
+    force_x = acceleration_x[50] * start_end_mass
+    force_y = acceleration_y[50] * start_end_mass
+    torque = predicted_acceleration[50] * tip_inertia
     for j in reversed(range(STATIONS)):
         impedance_xx = impedance_xx + mass
         force_x = force_x + acceleration_x[j + 1] * mass
@@ -406,13 +406,13 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
         impedance_ux = impedance_yx * lever_cosine[j] - impedance_xx * lever_sine[j]
         impedance_uy = impedance_yy * lever_cosine[j] - impedance_xy * lever_sine[j]
         impedance_uu = (
-            impedance_uu + rod_inertia - impedance_xu * lever_sine[j] + impedance_yu * lever_cosine[j]
+            impedance_uu + start_rod_inertia - impedance_xu * lever_sine[j] + impedance_yu * lever_cosine[j]
         )
         torque = (
             torque
             - force_x * lever_sine[j]
             + force_y * lever_cosine[j]
-            + predicted_acceleration[j + 1] * rod_inertia
+            + predicted_acceleration[j + 1] * start_rod_inertia
         )
         pivot = impedance_uu
         admittance = 1.0 / pivot
@@ -543,17 +543,17 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
 
     # Stage 1 of 5: sweep inward: force beyond each joint as an affine function of the motion at it
     impedance_xx = end_mass
+    impedance_xy: Any = 0.0
+    impedance_xu: Any = 0.0
+    impedance_yx: Any = 0.0
     impedance_yy = end_mass
+    impedance_yu: Any = 0.0
+    impedance_ux: Any = 0.0
+    impedance_uy: Any = 0.0
     impedance_uu = tip_inertia
     force_x = acceleration_x[50] * end_mass
     force_y = acceleration_y[50] * end_mass
     torque = acceleration[49] * tip_inertia
-    impedance_ux: Any = 0.0
-    impedance_uy: Any = 0.0
-    impedance_xu: Any = 0.0
-    impedance_xy: Any = 0.0
-    impedance_yu: Any = 0.0
-    impedance_yx: Any = 0.0
     for j in reversed(range(STATIONS)):
         impedance_xx = impedance_xx + mass
         force_x = force_x + acceleration_x[j + 1] * mass
@@ -644,17 +644,17 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
 
     # Stage 2 of 5: sweep inward: force beyond each joint as an affine function of the motion at it
     impedance_xx = end_mass
+    impedance_xy = 0.0
+    impedance_xu = 0.0
+    impedance_yx = 0.0
     impedance_yy = end_mass
+    impedance_yu = 0.0
+    impedance_ux = 0.0
+    impedance_uy = 0.0
     impedance_uu = tip_inertia
     force_x = acceleration_x[50] * end_mass
     force_y = acceleration_y[50] * end_mass
     torque = stage1_acceleration[49] * tip_inertia
-    impedance_ux = 0.0
-    impedance_uy = 0.0
-    impedance_xu = 0.0
-    impedance_xy = 0.0
-    impedance_yu = 0.0
-    impedance_yx = 0.0
     for j in reversed(range(STATIONS)):
         impedance_xx = impedance_xx + mass
         force_x = force_x + acceleration_x[j + 1] * mass
@@ -757,17 +757,17 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
 
     # Stage 3 of 5: sweep inward: force beyond each joint as an affine function of the motion at it
     impedance_xx = end_mass
+    impedance_xy = 0.0
+    impedance_xu = 0.0
+    impedance_yx = 0.0
     impedance_yy = end_mass
+    impedance_yu = 0.0
+    impedance_ux = 0.0
+    impedance_uy = 0.0
     impedance_uu = tip_inertia
     force_x = acceleration_x[50] * end_mass
     force_y = acceleration_y[50] * end_mass
     torque = stage2_acceleration[49] * tip_inertia
-    impedance_ux = 0.0
-    impedance_uy = 0.0
-    impedance_xu = 0.0
-    impedance_xy = 0.0
-    impedance_yu = 0.0
-    impedance_yx = 0.0
     for j in reversed(range(STATIONS)):
         impedance_xx = impedance_xx + mass
         force_x = force_x + acceleration_x[j + 1] * mass
@@ -872,17 +872,17 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
 
     # Stage 4 of 5: sweep inward: force beyond each joint as an affine function of the motion at it
     impedance_xx = end_mass
+    impedance_xy = 0.0
+    impedance_xu = 0.0
+    impedance_yx = 0.0
     impedance_yy = end_mass
+    impedance_yu = 0.0
+    impedance_ux = 0.0
+    impedance_uy = 0.0
     impedance_uu = tip_inertia
     force_x = acceleration_x[50] * end_mass
     force_y = acceleration_y[50] * end_mass
     torque = stage3_acceleration[49] * tip_inertia
-    impedance_ux = 0.0
-    impedance_uy = 0.0
-    impedance_xu = 0.0
-    impedance_xy = 0.0
-    impedance_yu = 0.0
-    impedance_yx = 0.0
     for j in reversed(range(STATIONS)):
         impedance_xx = impedance_xx + mass
         force_x = force_x + acceleration_x[j + 1] * mass
@@ -989,17 +989,17 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
 
     # Stage 5 of 5: sweep inward: force beyond each joint as an affine function of the motion at it
     impedance_xx = end_mass
+    impedance_xy = 0.0
+    impedance_xu = 0.0
+    impedance_yx = 0.0
     impedance_yy = end_mass
+    impedance_yu = 0.0
+    impedance_ux = 0.0
+    impedance_uy = 0.0
     impedance_uu = tip_inertia
     force_x = acceleration_x[50] * end_mass
     force_y = acceleration_y[50] * end_mass
     torque = stage4_acceleration[49] * tip_inertia
-    impedance_ux = 0.0
-    impedance_uy = 0.0
-    impedance_xu = 0.0
-    impedance_xy = 0.0
-    impedance_yu = 0.0
-    impedance_yx = 0.0
     for j in reversed(range(STATIONS)):
         impedance_xx = impedance_xx + mass
         force_x = force_x + acceleration_x[j + 1] * mass

@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
-# sha256 of the rest of this file: 3cd6a37a349911f6968662f2d9037fe0dc8129b0e746e3ba188b51f011f5fb2a
+# sha256 of the rest of this file: 24ff23b372af9f05d9f69198e890fa99da8087c57f2118b98fbbb6e73ef4f53d
 #
 # model: planar arm, large rotations, tip mass
 # stations: 50
@@ -569,8 +569,8 @@ def initialise(
     solved = np.zeros((STATIONS, *batch), dtype)
 
     # masses at the nodes between links, and what they leave over
-    end_mass = tip_mass - mass * (1.0 - center)
-    rod_inertia = inertia - center * (length * length) * mass * (1.0 - center)
+    start_end_mass = tip_mass - mass * (1.0 - center)
+    start_rod_inertia = inertia - center * (length * length) * mass * (1.0 - center)
 
     # predicted motion
     predicted_rate[0] = base_angle_rate[0]
@@ -602,14 +602,14 @@ def initialise(
     )
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
-    impedance_xx = end_mass
-    impedance_yy = end_mass
-    impedance_uu = tip_inertia
-    force_x = acceleration_x[50] * end_mass
-    force_y = acceleration_y[50] * end_mass
-    torque = predicted_acceleration[50] * tip_inertia
+    impedance_xx = start_end_mass
     impedance_xy: Any = 0.0
     impedance_yx: Any = 0.0
+    impedance_yy = start_end_mass
+    impedance_uu = tip_inertia
+    force_x = acceleration_x[50] * start_end_mass
+    force_y = acceleration_y[50] * start_end_mass
+    torque = predicted_acceleration[50] * tip_inertia
     for j in reversed(range(STATIONS)):
         impedance_xx = impedance_xx + mass
         force_x = force_x + acceleration_x[j + 1] * mass
@@ -620,13 +620,13 @@ def initialise(
         impedance_ux = impedance_yx * lever_cosine[j] - impedance_xx * lever_sine[j]
         impedance_uy = impedance_yy * lever_cosine[j] - impedance_xy * lever_sine[j]
         impedance_uu = (
-            impedance_uu + rod_inertia - impedance_xu * lever_sine[j] + impedance_yu * lever_cosine[j]
+            impedance_uu + start_rod_inertia - impedance_xu * lever_sine[j] + impedance_yu * lever_cosine[j]
         )
         torque = (
             torque
             - force_x * lever_sine[j]
             + force_y * lever_cosine[j]
-            + predicted_acceleration[j + 1] * rod_inertia
+            + predicted_acceleration[j + 1] * start_rod_inertia
         )
         pivot = impedance_uu
         good = _positive_pivot(good, pivot, "pivot", j)
@@ -813,17 +813,17 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
 
     # Stage 1 of 5: sweep inward: force beyond each joint as an affine function of the motion at it
     impedance_xx = end_mass
+    impedance_xy: Any = 0.0
+    impedance_xu: Any = 0.0
+    impedance_yx: Any = 0.0
     impedance_yy = end_mass
+    impedance_yu: Any = 0.0
+    impedance_ux: Any = 0.0
+    impedance_uy: Any = 0.0
     impedance_uu = tip_inertia
     force_x = acceleration_x[50] * end_mass
     force_y = acceleration_y[50] * end_mass
     torque = acceleration[49] * tip_inertia
-    impedance_ux: Any = 0.0
-    impedance_uy: Any = 0.0
-    impedance_xu: Any = 0.0
-    impedance_xy: Any = 0.0
-    impedance_yu: Any = 0.0
-    impedance_yx: Any = 0.0
     for j in reversed(range(STATIONS)):
         impedance_xx = impedance_xx + mass
         force_x = force_x + acceleration_x[j + 1] * mass
@@ -909,17 +909,17 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
 
     # Stage 2 of 5: sweep inward: force beyond each joint as an affine function of the motion at it
     impedance_xx = end_mass
+    impedance_xy = 0.0
+    impedance_xu = 0.0
+    impedance_yx = 0.0
     impedance_yy = end_mass
+    impedance_yu = 0.0
+    impedance_ux = 0.0
+    impedance_uy = 0.0
     impedance_uu = tip_inertia
     force_x = acceleration_x[50] * end_mass
     force_y = acceleration_y[50] * end_mass
     torque = stage1_acceleration[49] * tip_inertia
-    impedance_ux = 0.0
-    impedance_uy = 0.0
-    impedance_xu = 0.0
-    impedance_xy = 0.0
-    impedance_yu = 0.0
-    impedance_yx = 0.0
     for j in reversed(range(STATIONS)):
         impedance_xx = impedance_xx + mass
         force_x = force_x + acceleration_x[j + 1] * mass
@@ -1019,17 +1019,17 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
 
     # Stage 3 of 5: sweep inward: force beyond each joint as an affine function of the motion at it
     impedance_xx = end_mass
+    impedance_xy = 0.0
+    impedance_xu = 0.0
+    impedance_yx = 0.0
     impedance_yy = end_mass
+    impedance_yu = 0.0
+    impedance_ux = 0.0
+    impedance_uy = 0.0
     impedance_uu = tip_inertia
     force_x = acceleration_x[50] * end_mass
     force_y = acceleration_y[50] * end_mass
     torque = stage2_acceleration[49] * tip_inertia
-    impedance_ux = 0.0
-    impedance_uy = 0.0
-    impedance_xu = 0.0
-    impedance_xy = 0.0
-    impedance_yu = 0.0
-    impedance_yx = 0.0
     for j in reversed(range(STATIONS)):
         impedance_xx = impedance_xx + mass
         force_x = force_x + acceleration_x[j + 1] * mass
@@ -1131,17 +1131,17 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
 
     # Stage 4 of 5: sweep inward: force beyond each joint as an affine function of the motion at it
     impedance_xx = end_mass
+    impedance_xy = 0.0
+    impedance_xu = 0.0
+    impedance_yx = 0.0
     impedance_yy = end_mass
+    impedance_yu = 0.0
+    impedance_ux = 0.0
+    impedance_uy = 0.0
     impedance_uu = tip_inertia
     force_x = acceleration_x[50] * end_mass
     force_y = acceleration_y[50] * end_mass
     torque = stage3_acceleration[49] * tip_inertia
-    impedance_ux = 0.0
-    impedance_uy = 0.0
-    impedance_xu = 0.0
-    impedance_xy = 0.0
-    impedance_yu = 0.0
-    impedance_yx = 0.0
     for j in reversed(range(STATIONS)):
         impedance_xx = impedance_xx + mass
         force_x = force_x + acceleration_x[j + 1] * mass
@@ -1245,17 +1245,17 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
 
     # Stage 5 of 5: sweep inward: force beyond each joint as an affine function of the motion at it
     impedance_xx = end_mass
+    impedance_xy = 0.0
+    impedance_xu = 0.0
+    impedance_yx = 0.0
     impedance_yy = end_mass
+    impedance_yu = 0.0
+    impedance_ux = 0.0
+    impedance_uy = 0.0
     impedance_uu = tip_inertia
     force_x = acceleration_x[50] * end_mass
     force_y = acceleration_y[50] * end_mass
     torque = stage4_acceleration[49] * tip_inertia
-    impedance_ux = 0.0
-    impedance_uy = 0.0
-    impedance_xu = 0.0
-    impedance_xy = 0.0
-    impedance_yu = 0.0
-    impedance_yx = 0.0
     for j in reversed(range(STATIONS)):
         impedance_xx = impedance_xx + mass
         force_x = force_x + acceleration_x[j + 1] * mass

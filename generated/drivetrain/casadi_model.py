@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 260c88ca5ffe6b93ea5946fad67187e547942573db1dc2f710bcd9a0610b8738
-# sha256 of the rest of this file: 39a7a1de04d20475115abb79576f03772083ad8afbee22312168f2fee1932e27
+# sha256 of the rest of this file: 33e56d8d9f328110dc455e16cb080b70c8d6f527d7de6d0e58cd2569814587e2
 #
 # model: torsional chain (linear)
 # stations: 6
@@ -246,14 +246,14 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
         torque = load_torque[j] + torque
         impedance = -inertia[j]
         pivot = -impedance
-        admittance = 1.0 / pivot
-        answer_own[j] = admittance * (torque - joint_torque[j])
+        start_admittance = 1.0 / pivot
+        answer_own[j] = start_admittance * (torque - joint_torque[j])
         torque = joint_torque[j]
 
     # the base
     hub_pivot = hub_inertia
-    hub_admittance = 1.0 / hub_pivot
-    unknown = hub_admittance * (motor_torque + torque - hub_damping * known_rate[0])
+    start_hub_admittance = 1.0 / hub_pivot
+    unknown = start_hub_admittance * (motor_torque + torque - hub_damping * known_rate[0])
     hub_unknown = unknown
 
     # sweep outward: the unknown of each station

@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 260c88ca5ffe6b93ea5946fad67187e547942573db1dc2f710bcd9a0610b8738
-# sha256 of the rest of this file: 7b8302660af94dced6732a64d431d6e0f325f7e5948d6757d8272f4730cbe6ac
+# sha256 of the rest of this file: 7440aba3e85dfab1795c7f819c8607579e8ee5471163dd0739a59adc66b104a7
 #
 # model: torsional chain (linear)
 # stations: 6
@@ -387,15 +387,15 @@ def initialise(
         impedance = -inertia[j]
         pivot = -impedance
         good = _positive_pivot(good, pivot, "pivot", j)
-        admittance = 1.0 / pivot
-        answer_own[j] = admittance * (torque - joint_torque[j])
+        start_admittance = 1.0 / pivot
+        answer_own[j] = start_admittance * (torque - joint_torque[j])
         torque = joint_torque[j]
 
     # the base
     hub_pivot = hub_inertia
     good = _positive_pivot(good, hub_pivot, "hub_pivot", None)
-    hub_admittance = 1.0 / hub_pivot
-    unknown = hub_admittance * (motor_torque + torque - hub_damping * known_rate[0])
+    start_hub_admittance = 1.0 / hub_pivot
+    unknown = start_hub_admittance * (motor_torque + torque - hub_damping * known_rate[0])
     hub_unknown = unknown
 
     # sweep outward: the unknown of each station

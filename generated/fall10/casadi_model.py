@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 225557ccb20983327784b6fc8326b9127fb185b183a5e99d150385ab258b9303
-# sha256 of the rest of this file: 7d564df8ade8211c805e0849991f60fb962578f007b495f53d161459a6be3372
+# sha256 of the rest of this file: 4c539ab94e8fb406fc8a43e0aecfa24308a9d1e6cd191efa27be5a0a22f47e54
 #
 # model: planar arm, large rotations, gravity
 # stations: 10
@@ -225,8 +225,8 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
     solved: list[Any] = [0.0] * STATIONS
 
     # masses at the nodes between links, and what they leave over
-    end_mass = -mass * (1.0 - center)
-    rod_inertia = inertia - center * (length * length) * mass * (1.0 - center)
+    start_end_mass = -mass * (1.0 - center)
+    start_rod_inertia = inertia - center * (length * length) * mass * (1.0 - center)
 
     # predicted motion
     predicted_rate[0] = 0.0
@@ -261,12 +261,12 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
         )
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
-    impedance_xx = end_mass
-    impedance_yy = end_mass
-    force_x = acceleration_x[10] * end_mass
-    force_y = acceleration_y[10] * end_mass
+    impedance_xx = start_end_mass
     impedance_xy: Any = 0.0
     impedance_yx: Any = 0.0
+    impedance_yy = start_end_mass
+    force_x = acceleration_x[10] * start_end_mass
+    force_y = acceleration_y[10] * start_end_mass
     torque: Any = 0.0
     for j in reversed(range(STATIONS)):
         impedance_xx = impedance_xx + mass
@@ -277,12 +277,12 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
         impedance_yu = impedance_yy * lever_cosine[j] - impedance_yx * lever_sine[j]
         impedance_ux = impedance_yx * lever_cosine[j] - impedance_xx * lever_sine[j]
         impedance_uy = impedance_yy * lever_cosine[j] - impedance_xy * lever_sine[j]
-        impedance_uu = rod_inertia - impedance_xu * lever_sine[j] + impedance_yu * lever_cosine[j]
+        impedance_uu = start_rod_inertia - impedance_xu * lever_sine[j] + impedance_yu * lever_cosine[j]
         torque = (
             torque
             - force_x * lever_sine[j]
             + force_y * lever_cosine[j]
-            + predicted_acceleration[j + 1] * rod_inertia
+            + predicted_acceleration[j + 1] * start_rod_inertia
         )
         pivot = impedance_uu
         admittance = 1.0 / pivot
@@ -386,16 +386,16 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
     impedance_xx = end_mass
+    impedance_xy: Any = 0.0
+    impedance_xu: Any = 0.0
+    impedance_yx: Any = 0.0
     impedance_yy = end_mass
-    force_x = acceleration_x[10] * end_mass
-    force_y = acceleration_y[10] * end_mass
-    impedance_uu: Any = 0.0
+    impedance_yu: Any = 0.0
     impedance_ux: Any = 0.0
     impedance_uy: Any = 0.0
-    impedance_xu: Any = 0.0
-    impedance_xy: Any = 0.0
-    impedance_yu: Any = 0.0
-    impedance_yx: Any = 0.0
+    impedance_uu: Any = 0.0
+    force_x = acceleration_x[10] * end_mass
+    force_y = acceleration_y[10] * end_mass
     torque: Any = 0.0
     for j in reversed(range(STATIONS)):
         impedance_xx = impedance_xx + mass

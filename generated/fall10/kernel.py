@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 225557ccb20983327784b6fc8326b9127fb185b183a5e99d150385ab258b9303
-# sha256 of the rest of this file: 4c568b2ce35e06f9c2b3153500e22fc816600d30234ad78c4de207cb60a94701
+# sha256 of the rest of this file: 45f1ffc5c766c8cdbac3a60ff9455d3170e815db44fcbe41607cdf704d6f7f78
 #
 # model: planar arm, large rotations, gravity
 # stations: 10
@@ -334,8 +334,8 @@ def initialise(
     solved = np.zeros((STATIONS, *batch), dtype)
 
     # masses at the nodes between links, and what they leave over
-    end_mass = -mass * (1.0 - center)
-    rod_inertia = inertia - center * (length * length) * mass * (1.0 - center)
+    start_end_mass = -mass * (1.0 - center)
+    start_rod_inertia = inertia - center * (length * length) * mass * (1.0 - center)
 
     # predicted motion
     predicted_rate[0] = 0.0
@@ -367,12 +367,12 @@ def initialise(
     )
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
-    impedance_xx = end_mass
-    impedance_yy = end_mass
-    force_x = acceleration_x[10] * end_mass
-    force_y = acceleration_y[10] * end_mass
+    impedance_xx = start_end_mass
     impedance_xy: Any = 0.0
     impedance_yx: Any = 0.0
+    impedance_yy = start_end_mass
+    force_x = acceleration_x[10] * start_end_mass
+    force_y = acceleration_y[10] * start_end_mass
     torque: Any = 0.0
     for j in reversed(range(STATIONS)):
         impedance_xx = impedance_xx + mass
@@ -383,12 +383,12 @@ def initialise(
         impedance_yu = impedance_yy * lever_cosine[j] - impedance_yx * lever_sine[j]
         impedance_ux = impedance_yx * lever_cosine[j] - impedance_xx * lever_sine[j]
         impedance_uy = impedance_yy * lever_cosine[j] - impedance_xy * lever_sine[j]
-        impedance_uu = rod_inertia - impedance_xu * lever_sine[j] + impedance_yu * lever_cosine[j]
+        impedance_uu = start_rod_inertia - impedance_xu * lever_sine[j] + impedance_yu * lever_cosine[j]
         torque = (
             torque
             - force_x * lever_sine[j]
             + force_y * lever_cosine[j]
-            + predicted_acceleration[j + 1] * rod_inertia
+            + predicted_acceleration[j + 1] * start_rod_inertia
         )
         pivot = impedance_uu
         good = _positive_pivot(good, pivot, "pivot", j)
@@ -535,16 +535,16 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
     impedance_xx = end_mass
+    impedance_xy: Any = 0.0
+    impedance_xu: Any = 0.0
+    impedance_yx: Any = 0.0
     impedance_yy = end_mass
-    force_x = acceleration_x[10] * end_mass
-    force_y = acceleration_y[10] * end_mass
-    impedance_uu: Any = 0.0
+    impedance_yu: Any = 0.0
     impedance_ux: Any = 0.0
     impedance_uy: Any = 0.0
-    impedance_xu: Any = 0.0
-    impedance_xy: Any = 0.0
-    impedance_yu: Any = 0.0
-    impedance_yx: Any = 0.0
+    impedance_uu: Any = 0.0
+    force_x = acceleration_x[10] * end_mass
+    force_y = acceleration_y[10] * end_mass
     torque: Any = 0.0
     for j in reversed(range(STATIONS)):
         impedance_xx = impedance_xx + mass

@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 1ec2a071f5720229c3b5c9d847fa0a44d6fa112015051ca13c1d73444e6eb10a
-# sha256 of the rest of this file: 645b5b4c9bff35251c6207a6050e0f85d11905cd0e8dd0089d052df046c7fccd
+# sha256 of the rest of this file: b7b50affc138757e26b464ebdd4e6f2d6bcb0a94e06bb426436be1dad687802f
 #
 # model: torsional chain (linear)
 # stations: 100
@@ -173,7 +173,7 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
     # what is the same at every station
     impedance = -inertia
     pivot = -impedance
-    admittance = 1.0 / pivot
+    start_admittance = 1.0 / pivot
 
     # motion known before the sweep
     known_rate[0] = 0.0
@@ -191,7 +191,7 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
     # sweep inward: force beyond each joint as an affine function of the motion at it
     torque = tip_torque
     for j in reversed(range(STATIONS)):
-        answer_own[j] = admittance * (torque - joint_torque[j])
+        answer_own[j] = start_admittance * (torque - joint_torque[j])
         torque = joint_torque[j]
 
     # the base

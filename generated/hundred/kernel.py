@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 1ec2a071f5720229c3b5c9d847fa0a44d6fa112015051ca13c1d73444e6eb10a
-# sha256 of the rest of this file: 82a3400c1cc406c45bf4735931416f2968bfefb1fe409ae1fa0e305cfd96905b
+# sha256 of the rest of this file: ffd387eefa5113c23057cf5143a425e314c87705a6796ab7c9f3105ca627859d
 #
 # model: torsional chain (linear)
 # stations: 100
@@ -284,7 +284,7 @@ def initialise(
     # what is the same at every station
     impedance = -inertia
     pivot = -impedance
-    admittance = 1.0 / pivot
+    start_admittance = 1.0 / pivot
 
     # motion known before the sweep
     known_rate[0] = 0.0
@@ -300,7 +300,7 @@ def initialise(
     # sweep inward: force beyond each joint as an affine function of the motion at it
     torque = tip_torque
     for j in reversed(range(STATIONS)):
-        answer_own[j] = admittance * (torque - joint_torque[j])
+        answer_own[j] = start_admittance * (torque - joint_torque[j])
         torque = joint_torque[j]
 
     # the base

@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: ee57f7952242f19cc6be0f26d3460a304cc65a1747711d25b990a158587c6f1f
-# sha256 of the rest of this file: 5d5df077b89129d033f2be129c73544cfe6129a69fdb82111bc0873361a1c253
+# sha256 of the rest of this file: 563267ffddaeba1922963c32229e7e7297d570789d9e0e424d176a36132432a4
 #
 # model: torsional chain (linear)
 # stations: 10
@@ -174,7 +174,7 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
     # what is the same at every station
     impedance = -inertia
     pivot = -impedance
-    admittance = 1.0 / pivot
+    start_admittance = 1.0 / pivot
 
     # motion known before the sweep
     known_rate[0] = 0.0
@@ -192,7 +192,7 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
     # sweep inward: force beyond each joint as an affine function of the motion at it
     torque = tip_torque
     for j in reversed(range(STATIONS)):
-        answer_own[j] = admittance * (torque - joint_torque[j])
+        answer_own[j] = start_admittance * (torque - joint_torque[j])
         torque = joint_torque[j]
 
     # the base

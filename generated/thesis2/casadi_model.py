@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 8302c2fdab02afb73919e09c91c3abafc3d83d0760e2c0e63be40bfdc341e62e
-# sha256 of the rest of this file: cc357803d4728c18df687506040dfd26f2b03eb0ef4a0861bc7d4325bb65648e
+# sha256 of the rest of this file: 53c134d06d92f72698a53356123aadb90ceacf9ef84fde48289229d96e22893d
 #
 # model: torsional chain (linear)
 # stations: 2
@@ -169,7 +169,7 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
     # what is the same at every station
     impedance = -inertia
     pivot = -impedance
-    admittance = 1.0 / pivot
+    start_admittance = 1.0 / pivot
 
     # motion known before the sweep
     known_rate[0] = 0.0
@@ -187,7 +187,7 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
     # sweep inward: force beyond each joint as an affine function of the motion at it
     torque = tip_torque
     for j in reversed(range(STATIONS)):
-        answer_own[j] = admittance * (torque - joint_torque[j])
+        answer_own[j] = start_admittance * (torque - joint_torque[j])
         torque = joint_torque[j]
 
     # the base

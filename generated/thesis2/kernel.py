@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 8302c2fdab02afb73919e09c91c3abafc3d83d0760e2c0e63be40bfdc341e62e
-# sha256 of the rest of this file: d1dab135e452ac0c2fa65556aec301ee8c3cd288c0f673fcf3de1c00aa2e45ef
+# sha256 of the rest of this file: f2ce7de01f6ac7ab2bc6286cb6eefb75df290fb49d4e7b2fa07f003dc5b91001
 #
 # model: torsional chain (linear)
 # stations: 2
@@ -281,7 +281,7 @@ def initialise(
     # what is the same at every station
     impedance = -inertia
     pivot = -impedance
-    admittance = 1.0 / pivot
+    start_admittance = 1.0 / pivot
 
     # motion known before the sweep
     known_rate[0] = 0.0
@@ -297,7 +297,7 @@ def initialise(
     # sweep inward: force beyond each joint as an affine function of the motion at it
     torque = tip_torque
     for j in reversed(range(STATIONS)):
-        answer_own[j] = admittance * (torque - joint_torque[j])
+        answer_own[j] = start_admittance * (torque - joint_torque[j])
         torque = joint_torque[j]
 
     # the base

@@ -118,7 +118,7 @@ def test_the_proof_finds_nothing_where_nothing_is(
         ("host_test", DIVISION, "division by zero"),
         (
             "gcc_warnings",
-            Fault("shadowed", "    real bias = ", "    real damping = 0.0f;\n    real bias = "),
+            Fault("shadowed", "    real torque = ", "    real damping = 0.0f;\n    real torque = "),
             "damping",
         ),
         (
@@ -148,7 +148,7 @@ def test_the_analyser_finds_a_null_pointer(
 ) -> None:
     need_tool(*TOOLS["gcc_analyzer"])
     fault = Fault(
-        "null", "    real bias = inputs->tip_torque;", "    real *none = 0;\n    real bias = *none;"
+        "null", "    real torque = inputs->tip_torque;", "    real *none = 0;\n    real torque = *none;"
     )
     found = CHECKS["gcc_analyzer"](_planted(files, fault))
     assert not found.passed

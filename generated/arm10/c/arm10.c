@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: d9d28dc691ae4f0a1d62cb9cfa9f4612d111fa76a756dd286c77eac7f930ab35
- * sha256 of the rest of this file: f92a93a0ff40cd6931ba0743cbf4f380c49b271dbf63b57419af02f38be822e1
+ * sha256 of the rest of this file: 043845da71374296134c0bc9fb9b9092019c1334ce31ca36ed10983f791ae77c
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 10
@@ -232,8 +232,8 @@ arm10_status arm10_initialise(
     real total = 0.0; /* of the new motion: is all of it finite? */
 
     /* Masses at the nodes between links, and what they leave over. */
-    const real end_mass = params->tip_mass - mass * (1.0 - params->center);
-    const real rod_inertia = params->inertia
+    const real start_end_mass = params->tip_mass - mass * (1.0 - params->center);
+    const real start_rod_inertia = params->inertia
         - params->center * (length * length) * mass * (1.0 - params->center);
 
     /* What is the same at every station. */
@@ -273,12 +273,12 @@ arm10_status arm10_initialise(
 
     /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
      * of the motion at it. */
-    real impedance_xx = end_mass;
-    real impedance_yy = end_mass;
-    real force_x = acceleration_x[10] * end_mass;
-    real force_y = acceleration_y[10] * end_mass - inputs->tip_force;
+    real impedance_xx = start_end_mass;
     real impedance_xy = 0.0;
     real impedance_yx = 0.0;
+    real impedance_yy = start_end_mass;
+    real force_x = acceleration_x[10] * start_end_mass;
+    real force_y = acceleration_y[10] * start_end_mass - inputs->tip_force;
     real torque = 0.0;
     for (int j = ARM10_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = params->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
@@ -291,9 +291,10 @@ arm10_status arm10_initialise(
         const real impedance_yu = impedance_yy * lever_cosine[j] - impedance_yx * lever_sine[j];
         const real impedance_ux = impedance_yx * lever_cosine[j] - impedance_xx * lever_sine[j];
         const real impedance_uy = impedance_yy * lever_cosine[j] - impedance_xy * lever_sine[j];
-        const real impedance_uu = rod_inertia - impedance_xu * lever_sine[j] + impedance_yu * lever_cosine[j];
+        const real impedance_uu = start_rod_inertia - impedance_xu * lever_sine[j]
+            + impedance_yu * lever_cosine[j];
         torque = torque - force_x * lever_sine[j] + force_y * lever_cosine[j]
-            + predicted_acceleration[j + 1] * rod_inertia;
+            + predicted_acceleration[j + 1] * start_rod_inertia;
         if (!(impedance_uu > 3.814697265625e-06) || !(impedance_uu <= DBL_MAX)) {
             return ARM10_VANISHING_PIVOT;
         }
@@ -416,16 +417,16 @@ arm10_status arm10_step(
     /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
      * of the motion at it. */
     real impedance_xx = model->end_mass;
+    real impedance_xy = 0.0;
+    real impedance_xu = 0.0;
+    real impedance_yx = 0.0;
     real impedance_yy = model->end_mass;
-    real force_x = acceleration_x[10] * model->end_mass;
-    real force_y = acceleration_y[10] * model->end_mass - inputs->tip_force;
-    real impedance_uu = 0.0;
+    real impedance_yu = 0.0;
     real impedance_ux = 0.0;
     real impedance_uy = 0.0;
-    real impedance_xu = 0.0;
-    real impedance_xy = 0.0;
-    real impedance_yu = 0.0;
-    real impedance_yx = 0.0;
+    real impedance_uu = 0.0;
+    real force_x = acceleration_x[10] * model->end_mass;
+    real force_y = acceleration_y[10] * model->end_mass - inputs->tip_force;
     real torque = 0.0;
     for (int j = ARM10_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = model->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])

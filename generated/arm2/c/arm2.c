@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: c5e09abbb61734735cef8cfddf39dd959eb5765da3ad6484bed2957b4fdf212c
- * sha256 of the rest of this file: fa17967860506cef425051599067b2663056a09ec455c70d899b207424742a82
+ * sha256 of the rest of this file: 5e5f30ff3dce473fe2cbffa5c6c28dd507a058dce3332cb5ac093da501e13464
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 2
@@ -195,19 +195,19 @@ arm2_status arm2_initialise(
     real answer_y[ARM2_STATIONS]; /* answer of the unknown to the joint's acceleration along y */
     real lever_cosine[ARM2_STATIONS]; /* length times cosine of the angle [m] */
     real lever_sine[ARM2_STATIONS]; /* length times sine of the angle [m] */
-    real node_mass[ARM2_STATIONS]; /* mass at the outer end of each link [kg] */
     /* acceleration of base and links as predicted [rad/s^2] */
     real predicted_acceleration[ARM2_STATIONS + 1];
     real predicted_angle[ARM2_STATIONS + 1]; /* angle of base and links as predicted [rad] */
     real predicted_rate[ARM2_STATIONS + 1]; /* rate of base and links as predicted [rad/s] */
+    real start_node_mass[ARM2_STATIONS]; /* mass at the outer end of each link [kg] */
     real total = 0.0; /* of the new motion: is all of it finite? */
 
     /* Masses at the nodes between links, and what they leave over. */
     for (int j = 0; j < 1; ++j) {
-        node_mass[j] = params->center[j] * params->mass[j]
+        start_node_mass[j] = params->center[j] * params->mass[j]
             + params->mass[j + 1] * (1.0 - params->center[j + 1]);
     }
-    node_mass[1] = params->tip_mass + params->center[1] * params->mass[1];
+    start_node_mass[1] = params->tip_mass + params->center[1] * params->mass[1];
 
     /* What is the same at every station. */
     const real hub_pivot = params->hub_inertia;
@@ -242,32 +242,32 @@ arm2_status arm2_initialise(
 
     /* Masses at the nodes between links, and what they leave over; forces of the joints at the motion so far;
      * sweep inward: force beyond each joint as an affine function of the motion at it. */
-    real impedance_uu = params->tip_inertia;
-    real torque = predicted_acceleration[2] * params->tip_inertia;
-    real force_x = 0.0;
-    real force_y = 0.0;
     real impedance_xx = 0.0;
     real impedance_xy = 0.0;
     real impedance_yx = 0.0;
     real impedance_yy = 0.0;
+    real impedance_uu = params->tip_inertia;
+    real force_x = 0.0;
+    real force_y = 0.0;
+    real torque = predicted_acceleration[2] * params->tip_inertia;
     for (int j = ARM2_STATIONS - 1; j >= 0; --j) {
-        const real rod_inertia = params->inertia[j]
+        const real start_rod_inertia = params->inertia[j]
             - params->center[j] * (params->length[j] * params->length[j]) * params->mass[j]
             * (1.0 - params->center[j]);
         const real joint_torque = params->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + params->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
-        impedance_xx = impedance_xx + node_mass[j];
-        force_x = force_x + acceleration_x[j + 1] * node_mass[j];
-        impedance_yy = impedance_yy + node_mass[j];
-        force_y = force_y + acceleration_y[j + 1] * node_mass[j];
+        impedance_xx = impedance_xx + start_node_mass[j];
+        force_x = force_x + acceleration_x[j + 1] * start_node_mass[j];
+        impedance_yy = impedance_yy + start_node_mass[j];
+        force_y = force_y + acceleration_y[j + 1] * start_node_mass[j];
         const real impedance_xu = impedance_xy * lever_cosine[j] - impedance_xx * lever_sine[j];
         const real impedance_yu = impedance_yy * lever_cosine[j] - impedance_yx * lever_sine[j];
         const real impedance_ux = impedance_yx * lever_cosine[j] - impedance_xx * lever_sine[j];
         const real impedance_uy = impedance_yy * lever_cosine[j] - impedance_xy * lever_sine[j];
-        impedance_uu = impedance_uu + rod_inertia - impedance_xu * lever_sine[j]
+        impedance_uu = impedance_uu + start_rod_inertia - impedance_xu * lever_sine[j]
             + impedance_yu * lever_cosine[j];
         torque = torque - force_x * lever_sine[j] + force_y * lever_cosine[j]
-            + predicted_acceleration[j + 1] * rod_inertia;
+            + predicted_acceleration[j + 1] * start_rod_inertia;
         if (!(impedance_uu > 0.0) || !(impedance_uu <= DBL_MAX)) {
             return ARM2_VANISHING_PIVOT;
         }
@@ -374,18 +374,18 @@ arm2_status arm2_step(
 
     /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
      * of the motion at it. */
-    real impedance_uu = model->tip_inertia;
-    real torque = state->acceleration[1] * model->tip_inertia;
-    real force_x = 0.0;
-    real force_y = 0.0;
-    real impedance_ux = 0.0;
-    real impedance_uy = 0.0;
-    real impedance_xu = 0.0;
     real impedance_xx = 0.0;
     real impedance_xy = 0.0;
-    real impedance_yu = 0.0;
+    real impedance_xu = 0.0;
     real impedance_yx = 0.0;
     real impedance_yy = 0.0;
+    real impedance_yu = 0.0;
+    real impedance_ux = 0.0;
+    real impedance_uy = 0.0;
+    real impedance_uu = model->tip_inertia;
+    real force_x = 0.0;
+    real force_y = 0.0;
+    real torque = state->acceleration[1] * model->tip_inertia;
     for (int j = ARM2_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = model->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + model->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);

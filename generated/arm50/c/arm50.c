@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
- * sha256 of the rest of this file: d413f49471bfb8937c2b341ad4d38c82118e73c59568f87df62ceed3ae009db2
+ * sha256 of the rest of this file: 136e230a3e2170508469a52add55a5337fdaad5aad71efe49cc10f7f4ba680da
  *
  * model: planar arm, large rotations, tip mass
  * stations: 50
@@ -210,8 +210,8 @@ arm50_status arm50_initialise(
     real total = 0.0; /* of the new motion: is all of it finite? */
 
     /* Masses at the nodes between links, and what they leave over. */
-    const real end_mass = params->tip_mass - mass * (1.0 - params->center);
-    const real rod_inertia = params->inertia
+    const real start_end_mass = params->tip_mass - mass * (1.0 - params->center);
+    const real start_rod_inertia = params->inertia
         - params->center * (length * length) * mass * (1.0 - params->center);
 
     /* Predicted motion. */
@@ -241,14 +241,14 @@ arm50_status arm50_initialise(
 
     /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
      * of the motion at it. */
-    real impedance_xx = end_mass;
-    real impedance_yy = end_mass;
-    real impedance_uu = params->tip_inertia;
-    real force_x = acceleration_x[50] * end_mass;
-    real force_y = acceleration_y[50] * end_mass;
-    real torque = predicted_acceleration[50] * params->tip_inertia;
+    real impedance_xx = start_end_mass;
     real impedance_xy = 0.0;
     real impedance_yx = 0.0;
+    real impedance_yy = start_end_mass;
+    real impedance_uu = params->tip_inertia;
+    real force_x = acceleration_x[50] * start_end_mass;
+    real force_y = acceleration_y[50] * start_end_mass;
+    real torque = predicted_acceleration[50] * params->tip_inertia;
     for (int j = ARM50_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = params->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + params->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
@@ -260,10 +260,10 @@ arm50_status arm50_initialise(
         const real impedance_yu = impedance_yy * lever_cosine[j] - impedance_yx * lever_sine[j];
         const real impedance_ux = impedance_yx * lever_cosine[j] - impedance_xx * lever_sine[j];
         const real impedance_uy = impedance_yy * lever_cosine[j] - impedance_xy * lever_sine[j];
-        impedance_uu = impedance_uu + rod_inertia - impedance_xu * lever_sine[j]
+        impedance_uu = impedance_uu + start_rod_inertia - impedance_xu * lever_sine[j]
             + impedance_yu * lever_cosine[j];
         torque = torque - force_x * lever_sine[j] + force_y * lever_cosine[j]
-            + predicted_acceleration[j + 1] * rod_inertia;
+            + predicted_acceleration[j + 1] * start_rod_inertia;
         if (!(impedance_uu > 0.0) || !(impedance_uu <= DBL_MAX)) {
             return ARM50_VANISHING_PIVOT;
         }
@@ -388,17 +388,17 @@ arm50_status arm50_step(
     /* Stage 1 of 5: forces of the joints at the motion so far; sweep inward: force beyond each joint as an
      * affine function of the motion at it. */
     real impedance_xx = model->end_mass;
+    real impedance_xy = 0.0;
+    real impedance_xu = 0.0;
+    real impedance_yx = 0.0;
     real impedance_yy = model->end_mass;
+    real impedance_yu = 0.0;
+    real impedance_ux = 0.0;
+    real impedance_uy = 0.0;
     real impedance_uu = model->tip_inertia;
     real force_x = acceleration_x[50] * model->end_mass;
     real force_y = acceleration_y[50] * model->end_mass;
     real torque = state->acceleration[49] * model->tip_inertia;
-    real impedance_ux = 0.0;
-    real impedance_uy = 0.0;
-    real impedance_xu = 0.0;
-    real impedance_xy = 0.0;
-    real impedance_yu = 0.0;
-    real impedance_yx = 0.0;
     for (int j = ARM50_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = model->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + model->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
@@ -482,17 +482,17 @@ arm50_status arm50_step(
     /* Stage 2 of 5: forces of the joints at the motion so far; sweep inward: force beyond each joint as an
      * affine function of the motion at it. */
     impedance_xx = model->end_mass;
+    impedance_xy = 0.0;
+    impedance_xu = 0.0;
+    impedance_yx = 0.0;
     impedance_yy = model->end_mass;
+    impedance_yu = 0.0;
+    impedance_ux = 0.0;
+    impedance_uy = 0.0;
     impedance_uu = model->tip_inertia;
     force_x = acceleration_x[50] * model->end_mass;
     force_y = acceleration_y[50] * model->end_mass;
     torque = stage1_acceleration[49] * model->tip_inertia;
-    impedance_ux = 0.0;
-    impedance_uy = 0.0;
-    impedance_xu = 0.0;
-    impedance_xy = 0.0;
-    impedance_yu = 0.0;
-    impedance_yx = 0.0;
     for (int j = ARM50_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = model->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + model->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
@@ -580,17 +580,17 @@ arm50_status arm50_step(
     /* Stage 3 of 5: forces of the joints at the motion so far; sweep inward: force beyond each joint as an
      * affine function of the motion at it. */
     impedance_xx = model->end_mass;
+    impedance_xy = 0.0;
+    impedance_xu = 0.0;
+    impedance_yx = 0.0;
     impedance_yy = model->end_mass;
+    impedance_yu = 0.0;
+    impedance_ux = 0.0;
+    impedance_uy = 0.0;
     impedance_uu = model->tip_inertia;
     force_x = acceleration_x[50] * model->end_mass;
     force_y = acceleration_y[50] * model->end_mass;
     torque = stage2_acceleration[49] * model->tip_inertia;
-    impedance_ux = 0.0;
-    impedance_uy = 0.0;
-    impedance_xu = 0.0;
-    impedance_xy = 0.0;
-    impedance_yu = 0.0;
-    impedance_yx = 0.0;
     for (int j = ARM50_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = model->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + model->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
@@ -680,17 +680,17 @@ arm50_status arm50_step(
     /* Stage 4 of 5: forces of the joints at the motion so far; sweep inward: force beyond each joint as an
      * affine function of the motion at it. */
     impedance_xx = model->end_mass;
+    impedance_xy = 0.0;
+    impedance_xu = 0.0;
+    impedance_yx = 0.0;
     impedance_yy = model->end_mass;
+    impedance_yu = 0.0;
+    impedance_ux = 0.0;
+    impedance_uy = 0.0;
     impedance_uu = model->tip_inertia;
     force_x = acceleration_x[50] * model->end_mass;
     force_y = acceleration_y[50] * model->end_mass;
     torque = stage3_acceleration[49] * model->tip_inertia;
-    impedance_ux = 0.0;
-    impedance_uy = 0.0;
-    impedance_xu = 0.0;
-    impedance_xy = 0.0;
-    impedance_yu = 0.0;
-    impedance_yx = 0.0;
     for (int j = ARM50_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = model->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + model->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
@@ -782,17 +782,17 @@ arm50_status arm50_step(
     /* Stage 5 of 5: forces of the joints at the motion so far; sweep inward: force beyond each joint as an
      * affine function of the motion at it. */
     impedance_xx = model->end_mass;
+    impedance_xy = 0.0;
+    impedance_xu = 0.0;
+    impedance_yx = 0.0;
     impedance_yy = model->end_mass;
+    impedance_yu = 0.0;
+    impedance_ux = 0.0;
+    impedance_uy = 0.0;
     impedance_uu = model->tip_inertia;
     force_x = acceleration_x[50] * model->end_mass;
     force_y = acceleration_y[50] * model->end_mass;
     torque = stage4_acceleration[49] * model->tip_inertia;
-    impedance_ux = 0.0;
-    impedance_uy = 0.0;
-    impedance_xu = 0.0;
-    impedance_xy = 0.0;
-    impedance_yu = 0.0;
-    impedance_yx = 0.0;
     for (int j = ARM50_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = model->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + model->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);

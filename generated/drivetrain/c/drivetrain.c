@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 260c88ca5ffe6b93ea5946fad67187e547942573db1dc2f710bcd9a0610b8738
- * sha256 of the rest of this file: 510f9d53869b458b168650af624911184d9270a0f7919697db1be8e1d924b5a8
+ * sha256 of the rest of this file: bebd8225da87b00d64608f32f4f90bce77899dcd335c7eaa7f635e49350d0b49
  *
  * model: torsional chain (linear)
  * stations: 6
@@ -198,8 +198,8 @@ drivetrain_status drivetrain_initialise(
         if (!(pivot > 0.0) || !(pivot <= DBL_MAX)) {
             return DRIVETRAIN_VANISHING_PIVOT;
         }
-        const real admittance = 1.0 / pivot;
-        answer_own[j] = admittance * (torque - joint_torque);
+        const real start_admittance = 1.0 / pivot;
+        answer_own[j] = start_admittance * (torque - joint_torque);
         torque = joint_torque;
     }
 
@@ -207,8 +207,8 @@ drivetrain_status drivetrain_initialise(
     if (!(params->hub_inertia > 0.0) || !(params->hub_inertia <= DBL_MAX)) {
         return DRIVETRAIN_VANISHING_PIVOT;
     }
-    const real hub_admittance = 1.0 / params->hub_inertia;
-    const real unknown = hub_admittance
+    const real start_hub_admittance = 1.0 / params->hub_inertia;
+    const real unknown = start_hub_admittance
         * (inputs->motor_torque + torque - params->hub_damping * known_rate[0]);
     const real hub_unknown = unknown;
 

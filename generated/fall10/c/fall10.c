@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 225557ccb20983327784b6fc8326b9127fb185b183a5e99d150385ab258b9303
- * sha256 of the rest of this file: db8bcf150cf5bea4428010423133b4fdab2853bb7f46c31e93cfa2715d02be9b
+ * sha256 of the rest of this file: 9a4b332449e7a39c16af42cb65bb8431891ff2401a11b53c105e63a62b4abae8
  *
  * model: planar arm, large rotations, gravity
  * stations: 10
@@ -159,8 +159,8 @@ fall10_status fall10_initialise(
     real total = 0.0; /* of the new motion: is all of it finite? */
 
     /* Masses at the nodes between links, and what they leave over. */
-    const real end_mass = -mass * (1.0 - params->center);
-    const real rod_inertia = params->inertia
+    const real start_end_mass = -mass * (1.0 - params->center);
+    const real start_rod_inertia = params->inertia
         - params->center * (length * length) * mass * (1.0 - params->center);
 
     /* Predicted motion. */
@@ -190,12 +190,12 @@ fall10_status fall10_initialise(
 
     /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
      * of the motion at it. */
-    real impedance_xx = end_mass;
-    real impedance_yy = end_mass;
-    real force_x = acceleration_x[10] * end_mass;
-    real force_y = acceleration_y[10] * end_mass;
+    real impedance_xx = start_end_mass;
     real impedance_xy = 0.0;
     real impedance_yx = 0.0;
+    real impedance_yy = start_end_mass;
+    real force_x = acceleration_x[10] * start_end_mass;
+    real force_y = acceleration_y[10] * start_end_mass;
     real torque = 0.0;
     for (int j = FALL10_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = params->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
@@ -208,9 +208,10 @@ fall10_status fall10_initialise(
         const real impedance_yu = impedance_yy * lever_cosine[j] - impedance_yx * lever_sine[j];
         const real impedance_ux = impedance_yx * lever_cosine[j] - impedance_xx * lever_sine[j];
         const real impedance_uy = impedance_yy * lever_cosine[j] - impedance_xy * lever_sine[j];
-        const real impedance_uu = rod_inertia - impedance_xu * lever_sine[j] + impedance_yu * lever_cosine[j];
+        const real impedance_uu = start_rod_inertia - impedance_xu * lever_sine[j]
+            + impedance_yu * lever_cosine[j];
         torque = torque - force_x * lever_sine[j] + force_y * lever_cosine[j]
-            + predicted_acceleration[j + 1] * rod_inertia;
+            + predicted_acceleration[j + 1] * start_rod_inertia;
         if (!(impedance_uu > 0.0) || !(impedance_uu <= DBL_MAX)) {
             return FALL10_VANISHING_PIVOT;
         }
@@ -310,16 +311,16 @@ fall10_status fall10_step(
     /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
      * of the motion at it. */
     real impedance_xx = model->end_mass;
+    real impedance_xy = 0.0;
+    real impedance_xu = 0.0;
+    real impedance_yx = 0.0;
     real impedance_yy = model->end_mass;
-    real force_x = acceleration_x[10] * model->end_mass;
-    real force_y = acceleration_y[10] * model->end_mass;
-    real impedance_uu = 0.0;
+    real impedance_yu = 0.0;
     real impedance_ux = 0.0;
     real impedance_uy = 0.0;
-    real impedance_xu = 0.0;
-    real impedance_xy = 0.0;
-    real impedance_yu = 0.0;
-    real impedance_yx = 0.0;
+    real impedance_uu = 0.0;
+    real force_x = acceleration_x[10] * model->end_mass;
+    real force_y = acceleration_y[10] * model->end_mass;
     real torque = 0.0;
     for (int j = FALL10_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = model->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 1ec2a071f5720229c3b5c9d847fa0a44d6fa112015051ca13c1d73444e6eb10a
- * sha256 of the rest of this file: 28486a80e2a83b1f57d6466f926786aeedd96e08ccc69ee7a0c226251a50e927
+ * sha256 of the rest of this file: ec267e9875cbade005d264739e272ff1a0023d269cc795eff1b4354b8dc79466
  *
  * model: torsional chain (linear)
  * stations: 100
@@ -138,7 +138,7 @@ hundred_status hundred_initialise(
     /* What is the same at every station. */
     const real impedance = -params->inertia;
     const real pivot = -impedance;
-    const real admittance = 1.0 / pivot;
+    const real start_admittance = 1.0 / pivot;
 
     /* Motion known before the sweep. */
     known_rate[0] = 0.0;
@@ -156,7 +156,7 @@ hundred_status hundred_initialise(
     for (int j = HUNDRED_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = damping * (known_rate[j + 1] - known_rate[j])
             + stiffness * (known_angle[j + 1] - known_angle[j]);
-        const real answer_own = admittance * (torque - joint_torque);
+        const real answer_own = start_admittance * (torque - joint_torque);
         torque = joint_torque;
         state->angle[j] = known_angle[j + 1];
         state->rate[j] = known_rate[j + 1];

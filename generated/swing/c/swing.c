@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: c9c08efbdc9f2f1b1ddadadab522649e5100f98e9cdabe31fcf56b416283c60f
- * sha256 of the rest of this file: 944a7992f3e2c6abea0e5aeaa0be86e1d7193db6adf62f0d98569bbdc6cf91b4
+ * sha256 of the rest of this file: 7c7864a75aceecade8e2fae18d23d89092a01eb269ca013fe48a883e5d142fb2
  *
  * model: planar arm, large rotations, tip mass
  * stations: 5
@@ -173,8 +173,8 @@ swing_status swing_initialise(
     real total = 0.0; /* of the new motion: is all of it finite? */
 
     /* Masses at the nodes between links, and what they leave over. */
-    const real end_mass = params->tip_mass - mass * (1.0 - params->center);
-    const real rod_inertia = params->inertia
+    const real start_end_mass = params->tip_mass - mass * (1.0 - params->center);
+    const real start_rod_inertia = params->inertia
         - params->center * (length * length) * mass * (1.0 - params->center);
 
     /* What is the same at every station. */
@@ -210,12 +210,12 @@ swing_status swing_initialise(
 
     /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
      * of the motion at it. */
-    real impedance_xx = end_mass;
-    real impedance_yy = end_mass;
-    real force_x = acceleration_x[5] * end_mass;
-    real force_y = acceleration_y[5] * end_mass;
+    real impedance_xx = start_end_mass;
     real impedance_xy = 0.0;
     real impedance_yx = 0.0;
+    real impedance_yy = start_end_mass;
+    real force_x = acceleration_x[5] * start_end_mass;
+    real force_y = acceleration_y[5] * start_end_mass;
     real torque = 0.0;
     for (int j = SWING_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = params->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
@@ -228,9 +228,10 @@ swing_status swing_initialise(
         const real impedance_yu = impedance_yy * lever_cosine[j] - impedance_yx * lever_sine[j];
         const real impedance_ux = impedance_yx * lever_cosine[j] - impedance_xx * lever_sine[j];
         const real impedance_uy = impedance_yy * lever_cosine[j] - impedance_xy * lever_sine[j];
-        const real impedance_uu = rod_inertia - impedance_xu * lever_sine[j] + impedance_yu * lever_cosine[j];
+        const real impedance_uu = start_rod_inertia - impedance_xu * lever_sine[j]
+            + impedance_yu * lever_cosine[j];
         torque = torque - force_x * lever_sine[j] + force_y * lever_cosine[j]
-            + predicted_acceleration[j + 1] * rod_inertia;
+            + predicted_acceleration[j + 1] * start_rod_inertia;
         if (!(impedance_uu > 0.0) || !(impedance_uu <= DBL_MAX)) {
             return SWING_VANISHING_PIVOT;
         }
@@ -340,16 +341,16 @@ swing_status swing_step(
     /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
      * of the motion at it. */
     real impedance_xx = model->end_mass;
+    real impedance_xy = 0.0;
+    real impedance_xu = 0.0;
+    real impedance_yx = 0.0;
     real impedance_yy = model->end_mass;
-    real force_x = acceleration_x[5] * model->end_mass;
-    real force_y = acceleration_y[5] * model->end_mass;
-    real impedance_uu = 0.0;
+    real impedance_yu = 0.0;
     real impedance_ux = 0.0;
     real impedance_uy = 0.0;
-    real impedance_xu = 0.0;
-    real impedance_xy = 0.0;
-    real impedance_yu = 0.0;
-    real impedance_yx = 0.0;
+    real impedance_uu = 0.0;
+    real force_x = acceleration_x[5] * model->end_mass;
+    real force_y = acceleration_y[5] * model->end_mass;
     real torque = 0.0;
     for (int j = SWING_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = model->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])

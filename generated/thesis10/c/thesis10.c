@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: ee57f7952242f19cc6be0f26d3460a304cc65a1747711d25b990a158587c6f1f
- * sha256 of the rest of this file: fc298e784e5d88531366729e091fa127b71925a4b70e3ead8d13efebdc9e5d74
+ * sha256 of the rest of this file: 4f6fe25837ecbefb1cdf1b519810494b0a73d60c91aceeecd431b091870a0428
  *
  * model: torsional chain (linear)
  * stations: 10
@@ -137,7 +137,7 @@ thesis10_status thesis10_initialise(
     /* What is the same at every station. */
     const real impedance = -params->inertia;
     const real pivot = -impedance;
-    const real admittance = 1.0 / pivot;
+    const real start_admittance = 1.0 / pivot;
 
     /* Motion known before the sweep. */
     known_rate[0] = 0.0;
@@ -155,7 +155,7 @@ thesis10_status thesis10_initialise(
     for (int j = THESIS10_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = damping * (known_rate[j + 1] - known_rate[j])
             + stiffness * (known_angle[j + 1] - known_angle[j]);
-        const real answer_own = admittance * (torque - joint_torque);
+        const real answer_own = start_admittance * (torque - joint_torque);
         torque = joint_torque;
         state->angle[j] = known_angle[j + 1];
         state->rate[j] = known_rate[j + 1];

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 8302c2fdab02afb73919e09c91c3abafc3d83d0760e2c0e63be40bfdc341e62e
- * sha256 of the rest of this file: 0328ecec5be43c1b15edc0c3df34552da9fcbe9aee7e8e8e3123c09719ca04ea
+ * sha256 of the rest of this file: 8ac4faed6728e059c804bc5604f3e90bedf0ac47a58f2c43b5a9bc2185edcf3f
  *
  * model: torsional chain (linear)
  * stations: 2
@@ -137,7 +137,7 @@ thesis2_status thesis2_initialise(
     /* What is the same at every station. */
     const real impedance = -params->inertia;
     const real pivot = -impedance;
-    const real admittance = 1.0 / pivot;
+    const real start_admittance = 1.0 / pivot;
 
     /* Motion known before the sweep. */
     known_rate[0] = 0.0;
@@ -155,7 +155,7 @@ thesis2_status thesis2_initialise(
     for (int j = THESIS2_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = damping * (known_rate[j + 1] - known_rate[j])
             + stiffness * (known_angle[j + 1] - known_angle[j]);
-        const real answer_own = admittance * (torque - joint_torque);
+        const real answer_own = start_admittance * (torque - joint_torque);
         torque = joint_torque;
         state->angle[j] = known_angle[j + 1];
         state->rate[j] = known_rate[j + 1];

@@ -80,7 +80,7 @@ def build_unchecked(scene: Scene, chosen: Integrator, *, auto: bool = False) -> 
             iterations=scene.model.sweeps,
             walks=_walks(scene, row, derived=derived),
             places=scene.model.linearisation != "newton",
-            turns_apart=scene.emit.compensated and row.boundary == "free",
+            turns_apart=scene.emit.compensated and row.boundary == "free" and row.about == "known",
             auto=auto,
             sensitivities=derived,
         ),

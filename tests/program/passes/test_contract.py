@@ -108,4 +108,4 @@ def test_scratch_of_a_newmark_step() -> None:
     """What remains is what one loop hands to another."""
     program = build_program(load_scene(scenes_dir() / "thesis10.toml"))
     names = [v.name for v in contract(fuse(program.main)).variables(Role.WORK)]
-    assert names == ["correction", "known_angle", "known_rate"]
+    assert names == ["answer_own", "known_angle", "known_rate"]

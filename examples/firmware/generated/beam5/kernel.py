@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 7cda6afdfe9f28eb257c67670c83631d86f159a73ec0c14225ebe1e38843e797
-# sha256 of the rest of this file: 40600d34c4300a295fff97aec5d6db96f3571e494718f50f34b9d79e64ed9914
+# sha256 of the rest of this file: 9f73c36533c65b9f7a73cfd13588e9f8fae9077dad5cf72c454e4b35f033a42b
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 5
@@ -378,8 +378,8 @@ def initialise(
     solved = np.zeros((STATIONS, *batch), dtype)
 
     # masses at the nodes between links, and what they leave over
-    end_mass = tip_mass - mass * (1.0 - center)
-    rod_inertia = inertia - center * (length * length) * mass * (1.0 - center)
+    start_end_mass = tip_mass - mass * (1.0 - center)
+    start_rod_inertia = inertia - center * (length * length) * mass * (1.0 - center)
 
     # what is the same at every station
     hub_pivot = hub_inertia
@@ -415,12 +415,12 @@ def initialise(
     )
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
-    impedance_xx = end_mass
-    impedance_yy = end_mass
-    force_x = acceleration_x[5] * end_mass
-    force_y = acceleration_y[5] * end_mass
+    impedance_xx = start_end_mass
     impedance_xy: Any = 0.0
     impedance_yx: Any = 0.0
+    impedance_yy = start_end_mass
+    force_x = acceleration_x[5] * start_end_mass
+    force_y = acceleration_y[5] * start_end_mass
     torque: Any = 0.0
     for j in reversed(range(STATIONS)):
         impedance_xx = impedance_xx + mass
@@ -431,12 +431,12 @@ def initialise(
         impedance_yu = impedance_yy * lever_cosine[j] - impedance_yx * lever_sine[j]
         impedance_ux = impedance_yx * lever_cosine[j] - impedance_xx * lever_sine[j]
         impedance_uy = impedance_yy * lever_cosine[j] - impedance_xy * lever_sine[j]
-        impedance_uu = rod_inertia - impedance_xu * lever_sine[j] + impedance_yu * lever_cosine[j]
+        impedance_uu = start_rod_inertia - impedance_xu * lever_sine[j] + impedance_yu * lever_cosine[j]
         torque = (
             torque
             - force_x * lever_sine[j]
             + force_y * lever_cosine[j]
-            + predicted_acceleration[j + 1] * rod_inertia
+            + predicted_acceleration[j + 1] * start_rod_inertia
         )
         pivot = impedance_uu
         good = _positive_pivot(good, pivot, "pivot", j)
@@ -609,16 +609,16 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
     impedance_xx = end_mass
+    impedance_xy: Any = 0.0
+    impedance_xu: Any = 0.0
+    impedance_yx: Any = 0.0
     impedance_yy = end_mass
-    force_x = acceleration_x[5] * end_mass
-    force_y = acceleration_y[5] * end_mass
-    impedance_uu: Any = 0.0
+    impedance_yu: Any = 0.0
     impedance_ux: Any = 0.0
     impedance_uy: Any = 0.0
-    impedance_xu: Any = 0.0
-    impedance_xy: Any = 0.0
-    impedance_yu: Any = 0.0
-    impedance_yx: Any = 0.0
+    impedance_uu: Any = 0.0
+    force_x = acceleration_x[5] * end_mass
+    force_y = acceleration_y[5] * end_mass
     torque: Any = 0.0
     for j in reversed(range(STATIONS)):
         impedance_xx = impedance_xx + mass

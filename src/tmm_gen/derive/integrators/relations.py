@@ -59,6 +59,17 @@ def affine_motion(scheme: Scheme, index: int, unknown: Unknown) -> AffineMotion:
     UnsuitableUnknownError
         If the stage's relations leave the motion undetermined by that unknown.
     """
+    key = (id(scheme), index, unknown)
+    if key not in _KNOWN:
+        _KNOWN[key] = (scheme, _affine_motion(scheme, index, unknown))
+    return _KNOWN[key][1]
+
+
+_KNOWN: dict[tuple[int, int, str], tuple[Scheme, AffineMotion]] = {}
+"""What has been solved, with its scheme, so that no other takes its identity."""
+
+
+def _affine_motion(scheme: Scheme, index: int, unknown: Unknown) -> AffineMotion:
     motion = [stage(kind, index) for kind in KINDS]
     q, _, a = motion
     definition = {"displacement": q, "increment": q - past("q"), "acceleration": a}[unknown] - UNKNOWN

@@ -119,11 +119,11 @@ class Frame:
 
     def settled(self, value: sp.Expr) -> sp.Expr:
         """Put zero where nothing is known to move."""
-        return value.subs({symbols[kind]: 0 for kind in self.still for symbols in (INNER, OUTER)})
+        return value.xreplace({symbols[kind]: sp.S.Zero for kind in self.still for symbols in (INNER, OUTER)})
 
 
 def primitive(value: sp.Expr) -> sp.Expr:
     """Write sines and squares of the station's motion by symbols of their own."""
     angle, rate = OUTER["q"], OUTER["v"]
-    named = sp.expand(value).subs({sp.sin(angle): SINE, sp.cos(angle): COSINE})
-    return sp.expand(named).subs(rate**2, SQUARE)
+    named = {sp.sin(angle): SINE, sp.cos(angle): COSINE, rate**2: SQUARE}
+    return sp.expand(value).xreplace(named)

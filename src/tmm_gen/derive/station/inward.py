@@ -327,7 +327,10 @@ def grouped(value: sp.Expr, differences: Mapping[str, tuple[sp.Symbol, sp.Symbol
 
 def cheapest(value: sp.Expr, levers: list[sp.Symbol]) -> sp.Expr:
     """Return the way of writing a value that takes the fewest operations."""
-    gains = [s for s in value.free_symbols if s.name.startswith("P_")]
+    symbols = value.free_symbols
+    gains = [s for s in symbols if s.name.startswith("P_")]
+    if not gains and len(symbols & set(levers)) < 2:
+        return value
     expanded = sp.expand(value)
     ways: list[Callable[[], sp.Expr]] = [
         lambda: value,

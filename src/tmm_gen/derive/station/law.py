@@ -63,10 +63,10 @@ def law_of(element: Element) -> Law:
     }
     balance = [e.subs(by_inner) for e in element.equations if e.free_symbols & forces]
     unknown = [*inboard.forces, *(outboard.forces[i] for i in free)]
-    solved = sp.solve(balance, unknown, dict=True)
-    if len(solved) != 1 or len(solved[0]) != len(unknown):
+    solutions = list(sp.linsolve(balance, unknown))
+    if len(solutions) != 1 or any(value.free_symbols & set(unknown) for value in solutions[0]):
         raise ValueError(f"{element.name}: its inner forces are not determined")
-    values = {force: sp.expand(value) for force, value in solved[0].items()}
+    values = {force: sp.expand(value) for force, value in zip(unknown, solutions[0], strict=True)}
     inner = [values[force] for force in inboard.forces]
     own, ratio = sp.Integer(0), sp.Integer(1)
     if free:
@@ -85,8 +85,8 @@ def _outer_motion(motion: Motion, geometric: list[sp.Expr], inboard: Port) -> di
         symbol = getattr(motion, kind)
         for equation in geometric:
             if equation.has(symbol):
-                (value,) = sp.solve(equation, symbol)
-                found = {kind: sp.expand(value)}
+                slope = sp.diff(equation, symbol)
+                found = {kind: sp.expand(symbol - equation / slope)}
                 for lower, higher in pairwise(KINDS):
                     if lower in found:
                         found[higher] = sp.expand(by_time(found[lower], inboard))

@@ -41,7 +41,7 @@ class Passed:
 
     def at_point(self, value: sp.Expr) -> sp.Expr:
         """Write a value at the motion of the element's ports."""
-        return primitive(value.subs(self.point, simultaneous=True))
+        return value if value.is_number else primitive(value.xreplace(self.point))
 
 
 class Outward:
@@ -85,7 +85,7 @@ class Outward:
         for element, law in zip(elements, laws, strict=True):
             angles = {getattr(m, k): OUTER[k] for m in element.inboard.motions for k in KINDS}
             for moved in law.outer.values():
-                for term in sp.Add.make_args(primitive(moved["a"].subs(angles))):
+                for term in sp.Add.make_args(primitive(moved["a"].xreplace(angles))):
                     if term.has(SINE, COSINE):
                         motions = {SINE, COSINE, SQUARE, *OUTER.values()}
                         lengths.add(sp.Mul(*(f for f in term.args if not f.is_Number and f not in motions)))
@@ -125,7 +125,7 @@ class Outward:
                 continue
             relative = sp.expand(law.outer[i]["a"] - inner.a)
             if relative != 0:
-                added[i] = primitive(relative.subs(point, simultaneous=True))
+                added[i] = primitive(relative.xreplace(point))
         if not added:
             return {}
         names = {i: self.frame.coordinates[i].name for i in added}

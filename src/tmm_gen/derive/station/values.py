@@ -38,9 +38,7 @@ class Values:
 
     def in_full(self, expression: sp.Expr) -> sp.Expr:
         """Write an expression without lets, squares of sines by those of cosines."""
-        full = sp.expand(
-            expression.subs(self._full) if expression.free_symbols & set(self._full) else expression
-        )
+        full = sp.expand(expression.xreplace(self._full))
         for sine, cosine in self._squares.items():
             if full.has(sine**2):
                 full = sp.expand(full.subs(sine**2, 1 - cosine**2))
@@ -48,6 +46,8 @@ class Values:
 
     def written(self, expression: sp.Expr) -> sp.Expr:
         """Write an expression by what is known: as a multiple of one value, or term by term."""
+        if expression.is_Atom:
+            return expression
         full = self.in_full(expression)
         whole = self._multiple(full)
         return whole if whole is not None else self._by_products(sp.expand(expression))

@@ -23,6 +23,7 @@ from tmm_gen.program.motion import history_values
 from tmm_gen.program.passes.early import EarlySets, lifted
 from tmm_gen.program.passes.hoist import Hoister
 from tmm_gen.program.passes.prune import prune
+from tmm_gen.program.passes.rewrite import renamed_scratch
 from tmm_gen.program.sensitivities.linear import linear_sensitivities
 from tmm_gen.program.sensitivities.step import step_sensitivities
 from tmm_gen.program.statements import Assign, Program, Routine, Section, Sensitivities
@@ -138,7 +139,7 @@ class Assembly:
         layout, row, integrator = self.layout, self.row, self.integrator
         turned = TURNED if self.choices.turns_apart else None
         output = self.hoister.hoist(output_routine(layout, turned))
-        initialise = self._initialise()
+        initialise = self._unlike_the_model(self._initialise())
         if turned is not None:
             main, *others = take_turns_out((main, *startup), layout)
             startup = tuple(others)
@@ -185,6 +186,15 @@ class Assembly:
             facts=self._facts(),
             sensitivities=sensitivities,
         )
+
+    def _unlike_the_model(self, initialise: Routine) -> Routine:
+        """Call scratch of the start otherwise than what prepare keeps: bound parameters make constants of that."""
+        kept = (
+            *self.hoister.coefficients,
+            *self.combinations.variables.values(),
+            *self.early.coefficients,
+        )
+        return renamed_scratch(initialise, {v.name: f"start_{v.name}" for v in kept})
 
     def _facts(self) -> dict[str, str]:
         facts = dict(self.row.facts)

@@ -208,23 +208,24 @@ class Walks:
     def inward_forces(self) -> list[Statement]:
         """Walk in with the force beyond each place as an affine function of the motion there."""
         here = self.at_station()
-        found: list[Statement] = [*self.loads.fill, *self.tail()]
-        arriving = self._tail.zero
+        found: list[Statement] = [*self.loads.fill]
+        arriving, begin = self._tail.zero, self.tail()
+        unread = set() if self.frame.predicted else set(map(predicted_force, self.frame.coordinates))
         for (start, stop, _), derived in reversed(list(zip(self.runs, self._inwards, strict=True))):
-            unread = set() if self.frame.predicted else set(map(predicted_force, self.frame.coordinates))
-            for symbol in sorted(arriving - derived.arriving - unread, key=str):
-                found.append(Assign(self.scratch.ref(symbol.name), sp.Integer(0)))
+            begin |= dict.fromkeys(arriving - derived.arriving - unread, sp.Integer(0))
+            for symbol in _entries(self.frame):
+                if symbol in begin:
+                    found.append(Assign(self.scratch.ref(symbol.name), begin[symbol]))
             lines = [*derived.lines, *ceasing(derived, stop - start)]
             found.append(Loop(Order.INWARD, start, stop, tuple(here.lines(lines))))
-            arriving = derived.zero
+            arriving, begin = derived.zero, {}
         return found
 
-    def tail(self) -> list[Statement]:
+    def tail(self) -> dict[sp.Symbol, sp.Expr]:
         """Return what stands beyond the last station, as forces there."""
         at_tip = self.at_node(self.layout.stations)
         left = composed(self._tail.lines)
-        kept = [*_entries(self.frame)]
-        return [Assign(self.scratch.ref(s.name), at_tip.value(left[s])) for s in kept if s in left]
+        return {s: at_tip.value(left[s]) for s in _entries(self.frame) if s in left}
 
     def base(self) -> list[Statement]:
         """Solve for the unknown of the base."""

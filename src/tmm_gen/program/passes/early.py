@@ -49,14 +49,19 @@ class EarlySets:
         return tuple(self._coefficients)
 
     def _keep(self, statements: tuple[Statement, ...], left: list[Section]) -> dict[Ref, Ref]:
-        crossing = {ref.variable for section in left for s in section.statements for ref in _read(s)} & {
-            a.target.variable for a in _assigns(statements)
+        # by name: what turned out alike at every station is a scalar now, and an array where it is read
+        crossing = {
+            ref.variable.name
+            for section in left
+            for s in section.statements
+            for ref in _read(s)
+            if ref.variable.role in SCRATCH
         }
         lengths: dict[Ref, int | None] = {}
         for statement in statements:
             for assign in _assigns((statement,)):
                 variable = assign.target.variable
-                if variable not in crossing:
+                if variable.name not in crossing:
                     continue
                 length = variable.length
                 if length is None and isinstance(statement, Loop):  # runs of unlike stations share an array

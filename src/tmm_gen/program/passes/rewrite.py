@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 import sympy as sp
 
 from tmm_gen.program.statements import Assign, Loop, Repeat, Routine, Section, Statement
-from tmm_gen.program.variables import Ref
+from tmm_gen.program.variables import Ref, Role, refs_in
 
 
 def map_values(routine: Routine, change: Callable[[sp.Expr], sp.Expr]) -> Routine:
@@ -43,6 +43,29 @@ def map_assigned(routine: Routine, change: Callable[[sp.Expr, Ref | None], sp.Ex
         replace(section, statements=tuple(changed(s) for s in section.statements))
         for section in routine.sections
     )
+    return replace(routine, sections=sections)
+
+
+def renamed_scratch(routine: Routine, names: Mapping[str, str]) -> Routine:
+    """Return the routine with some of its scratch under other names."""
+
+    def other(ref: Ref) -> Ref:
+        variable = ref.variable
+        if variable.role not in (Role.WORK, Role.LOCAL) or variable.name not in names:
+            return ref
+        return Ref(replace(variable, name=names[variable.name]), ref.offset, ref.entry)
+
+    def changed(statement: Statement) -> Statement:
+        if isinstance(statement, Loop):
+            return replace(statement, body=tuple(changed(s) for s in statement.body))  # type: ignore[misc]
+        if isinstance(statement, Repeat):
+            return statement
+        value = statement.value.xreplace({ref: other(ref) for ref in refs_in(statement.value)})
+        if isinstance(statement, Assign):
+            return Assign(other(statement.target), value)
+        return replace(statement, value=value)
+
+    sections = tuple(replace(s, statements=tuple(map(changed, s.statements))) for s in routine.sections)
     return replace(routine, sections=sections)
 
 

@@ -133,7 +133,10 @@ def _station_law(gains: dict[sp.Symbol, float]) -> _Law:
     frame = Frame((Coordinate("", "torque", True, "rad/s^2", "N m"),), (q, v, a), sign=-1)
     station = (JOINT, LINK)
     known = inward(station, frame, frozenset()).known
-    carried = composed(product(outward(station, frame), known).gains)
+    derived = product(outward(station, frame), known)
+    if not derived.gives_way:  # an explicit method has no joint impedance to divide by
+        return _Law(lambda *_: (math.inf, math.inf))
+    carried = composed(derived.gains)
     return _Law(sp.lambdify(arguments, [carried[MOTION_GAIN], carried[FORCE_GAIN]], "math"))
 
 

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 7cda6afdfe9f28eb257c67670c83631d86f159a73ec0c14225ebe1e38843e797
- * sha256 of the rest of this file: c6158d8ed59bd9cea49428e2867d15be523c44ced6dc03832d6cec3cdc760bd9
+ * sha256 of the rest of this file: b3adc73e5329bdf43531d082f423cdcea6e494ea245fc733c2f401ea8d4454c7
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 5
@@ -161,8 +161,8 @@ beam5_status beam5_initialise(
     real total = 0.0f; /* of the new motion: is all of it finite? */
 
     /* Masses at the nodes between links, and what they leave over. */
-    const real end_mass = tip_mass - mass * (1.0f - center);
-    const real rod_inertia = inertia - center * (length * length) * mass * (1.0f - center);
+    const real start_end_mass = tip_mass - mass * (1.0f - center);
+    const real start_rod_inertia = inertia - center * (length * length) * mass * (1.0f - center);
 
     /* What is the same at every station. */
     const real hub_pivot = hub_inertia;
@@ -201,12 +201,12 @@ beam5_status beam5_initialise(
 
     /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
      * of the motion at it. */
-    real impedance_xx = end_mass;
-    real impedance_yy = end_mass;
-    real force_x = acceleration_x[5] * end_mass;
-    real force_y = acceleration_y[5] * end_mass;
+    real impedance_xx = start_end_mass;
     real impedance_xy = 0.0f;
     real impedance_yx = 0.0f;
+    real impedance_yy = start_end_mass;
+    real force_x = acceleration_x[5] * start_end_mass;
+    real force_y = acceleration_y[5] * start_end_mass;
     real torque = 0.0f;
     for (int j = BEAM5_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
@@ -219,9 +219,10 @@ beam5_status beam5_initialise(
         const real impedance_yu = impedance_yy * lever_cosine[j] - impedance_yx * lever_sine[j];
         const real impedance_ux = impedance_yx * lever_cosine[j] - impedance_xx * lever_sine[j];
         const real impedance_uy = impedance_yy * lever_cosine[j] - impedance_xy * lever_sine[j];
-        const real impedance_uu = rod_inertia - impedance_xu * lever_sine[j] + impedance_yu * lever_cosine[j];
+        const real impedance_uu = start_rod_inertia - impedance_xu * lever_sine[j]
+            + impedance_yu * lever_cosine[j];
         torque = torque - force_x * lever_sine[j] + force_y * lever_cosine[j]
-            + predicted_acceleration[j + 1] * rod_inertia;
+            + predicted_acceleration[j + 1] * start_rod_inertia;
         if (!(impedance_uu > 0.0f) || !(impedance_uu <= FLT_MAX)) {
             return BEAM5_VANISHING_PIVOT;
         }
@@ -327,16 +328,16 @@ beam5_status beam5_step(
     /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
      * of the motion at it. */
     real impedance_xx = end_mass;
+    real impedance_xy = 0.0f;
+    real impedance_xu = 0.0f;
+    real impedance_yx = 0.0f;
     real impedance_yy = end_mass;
-    real force_x = acceleration_x[5] * end_mass;
-    real force_y = acceleration_y[5] * end_mass;
-    real impedance_uu = 0.0f;
+    real impedance_yu = 0.0f;
     real impedance_ux = 0.0f;
     real impedance_uy = 0.0f;
-    real impedance_xu = 0.0f;
-    real impedance_xy = 0.0f;
-    real impedance_yu = 0.0f;
-    real impedance_yx = 0.0f;
+    real impedance_uu = 0.0f;
+    real force_x = acceleration_x[5] * end_mass;
+    real force_y = acceleration_y[5] * end_mass;
     real torque = 0.0f;
     for (int j = BEAM5_STATIONS - 1; j >= 0; --j) {
         const real joint_torque = damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
