@@ -62,7 +62,9 @@ def main() -> None:
             assert zeta is not None
             linear = amplification(integrator(name).main)
             predicted = principal_exponent(linear, mode.frequency * STEP, zeta) / STEP
-            found = identify_poles(simulate(scene, {}, UNTIL).outputs["tip"][DROPPED:], STEP)
+            found = identify_poles(
+                simulate(scene, {}, UNTIL, refuse=False, judge=False).outputs["tip"][DROPPED:], STEP
+            )
             pole = found[np.argmin(np.abs(found - predicted))]
             rows.append(
                 {

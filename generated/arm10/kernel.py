@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: d9d28dc691ae4f0a1d62cb9cfa9f4612d111fa76a756dd286c77eac7f930ab35
-# sha256 of the rest of this file: c47dbb0daa7dfadc77e82f9d935256778a477ed28839ae3152634cd6013cc9a7
+# sha256 of the rest of this file: 5b50d873534cd4b78b33781dff5e555dddcacf894490ac21b8761c0cab340d4e
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 10
@@ -910,9 +910,17 @@ def _spread(value: Any, batch: tuple[int, ...], stations: bool) -> Array:
     return np.broadcast_to(array, batch)
 
 
-def _positive_pivot(good: Any, pivot: Any, name: str, station: int | None) -> Any:
-    """Return which arms are good so far and have a positive pivot; leave if there are none."""
-    good = good & np.asarray((pivot > 0.0) & (pivot < np.inf))
+def _positive_pivot(
+    good: Any, pivot: Any, name: str, station: int | None, batch: tuple[int, ...] | None = None
+) -> Any:
+    """Return which arms are good so far and have a positive pivot; leave if there are none.
+
+    With a batch given, the pivot may be that of all stations.
+    """
+    positive = np.asarray((pivot > 0.0) & (pivot < np.inf))
+    if batch is not None and positive.ndim > len(batch):
+        positive = np.all(positive, axis=0)
+    good = good & positive
     if np.size(good) and not np.any(good):
         where = "" if station is None else f" of station {station + 1}"
         raise VanishingPivotError(

@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: c5e09abbb61734735cef8cfddf39dd959eb5765da3ad6484bed2957b4fdf212c
-# sha256 of the rest of this file: fd473e231a12119cf64c208b84026ed11bb532deb378b2bd65c2e323fbd47df4
+# sha256 of the rest of this file: 019c92bd601f4a6b7ce4603cd330d35979a72c84a7b276eceb63238f710163e5
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 2
@@ -915,9 +915,17 @@ def _spread(value: Any, batch: tuple[int, ...], stations: bool) -> Array:
     return np.broadcast_to(array, batch)
 
 
-def _positive_pivot(good: Any, pivot: Any, name: str, station: int | None) -> Any:
-    """Return which arms are good so far and have a positive pivot; leave if there are none."""
-    good = good & np.asarray((pivot > 0.0) & (pivot < np.inf))
+def _positive_pivot(
+    good: Any, pivot: Any, name: str, station: int | None, batch: tuple[int, ...] | None = None
+) -> Any:
+    """Return which arms are good so far and have a positive pivot; leave if there are none.
+
+    With a batch given, the pivot may be that of all stations.
+    """
+    positive = np.asarray((pivot > 0.0) & (pivot < np.inf))
+    if batch is not None and positive.ndim > len(batch):
+        positive = np.all(positive, axis=0)
+    good = good & positive
     if np.size(good) and not np.any(good):
         where = "" if station is None else f" of station {station + 1}"
         raise VanishingPivotError(

@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
-# sha256 of the rest of this file: 24ff23b372af9f05d9f69198e890fa99da8087c57f2118b98fbbb6e73ef4f53d
+# sha256 of the rest of this file: 7268158c083f376acda630ab78ed67451d6504a8d10c4494bede4343cb75a5a8
 #
 # model: planar arm, large rotations, tip mass
 # stations: 50
@@ -1594,9 +1594,17 @@ def _at_stages(stages: Sequence[Input], name: str) -> tuple[Array, ...]:
     return tuple(_array(getattr(stage, name), None, f"input {name}") for stage in stages)
 
 
-def _positive_pivot(good: Any, pivot: Any, name: str, station: int | None) -> Any:
-    """Return which arms are good so far and have a positive pivot; leave if there are none."""
-    good = good & np.asarray((pivot > 0.0) & (pivot < np.inf))
+def _positive_pivot(
+    good: Any, pivot: Any, name: str, station: int | None, batch: tuple[int, ...] | None = None
+) -> Any:
+    """Return which arms are good so far and have a positive pivot; leave if there are none.
+
+    With a batch given, the pivot may be that of all stations.
+    """
+    positive = np.asarray((pivot > 0.0) & (pivot < np.inf))
+    if batch is not None and positive.ndim > len(batch):
+        positive = np.all(positive, axis=0)
+    good = good & positive
     if np.size(good) and not np.any(good):
         where = "" if station is None else f" of station {station + 1}"
         raise VanishingPivotError(

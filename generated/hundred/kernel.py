@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 1ec2a071f5720229c3b5c9d847fa0a44d6fa112015051ca13c1d73444e6eb10a
-# sha256 of the rest of this file: ffd387eefa5113c23057cf5143a425e314c87705a6796ab7c9f3105ca627859d
+# sha256 of the rest of this file: 81a679313b43ba49828faa6f664bd054b674002b1f8e3d7010326cd9b18c3e1d
 #
 # model: torsional chain (linear)
 # stations: 100
@@ -594,9 +594,17 @@ def _spread(value: Any, batch: tuple[int, ...], stations: bool) -> Array:
     return np.broadcast_to(array, batch)
 
 
-def _positive_pivot(good: Any, pivot: Any, name: str, station: int | None) -> Any:
-    """Return which arms are good so far and have a positive pivot; leave if there are none."""
-    good = good & np.asarray((pivot > 0.0) & (pivot < np.inf))
+def _positive_pivot(
+    good: Any, pivot: Any, name: str, station: int | None, batch: tuple[int, ...] | None = None
+) -> Any:
+    """Return which arms are good so far and have a positive pivot; leave if there are none.
+
+    With a batch given, the pivot may be that of all stations.
+    """
+    positive = np.asarray((pivot > 0.0) & (pivot < np.inf))
+    if batch is not None and positive.ndim > len(batch):
+        positive = np.all(positive, axis=0)
+    good = good & positive
     if np.size(good) and not np.any(good):
         where = "" if station is None else f" of station {station + 1}"
         raise VanishingPivotError(

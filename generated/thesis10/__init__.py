@@ -1,8 +1,8 @@
 # thesis10: Ten-station torsional chain, Gholampour (2018), table 4-1
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: ee57f7952242f19cc6be0f26d3460a304cc65a1747711d25b990a158587c6f1f
-# sha256 of the rest of this file: 20a991477cdc4dd624458d484f460e6e634b49376de7030be56a620237561057
+# scene digest: f0c976d21d4524b79e43b0ef658e9df768725b961ac09b0a12bdaf9596a590df
+# sha256 of the rest of this file: eea6e093ecadde3554168f7d34c7b1ba5e6c6d2400d8c0f86cd56218c26e468e
 """thesis10: Ten-station torsional chain, Gholampour (2018), table 4-1."""
 
 from .kernel import (

@@ -1,8 +1,8 @@
 # thesis10: Ten-station torsional chain, Gholampour (2018), table 4-1
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: ee57f7952242f19cc6be0f26d3460a304cc65a1747711d25b990a158587c6f1f
-# sha256 of the rest of this file: 563267ffddaeba1922963c32229e7e7297d570789d9e0e424d176a36132432a4
+# scene digest: f0c976d21d4524b79e43b0ef658e9df768725b961ac09b0a12bdaf9596a590df
+# sha256 of the rest of this file: 329270429d3e25f48b22a9c4f89ac7add89d325cf7337fc76f42beec3091629e
 #
 # model: torsional chain (linear)
 # stations: 10

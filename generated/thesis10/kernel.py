@@ -1,8 +1,8 @@
 # thesis10: Ten-station torsional chain, Gholampour (2018), table 4-1
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: ee57f7952242f19cc6be0f26d3460a304cc65a1747711d25b990a158587c6f1f
-# sha256 of the rest of this file: c91ab257e1011c540c5b8b649a954810fada7354977d7a740fe5680871d966fe
+# scene digest: f0c976d21d4524b79e43b0ef658e9df768725b961ac09b0a12bdaf9596a590df
+# sha256 of the rest of this file: ffaba481707daade450be5ce18b171f0cf52290443975c25816b7e5b40f91200
 #
 # model: torsional chain (linear)
 # stations: 10
@@ -586,9 +586,17 @@ def _spread(value: Any, batch: tuple[int, ...], stations: bool) -> Array:
     return np.broadcast_to(array, batch)
 
 
-def _positive_pivot(good: Any, pivot: Any, name: str, station: int | None) -> Any:
-    """Return which arms are good so far and have a positive pivot; leave if there are none."""
-    good = good & np.asarray((pivot > 0.0) & (pivot < np.inf))
+def _positive_pivot(
+    good: Any, pivot: Any, name: str, station: int | None, batch: tuple[int, ...] | None = None
+) -> Any:
+    """Return which arms are good so far and have a positive pivot; leave if there are none.
+
+    With a batch given, the pivot may be that of all stations.
+    """
+    positive = np.asarray((pivot > 0.0) & (pivot < np.inf))
+    if batch is not None and positive.ndim > len(batch):
+        positive = np.all(positive, axis=0)
+    good = good & positive
     if np.size(good) and not np.any(good):
         where = "" if station is None else f" of station {station + 1}"
         raise VanishingPivotError(

@@ -220,6 +220,6 @@ def test_the_command_writes_the_scene_with_the_numbers_found(
     assert [after for _, after in changed] == [f"pd = {row['value']}"]
     missing = tmp_path / "missing.toml"
     missing.write_text("\n".join(row for row in old if not row.startswith("pd_zv = ")))
-    refused = tmm_gen("mpc", missing, "--tune", "pd-zv", "--out", "tuned.toml")
+    refused = tmm_gen("mpc", missing, "--tune", "pd-zv", "--out", "tuned.toml", "--force")
     assert refused.returncode == 2
     assert "control.baselines.pd_zv" in refused.stderr

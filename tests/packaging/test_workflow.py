@@ -75,7 +75,8 @@ def test_make_lint_pins_its_tools(repository: Path) -> None:
     for step in ("ruff check", "ruff format --check", "bin/mypy", "[lint]"):
         assert step in steps, step
     extras = tomllib.loads((repository / "pyproject.toml").read_text())["project"]["optional-dependencies"]
-    assert all("==" in requirement for requirement in extras["lint"])
+    pinned = {requirement.partition("==")[0] for requirement in extras["lint"] if "==" in requirement}
+    assert {"mypy", "numpy", "ruff"} <= pinned
 
 
 def test_hiding_leaves_python_make_and_gcc(

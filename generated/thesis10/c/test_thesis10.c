@@ -2,8 +2,8 @@
  * thesis10: Ten-station torsional chain, Gholampour (2018), table 4-1
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: ee57f7952242f19cc6be0f26d3460a304cc65a1747711d25b990a158587c6f1f
- * sha256 of the rest of this file: 561fed50c388143e062e18b525e2df3879b81deaa2f95d1636de8100bcba540e
+ * scene digest: f0c976d21d4524b79e43b0ef658e9df768725b961ac09b0a12bdaf9596a590df
+ * sha256 of the rest of this file: f55b3b078e76467e76469698305cb8b0c02f2ef9448fdc35f3c817e441d1cc5c
  *
  * model: torsional chain (linear)
  * stations: 10

@@ -2,8 +2,8 @@
  * thesis10: Ten-station torsional chain, Gholampour (2018), table 4-1
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: ee57f7952242f19cc6be0f26d3460a304cc65a1747711d25b990a158587c6f1f
- * sha256 of the rest of this file: 4f6fe25837ecbefb1cdf1b519810494b0a73d60c91aceeecd431b091870a0428
+ * scene digest: f0c976d21d4524b79e43b0ef658e9df768725b961ac09b0a12bdaf9596a590df
+ * sha256 of the rest of this file: 7c4277d2c775682808a6acca89badeadefa41231c95080c339bcbc892a0d01fc
  *
  * model: torsional chain (linear)
  * stations: 10

@@ -2,8 +2,8 @@
  * thesis10: Ten-station torsional chain, Gholampour (2018), table 4-1
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: ee57f7952242f19cc6be0f26d3460a304cc65a1747711d25b990a158587c6f1f
- * sha256 of the rest of this file: fbfec7261e7e78bc646692d91b6f0c186abad7ae15c969c1ed0a9224d41c372a
+ * scene digest: f0c976d21d4524b79e43b0ef658e9df768725b961ac09b0a12bdaf9596a590df
+ * sha256 of the rest of this file: 8d33427a762483a38de034a873db6257b9fc2ce61a88b91c55b07fb08c40a5af
  *
  * model: torsional chain (linear)
  * stations: 10

@@ -37,7 +37,10 @@ LIBRARY = _words(
 """What the emitted sources that use members take from the C library, and what its macros are made of in some library:
 ``isfinite`` is a comparison of ``fpclassify`` with ``FP_INFINITE`` in newlib."""
 
-OWN = _words("SAMPLES ROWS STATES OUTPUTS SUBSTEPS END_ROWS LANES KINDS STEPS PATTERN PAINTED STACK_POINTER")
+OWN = _words(
+    "SAMPLES ROWS STATES OUTPUTS SUBSTEPS END_ROWS LANES KINDS STEPS PATTERN PAINTED STACK_POINTER TORQUE STAGES "
+    "FUTURE KNOWNS PAST"
+)
 """Macros of the emitted sources themselves, controllers and test programs included."""
 
 OWN_PREFIXES = ("tmm_", "TMM_GEN_", "INSTANCE_", "FMI_", "DAQP_", "SYST_")

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from tmm_gen.errors import UserError
 from tmm_gen.modal.matrices import Matrices
 from tmm_gen.modal.springs import Springs, springs_of
 from tmm_gen.modal.undamped import Undamped, undamped_modes
@@ -122,6 +123,11 @@ def _projected(
         bends[0] = 0.0
     stiffness = bends.T @ (springs.signs * bends)
     damping = shapes.T @ linear.parts.braked(shapes)
+    if not (np.all(np.isfinite(stiffness)) and np.all(np.isfinite(damping))):
+        raise UserError(
+            "the arm's masses and springs lie too far apart for double precision: its frequencies leave the range of "
+            "numbers. Look for a mass, inertia or stiffness that is far too small or large."
+        )
     squares, turned = eigh(0.5 * (stiffness + stiffness.T))
     if springs.rigid:
         squares[np.argmin(np.abs(squares))] = 0.0

@@ -86,6 +86,8 @@ class RoutineText:
         value = printer.text(statement.value)
         if isinstance(statement, Require):
             at = "j" if indent != _INDENT else "None"
+            if place in self._whole:
+                at += ", batch"
             return [f'{indent}good = _positive_pivot(good, {value}, "{value}", {at})']
         target = statement.target
         if self._would_alias(statement, place):
