@@ -40,8 +40,8 @@ def test_a_step_takes_constant_time(measured: Measured, name: str, parameters: s
 def test_the_thesis_chain_is_small_and_fast(measured: Measured) -> None:
     found = measured("cortex-m4f", "thesis10", real="float32")
     assert found.bits_equal
-    assert found.instructions_per_step <= 700
-    assert found.step_bytes < found.code_bytes <= 900
+    assert found.instructions_per_step <= 452
+    assert found.step_bytes < found.code_bytes <= 1064  # 184 of them refuse NULL and what is not finite
 
 
 def test_a_fixed_arm_costs_no_memory_for_its_model(measured: Measured) -> None:
