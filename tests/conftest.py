@@ -119,6 +119,34 @@ def need_tool() -> Callable[..., str]:
     return find
 
 
+# -- what takes long, last ------------------------------------------------------------------------
+
+LONG = (
+    "control/emitted/test_faults.py",
+    "control/test_closed_loop.py",
+    "control/test_tuning.py",
+    "docs/test_mpc_page.py",
+    "docs/test_stability_page.py",
+    "modal/test_time_and_frequency.py",
+    "planar/test_accuracy.py",
+    "planar/test_energy.py",
+    "planar/test_extremes.py",
+    "stability/test_map.py",
+    "study/test_cluster.py",
+)
+"""Files whose tests take long; ``-m "not long"`` leaves them out."""
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark what takes long, and what wants an optional tool; put the former last."""
+    for item in items:
+        if item.path.relative_to(ROOT / "tests").as_posix() in LONG:
+            item.add_marker(pytest.mark.long)
+        if "need_tool" in getattr(item, "fixturenames", ()):
+            item.add_marker(pytest.mark.tools)
+    items.sort(key=lambda item: item.get_closest_marker("long") is not None)
+
+
 # -- what was left out, in one line at the very end ---------------------------------------------
 
 LEFT_OUT = pytest.StashKey[Counter[str]]()
