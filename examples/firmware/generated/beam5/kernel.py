@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 7cda6afdfe9f28eb257c67670c83631d86f159a73ec0c14225ebe1e38843e797
-# sha256 of the rest of this file: 9f73c36533c65b9f7a73cfd13588e9f8fae9077dad5cf72c454e4b35f033a42b
+# sha256 of the rest of this file: 266c17bf7da6fe6652d54c63b445ddaed946cded964c132bbf23016cf1115abf
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 5
@@ -880,9 +880,17 @@ def _spread(value: Any, batch: tuple[int, ...], stations: bool) -> Array:
     return np.broadcast_to(array, batch)
 
 
-def _positive_pivot(good: Any, pivot: Any, name: str, station: int | None) -> Any:
-    """Return which arms are good so far and have a positive pivot; leave if there are none."""
-    good = good & np.asarray((pivot > 0.0) & (pivot < np.inf))
+def _positive_pivot(
+    good: Any, pivot: Any, name: str, station: int | None, batch: tuple[int, ...] | None = None
+) -> Any:
+    """Return which arms are good so far and have a positive pivot; leave if there are none.
+
+    With a batch given, the pivot may be that of all stations.
+    """
+    positive = np.asarray((pivot > 0.0) & (pivot < np.inf))
+    if batch is not None and positive.ndim > len(batch):
+        positive = np.all(positive, axis=0)
+    good = good & positive
     if np.size(good) and not np.any(good):
         where = "" if station is None else f" of station {station + 1}"
         raise VanishingPivotError(
