@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: d9d28dc691ae4f0a1d62cb9cfa9f4612d111fa76a756dd286c77eac7f930ab35
-# sha256 of the rest of this file: 5b50d873534cd4b78b33781dff5e555dddcacf894490ac21b8761c0cab340d4e
+# sha256 of the rest of this file: b7b0abd954f92f81275e4cf0d257ad11a175c2eaeb34e5815f08e82a58b8808b
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 10
@@ -265,8 +265,18 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     hub_damping = _array(params.hub_damping, None, "hub_damping")
     tip_mass = _array(params.tip_mass, None, "tip_mass")
     good = _positive(step)
-    numbers = (step, length, mass, inertia, center, gravity, hub_inertia, hub_damping, tip_mass)
-    arrays = (stiffness, damping)
+    numbers: tuple[Any, ...] = (
+        step,
+        length,
+        mass,
+        inertia,
+        center,
+        gravity,
+        hub_inertia,
+        hub_damping,
+        tip_mass,
+    )
+    arrays: tuple[Any, ...] = (stiffness, damping)
     batch, _ = _common(numbers, arrays)
     stiffness = _align(stiffness, batch)
     damping = _align(damping, batch)
@@ -367,7 +377,7 @@ def initialise(
     tip_mass = _array(params.tip_mass, None, "tip_mass")
     initial_angle = _array(initial_angle, STATIONS, "initial_angle")
     initial_rate = _array(initial_rate, STATIONS, "initial_rate")
-    numbers = (
+    numbers: tuple[Any, ...] = (
         hub_torque,
         tip_force,
         length,
@@ -379,7 +389,7 @@ def initialise(
         hub_damping,
         tip_mass,
     )
-    arrays = (stiffness, damping, initial_angle, initial_rate)
+    arrays: tuple[Any, ...] = (stiffness, damping, initial_angle, initial_rate)
     batch, dtype = _common(numbers, arrays)
     stiffness = _align(stiffness, batch)
     damping = _align(damping, batch)
@@ -557,7 +567,7 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     angle = np.asarray(state.angle)
     rate = np.asarray(state.rate)
     acceleration = np.asarray(state.acceleration)
-    numbers = (
+    numbers: tuple[Any, ...] = (
         hub_torque,
         tip_force,
         step,
@@ -576,7 +586,7 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
         hub_rate,
         hub_acceleration,
     )
-    arrays = (stiffness, damping, joint_impedance, angle, rate, acceleration)
+    arrays: tuple[Any, ...] = (stiffness, damping, joint_impedance, angle, rate, acceleration)
     batch, dtype = _common(numbers, arrays)
     stiffness = _align(stiffness, batch)
     damping = _align(damping, batch)
@@ -735,8 +745,8 @@ def output(model: Model, state: State) -> Output:
     angle = np.asarray(state.angle)
     rate = np.asarray(state.rate)
     acceleration = np.asarray(state.acceleration)
-    numbers = (length, hub_angle, hub_rate, hub_acceleration)
-    arrays = (stiffness, damping, angle, rate, acceleration)
+    numbers: tuple[Any, ...] = (length, hub_angle, hub_rate, hub_acceleration)
+    arrays: tuple[Any, ...] = (stiffness, damping, angle, rate, acceleration)
     batch, _ = _common(numbers, arrays)
     stiffness = _align(stiffness, batch)
     damping = _align(damping, batch)

@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: c5e09abbb61734735cef8cfddf39dd959eb5765da3ad6484bed2957b4fdf212c
-# sha256 of the rest of this file: 019c92bd601f4a6b7ce4603cd330d35979a72c84a7b276eceb63238f710163e5
+# sha256 of the rest of this file: ed644c4bdd4fca669b1050d7f7c1d658e2873b8a73c686af4a4e7bd987a2fcf5
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 2
@@ -266,8 +266,8 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     tip_mass = _array(params.tip_mass, None, "tip_mass")
     tip_inertia = _array(params.tip_inertia, None, "tip_inertia")
     good = _positive(step)
-    numbers = (step, gravity, hub_inertia, hub_damping, tip_mass, tip_inertia)
-    arrays = (length, mass, inertia, center, stiffness, damping)
+    numbers: tuple[Any, ...] = (step, gravity, hub_inertia, hub_damping, tip_mass, tip_inertia)
+    arrays: tuple[Any, ...] = (length, mass, inertia, center, stiffness, damping)
     batch, dtype = _common(numbers, arrays)
     length = _align(length, batch)
     mass = _align(mass, batch)
@@ -369,8 +369,8 @@ def initialise(
     tip_inertia = _array(params.tip_inertia, None, "tip_inertia")
     initial_angle = _array(initial_angle, STATIONS, "initial_angle")
     initial_rate = _array(initial_rate, STATIONS, "initial_rate")
-    numbers = (hub_torque, gravity, hub_inertia, hub_damping, tip_mass, tip_inertia)
-    arrays = (length, mass, inertia, center, stiffness, damping, initial_angle, initial_rate)
+    numbers: tuple[Any, ...] = (hub_torque, gravity, hub_inertia, hub_damping, tip_mass, tip_inertia)
+    arrays: tuple[Any, ...] = (length, mass, inertia, center, stiffness, damping, initial_angle, initial_rate)
     batch, dtype = _common(numbers, arrays)
     length = _align(length, batch)
     mass = _align(mass, batch)
@@ -560,7 +560,7 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     angle = np.asarray(state.angle)
     rate = np.asarray(state.rate)
     acceleration = np.asarray(state.acceleration)
-    numbers = (
+    numbers: tuple[Any, ...] = (
         hub_torque,
         step,
         gravity,
@@ -575,7 +575,17 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
         hub_rate,
         hub_acceleration,
     )
-    arrays = (length, stiffness, damping, node_mass, rod_inertia, joint_impedance, angle, rate, acceleration)
+    arrays: tuple[Any, ...] = (
+        length,
+        stiffness,
+        damping,
+        node_mass,
+        rod_inertia,
+        joint_impedance,
+        angle,
+        rate,
+        acceleration,
+    )
     batch, dtype = _common(numbers, arrays)
     length = _align(length, batch)
     stiffness = _align(stiffness, batch)
@@ -739,8 +749,8 @@ def output(model: Model, state: State) -> Output:
     angle = np.asarray(state.angle)
     rate = np.asarray(state.rate)
     acceleration = np.asarray(state.acceleration)
-    numbers = (hub_angle, hub_rate, hub_acceleration)
-    arrays = (length, stiffness, damping, angle, rate, acceleration)
+    numbers: tuple[Any, ...] = (hub_angle, hub_rate, hub_acceleration)
+    arrays: tuple[Any, ...] = (length, stiffness, damping, angle, rate, acceleration)
     batch, _ = _common(numbers, arrays)
     length = _align(length, batch)
     stiffness = _align(stiffness, batch)

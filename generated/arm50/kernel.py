@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
-# sha256 of the rest of this file: 7268158c083f376acda630ab78ed67451d6504a8d10c4494bede4343cb75a5a8
+# sha256 of the rest of this file: 514d35d31960a0196b08d5c8aba00683533170df69fe906fde1e879bf818f537
 #
 # model: planar arm, large rotations, tip mass
 # stations: 50
@@ -401,8 +401,8 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     tip_mass = _array(params.tip_mass, None, "tip_mass")
     tip_inertia = _array(params.tip_inertia, None, "tip_inertia")
     good = _positive(step)
-    numbers = (step, length, mass, inertia, center, tip_mass, tip_inertia)
-    arrays = (stiffness, damping)
+    numbers: tuple[Any, ...] = (step, length, mass, inertia, center, tip_mass, tip_inertia)
+    arrays: tuple[Any, ...] = (stiffness, damping)
     batch, _ = _common(numbers, arrays)
     stiffness = _align(stiffness, batch)
     damping = _align(damping, batch)
@@ -541,7 +541,7 @@ def initialise(
     tip_inertia = _array(params.tip_inertia, None, "tip_inertia")
     initial_angle = _array(initial_angle, STATIONS, "initial_angle")
     initial_rate = _array(initial_rate, STATIONS, "initial_rate")
-    numbers = (
+    numbers: tuple[Any, ...] = (
         *base_angle,
         *base_angle_rate,
         *base_angle_acceleration,
@@ -552,7 +552,7 @@ def initialise(
         tip_mass,
         tip_inertia,
     )
-    arrays = (stiffness, damping, initial_angle, initial_rate)
+    arrays: tuple[Any, ...] = (stiffness, damping, initial_angle, initial_rate)
     batch, dtype = _common(numbers, arrays)
     stiffness = _align(stiffness, batch)
     damping = _align(damping, batch)
@@ -734,7 +734,7 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
     angle = np.asarray(state.angle)
     rate = np.asarray(state.rate)
     acceleration = np.asarray(state.acceleration)
-    numbers = (
+    numbers: tuple[Any, ...] = (
         *base_angle,
         *base_angle_rate,
         length,
@@ -761,7 +761,7 @@ def step(model: Model, state: State, input: Input | Sequence[Input] = Input()) -
         hub_angle,
         hub_rate,
     )
-    arrays = (stiffness, damping, joint_impedance, angle, rate, acceleration)
+    arrays: tuple[Any, ...] = (stiffness, damping, joint_impedance, angle, rate, acceleration)
     batch, dtype = _common(numbers, arrays)
     stiffness = _align(stiffness, batch)
     damping = _align(damping, batch)
@@ -1351,7 +1351,7 @@ def output(model: Model, state: State) -> Output:
     angle = np.asarray(state.angle)
     rate = np.asarray(state.rate)
     acceleration = np.asarray(state.acceleration)
-    numbers = (
+    numbers: tuple[Any, ...] = (
         length,
         tip_mass,
         reaction_x_per_acceleration_x,
@@ -1359,7 +1359,7 @@ def output(model: Model, state: State) -> Output:
         hub_angle,
         hub_rate,
     )
-    arrays = (stiffness, damping, angle, rate, acceleration)
+    arrays: tuple[Any, ...] = (stiffness, damping, angle, rate, acceleration)
     batch, dtype = _common(numbers, arrays)
     stiffness = _align(stiffness, batch)
     damping = _align(damping, batch)

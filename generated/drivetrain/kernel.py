@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 260c88ca5ffe6b93ea5946fad67187e547942573db1dc2f710bcd9a0610b8738
-# sha256 of the rest of this file: dfb89719118354ae16ebecc23a7002fae2da5608cd34798118f8590830dbb3a0
+# sha256 of the rest of this file: ae943f1fde30dfebf7676e1c4bee9d93ea7df9891ede24e1513b1b5e46998d22
 #
 # model: torsional chain (linear)
 # stations: 6
@@ -243,8 +243,8 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     hub_inertia = _array(params.hub_inertia, None, "hub_inertia")
     hub_damping = _array(params.hub_damping, None, "hub_damping")
     good = _positive(step)
-    numbers = (step, hub_inertia, hub_damping)
-    arrays = (stiffness, damping, inertia)
+    numbers: tuple[Any, ...] = (step, hub_inertia, hub_damping)
+    arrays: tuple[Any, ...] = (stiffness, damping, inertia)
     batch, dtype = _common(numbers, arrays)
     stiffness = _align(stiffness, batch)
     damping = _align(damping, batch)
@@ -354,8 +354,8 @@ def initialise(
     hub_damping = _array(params.hub_damping, None, "hub_damping")
     initial_angle = _array(initial_angle, STATIONS, "initial_angle")
     initial_rate = _array(initial_rate, STATIONS, "initial_rate")
-    numbers = (motor_torque, load_torque_, hub_inertia, hub_damping)
-    arrays = (stiffness, damping, inertia, initial_angle, initial_rate)
+    numbers: tuple[Any, ...] = (motor_torque, load_torque_, hub_inertia, hub_damping)
+    arrays: tuple[Any, ...] = (stiffness, damping, inertia, initial_angle, initial_rate)
     batch, dtype = _common(numbers, arrays)
     stiffness = _align(stiffness, batch)
     damping = _align(damping, batch)
@@ -472,7 +472,7 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     angle = np.asarray(state.angle)
     rate = np.asarray(state.rate)
     acceleration = np.asarray(state.acceleration)
-    numbers = (
+    numbers: tuple[Any, ...] = (
         motor_torque,
         load_torque_,
         step,
@@ -489,7 +489,16 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
         hub_rate,
         hub_acceleration,
     )
-    arrays = (stiffness, damping, admittance, transmission, reflection, angle, rate, acceleration)
+    arrays: tuple[Any, ...] = (
+        stiffness,
+        damping,
+        admittance,
+        transmission,
+        reflection,
+        angle,
+        rate,
+        acceleration,
+    )
     batch, dtype = _common(numbers, arrays)
     stiffness = _align(stiffness, batch)
     damping = _align(damping, batch)
@@ -584,8 +593,8 @@ def output(model: Model, state: State) -> Output:
     angle = np.asarray(state.angle)
     rate = np.asarray(state.rate)
     acceleration = np.asarray(state.acceleration)
-    numbers = (hub_angle, hub_rate, hub_acceleration)
-    arrays = (stiffness, damping, angle, rate, acceleration)
+    numbers: tuple[Any, ...] = (hub_angle, hub_rate, hub_acceleration)
+    arrays: tuple[Any, ...] = (stiffness, damping, angle, rate, acceleration)
     batch, _ = _common(numbers, arrays)
     stiffness = _align(stiffness, batch)
     damping = _align(damping, batch)

@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 225557ccb20983327784b6fc8326b9127fb185b183a5e99d150385ab258b9303
-# sha256 of the rest of this file: da61bec2c16b13d9c1fb40cf6fbb0256502ee38758faa526d8961ef763e9b24e
+# sha256 of the rest of this file: fb5422fdb7f8dcdd68d91a24dae39ed6aaa6e198cb4ffaaf9fa112febcac42a2
 #
 # model: planar arm, large rotations, gravity
 # stations: 10
@@ -227,8 +227,8 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     damping = _array(params.damping, STATIONS, "damping")
     gravity = _array(params.gravity, None, "gravity")
     good = _positive(step)
-    numbers = (step, length, mass, inertia, center, gravity)
-    arrays = (stiffness, damping)
+    numbers: tuple[Any, ...] = (step, length, mass, inertia, center, gravity)
+    arrays: tuple[Any, ...] = (stiffness, damping)
     batch, _ = _common(numbers, arrays)
     stiffness = _align(stiffness, batch)
     damping = _align(damping, batch)
@@ -316,8 +316,8 @@ def initialise(
     gravity = _array(params.gravity, None, "gravity")
     initial_angle = _array(initial_angle, STATIONS, "initial_angle")
     initial_rate = _array(initial_rate, STATIONS, "initial_rate")
-    numbers = (length, mass, inertia, center, gravity)
-    arrays = (stiffness, damping, initial_angle, initial_rate)
+    numbers: tuple[Any, ...] = (length, mass, inertia, center, gravity)
+    arrays: tuple[Any, ...] = (stiffness, damping, initial_angle, initial_rate)
     batch, dtype = _common(numbers, arrays)
     stiffness = _align(stiffness, batch)
     damping = _align(damping, batch)
@@ -474,7 +474,7 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     angle = np.asarray(state.angle)
     rate = np.asarray(state.rate)
     acceleration = np.asarray(state.acceleration)
-    numbers = (
+    numbers: tuple[Any, ...] = (
         step,
         length,
         mass,
@@ -485,7 +485,7 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
         end_mass,
         rod_inertia,
     )
-    arrays = (stiffness, damping, joint_impedance, angle, rate, acceleration)
+    arrays: tuple[Any, ...] = (stiffness, damping, joint_impedance, angle, rate, acceleration)
     batch, dtype = _common(numbers, arrays)
     stiffness = _align(stiffness, batch)
     damping = _align(damping, batch)
@@ -627,8 +627,8 @@ def output(model: Model, state: State) -> Output:
     angle = np.asarray(state.angle)
     rate = np.asarray(state.rate)
     acceleration = np.asarray(state.acceleration)
-    numbers = (length,)
-    arrays = (stiffness, damping, angle, rate, acceleration)
+    numbers: tuple[Any, ...] = (length,)
+    arrays: tuple[Any, ...] = (stiffness, damping, angle, rate, acceleration)
     batch, _ = _common(numbers, arrays)
     stiffness = _align(stiffness, batch)
     damping = _align(damping, batch)

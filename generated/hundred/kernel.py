@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 1ec2a071f5720229c3b5c9d847fa0a44d6fa112015051ca13c1d73444e6eb10a
-# sha256 of the rest of this file: 81a679313b43ba49828faa6f664bd054b674002b1f8e3d7010326cd9b18c3e1d
+# sha256 of the rest of this file: 59a4327c79e752884e7d8045d4eb6fe39973b689678f013a3f744ab346e1230b
 #
 # model: torsional chain (linear)
 # stations: 100
@@ -199,8 +199,8 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     damping = _array(params.damping, None, "damping")
     inertia = _array(params.inertia, None, "inertia")
     good = _positive(step)
-    numbers = (step, stiffness, damping, inertia)
-    arrays = ()
+    numbers: tuple[Any, ...] = (step, stiffness, damping, inertia)
+    arrays: tuple[Any, ...] = ()
     batch, dtype = _common(numbers, arrays)
     admittance = np.zeros((STATIONS, *batch), dtype)
     reflection = np.zeros((STATIONS, *batch), dtype)
@@ -272,8 +272,8 @@ def initialise(
     inertia = _array(params.inertia, None, "inertia")
     initial_angle = _array(initial_angle, STATIONS, "initial_angle")
     initial_rate = _array(initial_rate, STATIONS, "initial_rate")
-    numbers = (tip_torque, stiffness, damping, inertia)
-    arrays = (initial_angle, initial_rate)
+    numbers: tuple[Any, ...] = (tip_torque, stiffness, damping, inertia)
+    arrays: tuple[Any, ...] = (initial_angle, initial_rate)
     batch, dtype = _common(numbers, arrays)
     initial_angle = _align(initial_angle, batch)
     initial_rate = _align(initial_rate, batch)
@@ -363,8 +363,15 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     angle = np.asarray(state.angle)
     rate = np.asarray(state.rate)
     acceleration = np.asarray(state.acceleration)
-    numbers = (tip_torque, step, stiffness, damping, rate_per_acceleration, angle_per_acceleration)
-    arrays = (admittance, transmission, reflection, angle, rate, acceleration)
+    numbers: tuple[Any, ...] = (
+        tip_torque,
+        step,
+        stiffness,
+        damping,
+        rate_per_acceleration,
+        angle_per_acceleration,
+    )
+    arrays: tuple[Any, ...] = (admittance, transmission, reflection, angle, rate, acceleration)
     batch, dtype = _common(numbers, arrays)
     admittance = _align(admittance, batch)
     transmission = _align(transmission, batch)
@@ -433,8 +440,8 @@ def output(model: Model, state: State) -> Output:
     angle = np.asarray(state.angle)
     rate = np.asarray(state.rate)
     acceleration = np.asarray(state.acceleration)
-    numbers = (stiffness, damping)
-    arrays = (angle, rate, acceleration)
+    numbers: tuple[Any, ...] = (stiffness, damping)
+    arrays: tuple[Any, ...] = (angle, rate, acceleration)
     batch, _ = _common(numbers, arrays)
     angle = _spread(angle, batch, True)
     rate = _spread(rate, batch, True)

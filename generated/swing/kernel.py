@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: c9c08efbdc9f2f1b1ddadadab522649e5100f98e9cdabe31fcf56b416283c60f
-# sha256 of the rest of this file: 96f48c1b8aad8662adbaa5b923054bbc5e66afff9c269e2df29b9a2517e5abfa
+# sha256 of the rest of this file: 6718f0b719466fc25344b6984bc8e7259a2bf49fd1decc8a0f7028283d6503ca
 #
 # model: planar arm, large rotations, tip mass
 # stations: 5
@@ -252,8 +252,8 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     hub_damping = _array(params.hub_damping, None, "hub_damping")
     tip_mass = _array(params.tip_mass, None, "tip_mass")
     good = _positive(step)
-    numbers = (step, length, mass, inertia, center, hub_inertia, hub_damping, tip_mass)
-    arrays = (stiffness, damping)
+    numbers: tuple[Any, ...] = (step, length, mass, inertia, center, hub_inertia, hub_damping, tip_mass)
+    arrays: tuple[Any, ...] = (stiffness, damping)
     batch, _ = _common(numbers, arrays)
     stiffness = _align(stiffness, batch)
     damping = _align(damping, batch)
@@ -350,8 +350,8 @@ def initialise(
     tip_mass = _array(params.tip_mass, None, "tip_mass")
     initial_angle = _array(initial_angle, STATIONS, "initial_angle")
     initial_rate = _array(initial_rate, STATIONS, "initial_rate")
-    numbers = (hub_torque, length, mass, inertia, center, hub_inertia, hub_damping, tip_mass)
-    arrays = (stiffness, damping, initial_angle, initial_rate)
+    numbers: tuple[Any, ...] = (hub_torque, length, mass, inertia, center, hub_inertia, hub_damping, tip_mass)
+    arrays: tuple[Any, ...] = (stiffness, damping, initial_angle, initial_rate)
     batch, dtype = _common(numbers, arrays)
     stiffness = _align(stiffness, batch)
     damping = _align(damping, batch)
@@ -527,7 +527,7 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     angle = np.asarray(state.angle)
     rate = np.asarray(state.rate)
     acceleration = np.asarray(state.acceleration)
-    numbers = (
+    numbers: tuple[Any, ...] = (
         hub_torque,
         step,
         length,
@@ -544,7 +544,7 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
         hub_rate,
         hub_acceleration,
     )
-    arrays = (stiffness, damping, joint_impedance, angle, rate, acceleration)
+    arrays: tuple[Any, ...] = (stiffness, damping, joint_impedance, angle, rate, acceleration)
     batch, dtype = _common(numbers, arrays)
     stiffness = _align(stiffness, batch)
     damping = _align(damping, batch)
@@ -701,8 +701,8 @@ def output(model: Model, state: State) -> Output:
     angle = np.asarray(state.angle)
     rate = np.asarray(state.rate)
     acceleration = np.asarray(state.acceleration)
-    numbers = (length, hub_angle, hub_rate, hub_acceleration)
-    arrays = (angle, rate, acceleration)
+    numbers: tuple[Any, ...] = (length, hub_angle, hub_rate, hub_acceleration)
+    arrays: tuple[Any, ...] = (angle, rate, acceleration)
     batch, _ = _common(numbers, arrays)
     hub_angle = _spread(hub_angle, batch, False)
     hub_rate = _spread(hub_rate, batch, False)

@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: f0c976d21d4524b79e43b0ef658e9df768725b961ac09b0a12bdaf9596a590df
-# sha256 of the rest of this file: ffaba481707daade450be5ce18b171f0cf52290443975c25816b7e5b40f91200
+# sha256 of the rest of this file: 9d3c83b23f715dcddcfc1cb6fb84e8a388c5794ca3508b1adb190680480743fd
 #
 # model: torsional chain (linear)
 # stations: 10
@@ -196,8 +196,8 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     damping = _array(params.damping, None, "damping")
     inertia = _array(params.inertia, None, "inertia")
     good = _positive(step)
-    numbers = (step, stiffness, damping, inertia)
-    arrays = ()
+    numbers: tuple[Any, ...] = (step, stiffness, damping, inertia)
+    arrays: tuple[Any, ...] = ()
     batch, dtype = _common(numbers, arrays)
     admittance = np.zeros((STATIONS, *batch), dtype)
     reflection = np.zeros((STATIONS, *batch), dtype)
@@ -269,8 +269,8 @@ def initialise(
     inertia = _array(params.inertia, None, "inertia")
     initial_angle = _array(initial_angle, STATIONS, "initial_angle")
     initial_rate = _array(initial_rate, STATIONS, "initial_rate")
-    numbers = (tip_torque, stiffness, damping, inertia)
-    arrays = (initial_angle, initial_rate)
+    numbers: tuple[Any, ...] = (tip_torque, stiffness, damping, inertia)
+    arrays: tuple[Any, ...] = (initial_angle, initial_rate)
     batch, dtype = _common(numbers, arrays)
     initial_angle = _align(initial_angle, batch)
     initial_rate = _align(initial_rate, batch)
@@ -360,8 +360,15 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     angle = np.asarray(state.angle)
     rate = np.asarray(state.rate)
     acceleration = np.asarray(state.acceleration)
-    numbers = (tip_torque, step, stiffness, damping, rate_per_acceleration, angle_per_acceleration)
-    arrays = (admittance, transmission, reflection, angle, rate, acceleration)
+    numbers: tuple[Any, ...] = (
+        tip_torque,
+        step,
+        stiffness,
+        damping,
+        rate_per_acceleration,
+        angle_per_acceleration,
+    )
+    arrays: tuple[Any, ...] = (admittance, transmission, reflection, angle, rate, acceleration)
     batch, dtype = _common(numbers, arrays)
     admittance = _align(admittance, batch)
     transmission = _align(transmission, batch)
@@ -430,8 +437,8 @@ def output(model: Model, state: State) -> Output:
     angle = np.asarray(state.angle)
     rate = np.asarray(state.rate)
     acceleration = np.asarray(state.acceleration)
-    numbers = (stiffness, damping)
-    arrays = (angle, rate, acceleration)
+    numbers: tuple[Any, ...] = (stiffness, damping)
+    arrays: tuple[Any, ...] = (angle, rate, acceleration)
     batch, _ = _common(numbers, arrays)
     angle = _spread(angle, batch, True)
     rate = _spread(rate, batch, True)

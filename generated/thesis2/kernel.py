@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 8302c2fdab02afb73919e09c91c3abafc3d83d0760e2c0e63be40bfdc341e62e
-# sha256 of the rest of this file: 14d12591d7c9ae70c351029e2ed71f0d69ed1928e9fa8fc0bb7f7e0f8bea8a17
+# sha256 of the rest of this file: fd11fe6b5ba8a4bc393da1a90d41f70457408f1e6296fe0c632f0aebbbcf6574
 #
 # model: torsional chain (linear)
 # stations: 2
@@ -196,8 +196,8 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     damping = _array(params.damping, None, "damping")
     inertia = _array(params.inertia, None, "inertia")
     good = _positive(step)
-    numbers = (step, stiffness, damping, inertia)
-    arrays = ()
+    numbers: tuple[Any, ...] = (step, stiffness, damping, inertia)
+    arrays: tuple[Any, ...] = ()
     batch, dtype = _common(numbers, arrays)
     admittance = np.zeros((STATIONS, *batch), dtype)
     reflection = np.zeros((STATIONS, *batch), dtype)
@@ -269,8 +269,8 @@ def initialise(
     inertia = _array(params.inertia, None, "inertia")
     initial_angle = _array(initial_angle, STATIONS, "initial_angle")
     initial_rate = _array(initial_rate, STATIONS, "initial_rate")
-    numbers = (tip_torque, stiffness, damping, inertia)
-    arrays = (initial_angle, initial_rate)
+    numbers: tuple[Any, ...] = (tip_torque, stiffness, damping, inertia)
+    arrays: tuple[Any, ...] = (initial_angle, initial_rate)
     batch, dtype = _common(numbers, arrays)
     initial_angle = _align(initial_angle, batch)
     initial_rate = _align(initial_rate, batch)
@@ -360,8 +360,15 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     angle = np.asarray(state.angle)
     rate = np.asarray(state.rate)
     acceleration = np.asarray(state.acceleration)
-    numbers = (tip_torque, step, stiffness, damping, rate_per_acceleration, angle_per_acceleration)
-    arrays = (admittance, transmission, reflection, angle, rate, acceleration)
+    numbers: tuple[Any, ...] = (
+        tip_torque,
+        step,
+        stiffness,
+        damping,
+        rate_per_acceleration,
+        angle_per_acceleration,
+    )
+    arrays: tuple[Any, ...] = (admittance, transmission, reflection, angle, rate, acceleration)
     batch, dtype = _common(numbers, arrays)
     admittance = _align(admittance, batch)
     transmission = _align(transmission, batch)
@@ -430,8 +437,8 @@ def output(model: Model, state: State) -> Output:
     angle = np.asarray(state.angle)
     rate = np.asarray(state.rate)
     acceleration = np.asarray(state.acceleration)
-    numbers = (stiffness, damping)
-    arrays = (angle, rate, acceleration)
+    numbers: tuple[Any, ...] = (stiffness, damping)
+    arrays: tuple[Any, ...] = (angle, rate, acceleration)
     batch, _ = _common(numbers, arrays)
     angle = _spread(angle, batch, True)
     rate = _spread(rate, batch, True)

@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 7cda6afdfe9f28eb257c67670c83631d86f159a73ec0c14225ebe1e38843e797
-# sha256 of the rest of this file: 266c17bf7da6fe6652d54c63b445ddaed946cded964c132bbf23016cf1115abf
+# sha256 of the rest of this file: da8bb94d37906e7838b6426aee2c7c1bd93f3c3718500b2a81fe73c58a10126f
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 5
@@ -259,8 +259,18 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     hub_damping = _array(params.hub_damping, None, "hub_damping")
     tip_mass = _array(params.tip_mass, None, "tip_mass")
     good = _positive(step)
-    numbers = (step, length, mass, inertia, center, gravity, hub_inertia, hub_damping, tip_mass)
-    arrays = (stiffness, damping)
+    numbers: tuple[Any, ...] = (
+        step,
+        length,
+        mass,
+        inertia,
+        center,
+        gravity,
+        hub_inertia,
+        hub_damping,
+        tip_mass,
+    )
+    arrays: tuple[Any, ...] = (stiffness, damping)
     batch, _ = _common(numbers, arrays)
     stiffness = _align(stiffness, batch)
     damping = _align(damping, batch)
@@ -360,8 +370,18 @@ def initialise(
     tip_mass = _array(params.tip_mass, None, "tip_mass")
     initial_angle = _array(initial_angle, STATIONS, "initial_angle")
     initial_rate = _array(initial_rate, STATIONS, "initial_rate")
-    numbers = (hub_torque, length, mass, inertia, center, gravity, hub_inertia, hub_damping, tip_mass)
-    arrays = (stiffness, damping, initial_angle, initial_rate)
+    numbers: tuple[Any, ...] = (
+        hub_torque,
+        length,
+        mass,
+        inertia,
+        center,
+        gravity,
+        hub_inertia,
+        hub_damping,
+        tip_mass,
+    )
+    arrays: tuple[Any, ...] = (stiffness, damping, initial_angle, initial_rate)
     batch, dtype = _common(numbers, arrays)
     stiffness = _align(stiffness, batch)
     damping = _align(damping, batch)
@@ -538,7 +558,7 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     angle = np.asarray(state.angle)
     rate = np.asarray(state.rate)
     acceleration = np.asarray(state.acceleration)
-    numbers = (
+    numbers: tuple[Any, ...] = (
         hub_torque,
         step,
         length,
@@ -556,7 +576,7 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
         hub_rate,
         hub_acceleration,
     )
-    arrays = (stiffness, damping, joint_impedance, angle, rate, acceleration)
+    arrays: tuple[Any, ...] = (stiffness, damping, joint_impedance, angle, rate, acceleration)
     batch, dtype = _common(numbers, arrays)
     stiffness = _align(stiffness, batch)
     damping = _align(damping, batch)
@@ -713,8 +733,8 @@ def output(model: Model, state: State) -> Output:
     angle = np.asarray(state.angle)
     rate = np.asarray(state.rate)
     acceleration = np.asarray(state.acceleration)
-    numbers = (length, hub_angle, hub_rate, hub_acceleration)
-    arrays = (angle, rate, acceleration)
+    numbers: tuple[Any, ...] = (length, hub_angle, hub_rate, hub_acceleration)
+    arrays: tuple[Any, ...] = (angle, rate, acceleration)
     batch, _ = _common(numbers, arrays)
     hub_angle = _spread(hub_angle, batch, False)
     hub_rate = _spread(hub_rate, batch, False)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from tmm_gen.emit.casadi.statements import RoutineText
 from tmm_gen.emit.python.lines import call
 from tmm_gen.emit.python.names import Names
+from tmm_gen.program.passes.prune import without_requirements
 from tmm_gen.program.statements import Program, Routine, Sensitivities
 from tmm_gen.program.variables import Role, Variable
 
@@ -35,7 +36,7 @@ RESERVED = frozenset(
 
 @dataclass(frozen=True)
 class Functions:
-    """Writes the bodies of a program's functions on symbols.
+    """Writes the bodies of a program's functions on symbols, which have no sign: nothing is required of pivots.
 
     Parameters
     ----------
@@ -50,11 +51,11 @@ class Functions:
 
     def prepare(self) -> list[str]:
         """Return the body of ``_prepare(p)``."""
-        program = self.program
+        program, routine = self.program, without_requirements(self.program.prepare)
         model = [f'"{v.name}": {v.name}' for v in program.model]
         return [
-            *self._split("p", self._bound(), program.prepare.read() | set(program.model)),
-            *self._body(program.prepare),
+            *self._split("p", self._bound(), routine.read() | set(program.model)),
+            *self._body(routine),
             f"{_INDENT}return {{",
             *(f"{2 * _INDENT}{entry}," for entry in model),
             f"{_INDENT}}}",
@@ -62,7 +63,7 @@ class Functions:
 
     def initialise(self) -> list[str]:
         """Return the body of ``_initialise(given, stages, p)``."""
-        program, routine = self.program, self.program.initialise
+        program, routine = self.program, without_requirements(self.program.initialise)
         given = [v for v in program.given if v in routine.read()]
         absent = tuple(v for v in program.state if v not in routine.written() or v.length is not None)
         return [
@@ -75,6 +76,7 @@ class Functions:
 
     def step(self, routine: Routine) -> list[str]:
         """Return the body of a step ``_step(model, x, stages)``."""
+        routine = without_requirements(routine)
         return [
             *self._model(routine),
             *self._split("x", self.program.state, set(self.program.state)),
@@ -85,7 +87,7 @@ class Functions:
 
     def output(self) -> list[str]:
         """Return the body of ``_output(model, x, stages)``."""
-        routine = self.program.output
+        routine = without_requirements(self.program.output)
         return [
             *self._model(routine),
             *self._split("x", self.program.state, routine.read()),
@@ -96,7 +98,7 @@ class Functions:
 
     def linearise(self, found: Sensitivities) -> list[str]:
         """Return the body of ``_linearise(model, x, stages)``."""
-        routine = found.linearise
+        routine = without_requirements(found.linearise, frozenset(found.point))
         point = [f'"{v.name}": {self.names[v]}' for v in found.point]
         return [
             *self._model(routine),
@@ -108,7 +110,7 @@ class Functions:
 
     def tangent(self, found: Sensitivities) -> list[str]:
         """Return the body of ``_tangent(model, point, changes, causes)``: a row of directions for each number."""
-        routine = found.tangent
+        routine = without_requirements(found.tangent)
         read = routine.read()
         lines, start = [], 0
         for variable in found.state:

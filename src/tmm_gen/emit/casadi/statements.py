@@ -6,7 +6,7 @@ from tmm_gen.emit.python.lines import assignment, comment
 from tmm_gen.emit.python.names import Names
 from tmm_gen.emit.python.printer import PythonPrinter, element
 from tmm_gen.emit.python.scratch import ScratchTypes
-from tmm_gen.program.statements import Assign, Loop, Mark, Order, Require, Routine
+from tmm_gen.program.statements import Assign, Loop, Order, Routine, Statement
 from tmm_gen.program.variables import Role, Variable
 
 _INDENT = "    "
@@ -20,7 +20,7 @@ class RoutineText:
     Parameters
     ----------
     routine : Routine
-        What to print; requirements are left out, since symbols have no sign.
+        What to print.
     names : Names
         Names of variables inside functions.
     stations : int
@@ -41,8 +41,6 @@ class RoutineText:
         for section in self._routine.sections:
             lines += ["", *comment(section.title, _INDENT)]
             for statement in section.statements:
-                if isinstance(statement, Mark):
-                    raise NotImplementedError("symbols cannot tell whether to sweep again")
                 if isinstance(statement, Loop):
                     lines.append(f"{_INDENT}for j in {self._range(statement)}:")
                     for inner in statement.body:
@@ -51,9 +49,11 @@ class RoutineText:
                     lines += self._single(statement, _INDENT)
         return lines
 
-    def _single(self, statement: Assign | Require, indent: str) -> list[str]:
-        if isinstance(statement, Require):
-            return []
+    def _single(self, statement: Statement, indent: str) -> list[str]:
+        if not isinstance(statement, Assign):
+            raise NotImplementedError(
+                "symbols have no sign: they require nothing, nor tell whether to sweep again"
+            )
         target = self._printer.text(statement.target) + self._types.annotation(statement)
         return assignment(target, self._printer.text(statement.value), indent)
 

@@ -174,8 +174,8 @@ class Functions:
                 (arrays if several else numbers).append(variable.name)
         allocates = any(v.length is not None for v in (*body.filled, *absent))
         lines = [
-            *listing("numbers = ", numbers, _INDENT),
-            *listing("arrays = ", arrays, _INDENT),
+            *listing("numbers: tuple[Any, ...] = ", numbers, _INDENT),
+            *listing("arrays: tuple[Any, ...] = ", arrays, _INDENT),
             f"{_INDENT}batch, {'dtype' if allocates else '_'} = _common(numbers, arrays)",
         ]
         for variable in variables:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from tmm_gen.program.passes.rewrite import keep_assignments
-from tmm_gen.program.statements import Assign, Routine
+from tmm_gen.program.passes.rewrite import keep_assignments, keep_statements
+from tmm_gen.program.statements import Assign, Require, Routine
 from tmm_gen.program.variables import Role, Variable, refs_in
 
 
@@ -31,6 +31,18 @@ def prune(routine: Routine, wanted: frozenset[Variable]) -> Routine:
         if pruned == routine:
             return routine
         routine = pruned
+
+
+def without_requirements(routine: Routine, wanted: frozenset[Variable] = frozenset()) -> Routine:
+    """Remove what a routine requires, and what it computes for nothing else.
+
+    Parameters
+    ----------
+    wanted : frozenset of Variable
+        Scratch that lives on after the routine, beside all that is no scratch.
+    """
+    lives_on = frozenset(v for v in routine.written() if v.role not in SCRATCH)
+    return prune(keep_statements(routine, lambda s: not isinstance(s, Require)), lives_on | wanted)
 
 
 def _required(routine: Routine) -> list:  # type: ignore[type-arg]

@@ -71,19 +71,26 @@ def renamed_scratch(routine: Routine, names: Mapping[str, str]) -> Routine:
 
 def keep_assignments(routine: Routine, keep: Callable[[Assign], bool]) -> Routine:
     """Return the routine without the assignments that are not kept, nor loops and sections left empty."""
+    return keep_statements(routine, lambda s: not isinstance(s, Assign) or keep(s))
 
-    def kept(statement: Statement) -> bool:
-        return not isinstance(statement, Assign) or keep(statement)
 
+def keep_statements(routine: Routine, keep: Callable[[Statement], bool]) -> Routine:
+    """Return the routine without the statements that are not kept, nor loops and sections left empty.
+
+    Parameters
+    ----------
+    keep : callable
+        Says of each statement but a loop whether it stays.
+    """
     sections: list[Section] = []
     for section in routine.sections:
         statements: list[Statement] = []
         for statement in section.statements:
             if isinstance(statement, Loop):
-                body = tuple(s for s in statement.body if kept(s))
+                body = tuple(s for s in statement.body if keep(s))
                 if body:
                     statements.append(replace(statement, body=body))
-            elif kept(statement):
+            elif keep(statement):
                 statements.append(statement)
         if statements:
             sections.append(replace(section, statements=tuple(statements)))
