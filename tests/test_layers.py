@@ -18,7 +18,7 @@ LAYERS = (
     {"scene"},
     {"inputs"},
     {"reference", "derive"},
-    {"row"},
+    {"row", "thesis"},
     {"program"},
     {"emit"},
     {"native", "target"},

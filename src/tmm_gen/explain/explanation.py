@@ -63,11 +63,6 @@ class Explanation:
     everything: Footprint
 
 
-def number_of_terms(scene: Scene) -> int:
-    """Return how many programs :func:`explain` builds."""
-    return len(terms_of(scene)) + 2
-
-
 def explain(scene: Scene, advance: Callable[[str], None] = lambda term: None) -> Explanation:
     """List what was modelled and what was left out, with costs.
 

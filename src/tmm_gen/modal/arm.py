@@ -144,7 +144,7 @@ def _unit_load(kind: Kind, acts: str) -> tuple[float, ...]:
     """Return ``u2`` of a load element for a unit of an input, derived from its equations."""
     from tmm_gen.derive.elements.torsion import LOAD as TORQUE_SYMBOL
     from tmm_gen.derive.elements.torsion import TORQUE
-    from tmm_gen.derive.laplace.planar import LOAD, rest_elements
+    from tmm_gen.derive.small_motion import LOAD, rest_elements
     from tmm_gen.derive.transfer import laplace_matrix
 
     if kind == "chain":

@@ -144,7 +144,7 @@ def _filler(symbols: Sequence[Any], matrix: Any) -> Callable[..., None]:
 @cache
 def _elements(kind: Kind) -> dict[str, Any]:
     if kind == "planar":
-        from tmm_gen.derive.laplace.planar import rest_elements
+        from tmm_gen.derive.small_motion import rest_elements
 
         return rest_elements()
     from tmm_gen.derive.elements.torsion import GROUND_DAMPER, JOINT, LINK, TORQUE

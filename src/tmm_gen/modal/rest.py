@@ -108,7 +108,7 @@ def _balance(name: str) -> Any:
     import sympy as sp
 
     from tmm_gen.derive.elements.planar import LINK, TIP
-    from tmm_gen.derive.laplace.planar import GRAVITY, REST_ANGLE, REST_FORCES, rest_balance
+    from tmm_gen.derive.small_motion import GRAVITY, REST_ANGLE, REST_FORCES, rest_balance
 
     element = LINK if name == "link" else TIP
     symbols = (GRAVITY, REST_ANGLE, *REST_FORCES["out"], *element.parameters)

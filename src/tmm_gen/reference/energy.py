@@ -132,16 +132,6 @@ def dissipation(arm: Arm, time: Array, rate: Array) -> Array:
     return found
 
 
-def angular_momentum(scene: Scene, angle: Array, rate: Array) -> Array:
-    """Return the angular momentum of hub and arm about the base point, (k,), kg m^2/s."""
-    arm = Arm(scene, {})
-    s, c = np.sin(angle), np.cos(angle)
-    place = (arm.walked(c), arm.walked(s))
-    speed = (-arm.walked(s * rate), arm.walked(c * rate))
-    found: Array = (place[0] * speed[1] - place[1] * speed[0]) @ arm.masses + rate @ arm.inertias
-    return found
-
-
 def _integral(time: Array, power: Array) -> Array:
     """Integrate from the first instant, by a cubic spline: fourth order, so that kernels of that order show theirs."""
     from scipy.interpolate import CubicSpline

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
 from typing import Literal
 
 from tmm_gen.scene import Scene
@@ -120,8 +120,3 @@ def own(scene: Scene) -> Configuration:
         backend="c",
     )
     return Configuration(family, scene.integrator.step)
-
-
-def with_step(configuration: Configuration, step: float) -> Configuration:
-    """Return a configuration at another step."""
-    return replace(configuration, step=step)

@@ -10,10 +10,15 @@ import sympy as sp
 from scipy.signal import TransferFunction, step
 
 from tmm_gen.derive.elements.torsion import LOAD
-from tmm_gen.derive.errata import ErratumRow
-from tmm_gen.derive.errata_response import DURATION
-from tmm_gen.derive.laplace.chain import TransferFunctions, numbered_chain, system_matrix, transfer_functions
 from tmm_gen.derive.transfer import LAPLACE
+from tmm_gen.thesis.errata import ErratumRow
+from tmm_gen.thesis.response import DURATION
+from tmm_gen.thesis.transfer_functions import (
+    TransferFunctions,
+    numbered_chain,
+    system_matrix,
+    transfer_functions,
+)
 
 SAMPLE = {"I_1": 5, "I_2": 5, "k_1": 20, "k_2": 20, "c_1": 5, "c_2": 5}
 """Table 3-2."""
@@ -33,7 +38,7 @@ class PrintedFormula:
     number, quantity : str
         Equation and what it gives.
     printed : sympy.Expr
-        In the letters of :func:`~tmm_gen.derive.laplace.chain.numbered_chain`, with ``P`` for the polynomial
+        In the letters of :func:`~tmm_gen.thesis.transfer_functions.numbered_chain`, with ``P`` for the polynomial
         2-100.
     note : str
         What there is to say.

@@ -10,11 +10,11 @@ from itertools import combinations
 import numpy as np
 import sympy as sp
 
-from tmm_gen.derive.errata_response import Response, exact_tip, settling_time, simulate
 from tmm_gen.derive.integrators.declaration import Integrator
 from tmm_gen.derive.integrators.registry import integrator
 from tmm_gen.derive.integrators.relations import DiscreteCoefficients, discrete_coefficients
-from tmm_gen.derive.thesis_tables import PRINTED_B, TABLES, PrintedTable
+from tmm_gen.thesis.response import Response, exact_tip, settling_time, simulate
+from tmm_gen.thesis.tables import PRINTED_B, TABLES, PrintedTable
 
 COEFFICIENTS = ("A", "B", "D", "E")
 STEP_OF_EFFECTS = 0.1
@@ -30,7 +30,7 @@ class ErratumRow:
     table, coefficient : str
         Number in the thesis; "A", "B", "D" or "E".
     printed, derived : sympy.Expr
-        In the symbols of :mod:`tmm_gen.derive.thesis_tables`.
+        In the symbols of :mod:`tmm_gen.thesis.tables`.
     agrees : bool
         They are equal for every step, history and parameter.
     effect : str

@@ -9,16 +9,16 @@ import numpy as np
 import pytest
 import sympy as sp
 
-from tmm_gen.derive.laplace.chain import SymbolicChain, numbered_chain, system_matrix, transfer_functions
 from tmm_gen.derive.transfer import LAPLACE
 from tmm_gen.modal.arm import linear_arm
 from tmm_gen.modal.matrices import matrices
 from tmm_gen.modal.modes import find_modes
 from tmm_gen.modal.response import frequency_response
 from tmm_gen.scene import load_scene
+from tmm_gen.thesis.transfer_functions import SymbolicChain, numbered_chain, system_matrix, transfer_functions
 
 s = LAPLACE
-SCENES = Path(__file__).resolve().parents[3] / "scenes"
+SCENES = Path(__file__).resolve().parents[2] / "scenes"
 
 
 def test_equations_2_98_to_2_100() -> None:

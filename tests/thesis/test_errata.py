@@ -8,18 +8,18 @@ import sympy as sp
 from scipy.integrate import solve_ivp
 
 from tmm_gen.cli import main
-from tmm_gen.derive.errata import (
+from tmm_gen.derive.integrators.declaration import STEP, Integrator, Scheme, Stage, past, stage
+from tmm_gen.derive.integrators.registry import integrator
+from tmm_gen.derive.integrators.relations import discrete_coefficients
+from tmm_gen.thesis.errata import (
     COEFFICIENTS,
     derived_coefficients,
     errata_rows,
     headline,
     printed_coefficients,
 )
-from tmm_gen.derive.errata_response import exact_tip, settling_time, simulate
-from tmm_gen.derive.integrators.declaration import STEP, Integrator, Scheme, Stage, past, stage
-from tmm_gen.derive.integrators.registry import integrator
-from tmm_gen.derive.integrators.relations import discrete_coefficients
-from tmm_gen.derive.thesis_tables import BETA, PRINTED_B, TABLES, THETA
+from tmm_gen.thesis.response import exact_tip, settling_time, simulate
+from tmm_gen.thesis.tables import BETA, PRINTED_B, TABLES, THETA
 
 ROWS = errata_rows()
 BY_NAME = {(row.table, row.coefficient): row for row in ROWS}

@@ -8,8 +8,8 @@ import pytest
 import sympy as sp
 
 from tmm_gen.cli import main
-from tmm_gen.derive.errata_frequency import RATIOS, frequency_errata_rows
-from tmm_gen.derive.laplace.chain import numbered_chain, transfer_functions
+from tmm_gen.thesis.errata_frequency import RATIOS, frequency_errata_rows
+from tmm_gen.thesis.transfer_functions import numbered_chain, transfer_functions
 
 ROWS = {(row.table, row.coefficient): row for row in frequency_errata_rows()}
 WRONG = {("2-90", "U_21"), ("2-90", "U_31"), ("2-90", "U_32"), ("2-99", "theta_2/T")}
