@@ -128,7 +128,7 @@ def _columns(scene: Scene, record: Path) -> tuple[str, ...]:
     UserError
         If the file cannot be read, or has none.
     """
-    from tmm_gen.simulate.columns import output_columns
+    from tmm_gen.scene.columns import output_columns
 
     try:
         with open_table(record) as file:

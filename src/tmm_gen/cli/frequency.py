@@ -27,8 +27,6 @@ if TYPE_CHECKING:
 _SHOWN = 8
 """Modes that fit into the band where none is asked for."""
 
-_IN = {"torque": "N m", "force_x": "N", "force_y": "N", "angle": "rad"}
-
 
 @click.command("frequency")
 @click.argument("scene", metavar="SCENE", type=click.Path(path_type=Path))
@@ -91,7 +89,6 @@ def frequency(
     With --links-for ERROR --band HZ: how few links does this scene require?
     """
     from tmm_gen.scene import load_scene
-    from tmm_gen.scene.quantity import quantities
 
     if (error is None) != (band is None):
         raise click.UsageError("--links-for ERROR and --band HZ belong together.")
@@ -105,7 +102,7 @@ def frequency(
     inputs = constant_inputs(loaded, given)
     chosen = _chosen(scene, loaded.inputs, source, "--from", "[[input]]")
     # energies go with the square of the motion
-    readable = tuple(item for item in loaded.outputs if not quantities(loaded.model.kind)[item.of].of_arm)
+    readable = tuple(item for item in loaded.outputs if not loaded.quantity(item).of_arm)
     read = _chosen(scene, readable, target, "--to", "[[output]] of a place")
     with progress(f"frequency response of {loaded.name}"):
         answer = _respond(loaded, inputs, chosen, read, (low, high), points)
@@ -142,10 +139,10 @@ class _Answer:
     @property
     def unit(self) -> str:
         """Of the magnitude."""
-        from tmm_gen.scene.quantity import quantities
+        from tmm_gen.scene.quantity import INPUT_UNITS
 
-        numerator = quantities(self.arm.kind)[self.read.of].unit.replace("^2", "²")
-        denominator = _IN[self.given.acts]
+        numerator = self.arm.scene.quantity(self.read).unit.replace("^2", "²")
+        denominator = INPUT_UNITS[self.given.acts]
         return f"{numerator} per {denominator}"
 
 

@@ -54,7 +54,7 @@ def constant_inputs(scene: Scene, given: Sequence[str]) -> dict[str, float]:
     found: dict[str, float] = {}
     for text in given:
         name, equals, value = text.partition("=")
-        if scene.model.kind == "chain":
+        if scene.model.linear:
             raise UserError(
                 f"--input {text}: a chain is linear, its modes do not depend on loads. Leave it out."
             )

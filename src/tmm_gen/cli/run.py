@@ -132,15 +132,15 @@ def run(
         chosen = chosen.replace(**{"model.iterations": iterations})
     read = (scene, *table_files(given))
     signals = read_inputs(given, *input_names(chosen))
-    planar = chosen.model.kind == "planar"
-    if animated is not None and not planar:
+    shaped = chosen.model.in_plane
+    if animated is not None and not shaped:
         raise UserError(f"--animate {animated}: a chain has no shape to show. Use --plot.")
     claim((csv_file, picture, animated), read)
     duration = until or default_duration(chosen)
     refuse_other_clock(signals, duration)
     steps = number_of_steps(duration, chosen.integrator.step)
     with progress(f"simulating {chosen.name}", total=steps) as advance:
-        drawn = planar and (picture is not None or animated is not None)
+        drawn = shaped and (picture is not None or animated is not None)
         simulation = simulate(chosen, signals, duration, backend, advance, trace=drawn)
     written = _write(simulation, csv_file, picture, animated, read)
     _show(simulation, written, json_mode)

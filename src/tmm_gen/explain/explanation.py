@@ -107,7 +107,7 @@ def _history(scene: Scene, program: Program) -> Explained:
     """Count the numbers a state would hold if it kept angle, rate and acceleration of each instant looked back to."""
     method = integrator(scene.integrator.name, **scene.integrator.parameters)
     depth = history_depth(method)
-    turning = scene.stations + (scene.base.kind != "clamp")
+    turning = scene.stations + scene.base.moves
     motion = [v for v in program.state if _is_motion(v)]
     kept = sum(v.length or 1 for v in motion)
     saved = (3 * depth * turning - kept) * real_of(scene.emit).number_size

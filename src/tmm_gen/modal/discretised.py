@@ -108,7 +108,7 @@ def links_needed(scene: Scene, error: float, band: float) -> LinksNeeded:
         If the scene has no beam, or not even `MOST_LINKS` links are enough.
     """
     exact = frequencies_below(beam_arm(scene), band)
-    first = max(1, len(exact) - int(scene.base.kind == "motor"))
+    first = max(1, len(exact) - scene.hub)
 
     def errors(links: int) -> Array:
         return relative_errors(straight_frequencies(scene, links, count=len(exact)), exact)

@@ -140,7 +140,7 @@ def kernel_accelerations(scene: Scene, inputs: Mapping[str, float] | None = None
     """
     from tmm_gen.native.python_module import numpy_module
 
-    if scene.base.kind == "motor":
+    if scene.hub:
         scene = scene.replace(**{"integrator.name": "newmark", "model.linearisation": "newton"})
     module = numpy_module(scene)
     held = module.Input(**{item.name: (inputs or {}).get(item.name, 0.0) for item in scene.inputs})
@@ -149,7 +149,7 @@ def kernel_accelerations(scene: Scene, inputs: Mapping[str, float] | None = None
         state = module.initialise(module.Params(), held, initial_angle=angles)
         return np.array(state.acceleration, float)
 
-    if scene.base.kind != "motor":
+    if not scene.hub:
         return held_base
     short = module.prepare(step=_SHORT)
     rest = module.initialise(module.Params(), held)

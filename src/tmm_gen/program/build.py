@@ -40,7 +40,7 @@ def build_program(scene: Scene, *, auto: bool = False) -> Program:
     """
     chosen = integrator(scene.integrator.name, **scene.integrator.parameters)
     try:
-        if scene.model.kind == "chain":
+        if scene.model.linear:
             require_safe_product(scene, chosen)
             require_digits(scene, chosen)
         else:

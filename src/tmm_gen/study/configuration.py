@@ -110,11 +110,10 @@ class Configuration:
 
 def own(scene: Scene) -> Configuration:
     """Return how a scene itself wants to be computed, in C."""
-    planar = scene.model.kind == "planar"
     family = Family(
         integrator=underscored(scene.integrator.name),
         links=scene.beam.links if scene.beam else None,
-        linearisation=scene.model.linearisation if planar else None,
+        linearisation=None if scene.model.linear else scene.model.linearisation,
         iterations=scene.model.sweeps,
         real=scene.emit.real,
         backend="c",

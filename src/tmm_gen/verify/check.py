@@ -105,13 +105,13 @@ def check_scene(scene: Scene, advance: Callable[[float, str], None]) -> CheckRep
     from tmm_gen.program.count import count_routine
 
     backends, real = scene.emit.backends, scene.emit.real
-    planar = scene.model.kind == "planar"
+    linear = scene.model.linear
     program = build_program(scene)
     facts: dict[str, object] = {"operations_per_step": count_routine(program.main).total}
     module = numpy_module(scene, program)
     reference = numpy_step(module, program)
-    vectors = list(reached_vectors(module, program) if planar else random_vectors(program))
-    allowed = PLANAR_STEP if planar else ONE_STEP
+    vectors = list(random_vectors(program) if linear else reached_vectors(module, program))
+    allowed = ONE_STEP if linear else PLANAR_STEP
     rows: list[CheckRow] = []
     kernel = None
     if "c" in backends:
@@ -128,7 +128,7 @@ def check_scene(scene: Scene, advance: Callable[[float, str], None]) -> CheckRep
     advance(0.2, "simulating")
     rows += _runs(scene, module, kernel)
     advance(0.3, "refining the step")
-    rows.append(planar_slope(scene, module, facts) if planar else _slope(scene, module, facts))
+    rows.append(_slope(scene, module, facts) if linear else planar_slope(scene, module, facts))
     advance(0.2, "done")
     return CheckReport(tuple(rows), facts)
 
@@ -160,7 +160,7 @@ def unit_inputs(scene: Scene) -> dict[str, Signal]:
 
 def _at_base_angle(scene: Scene) -> Scene:
     """Return a scene whose links stand along a prescribed base at the start."""
-    if scene.base.kind != "prescribed":
+    if not scene.prescribed:
         return scene
     return scene.replace(initial={"angles": 1.0, "rates": 0.0})
 

@@ -107,7 +107,7 @@ class Rounding:
             impedance = of_stiffness * stiffness + of_damping * damping
             around = impedance + np.append(impedance[1:], 0.0)
             largest = max(largest, float(np.max(around / inertia)))
-            if scene.base.kind == "motor":
+            if scene.hub:
                 at_hub = float(impedance[0]) + of_damping * scene.base.damping
                 largest = max(largest, at_hub / scene.base.inertia)
         return largest
@@ -137,7 +137,7 @@ def first_period(scene: Scene) -> float:
 
     By inverse iteration from the static deflection. Flexibilities are sums of positive numbers: no digits are lost.
     """
-    if scene.base.kind == "motor":
+    if scene.hub:
         return 0.0
     compliance = 1.0 / np.array([joint.stiffness for joint in scene.joints])
     inertia = np.array([link.inertia for link in scene.links])
