@@ -14,8 +14,8 @@ from tmm_gen.cli.outputs import OutputFile, claim, force_option, require_new
 from tmm_gen.cli.study_options import one_thread
 
 if TYPE_CHECKING:
+    from tmm_gen.closed_loop.compare import Trial
     from tmm_gen.control.bench import Bench
-    from tmm_gen.control.compare import Trial
     from tmm_gen.control.condition import Condition
     from tmm_gen.control.controllers import ControllerKind
     from tmm_gen.scene import Scene
@@ -188,7 +188,7 @@ def _trials(
     compiled: bool,
 ) -> list[Trial]:
     """Return the trials of all controllers under all conditions."""
-    from tmm_gen.control.compare import compare
+    from tmm_gen.closed_loop.compare import compare
 
     done: list[Trial] = []
     with progress(f"controlling {scene.name}", total=len(kinds) * len(cases)) as advance:

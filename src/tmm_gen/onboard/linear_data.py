@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 
 from tmm_gen.control.command import Status
 from tmm_gen.control.credible import Credible
-from tmm_gen.control.emitted.program_data import ProgramData, program_data
 from tmm_gen.control.kalman import KalmanFilter
 from tmm_gen.control.linear_mpc import LinearMpc
 from tmm_gen.control.safe import BRAKE_TIME
+from tmm_gen.onboard.program_data import ProgramData, program_data
 
 Array = NDArray[np.float64]
 

@@ -8,13 +8,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from tmm_gen.closed_loop.figures import BAND, loop_figures
+from tmm_gen.closed_loop.loop import Loop, run_loop
+from tmm_gen.closed_loop.plant import Plant
 from tmm_gen.control.bench import Bench
-from tmm_gen.control.closed_loop import Loop, run_loop
 from tmm_gen.control.command import Controller
 from tmm_gen.control.condition import Condition
 from tmm_gen.control.controllers import BY_NAME
-from tmm_gen.control.figures import BAND, loop_figures
-from tmm_gen.control.plant import Plant
 
 DURATION = 2.0
 """Of each closed loop, s."""

@@ -6,16 +6,16 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from tmm_gen.control.emitted.example_arm import ExampleArm
-from tmm_gen.control.emitted.folder import complete
-from tmm_gen.control.emitted.rti_data import RtiData, rti_data
-from tmm_gen.control.emitted.solver import solver_files
-from tmm_gen.control.emitted.text import ControllerText
 from tmm_gen.control.rti import RealTimeIteration
 from tmm_gen.emit.c import emit_kernel
 from tmm_gen.emit.c.real import REALS
 from tmm_gen.emit.c_names import bare_names
 from tmm_gen.emit.templates import render
+from tmm_gen.onboard.example_arm import ExampleArm
+from tmm_gen.onboard.folder import complete
+from tmm_gen.onboard.rti_data import RtiData, rti_data
+from tmm_gen.onboard.solver import solver_files
+from tmm_gen.onboard.text import ControllerText
 from tmm_gen.program.build import build_program
 
 

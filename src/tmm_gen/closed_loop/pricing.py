@@ -10,8 +10,8 @@ from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
 from functools import partial
 
+from tmm_gen.closed_loop.objective import objective
 from tmm_gen.control.bench import Bench
-from tmm_gen.control.objective import objective
 from tmm_gen.scene import Scene
 
 Cost = Callable[[Bench, Sequence[str], float], float]

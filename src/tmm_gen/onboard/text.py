@@ -12,12 +12,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from tmm_gen.control.condensed import BEYOND
 from tmm_gen.control.credible import FARTHEST, JUMP, PATIENCE, Credible
-from tmm_gen.control.emitted.program_data import ProgramData
-from tmm_gen.control.emitted.tables import number, table
-from tmm_gen.control.emitted.tolerances import TOLERANCES, Tolerances
 from tmm_gen.control.problem import ControlProblem
 from tmm_gen.emit.c.real import Real
 from tmm_gen.emit.c.wrap import WIDTH
+from tmm_gen.onboard.program_data import ProgramData
+from tmm_gen.onboard.tables import number, table
+from tmm_gen.onboard.tolerances import TOLERANCES, Tolerances
 from tmm_gen.version import __version__
 
 _SENSORS = (

@@ -7,16 +7,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from tmm_gen.closed_loop.figures import Figures, loop_figures
+from tmm_gen.closed_loop.loop import Loop, run_loop
+from tmm_gen.closed_loop.plant import Plant
 from tmm_gen.control.bench import Bench
-from tmm_gen.control.closed_loop import Loop, run_loop
 from tmm_gen.control.command import Controller
 from tmm_gen.control.condition import Condition
 from tmm_gen.control.controllers import ControllerKind
-from tmm_gen.control.emitted.emit import EMITTED, emit_controller
-from tmm_gen.control.emitted.native import EmittedController
-from tmm_gen.control.figures import Figures, loop_figures
 from tmm_gen.control.kalman import present_sensors
-from tmm_gen.control.plant import Plant
+from tmm_gen.onboard.emit import EMITTED, emit_controller
+from tmm_gen.onboard.native import EmittedController
 
 DURATION = 2.5
 """Of a closed loop, s."""

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from tmm_gen.control.bench import Bench
-from tmm_gen.control.emitted.example_arm import example_arm
-from tmm_gen.control.emitted.linear import emit_linear_mpc
-from tmm_gen.control.emitted.rti import emit_rti
 from tmm_gen.control.linear_mpc import LinearMpc
 from tmm_gen.control.rti import RealTimeIteration
 from tmm_gen.errors import UserError
+from tmm_gen.onboard.example_arm import example_arm
+from tmm_gen.onboard.linear import emit_linear_mpc
+from tmm_gen.onboard.rti import emit_rti
 
 EMITTED = ("mpc-links", "mpc-modes", "rti-zero", "rti")
 """Names of the controllers that can be written in C."""

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from tmm_gen.control.emitted.example_arm import ExampleArm
-from tmm_gen.control.emitted.text import ControllerText
 from tmm_gen.emit.templates import render
+from tmm_gen.onboard.example_arm import ExampleArm
+from tmm_gen.onboard.text import ControllerText
 
 EXAMPLE = "example/example.c"
 """The only source with a ``main``, in a folder of its own, so that the others can be taken all together."""

@@ -1,7 +1,7 @@
 """Every controller tuned by the same optimiser, on the same objective, with the same number of closed loops.
 
-The logarithms of gains or weights are searched (:mod:`tmm_gen.control.search`), over ranges; the scene's own numbers
-play no part, unless they are to be refined. Predictive control without bounds is the regulator of the same weights,
+The logarithms of gains or weights are searched (:mod:`tmm_gen.closed_loop.search`), over ranges; the scene's own
+numbers play no part, unless they are to be refined. Predictive control without bounds is the regulator of the same weights,
 whose loops cost a tenth: so weights and estimator of a regulator are searched first, and predictive control begins at
 one of the valleys found there, that which is the best for itself: a regulator by modes bears estimators that others
 do not.
@@ -17,8 +17,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.control.pricing import OneByOne, Pricing
-from tmm_gen.control.search import search_nearby, search_widely
+from tmm_gen.closed_loop.pricing import OneByOne, Pricing
+from tmm_gen.closed_loop.search import search_nearby, search_widely
 from tmm_gen.scene import Scene
 
 Array = NDArray[np.float64]
@@ -223,8 +223,8 @@ def tune(
     advance : callable, optional
         Called after each evaluation with the lowest price so far.
     pricing : callable, optional
-        What finds prices; by default :class:`~tmm_gen.control.pricing.OneByOne`, of
-        :func:`tmm_gen.control.objective.objective`.
+        What finds prices; by default :class:`~tmm_gen.closed_loop.pricing.OneByOne`, of
+        :func:`tmm_gen.closed_loop.objective.objective`.
     refine : bool
         Whether to begin at the numbers the scene has, and nowhere else.
 

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from tmm_gen.closed_loop.plant import Plant
 from tmm_gen.control.command import Controller, Status
-from tmm_gen.control.plant import Plant
 
 Array = NDArray[np.float64]
 

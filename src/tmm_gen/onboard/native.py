@@ -13,10 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.control.command import Command, Status
-from tmm_gen.control.emitted.folder import library_sources
-from tmm_gen.control.emitted.text import macro_prefix
 from tmm_gen.emit.templates import render
 from tmm_gen.errors import UserError
+from tmm_gen.onboard.folder import library_sources
+from tmm_gen.onboard.text import macro_prefix
 from tmm_gen.scratch import scratch_folder
 
 Array = NDArray[np.float64]

@@ -9,9 +9,9 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.control.fit import MAD, Fit, sorted_out
-from tmm_gen.control.fitted_keys import changes, default_keys, number_of, replaced
-from tmm_gen.control.uncertainty import SURE, deviations
+from tmm_gen.calibration.fit import MAD, Fit, sorted_out
+from tmm_gen.calibration.fitted_keys import changes, default_keys, number_of, replaced
+from tmm_gen.calibration.uncertainty import SURE, deviations
 from tmm_gen.errors import CheckFailed, UserError
 from tmm_gen.inputs.clock import starts_of
 from tmm_gen.inputs.signals import Signal
@@ -114,7 +114,7 @@ def calibrate(
 
     Outputs are simulated with the scene's kernel from its initial state under the recorded inputs, and compared at
     the recorded instants, each relative to its own standard deviation. For how sure the numbers are, see
-    :mod:`tmm_gen.control.uncertainty`.
+    :mod:`tmm_gen.calibration.uncertainty`.
 
     Parameters
     ----------

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tmm_gen.control.closed_loop import Loop
+from tmm_gen.closed_loop.loop import Loop
 from tmm_gen.simulate.metrics import step_figures
 
 BAND = 0.005

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from tmm_gen.control.emitted.example_arm import ExampleArm
-from tmm_gen.control.emitted.folder import complete
-from tmm_gen.control.emitted.linear_data import linear_mpc_data
-from tmm_gen.control.emitted.solver import solver_files
-from tmm_gen.control.emitted.text import ControllerText
 from tmm_gen.control.linear_mpc import LinearMpc
 from tmm_gen.emit.c.real import REALS
 from tmm_gen.emit.templates import render
+from tmm_gen.onboard.example_arm import ExampleArm
+from tmm_gen.onboard.folder import complete
+from tmm_gen.onboard.linear_data import linear_mpc_data
+from tmm_gen.onboard.solver import solver_files
+from tmm_gen.onboard.text import ControllerText
 
 
 def emit_linear_mpc(

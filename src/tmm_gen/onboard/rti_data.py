@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.control.credible import Credible
-from tmm_gen.control.emitted.linear_data import gains_by_sensors
-from tmm_gen.control.emitted.program_data import ProgramData, program_data
 from tmm_gen.control.kalman import KalmanFilter
 from tmm_gen.control.rti import RealTimeIteration
 from tmm_gen.control.safe import BRAKE_TIME
+from tmm_gen.onboard.linear_data import gains_by_sensors
+from tmm_gen.onboard.program_data import ProgramData, program_data
 
 Array = NDArray[np.float64]
 
@@ -32,7 +32,7 @@ class RtiData:
     weights, targets : tuple of float
         Of each output.
     gains : array, (2^(p - 1), m + 1, p)
-        Of the filter; see :func:`~tmm_gen.control.emitted.linear_data.gains_by_sensors`.
+        Of the filter; see :func:`~tmm_gen.onboard.linear_data.gains_by_sensors`.
     start : array, (m + 1,)
         Estimate at time zero.
     credible : Credible

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from tmm_gen.control.compare import Trial
-from tmm_gen.control.figures import BAND
+from tmm_gen.closed_loop.compare import Trial
+from tmm_gen.closed_loop.figures import BAND
 from tmm_gen.control.problem import ControlProblem
 from tmm_gen.style import FAINT, PALETTE, figure, picture, style
 

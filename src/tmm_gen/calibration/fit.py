@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.control.fitted_keys import changes, replaced
+from tmm_gen.calibration.fitted_keys import changes, replaced
 from tmm_gen.errors import UserError
 from tmm_gen.inputs.clock import from_start, refuse_what_is_unknown, spacing
 from tmm_gen.inputs.signals import Signal, Table
@@ -41,7 +41,7 @@ class Fit:
     record : mapping from str to Signal
         Inputs and outputs by name, on one clock.
     keys : sequence of str
-        Numbers that change; see :mod:`tmm_gen.control.fitted_keys`.
+        Numbers that change; see :mod:`tmm_gen.calibration.fitted_keys`.
     given : array
         Their values in the scene.
     start : float
