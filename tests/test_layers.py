@@ -19,6 +19,7 @@ LAYERS = (
     {"inputs"},
     {"reference", "derive"},
     {"row", "thesis"},
+    {"digits"},
     {"program"},
     {"emit"},
     {"native", "target"},

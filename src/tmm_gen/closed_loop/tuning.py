@@ -1,10 +1,10 @@
 """Every controller tuned by the same optimiser, on the same objective, with the same number of closed loops.
 
 The logarithms of gains or weights are searched (:mod:`tmm_gen.closed_loop.search`), over ranges; the scene's own
-numbers play no part, unless they are to be refined. Predictive control without bounds is the regulator of the same weights,
-whose loops cost a tenth: so weights and estimator of a regulator are searched first, and predictive control begins at
-one of the valleys found there, that which is the best for itself: a regulator by modes bears estimators that others
-do not.
+numbers play no part, unless they are to be refined. Predictive control without bounds is the regulator of the same
+weights, whose loops cost a tenth: so weights and estimator of a regulator are searched first, and predictive control
+begins at one of the valleys found there, that which is the best for itself: a regulator by modes bears estimators
+that others do not.
 """
 
 from __future__ import annotations

@@ -5,6 +5,8 @@ from __future__ import annotations
 from tmm_gen.derive.integrators.declaration import Integrator
 from tmm_gen.derive.integrators.registry import integrator
 from tmm_gen.derive.integrators.relations import UnsuitableUnknownError, affine_motion
+from tmm_gen.digits.product import require_safe_product
+from tmm_gen.digits.rounding import require_digits
 from tmm_gen.errors import UserError
 from tmm_gen.program.arm.assemble import Choices, build
 from tmm_gen.program.arm.product import ProductWalks
@@ -13,8 +15,6 @@ from tmm_gen.program.arm.walks import Walks
 from tmm_gen.program.sensitivities.refusals import require_derivatives
 from tmm_gen.program.sensitivities.walks import TangentableWalks
 from tmm_gen.program.statements import Program
-from tmm_gen.program.torsion.rounding import require_digits
-from tmm_gen.program.torsion.safety import require_safe_product
 from tmm_gen.row.row import Row
 from tmm_gen.row.scene import row_of
 from tmm_gen.scene import Scene

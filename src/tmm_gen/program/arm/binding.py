@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import sympy as sp
 
-from tmm_gen.derive.station.lets import Let, Line, Pivot, Update
+from tmm_gen.derive.station.lets import Let, Line, Pivot
 from tmm_gen.program.motion import in_order
 from tmm_gen.program.statements import Assign, Require
 from tmm_gen.program.variables import Ref, local
@@ -81,14 +81,3 @@ class Binding:
             else:
                 found += in_order([Assign(self.target(s), self.value(v)) for s, v in line.values.items()])
         return found
-
-
-def composed(lines: Iterable[Line]) -> dict[sp.Symbol, sp.Expr]:
-    """Return what a straight sequence of lines leaves of what it carries, by what was there before."""
-    found: dict[sp.Symbol, sp.Expr] = {}
-    for line in lines:
-        if isinstance(line, Let):
-            found[line.symbol] = line.value.subs(found, simultaneous=True)
-        elif isinstance(line, Update):
-            found |= {s: sp.sympify(v).subs(found, simultaneous=True) for s, v in line.values.items()}
-    return found

@@ -20,11 +20,10 @@ from tmm_gen.derive.integrators.declaration import STEP, Integrator
 from tmm_gen.derive.integrators.relations import affine_motion
 from tmm_gen.derive.station.frame import GAINS, Frame
 from tmm_gen.derive.station.law import KINDS
-from tmm_gen.derive.station.lets import Coordinate
+from tmm_gen.derive.station.lets import Coordinate, composed
 from tmm_gen.derive.station.product import FORCE_GAIN, MOTION_GAIN, product
 from tmm_gen.derive.station.station import inward, outward
 from tmm_gen.errors import UserError
-from tmm_gen.program.arm.binding import composed
 from tmm_gen.scene import Scene
 from tmm_gen.scene.emit import Emit
 

@@ -24,8 +24,8 @@ from tmm_gen.derive.integrators.history import history_depth
 from tmm_gen.derive.integrators.relations import affine_motion
 from tmm_gen.derive.station.frame import GAINS
 from tmm_gen.derive.station.law import impedance_law
+from tmm_gen.digits.product import DIGITS
 from tmm_gen.errors import UserError
-from tmm_gen.program.torsion.safety import DIGITS
 from tmm_gen.scene import Scene
 
 _EPSILON = {"float64": sys.float_info.epsilon / 2.0, "float32": 2.0**-24}
