@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.emit.c.real import REALS
+from tmm_gen.c_language.real import REALS
 from tmm_gen.emit.templates import render
 from tmm_gen.errors import UserError
 from tmm_gen.onboard.folder import library_sources

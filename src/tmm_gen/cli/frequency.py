@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from tmm_gen.cli.console import Column, progress, table
-from tmm_gen.cli.given import PICTURE, constant_inputs, picture_option, positive
+from tmm_gen.cli.given import constant_inputs, picture_file, plot_option, positive
 from tmm_gen.cli.links import show_links
 from tmm_gen.cli.outputs import OutputFile, claim, write_outputs
 from tmm_gen.errors import UserError
@@ -49,15 +49,7 @@ _SHOWN = 8
     help="A constant input that a planar arm rests under. Repeatable; the rest is zero.",
 )
 @click.option("--csv", "csv_file", type=OutputFile(), help="Write the response.")
-@click.option(
-    "--plot",
-    "picture",
-    metavar="[FILE.png]",
-    is_flag=False,
-    flag_value=PICTURE,
-    callback=picture_option,
-    help="Draw magnitude and phase; by default into NAME-frequency.png.",
-)
+@plot_option("magnitude and phase", "-frequency")
 @click.option(
     "--links-for",
     "error",
@@ -216,7 +208,7 @@ def _write(scene: Path, answer: _Answer, csv_file: Path | None, picture: Path | 
     if picture is not None:
         from tmm_gen.modal.picture import bode_picture
 
-        target = Path(f"{answer.arm.scene.name}-frequency.png") if picture == Path(PICTURE) else picture
+        target = picture_file(picture, answer.arm.scene.name, "-frequency")
         name = _shown(answer)
         texts = (answer.arm.scene.title, f"{name} for a unit of {answer.given.name}")
         drawn = (answer.hertz, answer.parts[name], answer.beam)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from tmm_gen.cli.console import progress
-from tmm_gen.cli.given import PICTURE, picture_option, positive
+from tmm_gen.cli.given import plot_option, positive
 from tmm_gen.cli.mpc_tune import EVERYTHING, chosen, tuned
 from tmm_gen.cli.outputs import OutputFile, claim, force_option, require_new
 from tmm_gen.cli.study_options import one_thread
@@ -53,15 +53,7 @@ _EMITTED = "mpc-modes"
     help="Of the sensors' noise, or of the search by --tune.",
 )
 @click.option("--compiled", is_flag=True, help="Run the controllers that exist as C as compiled C.")
-@click.option(
-    "--plot",
-    "picture",
-    metavar="[FILE.png]",
-    is_flag=False,
-    flag_value=PICTURE,
-    callback=picture_option,
-    help="Draw tip angles and torques; by default into NAME-mpc.png.",
-)
+@plot_option("tip angles and torques", "-mpc")
 @click.option(
     "--animate",
     "animated",

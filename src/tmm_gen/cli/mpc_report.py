@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from tmm_gen.cli.console import Column, progress, table
-from tmm_gen.cli.given import PICTURE
+from tmm_gen.cli.given import picture_file
 from tmm_gen.cli.outputs import write_outputs
 from tmm_gen.errors import UserError
 
@@ -73,7 +73,7 @@ def write_files(bench: Bench, trials: list[Trial], picture: Path | None, animate
     if picture is not None:
         from tmm_gen.closed_loop.pictures import comparison_picture
 
-        target = Path(f"{bench.scene.name}-mpc.png") if picture == Path(PICTURE) else picture
+        target = picture_file(picture, bench.scene.name, "-mpc")
         files[target] = comparison_picture(trials, bench.problem, target.suffix[1:].lower())
     if animated is not None:
         from tmm_gen.closed_loop.motion import motion

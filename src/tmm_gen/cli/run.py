@@ -11,7 +11,7 @@ import click
 
 from tmm_gen.cli.changes import changed_scene, set_option
 from tmm_gen.cli.console import Column, progress, table
-from tmm_gen.cli.given import PICTURE, picture_option
+from tmm_gen.cli.given import picture_file, plot_option
 from tmm_gen.cli.outputs import OutputFile, claim, write_outputs
 from tmm_gen.errors import UserError
 
@@ -84,15 +84,7 @@ def _sweeps(_context: click.Context, parameter: click.Parameter, value: str | No
 )
 @click.option("--backend", type=click.Choice(["numpy", "c"]), default="numpy", show_default=True)
 @click.option("--csv", "csv_file", type=OutputFile(), help="Write the outputs over time.")
-@click.option(
-    "--plot",
-    "picture",
-    metavar="[FILE.png]",
-    is_flag=False,
-    flag_value=PICTURE,
-    callback=picture_option,
-    help="Draw inputs and outputs; by default into NAME.png.",
-)
+@plot_option("inputs and outputs")
 @click.option(
     "--animate",
     "animated",
@@ -160,7 +152,7 @@ def _write(
     if picture is not None:
         from tmm_gen.report.plots import response_picture
 
-        target = Path(f"{simulation.scene.name}.png") if picture == Path(PICTURE) else picture
+        target = picture_file(picture, simulation.scene.name)
         files[target] = response_picture(simulation, target.suffix[1:].lower())
     if animated is not None:
         from tmm_gen.report.animate import animation

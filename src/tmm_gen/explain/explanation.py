@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from tmm_gen.c_language.real import Real, real_of
 from tmm_gen.derive.integrators.history import history_depth
 from tmm_gen.derive.integrators.registry import integrator
-from tmm_gen.emit.c.real import Real, real_of
 from tmm_gen.explain.footprint import Footprint, footprint, footprint_of
 from tmm_gen.explain.terms import Term, terms_of
 from tmm_gen.program.build import build_program

@@ -6,10 +6,10 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
+from tmm_gen.c_language.names import bare_names
+from tmm_gen.c_language.real import REALS
 from tmm_gen.control.rti import RealTimeIteration
 from tmm_gen.emit.c import emit_kernel
-from tmm_gen.emit.c.real import REALS
-from tmm_gen.emit.c_names import bare_names
 from tmm_gen.emit.templates import render
 from tmm_gen.onboard.example_arm import ExampleArm
 from tmm_gen.onboard.folder import complete

@@ -7,8 +7,8 @@ import textwrap
 import numpy as np
 from numpy.typing import ArrayLike
 
-from tmm_gen.emit.c.real import Real
-from tmm_gen.emit.c.wrap import INDENT, WIDTH
+from tmm_gen.c_language.real import Real
+from tmm_gen.c_language.wrap import INDENT, WIDTH
 
 
 def number(value: float, real: Real) -> str:

@@ -10,11 +10,11 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from tmm_gen.c_language.real import Real
+from tmm_gen.c_language.wrap import WIDTH
 from tmm_gen.control.condensed import BEYOND
 from tmm_gen.control.credible import FARTHEST, JUMP, PATIENCE, Credible
 from tmm_gen.control.problem import ControlProblem
-from tmm_gen.emit.c.real import Real
-from tmm_gen.emit.c.wrap import WIDTH
 from tmm_gen.onboard.program_data import ProgramData
 from tmm_gen.onboard.tables import number, table
 from tmm_gen.onboard.tolerances import TOLERANCES, Tolerances

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from tmm_gen.c_language.names import element_name
 from tmm_gen.emit.c.kernel import Kernel
 from tmm_gen.emit.c.structs import dimension
-from tmm_gen.emit.c_names import element_name
 from tmm_gen.emit.templates import render
 from tmm_gen.program.variables import Variable
 from tmm_gen.scene import Scene

@@ -15,8 +15,8 @@ from functools import cache
 from importlib.metadata import version
 from pathlib import Path
 
-from tmm_gen.emit.write import written_files
 from tmm_gen.files import write_whole
+from tmm_gen.package.write import written_files
 from tmm_gen.reading import read_file
 from tmm_gen.resources import templates_dir
 from tmm_gen.trusted import digest_of, discard, own_content, own_folder

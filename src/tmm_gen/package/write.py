@@ -6,16 +6,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from tmm_gen.emit.seal import is_intact, is_written_by_tmm_gen
+from tmm_gen.emit.seal import WITHOUT_MOTION, is_intact, is_written_by_tmm_gen
 from tmm_gen.errors import UserError
 from tmm_gen.files import write_tree_whole
 from tmm_gen.reading import LARGEST_TEXT, kind_of, read_file
 
 SUFFIXES = frozenset({".py", ".c", ".h", ".txt"})
 """Of the files that tmm-gen writes; only such files are looked at."""
-
-WITHOUT_MOTION = "no motion to compare with: from no start can steps be taken within the range of the numbers"
-"""What a generated test says that has no motion in it."""
 
 
 @dataclass(frozen=True)

@@ -6,14 +6,14 @@ A macro replaces every token of its name, a struct's members too, and any header
 - what users name, inputs and outputs, is a member of that very name where no macro has it when the header is included,
   and has :data:`PREFIX` in front there (:func:`declared`): the same place in the struct, whoever includes it;
 - our own sources say ``#undef`` before the header (:func:`bare_names`) and use the bare name; what they need themselves
-  (:mod:`tmm_gen.emit.c_words`) has the prefix always;
+  (:mod:`tmm_gen.c_language.words`) has the prefix always;
 - what a scene names has the scene's name in front and one of a few words of ours behind (``thesis10_step``);
 - macros and enumerators have :func:`macros` in front, which differs where the names of two scenes do.
 """
 
 from __future__ import annotations
 
-from tmm_gen.emit.c_words import taken
+from tmm_gen.c_language.words import taken
 from tmm_gen.program.statements import Program
 from tmm_gen.program.variables import Ref, Role, Variable
 
