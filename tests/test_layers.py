@@ -12,7 +12,7 @@ import pytest
 PACKAGE = Path(__file__).resolve().parents[1] / "src" / "tmm_gen"
 
 LAYERS = (
-    {"backends", "csv_text", "errors", "resources", "style", "trusted", "version"},
+    {"backends", "csv_text", "errors", "resources", "style", "trusted", "units", "version"},
     {"extras", "reading", "scratch"},
     {"files"},
     {"scene"},
