@@ -42,12 +42,12 @@ from mpc_solvers.task import arm
 from tmm_gen.cli.console import Column, plain, progress, table
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.command import Command, Controller
-from tmm_gen.control.emitted.emit import emit_controller
-from tmm_gen.control.emitted.native import EmittedController
 from tmm_gen.control.extended_kalman import NonlinearFilter
 from tmm_gen.control.rti import RealTimeIteration
 from tmm_gen.csv_text import csv_text
 from tmm_gen.files import write_tree_whole, write_whole
+from tmm_gen.onboard.emit import emit_controller
+from tmm_gen.onboard.native import EmittedController
 from tmm_gen.style import PALETTE, figure, picture, style
 
 ROOT = Path(__file__).resolve().parents[1]

@@ -12,12 +12,12 @@ from pathlib import Path
 import pytest
 
 from tmm_gen.cli import main
-from tmm_gen.control.emitted.emit import EMITTED
-from tmm_gen.control.tuning import TUNABLE
+from tmm_gen.closed_loop.tuning import TUNABLE
 from tmm_gen.emit.c import emit_kernel
 from tmm_gen.export.fmu.headers import fmi_headers
 from tmm_gen.extras import packages
 from tmm_gen.modal.arm import linear_arm
+from tmm_gen.onboard.emit import EMITTED
 from tmm_gen.program.build import build_unchecked
 from tmm_gen.row.scene import row_of
 from tmm_gen.study.excitation import excitation

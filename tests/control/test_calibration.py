@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tmm_gen.control.calibration import calibrate
+from tmm_gen.calibration.calibrate import calibrate
 from tmm_gen.errors import UserError
 from tmm_gen.inputs.signals import Table
 from tmm_gen.native import compile_kernel

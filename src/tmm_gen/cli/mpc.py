@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING
 import click
 
 from tmm_gen.cli.console import progress
-from tmm_gen.cli.given import PICTURE, picture_option, positive
+from tmm_gen.cli.given import plot_option, positive
 from tmm_gen.cli.mpc_tune import EVERYTHING, chosen, tuned
 from tmm_gen.cli.outputs import OutputFile, claim, force_option, require_new
 from tmm_gen.cli.study_options import one_thread
 
 if TYPE_CHECKING:
+    from tmm_gen.closed_loop.compare import Trial
     from tmm_gen.control.bench import Bench
-    from tmm_gen.control.compare import Trial
     from tmm_gen.control.condition import Condition
     from tmm_gen.control.controllers import ControllerKind
     from tmm_gen.scene import Scene
@@ -53,15 +53,7 @@ _EMITTED = "mpc-modes"
     help="Of the sensors' noise, or of the search by --tune.",
 )
 @click.option("--compiled", is_flag=True, help="Run the controllers that exist as C as compiled C.")
-@click.option(
-    "--plot",
-    "picture",
-    metavar="[FILE.png]",
-    is_flag=False,
-    flag_value=PICTURE,
-    callback=picture_option,
-    help="Draw tip angles and torques; by default into NAME-mpc.png.",
-)
+@plot_option("tip angles and torques", "-mpc")
 @click.option(
     "--animate",
     "animated",
@@ -190,7 +182,7 @@ def _trials(
     compiled: bool,
 ) -> list[Trial]:
     """Return the trials of all controllers under all conditions."""
-    from tmm_gen.control.compare import compare
+    from tmm_gen.closed_loop.compare import compare
 
     done: list[Trial] = []
     with progress(f"controlling {scene.name}", total=len(kinds) * len(cases)) as advance:

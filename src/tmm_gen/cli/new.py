@@ -42,6 +42,7 @@ def new(name: str, kind: Kind, out: Path, control: bool, force: bool) -> None:
 
     if fault := scene_name_fault(name):
         raise UserError(f"NAME: {fault[0]} (got {show_value(name)}). {fault[1]}")
+    # nothing is loaded yet: the kind is the word that was typed
     if control and kind != "planar":
         raise UserError(f"--control: a {kind} has no motor to be controlled. Add --kind planar.")
     target = out / f"{name}.toml"

@@ -11,7 +11,7 @@ import click
 
 from tmm_gen.cli.changes import changed_scene, set_option
 from tmm_gen.cli.console import Column, progress, table
-from tmm_gen.cli.given import PICTURE, picture_option
+from tmm_gen.cli.given import picture_file, plot_option
 from tmm_gen.cli.outputs import OutputFile, claim, write_outputs
 from tmm_gen.errors import UserError
 
@@ -84,15 +84,7 @@ def _sweeps(_context: click.Context, parameter: click.Parameter, value: str | No
 )
 @click.option("--backend", type=click.Choice(["numpy", "c"]), default="numpy", show_default=True)
 @click.option("--csv", "csv_file", type=OutputFile(), help="Write the outputs over time.")
-@click.option(
-    "--plot",
-    "picture",
-    metavar="[FILE.png]",
-    is_flag=False,
-    flag_value=PICTURE,
-    callback=picture_option,
-    help="Draw inputs and outputs; by default into NAME.png.",
-)
+@plot_option("inputs and outputs")
 @click.option(
     "--animate",
     "animated",
@@ -132,15 +124,15 @@ def run(
         chosen = chosen.replace(**{"model.iterations": iterations})
     read = (scene, *table_files(given))
     signals = read_inputs(given, *input_names(chosen))
-    planar = chosen.model.kind == "planar"
-    if animated is not None and not planar:
+    shaped = chosen.model.in_plane
+    if animated is not None and not shaped:
         raise UserError(f"--animate {animated}: a chain has no shape to show. Use --plot.")
     claim((csv_file, picture, animated), read)
     duration = until or default_duration(chosen)
     refuse_other_clock(signals, duration)
     steps = number_of_steps(duration, chosen.integrator.step)
     with progress(f"simulating {chosen.name}", total=steps) as advance:
-        drawn = planar and (picture is not None or animated is not None)
+        drawn = shaped and (picture is not None or animated is not None)
         simulation = simulate(chosen, signals, duration, backend, advance, trace=drawn)
     written = _write(simulation, csv_file, picture, animated, read)
     _show(simulation, written, json_mode)
@@ -160,7 +152,7 @@ def _write(
     if picture is not None:
         from tmm_gen.report.plots import response_picture
 
-        target = Path(f"{simulation.scene.name}.png") if picture == Path(PICTURE) else picture
+        target = picture_file(picture, simulation.scene.name)
         files[target] = response_picture(simulation, target.suffix[1:].lower())
     if animated is not None:
         from tmm_gen.report.animate import animation

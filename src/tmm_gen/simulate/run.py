@@ -17,7 +17,7 @@ from tmm_gen.inputs.signals import Constant, Signal
 from tmm_gen.reference.assembly import assemble
 from tmm_gen.reference.energy import energy
 from tmm_gen.scene import Scene
-from tmm_gen.simulate.divergence import BrokenOffError, DivergedError, watch
+from tmm_gen.simulate.divergence import BrokenOffError, DivergedError, Watch, watch
 from tmm_gen.simulate.planar_divergence import PlanarWatch, more_sweeps, planar_watch
 from tmm_gen.simulate.prescribed import followed, prescribed
 from tmm_gen.simulate.simulation import Simulation
@@ -116,19 +116,20 @@ def simulate(
     signals = prescribed(scene, signals)
     inputs = {item.name: signals.get(item.name, Constant(0.0)) for item in scene.inputs}
     step = scene.integrator.step
-    planar = scene.model.kind == "planar"
-    if planar:
-        planar_watch(scene, step)  # before a kernel is made
+
+    def guard() -> Watch | PlanarWatch:
+        return watch(scene, inputs, until, step) if scene.model.linear else planar_watch(scene, step)
+
+    guard()  # before a kernel is made: what starts too fast is refused at once
     stepper = Stepper.of(scene, backend, kernel)
 
     def run(parameters: Mapping[str, float], count: Callable[[float], None] | None) -> _Run:
-        guard = planar_watch(scene, step) if planar else watch(scene, inputs, until, step)
         course = Course(
             scene,
             inputs,
             steps,
             step,
-            guard,
+            guard(),
             _trace(scene, steps, whole=trace) if trace or judge else None,
             _unsolved(scene, inputs, steps, backend),
             parameters=parameters,
@@ -186,7 +187,7 @@ class _Run:
         if judge and course.trace is not None:
             from tmm_gen.simulate.accuracy import chain_accuracy, planar_accuracy
 
-            if course.scene.model.kind == "chain":
+            if course.scene.model.linear:
                 accuracy = chain_accuracy(course.scene, course.signals, course.trace)
             else:
                 accuracy = planar_accuracy(course, stepper, left or 0.0)
@@ -214,12 +215,12 @@ def _outputs(course: Course, stepper: Stepper, advance: Callable[[float], None] 
             if advance is not None:
                 advance(len(block))
     except ArithmeticError as error:  # what generated kernels raise
-        if isinstance(guard, PlanarWatch) and scene.model.linearisation != "newton":
+        if isinstance(guard, PlanarWatch) and not scene.model.iterates:
             raise DivergedError(
                 f"scene '{scene.name}': the simulation has diverged: {error}.\n{guard.cause()}"
             ) from error
         smaller = "Look"
-        if isinstance(guard, PlanarWatch):
+        if scene.model.iterates:
             smaller = f"Try a smaller step, --step {step / 10:g}{more_sweeps(scene)}; or look"
         raise BrokenOffError(
             f"scene '{scene.name}' cannot be solved: {error}.",
@@ -232,7 +233,7 @@ def _imbalance(scene: Scene, signals: Mapping[str, Signal], time: Array, trace: 
     """Return how well a planar arm's energies balance; None where a load is too abrupt to know its work."""
     step, until = scene.integrator.step, float(time[-1])
     abrupt = any(_abrupt(signals[item.name], item.acts, step, until) for item in scene.inputs)
-    if scene.model.kind != "planar" or trace is None or len(time) < 3 or abrupt:
+    if scene.model.linear or trace is None or len(time) < 3 or abrupt:
         return None
     return energy(scene, signals, time, trace.angle, trace.rate).imbalance
 
@@ -247,7 +248,7 @@ def _abrupt(signal: Signal, acts: str, step: float, until: float) -> bool:
 
 def _unsolved(scene: Scene, signals: Mapping[str, Signal], steps: int, backend: Backend) -> Unsolved | None:
     """Return who looks at what sweeps leave unsolved; None where nothing is solved by iteration."""
-    if scene.model.kind != "planar" or scene.model.linearisation != "newton":
+    if not scene.model.iterates:
         return None
     from tmm_gen.simulate.unsolved import Unsolved  # SymPy comes with it
 
@@ -272,7 +273,7 @@ def _rest(scene: Scene, signals: Mapping[str, Signal], until: float) -> dict[str
     if any(signal.ends > until for signal in signals.values()):
         return None
     last = {name: float(signal.at(until)) for name, signal in signals.items()}
-    if scene.model.kind == "planar":
+    if not scene.model.linear:
         return _planar_rest(scene, last)
     assembly = assemble(scene)
     if assembly.free:
@@ -283,7 +284,7 @@ def _rest(scene: Scene, signals: Mapping[str, Signal], until: float) -> dict[str
 
 def _planar_rest(scene: Scene, inputs: Mapping[str, float]) -> dict[str, float] | None:
     """Return the outputs of an arm that hangs still; None where it would turn on, or is too long to be looked at."""
-    if scene.base.kind == "motor" or scene.stations > _SHORT:
+    if scene.hub or scene.stations > _SHORT:
         return None
     from tmm_gen.modal.equilibrium import equilibrium
     from tmm_gen.reference.planar_arm import Arm
@@ -297,6 +298,6 @@ def _planar_rest(scene: Scene, inputs: Mapping[str, float]) -> dict[str, float] 
     still = np.zeros_like(angles)
     found: dict[str, Array] = {}
     for output in scene.outputs:
-        if output.of != "dissipated_energy":  # depends on the way there
+        if not scene.quantity(output).accumulates:
             found |= read(arm, output, np.zeros(1), angles, still, still)
     return {name: float(value[0]) for name, value in found.items()}

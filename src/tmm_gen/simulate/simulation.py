@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.scene import Scene
+from tmm_gen.scene.columns import OutputColumn, output_columns
 from tmm_gen.simulate.accuracy import Accuracy
-from tmm_gen.simulate.columns import OutputColumn, output_columns
 from tmm_gen.simulate.metrics import step_figures
 from tmm_gen.simulate.trace import Trace
 

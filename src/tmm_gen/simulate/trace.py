@@ -36,7 +36,7 @@ class Trace:
     @classmethod
     def empty(cls, scene: Scene, instants: int, every: int = 1) -> Trace:
         """Return room for the start and what each so many of some steps lead to."""
-        columns = scene.stations + (scene.base.kind == "motor")
+        columns = scene.stations + scene.hub
         kept = (instants - 1) // every + 1
         return cls(np.zeros((kept, columns)), np.zeros((kept, columns)), every)
 

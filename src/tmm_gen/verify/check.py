@@ -131,13 +131,13 @@ def check_scene(
     from tmm_gen.program.count import count_routine
 
     backends, real = scene.emit.backends, scene.emit.real
-    planar = scene.model.kind == "planar"
+    linear = scene.model.linear
     program = build_program(scene)
     facts: dict[str, object] = {"operations_per_step": count_routine(program.main).total}
     module = numpy_module(scene, program)
     reference = numpy_step(module, program)
-    allowed = PLANAR_STEP if planar else ONE_STEP
-    vectors = _Vectors(lambda: list(reached_vectors(module, program) if planar else random_vectors(program)))
+    allowed = ONE_STEP if linear else PLANAR_STEP
+    vectors = _Vectors(lambda: list(random_vectors(program) if linear else reached_vectors(module, program)))
 
     def one_step(name: str, other: Step, bound: float) -> CheckRow:
         check = f"numpy_against_{name}"
@@ -163,7 +163,7 @@ def check_scene(
     run = _Run.of(scene, module, kernel, loads or {})
     rows += run.rows()
     advance(0.3, "refining the step")
-    slope = planar_slope if planar else _slope
+    slope = _slope if linear else planar_slope
     rows.append(_unless_broken(scene, "order_against_derived", SLOPE, lambda: slope(scene, module, facts)))
     advance(0.2, "done")
     causes = [row.why for row in sorted(rows, key=lambda row: row.check != _OF_RUN) if row.why]
@@ -231,7 +231,7 @@ def unit_inputs(scene: Scene) -> dict[str, Signal]:
 
 def _at_base_angle(scene: Scene) -> Scene:
     """Return a scene whose links stand along a prescribed base at the start."""
-    if scene.base.kind != "prescribed":
+    if not scene.prescribed:
         return scene
     return scene.replace(initial={"angles": 1.0, "rates": 0.0})
 

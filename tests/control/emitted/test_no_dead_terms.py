@@ -11,9 +11,9 @@ import pytest
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.command import Controller
 from tmm_gen.control.condition import CONDITIONS
-from tmm_gen.control.emitted.emit import EMITTED, emit_controller
-from tmm_gen.control.emitted.native import EmittedController
-from tmm_gen.control.plant import Plant
+from tmm_gen.closed_loop.plant import Plant
+from tmm_gen.onboard.emit import EMITTED, emit_controller
+from tmm_gen.onboard.native import EmittedController
 from tmm_gen.scene import Scene
 
 _TABLE = re.compile(r"static const \w+ (\w+)(?:\[[^\]]*\])+ = \{(.*?)\};", re.DOTALL)

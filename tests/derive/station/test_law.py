@@ -10,6 +10,7 @@ from tmm_gen.derive.elements import nodes, torsion
 from tmm_gen.derive.elements.declaration import Element
 from tmm_gen.derive.elements.planar import LENGTH, LINK
 from tmm_gen.derive.station.law import by_time, law_of
+from tmm_gen.errors import UserError
 
 RNG = np.random.default_rng(7)
 L, M, INERTIA, KAPPA = 0.3, 0.7, 0.02, 0.35
@@ -106,5 +107,12 @@ def test_power_through_an_element_is_what_it_holds_and_heats(name: str) -> None:
 
 def test_an_element_that_leaves_two_motions_open_is_refused() -> None:
     open_pin = Element("open", "", nodes.PIN.inboard, nodes.PIN.outboard, nodes.PIN.equations[1:])
-    with pytest.raises(ValueError, match="determined but for one coordinate"):
+    with pytest.raises(UserError, match="State the others by the inner motion"):
         law_of(open_pin)
+    law_of(nodes.PIN)
+
+
+def test_an_element_without_a_balance_of_forces_is_refused() -> None:
+    *balanced, _ = nodes.PIN.equations
+    with pytest.raises(UserError, match="State one balance of forces"):
+        law_of(Element("slack", "", nodes.PIN.inboard, nodes.PIN.outboard, tuple(balanced)))

@@ -14,8 +14,8 @@ import pytest
 from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
+from tmm_gen.c_language.names import PREFIX, macros, signal
 from tmm_gen.emit.c import emit_c, emit_kernel
-from tmm_gen.emit.c_names import PREFIX, macros, signal
 from tmm_gen.program.build import build_program
 from tmm_gen.scene import parse_scene
 from tmm_gen.scene.identifier import name_fault, scene_name_fault

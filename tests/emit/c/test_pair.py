@@ -16,6 +16,7 @@ import sympy as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from tmm_gen.c_language.real import COMPENSATED
 from tmm_gen.derive.integrators.registry import names
 from tmm_gen.emit.c import emit_kernel
 from tmm_gen.emit.c import pair as arithmetic
@@ -23,7 +24,6 @@ from tmm_gen.emit.c.bind import bind
 from tmm_gen.emit.c.circle import PAIR_ERROR, PairCircle
 from tmm_gen.emit.c.lower import lower
 from tmm_gen.emit.c.pair import Pair, PairPrinter, functions_in, minus, over, plus, times
-from tmm_gen.emit.c.real import COMPENSATED
 from tmm_gen.emit.templates import _environment
 from tmm_gen.native import compile_kernel
 from tmm_gen.native.compiler import compile_library

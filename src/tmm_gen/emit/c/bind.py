@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
+from tmm_gen.c_language.real import Real
 from tmm_gen.emit.c import pair
-from tmm_gen.emit.c.real import Real
 from tmm_gen.emit.expressions import ExpressionPrinter
 from tmm_gen.errors import UserError
 from tmm_gen.program.statements import Assign, Loop, Mark, Order, Program, Require, Routine

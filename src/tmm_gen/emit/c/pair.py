@@ -18,8 +18,8 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
+from tmm_gen.c_language.real import COMPENSATED, FLOAT
 from tmm_gen.emit.c.printer import CPrinter
-from tmm_gen.emit.c.real import COMPENSATED, FLOAT
 from tmm_gen.emit.expressions import is_negative, numerator_and_denominator, opposite, ordered_terms
 from tmm_gen.program.variables import Ref, Role, Variable
 

@@ -41,7 +41,7 @@ def conditions(arm: BeamArm, s: ArrayLike) -> Complex:
     first = ends[0][0]
     found[:, 0, :4] = first[:, w]
     found[:, 1, :4] = first[:, psi]
-    if arm.base.kind == "hub":
+    if arm.base.turns:
         hub = arm.base.inertia * points**2 + arm.base.damping * points + arm.base.stiffness
         found[:, 1, :4] = first[:, moment] - hub[:, None] * first[:, psi]
     row = 2
