@@ -76,11 +76,13 @@ def main() -> int:
     parser.add_argument("--random", type=int, default=60, help="how many combinations at random")
     parser.add_argument("--seed", type=int, default=0, help="of these combinations")
     parser.add_argument("--only-random", action="store_true", help="leave out what is extreme alone")
+    parser.add_argument("--skip", type=int, default=0, help="leave out so many at the beginning of all")
     parser.add_argument("--seconds", type=float, default=math.inf, help="for a run, and for its reference")
     given = parser.parse_args()
     tried = list(extremes(given.random, given.seed))
     if given.only_random:
         tried = tried[len(tried) - given.random :]
+    tried = tried[given.skip :]
     rows = []
     with progress("trying extremes", total=len(tried)) as advance:
         for extreme in tried:

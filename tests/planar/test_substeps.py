@@ -164,7 +164,7 @@ def test_what_shorter_steps_do_not_mend_is_refused_at_once(falling: Callable[...
         tried.append(count)
         raise UserError("an angle that jumps")
 
-    with pytest.raises(UserError, match="jumps$"):
+    with pytest.raises(UserError, match="jumps"):
         divided(falling(2), 10, attempt, lambda count: None)
     assert tried == [1]
 
@@ -241,7 +241,7 @@ class TestCommand:
 def test_arms_drawn_at_random_are_right_or_refused() -> None:
     random = np.random.default_rng(7)
     counts = []
-    for _ in range(6):
+    for _ in range(8):
         verdict = judge(
             Extreme(
                 links=int(random.choice([1, 2, 5])),
@@ -254,4 +254,4 @@ def test_arms_drawn_at_random_are_right_or_refused() -> None:
         )
         assert verdict.status != "wrong", verdict
         counts.append(verdict.substeps)
-    assert sum(count > 1 for count in counts) >= 3
+    assert sum(count > 1 for count in counts) >= 4
