@@ -17,7 +17,7 @@ from tmm_gen.reference.planar_reference import planar_response
 from tmm_gen.scene import Scene
 from tmm_gen.simulate.run import simulate
 from tmm_gen.simulate.simulation import Simulation
-from tmm_gen.simulate.stepping import Stepper
+from tmm_gen.simulate.stepping import Backend, Stepper
 from tmm_gen.simulate.substeps import MOST_TO_TAKE, SUBSTEPS, divided
 from tmm_gen.simulate.tolerance import InaccurateError
 from tmm_gen.simulate.too_long import TooLongError
@@ -125,7 +125,7 @@ def test_a_number_of_sweeps_keeps_the_refusal(falling: Callable[..., Scene]) -> 
 def test_the_least_that_may_do_is_tried_first_and_the_refusal_says_what_was(
     falling: Callable[..., Scene],
 ) -> None:
-    def refused(times: float, mended: int, steps: int = 10) -> tuple[list[int], str]:
+    def refused(times: float, mended: int, steps: int = 10, backend: Backend = "c") -> tuple[list[int], str]:
         tried: list[int] = []
 
         def attempt(scene: Scene, count: int) -> int:
@@ -136,7 +136,7 @@ def test_the_least_that_may_do_is_tried_first_and_the_refusal_says_what_was(
             return count
 
         try:
-            divided(falling(2, **LONG), steps, attempt, lambda count: None)
+            divided(falling(2, **LONG), steps, backend, attempt, lambda count: None)
         except TooLongError as error:
             return tried, str(error)
         return tried, ""
@@ -148,13 +148,16 @@ def test_the_least_that_may_do_is_tried_first_and_the_refusal_says_what_was(
         [1, 4, 16, 64, 256],
         "not 256.\nSo it is with 4, 16, 64 and 256 substeps per step of 0.1 s, the last of which this was said of.",
     )
-    some, none = MOST_TO_TAKE // (2 * 20), MOST_TO_TAKE
+    some, none = (MOST_TO_TAKE["c"] // (2 * most) for most in (20, 3))
     tried, said = refused(100.0, 1000, some)
     assert tried == [1, 16]
     assert said.endswith("said of, and more than 20 substeps per step are too many to take.")
     tried, said = refused(1.0, 1000, none)
     assert tried == [1]
     assert said == "not 1.\nSubsteps might do, but even 4 per step are too many to take."
+    tried, said = refused(1.0, 1000, some, "numpy")
+    assert tried == [1]
+    assert said.endswith("too many to take; --backend c takes more.")
 
 
 def test_what_shorter_steps_do_not_mend_is_refused_at_once(falling: Callable[..., Scene]) -> None:
@@ -165,7 +168,7 @@ def test_what_shorter_steps_do_not_mend_is_refused_at_once(falling: Callable[...
         raise UserError("an angle that jumps")
 
     with pytest.raises(UserError, match="jumps"):
-        divided(falling(2), 10, attempt, lambda count: None)
+        divided(falling(2), 10, "c", attempt, lambda count: None)
     assert tried == [1]
 
 

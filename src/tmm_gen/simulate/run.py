@@ -124,7 +124,7 @@ def simulate(
     inputs = {item.name: signals.get(item.name, Constant(0.0)) for item in scene.inputs}
     task = _Task(scene, inputs, until, steps, backend, kernel, advance or _unseen, trace, refuse, judge)
     if substeps and scene.model.auto:
-        found, shared = divided(scene, steps, task.attempt, task.again)
+        found, shared = divided(scene, steps, backend, task.attempt, task.again)
     else:
         found, shared = task.attempt(scene, 1), Substeps()
     used, count = found.course.scene, shared.count

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Protocol, TypeVar
 
 from tmm_gen.scene import Scene
+from tmm_gen.simulate.stepping import Backend
 from tmm_gen.simulate.too_long import TooLongError
 
 Found = TypeVar("Found")
@@ -14,8 +15,8 @@ Found = TypeVar("Found")
 SUBSTEPS = (4, 16, 64, 256)
 """Into how many a step may be divided."""
 
-MOST_TO_TAKE = 20_000_000
-"""Substeps times links; the motion of all links is kept, since the error is found from it."""
+MOST_TO_TAKE: dict[Backend, int] = {"numpy": 1_000_000, "c": 20_000_000}
+"""Substeps times links: minutes in NumPy; in C as many as whose motion can be kept, from which the error is found."""
 
 
 class Progress(Protocol):
@@ -42,7 +43,11 @@ class Substeps:
 
 
 def divided(
-    scene: Scene, steps: int, attempt: Callable[[Scene, int], Found], about_to: Callable[[int], None]
+    scene: Scene,
+    steps: int,
+    backend: Backend,
+    attempt: Callable[[Scene, int], Found],
+    about_to: Callable[[int], None],
 ) -> tuple[Found, Substeps]:
     """Run a scene at its step, and if that is too long in as few substeps as will do.
 
@@ -52,6 +57,8 @@ def divided(
         With its step.
     steps : int
         How many.
+    backend : {"numpy", "c"}
+        What takes them.
     attempt : callable
         Runs the scene in so many substeps per step, at the step of the scene that it is given.
     about_to : callable
@@ -72,21 +79,30 @@ def divided(
             because = because or error.reason
             wanted = min(error.times, SUBSTEPS[-1] / count)
             further = next((k for k in SUBSTEPS if k >= wanted * count and k > count), None)
-            most = MOST_TO_TAKE // (steps * scene.stations)
+            most = MOST_TO_TAKE[backend] // (steps * scene.stations)
             if further is not None and further > most:
                 further = max((k for k in SUBSTEPS if count < k <= most), default=None)
             if further is None:
-                error.args = (f"{error}{_in_vain(step, refused, most)}",)
+                error.args = (f"{error}{_in_vain(step, refused, most, backend)}",)
                 raise
         refused.append(further)
         about_to(further)
 
 
-def _in_vain(step: float, refused: list[int], most: int) -> str:
+def _in_vain(step: float, refused: list[int], most: int, backend: Backend) -> str:
     """Say what was tried, and why no more."""
-    more = f", and more than {most} substeps per step are too many to take" if most < SUBSTEPS[-1] else ""
+    faster = "; --backend c takes more" if backend == "numpy" else ""
+    more = (
+        f", and more than {most} substeps per step are too many to take{faster}"
+        if most < SUBSTEPS[-1]
+        else ""
+    )
     if len(refused) == 1:
-        return f"\nSubsteps might do, but even {SUBSTEPS[0]} per step are too many to take." if more else ""
+        return (
+            f"\nSubsteps might do, but even {SUBSTEPS[0]} per step are too many to take{faster}."
+            if more
+            else ""
+        )
     counts = [str(count) for count in refused[1:]]
     said = " and ".join([", ".join(counts[:-1]), counts[-1]] if len(counts) > 1 else counts)
     return (
