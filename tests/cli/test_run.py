@@ -288,7 +288,7 @@ def test_long_steps_are_refused_however_often_they_sweep(
 ) -> None:
     scene, target = folder / "falling.toml", folder / "motion.csv"
     scene.write_text(FALLING.format(step="0.1"))
-    given = ["run", str(scene), "--until", "2", "--csv", str(target), "--iterations", sweeps]
+    given = ["run", str(scene), "--until", "2", "--csv", str(target), "--iterations", sweeps, "--step", "0.1"]
     assert main(given) == 1
     said = capsys.readouterr().err
     assert "% of the motion, more than the 5 % that a run may have" in said

@@ -8,10 +8,10 @@ from collections.abc import Callable, Mapping
 import numpy as np
 import pytest
 
+from tmm_gen.closed_loop.plant import Plant
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.command import Controller
 from tmm_gen.control.condition import CONDITIONS
-from tmm_gen.closed_loop.plant import Plant
 from tmm_gen.onboard.emit import EMITTED, emit_controller
 from tmm_gen.onboard.native import EmittedController
 from tmm_gen.scene import Scene
