@@ -79,7 +79,8 @@ class Simulation:
     @property
     def still(self) -> bool:
         """Whether nothing happens: no input, no motion."""
-        return not any(np.any(values) for values in (*self.inputs.values(), *self.outputs.values()))
+        acts = any(np.any(values) for values in self.inputs.values()) or any(self.scene.initial.rates)
+        return not acts and not any(np.any(values != values[0]) for values in self.outputs.values())
 
     def csv(self) -> str:
         """Return a table of outputs over time with 17 significant digits: every bit of a double."""
