@@ -234,7 +234,7 @@ def test_a_build_with_nothing_to_do_imports_nothing_heavy(place: Path) -> None:
 
 @pytest.mark.parametrize("change", ["scene", "sources", "sympy", "cache"])
 def test_the_cache_forgets(place: Path, monkeypatch: pytest.MonkeyPatch, change: str) -> None:
-    from tmm_gen.emit import cache
+    from tmm_gen.package import cache
 
     assert main(["build", "arm"]) == 0
     derived: list[str] = []
