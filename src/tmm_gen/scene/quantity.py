@@ -44,8 +44,12 @@ PLANAR = {
     "elastic_energy": Quantity("J", of_arm=True),
     "gravitational_energy": Quantity("J", of_arm=True),
     "dissipated_energy": Quantity("J", of_arm=True),
+    "joint_angle": Quantity("rad"),
+    "joint_rate": Quantity("rad/s"),
+    "joint_torque": Quantity("N m"),
 }
-"""Quantities of a planar arm: velocity and acceleration are those of a link's outer end."""
+"""Quantities of a planar arm: velocity and acceleration are those of a link's outer end; what
+joints have between their sides is asked for by their names."""
 
 
 def quantities(kind: str) -> dict[str, Quantity]:
