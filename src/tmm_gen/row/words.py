@@ -10,11 +10,13 @@ from tmm_gen.row.row import Load, Parameter, Signal
 from tmm_gen.scene import Input, Scene, station_of
 from tmm_gen.scene.signal import kernel_names
 
-UNITS = {"torque": "N m", "force_x": "N", "force_y": "N", "angle": "rad"}
+UNITS = {"torque": "N m", "drive": "N m", "force_x": "N", "force_y": "N", "angle": "rad"}
 
 
-def place(at: str | int) -> str:
-    """Return a place in words."""
+def place(at: str | int, part: str = "") -> str:
+    """Return a place in words: a part by its name where there is one."""
+    if part:
+        return f"'{part}'"
     return f"station {at}" if isinstance(at, int) else f"the {at}"
 
 
@@ -25,7 +27,9 @@ def signals_of(scene: Scene) -> tuple[Signal, ...]:
 
 def _signals(described: Input) -> tuple[Signal, ...]:
     if described.acts != "angle":
-        doc = f"{described.acts} acting at {place(described.at)}"
+        doc = f"{described.acts} acting at {place(described.at, described.part)}"
+        if described.acts == "drive":
+            doc = f"torque of '{described.part}', between both sides; a motor's acts gear-fold"
         return (Signal(described.name, doc, UNITS[described.acts]),)
     names = kernel_names(described)
     return tuple(
@@ -61,7 +65,7 @@ def loads_of(scene: Scene, components: tuple[str, ...]) -> dict[str, dict[str, L
     """Sort a scene's loads by where their element stands ("base", "station", "tail") and by component."""
     places: dict[tuple[str, str], list[tuple[int | None, str]]] = {}
     for described in scene.inputs:
-        if described.acts == "angle":
+        if described.acts in ("angle", "drive"):
             continue
         link = station_of(described.at, scene.stations)
         where = "base" if link == 0 else "tail" if link == scene.stations else "station"
