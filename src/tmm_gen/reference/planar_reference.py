@@ -76,6 +76,13 @@ def read(arm: Arm, output: Output, times: Array, q: Array, v: Array, a: Array) -
         return {output.name: elastic_energy(arm, times, q)}
     if output.of == "gravitational_energy":
         return {output.name: gravitational_energy(arm, q)}
+    if output.of in ("joint_angle", "joint_rate"):
+        place, quick = station - 1 + arm.first, output.of == "joint_rate"
+        outer = (v if quick else q)[:, place]
+        inner = (v if quick else q)[:, place - 1] if place else arm.base_motion(times)[int(quick)]
+        return {output.name: outer - inner}
+    if output.of == "joint_torque":
+        return {output.name: _through(arm, station, times, q, v, a)}
     if output.of == "torque":
         return {output.name: _torque(arm, output, times, q, v, a)}
     if output.of == "force":
@@ -107,6 +114,24 @@ def _torque(arm: Arm, output: Output, times: Array, q: Array, v: Array, a: Array
         return joint.stiffness * (angle - q[:, outer - 1]) + joint.damping * (rate - v[:, outer - 1])
     base_angle, base_rate = arm.base_motion(times)
     return joint.stiffness * (angle - base_angle) + joint.damping * (rate - base_rate)
+
+
+def _through(arm: Arm, number: int, times: Array, q: Array, v: Array, a: Array) -> Array:
+    """Return what the inner side of a joint exerts on the outer one: motor, spring, damper, less what its rotor takes."""
+    joint, outer = arm.scene.joints[number - 1], number - 1 + arm.first
+    bent, bent_rate = arm.strained(times, q)[:, number - 1], arm.bent(v)[:, number - 1]
+    if not outer:
+        bent_rate = bent_rate - arm.base_motion(times)[1]
+    drive = sum(
+        (
+            joint.gear * np.broadcast_to(arm.signal(i.name).at(times), times.shape)
+            for i in arm.scene.inputs
+            if i.acts == "drive" and i.at == number
+        ),
+        np.zeros(len(times)),
+    )
+    rotor = arm.rotors[number - 1] * arm.bent(a)[:, number - 1]
+    return np.asarray(drive - rotor - joint.stiffness * bent - joint.damping * bent_rate)
 
 
 def _force(arm: Arm, joint: int, times: Array, q: Array, v: Array, a: Array) -> tuple[Array, Array]:
