@@ -214,8 +214,9 @@ def _early(lines: Iterable[Line]) -> list[Line]:
 
 def _kept_symbols(tangents: list[tuple[int, int, Inward, Outward, Tangent]]) -> dict[str, tuple[str, str]]:
     """Return what is kept at the point of linearisation, with its description and unit."""
-    found: dict[str, tuple[str, str]] = {}
+    every: dict[str, tuple[str, str]] = {}
     for _, _, derived, out, tangent in tangents:
+        found: dict[str, tuple[str, str]] = {}
         for let in (
             *out.lets,
             *(x for x in derived.lines if isinstance(x, Let)),
@@ -240,9 +241,9 @@ def _kept_symbols(tangents: list[tuple[int, int, Inward, Outward, Tangent]]) -> 
             if isinstance(line, Let) and line.symbol.name.endswith("_impedance")
         }
         own |= {beyond(s(c)).name for c in out.frame.coordinates for s in (node, solved_node)}
-        found = {name: words for name, words in found.items() if name in read and name not in own}
-    found["hub_inverse_pivot"] = ("inverse of the hub's pivot", "1")
-    return found
+        every |= {name: words for name, words in found.items() if name in read and name not in own}
+    every["hub_inverse_pivot"] = ("inverse of the hub's pivot", "1")
+    return every
 
 
 def _keeping(statement: Statement, kept: Mapping[str, tuple[str, str]], point: Point) -> list[Any]:

@@ -117,6 +117,13 @@ def _carried(document: PartsDocument, entry: Entry, host: Entry | None) -> Itera
             f"Put a [[link]] between '{host.name}' and '{entry.name}', or make one of the two.",
             entry.part.on,
         )
+    if entry.table == "motor" and host is None and document.base.kind == "prescribed":
+        yield Finding(
+            path,
+            f"puts motor '{entry.name}' on a base whose angle an input prescribes already",
+            'Set base.kind = "clamp", or make it a [[joint]].',
+            entry.part.on,
+        )
     if isinstance(entry.part, BodyPart) and (host is None or host.turns):
         yield Finding(
             path,
