@@ -199,3 +199,26 @@ def _solid(random: np.random.Generator, hung: list[Any], name: str, on: str) -> 
 def drawn() -> Callable[..., Scene]:
     """Return a function that draws arms."""
     return drawn_arm
+
+
+@pytest.fixture(scope="session")
+def hanging() -> Callable[[int], Scene]:
+    """Return a function that makes a chain of 1 m of n links on free hinges, hanging."""
+
+    def make(n: int, **changes: object) -> Scene:
+        tables: list[tuple[str, dict[str, Any]]] = [
+            ("model", {"kind": "planar", "gravity": 9.81}),
+            ("integrator", {"name": "newmark", "step": 1e-3}),
+            ("base", {"kind": "clamp"}),
+        ]
+        length, mass = 1.0 / n, 0.5 / n
+        for k in range(n):
+            on = f"link{k - 1}" if k else "base"
+            tables.append(("[joint]", {"name": f"hinge{k}", "on": on}))
+            keys = {"length": length, "mass": mass, "inertia": mass * length**2 / 12}
+            tables.append(("[link]", {"name": f"link{k}", "on": f"hinge{k}", **keys}))
+        tables.append(("[output]", {"name": "tip", "at": f"link{n - 1}", "of": "position"}))
+        tables.append(("initial", {"angles": -np.pi / 2}))
+        return parse_scene(written(tables, "hanging")).replace(**changes)
+
+    return make

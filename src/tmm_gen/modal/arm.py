@@ -15,6 +15,10 @@ from tmm_gen.scene import Scene, station_of
 Array = NDArray[np.float64]
 
 
+PIVOT = "pivot"
+"""A joint that may turn freely, with a rotor in it or a torque: its law is given by numbers, not by a compliance."""
+
+
 @dataclass(frozen=True)
 class Placed:
     """An element at its place.
@@ -111,12 +115,17 @@ def _chain(scene: Scene) -> LinearArm:
 
 def _planar(scene: Scene, rest: Rest) -> LinearArm:
     loads = _loads(scene, "planar")
+    drives = _drives(scene)
     still = (0.0,) * 7
     placed: list[Placed] = []
     if scene.base.kind == "motor":
         placed.append(Placed("hub", 0, (scene.base.inertia, scene.base.damping, *still), loads[0]))
     for i, (joint, link) in enumerate(zip(scene.joints, scene.links, strict=True)):
-        placed.append(Placed("joint", i + 1, (joint.stiffness, joint.damping, *still)))
+        law = (joint.stiffness, joint.damping)
+        if joint.stiffness > 0.0 and not joint.rotor_inertia and not drives[i]:
+            placed.append(Placed("joint", i + 1, (*law, *still)))
+        else:
+            placed.append(Placed(PIVOT, i + 1, (*law, joint.armature), drives[i]))
         own = (link.length, link.mass, link.inertia, link.center)
         state = (float(rest.angles[i]), *map(float, rest.inner[i]), *map(float, rest.outer[i]))
         placed.append(Placed("link", i + 1, (*own, *state), loads[i + 1]))
@@ -130,11 +139,25 @@ def _prescribed(scene: Scene) -> int | None:
     return next((k for k, item in enumerate(scene.inputs) if item.acts == "angle"), None)
 
 
+def _drives(scene: Scene) -> list[tuple[tuple[int, tuple[float, ...]], ...]]:
+    """Return the torques in each joint, 1 to n, that act on its outer side for a unit of an input."""
+    found: list[list[tuple[int, tuple[float, ...]]]] = [[] for _ in scene.joints]
+    for number, item in enumerate(scene.inputs):
+        if item.acts == "drive" and isinstance(item.at, int):
+            unit = scene.joints[item.at - 1].gear * np.array(_unit_load("planar", "torque"))
+            found[item.at - 1].append((number, tuple(unit.tolist())))
+    return [tuple(each) for each in found]
+
+
 def _loads(scene: Scene, kind: Kind) -> list[tuple[tuple[int, tuple[float, ...]], ...]]:
     """Return the loads at each station, 0 to n: what a unit of an input adds to the outboard forces."""
     found: list[list[tuple[int, tuple[float, ...]]]] = [[] for _ in range(scene.stations + 1)]
     for number, item in enumerate(scene.inputs):
-        if item.acts != "angle":
+        if item.acts == "drive":  # what acts on the outer side of a joint, the inner one feels the other way round
+            if isinstance(item.at, int) and (item.at > 1 or scene.base.kind == "motor"):
+                unit = -scene.joints[item.at - 1].gear * np.array(_unit_load(kind, "torque"))
+                found[item.at - 1].append((number, tuple(unit.tolist())))
+        elif item.acts != "angle":
             found[station_of(item.at, scene.stations)].append((number, _unit_load(kind, item.acts)))
     return [tuple(each) for each in found]
 

@@ -5,13 +5,14 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from tmm_gen.modal.arm import LinearArm
+from tmm_gen.modal.arm import PIVOT, LinearArm
 from tmm_gen.modal.sweep import States, sweep
 from tmm_gen.scene import Output, Scene, station_of
 from tmm_gen.scene.quantity import quantities
 
 Complex = NDArray[np.complex128]
 
+_JOINTS = ("joint", PIVOT)
 _AT_ONCE = 4_000_000
 """Numbers a sweep may hold at a time; more frequencies are taken in several."""
 
@@ -65,6 +66,12 @@ def linear_outputs(scene: Scene) -> tuple[Output, ...]:
 def _read(arm: LinearArm, states: States, s: Complex, output: Output) -> list[tuple[str, Complex]]:
     station = station_of(output.at, arm.scene.stations)
     names = component_names(arm)[output.name]
+    if output.of in ("joint_angle", "joint_rate", "joint_torque"):
+        at = next(k for k, e in enumerate(arm.elements) if e.name in _JOINTS and e.station == station)
+        if output.of == "joint_torque":  # beyond the joint, a motor's torque included
+            return [(names[0], states.force[at + 1][:, -1])]
+        factor = s[:, None] if output.of == "joint_rate" else 1.0
+        return [(names[0], factor * (states.motion[at + 1] - states.motion[at])[:, -1])]
     if output.of in ("torque", "force"):
         force = _force(arm, states, output, station)
         if output.of == "force":
@@ -90,6 +97,6 @@ def _force(arm: LinearArm, states: States, output: Output, station: int) -> Comp
         beyond: Complex = states.before_load[_behind(arm, station)]
         return beyond
     joint = max(station, 1)
-    at = next(k for k, e in enumerate(arm.elements) if e.name == "joint" and e.station == joint)
+    at = next(k for k, e in enumerate(arm.elements) if e.name in _JOINTS and e.station == joint)
     found: Complex = states.force[at]
     return found
