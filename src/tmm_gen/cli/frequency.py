@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 _SHOWN = 8
 """Modes that fit into the band where none is asked for."""
 
-_IN = {"torque": "N m", "force_x": "N", "force_y": "N", "angle": "rad"}
+_IN = {"torque": "N m", "drive": "N m", "force_x": "N", "force_y": "N", "angle": "rad"}
 
 
 @click.command("frequency")

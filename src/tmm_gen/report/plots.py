@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-_INPUT_UNITS = {"torque": "N m", "force_x": "N", "force_y": "N", "angle": "rad"}
+_INPUT_UNITS = {"torque": "N m", "drive": "N m", "force_x": "N", "force_y": "N", "angle": "rad"}
 _LINES = ("-", "--", ":", "-.")
 
 
