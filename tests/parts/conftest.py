@@ -121,8 +121,10 @@ def written(tables: Iterable[tuple[str, dict[str, Any]]], name: str = "drawn") -
     return "\n".join(lines) + "\n"
 
 
-def drawn_arm(seed: int, count: int, *, integrator: str = "newmark", step: float = 1e-3, **model: Any) -> Scene:
-    """Return a random arm of so many motors, joints, beams and links, in shuffled order, with every input and output."""
+def drawn_arm(
+    seed: int, count: int, *, integrator: str = "newmark", step: float = 1e-3, **model: Any
+) -> Scene:
+    """Return a random arm of so many parts, in shuffled order, with every input and output."""
     random = np.random.default_rng(seed)
     hung: list[tuple[str, dict[str, Any]]] = []
     turning, solid = [], []
@@ -147,11 +149,17 @@ def drawn_arm(seed: int, count: int, *, integrator: str = "newmark", step: float
     base: dict[str, Any] = {"kind": kind} | ({"inertia": 0.05, "damping": 0.1} if kind == "motor" else {})
     inputs = [(f"torque_{name}", name, "torque") for name in turning]
     inputs += [("push", solid[0], "force_x"), ("twist", solid[-1], "torque"), ("lift", solid[-1], "force_y")]
-    inputs += [("hub", "base", "torque")] * (kind == "motor") + [("hub", "base", "angle")] * (kind == "prescribed")
-    outputs = [(f"{of}_in_{name}", name, of) for name in turning for of in ("angle", "rate", "torque", "force")]
+    inputs += [("hub", "base", "torque")] * (kind == "motor") + [("hub", "base", "angle")] * (
+        kind == "prescribed"
+    )
+    outputs = [
+        (f"{of}_in_{name}", name, of) for name in turning for of in ("angle", "rate", "torque", "force")
+    ]
     motions = ("position", "angle", "rate", "velocity", "acceleration")
     outputs += [(f"{of}_{name}", name, of) for name in (solid[0], solid[-1]) for of in motions]
-    outputs += [(f"{what}_energy", "arm", f"{what}_energy") for what in ("kinetic", "elastic", "gravitational")]
+    outputs += [
+        (f"{what}_energy", "arm", f"{what}_energy") for what in ("kinetic", "elastic", "gravitational")
+    ]
     outputs += [("heat", "arm", "dissipated_energy")]
     start = {key: random.uniform(-0.4, 0.4, len(solid)).round(3).tolist() for key in ("angles", "rates")}
     tables = [
@@ -190,7 +198,11 @@ def _solid(random: np.random.Generator, hung: list[Any], name: str, on: str) -> 
         hung.append(("[beam]", {"name": name, "on": on, "length": length, **keys}))
     else:
         mass = random.uniform(0.1, 0.6)
-        keys = {"mass": mass, "inertia": random.uniform(0.05, 0.2) * mass * length**2, "center": random.uniform()}
+        keys = {
+            "mass": mass,
+            "inertia": random.uniform(0.05, 0.2) * mass * length**2,
+            "center": random.uniform(),
+        }
         hung.append(("[link]", {"name": name, "on": on, "length": length, **keys}))
     return name
 

@@ -111,11 +111,17 @@ def _motors(scene: Scene) -> list[Term]:
         joint = scene.joints[part.joint - 1]
         driven = any(i.acts == "drive" and i.at == part.joint for i in scene.inputs)
         if part.kind == "motor" or driven or joint.rest:
-            what = f"gear = {joint.gear:g}, {joint.armature:.4g} kg m^2 at the joint" if part.kind == "motor" else ""
+            what = (
+                f"gear = {joint.gear:g}, {joint.armature:.4g} kg m^2 at the joint"
+                if part.kind == "motor"
+                else ""
+            )
             told = [*([what] if what else []), *([f"rest = {joint.rest:g}"] if joint.rest else [])]
             told += ["a torque acts in it"] if driven else []
             name = f"motor '{part.name}'" if part.kind == "motor" else f"what is in joint '{part.name}'"
-            found.append(Term(f"{name} in place of a plain joint", True, ", ".join(told), _plain_joint(part.joint)))
+            found.append(
+                Term(f"{name} in place of a plain joint", True, ", ".join(told), _plain_joint(part.joint))
+            )
     return found
 
 

@@ -153,7 +153,9 @@ def _loads(scene: Scene, kind: Kind) -> list[tuple[tuple[int, tuple[float, ...]]
     """Return the loads at each station, 0 to n: what a unit of an input adds to the outboard forces."""
     found: list[list[tuple[int, tuple[float, ...]]]] = [[] for _ in range(scene.stations + 1)]
     for number, item in enumerate(scene.inputs):
-        if item.acts == "drive":  # what acts on the outer side of a joint, the inner one feels the other way round
+        if (
+            item.acts == "drive"
+        ):  # what acts on the outer side of a joint, the inner one feels the other way round
             if isinstance(item.at, int) and (item.at > 1 or scene.base.kind == "motor"):
                 unit = -scene.joints[item.at - 1].gear * np.array(_unit_load(kind, "torque"))
                 found[item.at - 1].append((number, tuple(unit.tolist())))

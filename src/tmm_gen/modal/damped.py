@@ -229,7 +229,7 @@ def _paired(stiffness: Array, damping: Array, guesses: list[Pair], still: int) -
 
 
 def _apart(wanted: Complex, poles: Complex) -> Array:
-    """Return how far poles lie from those wanted on a logarithmic scale: slow ones are told apart as well as fast ones."""
+    """Return how far poles lie from those wanted, relatively: slow ones are told apart as well as fast ones."""
     scale = np.maximum(np.abs(poles)[None, :], np.abs(wanted)[:, None])
     distance = np.abs(wanted[:, None] - poles[None, :])
     return np.divide(distance, scale, out=np.zeros_like(distance), where=scale > 0.0)

@@ -70,8 +70,8 @@ def _read(arm: LinearArm, states: States, s: Complex, output: Output) -> list[tu
         at = next(k for k, e in enumerate(arm.elements) if e.name in _JOINTS and e.station == station)
         if output.of == "joint_torque":  # beyond the joint, a motor's torque included
             return [(names[0], states.force[at + 1][:, -1])]
-        factor = s[:, None] if output.of == "joint_rate" else 1.0
-        return [(names[0], factor * (states.motion[at + 1] - states.motion[at])[:, -1])]
+        scale = s[:, None] if output.of == "joint_rate" else np.ones((1, 1))
+        return [(names[0], scale * (states.motion[at + 1] - states.motion[at])[:, -1])]
     if output.of in ("torque", "force"):
         force = _force(arm, states, output, station)
         if output.of == "force":

@@ -88,7 +88,9 @@ def energy(scene: Scene, signals: Mapping[str, Signal], time: Array, angle: Arra
     if scene.base.kind == "prescribed":
         joint = scene.joints[0]
         base_angle, base_rate = arm.base_motion(time)
-        spring = joint.stiffness * (base_angle + joint.rest - angle[:, 0]) + joint.damping * (base_rate - rate[:, 0])
+        spring = joint.stiffness * (base_angle + joint.rest - angle[:, 0]) + joint.damping * (
+            base_rate - rate[:, 0]
+        )
         # of the load on link 1 as Lagrange's equations have it, only what the base itself does is work put in
         supply += base_rate * spring - rate[:, 0] * (joint.stiffness * base_angle + joint.damping * base_rate)
     return Energy(

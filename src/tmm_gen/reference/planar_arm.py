@@ -6,8 +6,8 @@ The coordinates are the absolute angles of hub and links; with the place of each
     sum_k B_jk (cos(q_j - q_k) q_k'' + sin(q_j - q_k) q_k'^2) + J_j q_j'' + g b_j cos q_j
         + rotors + springs + dampers = loads
 
-where a rotor between two links has the kinetic energy ``1/2 J_a (q_j' - q_i')^2``; with ``B_jk`` the masses times the lever arms they have in ``j`` and in ``k``, and ``b_j`` the first moments. No
-forces between links occur.
+with ``B_jk`` the masses times the lever arms they have in ``j`` and in ``k``, and ``b_j`` the first moments. A rotor
+between two links has the kinetic energy ``1/2 J_a (q_j' - q_i')^2``. No forces between links occur.
 """
 
 from __future__ import annotations

@@ -117,7 +117,7 @@ def _torque(arm: Arm, output: Output, times: Array, q: Array, v: Array, a: Array
 
 
 def _through(arm: Arm, number: int, times: Array, q: Array, v: Array, a: Array) -> Array:
-    """Return what the inner side of a joint exerts on the outer one: motor, spring, damper, less what its rotor takes."""
+    """Return the torque of a joint's inner side on the outer one: motor, spring, damper, less what its rotor takes."""
     joint, outer = arm.scene.joints[number - 1], number - 1 + arm.first
     bent, bent_rate = arm.strained(times, q)[:, number - 1], arm.bent(v)[:, number - 1]
     if not outer:

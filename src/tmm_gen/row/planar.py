@@ -45,7 +45,6 @@ def planar_row(scene: Scene, integrator: str) -> Row:
     """
     named = _parameters(scene)
     loads = loads_of(scene, COMPONENTS)
-    damping = symbol(named["damping"])
     length, mass, inertia, center = (symbol(named[k]) for k in ("length", "mass", "inertia", "center"))
     left_over = inertia - mass * center * (1 - center) * length**2
     drives = _drives(scene)
@@ -160,7 +159,10 @@ def _parameters(scene: Scene) -> dict[str, Parameter | None]:
         if any(map(_bent_at_rest, joints))
         else None,
         parameter(
-            "rotor_inertia", "inertia of a joint's motor, on its own side", "kg m^2", [j.rotor_inertia for j in joints]
+            "rotor_inertia",
+            "inertia of a joint's motor, on its own side",
+            "kg m^2",
+            [j.rotor_inertia for j in joints],
         )
         if any(j.rotor_inertia for j in joints)
         else None,
@@ -234,7 +236,11 @@ def _pin(
         element.DRIVE: gear * drives[0].symbol if driven else sp.Integer(0),
     }
     if joint.rotor_inertia or driven:
-        values |= {key: sp.Integer(0) for key, at in ((STIFFNESS, joint.stiffness), (DAMPING, joint.damping)) if not at}
+        values |= {
+            key: sp.Integer(0)
+            for key, at in ((STIFFNESS, joint.stiffness), (DAMPING, joint.damping))
+            if not at
+        }
     return element.DRIVEN_PIN.with_values(values)
 
 

@@ -130,9 +130,7 @@ def _missing_remedy(path: Path, field: FieldInfo | None) -> str:
     return f"Add for example `{path[-1]} = {example}` ({field.description})."
 
 
-def _unknown_key(
-    path: Path, owner: type[Table], value: object, document: type[Document]
-) -> tuple[str, str]:
+def _unknown_key(path: Path, owner: type[Table], value: object, document: type[Document]) -> tuple[str, str]:
     """Return message and remedy for a key which its table does not know."""
     key, known = str(path[-1]), [name for name, field in owner.model_fields.items() if not hidden(field)]
     where = _header(path[:-1])

@@ -46,6 +46,8 @@ def output_columns(scene: Scene) -> tuple[OutputColumn, ...]:
 
 def _columns(output: Output, kind: str) -> tuple[OutputColumn, ...]:
     place = f"station {output.at}" if isinstance(output.at, int) else f"the {output.at}"
+    if output.part:
+        place = f"'{output.part}'"
     what = f"{output.of.replace('_', ' ')} {'of' if output.at == 'arm' else 'at'} {place}"
     quantity = quantities(kind)[output.of]
     if not quantity.vector:

@@ -88,6 +88,7 @@ def unlike(base: str) -> Scene:
     acts = {"motor": "torque", "prescribed": "angle"}.get(base)
     return parse_scene(UNLIKE.format(base=base, hub=hub, base_input=_HUB.format(acts) if acts else ""))
 
+
 PARTS = """
 name = "parts"
 [model]

@@ -59,7 +59,7 @@ def add_bodies(world: Xml.Element, scene: Scene) -> Bodies:
     place, links = (0.0, 0.0), []
     for number, (joint, link) in enumerate(zip(scene.joints, scene.links, strict=True), start=1):
         parent = Xml.SubElement(parent, "body", name=f"link{number}", pos=text_of(place[0], 0.0, place[1]))
-        Xml.SubElement(
+        hinge = Xml.SubElement(
             parent,
             "joint",
             name=names[number - 1],
@@ -67,9 +67,11 @@ def add_bodies(world: Xml.Element, scene: Scene) -> Bodies:
             axis="0 0 1",
             stiffness=text_of(joint.stiffness),
             damping=text_of(joint.damping),
-            **({"armature": text_of(joint.armature)} if joint.rotor_inertia else {}),
-            **({"springref": text_of(joint.rest)} if joint.rest else {}),
         )
+        if joint.rotor_inertia:
+            hinge.set("armature", text_of(joint.armature))
+        if joint.rest:
+            hinge.set("springref", text_of(joint.rest))
         joints.append(names[number - 1])
         links.append(parent)
         if planar:

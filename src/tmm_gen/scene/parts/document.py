@@ -32,8 +32,8 @@ class PartsDocument(Document):
     beam: tuple[BeamPart, ...] = Field(default=(), description="beams")  # type: ignore[assignment]
     link: tuple[LinkPart, ...] = Field(default=(), description="rigid links")  # type: ignore[assignment]
     body: tuple[BodyPart, ...] = Field(default=(), description="rigid bodies")
-    input: tuple[PartInput, ...] = Field(default=(), description="inputs")  # type: ignore[assignment]
-    output: tuple[PartOutput, ...] = Field(default=(), description="outputs")  # type: ignore[assignment]
+    input: tuple[PartInput, ...] = Field(default=(), description="inputs")
+    output: tuple[PartOutput, ...] = Field(default=(), description="outputs")
 
     @cached_property
     def expansion(self) -> Expansion:

@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 from tmm_gen.scene.beam import Beam, Tip, beam_joints, beam_links
 from tmm_gen.scene.exact import exact, nearest
 from tmm_gen.scene.initial import Initial
 from tmm_gen.scene.parts.order import Entry, Hanging, hanging
 from tmm_gen.scene.parts.tables import BeamPart, BodyPart, JointPart, LinkPart, MotorPart
-from tmm_gen.scene.signal import FileInput, FileOutput, Input, Output
+from tmm_gen.scene.signal import FileInput, FileOutput, Input, Output, Place
 from tmm_gen.scene.station import Joint, Link
 
 if TYPE_CHECKING:
@@ -151,9 +151,7 @@ def _joint(part: MotorPart | JointPart) -> Joint:
 
 
 def _link(part: LinkPart) -> Link:
-    return Link.model_construct(
-        inertia=part.inertia, mass=part.mass, length=part.length, center=part.center
-    )
+    return Link.model_construct(inertia=part.inertia, mass=part.mass, length=part.length, center=part.center)
 
 
 def _weight(entry: Entry) -> Link:
@@ -198,15 +196,17 @@ def _tip(bodies: Sequence[Entry]) -> Tip | None:
     weights = [_weight(body) for body in bodies]
     if not weights:
         return None
-    mass, inertia = (sum((exact(getattr(w, key)) for w in weights), Fraction(0)) for key in ("mass", "inertia"))
+    mass, inertia = (
+        sum((exact(getattr(w, key)) for w in weights), Fraction(0)) for key in ("mass", "inertia")
+    )
     return Tip.model_construct(mass=nearest(mass), inertia=nearest(inertia))
 
 
-def place_of(name: str, parts: dict[str, PlacedPart], stations: int) -> str | int:
+def place_of(name: str, parts: dict[str, PlacedPart], stations: int) -> Place:
     """Return the place that a name means: the outer end of a part, or "base", "tip" or "arm"."""
     part = parts.get(name)
     if part is None:
-        return name
+        return cast(Place, name)
     return "tip" if part.last == stations else part.last or part.joint
 
 
@@ -234,7 +234,9 @@ def _output(item: FileOutput, parts: dict[str, PlacedPart], stations: int) -> Ou
     )
 
 
-def _spread(values: float | tuple[float, ...], solid: Sequence[PlacedPart], stations: int) -> tuple[float, ...]:
+def _spread(
+    values: float | tuple[float, ...], solid: Sequence[PlacedPart], stations: int
+) -> tuple[float, ...]:
     """Return one number per link of what is one number for all, or one per beam and link of the file."""
     if not isinstance(values, tuple):
         return (values,) * stations

@@ -75,7 +75,9 @@ class Hanging:
         A body without `on` sits on the only beam or link.
         """
         on, seen = self.on(entry), {entry.name}
-        while (host := self.by_name.get(on)) is not None and isinstance(host.part, BodyPart) and on not in seen:
+        while (
+            (host := self.by_name.get(on)) is not None and isinstance(host.part, BodyPart) and on not in seen
+        ):
             seen.add(on)
             on = self.on(host)
         return on

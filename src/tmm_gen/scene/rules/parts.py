@@ -31,9 +31,7 @@ def part_names(document: PartsDocument) -> Iterator[Finding]:
     for entry in every:
         on = entry.part.on
         if on is not None and on != BASE and on not in first:
-            yield Finding(
-                (*entry.path, "on"), "is not the name of a part", closest(on, [BASE, *first]), on
-            )
+            yield Finding((*entry.path, "on"), "is not the name of a part", closest(on, [BASE, *first]), on)
 
 
 def one_row(document: PartsDocument) -> Iterator[Finding]:
@@ -104,7 +102,7 @@ def carriers(document: PartsDocument) -> Iterator[Finding]:
             yield Finding(
                 entry.path,
                 f"carries nothing: '{entry.name}' has no [[beam]] or [[link]] on it",
-                f"Add one with `on = \"{entry.name}\"`, or remove it.",
+                f'Add one with `on = "{entry.name}"`, or remove it.',
             )
 
 
@@ -135,7 +133,7 @@ def _carried(document: PartsDocument, entry: Entry, host: Entry | None) -> Itera
         yield Finding(
             path,
             f"fixes '{entry.name}' to the base, where it could not move",
-            f"Put a [[motor]] or a [[joint]] between, and write its name: `on = \"...\"`.",
+            'Put a [[motor]] or a [[joint]] between, and write its name: `on = "..."`.',
             entry.part.on,
         )
     if isinstance(entry.part, BeamPart):
@@ -197,7 +195,9 @@ def beams_in_range(document: PartsDocument) -> Iterator[Finding]:
         if placed.first == 0:
             rotor = made.joints[placed.joint - 1].armature
             if isinstance(entry.part, MotorPart) and not math.isfinite(rotor):
-                yield _out_of_range((*entry.path, "gear"), "rotor inertia at the joint", rotor, entry.part.gear)
+                yield _out_of_range(
+                    (*entry.path, "gear"), "rotor inertia at the joint", rotor, entry.part.gear
+                )
             continue
         key = {"beam": "mass_per_length"}.get(placed.kind, "mass")
         for link in made.links[placed.first - 1 : placed.last]:
@@ -207,9 +207,11 @@ def beams_in_range(document: PartsDocument) -> Iterator[Finding]:
                 value = getattr(entry.part, key)
                 yield _out_of_range((*entry.path, key), f"link {wrong[0]}", values[wrong[0]], value)
                 break
-        for joint in made.joints[placed.first - 1 : placed.last] if placed.kind == "beam" else ():
+        if not isinstance(entry.part, BeamPart):
+            continue
+        for joint in made.joints[placed.first - 1 : placed.last]:
             if not (math.isfinite(joint.stiffness) and math.isfinite(joint.damping)):
-                value = getattr(entry.part, "bending_stiffness")
+                value = entry.part.bending_stiffness
                 path = (*entry.path, "bending_stiffness")
                 yield _out_of_range(path, "spring's stiffness", joint.stiffness, value)
                 break
@@ -363,6 +365,6 @@ def _no_frame(path: Path, part: PlacedPart) -> Finding:
     return Finding(
         path,
         f"has no frame of its own: '{part.fixed}' is fixed to it, and both are one rigid body",
-        f"Write `at = \"{part.fixed}\"`, or put a [[joint]] between the two.",
+        f'Write `at = "{part.fixed}"`, or put a [[joint]] between the two.',
         part.name,
     )
