@@ -137,7 +137,13 @@ def scene_of(document: Document, source: Source) -> Scene:
     if isinstance(document, PartsDocument):
         made = document.expansion
         return replace(
-            _scene_of(document, source, made.inputs, made.outputs, made.initial),
+            _scene_of(
+                document,
+                source,
+                made.inputs(document.input),
+                made.outputs(document.output),
+                made.initial(document.initial),
+            ),
             beam=None,
             tip=made.tip,
             parts=made.parts,

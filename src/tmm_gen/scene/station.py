@@ -37,7 +37,7 @@ class Joint(Table):
     @property
     def armature(self) -> float:
         """What the rotor's inertia is at the joint, kg m^2: ``gear^2`` times it, between both sides."""
-        return self.gear**2 * self.rotor_inertia
+        return self.gear * self.gear * self.rotor_inertia  # a power would raise where this is infinite
 
 
 class Link(Table):

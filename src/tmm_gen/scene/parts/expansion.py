@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, cast
 
 from tmm_gen.scene.beam import Beam, Tip, beam_joints, beam_links
 from tmm_gen.scene.exact import exact, nearest
-from tmm_gen.scene.initial import Initial
+from tmm_gen.scene.initial import Initial, InitialTable
 from tmm_gen.scene.parts.order import Entry, Hanging, hanging
 from tmm_gen.scene.parts.tables import BeamPart, BodyPart, JointPart, LinkPart, MotorPart
 from tmm_gen.scene.signal import FileInput, FileOutput, Input, Output, Place
@@ -58,18 +58,35 @@ class Expansion:
         Bodies on the last part.
     parts : tuple of PlacedPart
         Base to tip.
-    inputs : tuple of Input
-    outputs : tuple of Output
-    initial : Initial
     """
 
     joints: tuple[Joint, ...]
     links: tuple[Link, ...]
     tip: Tip | None
     parts: tuple[PlacedPart, ...]
-    inputs: tuple[Input, ...]
-    outputs: tuple[Output, ...]
-    initial: Initial
+
+    @property
+    def by_name(self) -> dict[str, PlacedPart]:
+        """The parts by name."""
+        return {part.name: part for part in self.parts}
+
+    @property
+    def solid(self) -> tuple[PlacedPart, ...]:
+        """Beams and links, base to tip."""
+        return tuple(part for part in self.parts if part.kind in ("beam", "link"))
+
+    def inputs(self, items: Sequence[FileInput]) -> tuple[Input, ...]:
+        """Return inputs at the places that names mean."""
+        return tuple(_input(item, self.by_name, len(self.links)) for item in items)
+
+    def outputs(self, items: Sequence[FileOutput]) -> tuple[Output, ...]:
+        """Return outputs at the places that names mean."""
+        return tuple(_output(item, self.by_name, len(self.links)) for item in items)
+
+    def initial(self, table: InitialTable) -> Initial:
+        """Return the motion at time zero of each link."""
+        n = len(self.links)
+        return Initial(_spread(table.angles, self.solid, n), _spread(table.rates, self.solid, n))
 
 
 def expanded(document: PartsDocument) -> Expansion:
@@ -79,7 +96,6 @@ def expanded(document: PartsDocument) -> Expansion:
     joints: list[Joint] = []
     links: list[Link] = []
     parts: list[PlacedPart] = []
-    solid: list[PlacedPart] = []
     pending: Joint | None = None
     for entry in row:
         part = entry.part
@@ -109,22 +125,9 @@ def expanded(document: PartsDocument) -> Expansion:
             for body in bodies:
                 links[-1] = joined(links[-1], _weight(body))
         placed = PlacedPart(entry.name, entry.table, first=first, last=len(links), fixed=_fixed(hung, entry))
-        solid.append(placed)
         parts += [placed, *(_placed_body(body, placed) for body in bodies)]
     tip = _tip(hung.bodies(row[-1].name))
-    by_name = {part.name: part for part in parts}
-    return Expansion(
-        tuple(joints),
-        tuple(links),
-        tip,
-        tuple(parts),
-        tuple(_input(item, by_name, len(links)) for item in document.input),
-        tuple(_output(item, by_name, len(links)) for item in document.output),
-        Initial(
-            _spread(document.initial.angles, solid, len(links)),
-            _spread(document.initial.rates, solid, len(links)),
-        ),
-    )
+    return Expansion(tuple(joints), tuple(links), tip, tuple(parts))
 
 
 def joined(inner: Link, outer: Link) -> Link:

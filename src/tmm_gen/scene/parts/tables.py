@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import BeforeValidator, Field, PlainValidator
+from pydantic import AfterValidator, BeforeValidator, Field, PlainValidator
 
 from tmm_gen.scene.beam import Springs
 from tmm_gen.scene.identifier import Name
@@ -39,7 +39,7 @@ def _rigid_gear(value: object) -> object:
     )
 
 
-PartName = Annotated[Name, BeforeValidator(_named)]
+PartName = Annotated[Name, BeforeValidator(_named), AfterValidator(_part_name)]
 Where = Annotated[str, PlainValidator(_named)]
 
 

@@ -232,7 +232,7 @@ def _out_of_range(path: Path, what: str, value: float, given: object) -> Finding
 
 def part_initial(document: PartsDocument) -> Iterator[Finding]:
     """Find initial values that are neither one number nor one per beam and link, or differ in one rigid body."""
-    solid = [p for p in document.expansion.parts if p.kind in ("beam", "link")]
+    solid = document.expansion.solid
     for key in ("angles", "rates"):
         values = getattr(document.initial, key)
         if not isinstance(values, tuple):
@@ -258,7 +258,7 @@ def part_initial(document: PartsDocument) -> Iterator[Finding]:
 
 def part_inputs(document: PartsDocument) -> Iterator[Finding]:
     """Find inputs that act nowhere, or not so."""
-    parts = {part.name: part for part in document.expansion.parts}
+    parts = document.expansion.by_name
     for index, item in enumerate(document.input):
         at, path = str(item.at), ("input", index)
         part = parts.get(at)
@@ -311,7 +311,7 @@ def _on_base(document: PartsDocument, index: int) -> Iterator[Finding]:
 
 def part_outputs(document: PartsDocument) -> Iterator[Finding]:
     """Find a scene without outputs, and outputs of what does not exist or never changes."""
-    parts = {part.name: part for part in document.expansion.parts}
+    parts = document.expansion.by_name
     if not document.output:
         last = document.expansion.parts[-1].name
         yield Finding(
