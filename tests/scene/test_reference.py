@@ -9,8 +9,8 @@ import pytest
 
 from tmm_gen.cli import main
 from tmm_gen.scene import parse_scene
-from tmm_gen.scene.parts.document import PartsDocument
 from tmm_gen.scene.integrator import METHODS
+from tmm_gen.scene.parts.document import PartsDocument
 from tmm_gen.scene.reference import keys, markdown
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "scene.md"
