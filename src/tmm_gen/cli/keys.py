@@ -7,6 +7,16 @@ import click
 from tmm_gen.cli.console import Column, table
 
 
+def header(words: str) -> str:
+    """Return a table's header as a file has it."""
+    return words.partition(" ")[0]
+
+
+def name(words: str) -> str:
+    """Return the name of a table."""
+    return header(words).strip("[]")
+
+
 @click.command("keys")
 @click.argument("wanted", metavar="[TABLE]", required=False)
 @click.option("--markdown", is_flag=True, help="As a page of documentation.")
@@ -21,9 +31,9 @@ def keys(wanted: str | None, markdown: bool, json_mode: bool) -> None:
         click.echo(reference.markdown(), nl=False)
         return
     every = list(reference.keys())
-    rows = [key for key in every if wanted is None or key.table.strip("[]") == wanted.strip("[]")]
+    rows = [key for key in every if wanted is None or wanted in (header(key.table), name(key.table))]
     if not rows:
-        tables = dict.fromkeys(key.table.strip("[]") for key in every if key.table)
+        tables = dict.fromkeys(name(key.table) for key in every if key.table)
         raise click.UsageError(f"{wanted}: is no table of a scene; choose from {', '.join(tables)}.")
     table(
         [

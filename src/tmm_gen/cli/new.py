@@ -33,8 +33,13 @@ if TYPE_CHECKING:
     help="Folder to write to; made if missing.",
 )
 @click.option("--control", is_flag=True, help="With [control], for `tmm-gen mpc`; planar only.")
+@click.option(
+    "--motors",
+    type=click.IntRange(1, 20),
+    help="An arm of parts with so many motors, a beam on each; planar only.",
+)
 @click.option("--force", is_flag=True, help="Replace a scene of that name.")
-def new(name: str, kind: Kind, out: Path, control: bool, force: bool) -> None:
+def new(name: str, kind: Kind, out: Path, control: bool, motors: int | None, force: bool) -> None:
     """Write a commented scene NAME.toml to start from."""
     from tmm_gen.scene.identifier import scene_name_fault
     from tmm_gen.scene.problem import show_value
@@ -45,13 +50,19 @@ def new(name: str, kind: Kind, out: Path, control: bool, force: bool) -> None:
     # nothing is loaded yet: the kind is the word that was typed
     if control and kind != "planar":
         raise UserError(f"--control: a {kind} has no motor to be controlled. Add --kind planar.")
+    if motors and kind != "planar":
+        raise UserError(f"--motors: a {kind} has no motors at its joints. Add --kind planar.")
+    if motors and control:
+        raise UserError(
+            "--motors and --control exclude each other: `tmm-gen mpc` turns a hub. Remove one of the two."
+        )
     target = out / f"{name}.toml"
     if target.is_symlink() or target.exists():
         if target.is_dir():
             raise UserError(f"{target}: is a directory. Choose another name.")
         if not force:
             raise UserError(f"{target}: exists already. Choose another name, or replace it with --force.")
-    write_outputs({target: template(name, kind, control)}, force=force)
+    write_outputs({target: template(name, kind, control, motors or 0)}, force=force)
     click.echo(f"wrote {target}")
     then = "mpc" if control else "run"
     click.echo(f"next: edit it, then `tmm-gen build {target}` and `tmm-gen {then} {target}`")

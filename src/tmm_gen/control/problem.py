@@ -160,7 +160,10 @@ def control_problem(scene: Scene) -> ControlProblem:
         )
     if control is None:
         raise UserError(
-            f"{scene.source.origin}: has no [control]. Add it, with for example `reference = 1.0` and "
+            f"{scene.source.origin}: predictive control turns a hub, and knows no arms of parts by name yet. Write the "
+            f'arm with base.kind = "motor" and [beam], as {scenes_dir() / "swing.toml"} does.'
+            if scene.parts
+            else f"{scene.source.origin}: has no [control]. Add it, with for example `reference = 1.0` and "
             f"[control.bounds] with `torque = 3.0`; {scenes_dir() / 'swing.toml'} has all of it."
         )
     start = tip_angle(scene, scene.initial.angles)

@@ -9,7 +9,7 @@ from tmm_gen.c_language.real import Real, real_of
 from tmm_gen.derive.integrators.history import history_depth
 from tmm_gen.derive.integrators.registry import integrator
 from tmm_gen.explain.footprint import Footprint, footprint, footprint_of
-from tmm_gen.explain.terms import Term, terms_of
+from tmm_gen.explain.terms import Term, terms_of, up_to
 from tmm_gen.program.build import build_program
 from tmm_gen.program.statements import Program
 from tmm_gen.program.variables import Variable
@@ -83,6 +83,7 @@ def explain(scene: Scene, advance: Callable[[str], None] = lambda term: None) ->
         if not term.modelled:
             full = term.other(full)
         advance(term.name)
+    found = [*_parts(scene, own), *found]
     found += [_history(scene, program), _hoisted(scene, program, own)]
     whole = build_program(full)
     everything = footprint_of(whole, real_of(scene.emit))
@@ -95,6 +96,23 @@ def explain(scene: Scene, advance: Callable[[str], None] = lambda term: None) ->
     )
     advance("everything")
     return Explanation(scene, own, tuple(found), everything)
+
+
+def _parts(scene: Scene, own: Footprint) -> list[Explained]:
+    """Return what each beam and link costs with the joint that carries it: the arm up to it less that before it."""
+    found = []
+    before, carried = NOTHING, ""
+    for part in scene.parts:
+        if part.joint:
+            carried = f", on {part.kind} '{part.name}'"
+        if part.kind not in ("beam", "link") or part.fixed:
+            continue
+        upto = own if part.last == scene.stations else footprint(up_to(scene, part.last))
+        count = part.last - part.first + 1
+        why = (f"links {part.first} to {part.last}" if count > 1 else f"link {part.last}") + carried
+        found.append(Explained(f"{part.kind} '{part.name}'", True, why, upto - before))
+        before, carried = upto, ""
+    return found
 
 
 def _explained(term: Term, scene: Scene, own: Footprint) -> Explained:

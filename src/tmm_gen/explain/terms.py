@@ -40,7 +40,11 @@ class Term:
 
 def terms_of(scene: Scene) -> list[Term]:
     """Return the terms of a scene, in the order of its file."""
-    found = [_joint_damping(scene), _alike_joints(scene), _alike_links(scene), *_base(scene)]
+    found = [_joint_damping(scene), *_base(scene)]
+    if scene.parts:  # by their nature unlike
+        found += _motors(scene)
+    else:
+        found[1:1] = [_alike_joints(scene), _alike_links(scene)]
     if scene.model.in_plane:
         found = [_gravity(scene), _iterations(scene), *found, *_tip(scene), _heat(scene)]
     return [*found, _inputs(scene), _outputs(scene)]
@@ -96,6 +100,55 @@ def _alike_links(scene: Scene) -> Term:
         return replace(s, links=_spread(s.links, names))
 
     return Term("links of their own", unlike, why, other)
+
+
+def _motors(scene: Scene) -> list[Term]:
+    """Return each motor, driven joint and slack angle, beside a joint without."""
+    found = []
+    for part in scene.parts:
+        if not part.joint:
+            continue
+        joint = scene.joints[part.joint - 1]
+        driven = any(i.acts == "drive" and i.at == part.joint for i in scene.inputs)
+        if part.kind == "motor" or driven or joint.rest:
+            what = (
+                f"gear = {joint.gear:g}, {joint.armature:.4g} kg m^2 at the joint"
+                if part.kind == "motor"
+                else ""
+            )
+            told = [*([what] if what else []), *([f"rest = {joint.rest:g}"] if joint.rest else [])]
+            told += ["a torque acts in it"] if driven else []
+            name = f"motor '{part.name}'" if part.kind == "motor" else f"what is in joint '{part.name}'"
+            found.append(
+                Term(f"{name} in place of a plain joint", True, ", ".join(told), _plain_joint(part.joint))
+            )
+    return found
+
+
+def _plain_joint(number: int) -> Change:
+    def other(s: Scene) -> Scene:
+        plain = s.joints[number - 1].model_copy(update={"rest": 0.0, "rotor_inertia": 0.0, "gear": 1.0})
+        inputs = tuple(i for i in s.inputs if i.acts != "drive" or i.at != number)
+        return replace(s, joints=(*s.joints[: number - 1], plain, *s.joints[number:]), inputs=inputs)
+
+    return other
+
+
+def up_to(scene: Scene, station: int) -> Scene:
+    """Return the inner part of an arm, with what acts and is measured there."""
+    n = scene.stations
+    initial = replace(
+        scene.initial, angles=scene.initial.angles[:station], rates=scene.initial.rates[:station]
+    )
+    return replace(
+        scene,
+        joints=scene.joints[:station],
+        links=scene.links[:station],
+        tip=scene.tip if station == n else None,
+        inputs=tuple(i for i in scene.inputs if station_of(i.at, n) <= station),
+        outputs=tuple(o for o in scene.outputs if o.at == "arm" or station_of(o.at, n) <= station),
+        initial=initial,
+    )
 
 
 def _spread(stations: tuple[Any, ...], names: tuple[str, ...]) -> tuple[Any, ...]:

@@ -21,6 +21,10 @@ Array = NDArray[np.float64]
 _Loads = tuple[tuple[int, tuple[float, ...]], ...]
 
 
+PIVOT = "pivot"
+"""A joint that may turn freely, with a rotor in it or a torque: its law is given by numbers, not by a compliance."""
+
+
 @dataclass(frozen=True)
 class Placed:
     """An element at its place.
@@ -28,7 +32,7 @@ class Placed:
     Parameters
     ----------
     name : str
-        "joint", "link", "hub", "friction" or "tip".
+        "joint", "pivot", "link", "hub", "friction" or "tip".
     element : Element
         Its declaration, linear in its motions.
     station : int
@@ -115,7 +119,9 @@ def _chain(scene: Scene) -> LinearArm:
 
 def _planar(scene: Scene, rest: Rest) -> LinearArm:
     at_rest = rest_elements()
-    loads = _loads(scene, at_rest["load"], dict(zip(("force_x", "force_y", "torque"), LOAD, strict=True)))
+    symbols = dict(zip(("force_x", "force_y", "torque"), LOAD, strict=True))
+    loads = _loads(scene, at_rest["load"], symbols)
+    drives = _drives(scene, _unit_load(at_rest["load"], symbols["torque"]))
     still = (0.0,) * 7
     placed: list[Placed] = []
 
@@ -125,7 +131,11 @@ def _planar(scene: Scene, rest: Rest) -> LinearArm:
     if scene.hub:
         add("hub", 0, scene.base.inertia, scene.base.damping, *still, loads=loads[0])
     for i, (joint, link) in enumerate(zip(scene.joints, scene.links, strict=True)):
-        add("joint", i + 1, joint.stiffness, joint.damping, *still)
+        if joint.stiffness > 0.0 and not joint.rotor_inertia and not drives[i]:
+            add("joint", i + 1, joint.stiffness, joint.damping, *still)
+        else:
+            law = (joint.stiffness, joint.damping, joint.armature)
+            placed.append(Placed(PIVOT, at_rest["joint"], i + 1, law, drives[i]))
         own = (link.length, link.mass, link.inertia, link.center)
         state = (float(rest.angles[i]), *map(float, rest.inner[i]), *map(float, rest.outer[i]))
         add("link", i + 1, *own, *state, loads=loads[i + 1])
@@ -139,13 +149,28 @@ def _prescribed(scene: Scene) -> int | None:
     return None if scene.prescribed is None else scene.inputs.index(scene.prescribed)
 
 
+def _drives(scene: Scene, torque: tuple[float, ...]) -> list[_Loads]:
+    """Return the torques in each joint, 1 to n, that act on its outer side for a unit of an input."""
+    found: list[list[tuple[int, tuple[float, ...]]]] = [[] for _ in scene.joints]
+    for number, item in enumerate(scene.inputs):
+        if item.acts == "drive" and isinstance(item.at, int):
+            unit = scene.joints[item.at - 1].gear * np.array(torque)
+            found[item.at - 1].append((number, tuple(unit.tolist())))
+    return [tuple(each) for each in found]
+
+
 def _loads(scene: Scene, load: Element, symbols: dict[str, sp.Symbol]) -> list[_Loads]:
     """Return the loads at each station, 0 to n: what a unit of an input adds to the outboard forces."""
     found: list[list[tuple[int, tuple[float, ...]]]] = [[] for _ in range(scene.stations + 1)]
     for number, item in enumerate(scene.inputs):
-        if item is not scene.prescribed:
-            unit = _unit_load(load, symbols[item.acts])
-            found[station_of(item.at, scene.stations)].append((number, unit))
+        if item.acts == "drive":  # what acts on the outer side of a joint, the inner one feels reversed
+            if isinstance(item.at, int) and (item.at > 1 or scene.hub):
+                torque = np.array(_unit_load(load, symbols["torque"]))
+                unit = -scene.joints[item.at - 1].gear * torque
+                found[item.at - 1].append((number, tuple(unit.tolist())))
+        elif item is not scene.prescribed:
+            unit_load = _unit_load(load, symbols[item.acts])
+            found[station_of(item.at, scene.stations)].append((number, unit_load))
     return [tuple(each) for each in found]
 
 

@@ -95,7 +95,12 @@ def damping_time(linear: Matrices) -> float | None:
         return 0.0
     if np.any(parts.ground_stiffness) or np.any(parts.ground_damping):
         return None
-    times = parts.damper / parts.spring
+    if np.any(parts.damper[parts.spring == 0.0]):
+        return None
+    held = parts.spring > 0.0
+    if not held.any():
+        return 0.0
+    times = parts.damper[held] / parts.spring[held]
     middle = float(np.median(times))
     return middle if np.all(np.abs(times - middle) <= _PROPORTIONAL * middle) else None
 
@@ -119,8 +124,7 @@ def _projected(
     from scipy.linalg import eigh  # slow to import
 
     bends = springs.bends(shapes)
-    if springs.rigid:
-        bends[0] = 0.0
+    bends[springs.loose] = 0.0
     stiffness = bends.T @ (springs.signs * bends)
     damping = shapes.T @ linear.parts.braked(shapes)
     if not (np.all(np.isfinite(stiffness)) and np.all(np.isfinite(damping))):
@@ -129,11 +133,11 @@ def _projected(
             "numbers. Look for a mass, inertia or stiffness that is far too small or large."
         )
     squares, turned = eigh(0.5 * (stiffness + stiffness.T))
-    if springs.rigid:
-        squares[np.argmin(np.abs(squares))] = 0.0
+    loose = np.argsort(np.abs(squares))[: len(springs.loose)]
+    squares[loose] = 0.0
     stiffness, damping = np.diag(squares), turned.T @ (0.5 * (damping + damping.T)) @ turned
     guesses = [quadratic(*each) for each in zip(squares.tolist(), np.diag(damping).tolist(), strict=True)]
-    pairs = _paired(stiffness, damping, guesses, springs.rigid)[:wanted]
+    pairs = _paired(stiffness, damping, guesses, _still(damping, loose))[:wanted]
     errors, missing = np.zeros(wanted), []
     polished: list[Pair] = []
     for k, pair in enumerate(pairs):
@@ -156,14 +160,25 @@ def _projected(
     return polished, errors, springs.angles(springs.signs * found)
 
 
+def _still(damping: Array, loose: NDArray[np.intp]) -> int:
+    """Return how many poles are exactly zero.
+
+    One for each motion that no spring resists, as where it stands does not matter; two where no damper does either.
+    """
+    if len(loose) == 0:
+        return 0
+    braked = np.linalg.eigvalsh(damping[np.ix_(loose, loose)])
+    least = _PROPORTIONAL * float(np.max(np.abs(damping)))
+    return 2 * len(loose) - int(np.sum(np.abs(braked) > least))
+
+
 def _left(linear: Matrices, springs: Springs, shape: Complex, pole: complex) -> Complex:
     """Return what is out of balance in a damped mode, on the scaled bends."""
     both = np.stack([shape.real, shape.imag], axis=1)
     moved, braked = (springs.loads(part) @ [1.0, 1j] for part in _acting(linear, both))
     held = springs.bends(both) @ [1.0, 1j] * springs.signs[:, 0]
     left: Complex = np.asarray(pole**2 * moved + pole * braked + held, complex)
-    if springs.rigid:
-        left[0] = 0.0
+    left[springs.loose] = 0.0
     return left
 
 
@@ -174,8 +189,7 @@ def _acting(linear: Matrices, shapes: Array) -> tuple[Array, Array]:
 def _weight(springs: Springs, shape: Complex, pole: complex) -> float:
     """Return what turns a residual into a relative error of the pole: the residual moves it by ``r / (2 s |b|)``."""
     bends = springs.bends(np.stack([shape.real, shape.imag], axis=1))
-    if springs.rigid:
-        bends[0] = 0.0
+    bends[springs.loose] = 0.0
     size = float(np.linalg.norm(bends))
     return 0.5 / size if size > 0.0 else 0.0
 
@@ -195,7 +209,7 @@ def _widened(linear: Matrices, shapes: Array, more: Array) -> Array:
     return np.concatenate([shapes, added], axis=1)
 
 
-def _paired(stiffness: Array, damping: Array, guesses: list[Pair], rigid: bool) -> list[Pair]:
+def _paired(stiffness: Array, damping: Array, guesses: list[Pair], still: int) -> list[Pair]:
     """Give each undamped mode the two poles that belong to it."""
     from scipy.linalg import eig
     from scipy.optimize import linear_sum_assignment
@@ -205,16 +219,34 @@ def _paired(stiffness: Array, damping: Array, guesses: list[Pair], rigid: bool) 
     system[:size, size:] = np.eye(size)
     system[size:, :size], system[size:, size:] = -stiffness, -damping
     poles = eig(system, right=False)
-    if rigid:  # of the arm as a whole one is zero: where it stands does not matter
-        poles[np.argmin(np.abs(poles))] = 0.0
+    poles[np.argsort(np.abs(poles))[:still]] = 0.0
     wanted = np.array([pole for pair in guesses for pole in pair])
-    # on a logarithmic scale: slow poles are told apart as well as fast ones
+    _, order = linear_sum_assignment(_apart(wanted, poles))
+    matched = poles[order].reshape(-1, 2)
+    if np.any(np.abs(matched[:, 0] - matched[:, 1].conj()) * (np.abs(matched.imag).max(axis=1) > 0.0)):
+        matched = _whole_pairs(poles, np.array(guesses))
+    return [_conjugates(complex(one), complex(other)) for one, other in matched]
+
+
+def _apart(wanted: Complex, poles: Complex) -> Array:
+    """Return how far poles lie from those wanted, relatively: slow ones are told apart as well as fast ones."""
     scale = np.maximum(np.abs(poles)[None, :], np.abs(wanted)[:, None])
     distance = np.abs(wanted[:, None] - poles[None, :])
-    ratio = np.divide(distance, scale, out=np.zeros_like(distance), where=scale > 0.0)
-    _, order = linear_sum_assignment(ratio)
-    matched = poles[order].reshape(-1, 2)
-    return [_conjugates(complex(one), complex(other)) for one, other in matched]
+    return np.divide(distance, scale, out=np.zeros_like(distance), where=scale > 0.0)
+
+
+def _whole_pairs(poles: Complex, guesses: Complex) -> Complex:
+    """Give modes conjugate pairs first, as damping couples them so much that the nearest poles are none."""
+    from scipy.optimize import linear_sum_assignment
+
+    found = np.zeros_like(guesses)
+    upper, real = poles[poles.imag > 0.0], poles[poles.imag == 0.0]
+    modes, order = linear_sum_assignment(_apart(guesses[:, 0], upper))
+    found[modes, 0], found[modes, 1] = upper[order], upper[order].conj()
+    left = np.setdiff1d(np.arange(len(guesses)), modes)
+    _, order = linear_sum_assignment(_apart(guesses[left].ravel(), real))
+    found[left] = real[order].reshape(-1, 2)
+    return found
 
 
 def _conjugates(one: complex, other: complex) -> Pair:

@@ -14,7 +14,7 @@ from itertools import groupby
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.modal.arm import LinearArm, Placed
+from tmm_gen.modal.arm import PIVOT, LinearArm, Placed
 
 Array = NDArray[np.float64]
 
@@ -39,6 +39,8 @@ class Parts:
         Inertia of each link against the motion of its inner end and its turning; symmetric.
     tip : array, (p + 1, p + 1)
         Inertia of the body at the tip.
+    rotor : array, (n,)
+        Inertia of the motor in each joint, at the joint, kg m^2.
     """
 
     hub: bool
@@ -50,6 +52,7 @@ class Parts:
     reach: Array
     inertia: Array
     tip: Array
+    rotor: Array
 
     @property
     def size(self) -> int:
@@ -63,7 +66,9 @@ class Parts:
         pulled = np.cumsum(beyond[::-1], axis=0)[::-1]
         found = self.inertia[:, -1, -1] + np.einsum("ni,nij,nj->n", self.reach, pulled, self.reach)
         found[-1] += self.tip[-1, -1]
-        return np.append(self.hub_inertia, found) if self.hub else found
+        found = found + self.rotor
+        found[:-1] += self.rotor[1:]
+        return np.append(self.hub_inertia + self.rotor[0], found) if self.hub else found
 
     def twists(self, angles: Array) -> Array:
         """Return how much each joint is twisted, (n, ...)."""
@@ -83,7 +88,8 @@ class Parts:
         beyond = np.concatenate([force[1:, :-1], at_tip[None, :-1]])
         pulled = np.cumsum(beyond[::-1], axis=0)[::-1]  # what the outer end of each link has to move
         torque = force[:, -1] + np.sum(self.reach[:, :, None] * pulled, axis=1)
-        return np.concatenate([self.hub_inertia * angles[:1], torque]) if self.hub else torque
+        moved = np.concatenate([self.hub_inertia * angles[:1], torque]) if self.hub else torque
+        return moved + self._between(self.rotor, np.zeros(self.size), angles) if self.rotor.any() else moved
 
     def held(self, angles: Array) -> Array:
         """Return the stiffness matrix times angles, (d, k)."""
@@ -110,10 +116,14 @@ def parts_of(arm: LinearArm) -> Parts:
         Chain, or planar arm about rest.
     """
     n, width, first = arm.scene.stations, arm.width, int(arm.hub)
+    rotor = np.zeros(n)
     laws, links = np.zeros((n, 2)), np.zeros((3, n, width, width))
     reach = np.zeros((n, width - 1))
     bodies = {0: np.zeros((3, width, width)), n: np.zeros((3, width, width))}
-    for name, alike in _alike(arm.elements):
+    for placed in (each for each in arm.elements if each.name == PIVOT):
+        *law, rotor[placed.station - 1] = placed.values
+        laws[placed.station - 1] = law
+    for name, alike in _alike([each for each in arm.elements if each.name != PIVOT]):
         functions = arm.functions(alike[0])
         columns = [np.array(column) for column in zip(*(each.values for each in alike), strict=True)]
         at = np.array([each.station for each in alike])
@@ -143,6 +153,7 @@ def parts_of(arm: LinearArm) -> Parts:
         reach=reach,
         inertia=0.5 * (links[2] + links[2].transpose(0, 2, 1)),  # symmetric but for rounding
         tip=bodies[n][2],
+        rotor=rotor,
     )
 
 

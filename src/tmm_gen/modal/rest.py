@@ -85,7 +85,11 @@ def rest_at(
         own = (link.length, link.mass, link.inertia, link.center)
         force = inner[i] = np.array(link_balance(falling, angles[i], *outer[i], *own))
     before = np.concatenate([[hub], angles[:-1]])
-    springs = np.array([joint.stiffness for joint in scene.joints]) * (before - angles)
+    slack = np.array([joint.rest for joint in scene.joints])
+    springs = np.array([joint.stiffness for joint in scene.joints]) * (before - angles + slack)
+    for item in scene.inputs:
+        if item.acts == "drive" and isinstance(item.at, int):
+            springs[item.at - 1] += scene.joints[item.at - 1].gear * given.get(item.name, 0.0)
     missing = springs - inner[:, 2]
     turned = missing - np.append(missing[1:], 0.0)
     if turning:
@@ -97,7 +101,7 @@ def _loads(scene: Scene, given: Mapping[str, float]) -> Array:
     """Return the external loads at hub and links, (n + 1, 3)."""
     found = np.zeros((scene.stations + 1, 3))
     for item in scene.inputs:
-        if item.acts != "angle":
+        if item.acts not in ("angle", "drive"):
             component = ("force_x", "force_y", "torque").index(item.acts)
             found[station_of(item.at, scene.stations), component] += given.get(item.name, 0.0)
     return found

@@ -37,10 +37,22 @@ class Springs:
     pivot: Array
     share: Array
 
+    @cached_property
+    def loose(self) -> NDArray[np.intp]:
+        """Free angles about which all beyond turns without resistance: a hub, joints without a spring."""
+        hub = [0.0] if self.parts.hub else []
+        springs = np.concatenate([hub, self.parts.spring])
+        return np.flatnonzero((springs == 0.0) & (self.pivot == 0.0))
+
     @property
     def rigid(self) -> bool:
-        """Whether the arm turns as a whole, without resistance."""
-        return self.parts.hub and self.pivot[0] == 0.0
+        """Whether the arm, or a part of it, turns without resistance."""
+        return len(self.loose) > 0
+
+    @property
+    def turned(self) -> Array:
+        """How the arm turns about each loose angle, (d, loose)."""
+        return self._solved(np.eye(len(self.pivot))[:, self.loose], "N")
 
     @property
     def negative(self) -> int:
@@ -102,7 +114,8 @@ def springs_of(parts: Parts) -> Springs:
         own = ground[i] + beyond
         pivot[i] = springs[i] + own
         if springs[i] == 0.0:
-            continue  # the hub: nothing is inboard
+            beyond = 0.0  # a hub, or a joint that passes nothing on
+            continue
         if pivot[i] == 0.0:
             pivot[i] = _LEAST * springs[i]
         share[i] = springs[i] / pivot[i]

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.modal.arm import LinearArm
+from tmm_gen.modal.arm import PIVOT, LinearArm, Placed
 from tmm_gen.modal.blocks import Blocks
 
 Complex = NDArray[np.complex128]
@@ -51,6 +51,13 @@ def sweep(arm: LinearArm, s: Complex) -> States:
     gains, offsets = [], []
     known: dict[tuple[str, tuple[float, ...]], Blocks] = {}  # identical elements are computed once
     for placed in reversed(arm.elements):
+        if placed.name == PIVOT:
+            impedance, bias, gain, offset = _pivot(placed, s, impedance, bias)
+            gains.append(gain)
+            offsets.append(offset)
+            impedances.append(impedance)
+            biases.append(bias)
+            continue
         key = (placed.name, placed.values)
         if key not in known:
             known[key] = arm.functions(placed).blocks(s, placed.values)
@@ -82,6 +89,36 @@ def sweep(arm: LinearArm, s: Complex) -> States:
         for number, load in placed.loads:
             before[k + 1, :, :, number] -= np.array(load)
     return States(motion, force, before)
+
+
+def _pivot(
+    placed: Placed, s: Complex, impedance: Complex, bias: Complex
+) -> tuple[Complex, Complex, Complex, Complex]:
+    """Carry impedance and bias over a joint that may turn freely: its outer angle follows from what is beyond.
+
+    With ``M = Z (theta_in - theta_out)`` and ``M = S theta_out + R x + e`` outboard,
+    ``theta_out = (Z theta_in - R x - e)/(Z + S)``, and ``M`` the share ``Z/(Z + S)`` of ``S theta_in + R x + e``.
+
+    Returns
+    -------
+    impedance, bias, gain, offset
+        Inboard force by the motion there, and outboard motion by the inboard one.
+    """
+    stiffness, damping, armature = placed.values
+    law = stiffness + damping * s + armature * s**2
+    bias = bias.copy()
+    for number, load in placed.loads:
+        bias[:, :, number] -= np.array(load)
+    pivot = law + impedance[:, -1, -1]
+    gain = np.broadcast_to(np.eye(impedance.shape[1], dtype=complex), impedance.shape).copy()
+    gain[:, -1, :-1] = -impedance[:, -1, :-1] / pivot[:, None]
+    gain[:, -1, -1] = law / pivot
+    offset = np.zeros_like(bias)
+    offset[:, -1] = -bias[:, -1] / pivot[:, None]
+    inner, left = impedance @ gain, impedance @ offset + bias
+    share = (law / pivot)[:, None]
+    inner[:, -1], left[:, -1] = share * impedance[:, -1], share * bias[:, -1]
+    return inner, left, gain, offset
 
 
 def _base(arm: LinearArm, impedance: Complex, bias: Complex) -> Complex:

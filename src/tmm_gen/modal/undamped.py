@@ -86,12 +86,14 @@ def _sorted(linear: Matrices, springs: Springs, turning: Array, sought: int, few
 
 
 def _turning(linear: Matrices, springs: Springs) -> Array:
-    """Return the motion of the arm as a whole, of unit mass, (d, 1), or none, (d, 0)."""
-    whole = np.ones((linear.parts.size, 1))
+    """Return the motions without resistance, of unit mass, (d, r): the arm as a whole, or all beyond a free joint."""
+    from scipy.linalg import cholesky, solve_triangular  # slow to import
+
     if not springs.rigid:
-        return whole[:, :0]
-    found: Array = whole / np.sqrt(np.sum(whole * linear.parts.weighed(whole)))
-    return found
+        return np.zeros((linear.parts.size, 0))
+    whole = springs.turned
+    root = cholesky(whole.T @ linear.parts.weighed(whole))
+    return np.asarray(solve_triangular(root, whole.T, trans="T").T, float)
 
 
 def _lowest(linear: Matrices, springs: Springs, turning: Array, count: int) -> tuple[Array, Array]:
@@ -140,9 +142,9 @@ def _all(linear: Matrices, springs: Springs, turning: Array, count: int) -> tupl
     from scipy.linalg import cholesky, eigh, svd  # slow to import
     from scipy.linalg.lapack import dgejsv
 
-    first = turning.shape[1]
+    first, loose = turning.shape[1], springs.loose
     size = linear.parts.size
-    bends = springs.angles(np.eye(size)[:, first:])
+    bends = springs.angles(np.delete(np.eye(size), loose, axis=1))
     bends = bends - turning @ (linear.parts.weighed(turning).T @ bends)
     root = cholesky(linear.mass)
     factor = root @ bends
@@ -157,7 +159,7 @@ def _all(linear: Matrices, springs: Springs, turning: Array, count: int) -> tupl
             _, sizes, rows = svd(factor, full_matrices=False)
             right = rows.T
         return 1.0 / sizes**2, bends @ right / sizes
-    signs = springs.signs[first:]
+    signs = np.delete(springs.signs, loose, axis=0)
     values, vectors = eigh(factor @ (signs * factor.T))
     soft = 1.0 / values
     shapes = bends @ (signs * (factor.T @ vectors)) * soft
@@ -176,8 +178,7 @@ def _bounds(linear: Matrices, springs: Springs, squares: Array, shapes: Array) -
     Eigenvalue Problem*, ch. 4). The matrix is the compliance in scaled bends, in which stiff parts weigh little.
     """
     bends = springs.bends(shapes)
-    if springs.rigid:
-        bends[0] = 0.0
+    bends[springs.loose] = 0.0
     left = springs.signs * bends - squares * springs.loads(linear.parts.weighed(shapes))
     sizes = np.linalg.norm(bends, axis=0)
     errors = np.divide(0.5 * np.linalg.norm(left, axis=0), sizes, out=np.zeros_like(sizes), where=sizes > 0.0)

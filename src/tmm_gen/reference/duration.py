@@ -10,15 +10,27 @@ from tmm_gen.reference.planar_linear import vibration
 from tmm_gen.scene import Scene
 
 _PERIODS = 5
+STANDARD_GRAVITY = 9.81
 _NICE = (1.0, 1.5, 2.0, 3.0, 5.0, 7.0, 10.0)
 
 
 def default_duration(scene: Scene) -> float:
     """Return a round number of seconds that covers some periods of the lowest natural frequency."""
     if not scene.model.linear:
-        frequencies = vibration(scene).frequencies
-        return _round_up(_PERIODS * 2.0 * math.pi / float(frequencies[frequencies > 0.0][0]))
+        return _round_up(_PERIODS * 2.0 * math.pi / _slowest(scene))
     return _round_up(_PERIODS * 2.0 * math.pi / slowest_swing(scene))
+
+
+def _slowest(scene: Scene) -> float:
+    """Return the lowest frequency at which a planar arm bends, or swings in gravity behind free joints, rad/s."""
+    frequencies = vibration(scene).frequencies
+    found = [float(w) for w in frequencies[frequencies > 0.0][:1]]
+    if any(joint.stiffness == 0.0 for joint in scene.joints):
+        length = sum(link.length for link in scene.links)
+        gravity = scene.model.gravity or 0.0
+        # without gravity nothing sets a time: as if there were some
+        found.append(math.sqrt((gravity or STANDARD_GRAVITY) / length))
+    return min(found)
 
 
 def slowest_swing(scene: Scene) -> float:

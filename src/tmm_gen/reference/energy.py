@@ -88,7 +88,9 @@ def energy(scene: Scene, signals: Mapping[str, Signal], time: Array, angle: Arra
     if scene.prescribed:
         joint = scene.joints[0]
         base_angle, base_rate = arm.base_motion(time)
-        spring = joint.stiffness * (base_angle - angle[:, 0]) + joint.damping * (base_rate - rate[:, 0])
+        spring = joint.stiffness * (base_angle + joint.rest - angle[:, 0]) + joint.damping * (
+            base_rate - rate[:, 0]
+        )
         # of the load on link 1 as Lagrange's equations have it, only what the base itself does is work put in
         supply += base_rate * spring - rate[:, 0] * (joint.stiffness * base_angle + joint.damping * base_rate)
     return Energy(
@@ -102,18 +104,17 @@ def energy(scene: Scene, signals: Mapping[str, Signal], time: Array, angle: Arra
 
 
 def kinetic_energy(arm: Arm, angle: Array, rate: Array) -> Array:
-    """Return the kinetic energy of hub, links and tip, (k,), J."""
+    """Return the kinetic energy of hub, links, tip and rotors, (k,), J."""
     along_x, along_y = arm.walked(np.sin(angle) * rate), arm.walked(np.cos(angle) * rate)
     found: Array = 0.5 * (along_x**2 + along_y**2) @ arm.masses + 0.5 * rate**2 @ arm.inertias
+    if arm.rotors.any():
+        found += 0.5 * arm.bent(rate) ** 2 @ arm.rotors
     return found
 
 
 def elastic_energy(arm: Arm, time: Array, angle: Array) -> Array:
     """Return the energy of the bent joints, (k,), J."""
-    found: Array = 0.5 * arm.bent(angle) ** 2 @ arm.joints[0]
-    if arm.scene.prescribed:  # joint 1 stands between the base and link 1
-        base_angle, _ = arm.base_motion(time)
-        found += arm.scene.joints[0].stiffness * (0.5 * base_angle**2 - base_angle * angle[:, 0])
+    found: Array = 0.5 * arm.strained(time, angle) ** 2 @ arm.joints[0]
     return found
 
 

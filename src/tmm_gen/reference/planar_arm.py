@@ -3,10 +3,11 @@
 The coordinates are the absolute angles of hub and links; with the place of each mass a sum of
 ``l_j (cos q_j, sin q_j)``, the equations are
 
-    sum_k B_jk (cos(q_j - q_k) q_k'' + sin(q_j - q_k) q_k'^2) + J_j q_j'' + g b_j cos q_j + springs + dampers = loads
+    sum_k B_jk (cos(q_j - q_k) q_k'' + sin(q_j - q_k) q_k'^2) + J_j q_j'' + g b_j cos q_j
+        + rotors + springs + dampers = loads
 
-with ``B_jk`` the masses times the lever arms they have in ``j`` and in ``k``, and ``b_j`` the first moments. No
-forces between links occur.
+with ``B_jk`` the masses times the lever arms they have in ``j`` and in ``k``, and ``b_j`` the first moments. A rotor
+between two links has the kinetic energy ``1/2 J_a (q_j' - q_i')^2``. No forces between links occur.
 """
 
 from __future__ import annotations
@@ -98,6 +99,16 @@ class Arm:
         return found
 
     @cached_property
+    def rotors(self) -> Array:
+        """Inertias of motors at their joints, ``gear^2`` times their own, (joints,), kg m^2."""
+        return np.array([j.gear**2 * j.rotor_inertia for j in self.scene.joints])
+
+    @cached_property
+    def slack(self) -> Array:
+        """Angles at which the springs of the joints are slack, (joints,), rad."""
+        return np.array([j.rest for j in self.scene.joints])
+
+    @cached_property
     def joints(self) -> tuple[Array, Array]:
         """Stiffness and damping of the joints, (joints,) each; joint 1 is at the base."""
         joints = self.scene.joints
@@ -127,6 +138,17 @@ class Arm:
             found[..., 0] += self.scene.base.damping * v[..., 0]
         return found
 
+    def rotor_torques(self, a: Array) -> Array:
+        """Return what it takes to turn the motors' rotors, (..., n), N m."""
+        return self._pulled(self.rotors * self.bent(a))
+
+    def strained(self, times: Array, q: Array) -> Array:
+        """Return what the springs of the joints are wound up by, (k, joints), rad."""
+        found = self.bent(q) - self.slack
+        if not self.first:
+            found[:, 0] -= self.base_motion(times)[0]
+        return found
+
     # -- the same as matrices ----------------------------------------------------------------------------------
 
     @cached_property
@@ -145,6 +167,17 @@ class Arm:
         unit = np.eye(len(self.lengths))
         return self.spring_torques(unit), self.damper_torques(unit)
 
+    @cached_property
+    def mass(self) -> Array:
+        """Mass matrix of the straight arm, (n, n), kg m^2."""
+        return self.coupling + self.own_inertias
+
+    @cached_property
+    def own_inertias(self) -> Array:
+        """What does not depend on angles: inertias about own centres, and rotors, (n, n), kg m^2."""
+        found = np.diag(self.inertias)
+        return found + self.rotor_torques(np.eye(len(found))) if self.rotors.any() else found
+
     # -- loads --------------------------------------------------------------------------------------------------
 
     def signal(self, name: str) -> Signal:
@@ -161,6 +194,11 @@ class Arm:
                 joint = self.scene.joints[0]
                 rate = self.signal(item.name).slope(times)
                 torque[:, 0] += joint.stiffness * values + joint.damping * rate
+            elif item.acts == "drive":  # between both sides of the joint
+                geared = self.scene.joints[place - self.first].gear * values
+                torque[:, place] += geared
+                if place:
+                    torque[:, place - 1] -= geared
             else:
                 {"torque": torque, "force_x": along_x, "force_y": along_y}[item.acts][:, place] += values
         return torque, along_x, along_y
@@ -187,7 +225,12 @@ class Arm:
         weight = self.gravity * self.moments * c
         beyond_x, beyond_y = (np.cumsum(f[:, ::-1], axis=1)[:, ::-1] for f in (force_x, force_y))
         pushed = self.lengths * (c * beyond_y - s * beyond_x)
-        return inertial + weight + self.spring_torques(q) + self.damper_torques(v) - torque - pushed
+        joints = self.spring_torques(q) + self.damper_torques(v)
+        if self.rotors.any():
+            joints = joints + self.rotor_torques(a)
+        if self.slack.any():
+            joints = joints - self._pulled(self.joints[0] * self.slack)
+        return inertial + weight + joints - torque - pushed
 
     def slopes(self, times: Array, q: Array, v: Array, a: Array) -> tuple[Array, Array, Array]:
         """Return the derivatives of the residual by angles, rates and accelerations, (k, n, n) each."""
@@ -203,7 +246,7 @@ class Arm:
         beyond_x, beyond_y = (np.cumsum(f[:, ::-1], axis=1)[:, ::-1] for f in (force_x, force_y))
         by_q[:, diagonal, diagonal] += self.lengths * (np.sin(q) * beyond_y + np.cos(q) * beyond_x)
         by_v = 2.0 * sine * v[:, None, :] + damping
-        by_a = cosine + np.diag(self.inertias)
+        by_a = cosine + self.own_inertias
         return by_q, by_v, by_a
 
     def trajectory(self, until: float, tolerance: float = 1e-11) -> Trajectory:

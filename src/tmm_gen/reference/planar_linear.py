@@ -31,17 +31,22 @@ class Vibration:
 
 def vibration(scene: Scene) -> Vibration:
     """Return natural frequencies and damping ratios of a planar scene without gravity, straight."""
-    from scipy.linalg import cholesky, svd  # slow to import
+    from scipy.linalg import cholesky, solve_triangular, svd  # slow to import
 
     arm = Arm(scene, {})
     _, damping = arm.springs
-    mass = arm.coupling + np.diag(arm.inertias)
-    turning = len(mass) - scene.stations  # a free hub lets the arm turn as a whole, whatever the numbers are
+    mass = arm.mass
+    hub = len(mass) - scene.stations
+    stiffness = np.array([joint.stiffness for joint in scene.joints])
+    # joints without a spring, and a free hub, let all beyond them turn, whatever the numbers are
+    unit = np.tri(len(mass), scene.stations, -hub)
+    held = stiffness > 0.0
+    turning = hub + int(np.sum(~held))
     # angles for a unit of energy in each joint: no stiffness hides the slowest swing
-    bends = np.tri(len(mass), scene.stations, -turning)
-    bends = bends / np.sqrt([joint.stiffness for joint in scene.joints])
-    whole = np.ones((len(mass), turning))
-    whole = whole / np.sqrt(np.sum(whole * (mass @ whole), axis=0))
+    bends = unit[:, held] / np.sqrt(stiffness[held])
+    whole = np.concatenate([np.ones((len(mass), hub)), unit[:, ~held]], axis=1)
+    if turning:
+        whole = solve_triangular(cholesky(whole.T @ mass @ whole), whole.T, trans="T").T
     bends = bends - whole @ (whole.T @ mass @ bends)
     _, sizes, rows = svd(cholesky(mass) @ bends, full_matrices=False)
     shapes = np.concatenate([whole, bends @ rows.T / sizes], axis=1)

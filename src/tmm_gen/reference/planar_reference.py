@@ -70,6 +70,12 @@ def read(arm: Arm, output: Output, times: Array, q: Array, v: Array, a: Array) -
         values = [
             (q, v, a)[quantity.order][:, place] if place >= 0 else arm.base_motion(times)[quantity.order]
         ]
+    elif quantity.read == "bend":
+        place, moved = station - 1 + arm.first, (q, v)[quantity.order]
+        inner = moved[:, place - 1] if place else arm.base_motion(times)[quantity.order]
+        values = [moved[:, place] - inner]
+    elif quantity.read == "through":
+        values = [_through(arm, station, times, q, v, a)]
     elif quantity.read == "energy":
         values = [_energy(arm, quantity.energy, times, q, v)]
     elif quantity.read == "own":
@@ -110,6 +116,24 @@ def _torque(arm: Arm, output: Output, times: Array, q: Array, v: Array, a: Array
         return joint.stiffness * (angle - q[:, outer - 1]) + joint.damping * (rate - v[:, outer - 1])
     base_angle, base_rate = arm.base_motion(times)
     return joint.stiffness * (angle - base_angle) + joint.damping * (rate - base_rate)
+
+
+def _through(arm: Arm, number: int, times: Array, q: Array, v: Array, a: Array) -> Array:
+    """Return the torque of a joint's inner side on the outer one: motor, spring, damper, less what its rotor takes."""
+    joint, outer = arm.scene.joints[number - 1], number - 1 + arm.first
+    bent, bent_rate = arm.strained(times, q)[:, number - 1], arm.bent(v)[:, number - 1]
+    if not outer:
+        bent_rate = bent_rate - arm.base_motion(times)[1]
+    drive = sum(
+        (
+            joint.gear * np.broadcast_to(arm.signal(i.name).at(times), times.shape)
+            for i in arm.scene.inputs
+            if i.acts == "drive" and i.at == number
+        ),
+        np.zeros(len(times)),
+    )
+    rotor = arm.rotors[number - 1] * arm.bent(a)[:, number - 1]
+    return np.asarray(drive - rotor - joint.stiffness * bent - joint.damping * bent_rate)
 
 
 def _force(arm: Arm, joint: int, times: Array, q: Array, v: Array, a: Array) -> tuple[Array, Array]:

@@ -20,7 +20,7 @@ from tmm_gen.row.words import (
     signals_of,
     symbol,
 )
-from tmm_gen.scene import Scene, station_of
+from tmm_gen.scene import Joint, Scene, station_of
 from tmm_gen.scene.quantity import INPUT_UNITS
 
 ALONG_X = Coordinate("x", "force_x", False, "m/s^2", "N")
@@ -41,17 +41,20 @@ def planar_row(scene: Scene, integrator: str) -> Row:
     """
     named = _parameters(scene)
     loads = loads_of(scene, COMPONENTS)
-    damping = symbol(named["damping"])
     length, mass, inertia, center = (symbol(named[k]) for k in ("length", "mass", "inertia", "center"))
     left_over = inertia - mass * center * (1 - center) * length**2
-    pin = element.PIN.with_values({STIFFNESS: symbol(named["stiffness"]), DAMPING: damping})
+    drives = _drives(scene)
+    pins, pins_in_detail = (
+        tuple(_pin(scene, named, index, drives, armature) for index in range(scene.stations))
+        for armature in (sp.Symbol("armature"), _at_the_joint(scene))
+    )
     hub = _body(named["hub_inertia"])
     if named["hub_damping"] is not None:
         hub += (element.BEARING.with_values({element.FRICTION: symbol(named["hub_damping"])}),)
     inner, outer = _mass(mass * (1 - center)), _mass(mass * center)
     on_link, at_tip = _load(loads["station"]), _load(loads["tail"])
     tip_mass, tip_body = symbol(named["tip_mass"]), _body(named["tip_inertia"])
-    detail = (pin, inner, _rod(length, left_over), outer, *on_link)
+    detail = (inner, _rod(length, left_over), outer, *on_link)
     combinations: tuple[Combination, ...] = ()
     if scene.model.linearisation == "newton":
         rest = Combination(
@@ -79,7 +82,7 @@ def planar_row(scene: Scene, integrator: str) -> Row:
             )
             combinations, node_mass, beyond = (joined, rest), sp.Symbol(joined.name), sp.Integer(0)
         rod_inertia = sp.Symbol(rest.name)
-        station: Elements = (pin, _rod(length, rod_inertia), _mass(node_mass), *on_link)
+        station: Elements = (_rod(length, rod_inertia), _mass(node_mass), *on_link)
         tail: Elements = (*((_mass(beyond),) if beyond != 0 else ()), *tip_body, *at_tip)
     else:
         combinations = (
@@ -100,7 +103,7 @@ def planar_row(scene: Scene, integrator: str) -> Row:
                 element.PIN_INERTIA: pin_inertia,
             }
         )
-        station = (pin, link, *on_link)
+        station = (link, *on_link)
         tail = (*((_mass(tip_mass),) if tip_mass != 0 else ()), *tip_body, *at_tip)
     gravity = symbol(named["gravity"])
     model = "planar arm, large rotations"
@@ -115,14 +118,14 @@ def planar_row(scene: Scene, integrator: str) -> Row:
         sign=1,
         base=(*hub, *_load(loads["base"])),
         boundary=boundary_of(scene),
-        stations=(station,) * scene.stations,
+        stations=tuple((pin, *station) for pin in pins),
         tail=tail,
-        detail=(detail,) * scene.stations,
+        detail=tuple((pin, *detail) for pin in pins_in_detail),
         detail_tail=(*((_mass(tip_mass),) if tip_mass != 0 else ()), *tip_body, *at_tip),
         parameters=tuple(p for p in named.values() if p is not None),
-        combinations=combinations,
+        combinations=(*combinations, *_armature(scene)),
         inputs=signals_of(scene),
-        loads=tuple(load for group in loads.values() for load in group.values()),
+        loads=(*(load for group in loads.values() for load in group.values()), *drives),
         prescribed=prescribed_of(scene),
         readings=tuple(
             reading_of(scene, o, f"{o.name}: {o.of.replace('_', ' ')}", -1) for o in scene.outputs
@@ -144,9 +147,25 @@ def _parameters(scene: Scene) -> dict[str, Parameter | None]:
         parameter("mass", "link mass", "kg", [link.mass for link in links]),
         parameter("inertia", "link inertia about its centre of mass", "kg m^2", [x.inertia for x in links]),
         parameter("center", "centre of mass along the link, 0 to 1", "1", [link.center for link in links]),
-        parameter("stiffness", "joint stiffness", "N m/rad", [j.stiffness for j in joints]),
+        parameter("stiffness", "joint stiffness", "N m/rad", [j.stiffness for j in joints])
+        if any(j.stiffness for j in joints)
+        else None,
         parameter("damping", "joint damping", "N m s/rad", [j.damping for j in joints])
         if any(j.damping for j in joints)
+        else None,
+        parameter("rest", "angle at which a joint's spring is slack", "rad", [j.rest for j in joints])
+        if any(map(_bent_at_rest, joints))
+        else None,
+        parameter(
+            "rotor_inertia",
+            "inertia of a joint's motor, on its own side",
+            "kg m^2",
+            [j.rotor_inertia for j in joints],
+        )
+        if any(j.rotor_inertia for j in joints)
+        else None,
+        parameter("gear", "turns of a joint's motor per turn of the joint", "1", [j.gear for j in joints])
+        if any(j.gear != 1.0 for j in joints)
         else None,
         optional("gravity", "gravity along -y", "m/s^2", scene.model.gravity),
         optional("hub_inertia", "hub inertia", "kg m^2", base.inertia if moved else None),
@@ -160,10 +179,67 @@ def _parameters(scene: Scene) -> dict[str, Parameter | None]:
         optional("tip_inertia", "inertia at the tip", "kg m^2", tip.inertia if tip else None),
     )
     names = (
-        *("length", "mass", "inertia", "center", "stiffness", "damping", "gravity"),
-        *("hub_inertia", "hub_damping", "tip_mass", "tip_inertia"),
+        *("length", "mass", "inertia", "center", "stiffness", "damping", "rest", "rotor_inertia", "gear"),
+        *("gravity", "hub_inertia", "hub_damping", "tip_mass", "tip_inertia"),
     )
     return dict(zip(names, found, strict=True))
+
+
+def _bent_at_rest(joint: Joint) -> bool:
+    return joint.rest != 0.0 and joint.stiffness != 0.0
+
+
+def _drives(scene: Scene) -> tuple[Load, ...]:
+    """Return the torques of motors and in joints, which act between both sides."""
+    acting = sorted(
+        (station_of(item.at, scene.stations) - 1, item.name) for item in scene.inputs if item.acts == "drive"
+    )
+    if not acting:
+        return ()
+    return (Load(sp.Symbol("drive_"), "torque of each joint's motor", INPUT_UNITS["drive"], tuple(acting)),)
+
+
+def _armature(scene: Scene) -> tuple[Combination, ...]:
+    if not any(j.rotor_inertia for j in scene.joints):
+        return ()
+    doc = "inertia of a joint's motor at the joint, between both sides"
+    return (Combination("armature", doc, "kg m^2", _at_the_joint(scene)),)
+
+
+def _at_the_joint(scene: Scene) -> sp.Expr:
+    """Return what a rotor's inertia is at its joint, by the parameters."""
+    geared = any(j.gear != 1.0 for j in scene.joints)
+    return sp.Symbol("rotor_inertia") * (sp.Symbol("gear") ** 2 if geared else 1)
+
+
+def _pin(
+    scene: Scene, named: dict[str, Parameter | None], index: int, drives: tuple[Load, ...], armature: sp.Expr
+) -> Element:
+    """Return the pin of a station, with what is in this one joint alone.
+
+    Parameters
+    ----------
+    armature : sympy.Expr
+        How a rotor's inertia at the joint is written.
+    """
+    joint = scene.joints[index]
+    values = {STIFFNESS: symbol(named["stiffness"]), DAMPING: symbol(named["damping"])}
+    driven = any(place == index for load in drives for place, _ in load.places)
+    if not (joint.rotor_inertia or driven or _bent_at_rest(joint)):
+        return element.PIN.with_values(values)
+    gear = symbol(named["gear"]) if joint.gear != 1.0 else sp.Integer(1)
+    values |= {
+        element.REST: symbol(named["rest"]) if _bent_at_rest(joint) else sp.Integer(0),
+        element.ARMATURE: armature if joint.rotor_inertia else sp.Integer(0),
+        element.DRIVE: gear * drives[0].symbol if driven else sp.Integer(0),
+    }
+    if joint.rotor_inertia or driven:
+        values |= {
+            key: sp.Integer(0)
+            for key, at in ((STIFFNESS, joint.stiffness), (DAMPING, joint.damping))
+            if not at
+        }
+    return element.DRIVEN_PIN.with_values(values)
 
 
 def _mass(value: sp.Expr) -> Element:
@@ -199,6 +275,8 @@ def _held(scene: Scene) -> dict[str, Signal]:
     held = [i for i in scene.inputs if i.acts in ("force_x", "force_y") and station_of(i.at, n) >= inmost]
     if any(scene.quantity(o).read == "own" and o.at == "tip" for o in scene.outputs):
         held += [i for i in scene.inputs if i.acts == "torque" and station_of(i.at, n) == n]
+    felt = {o.at for o in scene.outputs if scene.quantity(o).read == "through"}
+    held += [i for i in scene.inputs if i.acts == "drive" and i.at in felt]
     return {i.name: Signal(f"held_{i.name}", f"{i.name} as it last acted", INPUT_UNITS[i.acts]) for i in held}
 
 

@@ -98,8 +98,9 @@ class Reading:
     targets : tuple of Signal
         One for each component.
     what : str
-        "motion" of the integrated coordinate; the "own" force of the element that gives way; "place", the motion of a
-        node in the other coordinates; "force" in them beyond an element that gives way; or an "energy".
+        "motion" of the integrated coordinate; "bend", its difference across an element that gives way; the "own" force
+        of that element; "place", the motion of a node in the other coordinates; "force" in them beyond an element that
+        gives way; or an "energy".
     station : int
         Counted from 1; 0 is the base, one more than the last is beyond it.
     kind : str

@@ -20,7 +20,9 @@ def signals_of(scene: Scene) -> tuple[Signal, ...]:
 
 def _signals(described: Input) -> tuple[Signal, ...]:
     if described.acts != "angle":
-        doc = f"{described.acts} acting at {place(described.at)}"
+        doc = f"{described.acts} acting at {place(described.at, described.part)}"
+        if described.acts == "drive":
+            doc = f"torque of '{described.part}', between both sides; a motor's acts gear-fold"
         return (Signal(described.name, doc, INPUT_UNITS[described.acts]),)
     names = kernel_names(described)
     return tuple(
@@ -56,7 +58,7 @@ def loads_of(scene: Scene, components: tuple[str, ...]) -> dict[str, dict[str, L
     """Sort a scene's loads by where their element stands ("base", "station", "tail") and by component."""
     places: dict[tuple[str, str], list[tuple[int | None, str]]] = {}
     for described in scene.inputs:
-        if described.acts == "angle":
+        if described.acts in ("angle", "drive"):
             continue
         link = station_of(described.at, scene.stations)
         where = "base" if link == 0 else "tail" if link == scene.stations else "station"
@@ -89,7 +91,9 @@ def reading_of(scene: Scene, output: Output, title: str, sign: int) -> Reading:
     if quantity.in_joint:  # at the tip of an arm with a body there, beyond the last joint
         station = scene.stations + 1 if output.at == "tip" else max(station, 1)
     targets = tuple(Signal(column.name, column.what, column.unit) for column in columns_of(scene, output))
-    kind = "" if quantity.in_joint else quantity.energy or "qva"[quantity.order]
+    kind = "" if quantity.in_joint or quantity.read == "through" else quantity.energy or "qva"[quantity.order]
+    if quantity.read == "through":
+        return Reading(title, targets, "own", station)
     return Reading(title, targets, quantity.read, station, kind, sign if quantity.read == "own" else 1)
 
 

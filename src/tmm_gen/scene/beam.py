@@ -5,12 +5,12 @@ Gholampour (2018), eqs. 2-1 and 2-2 and the alternatives to them.
 
 from __future__ import annotations
 
-import math
 from fractions import Fraction
 from typing import Annotated, Literal
 
 from pydantic import Field
 
+from tmm_gen.scene.exact import exact, nearest
 from tmm_gen.scene.station import Joint, Link
 from tmm_gen.scene.table import STATION_LIMIT, NonNegative, Positive, Table
 
@@ -90,26 +90,26 @@ def joint_stiffnesses(beam: Beam) -> tuple[float, ...]:
     tuple of float, length n
         N m/rad.
     """
-    return tuple(map(_nearest, _exact_stiffnesses(beam)))
+    return tuple(map(nearest, _exact_stiffnesses(beam)))
 
 
 def beam_joints(beam: Beam) -> tuple[Joint, ...]:
     """Return the joints of a beam, base to tip, length n; see :func:`joint_stiffnesses`."""
-    time = _exact(beam.damping_time)
+    time = exact(beam.damping_time)
     return tuple(
-        Joint.model_construct(stiffness=_nearest(k), damping=_nearest(time * k))
+        Joint.model_construct(stiffness=nearest(k), damping=nearest(time * k))
         for k in _exact_stiffnesses(beam)
     )
 
 
 def beam_links(beam: Beam) -> tuple[Link, ...]:
     """Return the links of a beam, base to tip, length n: slender uniform rods of inertia ``m l^2/12``."""
-    length = _exact(beam.length) / beam.links
-    mass = _exact(beam.mass_per_length) * length
+    length = exact(beam.length) / beam.links
+    mass = exact(beam.mass_per_length) * length
     link = Link.model_construct(
-        inertia=_nearest(mass * length**2 / 12),
-        mass=_nearest(mass),
-        length=_nearest(length),
+        inertia=nearest(mass * length**2 / 12),
+        mass=nearest(mass),
+        length=nearest(length),
         center=0.5,
     )
     return (link,) * beam.links
@@ -117,23 +117,10 @@ def beam_links(beam: Beam) -> tuple[Link, ...]:
 
 def _exact_stiffnesses(beam: Beam) -> tuple[Fraction, ...]:
     n = beam.links
-    k = _exact(beam.bending_stiffness) * n / _exact(beam.length)
+    k = exact(beam.bending_stiffness) * n / exact(beam.length)
     if beam.springs == "uniform":
         return (k,) * n
     if beam.springs == "half-clamp":
         return (2 * k,) + (k,) * (n - 1)
     second = Fraction(48 * n - 72, 42 * n - 71) * k
     return (Fraction(8, 9) * k, second, *(k,) * (n - 2))[:n]
-
-
-def _exact(value: float) -> Fraction:
-    """Return a number as the scene writes it: the shortest decimal that reads back as the same."""
-    return Fraction(repr(float(value)))
-
-
-def _nearest(value: Fraction) -> float:
-    """Return the nearest number, which is written as shortly as a person would: 34.5, not 34.49999999999999."""
-    try:
-        return float(value)
-    except OverflowError:
-        return math.inf

@@ -9,8 +9,9 @@ from pydantic import ValidationError
 from tmm_gen.scene.complaints import findings
 from tmm_gen.scene.document import Document
 from tmm_gen.scene.locate import nearest_line
+from tmm_gen.scene.parts.document import PartsDocument, by_parts
 from tmm_gen.scene.problem import Finding, Problem, SceneError, show_path
-from tmm_gen.scene.rules import broken_rules
+from tmm_gen.scene.rules import broken_part_rules, broken_rules
 from tmm_gen.scene.scene import Scene, scene_of
 from tmm_gen.scene.source import Source
 
@@ -33,11 +34,12 @@ def check_data(source: Source) -> Scene:
     SceneError
         With every fault found: first those of single tables, and where there is none, those between tables.
     """
+    kind = PartsDocument if by_parts(source.data) else Document
     try:
-        document = Document.model_validate(source.data)
+        document = kind.model_validate(source.data)
     except ValidationError as error:
-        raise _located(findings(error), source) from None
-    broken = broken_rules(document)
+        raise _located(findings(error, kind), source) from None
+    broken = broken_part_rules(document) if isinstance(document, PartsDocument) else broken_rules(document)
     if broken:
         raise _located(broken, source)
     return scene_of(document, source)

@@ -41,12 +41,16 @@ def output_columns(scene: Scene) -> tuple[OutputColumn, ...]:
 def columns_of(scene: Scene, output: Output) -> tuple[OutputColumn, ...]:
     """Return the columns of one output."""
     quantity = scene.quantity(output)
-    what = f"{output.of.replace('_', ' ')} {'of' if quantity.of_arm else 'at'} {place(output.at)}"
+    what = (
+        f"{output.of.replace('_', ' ')} {'of' if quantity.of_arm else 'at'} {place(output.at, output.part)}"
+    )
     names = quantity.columns(output.name)
     ends = (f", {axis}" for axis in "xy") if quantity.vector else ("",)
     return tuple(OutputColumn(name, quantity, what + end) for name, end in zip(names, ends, strict=True))
 
 
-def place(at: str | int) -> str:
-    """Return a place in words."""
+def place(at: str | int, part: str = "") -> str:
+    """Return a place in words: a part by its name where there is one."""
+    if part:
+        return f"'{part}'"
     return f"station {at}" if isinstance(at, int) else f"the {at}"

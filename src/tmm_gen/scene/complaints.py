@@ -12,7 +12,7 @@ from pydantic_core import ErrorDetails
 
 from tmm_gen.scene.document import Document
 from tmm_gen.scene.problem import Finding, Path, show_path
-from tmm_gen.scene.table import Table, closest
+from tmm_gen.scene.table import Table, closest, hidden
 
 _COMPARISONS = {
     "greater_than": ("gt", "greater than"),
@@ -22,32 +22,34 @@ _COMPARISONS = {
 }
 
 
-def findings(error: ValidationError) -> list[Finding]:
+def findings(error: ValidationError, document: type[Document]) -> list[Finding]:
     """Return one finding per fault pydantic reports.
 
     Parameters
     ----------
     error : pydantic.ValidationError
-        Raised by ``Document.model_validate``.
+        Raised by ``document.model_validate``.
+    document : type
+        How the file writes its arm.
 
     Returns
     -------
     list of Finding
         In pydantic's order.
     """
-    return [_finding(details) for details in error.errors(include_url=False)]
+    return [_finding(details, document) for details in error.errors(include_url=False)]
 
 
-def _finding(details: ErrorDetails) -> Finding:
+def _finding(details: ErrorDetails, document: type[Document]) -> Finding:
     path, value, kind = details["loc"], details["input"], details["type"]
     context: dict[str, Any] = details.get("ctx", {})
-    owner, field = _declared(path)
+    owner, field = _declared(path, document)
     if kind == "scene":
         return Finding(path, context["problem"], context["remedy"], value)
     if kind == "missing":
         return Finding(path, "is missing", _missing_remedy(path, field))
     if kind == "extra_forbidden":
-        return Finding(path, *_unknown_key(path, owner, value), value)
+        return Finding(path, *_unknown_key(path, owner, value, document), value)
     if kind == "literal_error":
         choices = [str(choice) for choice in _literals(field)]
         return Finding(path, "is not one of the choices", closest(value, choices), value)
@@ -70,9 +72,9 @@ def _finding(details: ErrorDetails) -> Finding:
     return Finding(path, details["msg"], _example(path, field), value)
 
 
-def _declared(path: Path) -> tuple[type[Table], FieldInfo | None]:
+def _declared(path: Path, document: type[Document]) -> tuple[type[Table], FieldInfo | None]:
     """Return the table model in which the last key of a path stands, and its declaration if there is one."""
-    owner: type[Table] = Document
+    owner: type[Table] = document
     field: FieldInfo | None = None
     for part in path:
         if isinstance(part, int):
@@ -128,12 +130,12 @@ def _missing_remedy(path: Path, field: FieldInfo | None) -> str:
     return f"Add for example `{path[-1]} = {example}` ({field.description})."
 
 
-def _unknown_key(path: Path, owner: type[Table], value: object) -> tuple[str, str]:
+def _unknown_key(path: Path, owner: type[Table], value: object, document: type[Document]) -> tuple[str, str]:
     """Return message and remedy for a key which its table does not know."""
-    key, known = str(path[-1]), list(owner.model_fields)
+    key, known = str(path[-1]), [name for name, field in owner.model_fields.items() if not hidden(field)]
     where = _header(path[:-1])
     message = f"is not a key of {where}"
-    if elsewhere := _tables_with(key, isinstance(value, dict | list)):
+    if elsewhere := _tables_with(key, isinstance(value, dict | list), document):
         return message, f"It belongs {elsewhere}."
     if near := get_close_matches(key.replace("-", "_"), known, n=1, cutoff=0.6):
         return message, f"Did you mean '{near[0]}'?"
@@ -148,10 +150,10 @@ def _header(path: Path) -> str:
     return f"[[{name}]]" if isinstance(path[-1], int) else f"[{name}]"
 
 
-def _tables_with(key: str, nested: bool) -> str:
+def _tables_with(key: str, nested: bool, document: type[Document]) -> str:
     """Say in which tables a misplaced key is known; empty where there is none."""
-    if key in Document.model_fields:
-        field = Document.model_fields[key]
+    if key in document.model_fields:
+        field = document.model_fields[key]
         if next(_tables_in(field.annotation), None) is None:
             return "above the first table"
         if nested:
@@ -159,7 +161,7 @@ def _tables_with(key: str, nested: bool) -> str:
                 f"at the top level, as {'[[' + key + ']]' if _is_array_of_tables(field) else '[' + key + ']'}"
             )
     headers = []
-    for name, field in Document.model_fields.items():
+    for name, field in document.model_fields.items():
         table = next(_tables_in(field.annotation), None)
         if table is not None and key in table.model_fields:
             headers.append(f"[[{name}]]" if _is_array_of_tables(field) else f"[{name}]")

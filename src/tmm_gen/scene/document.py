@@ -11,7 +11,7 @@ from tmm_gen.scene.identifier import SceneName, Title
 from tmm_gen.scene.initial import InitialTable
 from tmm_gen.scene.integrator import IntegratorTable
 from tmm_gen.scene.model import Base, Model
-from tmm_gen.scene.signal import Input, Output
+from tmm_gen.scene.signal import FileInput, FileOutput
 from tmm_gen.scene.station import Joint, JointEntry, Link, LinkEntry
 from tmm_gen.scene.table import Table
 
@@ -30,8 +30,8 @@ class Document(Table):
     tip: Tip | None = Field(default=None, description="body at the tip")
     joint: tuple[JointEntry, ...] = Field(default=(), description="joints, base to tip")
     link: tuple[LinkEntry, ...] = Field(default=(), description="links, base to tip")
-    input: tuple[Input, ...] = Field(default=(), description="inputs")
-    output: tuple[Output, ...] = Field(default=(), description="outputs")
+    input: tuple[FileInput, ...] = Field(default=(), description="inputs")
+    output: tuple[FileOutput, ...] = Field(default=(), description="outputs")
     initial: InitialTable = Field(default_factory=InitialTable, description="motion at time zero")
     emit: Emit = Field(default_factory=Emit, description="what is generated")
     control: Control | None = Field(default=None, description="controller")

@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-Read = Literal["motion", "place", "own", "force", "energy"]
+Read = Literal["motion", "bend", "place", "own", "through", "force", "energy"]
 
 
 @dataclass(frozen=True)
@@ -21,9 +21,10 @@ class Quantity:
         SI.
     axis : str
         What the axis of a picture says.
-    read : {"motion", "place", "own", "force", "energy"}
-        What it is read off: the turning of hub or link; the motion of a link's outer end; a joint's own torque; the
-        force in a joint; an energy.
+    read : {"motion", "bend", "place", "own", "through", "force", "energy"}
+        What it is read off: the turning of hub or link; that of one side of a joint against the other; the motion of a
+        link's outer end; a joint's own torque; the torque that a joint passes on, its motor's included; the force in a
+        joint; an energy.
     order : int
         How often a motion is differentiated by time.
     energy : str
@@ -81,8 +82,12 @@ PLANAR = {
     "elastic_energy": Quantity("J", "energy", "energy", energy="elastic"),
     "gravitational_energy": Quantity("J", "energy", "energy", energy="gravitational"),
     "dissipated_energy": Quantity("J", "energy", "energy", energy="dissipated", accumulates=True),
+    "joint_angle": Quantity("rad", "angle", "bend"),
+    "joint_rate": Quantity("rad/s", "rate", "bend", 1),
+    "joint_torque": Quantity("N m", "torque", "through"),
 }
-"""Quantities of a planar arm: velocity and acceleration are those of a link's outer end."""
+"""Quantities of a planar arm: velocity and acceleration are those of a link's outer end; what
+joints have between their sides is asked for by their names."""
 
 
 def quantities(kind: str) -> dict[str, Quantity]:
@@ -90,5 +95,5 @@ def quantities(kind: str) -> dict[str, Quantity]:
     return CHAIN if kind == "chain" else PLANAR
 
 
-INPUT_UNITS = {"torque": "N m", "force_x": "N", "force_y": "N", "angle": "rad"}
+INPUT_UNITS = {"torque": "N m", "drive": "N m", "force_x": "N", "force_y": "N", "angle": "rad"}
 """Units of inputs, by what they act as."""

@@ -12,7 +12,8 @@ from pydantic_core import PydanticUndefined
 
 from tmm_gen.scene.document import Document
 from tmm_gen.scene.integrator import INTEGRATOR_NAMES, METHODS
-from tmm_gen.scene.table import Table
+from tmm_gen.scene.parts.document import PARTS, PartsDocument
+from tmm_gen.scene.table import Table, hidden
 
 
 @dataclass(frozen=True)
@@ -46,15 +47,18 @@ class Key:
 def keys() -> Iterator[Key]:
     """Yield every key, in the order of a scene file."""
     yield from _keys_of(Document, "")
+    for name in PARTS:
+        table = _table_in(PartsDocument.model_fields[name].annotation)
+        assert table is not None
+        yield from _table_keys(table, f"[[{name}]] by name")
 
 
-def _keys_of(model: type[Table], path: str) -> Iterator[Key]:
-    header = path and (f"[[{path}]]" if _repeated(path) else f"[{path}]")
+def _table_keys(model: type[Table], header: str) -> Iterator[Key]:
+    """Yield the keys of one table that are not tables themselves."""
     for name, field in model.model_fields.items():
-        inner = _table_in(field.annotation)
-        if inner is None:
+        if _table_in(field.annotation) is None and not hidden(field):
             example = str(field.examples[0]) if field.examples else ""
-            named = path == "integrator" and name == "name"
+            named = header == "[integrator]" and name == "name"
             yield Key(
                 table=header,
                 key=name,
@@ -63,6 +67,11 @@ def _keys_of(model: type[Table], path: str) -> Iterator[Key]:
                 meaning=field.description or "",
                 example=example,
             )
+
+
+def _keys_of(model: type[Table], path: str) -> Iterator[Key]:
+    header = path and (f"[[{path}]]" if _repeated(path) else f"[{path}]")
+    yield from _table_keys(model, header)
     if path == "integrator":
         yield from _integrator_keys(header)
     for name, field in model.model_fields.items():
@@ -173,7 +182,8 @@ def markdown() -> str:
     last = None
     for key in keys():
         if key.table != last:
-            heading = f"`{key.table}`" if key.table else "Above the first table"
+            header, *words = key.table.split(" ", 1)
+            heading = " ".join([f"`{header}`", *words]) if header else "Above the first table"
             lines += ["", f"### {heading}", "", "| key | value | if absent | meaning |", "|---|---|---|---|"]
             last = key.table
         absent = (

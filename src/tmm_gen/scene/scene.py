@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 
 from tmm_gen.scene.beam import Beam, Tip
 from tmm_gen.scene.change import changed
@@ -13,6 +13,8 @@ from tmm_gen.scene.emit import Emit
 from tmm_gen.scene.initial import Initial, broadcast
 from tmm_gen.scene.integrator import Integrator, underscored
 from tmm_gen.scene.model import Base, Model
+from tmm_gen.scene.parts.document import PartsDocument
+from tmm_gen.scene.parts.expansion import PlacedPart
 from tmm_gen.scene.quantity import Quantity, quantities
 from tmm_gen.scene.signal import Input, Output
 from tmm_gen.scene.source import Source
@@ -53,6 +55,8 @@ class Scene:
         What is generated.
     control : Control or None
         Controller of the arm.
+    parts : tuple of PlacedPart
+        The parts by name that joints and links came from, base to tip; none where the file writes no parts.
     """
 
     name: str
@@ -70,12 +74,13 @@ class Scene:
     emit: Emit
     control: Control | None
     source: Source = field(repr=False)
+    parts: tuple[PlacedPart, ...] = ()
     digest: str = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
         """Fingerprint the content, which is all fields but the source."""
         names = [item.name for item in fields(self) if item.name not in ("source", "digest")]
-        content = {name: getattr(self, name) for name in names}
+        content = {name: getattr(self, name) for name in names if name != "parts" or self.parts}
         object.__setattr__(self, "digest", content_digest(content))
 
     @property
@@ -144,8 +149,35 @@ def scene_of(document: Document, source: Source) -> Scene:
     Scene
         The scene.
     """
+    if isinstance(document, PartsDocument):
+        made = document.expansion
+        return replace(
+            _scene_of(
+                document,
+                source,
+                made.inputs(document.input),
+                made.outputs(document.output),
+                made.initial(document.initial),
+            ),
+            beam=None,
+            tip=made.tip,
+            parts=made.parts,
+        )
+    inputs = tuple(Input(name=item.name, at=item.at, acts=item.acts) for item in document.input)
+    outputs = tuple(Output(name=item.name, at=item.at, of=item.of) for item in document.output)
+    given, n = document.initial, document.stations
+    initial = Initial(broadcast(given.angles, n), broadcast(given.rates, n))
+    return _scene_of(document, source, inputs, outputs, initial)
+
+
+def _scene_of(
+    document: Document,
+    source: Source,
+    inputs: tuple[Input, ...],
+    outputs: tuple[Output, ...],
+    initial: Initial,
+) -> Scene:
     table = document.integrator
-    n = document.stations
     return Scene(
         name=document.name,
         title=document.title or document.name,
@@ -160,9 +192,9 @@ def scene_of(document: Document, source: Source) -> Scene:
         links=document.links(),
         beam=document.beam,
         tip=document.tip,
-        inputs=document.input,
-        outputs=document.output,
-        initial=Initial(broadcast(document.initial.angles, n), broadcast(document.initial.rates, n)),
+        inputs=inputs,
+        outputs=outputs,
+        initial=initial,
         emit=document.emit,
         control=document.control,
         source=source,

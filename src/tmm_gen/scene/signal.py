@@ -9,7 +9,9 @@ from pydantic import Field, PlainValidator
 from tmm_gen.scene.identifier import Name
 from tmm_gen.scene.table import Table, fault
 
-Acts = Literal["torque", "force_x", "force_y", "angle"]
+FileActs = Literal["torque", "force_x", "force_y", "angle"]
+Acts = Literal[FileActs, "drive"]
+"""What inputs are; "drive", the torque of a motor or in a joint, acts between both sides (arms by parts alone)."""
 Of = Literal[
     "position",
     "angle",
@@ -23,6 +25,8 @@ Of = Literal[
     "gravitational_energy",
     "dissipated_energy",
 ]
+Read = Literal[Of, "joint_angle", "joint_rate", "joint_torque"]
+"""What outputs are; those of a joint between its two sides are asked for by its name (arms by parts alone)."""
 
 
 def _place(value: object) -> str | int:
@@ -45,8 +49,8 @@ def station_of(at: str | int, stations: int) -> int:
     return 0 if at == "base" else stations
 
 
-class Input(Table):
-    """``[[input]]``: a load or a prescribed motion, zero unless it is given.
+class FileInput(Table):
+    """``[[input]]`` as written: a load or a prescribed motion, zero unless it is given.
 
     Parameters
     ----------
@@ -61,22 +65,37 @@ class Input(Table):
 
     name: Name = Field(description="identifier", examples=['"tip_torque"'])
     at: Place = Field(description='"base", "tip" or a link number', examples=['"tip"'])
-    acts: Acts = Field(description="what the input is", examples=['"torque"'])
+    acts: FileActs = Field(description="what the input is", examples=['"torque"'])
+
+
+class Input(FileInput):
+    """An input of a scene.
+
+    Parameters
+    ----------
+    acts : {"torque", "force_x", "force_y", "angle", "drive"}
+        "drive": N m, of the motor in a joint, times its gear between both sides.
+    part : str
+        Name of the part at which the file has it; empty where it has a place.
+    """
+
+    acts: Acts  # type: ignore[assignment]
+    part: str = ""
 
 
 RATE, ACCELERATION = "_rate", "_acceleration"
 """What a prescribed angle's rate and acceleration are called after its name."""
 
 
-def kernel_names(item: Input) -> tuple[str, ...]:
+def kernel_names(item: FileInput) -> tuple[str, ...]:
     """Return the names under which kernels take an input: an angle comes with its rate and its acceleration."""
     if item.acts != "angle":
         return (item.name,)
     return (item.name, item.name + RATE, item.name + ACCELERATION)
 
 
-class Output(Table):
-    """``[[output]]``: what a simulation reports.
+class FileOutput(Table):
+    """``[[output]]`` as written: what a simulation reports.
 
     Parameters
     ----------
@@ -94,3 +113,19 @@ class Output(Table):
     name: Name = Field(description="identifier", examples=['"tip_angle"'])
     at: Place = Field(description='"base", "tip" or a link number', examples=['"tip"'])
     of: Of = Field(description="quantity", examples=['"angle"'])
+
+
+class Output(FileOutput):
+    """An output of a scene.
+
+    Parameters
+    ----------
+    of : str
+        What joints have between their two sides is ``joint_angle``, ``joint_rate`` and ``joint_torque``, the torque
+        that the inner side exerts on the outer one.
+    part : str
+        Name of the part at which the file has it; empty where it has a place.
+    """
+
+    of: Read  # type: ignore[assignment]
+    part: str = ""

@@ -12,18 +12,32 @@ Repeat = Annotated[int, Field(strict=True, ge=1, le=STATION_LIMIT)]
 
 
 class Joint(Table):
-    """A torsion spring with a viscous damper beside it, at the inboard end of a link.
+    """A torsion spring with a viscous damper beside it, at the inboard end of a link; maybe with a motor in it.
 
     Parameters
     ----------
     stiffness : float
-        N m/rad, positive.
+        N m/rad; 0 is a free hinge, which arms by parts alone have.
     damping : float
         N m s/rad, not negative.
+    rest : float
+        Angle between both sides at which the spring is slack, rad.
+    rotor_inertia : float
+        Of a motor, on its own side, kg m^2.
+    gear : float
+        Turns of the motor per turn of the joint.
     """
 
-    stiffness: Positive = Field(description="torsional stiffness in N m/rad", examples=["20.0"])
-    damping: NonNegative = Field(default=0.0, description="torsional damping in N m s/rad", examples=["0.5"])
+    stiffness: NonNegative
+    damping: NonNegative = 0.0
+    rest: float = 0.0
+    rotor_inertia: NonNegative = 0.0
+    gear: Positive = 1.0
+
+    @property
+    def armature(self) -> float:
+        """What the rotor's inertia is at the joint, kg m^2: ``gear^2`` times it, between both sides."""
+        return self.gear * self.gear * self.rotor_inertia  # a power would raise where this is infinite
 
 
 class Link(Table):
@@ -49,9 +63,11 @@ class Link(Table):
     )
 
 
-class JointEntry(Joint):
+class JointEntry(Table):
     """``[[joint]]`` as written: one or more identical joints."""
 
+    stiffness: Positive = Field(description="torsional stiffness in N m/rad", examples=["20.0"])
+    damping: NonNegative = Field(default=0.0, description="torsional damping in N m s/rad", examples=["0.5"])
     repeat: Repeat = Field(default=1, description="number of identical joints", examples=["10"])
 
     def expanded(self) -> tuple[Joint, ...]:

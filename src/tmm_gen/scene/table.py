@@ -8,6 +8,7 @@ from difflib import get_close_matches
 from typing import Annotated, TypeGuard
 
 from pydantic import BaseModel, ConfigDict, Field
+from pydantic.fields import FieldInfo
 from pydantic_core import PydanticCustomError
 
 # Strict: TOML's true is not the number 1, nor "1"; a TOML integer is accepted where a float is expected.
@@ -25,6 +26,11 @@ class Table(BaseModel):
     """A table of the scene file: frozen, and every key is a declared one."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
+
+
+def hidden(field: FieldInfo) -> bool:
+    """Return whether a key is declared only to be refused in words of its own."""
+    return isinstance(field.json_schema_extra, dict) and bool(field.json_schema_extra.get("hidden"))
 
 
 def is_finite_number(value: object) -> TypeGuard[int | float]:

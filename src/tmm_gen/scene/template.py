@@ -102,6 +102,66 @@ of = "angle"
 # rates = 0.0                  # rad/s
 """
 
+_MOTORS_BASE = """
+[base]
+kind = "clamp"                 # or "prescribed" (an angle input)
+
+# Parts hang on each other by name: `on` says on which; the first one hangs on the base.
+"""
+
+_MOTOR = """\
+[[motor]]                      # a driven joint; [[joint]] is one without, with stiffness, damping, rest
+name = "motor{k}"
+{on}rotor_inertia = {rotor}           # kg m^2, on the motor's side; gear^2 times it acts along the joint
+gear = {gear}                     # turns of the motor per turn of the joint
+damping = {damping}                  # at the output, N m s/rad
+
+[[beam]]                       # a flexible link; [[link]] is a rigid one, with length, mass, inertia
+name = "arm{k}"
+on = "motor{k}"
+length = 0.4                   # m
+bending_stiffness = {stiffness}        # EI, N m^2
+mass_per_length = {mass}         # kg/m
+links = 3                      # pieces it is cut into
+damping_time = 0.002           # damping of its springs over their stiffness, s
+
+"""
+
+_MOTOR_INPUT = """\
+[[input]]
+name = "torque{k}"
+at = "motor{k}"                  # of the motor itself; gear-fold between both sides of the joint
+acts = "torque"                # N m
+
+"""
+
+_MOTOR_OUTPUT = """\
+[[output]]
+name = "angle{k}"
+at = "motor{k}"
+of = "angle"                   # or "rate", "torque", "force"
+
+"""
+
+_MOTORS_TAIL = """\
+[[body]]                       # a rigid body on the outer end of a beam or a link
+name = "payload"
+on = "arm{k}"
+mass = 0.2                     # kg
+# inertia = 1e-3               # kg m^2
+
+# What you will feed in, by name. Inputs are zero until you give them a value.
+{inputs}
+# What you will get out, by name.
+[[output]]
+name = "payload"
+at = "payload"
+of = "position"                # or "velocity", "acceleration", "angle", "rate"
+
+{outputs}# [initial]
+# angles = 0.1                 # rad, absolute: one number for all, or one for each beam and link
+"""
+
 _TAIL = """
 [emit]
 backends = ["numpy", "c", "casadi"]
@@ -173,7 +233,7 @@ gravity = 9.81                 # along -y, m/s^2; remove the line for a horizont
 """
 
 
-def template(name: str, kind: Kind = "chain", control: bool = False) -> str:
+def template(name: str, kind: Kind = "chain", control: bool = False, motors: int = 0) -> str:
     """Return the text of a commented scene.
 
     Parameters
@@ -184,6 +244,8 @@ def template(name: str, kind: Kind = "chain", control: bool = False) -> str:
         Family of models.
     control : bool
         Whether a planar arm, then in a horizontal plane, gets a ``[control]``.
+    motors : int
+        Motors of a planar arm by parts, each with a beam on it; 0 for an arm on a hub.
 
     Returns
     -------
@@ -195,9 +257,31 @@ def template(name: str, kind: Kind = "chain", control: bool = False) -> str:
         pad=" " * max(22 - len(name), 1),
         title="Three torsional stations behind a clamp"
         if chain
+        else f"Flexible arm with {motors} motor{'s' * (motors > 1)} and a payload"
+        if motors
         else "Flexible arm with a payload, swung by a hub motor",
         model=_CHAIN_MODEL if chain else _FLAT_MODEL if control else _PLANAR_MODEL,
         step="0.01" if chain else "1e-3",
     )
-    body = _CHAIN if chain else _PLANAR
+    body = _CHAIN if chain else _by_parts(motors) if motors else _PLANAR
     return head.replace("@name@", name) + body + (_CONTROL if control and not chain else "") + _TAIL
+
+
+def _by_parts(motors: int) -> str:
+    """Return an arm of motors with beams on them, each lighter than the one before."""
+    parts, inputs, outputs = [], [], []
+    for k in range(1, motors + 1):
+        on = "" if k == 1 else f'on = "arm{k - 1}"\n'
+        share = 0.5 ** (k - 1)
+        numbers = {
+            "rotor": "2e-5",
+            "gear": 100,
+            "damping": 0.5,
+            "stiffness": 20.0 * share,
+            "mass": 0.4 * share,
+        }
+        parts.append(_MOTOR.format(k=k, on=on, **numbers))
+        inputs.append(_MOTOR_INPUT.format(k=k))
+        outputs.append(_MOTOR_OUTPUT.format(k=k))
+    tail = _MOTORS_TAIL.format(k=motors, inputs="".join(inputs).rstrip() + "\n", outputs="".join(outputs))
+    return _MOTORS_BASE + "".join(parts) + tail

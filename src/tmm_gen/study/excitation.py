@@ -141,18 +141,20 @@ def _signal(scene: Scene, item: Input, frequency: float, until: float) -> Signal
     if item.acts == "angle":
         return Rise(_TURN, 0.5 * until)
     torque = _torque(scene, frequency)
+    if item.acts == "drive" and isinstance(item.at, int):
+        return Sine(_rounded(torque / scene.joints[item.at - 1].gear), frequency)
     return Sine(_rounded(torque if item.acts == "torque" else torque / _length(scene)), frequency)
 
 
 def _torque(scene: Scene, frequency: float) -> float:
     """Return a torque, N m, that turns the arm by about `_TURN`: against its springs, or its inertia if it is free."""
-    if not scene.hub:
+    if not scene.hub and all(joint.stiffness > 0.0 for joint in scene.joints):
         return _TURN / sum(1.0 / joint.stiffness for joint in scene.joints)
     return _inertia_about_base(scene) * frequency**2 * _TURN
 
 
 def _inertia_about_base(scene: Scene) -> float:
-    inertia, way = scene.base.inertia, 0.0
+    inertia, way = scene.base.inertia + sum(joint.armature for joint in scene.joints), 0.0
     for link in scene.links:
         inertia += link.inertia + link.mass * (way + link.center * link.length) ** 2
         way += link.length

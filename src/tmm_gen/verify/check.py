@@ -21,7 +21,7 @@ from tmm_gen.native.timing import by_turns
 from tmm_gen.reference.duration import default_duration
 from tmm_gen.reference.frequency import fastest_mode
 from tmm_gen.reference.reference import exact_response
-from tmm_gen.scene import Scene
+from tmm_gen.scene import Input, Scene
 from tmm_gen.simulate.divergence import BrokenOffError
 from tmm_gen.simulate.metrics import convergence_slope, largest_error, rms_error
 from tmm_gen.simulate.run import simulate
@@ -224,9 +224,14 @@ def _one_step(check: str, one: Step, other: Step, vectors: list[Vector], bound: 
 
 
 def unit_inputs(scene: Scene) -> dict[str, Signal]:
-    """Return a constant 1 for every input; a prescribed base swings from there."""
+    """Return a constant 1 for every input, of motors at the joint; a prescribed base swings from there."""
     swing = Sine(1.0, _SWING, math.pi / 2.0)
-    return {i.name: swing if i.acts == "angle" else Constant(1.0) for i in scene.inputs}
+    return {i.name: swing if i.acts == "angle" else Constant(_unit(scene, i)) for i in scene.inputs}
+
+
+def _unit(scene: Scene, item: Input) -> float:
+    drives = item.acts == "drive" and isinstance(item.at, int)
+    return 1.0 / scene.joints[int(item.at) - 1].gear if drives else 1.0
 
 
 def _at_base_angle(scene: Scene) -> Scene:

@@ -89,6 +89,95 @@ def unlike(base: str) -> Scene:
     return parse_scene(UNLIKE.format(base=base, hub=hub, base_input=_HUB.format(acts) if acts else ""))
 
 
+PARTS = """
+name = "parts"
+[model]
+kind = "planar"
+gravity = 9.81
+[integrator]
+name = "newmark"
+step = 2e-3
+[base]
+kind = "{base}"
+[[{first}]]
+name = "shoulder"
+damping = 0.1
+[[beam]]
+name = "upper"
+on = "shoulder"
+length = 0.5
+bending_stiffness = 6.0
+mass_per_length = 0.3
+links = 2
+damping_time = 2e-3
+[[motor]]
+name = "elbow"
+on = "upper"
+rotor_inertia = 2e-5
+gear = 50
+[[link]]
+name = "forearm"
+on = "elbow"
+length = 0.3
+mass = 0.2
+inertia = 2e-3
+[[joint]]
+name = "wrist"
+on = "forearm"
+stiffness = 3.0
+rest = 0.3
+[[link]]
+name = "hand"
+on = "wrist"
+length = 0.1
+mass = 0.1
+inertia = 2e-4
+[[joint]]
+name = "finger_joint"
+on = "hand"
+[[link]]
+name = "finger"
+on = "finger_joint"
+length = 0.1
+mass = 0.1
+inertia = 2e-4
+[[input]]
+name = "shoulder_torque"
+at = "shoulder"
+acts = "torque"
+[[input]]
+name = "elbow_torque"
+at = "elbow"
+acts = "torque"
+[[input]]
+name = "finger_torque"
+at = "finger_joint"
+acts = "torque"
+[[input]]
+name = "push"
+at = "forearm"
+acts = "force_y"
+{base_input}
+[[output]]
+name = "tip"
+at = "finger"
+of = "position"
+[[output]]
+name = "torque"
+at = "elbow"
+of = "torque"
+[emit]
+sensitivities = true
+"""
+
+
+def parts(base: str) -> Scene:
+    """Return an arm with motors, a beam, a slack angle and a hinge with nothing but a torque in it."""
+    base_input = _HUB.format("angle") if base == "prescribed" else ""
+    first = "joint" if base == "prescribed" else "motor"
+    return parse_scene(PARTS.format(base=base, base_input=base_input, first=first))
+
+
 @dataclass(frozen=True, eq=False)
 class Case:
     """A scene, a point, and CasADi's derivatives there.
@@ -139,6 +228,8 @@ SCENES: dict[str, Callable[[], Scene]] = {
     "clamp": lambda: unlike("clamp"),
     "motor": lambda: unlike("motor"),
     "prescribed": lambda: unlike("prescribed"),
+    "parts": lambda: parts("clamp"),
+    "parts on a moving base": lambda: parts("prescribed").replace(**{"integrator.name": "sdirk4"}),
     "sdirk4": lambda: unlike("motor").replace(**{"integrator.name": "sdirk4"}),
     "generalized_alpha": lambda: unlike("motor").replace(**{"integrator.name": "generalized_alpha"}),
     "two iterations": lambda: unlike("motor").replace(**{"model.iterations": 2}),

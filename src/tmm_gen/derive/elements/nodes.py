@@ -58,6 +58,33 @@ PIN = _element(
 )
 """Pin with a torsion spring and a viscous damper: passes on place and force, turns as its spring gives way."""
 
+REST = sp.Symbol("theta_0", real=True)
+ARMATURE = sp.Symbol("J_a", nonnegative=True)
+DRIVE = sp.Symbol("T_d", real=True)
+
+DRIVEN_PIN = _element(
+    "driven_pin",
+    "Lagrange for a pin with a spring that is slack at an angle, and a motor whose rotor turns with the pin alone",
+    (
+        *_SAME_PLACE,
+        *_SAME_FORCE,
+        _m_out - _m_in,
+        STIFFNESS * (_th_in.q - _th_out.q + REST)
+        + DAMPING * (_th_in.v - _th_out.v)
+        + ARMATURE * (_th_in.a - _th_out.a)
+        + DRIVE
+        - _m_out,
+    ),
+    parameters=(STIFFNESS, DAMPING, REST, ARMATURE),
+    inputs=(DRIVE,),
+    energies={
+        "kinetic": _half * ARMATURE * (_th_out.v - _th_in.v) ** 2,
+        "elastic": _half * STIFFNESS * (_th_out.q - _th_in.q - REST) ** 2,
+        "heat": DAMPING * (_th_out.v - _th_in.v) ** 2,
+    },
+)
+"""Pin with a motor: the inertia of its rotor, as it is at the pin, and its torque act between both sides."""
+
 ROD = _element(
     "rod",
     "Gholampour (2018), eqs. 2-3 to 2-9 without mass",

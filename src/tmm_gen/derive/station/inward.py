@@ -279,7 +279,7 @@ class Inward:
         if at_point == 0:
             return ZERO
         differences = {kind: (INNER[kind], OUTER[kind]) for kind in KINDS}
-        if not at_point.is_Atom:
+        if not at_point.is_Atom or self.frame.about == "prediction":
             self.known.append(Let(symbol, grouped(at_point, differences), doc, "N m"))
             return symbol
         return at_point

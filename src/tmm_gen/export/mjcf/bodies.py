@@ -46,6 +46,7 @@ def add_bodies(world: Xml.Element, scene: Scene) -> Bodies:
     planar = scene.model.in_plane
     size = _RADIUS * (sum(link.length for link in scene.links) if planar else float(scene.stations))
     ground = parent = Xml.SubElement(world, "body", name="ground")
+    names = joint_names(scene)
     joints = []
     if scene.hub:
         parent = Xml.SubElement(parent, "body", name="hub")
@@ -58,16 +59,20 @@ def add_bodies(world: Xml.Element, scene: Scene) -> Bodies:
     place, links = (0.0, 0.0), []
     for number, (joint, link) in enumerate(zip(scene.joints, scene.links, strict=True), start=1):
         parent = Xml.SubElement(parent, "body", name=f"link{number}", pos=text_of(place[0], 0.0, place[1]))
-        Xml.SubElement(
+        hinge = Xml.SubElement(
             parent,
             "joint",
-            name=f"joint{number}",
+            name=names[number - 1],
             type="hinge",
             axis="0 0 1",
             stiffness=text_of(joint.stiffness),
             damping=text_of(joint.damping),
         )
-        joints.append(f"joint{number}")
+        if joint.rotor_inertia:
+            hinge.set("armature", text_of(joint.armature))
+        if joint.rest:
+            hinge.set("springref", text_of(joint.rest))
+        joints.append(names[number - 1])
         links.append(parent)
         if planar:
             _inertial(parent, link.mass, link.center * link.length, link.inertia)
@@ -86,6 +91,19 @@ def add_bodies(world: Xml.Element, scene: Scene) -> Bodies:
             _inertial(tip, scene.tip.mass, 0.0, scene.tip.inertia)
             Xml.SubElement(tip, "geom", type="sphere", size=_drawn(2.0 * size))
     return Bodies(ground, tuple(links), tip, tuple(joints))
+
+
+def joint_names(scene: Scene) -> tuple[str, ...]:
+    """Return what the joints are called: as in the scene, or by their number where it does not name them."""
+    named = {part.joint: part.name for part in scene.parts if part.joint}
+    taken = {"hub", *named.values()}
+    found = []
+    for number in range(1, scene.stations + 1):
+        name = named.get(number, f"joint{number}")
+        while number not in named and name in taken:
+            name += "_"
+        found.append(name)
+    return tuple(found)
 
 
 def _inertial(parent: Xml.Element, mass: float, along: float, inertia: float) -> None:

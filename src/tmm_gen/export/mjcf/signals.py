@@ -49,6 +49,10 @@ class Signals:
 
     def _act(self, actuators: Xml.Element, item: Input) -> None:
         station = station_of(item.at, self.scene.stations)
+        if item.acts == "drive":
+            joint, gear = self._joint(station), self.scene.joints[station - 1].gear
+            Xml.SubElement(actuators, "motor", name=item.name, joint=joint, gear=text_of(gear))
+            return
         if item.acts == "torque":
             # on a body, against ground: it turns with the sum of the hinges up to there
             Xml.SubElement(actuators, "motor", name=item.name, tendon=self._angle(station), gear="1")
@@ -72,6 +76,12 @@ class Signals:
             self._read(name, (name, 0, 1.0))
         elif quantity.of_arm:
             self._leave_out(output, "MuJoCo knows the sum of elastic and gravitational energy only")
+        elif quantity.read == "bend":
+            kind = ("jointpos", "jointvel")[quantity.order]
+            Xml.SubElement(self._sensors, kind, name=name, joint=self._joint(station))
+            self._read(name, (name, 0, 1.0))
+        elif quantity.read == "through":
+            self._leave_out(output, "no sensor of MuJoCo measures what passes through a joint with a rotor")
         elif quantity.read == "motion" and quantity.order < 2:
             kind = ("tendonpos", "tendonvel")[quantity.order]
             Xml.SubElement(self._sensors, kind, name=name, tendon=self._angle(station))
@@ -111,9 +121,13 @@ class Signals:
             ("damper", "jointvel", joint.damping),
         ):
             if value:
-                Xml.SubElement(self._sensors, kind, name=f"{name}_{part}", joint=f"joint{station}")
+                Xml.SubElement(self._sensors, kind, name=f"{name}_{part}", joint=self._joint(station))
                 terms.append((f"{name}_{part}", 0, value))
         self._read(name, *terms)
+
+    def _joint(self, station: int) -> str:
+        hub = int(self.scene.base.kind == "motor")
+        return self.bodies.joints[station - 1 + hub]
 
     def _angle(self, station: int) -> str:
         """Return the tendon whose length is the absolute angle of a station, 0 for the hub."""
@@ -144,4 +158,4 @@ class Signals:
         self.readings.append(Reading(name, terms, constant))
 
     def _leave_out(self, output: Output, why: str) -> None:
-        self.left_out.append(f"{output.name}: {output.of} at {output.at} is left out, {why}")
+        self.left_out.append(f"{output.name}: {output.of} at {output.part or output.at} is left out, {why}")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 import sympy as sp
 
 from tmm_gen.derive.integrators.declaration import KINDS, Kind
@@ -32,10 +34,17 @@ class Loads:
         }
         """Motion of a prescribed base."""
         self.values: dict[sp.Symbol, sp.Expr] = {}
-        self.fill: list[Statement] = []
-        """Statements that fill the arrays of loads on stations."""
+        self._fill: dict[sp.Symbol, list[Statement]] = {}
         for load in self._loads:
             self._add(load)
+
+    def filled(self, within: Collection[sp.Symbol]) -> list[Statement]:
+        """Return the statements that fill the arrays of those loads on stations that stand among some symbols."""
+        return [s for symbol, fill in self._fill.items() if symbol in within for s in fill]
+
+    def filled_besides(self, within: Collection[sp.Symbol]) -> list[Statement]:
+        """Return the statements that fill the arrays of all other loads on stations."""
+        return [s for symbol, fill in self._fill.items() if symbol not in within for s in fill]
 
     def _add(self, load: Load) -> None:
         if all(index is None for index, _ in load.places):
@@ -43,9 +52,10 @@ class Loads:
             return
         array = Variable(load.symbol.name.rstrip("_"), Role.WORK, self._n, load.doc, load.unit)
         self.values[load.symbol] = array.at()
-        self.fill.append(Loop(Order.OUTWARD, 0, self._n, (Assign(array.at(), sp.Integer(0)),)))
+        fill: list[Statement] = [Loop(Order.OUTWARD, 0, self._n, (Assign(array.at(), sp.Integer(0)),))]
         sums: dict[int, sp.Expr] = {}
         for index, name in load.places:
             assert index is not None
             sums[index] = sums.get(index, sp.Integer(0)) + self._inputs[name]
-        self.fill += [Assign(array.entry(index), value) for index, value in sums.items()]
+        fill += [Assign(array.entry(index), value) for index, value in sums.items()]
+        self._fill[load.symbol] = fill

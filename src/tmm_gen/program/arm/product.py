@@ -85,7 +85,7 @@ class ProductWalks(Walks):
             first[1] = Assign(force, base.value(composed(lines).get(derived.FORCE, ZERO).subs(start)))
         elif self.layout.row.boundary == "prescribed":
             first = [*self.base(), Assign(motion, unknown), Assign(force, ZERO)]
-        found: list[Statement] = [*self.loads.fill, *first]
+        found: list[Statement] = [*self.loads.filled_besides(()), *first]
         for begin, stop, product in self._each():
             body = here.lines(product.known)
             place = next(i for i, s in enumerate(body) if isinstance(s, Assign) and s.target == motion)

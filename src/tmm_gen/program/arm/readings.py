@@ -49,6 +49,7 @@ class Readings:
         self._outputs = {v.name: v.ref for v in layout.outputs}
         self._by: dict[str, Callable[[Reading, list[Ref]], list[Statement]]] = {
             "motion": self._motion,
+            "bend": self._bend,
             "own": self._own,
             "place": self._place,
             "force": self._force,
@@ -65,6 +66,13 @@ class Readings:
             value = self._turned.ref + value
         return [Assign(targets[0], value)]
 
+    def _bend(self, reading: Reading, targets: list[Ref]) -> list[Statement]:
+        outer, inner = (
+            self._at.motion(station, reading.kind)  # type: ignore[arg-type]
+            for station in (reading.station, reading.station - 1)
+        )
+        return [Assign(targets[0], outer - inner)]
+
     def _own(self, reading: Reading, targets: list[Ref]) -> list[Statement]:
         """Return the force of the element that gives way, or what stands beyond the last station needs."""
         n = self._layout.stations
@@ -72,7 +80,7 @@ class Readings:
             forces = self._beyond()
             own = next(i for i, c in enumerate(self._row.coordinates) if c.integrated)
             return [Assign(targets[0], sp.expand(reading.sign * forces[own]))]
-        element = self._row.stations[reading.station - 1][0]
+        element = self._row.detail[reading.station - 1][0]
         law = law_of(element)
         assert law.free is not None
         values = {}

@@ -199,16 +199,21 @@ class Walks:
     def joint_forces(self) -> list[Statement]:
         """Return the forces of elements that give way, at the motion about which it is linearised."""
         here = self.at_station()
-        found: list[Statement] = []
+        found: list[Statement] = self.loads.filled(self._driven)
         for (start, stop, _), derived in zip(self.runs, self._inwards, strict=True):
             if derived.known:
                 found.append(Loop(Order.OUTWARD, start, stop, tuple(here.lines(derived.known))))
         return found
 
+    @property
+    def _driven(self) -> set[sp.Symbol]:
+        """What stands in the laws of elements that give way."""
+        return {s for derived in self._inwards for let in derived.known for s in let.value.free_symbols}
+
     def inward_forces(self) -> list[Statement]:
         """Walk in with the force beyond each place as an affine function of the motion there."""
         here = self.at_station()
-        found: list[Statement] = [*self.loads.fill]
+        found: list[Statement] = self.loads.filled_besides(self._driven)
         arriving, begin = self._tail.zero, self.tail()
         unread = set() if self.frame.predicted else set(map(predicted_force, self.frame.coordinates))
         for (start, stop, _), derived in reversed(list(zip(self.runs, self._inwards, strict=True))):

@@ -8,7 +8,7 @@ from typing import Any
 
 import sympy as sp
 
-from tmm_gen.derive.station.frame import Frame, node, predicted_force
+from tmm_gen.derive.station.frame import INNER, OUTER, Frame, node, predicted_force
 from tmm_gen.derive.station.inward import Inward, back
 from tmm_gen.derive.station.lets import Let, Line, Pivot, Update, composed
 from tmm_gen.derive.station.motion import Outward
@@ -129,6 +129,17 @@ class TangentWalks(TangentableWalks):
         names = {name: point.kept(name) for name in kept}
         return [replace(s, statements=tuple(_with_point(x, names) for x in s.statements)) for s in found]
 
+    def joint_forces(self) -> list[Statement]:
+        """Return the changes of the joints' forces: what is constant in their laws does not change."""
+        here = self.at_station()
+        changing = {*INNER.values(), *OUTER.values(), *(load.symbol for load in self.layout.row.loads)}
+        found: list[Statement] = self.loads.filled(self._driven)
+        for start, stop, derived, _, _ in self._tangents:
+            lets = [replace(let, value=_varying(let.value, changing)) for let in derived.known]
+            if lets:
+                found.append(Loop(Order.OUTWARD, start, stop, tuple(here.lines(lets))))
+        return found
+
     def _nodes(self) -> list[Statement]:
         n, here = self.layout.stations, self.at_station()
         carried = [c for c in self.frame.coordinates if not c.integrated]
@@ -161,7 +172,7 @@ class TangentWalks(TangentableWalks):
         symbols = [sp.Symbol(c.force, real=True) for c in self.frame.coordinates]
         symbols += [predicted_force(c) for c in carried]
         at_tip = Binding(self.scratch, there)
-        found: list[Statement] = [*self.loads.fill]
+        found: list[Statement] = self.loads.filled_besides(self._driven)
         for symbol in symbols:
             value = left.get(symbol, symbol).subs(dict.fromkeys(symbols, 0))
             found.append(Assign(self.scratch.ref(symbol.name), at_tip.value(value)))
@@ -187,6 +198,11 @@ class TangentWalks(TangentableWalks):
         return [*here.lines(lines), Assign(hub_unknown(), self.scratch.ref("unknown"))]
 
 
+def _varying(law: sp.Expr, changing: set[sp.Symbol]) -> sp.Expr:
+    """Return a law, which is affine, without what is constant in it."""
+    return sp.Add(*(term for term in sp.Add.make_args(law) if term.free_symbols & changing))
+
+
 def _early(lines: Iterable[Line]) -> list[Line]:
     """Return the lets that depend on parameters and gains alone, so that prepare shares them with the step."""
     found: list[Line] = []
@@ -198,8 +214,9 @@ def _early(lines: Iterable[Line]) -> list[Line]:
 
 def _kept_symbols(tangents: list[tuple[int, int, Inward, Outward, Tangent]]) -> dict[str, tuple[str, str]]:
     """Return what is kept at the point of linearisation, with its description and unit."""
-    found: dict[str, tuple[str, str]] = {}
+    every: dict[str, tuple[str, str]] = {}
     for _, _, derived, out, tangent in tangents:
+        found: dict[str, tuple[str, str]] = {}
         for let in (
             *out.lets,
             *(x for x in derived.lines if isinstance(x, Let)),
@@ -224,9 +241,9 @@ def _kept_symbols(tangents: list[tuple[int, int, Inward, Outward, Tangent]]) -> 
             if isinstance(line, Let) and line.symbol.name.endswith("_impedance")
         }
         own |= {beyond(s(c)).name for c in out.frame.coordinates for s in (node, solved_node)}
-        found = {name: words for name, words in found.items() if name in read and name not in own}
-    found["hub_inverse_pivot"] = ("inverse of the hub's pivot", "1")
-    return found
+        every |= {name: words for name, words in found.items() if name in read and name not in own}
+    every["hub_inverse_pivot"] = ("inverse of the hub's pivot", "1")
+    return every
 
 
 def _keeping(statement: Statement, kept: Mapping[str, tuple[str, str]], point: Point) -> list[Any]:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from tmm_gen.scene.document import Document
 from tmm_gen.scene.problem import Finding
-from tmm_gen.scene.signal import Input
+from tmm_gen.scene.signal import FileInput
 
 
 def inputs_possible(document: Document) -> Iterator[Finding]:
@@ -41,7 +41,7 @@ def place_outside(path: tuple[str | int, ...], at: int, stations: int) -> Findin
     return Finding(path, numbers, 'Links are counted from the base; "base" and "tip" are the ends.', at)
 
 
-def _angle(document: Document, item: Input, index: int) -> Iterator[Finding]:
+def _angle(document: Document, item: FileInput, index: int) -> Iterator[Finding]:
     if item.at != "base":
         yield Finding(
             ("input", index, "at"),
@@ -61,7 +61,7 @@ def _angle(document: Document, item: Input, index: int) -> Iterator[Finding]:
         )
 
 
-def _force(document: Document, item: Input, index: int) -> Iterator[Finding]:
+def _force(document: Document, item: FileInput, index: int) -> Iterator[Finding]:
     if document.model.kind == "chain":
         yield Finding(
             ("input", index, "acts"),

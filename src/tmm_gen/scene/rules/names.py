@@ -8,7 +8,7 @@ from tmm_gen.scene.document import Document
 from tmm_gen.scene.identifier import name_fault
 from tmm_gen.scene.problem import Finding
 from tmm_gen.scene.quantity import PLANAR
-from tmm_gen.scene.signal import Input, Output, kernel_names
+from tmm_gen.scene.signal import FileInput, FileOutput, kernel_names
 
 
 def distinct_names(document: Document) -> Iterator[Finding]:
@@ -17,7 +17,7 @@ def distinct_names(document: Document) -> Iterator[Finding]:
     for table in ("input", "output"):
         for index, signal in enumerate(getattr(document, table)):
             place = f"[[{table}]] number {index + 1}"
-            names = kernel_names(signal) if isinstance(signal, Input) else (signal.name,)
+            names = kernel_names(signal) if isinstance(signal, FileInput) else (signal.name,)
             for name, what in zip(names, ("", "the rate of ", "the acceleration of "), strict=False):
                 comes = f"comes with '{name}', which " if what else ""
                 if name in first:
@@ -34,7 +34,7 @@ def distinct_names(document: Document) -> Iterator[Finding]:
         yield from _distinct_columns(document.output)
 
 
-def _distinct_columns(outputs: tuple[Output, ...]) -> Iterator[Finding]:
+def _distinct_columns(outputs: tuple[FileOutput, ...]) -> Iterator[Finding]:
     columns = {
         f"{output.name}_{axis}": output.name
         for output in outputs

@@ -8,7 +8,7 @@ from tmm_gen.scene.document import Document
 from tmm_gen.scene.problem import Finding
 from tmm_gen.scene.quantity import CHAIN, PLANAR
 from tmm_gen.scene.rules.inputs import place_outside
-from tmm_gen.scene.signal import Output
+from tmm_gen.scene.signal import FileOutput
 
 
 def outputs_possible(document: Document) -> Iterator[Finding]:
@@ -42,7 +42,7 @@ def outputs_possible(document: Document) -> Iterator[Finding]:
             )
 
 
-def _whole_arm(item: Output, index: int) -> Finding:
+def _whole_arm(item: FileOutput, index: int) -> Finding:
     if item.at == "arm":
         whole = ", ".join(name for name, quantity in PLANAR.items() if quantity.of_arm)
         return Finding(
@@ -59,7 +59,7 @@ def _whole_arm(item: Output, index: int) -> Finding:
     )
 
 
-def _at_base(document: Document, item: Output, index: int) -> Iterator[Finding]:
+def _at_base(document: Document, item: FileOutput, index: int) -> Iterator[Finding]:
     if item.of in ("torque", "force"):
         return
     if document.base.kind == "clamp":

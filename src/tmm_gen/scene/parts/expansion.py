@@ -1,0 +1,249 @@
+"""From parts that hang together to the joints and links of one row."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING, cast
+
+from tmm_gen.scene.beam import Beam, Tip, beam_joints, beam_links
+from tmm_gen.scene.exact import exact, nearest
+from tmm_gen.scene.initial import Initial, InitialTable
+from tmm_gen.scene.parts.order import Entry, Hanging, hanging
+from tmm_gen.scene.parts.tables import BeamPart, BodyPart, JointPart, LinkPart, MotorPart
+from tmm_gen.scene.signal import FileInput, FileOutput, Input, Output, Place
+from tmm_gen.scene.station import Joint, Link
+
+if TYPE_CHECKING:
+    from tmm_gen.scene.parts.document import PartsDocument
+
+OF_JOINTS = {"angle": "joint_angle", "rate": "joint_rate", "torque": "joint_torque", "force": "force"}
+"""What a motor or a joint has as an output, and what scenes call it."""
+
+
+@dataclass(frozen=True)
+class PlacedPart:
+    """A part in the row.
+
+    Parameters
+    ----------
+    name, kind : str
+        Its name, and that of its table.
+    joint : int
+        Number of the joint that it is, from 1; 0 where it is none.
+    first, last : int
+        Numbers of its links, from 1; for a body that of the link it sits on. 0 where it is a joint.
+    fixed : str
+        Name of the part that is rigidly fixed to its outer end, so that it has no frame of its own; else empty.
+    """
+
+    name: str
+    kind: str
+    joint: int = 0
+    first: int = 0
+    last: int = 0
+    fixed: str = ""
+
+
+@dataclass(frozen=True)
+class Expansion:
+    """What parts make.
+
+    Parameters
+    ----------
+    joints : tuple of Joint, length n
+    links : tuple of Link, length n
+    tip : Tip or None
+        Bodies on the last part.
+    parts : tuple of PlacedPart
+        Base to tip.
+    """
+
+    joints: tuple[Joint, ...]
+    links: tuple[Link, ...]
+    tip: Tip | None
+    parts: tuple[PlacedPart, ...]
+
+    @property
+    def by_name(self) -> dict[str, PlacedPart]:
+        """The parts by name."""
+        return {part.name: part for part in self.parts}
+
+    @property
+    def solid(self) -> tuple[PlacedPart, ...]:
+        """Beams and links, base to tip."""
+        return tuple(part for part in self.parts if part.kind in ("beam", "link"))
+
+    def inputs(self, items: Sequence[FileInput]) -> tuple[Input, ...]:
+        """Return inputs at the places that names mean."""
+        return tuple(_input(item, self.by_name, len(self.links)) for item in items)
+
+    def outputs(self, items: Sequence[FileOutput]) -> tuple[Output, ...]:
+        """Return outputs at the places that names mean."""
+        return tuple(_output(item, self.by_name, len(self.links)) for item in items)
+
+    def initial(self, table: InitialTable) -> Initial:
+        """Return the motion at time zero of each link."""
+        n = len(self.links)
+        return Initial(_spread(table.angles, self.solid, n), _spread(table.rates, self.solid, n))
+
+
+def expanded(document: PartsDocument) -> Expansion:
+    """Expand parts that keep all rules."""
+    hung = hanging(document.parts_by_table())
+    row = hung.row()
+    joints: list[Joint] = []
+    links: list[Link] = []
+    parts: list[PlacedPart] = []
+    pending: Joint | None = None
+    for entry in row:
+        part = entry.part
+        if isinstance(part, MotorPart | JointPart):
+            pending = _joint(part)
+            parts.append(PlacedPart(entry.name, entry.table, joint=len(joints) + 1))
+            continue
+        first = len(links) + 1
+        if isinstance(part, LinkPart):
+            link = _link(part)
+            if pending is None:  # rigidly on the part before it
+                first = len(links)
+                links[-1] = joined(links[-1], link)
+            else:
+                joints.append(pending)
+                links.append(link)
+        else:
+            assert isinstance(part, BeamPart)
+            more = beam_joints(_beam(part)), beam_links(_beam(part))
+            if pending is not None:
+                more = (pending, *_springs(part)), _pieces(part)
+            joints += more[0]
+            links += more[1]
+        pending = None
+        bodies = hung.bodies(entry.name)
+        if entry is not row[-1]:
+            for body in bodies:
+                links[-1] = joined(links[-1], _weight(body))
+        placed = PlacedPart(entry.name, entry.table, first=first, last=len(links), fixed=_fixed(hung, entry))
+        parts += [placed, *(_placed_body(body, placed) for body in bodies)]
+    tip = _tip(hung.bodies(row[-1].name))
+    return Expansion(tuple(joints), tuple(links), tip, tuple(parts))
+
+
+def joined(inner: Link, outer: Link) -> Link:
+    """Return two rigid links, one fixed straight to the other's outer end, as one."""
+    m, more = exact(inner.mass), exact(outer.mass)
+    here, length = exact(inner.center) * exact(inner.length), exact(inner.length)
+    there = length + exact(outer.center) * exact(outer.length)
+    whole, end = m + more, length + exact(outer.length)
+    inertia = exact(inner.inertia) + exact(outer.inertia) + m * more / whole * (there - here) ** 2
+    return Link.model_construct(
+        inertia=nearest(inertia),
+        mass=nearest(whole),
+        length=nearest(end),
+        center=nearest((m * here + more * there) / whole / end),
+    )
+
+
+def _joint(part: MotorPart | JointPart) -> Joint:
+    if isinstance(part, JointPart):
+        return Joint.model_construct(stiffness=part.stiffness, damping=part.damping, rest=part.rest)
+    return Joint.model_construct(
+        stiffness=0.0, damping=part.damping, rotor_inertia=part.rotor_inertia, gear=part.gear
+    )
+
+
+def _link(part: LinkPart) -> Link:
+    return Link.model_construct(inertia=part.inertia, mass=part.mass, length=part.length, center=part.center)
+
+
+def _weight(entry: Entry) -> Link:
+    """Return a body as a link without length."""
+    assert isinstance(entry.part, BodyPart)
+    return Link.model_construct(inertia=entry.part.inertia, mass=entry.part.mass, length=0.0, center=0.0)
+
+
+def _beam(part: BeamPart, springs: str = "half-clamp") -> Beam:
+    return Beam.model_construct(
+        length=part.length,
+        bending_stiffness=part.bending_stiffness,
+        mass_per_length=part.mass_per_length,
+        links=part.links,
+        springs=part.springs if part.springs not in (None, "finite-segment") else springs,
+        damping_time=part.damping_time,
+    )
+
+
+def _springs(part: BeamPart) -> tuple[Joint, ...]:
+    """Return the springs between finite segments: each stands for a whole piece."""
+    return beam_joints(_beam(part, "uniform"))
+
+
+def _pieces(part: BeamPart) -> tuple[Link, ...]:
+    """Return finite segments: half a piece at either end, whole ones between, a spring at each cut."""
+    whole = beam_links(_beam(part))
+    half = beam_links(_beam(part.model_copy(update={"links": 2 * part.links})))[0]
+    return (half, *whole[1:], half)
+
+
+def _fixed(hung: Hanging, entry: Entry) -> str:
+    carried = hung.carried(entry.name)
+    return carried[0].name if carried and carried[0].table == "link" else ""
+
+
+def _placed_body(entry: Entry, on: PlacedPart) -> PlacedPart:
+    return PlacedPart(entry.name, entry.table, first=on.last, last=on.last, fixed=on.fixed)
+
+
+def _tip(bodies: Sequence[Entry]) -> Tip | None:
+    weights = [_weight(body) for body in bodies]
+    if not weights:
+        return None
+    mass, inertia = (
+        sum((exact(getattr(w, key)) for w in weights), Fraction(0)) for key in ("mass", "inertia")
+    )
+    return Tip.model_construct(mass=nearest(mass), inertia=nearest(inertia))
+
+
+def place_of(name: str, parts: dict[str, PlacedPart], stations: int) -> Place:
+    """Return the place that a name means: the outer end of a part, or "base", "tip" or "arm"."""
+    part = parts.get(name)
+    if part is None:
+        return cast(Place, name)
+    return "tip" if part.last == stations else part.last or part.joint
+
+
+def _input(item: FileInput, parts: dict[str, PlacedPart], stations: int) -> Input:
+    name = str(item.at)
+    part = parts.get(name)
+    drives = part is not None and part.joint > 0
+    return Input(
+        name=item.name,
+        at=part.joint if part is not None and drives else place_of(name, parts, stations),
+        acts="drive" if drives else item.acts,
+        part=name if part is not None else "",
+    )
+
+
+def _output(item: FileOutput, parts: dict[str, PlacedPart], stations: int) -> Output:
+    name = str(item.at)
+    part = parts.get(name)
+    of_joint = part is not None and part.joint > 0
+    return Output(
+        name=item.name,
+        at=part.joint if part is not None and of_joint else place_of(name, parts, stations),
+        of=OF_JOINTS[item.of] if of_joint else item.of,  # type: ignore[arg-type]
+        part=name if part is not None else "",
+    )
+
+
+def _spread(
+    values: float | tuple[float, ...], solid: Sequence[PlacedPart], stations: int
+) -> tuple[float, ...]:
+    """Return one number per link of what is one number for all, or one per beam and link of the file."""
+    if not isinstance(values, tuple):
+        return (values,) * stations
+    found = [0.0] * stations
+    for value, part in zip(values, solid, strict=True):
+        found[part.first - 1 : part.last] = [value] * (part.last - part.first + 1)
+    return tuple(found)

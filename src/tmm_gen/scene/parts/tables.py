@@ -1,0 +1,174 @@
+"""The tables of parts as a scene file has them."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import AfterValidator, BeforeValidator, Field, PlainValidator
+
+from tmm_gen.scene.beam import Springs
+from tmm_gen.scene.identifier import Name
+from tmm_gen.scene.signal import FileInput, FileOutput
+from tmm_gen.scene.table import STATION_LIMIT, Fraction, NonNegative, Positive, Table, fault
+
+PartSprings = Literal[Springs, "finite-segment"]
+
+ENDS = ("base", "arm")
+"""Words for places that no part may be called by."""
+
+
+def _part_name(value: str) -> str:
+    if value in ENDS:
+        raise fault(f'"{value}" is the name of a place', f"Choose another, for example '{value}_1'.")
+    return value
+
+
+def _named(value: object) -> object:
+    """Reject what is no name of a part, numbers above all."""
+    if isinstance(value, str):
+        return value
+    raise fault("must be the name of a part", 'Write a name in quotes, for example `"elbow"`.')
+
+
+def _rigid_gear(value: object) -> object:
+    if value is None:
+        return None
+    raise fault(
+        "of a gear is not modelled yet: gears are rigid",
+        "Remove it, or put a [[joint]] of this stiffness behind the motor, with a [[link]] in between.",
+    )
+
+
+PartName = Annotated[Name, BeforeValidator(_named), AfterValidator(_part_name)]
+Where = Annotated[str, PlainValidator(_named)]
+
+
+class Part(Table):
+    """What all parts have.
+
+    Parameters
+    ----------
+    name : str
+        Identifier.
+    on : str or None
+        Name of the part it hangs on, or "base"; None where the file leaves it out.
+    """
+
+    name: PartName = Field(description="name of the part", examples=['"elbow"'])
+    on: Where | None = Field(
+        default=None,
+        description="what it hangs on: a part's name or base",
+        examples=['"upper"'],
+        json_schema_extra={"absent": "the base"},
+    )
+
+
+class MotorPart(Part):
+    """``[[motor]]``: a driven joint.
+
+    Parameters
+    ----------
+    rotor_inertia : float
+        On the motor's side, kg m^2, not negative; acts along the joint ``gear^2``-fold.
+    gear : float
+        Turns of the motor per turn of the joint, positive.
+    damping : float
+        At the output, N m s/rad, not negative.
+    stiffness : None
+        Of the gear: not modelled yet.
+    """
+
+    rotor_inertia: NonNegative = Field(
+        default=0.0,
+        description="inertia of the rotor in kg m^2; gear^2 times it acts along the joint",
+        examples=["2e-5"],
+    )
+    gear: Positive = Field(
+        default=1.0, description="turns of the motor per turn of the joint", examples=["100"]
+    )
+    damping: NonNegative = Field(
+        default=0.0, description="damping at the output in N m s/rad", examples=["0.02"]
+    )
+    stiffness: Annotated[float | None, PlainValidator(_rigid_gear)] = Field(
+        default=None, description="stiffness of the gear", json_schema_extra={"hidden": True}
+    )
+
+
+class JointPart(Part):
+    """``[[joint]]`` by name: a hinge, with a spring and a damper where they are given.
+
+    Parameters
+    ----------
+    stiffness, damping : float
+        N m/rad, N m s/rad, not negative.
+    rest : float
+        Angle at which the spring is slack, rad.
+    """
+
+    stiffness: NonNegative = Field(
+        default=0.0, description="torsional stiffness in N m/rad; 0 is a free hinge", examples=["12.0"]
+    )
+    damping: NonNegative = Field(default=0.0, description="torsional damping in N m s/rad", examples=["0.5"])
+    rest: Annotated[float, Field(strict=True, allow_inf_nan=False)] = Field(
+        default=0.0, description="angle in rad at which the spring is slack", examples=["0.1"]
+    )
+
+
+class BeamPart(Part):
+    """``[[beam]]``: a uniform beam, cut into rigid links with springs between them."""
+
+    length: Positive = Field(description="length of the beam in m", examples=["0.5"])
+    bending_stiffness: Positive = Field(description="EI in N m^2", examples=["14.0"])
+    mass_per_length: Positive = Field(description="mass per length in kg/m", examples=["0.16"])
+    links: Annotated[int, Field(strict=True, ge=1, le=STATION_LIMIT)] = Field(
+        description="number of pieces", examples=["5"]
+    )
+    springs: PartSprings | None = Field(
+        default=None,
+        description="rule of the springs",
+        examples=['"finite-segment"'],
+        json_schema_extra={"absent": "finite-segment on a motor or joint, half-clamp elsewhere"},
+    )
+    damping_time: NonNegative = Field(
+        default=0.0, description="damping of a spring over its stiffness in s", examples=["0.002"]
+    )
+
+
+class LinkPart(Part):
+    """``[[link]]`` by name: a rigid link."""
+
+    length: Positive = Field(description="length in m", examples=["0.4"])
+    mass: Positive = Field(description="mass in kg", examples=["0.2"])
+    inertia: Positive = Field(
+        description="moment of inertia about the centre of mass in kg m^2", examples=["0.003"]
+    )
+    center: Fraction = Field(
+        default=0.5, description="centre of mass along the link, 0 to 1", examples=["0.5"]
+    )
+
+
+class BodyPart(Part):
+    """``[[body]]``: a rigid body on the outer end of a beam or a link."""
+
+    on: Where | None = Field(
+        default=None,
+        description="the beam or link on whose outer end it sits",
+        examples=['"upper"'],
+        json_schema_extra={"absent": "the only one"},
+    )
+    mass: NonNegative = Field(default=0.0, description="mass in kg", examples=["0.3"])
+    inertia: NonNegative = Field(
+        default=0.0, description="moment of inertia about its own centre in kg m^2", examples=["0.001"]
+    )
+
+
+class PartInput(FileInput):
+    """``[[input]]`` of an arm by parts."""
+
+    at: Where = Field(description="name of a part, or base", examples=['"elbow"'])  # type: ignore[assignment]
+
+
+class PartOutput(FileOutput):
+    """``[[output]]`` of an arm by parts."""
+
+    at: Where = Field(description="name of a part, base or arm", examples=['"tool"'])  # type: ignore[assignment]

@@ -1,0 +1,370 @@
+"""Parts hang on each other in one row, each on something that can carry it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from itertools import groupby
+
+from tmm_gen.scene.parts.document import PartsDocument
+from tmm_gen.scene.parts.expansion import OF_JOINTS, PlacedPart
+from tmm_gen.scene.parts.order import BASE, Entry, Hanging, entries, hanging
+from tmm_gen.scene.parts.tables import BeamPart, BodyPart, MotorPart
+from tmm_gen.scene.problem import Finding, Path
+from tmm_gen.scene.quantity import PLANAR
+from tmm_gen.scene.table import STATION_LIMIT, closest
+
+
+def part_names(document: PartsDocument) -> Iterator[Finding]:
+    """Find parts of the same name, and such as hang on what does not exist."""
+    every = list(entries(document.parts_by_table()))
+    first: dict[str, Entry] = {}
+    for entry in every:
+        if entry.name in first:
+            yield Finding(
+                (*entry.path, "name"),
+                f"is already the name of [[{first[entry.name].table}]] number {first[entry.name].index + 1}",
+                f"Choose another, for example '{entry.name}_2'.",
+                entry.name,
+            )
+        first.setdefault(entry.name, entry)
+    for entry in every:
+        on = entry.part.on
+        if on is not None and on != BASE and on not in first:
+            yield Finding((*entry.path, "on"), "is not the name of a part", closest(on, [BASE, *first]), on)
+
+
+def one_row(document: PartsDocument) -> Iterator[Finding]:
+    """Find branches, loops, and what is missing for an arm."""
+    hung = hanging(document.parts_by_table())
+    if not any(e.table in ("beam", "link") for e in hung.entries):
+        yield Finding(
+            ("link",),
+            "is missing: an arm needs at least one [[link]] or [[beam]]",
+            'Add [[link]] with `name = "arm"`, `on = ...`, `length`, `mass` and `inertia`.',
+        )
+        return
+    for name in (BASE, *(e.name for e in hung.entries if not isinstance(e.part, BodyPart))):
+        carried = hung.carried(name)
+        for entry in carried[1:]:
+            yield _branch(hung, name, carried[0], entry)
+    for entry in hung.entries:
+        if hung.on(entry) != BASE and _in_a_loop(hung, entry):
+            yield Finding(
+                (*entry.path, "on"),
+                f"closes a loop: {_around(hung, entry)}",
+                "Let one of them hang on the base or on another part.",
+                entry.part.on,
+            )
+
+
+def _branch(hung: Hanging, name: str, first: Entry, entry: Entry) -> Finding:
+    last = hung.row()[-1].name if hung.row() else first.name
+    where = "the base" if name == BASE else f"'{name}'"
+    if entry.part.on is None:
+        return Finding(
+            (*entry.path, "on"),
+            f"is missing: {where} already carries '{first.name}'",
+            f"Write what '{entry.name}' hangs on, for example `on = \"{last}\"`.",
+        )
+    return Finding(
+        (*entry.path, "on"),
+        f"makes a branch: {where} already carries '{first.name}', and branches are not modelled yet",
+        f"Hang it behind '{first.name}', for example `on = \"{last}\"`, or remove one of the two.",
+        entry.part.on,
+    )
+
+
+def _chain_of(hung: Hanging, entry: Entry) -> tuple[str, ...]:
+    """Return the names from a part inward, as far as none comes twice."""
+    names, found = hung.by_name, [entry.name]
+    while (on := hung.on(names[found[-1]])) in names and on not in found:
+        found.append(on)
+    return (*found, on)
+
+
+def _in_a_loop(hung: Hanging, entry: Entry) -> bool:
+    return _chain_of(hung, entry)[-1] == entry.name
+
+
+def _around(hung: Hanging, entry: Entry) -> str:
+    return " on ".join(f"'{name}'" for name in _chain_of(hung, entry))
+
+
+def carriers(document: PartsDocument) -> Iterator[Finding]:
+    """Find parts that hang on what cannot carry them, or carry nothing."""
+    hung = hanging(document.parts_by_table())
+    for entry in hung.entries:
+        host = hung.by_name.get(hung.host(entry))
+        yield from _carried(document, entry, host)
+    for entry in hung.row():
+        if entry.turns and not hung.carried(entry.name):
+            yield Finding(
+                entry.path,
+                f"carries nothing: '{entry.name}' has no [[beam]] or [[link]] on it",
+                f'Add one with `on = "{entry.name}"`, or remove it.',
+            )
+
+
+def _carried(document: PartsDocument, entry: Entry, host: Entry | None) -> Iterator[Finding]:
+    path = (*entry.path, "on")
+    if entry.turns and host is not None and host.turns:
+        yield Finding(
+            path,
+            f"hangs on {host.words}: two that turn need a part between them",
+            f"Put a [[link]] between '{host.name}' and '{entry.name}', or make one of the two.",
+            entry.part.on,
+        )
+    if entry.table == "motor" and host is None and document.base.kind == "prescribed":
+        yield Finding(
+            path,
+            f"puts motor '{entry.name}' on a base whose angle an input prescribes already",
+            'Set base.kind = "clamp", or make it a [[joint]].',
+            entry.part.on,
+        )
+    if isinstance(entry.part, BodyPart) and (host is None or host.turns):
+        yield Finding(
+            path,
+            f"hangs on {host.words if host else 'the base'}: a body sits on a beam's or a link's outer end",
+            "Name a [[beam]] or a [[link]].",
+            entry.part.on,
+        )
+    if entry.table == "link" and host is None:
+        yield Finding(
+            path,
+            f"fixes '{entry.name}' to the base, where it could not move",
+            'Put a [[motor]] or a [[joint]] between, and write its name: `on = "..."`.',
+            entry.part.on,
+        )
+    if isinstance(entry.part, BeamPart):
+        springs, turned = entry.part.springs, host is not None and host.turns
+        at = (*entry.path, "springs")
+        if springs == "finite-segment" and not turned:
+            yield Finding(
+                at,
+                f"needs a motor or a joint at the beam's inner end, and '{entry.name}' is clamped there",
+                'Write `springs = "half-clamp"`, or remove the key.',
+                springs,
+            )
+        elif springs is not None and springs != "finite-segment" and turned:
+            assert host is not None
+            yield Finding(
+                at,
+                f"has a spring at the beam's inner end, where {host.words} turns it",
+                'Write `springs = "finite-segment"`, or remove the key.',
+                springs,
+            )
+
+
+def parts_suit(document: PartsDocument) -> Iterator[Finding]:
+    """Find what arms by parts do not go with."""
+    if document.model.kind != "planar":
+        table = next(e for e in entries(document.parts_by_table()))
+        yield Finding(
+            table.path,
+            f'is a part by name, which model.kind = "{document.model.kind}" does not have yet',
+            'Set model.kind = "planar", or write [[joint]] and [[link]] in turn, without name and on.',
+        )
+    if document.model.linearisation != "newton":
+        yield Finding(
+            ("model", "linearisation"),
+            "knows no parts by name: it is the thesis's own, for links behind springs",
+            'Write `linearisation = "newton"`, or remove the key.',
+            document.model.linearisation,
+        )
+    if document.tip is not None:
+        yield Finding(
+            ("tip",),
+            "does not go with parts by name",
+            "Write a [[body]] on the last part instead.",
+        )
+    if document.control is not None:
+        yield Finding(
+            ("control",),
+            "does not control arms by parts yet",
+            'Remove it, or write the arm with base.kind = "motor" and [beam].',
+        )
+
+
+def beams_in_range(document: PartsDocument) -> Iterator[Finding]:
+    """Products of extreme numbers may leave the range of a float although each factor is in it."""
+    made = document.expansion
+    hung = hanging(document.parts_by_table())
+    for placed in made.parts:
+        entry = hung.by_name[placed.name]
+        if placed.first == 0:
+            rotor = made.joints[placed.joint - 1].armature
+            if isinstance(entry.part, MotorPart) and not math.isfinite(rotor):
+                yield _out_of_range(
+                    (*entry.path, "gear"), "rotor inertia at the joint", rotor, entry.part.gear
+                )
+            continue
+        key = {"beam": "mass_per_length"}.get(placed.kind, "mass")
+        for link in made.links[placed.first - 1 : placed.last]:
+            values = {"mass": link.mass, "moment of inertia": link.inertia}
+            wrong = [k for k, v in values.items() if not (math.isfinite(v) and v > 0.0)]
+            if wrong:
+                value = getattr(entry.part, key)
+                yield _out_of_range((*entry.path, key), f"link {wrong[0]}", values[wrong[0]], value)
+                break
+        if not isinstance(entry.part, BeamPart):
+            continue
+        for joint in made.joints[placed.first - 1 : placed.last]:
+            if not (math.isfinite(joint.stiffness) and math.isfinite(joint.damping)):
+                value = entry.part.bending_stiffness
+                path = (*entry.path, "bending_stiffness")
+                yield _out_of_range(path, "spring's stiffness", joint.stiffness, value)
+                break
+    if len(made.links) > STATION_LIMIT:
+        yield Finding(
+            ("beam",), f"makes {len(made.links)} links, more than {STATION_LIMIT}", "Write fewer links."
+        )
+
+
+def _out_of_range(path: Path, what: str, value: float, given: object) -> Finding:
+    return Finding(
+        path,
+        f"gives a {what} of {value:g}, out of the range of numbers",
+        "Check the units: SI, N m^2, kg/m, m, kg m^2.",
+        given,
+    )
+
+
+def part_initial(document: PartsDocument) -> Iterator[Finding]:
+    """Find initial values that are neither one number nor one per beam and link, or differ in one rigid body."""
+    solid = document.expansion.solid
+    for key in ("angles", "rates"):
+        values = getattr(document.initial, key)
+        if not isinstance(values, tuple):
+            continue
+        names = ", ".join(part.name for part in solid)
+        if len(values) != len(solid):
+            yield Finding(
+                ("initial", key),
+                f"has {len(values)} numbers for {len(solid)} beams and links",
+                f"Write one number for all, or one each for {names}.",
+                values,
+            )
+            continue
+        for _, alike in groupby(zip(values, solid, strict=True), key=lambda pair: pair[1].last):
+            if len({value for value, _ in alike}) > 1:
+                yield Finding(
+                    ("initial", key),
+                    "differs between parts that are fixed to each other",
+                    f"Write the same number for both; the order is {names}.",
+                    values,
+                )
+
+
+def part_inputs(document: PartsDocument) -> Iterator[Finding]:
+    """Find inputs that act nowhere, or not so."""
+    parts = document.expansion.by_name
+    for index, item in enumerate(document.input):
+        at, path = str(item.at), ("input", index)
+        part = parts.get(at)
+        if part is None and at not in (BASE, "tip"):
+            yield _unknown_place((*path, "at"), at, [BASE, *parts])
+        elif at == BASE:
+            yield from _on_base(document, index)
+        elif item.acts == "angle":
+            yield Finding(
+                (*path, "acts"),
+                'cannot be "angle" here: only the base can be prescribed',
+                'Write `acts = "torque"`, or prescribe the base: `at = "base"`.',
+                item.acts,
+            )
+        elif part is not None and part.joint and item.acts != "torque":
+            yield Finding(
+                (*path, "acts"),
+                f"cannot be a force at {part.kind} '{part.name}': what acts there is a torque between both sides",
+                'Write `acts = "torque"`, or let the force act at a beam, link or body.',
+                item.acts,
+            )
+        elif part is not None and part.fixed:
+            yield _no_frame((*path, "at"), part)
+
+
+def _on_base(document: PartsDocument, index: int) -> Iterator[Finding]:
+    item, kind = document.input[index], document.base.kind
+    if item.acts == "angle" and kind != "prescribed":
+        yield Finding(
+            ("input", index, "acts"),
+            f'cannot be "angle" with base.kind = "{kind}"',
+            'Set base.kind = "prescribed", or remove the input.',
+            item.acts,
+        )
+    elif item.acts == "torque" and kind != "motor":
+        yield Finding(
+            ("input", index, "at"),
+            f'cannot be "base" for a torque: base.kind = "{kind}" does not yield to it',
+            "Let it act at a motor: write the motor's name.",
+            item.at,
+        )
+    elif item.acts.startswith("force"):
+        yield Finding(
+            ("input", index, "at"),
+            'cannot be "base" for a force: the base point never moves',
+            "Let it act at a beam, a link or a body.",
+            item.at,
+        )
+
+
+def part_outputs(document: PartsDocument) -> Iterator[Finding]:
+    """Find a scene without outputs, and outputs of what does not exist or never changes."""
+    parts = document.expansion.by_name
+    if not document.output:
+        last = document.expansion.parts[-1].name
+        yield Finding(
+            ("output",),
+            "is missing: a scene without outputs reports nothing",
+            f'Add [[output]] with `name = "tip"`, `at = "{last}"`, `of = "position"`.',
+        )
+    for index, item in enumerate(document.output):
+        at, path = str(item.at), ("output", index)
+        part = parts.get(at)
+        if part is None and at not in (BASE, "tip", "arm"):
+            yield _unknown_place((*path, "at"), at, [BASE, "arm", *parts])
+        elif (at == "arm") != PLANAR[item.of].of_arm:
+            whole = ", ".join(name for name, quantity in PLANAR.items() if quantity.of_arm)
+            yield Finding(
+                (*path, "at"),
+                f'must be "arm" for {item.of}' if at != "arm" else f'cannot be "arm" for {item.of}',
+                f"The arm as a whole has {whole}; all else belongs to a part.",
+                item.at,
+            )
+        elif part is not None and part.joint and item.of not in OF_JOINTS:
+            yield Finding(
+                (*path, "of"),
+                f"cannot be {item.of} at {part.kind} '{part.name}', which has {', '.join(OF_JOINTS)}",
+                "Choose one of them, or measure at a beam, a link or a body.",
+                item.of,
+            )
+        elif at not in ("arm", BASE) and (part is None or not part.joint) and item.of in ("torque", "force"):
+            yield Finding(
+                (*path, "of"),
+                f"cannot be {item.of} here: it is joints that pass on a {item.of}",
+                "Write the name of a motor or a joint.",
+                item.of,
+            )
+        elif at == BASE and (document.base.kind == "clamp" or item.of not in ("angle", "rate")):
+            yield Finding(
+                (*path, "of"),
+                f'cannot be {item.of} at the base with base.kind = "{document.base.kind}"',
+                "Measure at a part: write its name.",
+                item.of,
+            )
+        elif part is not None and part.fixed:
+            yield _no_frame((*path, "at"), part)
+
+
+def _unknown_place(path: Path, at: str, known: list[str]) -> Finding:
+    return Finding(path, "is not the name of a part", closest(at, known), at)
+
+
+def _no_frame(path: Path, part: PlacedPart) -> Finding:
+    return Finding(
+        path,
+        f"has no frame of its own: '{part.fixed}' is fixed to it, and both are one rigid body",
+        f'Write `at = "{part.fixed}"`, or put a [[joint]] between the two.',
+        part.name,
+    )
