@@ -72,7 +72,7 @@ def test_version(tmm_gen: Call) -> None:
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (["biuld"], "did you mean build?"),
+        (["biuld"], "did you mean build? `tmm-gen --help` shows"),
         (["zzz"], "commands are new, "),
         (["--colour"], "No such option"),
     ],
