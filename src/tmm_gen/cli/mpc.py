@@ -148,7 +148,7 @@ def mpc(
     claim((picture, animated), (scene,))
     require_new(out, force)
     from tmm_gen.control.condition import CONDITIONS
-    from tmm_gen.control.controllers import CONTROLLERS
+    from tmm_gen.control.controllers import BY_NAME, CONTROLLERS, require_solvers
 
     kinds = chosen("--controller", controllers, {kind.name: kind for kind in CONTROLLERS})
     cases = chosen("--condition", conditions, {case.name: case for case in CONDITIONS}) or [*CONDITIONS]
@@ -162,10 +162,12 @@ def mpc(
         tuned(scene, bench, tunables, evaluations, seed, workers, refine, out, force, json_mode)
         return
     if folder is not None:
-        names = [kind.name for kind in kinds] or [_EMITTED]
-        emit(bench, names, folder, real, name, force, json_mode)
+        kinds = kinds or [BY_NAME[_EMITTED]]
+        require_solvers(kinds)
+        emit(bench, [kind.name for kind in kinds], folder, real, name, force, json_mode)
         return
     kinds = kinds or [kind for kind in CONTROLLERS if kind.default]
+    require_solvers(kinds)
     trials = _trials(loaded, bench, kinds, cases, until, seed, compiled)
     show(loaded, trials, until, write_files(bench, trials, picture, animated), json_mode)
 

@@ -83,10 +83,14 @@ def tuned(
         If there is no tunable of that name, or the file has no line for a number that is to be found.
     """
     from tmm_gen.closed_loop.pricing import OneByOne, side_by_side
+    from tmm_gen.closed_loop.search import require_cma
     from tmm_gen.closed_loop.tuning import TUNABLE, tune
+    from tmm_gen.control.controllers import BY_NAME, require_solvers
 
     known = {tunable.name: tunable for tunable in TUNABLE}
     wanted = [*TUNABLE] if EVERYTHING in names else chosen("--tune", names, known)
+    require_cma()
+    require_solvers(BY_NAME[name] for tunable in wanted for name in tunable.controllers)
     if out is not None:  # what cannot be written is better known before the search than after it
         _text(file, bench.scene, wanted)
     found: list[Tuned] = []

@@ -154,6 +154,7 @@ def run(path: Path, options: dict[str, Any]) -> Study:
     from tmm_gen.study.study import run_study
 
     scene = load_scene(path)
+    computes = executor(options)
     given = read_inputs(options["given"], *input_names(scene))
     went = excitation(scene, given, options["until"], options["output"])
     grid = configurations(scene, axes_of(scene, options), went.until)
@@ -163,7 +164,7 @@ def run(path: Path, options: dict[str, Any]) -> Study:
             scene,
             went,
             grid,
-            executor(options),
+            computes,
             options["store"],
             rounds,
             advance=lambda n, doing: advance(n, doing),
@@ -171,13 +172,20 @@ def run(path: Path, options: dict[str, Any]) -> Study:
 
 
 def executor(options: dict[str, Any]) -> Executor | None:
-    """Return who computes the errors; None for this process."""
+    """Return who computes the errors; None for this process.
+
+    Raises
+    ------
+    UserError
+        If Dask is asked for and not installed.
+    """
     if options["workers"] is None and options["scheduler"] is None:
         return None
     if options["workers"] is not None and options["scheduler"] is not None:
         raise click.UsageError("--workers starts a cluster, --scheduler names one: give one of them.")
-    from tmm_gen.study.cluster import Cluster
+    from tmm_gen.study.cluster import Cluster, require_dask
 
+    require_dask()
     return Cluster(options["workers"] or 0, options["scheduler"])
 
 

@@ -103,7 +103,7 @@ def _descend(prices: Prices, begins: Array, left: int, step: float, end: float, 
 
     Return what was best of each.
     """
-    cma = _cma()
+    cma = require_cma()
     random = np.random.default_rng(seed + 1)
     options = {
         "bounds": [0.0, 1.0],
@@ -127,5 +127,12 @@ def _descend(prices: Prices, begins: Array, left: int, step: float, end: float, 
     return ends
 
 
-def _cma() -> Any:
+def require_cma() -> Any:
+    """Return the package `cma`.
+
+    Raises
+    ------
+    UserError
+        If it is not installed.
+    """
     return extra("mpc", "tuning", "cma")

@@ -181,9 +181,26 @@ class ControllerText:
         first, last = (int(places[0]), int(places[-1])) if len(places) else (0, 0)
         return first, values[first : last + 1]
 
+    def width(self, values: NDArray[np.float64]) -> int:
+        """Return how many columns a matrix has up to the last that is not zero; what is behind makes no difference."""
+        places = np.flatnonzero(np.any(values, axis=0))
+        return int(places[-1]) + 1 if len(places) else 1
+
+    def narrowed(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return these columns."""
+        return values[:, : self.width(values)]
+
     def number(self, value: float) -> str:
         """Write a number."""
         return number(value, self.real)
+
+    def less(self, value: float) -> str:
+        """Write that a number is taken away; nothing where it is zero."""
+        return f" - {self.number(value)}" if value else ""
+
+    def more(self, value: float) -> str:
+        """Write that a number is added; nothing where it is zero."""
+        return f" + {self.number(value)}" if value else ""
 
     def numbers(self, values: Iterable[float]) -> str:
         """Write a list of numbers."""

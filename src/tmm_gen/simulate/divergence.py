@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.errors import CheckFailed
+from tmm_gen.errors import CheckFailed, UserError
 from tmm_gen.inputs.signals import Signal
 from tmm_gen.reference.assembly import assemble
 from tmm_gen.reference.frequency import fastest_mode
@@ -26,6 +26,22 @@ _PROBES = 1000
 
 class DivergedError(CheckFailed):
     """A simulation left all bounds: the message says when, where, why and what to do."""
+
+
+class BrokenOffError(UserError):
+    """A step of a simulation cannot be solved.
+
+    Parameters
+    ----------
+    cause : str
+        When and why, a sentence.
+    remedy : str
+        What to do.
+    """
+
+    def __init__(self, cause: str, remedy: str) -> None:
+        super().__init__(f"{cause} {remedy}")
+        self.cause = cause
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ from tmm_gen.inputs.signals import Constant, Signal
 from tmm_gen.reference.assembly import assemble
 from tmm_gen.reference.energy import energy
 from tmm_gen.scene import Scene
-from tmm_gen.simulate.divergence import DivergedError, Watch, watch
+from tmm_gen.simulate.divergence import BrokenOffError, DivergedError, Watch, watch
 from tmm_gen.simulate.planar_divergence import PlanarWatch, more_sweeps, planar_watch
 from tmm_gen.simulate.prescribed import followed, prescribed
 from tmm_gen.simulate.simulation import Simulation
@@ -222,9 +222,9 @@ def _outputs(course: Course, stepper: Stepper, advance: Callable[[float], None] 
         smaller = "Look"
         if scene.model.iterates:
             smaller = f"Try a smaller step, --step {step / 10:g}{more_sweeps(scene)}; or look"
-        raise UserError(
-            f"scene '{scene.name}' cannot be solved: {error}. "
-            f"{smaller} for numbers that are far too large or small."
+        raise BrokenOffError(
+            f"scene '{scene.name}' cannot be solved: {error}.",
+            f"{smaller} for numbers that are far too large or small.",
         ) from error
     return outputs
 

@@ -42,6 +42,12 @@ def python_controller(bench: Bench, kind: str) -> Controller:
 
 
 @pytest.fixture(scope="session")
+def in_python() -> Callable[[Bench, str], Controller]:
+    """Return what makes the controller that an emitted one must equal."""
+    return python_controller
+
+
+@pytest.fixture(scope="session")
 def emitted(bench: Bench) -> Callable[..., EmittedController]:
     """Compile a controller of the swing."""
 

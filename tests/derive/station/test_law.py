@@ -59,7 +59,11 @@ def _at(
     return {theta.q: angle, theta.v: rate, theta.a: acceleration, x.a: place[0], y.a: place[1]}
 
 
-@pytest.mark.filterwarnings("ignore:Arrays of 2-dimensional vectors are deprecated")
+def turned_by(arm: np.ndarray, force: np.ndarray) -> float:
+    """Return the moment of a force in the plane."""
+    return float(arm[0] * force[1] - arm[1] * force[0])
+
+
 @pytest.mark.parametrize("name", ROWS)
 def test_it_is_newton_and_euler(name: str) -> None:
     for _ in range(4):
@@ -69,9 +73,8 @@ def test_it_is_newton_and_euler(name: str) -> None:
         inner = forces[:2] + M * (a + KAPPA * L * (acceleration * across - rate**2 * along))
         to_inner, to_outer = -KAPPA * L * along, (1 - KAPPA) * L * along
         # I alpha = M_in - M_out + r_in x F_in - r_out x F_out
-        moment = (
-            INERTIA * acceleration + forces[2] - np.cross(to_inner, inner) + np.cross(to_outer, forces[:2])
-        )
+        moment = INERTIA * acceleration + forces[2] - turned_by(to_inner, inner)
+        moment += turned_by(to_outer, forces[:2])
         np.testing.assert_allclose(carried(ROWS[name], motion, forces), [*inner, moment], rtol=1e-11)
 
 
