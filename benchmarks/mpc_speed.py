@@ -335,7 +335,8 @@ def measured(given: argparse.Namespace) -> dict[str, list[dict[str, object]]]:
 def main() -> None:
     """Measure, print tables, write them as CSV and JSON, and renew the page if told to."""
     given = parsed()
-    ca.GlobalOptions.setNumpyMode(-1)
+    if hasattr(ca.GlobalOptions, "setNumpyMode"):  # from CasADi 3.8 on
+        ca.GlobalOptions.setNumpyMode(-1)
     if given.compile:
         compile_all(sorted({*given.links}), given.links)
         return

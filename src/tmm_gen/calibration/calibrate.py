@@ -153,6 +153,12 @@ def calibrate(
     jacobian = _jacobian(fit, logarithms)
     normal = jacobian[np.abs(left) <= reach].T @ jacobian[np.abs(left) <= reach]
     diagonal = np.sqrt(np.diag(normal))
+    absent = [item.name for item in scene.inputs if item.name not in record]
+    if absent and not np.any(diagonal):
+        raise UserError(
+            f"{scene.source.origin}: nothing that is fitted makes a difference, as inputs without a record are zero: "
+            f"the record has no column {' or '.join(absent)}. Say what acted, for example --input {absent[0]}=1."
+        )
     if np.any(diagonal == 0.0) or np.linalg.cond(normal / np.outer(diagonal, diagonal)) > _FLAT:
         raise UserError(
             f"{scene.source.origin}: the record does not tell {' and '.join(chosen)} apart. "

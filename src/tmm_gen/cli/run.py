@@ -133,9 +133,16 @@ def run(
     steps = number_of_steps(duration, chosen.integrator.step)
     with progress(f"simulating {chosen.name}", total=steps) as advance:
         drawn = shaped and (picture is not None or animated is not None)
-        simulation = simulate(chosen, signals, duration, backend, advance, trace=drawn)
+        simulation = simulate(
+            chosen, signals, duration, backend, advance, trace=drawn, substeps=not _step_given(step, changes)
+        )
     written = _write(simulation, csv_file, picture, animated, read)
     _show(simulation, written, json_mode)
+
+
+def _step_given(step: float | None, changes: Sequence[str]) -> bool:
+    """Whether the step was asked for with this command, so that no other is to be taken."""
+    return step is not None or any(c.partition("=")[0].strip() == "integrator.step" for c in changes)
 
 
 def _write(
@@ -170,6 +177,8 @@ def _show(simulation: Simulation, written: list[Path], json_mode: bool) -> None:
         "backend": simulation.backend,
         "step": scene.integrator.step,
         "steps": simulation.steps,
+        "substeps": simulation.substeps.count,
+        "substeps_since": 0.0,
         "until": last,
         "accuracy": accuracy and accuracy.error,
         "sensitivity": accuracy and accuracy.sensitivity,
@@ -185,6 +194,8 @@ def _show(simulation: Simulation, written: list[Path], json_mode: bool) -> None:
     table(rows, _telling(rows), json_mode, title=f"{scene.title}: {done}", more=facts)
     if json_mode:
         return
+    if simulation.substeps.count > 1:
+        click.echo(_divided(simulation))
     if accuracy is not None and not simulation.still:
         click.echo(trusted(simulation))
     for note in simulation.notes:
@@ -202,6 +213,15 @@ def _telling(rows: list[dict[str, object]]) -> list[Column | str]:
     return [c for c in _COLUMNS if any(row[c if isinstance(c, str) else c.key] is not None for row in rows)]
 
 
+def _divided(simulation: Simulation) -> str:
+    """Say that steps were divided, and why."""
+    substeps, step = simulation.substeps, simulation.scene.integrator.step
+    return (
+        f"took {substeps.count} substeps per step: at the scene's step of {step:g} s {substeps.because} "
+        f"(which --step {step:g} refuses)"
+    )
+
+
 def trusted(simulation: Simulation) -> str:
     """Say how good a run is, and from what that is known."""
     from tmm_gen.simulate.accuracy import SENSITIVE
@@ -215,7 +235,9 @@ def trusted(simulation: Simulation) -> str:
             "another machine may see another one"
         )
     if simulation.imbalance:
-        said.append(_balance(simulation.imbalance, simulation.scene.integrator.step))
+        said.append(
+            _balance(simulation.imbalance, simulation.scene.integrator.step / simulation.substeps.count)
+        )
     return "\n".join(said)
 
 
@@ -225,8 +247,9 @@ def _why(simulation: Simulation) -> str:
         return ""
     left = f"{simulation.unsolved:.0e} of the energy" if simulation.unsolved else "nothing but rounding"
     sweeps = simulation.sweeps_per_step
-    count = f" ({sweeps:.3g} a step)" if sweeps is not None else ""
-    return f" (the step errs by {simulation.step_error:.0e} per radian; sweeps{count} left {left} unsolved)"
+    of = "substep" if simulation.substeps.count > 1 else "step"
+    count = f" ({sweeps:.3g} a {of})" if sweeps is not None else ""
+    return f" (the {of} errs by {simulation.step_error:.0e} per radian; sweeps{count} left {left} unsolved)"
 
 
 def _balance(imbalance: float, step: float) -> str:

@@ -9,11 +9,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.errors import CheckFailed, UserError
+from tmm_gen.errors import CheckFailed
 from tmm_gen.inputs.signals import Signal
 from tmm_gen.reference.assembly import assemble
 from tmm_gen.reference.frequency import fastest_mode
 from tmm_gen.scene import Scene
+from tmm_gen.simulate.too_long import TooLongError
 
 Array = NDArray[np.float64]
 
@@ -24,11 +25,11 @@ _PROBES = 1000
 """Instants at which inputs are looked at to find their largest values."""
 
 
-class DivergedError(CheckFailed):
+class DivergedError(CheckFailed, TooLongError):
     """A simulation left all bounds: the message says when, where, why and what to do."""
 
 
-class BrokenOffError(UserError):
+class BrokenOffError(TooLongError):
     """A step of a simulation cannot be solved.
 
     Parameters
