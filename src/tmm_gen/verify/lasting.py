@@ -47,7 +47,7 @@ def too_coarse(scene: Scene) -> str:
 
 
 def _cause(scene: Scene) -> str:
-    if scene.model.kind == "planar":
+    if not scene.model.linear:
         return PlanarWatch(scene, scene.integrator.step).cause()
     return too_coarse(scene)
 
@@ -72,7 +72,7 @@ def remedy(
         Whether all of its check is: slow.
     """
     loads = [item.name for item in scene.inputs if item.acts != "angle"]
-    factors = iter(_FACTORS if loads and scene.model.kind == "planar" else ())
+    factors = iter(_FACTORS if loads and not scene.model.linear else ())
     unconfirmed, shortest = 0, scene.integrator.step
     for share in _SHARES:
         step = float(f"{scene.integrator.step / share:.2g}")
