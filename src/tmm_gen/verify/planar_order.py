@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from tmm_gen.reference.frequency import fastest_mode
 from tmm_gen.reference.planar_arm import Arm
-from tmm_gen.scene import Joint, Scene
+from tmm_gen.scene import Scene
 from tmm_gen.simulate.metrics import convergence_slope
 from tmm_gen.verify.check_row import CheckRow
 
@@ -75,9 +75,10 @@ def planar_slope(scene: Scene, module: ModuleType, facts: dict[str, object]) -> 
 def softened(scene: Scene) -> Scene:
     """Return a scene with all springs and dampers scaled down until the fastest vibration is slow."""
     mode = fastest_mode(scene)
-    share = min(1.0, (_FASTEST / mode.frequency) ** 2)
+    share = min(1.0, (_FASTEST / mode.frequency) ** 2) if mode.frequency > 0.0 else 1.0
     joints = tuple(
-        Joint.model_construct(stiffness=share * j.stiffness, damping=share * j.damping) for j in scene.joints
+        j.model_copy(update={"stiffness": share * j.stiffness, "damping": share * j.damping})
+        for j in scene.joints
     )
     return replace(scene, joints=joints)
 
@@ -85,9 +86,9 @@ def softened(scene: Scene) -> Scene:
 def _angles(module: ModuleType, soft: Scene, step: float, steps: int) -> Array:
     """Return the angles after each step, (steps, n), all links turning alike at first, no input acting."""
     params = module.Params()
-    changed = {"stiffness": [j.stiffness for j in soft.joints]}
-    if hasattr(params, "damping"):
-        changed["damping"] = [j.damping for j in soft.joints]
+    changed = {
+        key: [getattr(j, key) for j in soft.joints] for key in ("stiffness", "damping") if hasattr(params, key)
+    }
     params = replace(params, **{name: np.array(values) for name, values in changed.items()})
     given = module.Input(**{item.name: 0.0 for item in soft.inputs})
     start = {"initial_angle": 0.0, "initial_rate": RATE}
