@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from tmm_gen.reference.frequency import fastest_mode
 from tmm_gen.reference.planar_arm import Arm
-from tmm_gen.scene import Joint, Scene
+from tmm_gen.scene import Scene
 from tmm_gen.simulate.metrics import convergence_slope
 from tmm_gen.verify.check_row import CheckRow
 
@@ -75,9 +75,10 @@ def planar_slope(scene: Scene, module: ModuleType, facts: dict[str, object]) -> 
 def softened(scene: Scene) -> Scene:
     """Return a scene with all springs and dampers scaled down until the fastest vibration is slow."""
     mode = fastest_mode(scene)
-    share = min(1.0, (_FASTEST / mode.frequency) ** 2)
+    share = min(1.0, (_FASTEST / mode.frequency) ** 2) if mode.frequency > 0.0 else 1.0
     joints = tuple(
-        Joint.model_construct(stiffness=share * j.stiffness, damping=share * j.damping) for j in scene.joints
+        j.model_copy(update={"stiffness": share * j.stiffness, "damping": share * j.damping})
+        for j in scene.joints
     )
     return replace(scene, joints=joints)
 
