@@ -48,6 +48,13 @@ LOADS: dict[str, tuple[str, Loads]] = {
     "arm50": ("base swung by 1 rad at 0.5 Hz", {"base_angle": lambda t: 0.5 * (1.0 - np.cos(np.pi * t))}),
     "fall10": ("released", {}),
     "swing": ("turning back and forth at 1 Hz", {"hub_torque": lambda t: np.cos(2.0 * np.pi * t)}),
+    "elbow": (
+        "released, then 0.05 and 0.03 N m at 2 and 3 rad/s",
+        {
+            "shoulder_torque": lambda t: 0.05 * np.sin(2.0 * t),
+            "elbow_torque": lambda t: 0.03 * np.sin(3.0 * t),
+        },
+    ),
 }
 
 

@@ -87,7 +87,9 @@ def _angles(module: ModuleType, soft: Scene, step: float, steps: int) -> Array:
     """Return the angles after each step, (steps, n), all links turning alike at first, no input acting."""
     params = module.Params()
     changed = {
-        key: [getattr(j, key) for j in soft.joints] for key in ("stiffness", "damping") if hasattr(params, key)
+        key: [getattr(j, key) for j in soft.joints]
+        for key in ("stiffness", "damping")
+        if hasattr(params, key)
     }
     params = replace(params, **{name: np.array(values) for name, values in changed.items()})
     given = module.Input(**{item.name: 0.0 for item in soft.inputs})
