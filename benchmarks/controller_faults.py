@@ -23,8 +23,8 @@ from hypothesis import HealthCheck, Phase, given, seed, settings
 
 from tmm_gen.cli.console import plain, table
 from tmm_gen.control.bench import Bench
-from tmm_gen.control.emitted.emit import EMITTED
 from tmm_gen.files import write_whole
+from tmm_gen.onboard.emit import EMITTED
 from tmm_gen.scene import load_scene
 
 ROOT = Path(__file__).resolve().parents[1]

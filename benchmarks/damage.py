@@ -10,6 +10,7 @@ from __future__ import annotations
 import argparse
 import os
 import random
+import shutil
 import signal
 import subprocess
 import sys
@@ -127,6 +128,7 @@ def _kills(here: Path, tries: int, draw: random.Random, counts: Counter[str]) ->
         ["build", str(scenes_dir() / "arm2.toml"), "--out", "made"],
         ["check", str(scenes_dir() / "thesis2.toml")],
     )
+    shutil.rmtree(here / "made", ignore_errors=True)  # of the caches: nothing here makes it anew
     for words in commands:
         began = time.monotonic()
         _call(here, words)
@@ -181,7 +183,8 @@ def _result(here: Path) -> dict[str, bytes]:
 
 def _start(here: Path, words: list[str]) -> subprocess.Popen[str]:
     (here / "tmp").mkdir(exist_ok=True)
-    kept = {"XDG_CACHE_HOME": str(here / "cache"), "TMPDIR": str(here / "tmp")}
+    kept = {"XDG_CACHE_HOME": str(here / "cache"), "TMM_GEN_CACHE": str(here / "cache" / "built")}
+    kept["TMPDIR"] = str(here / "tmp")
     return subprocess.Popen(
         [sys.executable, "-m", "tmm_gen", *words],
         cwd=here,

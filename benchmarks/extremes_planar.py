@@ -2,13 +2,15 @@
 
 Links 1 to 1000, EI over ten decades, links of point mass to stubby, tip masses to 1e4 times the arm's, steps of 1e-6 to
 0.1 of the first period, rotation up to 100 revolutions per second: each alone, and combinations at random (the same
-ones for a seed). Runs sweep as often as it takes; what is refused for its error is judged as if it had not been, too.
-Exits with 1 if any is wrong: if its error is more than five times what the run says.
+ones for a seed). Runs sweep as often as it takes and divide steps that are too long. What is refused for its error is
+judged at its own step too, as if it had not been. Exits with 1 if any is wrong: if its error is more than
+five times what the run says.
 """
 
 from __future__ import annotations
 
 import argparse
+import math
 import sys
 from collections import Counter
 from collections.abc import Iterator
@@ -31,7 +33,17 @@ ALONE: dict[str, tuple[float, ...]] = {
     "revolutions": (0.1, 1.0, 10.0, 100.0),
 }
 
-_FIGURES = ("error", "bound", "accuracy", "sensitivity", "sweeps", "unsolved", "step_error", "imbalance")
+_FIGURES = (
+    "error",
+    "bound",
+    "accuracy",
+    "sensitivity",
+    "sweeps",
+    "unsolved",
+    "step_error",
+    "imbalance",
+    "substeps",
+)
 
 
 def extremes(at_random: int, seed: int = 0) -> Iterator[Extreme]:
@@ -46,10 +58,10 @@ def extremes(at_random: int, seed: int = 0) -> Iterator[Extreme]:
         yield Extreme(**drawn)
 
 
-def anyway(extreme: Extreme, verdict: Verdict) -> Verdict:
-    """Return what would have become of an extreme that was refused for its error, or for what sweeps left."""
+def anyway(extreme: Extreme, verdict: Verdict, seconds: float) -> Verdict:
+    """Return what an extreme refused for its error, or for what sweeps left, would have become at the scene's step."""
     judged = any(words in verdict.said for words in ("the error is", "left loads unsolved"))
-    return judge(extreme, refuse=False) if judged else verdict
+    return judge(extreme, refuse=False, seconds=seconds) if judged else verdict
 
 
 def cause(verdict: Verdict) -> str:
@@ -63,13 +75,19 @@ def main() -> int:
     parser.add_argument("--out", type=Path, default=Path("out/bench"))
     parser.add_argument("--random", type=int, default=60, help="how many combinations at random")
     parser.add_argument("--seed", type=int, default=0, help="of these combinations")
+    parser.add_argument("--only-random", action="store_true", help="leave out what is extreme alone")
+    parser.add_argument("--skip", type=int, default=0, help="leave out so many at the beginning of all")
+    parser.add_argument("--seconds", type=float, default=math.inf, help="for a run, and for its reference")
     given = parser.parse_args()
     tried = list(extremes(given.random, given.seed))
+    if given.only_random:
+        tried = tried[len(tried) - given.random :]
+    tried = tried[given.skip :]
     rows = []
     with progress("trying extremes", total=len(tried)) as advance:
         for extreme in tried:
-            verdict = judge(extreme)
-            real = anyway(extreme, verdict)
+            verdict = judge(extreme, seconds=given.seconds)
+            real = anyway(extreme, verdict, given.seconds)
             found = {
                 **asdict(verdict),
                 **{name: getattr(real, name) for name in _FIGURES},
@@ -83,7 +101,12 @@ def main() -> int:
         *("links", Column("stiffness", "EI", ".0e"), Column("slenderness", form=".0e")),
         *(Column("tip_ratio", "tip / arm", ".0e"), Column("step", "step / period", ".0e")),
         *(Column("revolutions", "rev/s", "g"), Column("status"), Column("error", form=".1e")),
-        *(Column("accuracy", "says", ".1e"), Column("unsolved", form=".1e"), Column("sweeps", form=".2g")),
+        *(
+            Column("accuracy", "says", ".1e"),
+            Column("unsolved", form=".1e"),
+            Column("sweeps", form=".2g"),
+            "substeps",
+        ),
         *(Column("step_error", "step", ".1e"), "anyway", "cause"),
         Column("said", form=lambda text: str(text).partition("\n")[0][:60]),
     ]

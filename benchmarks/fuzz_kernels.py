@@ -14,9 +14,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
+from tmm_gen.c_language.names import macros
 from tmm_gen.emit.c import emit_kernel
 from tmm_gen.emit.c.kernel import Kernel
-from tmm_gen.emit.c_names import macros
 from tmm_gen.errors import UserError
 from tmm_gen.program.build import build_program
 from tmm_gen.scene import Scene, load_scene

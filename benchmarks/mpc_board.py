@@ -18,13 +18,13 @@ from marks import renewed
 from support.mpc_on_board import BoardRun, run_on_board
 
 from tmm_gen.cli.console import plain, progress, table
+from tmm_gen.closed_loop.plant import Plant
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.condition import CONDITIONS
 from tmm_gen.control.controllers import BY_NAME
-from tmm_gen.control.emitted.emit import emit_controller
 from tmm_gen.control.kalman import present_sensors
-from tmm_gen.control.plant import Plant
 from tmm_gen.files import write_whole
+from tmm_gen.onboard.emit import emit_controller
 from tmm_gen.scene import load_scene
 
 ROOT = Path(__file__).parents[1]

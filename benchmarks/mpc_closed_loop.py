@@ -28,13 +28,13 @@ from marks import renewed
 from support.mpc_random_loops import RandomOutcome, draw, run_case
 
 from tmm_gen.cli.console import Column, plain, progress, table
+from tmm_gen.closed_loop.compare import compare, worst
+from tmm_gen.closed_loop.pictures import comparison_picture
 from tmm_gen.control.bench import Bench
-from tmm_gen.control.compare import compare, worst
 from tmm_gen.control.condition import CONDITIONS
 from tmm_gen.control.controllers import BY_NAME, CONTROLLERS
-from tmm_gen.control.emitted.emit import EMITTED
-from tmm_gen.control.pictures import comparison_picture
 from tmm_gen.files import write_tree_whole, write_whole
+from tmm_gen.onboard.emit import EMITTED
 from tmm_gen.scene import load_scene
 
 ROOT = Path(__file__).parents[1]

@@ -42,12 +42,12 @@ from mpc_solvers.task import arm
 from tmm_gen.cli.console import Column, plain, progress, table
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.command import Command, Controller
-from tmm_gen.control.emitted.emit import emit_controller
-from tmm_gen.control.emitted.native import EmittedController
 from tmm_gen.control.extended_kalman import NonlinearFilter
 from tmm_gen.control.rti import RealTimeIteration
 from tmm_gen.csv_text import csv_text
 from tmm_gen.files import write_tree_whole, write_whole
+from tmm_gen.onboard.emit import emit_controller
+from tmm_gen.onboard.native import EmittedController
 from tmm_gen.style import PALETTE, figure, picture, style
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -335,7 +335,8 @@ def measured(given: argparse.Namespace) -> dict[str, list[dict[str, object]]]:
 def main() -> None:
     """Measure, print tables, write them as CSV and JSON, and renew the page if told to."""
     given = parsed()
-    ca.GlobalOptions.setNumpyMode(-1)
+    if hasattr(ca.GlobalOptions, "setNumpyMode"):  # from CasADi 3.8 on
+        ca.GlobalOptions.setNumpyMode(-1)
     if given.compile:
         compile_all(sorted({*given.links}), given.links)
         return

@@ -13,8 +13,8 @@ from pathlib import Path
 
 import numpy as np
 
+from tmm_gen.calibration.calibrate import calibrate
 from tmm_gen.cli.console import progress, table
-from tmm_gen.control.calibration import calibrate
 from tmm_gen.errors import UserError
 from tmm_gen.inputs.signals import Table
 from tmm_gen.native.kernel import compile_kernel

@@ -12,7 +12,15 @@ from pathlib import Path
 import pytest
 
 from tmm_gen.cli import main
+from tmm_gen.closed_loop.tuning import TUNABLE
+from tmm_gen.emit.c import emit_kernel
+from tmm_gen.export.fmu.headers import fmi_headers
 from tmm_gen.extras import packages
+from tmm_gen.modal.arm import linear_arm
+from tmm_gen.onboard.emit import EMITTED
+from tmm_gen.program.build import build_unchecked
+from tmm_gen.row.scene import row_of
+from tmm_gen.study.excitation import excitation
 
 ROOT = Path(__file__).resolve().parents[1]
 SCENES = ROOT / "scenes"
@@ -23,12 +31,38 @@ COMMANDS = [
     ("study", "distributed", [*STUDY, "--rounds", "0", "--workers", "2"]),
     ("study", "distributed", [*STUDY, "--rounds", "0", "--scheduler", "tcp://127.0.0.1:9"]),
     ("fmu", "fmpy", ["export", str(SCENES / "thesis2.toml"), "--to", "fmu"]),
-    ("mpc", "daqp", ["mpc", SWING, "--controller", "mpc-modes"]),
-    ("mpc", "cma", ["mpc", SWING, "--tune", "lqr", "--evaluations", "20", "--out", "tuned.toml"]),
+    ("fmu", "fmpy", ["export", SWING, "--to", "fmu", "--fmi", "3"]),
+    ("mpc", "daqp", ["mpc", SWING]),
+    ("mpc", "daqp", ["mpc", SWING, "--compiled", "--plot"]),
+    *(("mpc", "daqp", ["mpc", SWING, "--controller", "pd", "--controller", name]) for name in EMITTED),
+    *(("mpc", "daqp", ["mpc", SWING, "--emit", "c", "--controller", name]) for name in EMITTED),
+    ("mpc", "daqp", ["mpc", SWING, "--emit", "c"]),
+    ("mpc", "daqp", ["mpc", SWING, "--tune", "--workers", "2"]),
+    ("mpc", "daqp", ["mpc", SWING, "--tune", "mpc", "--refine"]),
+    *(("mpc", "cma", ["mpc", SWING, "--tune", item.name, "--out", "tuned.toml"]) for item in TUNABLE),
 ]
 
+MODELS = (build_unchecked, row_of, linear_arm, excitation, fmi_headers, emit_kernel)
+"""What takes time, and all that builds a model goes through."""
 
-@pytest.mark.parametrize(("extra", "module", "words"), COMMANDS, ids=lambda value: str(value)[:40])
+
+@pytest.fixture
+def no_model(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let whatever begins to build a model fail, from wherever it is called."""
+
+    def fails(*_arguments: object, **_options: object) -> None:
+        raise AssertionError("a model is built before the extra is looked for")
+
+    for function in MODELS:
+        monkeypatch.setattr(function, "__code__", fails.__code__)
+
+
+@pytest.mark.usefixtures("no_model")
+@pytest.mark.parametrize(
+    ("extra", "module", "words"),
+    COMMANDS,
+    ids=lambda value: " ".join(value) if isinstance(value, list) else value,
+)
 def test_it_says_what_to_install(
     extra: str,
     module: str,
@@ -48,11 +82,29 @@ def test_it_says_what_to_install(
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.usefixtures("no_model")
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["mpc", SWING, "--controller", "mpc-modes"],
+        ["mpc", SWING, "--tune", "pd", "--evaluations", "20"],
+        ["trade", *STUDY[1:], "--workers", "2"],
+        ["export", SWING, "--to", "fmu"],
+    ],
+)
+def test_where_nothing_is_missing_these_build_models(
+    words: list[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(AssertionError, match="a model is built"):
+        main(words)
+
+
 def test_extras_are_those_of_the_project() -> None:
     listed = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["optional-dependencies"]
     for extra in {extra for extra, _, _ in COMMANDS}:
         assert sorted(packages(extra)) == sorted(listed[extra])
-    assert {extra for extra, _, _ in COMMANDS} == set(listed) - {"test", "dev"}
+    assert {extra for extra, _, _ in COMMANDS} == set(listed) - {"test", "lint", "dev"}
 
 
 def test_without_metadata_names_are_enough(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -14,6 +14,7 @@ from functools import cache
 from typing import Any
 
 import numpy as np
+from extremes_of_arms.limit import OutOfTime, limit
 
 from tmm_gen.derive.integrators.registry import integrator
 from tmm_gen.errors import CheckFailed, UserError
@@ -22,7 +23,6 @@ from tmm_gen.program.build import build_program
 from tmm_gen.reference.planar_reference import planar_response
 from tmm_gen.row.scene import row_of
 from tmm_gen.scene import Scene, SceneError, parse_scene
-from tmm_gen.simulate.planar_divergence import planar_watch
 from tmm_gen.simulate.run import simulate
 from tmm_gen.simulate.simulation import Simulation
 
@@ -33,10 +33,15 @@ _MASS, _LENGTH = 0.5, 1.0
 _HUB = 1e-4
 """Inertia of the hub as a share of the arm's: it starts at rest, and is to follow the spinning arm at once."""
 
+_PATIENCE = 10.0
+"""How many times more time the reference has where energies do not balance."""
+
 _SHARE = 10.0
 """What faster modes add to the error of the first."""
 
-_CHECKPOINTS = 20
+_CHECKPOINTS = 1000
+"""So many that an arm which turns is not always caught where it began."""
+
 _SAG = 0.3
 """Largest static sag by a linear beam's formula, as a share of the length."""
 
@@ -171,7 +176,7 @@ class Verdict:
     Parameters
     ----------
     status : str
-        "right", "refused" or "wrong".
+        "right", "right by energies" (the reference takes too long), "refused", "out of time" or "wrong".
     error : float
         Share of the largest motion, or of the energy that moves; zero where refused.
     bound : float
@@ -181,6 +186,8 @@ class Verdict:
     unsolved, step_error, imbalance : float
         What the sweeps left of the equations, what the step leaves by itself (:mod:`tmm_gen.simulate.tolerance`), and
         of the balance of energies; zero where refused.
+    substeps : int
+        Per step.
     said : str
         The refusal, or what was compared.
     """
@@ -194,6 +201,7 @@ class Verdict:
     unsolved: float = 0.0
     step_error: float = 0.0
     imbalance: float = 0.0
+    substeps: int = 0
     said: str = ""
 
 
@@ -204,7 +212,9 @@ LEAST = 1e-6
 """Share of the motion below which nothing is promised."""
 
 
-def judge(extreme: Extreme, *, refuse: bool = True) -> Verdict:
+def judge(
+    extreme: Extreme, *, refuse: bool = True, substeps: bool = True, seconds: float = math.inf
+) -> Verdict:
     """Simulate an extreme in compiled C, as `run` does, and compare.
 
     Parameters
@@ -213,25 +223,41 @@ def judge(extreme: Extreme, *, refuse: bool = True) -> Verdict:
         What to simulate.
     refuse : bool
         For its error, and for what its sweeps leave unsolved.
+    substeps : bool
+        Divide steps that are too long, as `run` does without --step.
+    seconds : float
+        For the run, and once more for the reference, ten times as much where energies do not balance. Without
+        reference, it is energies that are judged.
     """
     try:
         scene = extreme.scene()
         until = extreme.steps * scene.integrator.step
-        planar_watch(scene, scene.integrator.step)  # before a kernel is made
         kernel = _With(
             _kernel(replace(extreme, **_SAME, revolutions=float(extreme.revolutions > 0.0))), scene
         )
-        run = simulate(scene, {}, until, "c", kernel=kernel, trace=True, refuse=refuse)
+        with limit(seconds):
+            run = simulate(
+                scene, {}, until, "c", kernel=kernel, trace=True, refuse=refuse, substeps=refuse and substeps
+            )
+    except OutOfTime:
+        return Verdict("out of time")
     except (UserError, SceneError, CheckFailed) as refusal:
         return Verdict("refused", said=str(refusal))
     assert run.accuracy is not None
-    if extreme.links > MOST_LINKS:
-        error, said = run.imbalance or 0.0, "energies balance"
-    else:
-        error, said = _off(run), "follows Lagrange's equations"
+    balanced = (run.imbalance or 0.0) <= SAYS * run.accuracy.error + LEAST
+    error = None
+    if extreme.links <= MOST_LINKS:
+        error = _in_time(run, seconds)
+        if error is None and not balanced:  # which proves nothing: modes too fast to matter may ring falsely
+            error = _in_time(run, _PATIENCE * seconds)
+            if error is None:
+                return Verdict("out of time", accuracy=run.accuracy.error, imbalance=run.imbalance or 0.0)
+    right, said = "right", "follows Lagrange's equations"
+    if error is None:
+        right, said, error = "right by energies", "energies balance", run.imbalance or 0.0
     honest = error <= SAYS * run.accuracy.error + LEAST
     return Verdict(
-        "right" if honest else "wrong",
+        right if honest else "wrong",
         error,
         extreme.bound,
         run.accuracy.error,
@@ -240,6 +266,7 @@ def judge(extreme: Extreme, *, refuse: bool = True) -> Verdict:
         run.unsolved or 0.0,
         run.step_error or 0.0,
         run.imbalance or 0.0,
+        run.substeps.count,
         said,
     )
 
@@ -286,6 +313,15 @@ class _With:
 
     def __getattr__(self, name: str) -> Any:
         return getattr(self._kernel, name)
+
+
+def _in_time(run: Simulation, seconds: float) -> float | None:
+    """Return how far the tip is from where it should be; None if the reference takes longer."""
+    try:
+        with limit(seconds):
+            return _off(run)
+    except OutOfTime:
+        return None
 
 
 def _off(run: Simulation) -> float:

@@ -22,11 +22,11 @@ from numpy.typing import NDArray
 
 from tmm_gen.derive.integrators.declaration import Integrator
 from tmm_gen.derive.integrators.registry import integrator
+from tmm_gen.digits.product import DIGITS, require_safe_product
+from tmm_gen.digits.rounding import Rounding
 from tmm_gen.errors import UserError
 from tmm_gen.native import NativeKernel, NonFiniteStateError, compile_kernel
 from tmm_gen.program.build import build_unchecked
-from tmm_gen.program.torsion.rounding import Rounding
-from tmm_gen.program.torsion.safety import DIGITS, require_safe_product
 from tmm_gen.scene import SceneError
 from tmm_gen.stability.growth import Growth
 

@@ -13,10 +13,10 @@ from extremes_of_chains.extreme import ChainExtreme, Real, Unknown
 from numpy.typing import NDArray
 
 from tmm_gen.derive.integrators.registry import integrator
+from tmm_gen.digits.product import DIGITS
+from tmm_gen.digits.rounding import require_digits
 from tmm_gen.errors import UserError
 from tmm_gen.native import NativeKernel
-from tmm_gen.program.torsion.rounding import require_digits
-from tmm_gen.program.torsion.safety import DIGITS
 
 Array = NDArray[np.float64]
 

@@ -12,14 +12,14 @@ from pathlib import Path
 import numpy as np
 
 from faulty_loops.cases import Case
+from tmm_gen.closed_loop.plant import OUTPUTS
 from tmm_gen.control.bench import Bench
-from tmm_gen.control.emitted.emit import emit_controller
-from tmm_gen.control.emitted.folder import library_sources
-from tmm_gen.control.emitted.native import STATUSES
-from tmm_gen.control.emitted.text import macro_prefix
 from tmm_gen.control.kalman import present_sensors
-from tmm_gen.control.plant import OUTPUTS
 from tmm_gen.emit.c import emit_kernel
+from tmm_gen.onboard.emit import emit_controller
+from tmm_gen.onboard.folder import library_sources
+from tmm_gen.onboard.native import STATUSES
+from tmm_gen.onboard.text import macro_prefix
 from tmm_gen.program.build import build_program
 
 FLAGS = ("-std=c99", "-O2", "-ffp-contract=off", "-fPIC", "-shared")

@@ -9,12 +9,12 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.control.emitted.folder import library_sources
-from tmm_gen.control.emitted.tables import table
-from tmm_gen.control.emitted.text import macro_prefix
-from tmm_gen.emit.c.real import REALS
+from tmm_gen.c_language.real import REALS
 from tmm_gen.emit.templates import render
 from tmm_gen.errors import UserError
+from tmm_gen.onboard.folder import library_sources
+from tmm_gen.onboard.tables import table
+from tmm_gen.onboard.text import macro_prefix
 from tmm_gen.scratch import scratch_folder
 from tmm_gen.target.boards import BOARDS, Board
 from tmm_gen.target.build import CROSS, FLAGS, HOST

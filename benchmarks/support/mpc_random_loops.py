@@ -7,13 +7,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from tmm_gen.closed_loop.figures import Figures, loop_figures
+from tmm_gen.closed_loop.loop import Loop, run_loop
+from tmm_gen.closed_loop.plant import Plant
 from tmm_gen.control.bench import Bench
-from tmm_gen.control.closed_loop import Loop, run_loop
 from tmm_gen.control.command import Command, Controller
 from tmm_gen.control.condition import Condition
 from tmm_gen.control.controllers import BY_NAME
-from tmm_gen.control.figures import Figures, loop_figures
-from tmm_gen.control.plant import Plant
 
 Array = NDArray[np.float64]
 

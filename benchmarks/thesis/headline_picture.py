@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 from thesis.headline_response import OTHERS, THESIS_STEP, HeadlineRow, exact_settling_time, lighter_tip
 
-from tmm_gen.derive.errata_response import DURATION, exact_tip
 from tmm_gen.style import FAINT, INK, PALETTE, figure, picture, style, subtitle
+from tmm_gen.thesis.response import DURATION, exact_tip
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

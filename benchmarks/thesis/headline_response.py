@@ -14,8 +14,6 @@ import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
-from tmm_gen.derive.errata import printed_coefficients
-from tmm_gen.derive.errata_response import DURATION, Response, exact_tip, settling_time, simulate
 from tmm_gen.derive.integrators.declaration import STEP, Scheme, stage
 from tmm_gen.derive.integrators.registry import integrator
 from tmm_gen.derive.integrators.relations import DiscreteCoefficients, discrete_coefficients
@@ -23,6 +21,8 @@ from tmm_gen.inputs.signals import Constant
 from tmm_gen.reference.reference import exact_response
 from tmm_gen.resources import scenes_dir
 from tmm_gen.scene import load_scene
+from tmm_gen.thesis.errata import printed_coefficients
+from tmm_gen.thesis.response import DURATION, Response, exact_tip, settling_time, simulate
 
 Array = NDArray[np.float64]
 

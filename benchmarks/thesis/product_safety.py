@@ -45,7 +45,7 @@ def safe_stations(scene: Scene) -> int:
 
     In single precision (``emit.real = "float32"``) three digits are asked for.
     """
-    from tmm_gen.program.torsion.safety import safe_stations as derived
+    from tmm_gen.digits.product import safe_stations as derived
 
     return derived(scene, _integrator(scene))
 
@@ -62,7 +62,7 @@ def product_loss(scene: Scene, inputs: dict[str, float], steps: int) -> ProductL
     steps : int
         How many steps to compare.
     """
-    from tmm_gen.program.torsion.safety import torque_growth
+    from tmm_gen.digits.product import torque_growth
 
     growth = next(islice(torque_growth(scene, _integrator(scene)), scene.stations - 1, None))
     exact, lossy = (_outputs(scene, sweep, inputs, steps) for sweep in ("riccati", "product"))

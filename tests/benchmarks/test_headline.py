@@ -15,9 +15,9 @@ from thesis.headline_response import (
     slipped_coefficients,
 )
 
-from tmm_gen.derive.errata import printed_coefficients
-from tmm_gen.derive.errata_response import simulate
 from tmm_gen.derive.integrators.registry import integrator
+from tmm_gen.thesis.errata import printed_coefficients
+from tmm_gen.thesis.response import simulate
 
 STATIC = 0.1
 

@@ -6,6 +6,7 @@ import os
 import subprocess
 import sys
 from collections.abc import Callable
+from pathlib import Path
 
 import click
 import pytest
@@ -71,7 +72,7 @@ def test_version(tmm_gen: Call) -> None:
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (["biuld"], "did you mean build?"),
+        (["biuld"], "did you mean build? `tmm-gen --help` shows"),
         (["zzz"], "commands are new, "),
         (["--colour"], "No such option"),
     ],
@@ -148,3 +149,20 @@ def test_a_reader_that_goes_away_is_told_in_one_line(body: str) -> None:
 def test_a_target_that_is_no_command_is_a_defect() -> None:
     with pytest.raises(TypeError, match="no click command"):
         LazyCommand("os.path:join", "Join.").load()
+
+
+def test_a_file_and_a_line_add_a_command(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """As docs/architecture.md says."""
+    (tmp_path / "greeting.py").write_text(
+        "import click\n\n@click.command()\n@click.argument('name')\ndef greet(name):\n    click.echo(f'hello {name}')\n"
+    )
+    monkeypatch.syspath_prepend(str(tmp_path))
+    monkeypatch.setitem(cli.tmm_gen._table, "greet", LazyCommand("greeting:greet", "Say hello."))
+    assert cli.main(["greet", "arm"]) == 0
+    assert capsys.readouterr().out == "hello arm\n"
+    assert cli.main(["--help"]) == 0
+    assert "Say hello." in capsys.readouterr().out
+    assert cli.main(["greets"]) == 2
+    assert "did you mean greet?" in capsys.readouterr().err

@@ -288,7 +288,7 @@ def test_long_steps_are_refused_however_often_they_sweep(
 ) -> None:
     scene, target = folder / "falling.toml", folder / "motion.csv"
     scene.write_text(FALLING.format(step="0.1"))
-    given = ["run", str(scene), "--until", "2", "--csv", str(target), "--iterations", sweeps]
+    given = ["run", str(scene), "--until", "2", "--csv", str(target), "--iterations", sweeps, "--step", "0.1"]
     assert main(given) == 1
     said = capsys.readouterr().err
     assert "% of the motion, more than the 5 % that a run may have" in said
@@ -328,3 +328,22 @@ def test_no_warning_of_a_library_reaches_the_terminal(folder: Path) -> None:
     ]
     ended = subprocess.run(words, cwd=folder, capture_output=True, text=True, check=False)
     assert (ended.returncode, ended.stderr) == (0, "")
+
+
+def test_an_arm_that_stands_and_one_that_turns_steadily(capsys: pytest.CaptureFixture[str]) -> None:
+    """Outputs of both are constant."""
+    swing = str(SCENES / "swing.toml")
+    assert main(["run", swing, "--until", "0.1"]) == 0
+    assert "nothing moves, as all inputs are zero: try --input hub_torque=1" in capsys.readouterr().out
+    turning = ["--set", "initial.rates=0.5", "--set", 'output=[{name="turn", at="base", of="rate"}]']
+    assert (
+        main(["run", str(SCENES / "arm2.toml"), "--until", "0.1", "--set", "base.damping=0", *turning]) == 0
+    )
+    assert "nothing moves" not in capsys.readouterr().out
+
+
+def test_an_input_without_a_value(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["run", str(SCENES / "thesis2.toml"), "--input", "tip_torque"]) == 2
+    said = capsys.readouterr().err
+    assert "--input tip_torque: has no value. Write for example --input tip_torque=1.5." in said
+    assert main(["run", str(SCENES / "thesis2.toml"), "--until", "1", "--input", "tip_torque=1.5"]) == 0

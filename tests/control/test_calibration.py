@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from tmm_gen.control.calibration import calibrate
+from tmm_gen.calibration.calibrate import calibrate
+from tmm_gen.cli import main
 from tmm_gen.errors import UserError
 from tmm_gen.inputs.signals import Table
 from tmm_gen.native import compile_kernel
 from tmm_gen.program.build import build_program
+from tmm_gen.resources import scenes_dir
 from tmm_gen.scene import Scene
 from tmm_gen.scene.rewrite import rewritten
 
@@ -77,3 +80,16 @@ def test_what_cannot_be_fitted_is_refused(swing: Scene) -> None:
     still = {name: Table(table.times, 0.0 * table.values) for name, table in record.items()}
     with pytest.raises(UserError, match="does not tell"):
         calibrate(swing, still)
+
+
+def test_a_record_without_what_moved_the_arm(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """What the error says to add lets the same record be fitted."""
+    scene, record = str(scenes_dir() / "thesis2.toml"), str(tmp_path / "record.csv")
+    assert main(["run", scene, "--input", "tip_torque=1", "--until", "20", "--csv", record]) == 0
+    capsys.readouterr()
+    assert main(["calibrate", scene, record]) == 2
+    said = capsys.readouterr().err
+    assert "the record has no column tip_torque" in said
+    added = re.search(r"for example (--input \S+=1)\.$", said.strip())
+    assert added is not None, said
+    assert main(["calibrate", scene, record, *added[1].split()]) == 0

@@ -9,8 +9,8 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from tmm_gen.calibration.calibrate import Calibration, calibrate
 from tmm_gen.cli import main
-from tmm_gen.control.calibration import Calibration, calibrate
 from tmm_gen.errors import UserError
 from tmm_gen.inputs.signals import Table
 from tmm_gen.native.kernel import compile_kernel

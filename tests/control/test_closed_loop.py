@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 from support.mpc_random_loops import draw, run_case
 
+from tmm_gen.closed_loop.compare import compare, worst
+from tmm_gen.closed_loop.motion import motion
+from tmm_gen.closed_loop.pictures import comparison_picture
+from tmm_gen.closed_loop.plant import Plant
 from tmm_gen.control.bench import Bench
-from tmm_gen.control.compare import compare, worst
 from tmm_gen.control.condition import CONDITIONS
 from tmm_gen.control.controllers import BY_NAME
-from tmm_gen.control.motion import motion
-from tmm_gen.control.pictures import comparison_picture
-from tmm_gen.control.plant import Plant
 
 pytestmark = pytest.mark.compiler
 
@@ -58,8 +58,8 @@ def test_known_delay_and_gravity_are_compensated(bench: Bench, name: str, case: 
 def test_an_unknown_delay_is_noticed(bench: Bench) -> None:
     """What the compensation is worth: the same delay, and nobody told."""
     plant = Plant(bench.scene, bench.problem, CASES["delay"])
-    from tmm_gen.control.closed_loop import run_loop
-    from tmm_gen.control.figures import loop_figures
+    from tmm_gen.closed_loop.figures import loop_figures
+    from tmm_gen.closed_loop.loop import run_loop
 
     figures = loop_figures(run_loop(BY_NAME["mpc-modes"].make(bench), plant, 2.0), 1.0)
     assert figures.settling is None or figures.settling > 0.9

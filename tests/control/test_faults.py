@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+from tmm_gen.closed_loop.plant import Plant
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.command import Status
 from tmm_gen.control.condition import CONDITIONS
 from tmm_gen.control.controllers import BY_NAME
-from tmm_gen.control.plant import Plant
 
 pytestmark = pytest.mark.compiler
 

@@ -46,6 +46,7 @@ def test_acados_fields_of_the_continuous_model(swing, gravity: float | None) -> 
 # do-mpc tells of its optional parts when it is imported
 @pytest.mark.filterwarnings("ignore:The .* feature:UserWarning")
 @pytest.mark.filterwarnings("ignore::FutureWarning")  # do-mpc calls NumPy on CasADi values
+@pytest.mark.filterwarnings("ignore::SyntaxWarning")  # where no installer has compiled do-mpc before
 def test_do_mpc_swings_the_arm(small: Bench) -> None:
     """The example of the documentation: do-mpc's controller with the generated step, a few samples long."""
     import do_mpc

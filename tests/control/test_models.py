@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from tmm_gen.closed_loop.plant import Plant
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.condition import CONDITIONS
 from tmm_gen.control.delay import Delay, delay_of
 from tmm_gen.control.modes import modes_model
-from tmm_gen.control.plant import Plant
 from tmm_gen.control.step_model import StepModel
 from tmm_gen.control.stepped_frequency import model_frequency
 from tmm_gen.modal.beam import natural_frequencies

@@ -64,6 +64,8 @@ def test_a_controller_can_have_a_name_of_its_own(tmm_gen: Call, tmp_path: Path, 
     ("words", "message"),
     [
         (["scenes/arm10.toml"], "has no [control]"),
+        (["scenes/thesis2.toml"], "only planar arms are controlled"),
+        (["scenes/fall10.toml"], "only planar arms are controlled"),
         (["scenes/swing.toml", "--controller", "mcp"], "There are pd, pd-zv"),
         (["scenes/swing.toml", "--condition", "payloads"], "Did you mean payload?"),
         (["scenes/swing.toml", "--controller", "pd", "--emit", "x"], "cannot write pd"),

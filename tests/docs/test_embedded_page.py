@@ -9,9 +9,9 @@ from pathlib import Path
 
 import pytest
 
+from tmm_gen.c_language.real import DOUBLE, FLOAT
 from tmm_gen.cli import main
 from tmm_gen.emit.c.circle import ERROR, constants
-from tmm_gen.emit.c.real import DOUBLE, FLOAT
 from tmm_gen.target.lint import SUPPRESSIONS
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -234,13 +234,13 @@ def test_a_build_with_nothing_to_do_imports_nothing_heavy(place: Path) -> None:
 
 @pytest.mark.parametrize("change", ["scene", "sources", "sympy", "cache"])
 def test_the_cache_forgets(place: Path, monkeypatch: pytest.MonkeyPatch, change: str) -> None:
-    from tmm_gen.emit import cache
+    from tmm_gen.package import cache
 
     assert main(["build", "arm"]) == 0
     derived: list[str] = []
-    monkeypatch.setattr("tmm_gen.emit.package.emit_package", lambda scene: derived.append(scene.name) or {})
-    monkeypatch.setattr("tmm_gen.emit.write.write_package", lambda *_, **__: cache_free())
-    monkeypatch.setattr("tmm_gen.emit.cache.remember", lambda *_: None)
+    monkeypatch.setattr("tmm_gen.package.texts.emit_package", lambda scene: derived.append(scene.name) or {})
+    monkeypatch.setattr("tmm_gen.package.write.write_package", lambda *_, **__: cache_free())
+    monkeypatch.setattr("tmm_gen.package.cache.remember", lambda *_: None)
     assert main(["build", "arm"]) == 0
     assert derived == []
     if change == "scene":
@@ -260,7 +260,7 @@ def test_the_cache_forgets(place: Path, monkeypatch: pytest.MonkeyPatch, change:
 
 
 def cache_free() -> object:
-    from tmm_gen.emit.write import Changes
+    from tmm_gen.package.write import Changes
 
     return Changes({}, (), ())
 

@@ -16,8 +16,8 @@ import sympy as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tmm_gen.emit.expressions import ExpressionPrinter, opposite
-from tmm_gen.emit.python.printer import PythonPrinter, element
+from tmm_gen.emit.expressions import ExpressionPrinter, element, opposite
+from tmm_gen.emit.python.printer import PythonPrinter
 from tmm_gen.program.count import count_expression
 from tmm_gen.program.variables import Ref, Role, Variable
 

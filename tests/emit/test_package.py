@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from tmm_gen.emit.package import emit_package
 from tmm_gen.emit.seal import is_intact
+from tmm_gen.package.texts import emit_package
 from tmm_gen.scene import METHODS, Scene, load_scene
 from tmm_gen.version import __version__
 

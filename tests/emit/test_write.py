@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from tmm_gen.emit.seal import PLACEHOLDER, sealed
-from tmm_gen.emit.write import compare_package, write_package, written_files
 from tmm_gen.errors import UserError
+from tmm_gen.package.write import compare_package, write_package, written_files
 
 
 def file(body: str) -> str:

@@ -6,9 +6,10 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+from support.kernel_rest import kernel_accelerations, kernel_unbalanced
 
 from tmm_gen.modal.arm import linear_arm
-from tmm_gen.modal.equilibrium import equilibrium, kernel_accelerations, kernel_unbalanced
+from tmm_gen.modal.equilibrium import equilibrium
 from tmm_gen.modal.matrices import matrices
 from tmm_gen.modal.rest import rest_at
 from tmm_gen.reference.assembly import assemble

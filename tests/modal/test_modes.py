@@ -11,7 +11,7 @@ from thesis.spring_rule_errors import convergence
 
 from tmm_gen.modal.arm import linear_arm
 from tmm_gen.modal.beam import beam_arm, damped_pole, natural_frequencies
-from tmm_gen.modal.discretised import links_needed, straight_arm, straight_frequencies
+from tmm_gen.modal.discretised import links_needed, straight_frequencies, with_links
 from tmm_gen.modal.matrices import Matrices, matrices
 from tmm_gen.modal.modes import find_modes
 from tmm_gen.modal.sweep import sweep
@@ -98,7 +98,7 @@ def test_an_arm_of_many_links_is_the_continuous_beam(
     exact = natural_frequencies(beam_arm(scene), 5)
     coarse, fine = (straight_frequencies(scene, n)[:5] for n in (100, 200))
     np.testing.assert_allclose((4 * fine - coarse) / 3, exact, rtol=2e-6, atol=1e-9)
-    modes = find_modes(matrices(straight_arm(scene, 100)), 4)
+    modes = find_modes(matrices(linear_arm(with_links(scene, 100))), 4)
     for mode, omega in zip(modes, exact, strict=False):
         if omega > 0.0:
             pole = damped_pole(beam_arm(scene), omega)

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from extremes_of_arms.arms import SAYS, Extreme, judge
+from extremes_of_arms.arms import MOST_LINKS, SAYS, Extreme, judge
 
 pytestmark = pytest.mark.compiler
 
@@ -35,16 +35,21 @@ REFUSED = [
 ]
 
 
+def right(extreme: Extreme) -> str:
+    """Return what a right motion is called: beyond the reach of the reference it is energies that tell."""
+    return "right" if extreme.links <= MOST_LINKS else "right by energies"
+
+
 @pytest.mark.parametrize("extreme", RIGHT, ids=str)
 def test_the_motion_is_right(extreme: Extreme) -> None:
     verdict = judge(extreme)
-    assert verdict.status == "right", verdict
+    assert verdict.status == right(extreme), verdict
     assert verdict.error <= verdict.bound
 
 
 @pytest.mark.parametrize("extreme", REFUSED, ids=str)
 def test_what_a_step_cannot_follow_is_refused(extreme: Extreme) -> None:
-    verdict = judge(extreme)
+    verdict = judge(extreme, substeps=False)
     assert verdict.status == "refused", verdict
     assert "Use a step below" in verdict.said or "must be at most" in verdict.said
 
@@ -61,17 +66,17 @@ NEEDS_MORE = [
 ]
 
 
-def test_a_blow_that_rings_too_fast_for_any_repetition_counts_towards_the_error() -> None:
-    """Steps of twice the length leave the same wrong speed: their difference says a twentieth of the error."""
+def test_a_blow_at_the_start_is_followed_as_well_as_it_says() -> None:
+    """The arm turns a hundred times a second, the hub rests."""
     extreme = Extreme(stiffness=0.1, slenderness=1e-3, step=1e-5, revolutions=100.0)
     verdict = judge(extreme)
     assert verdict.status == "right", verdict
-    assert 1e-5 < verdict.error <= SAYS * verdict.accuracy < 1e-2
+    assert 1e-6 < verdict.error <= SAYS * verdict.accuracy < 1e-2
 
 
 def test_a_tenth_of_the_period_is_too_long_however_well_it_is_solved() -> None:
     for sweeps in (None, 2, 3):
-        verdict = judge(Extreme(step=0.1, iterations=sweeps))
+        verdict = judge(Extreme(step=0.1, iterations=sweeps), substeps=False)
         assert verdict.status == "refused"
         assert "of the motion, more than the 5 % that a run may have" in verdict.said
 
@@ -83,7 +88,7 @@ def test_where_one_sweep_leaves_too_much_a_run_sweeps_again(extreme: Extreme) ->
     assert verdict.status == "refused", verdict
     assert "--iterations auto" in verdict.said
     verdict = judge(extreme)
-    assert verdict.status == "right", verdict
+    assert verdict.status == right(extreme), verdict
     assert verdict.unsolved < 1e-5
     assert verdict.sweeps > 1.0
 
@@ -102,4 +107,4 @@ def test_arms_drawn_at_random_are_as_right_as_they_say_or_refused(times: float) 
         verdict = judge(drawn)
         assert verdict.status != "wrong", verdict
         if times == 100.0:
-            assert verdict.status == "refused", verdict
+            assert judge(drawn, substeps=False).status == "refused"

@@ -13,8 +13,11 @@ from scipy.integrate import solve_ivp
 
 from tmm_gen.derive.elements.declaration import Element, torsion_port
 from tmm_gen.derive.integrators.registry import integrator
+from tmm_gen.errors import UserError
 from tmm_gen.native import compile_kernel
 from tmm_gen.program.arm.assemble import Choices, build
+from tmm_gen.program.arm.product import ProductWalks
+from tmm_gen.program.arm.walks import Walks
 from tmm_gen.program.passes.dependence import read_before_written
 from tmm_gen.program.statements import Program
 from tmm_gen.row.row import Parameter
@@ -74,7 +77,7 @@ def scene_of(base: str, name: str) -> Scene:
     return parse_scene(SCENE.format(base=BASES[base], integrator=name, stations=stations))
 
 
-def geared(scene: Scene) -> Program:
+def geared(scene: Scene, walks: type[Walks] = Walks) -> Program:
     """Put the gear pair in the place of the second spring."""
     chosen = integrator(scene.integrator.name)
     row = row_of(scene, chosen)
@@ -83,7 +86,7 @@ def geared(scene: Scene) -> Program:
     stations = (row.stations[0], station, row.stations[2])
     parameters = tuple(Parameter(name, name.replace("_", " "), "1", (v,)) for name, v in VALUES.items())
     row = replace(row, stations=stations, detail=stations, parameters=(*row.parameters, *parameters))
-    return build(row, chosen, Choices(scene.integrator.step))
+    return build(row, chosen, Choices(scene.integrator.step, walks=walks))
 
 
 def exact(base: str) -> np.ndarray:
@@ -128,6 +131,26 @@ def test_it_runs_right_in_c_and_numpy(base: str, name: str, run_numpy: Callable[
     assert np.abs(np.array(native.state["angle"]) - right).max() < bound
     state = run_numpy(program, scene, {"push": TORQUE}, round(UNTIL / 1e-3))
     assert np.abs(np.array(state.angle) - right).max() < bound
+
+
+def test_a_plain_product_over_it_is_refused_with_a_remedy() -> None:
+    scene = scene_of("clamp", "newmark")
+    with pytest.raises(UserError, match=r"gear_pair.* Set model\.sweep = \"riccati\"\."):
+        geared(scene, ProductWalks)
+    geared(scene)  # the remedy
+
+
+def test_a_gear_without_compliance_is_refused_with_a_remedy() -> None:
+    rigid = replace(
+        GEAR_PAIR, equations=(_outer.q - RATIO * _inner.q, _IN.forces[0] - RATIO * _OUT.forces[0])
+    )
+    scene = scene_of("clamp", "newmark")
+    chosen = integrator(scene.integrator.name)
+    row = row_of(scene, chosen)
+    station = (*row.stations[1], rigid.with_values({RATIO: sp.Integer(2)}))
+    stations = (row.stations[0], station, row.stations[2])
+    with pytest.raises(UserError, match="Let it give way there"):
+        build(replace(row, stations=stations, detail=stations), chosen, Choices(scene.integrator.step))
 
 
 def test_its_factors_belong_to_prepare() -> None:

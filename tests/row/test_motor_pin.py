@@ -14,8 +14,11 @@ from scipy.integrate import solve_ivp
 from tmm_gen.derive.elements.declaration import Element
 from tmm_gen.derive.elements.planar import DAMPING, STIFFNESS, planar_port
 from tmm_gen.derive.integrators.registry import integrator
+from tmm_gen.errors import UserError
 from tmm_gen.native import compile_kernel
 from tmm_gen.program.arm.assemble import Choices, build
+from tmm_gen.program.arm.walks import Walks
+from tmm_gen.program.sensitivities.walks import TangentableWalks
 from tmm_gen.program.statements import Program
 from tmm_gen.row.row import Load, Parameter, Signal
 from tmm_gen.row.scene import row_of
@@ -81,7 +84,7 @@ def scene_of(name: str) -> Scene:
     return parse_scene(SCENE.format(gravity=GRAVITY, integrator=name, stations=stations, tip=TIP))
 
 
-def driven(scene: Scene) -> Program:
+def driven(scene: Scene, *, sensitivities: bool = False) -> Program:
     """Put the motor in the place of the second pin."""
     chosen = integrator(scene.integrator.name)
     row = row_of(scene, chosen)
@@ -106,7 +109,8 @@ def driven(scene: Scene) -> Program:
         inputs=(Signal("drive", "torque of the motor", "N m"),),
         loads=(Load(torque, "torque of the motor", "N m", ((None, "drive"),)),),
     )
-    return build(row, chosen, Choices(scene.integrator.step))
+    walks = TangentableWalks if sensitivities else Walks
+    return build(row, chosen, Choices(scene.integrator.step, walks=walks, sensitivities=sensitivities))
 
 
 def exact() -> np.ndarray:
@@ -147,3 +151,10 @@ def test_it_runs_right_in_c_and_numpy(name: str, bound: float, run_numpy: Callab
     assert np.abs(np.array(native.state["angle"]) - right).max() < bound
     state = run_numpy(program, scene, {"drive": TORQUE}, steps)
     assert np.abs(np.array(state.angle) - right).max() < bound
+
+
+def test_derivatives_of_a_step_with_it_are_refused_with_a_remedy() -> None:
+    scene = scene_of("newmark")
+    with pytest.raises(UserError, match=r"motor_pin.* Set emit\.sensitivities = false\."):
+        driven(scene, sensitivities=True)
+    driven(scene)  # the remedy

@@ -10,8 +10,8 @@ import pytest
 from thesis.product_safety import product_loss, safe_stations
 
 from tmm_gen.derive.integrators.registry import integrator
+from tmm_gen.digits.product import require_safe_product, torque_growth
 from tmm_gen.errors import UserError
-from tmm_gen.program.torsion.safety import require_safe_product, torque_growth
 from tmm_gen.scene import Scene
 
 LOAD = {"tip_torque": 1.0}

@@ -6,9 +6,9 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+from support.eigenvalues import spectral_radius
 
 from tmm_gen.derive.integrators.registry import integrator, names
-from tmm_gen.derive.integrators.stability import spectral_radius
 from tmm_gen.scene import Scene
 from tmm_gen.stability.coupled import CoupledStep
 from tmm_gen.stability.growth import Growth

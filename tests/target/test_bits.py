@@ -6,7 +6,7 @@ import struct
 
 import pytest
 
-from tmm_gen.emit.c.real import DOUBLE, FLOAT
+from tmm_gen.c_language.real import DOUBLE, FLOAT
 from tmm_gen.target.bits import compare_bits, numbers
 from tmm_gen.target.run import Run
 

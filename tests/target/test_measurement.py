@@ -44,6 +44,13 @@ def test_the_thesis_chain_is_small_and_fast(measured: Measured) -> None:
     assert found.step_bytes < found.code_bytes <= 1064  # 184 of them refuse NULL and what is not finite
 
 
+def test_the_arm_is_small_and_fast(measured: Measured) -> None:
+    found = measured("cortex-m4f", "arm10", real="float32")
+    assert found.bits_equal
+    assert found.instructions_per_step <= 2350
+    assert found.code_bytes <= 3128
+
+
 def test_a_fixed_arm_costs_no_memory_for_its_model(measured: Measured) -> None:
     free = measured("cortex-m4f", "arm10", real="float32")
     bound = measured("cortex-m4f", "arm10", real="float32", parameters="bound")

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: d9d28dc691ae4f0a1d62cb9cfa9f4612d111fa76a756dd286c77eac7f930ab35
- * sha256 of the rest of this file: 043845da71374296134c0bc9fb9b9092019c1334ce31ca36ed10983f791ae77c
+ * sha256 of the rest of this file: 913f91ea8b3bdb2f3960575676ac3d7c40f9717c66137beeb41c8295f6117504
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 10
@@ -300,17 +300,20 @@ arm10_status arm10_initialise(
         }
         const real admittance = 1.0 / impedance_uu;
         answer_own[j] = admittance * (joint_torque - torque);
-        if (!(answer_own[j] > -536870912.0) || !(answer_own[j] < 536870912.0)) {
+        if (!(fabs(answer_own[j]) < 536870912.0)) {
             return ARM10_OUT_OF_RANGE;
         }
+        /*@ admit -536870912.0 < answer_own[j] < 536870912.0; */
         answer_x[j] = admittance * impedance_ux;
-        if (!(answer_x[j] > -1024.0) || !(answer_x[j] < 1024.0)) {
+        if (!(fabs(answer_x[j]) < 1024.0)) {
             return ARM10_OUT_OF_RANGE;
         }
+        /*@ admit -1024.0 < answer_x[j] < 1024.0; */
         answer_y[j] = admittance * impedance_uy;
-        if (!(answer_y[j] > -2048.0) || !(answer_y[j] < 2048.0)) {
+        if (!(fabs(answer_y[j]) < 2048.0)) {
             return ARM10_OUT_OF_RANGE;
         }
+        /*@ admit -2048.0 < answer_y[j] < 2048.0; */
         impedance_xx = impedance_xx - answer_x[j] * impedance_xu;
         impedance_xy = impedance_xy - answer_y[j] * impedance_xu;
         force_x = force_x + answer_own[j] * impedance_xu;
@@ -451,17 +454,20 @@ arm10_status arm10_step(
         }
         const real admittance = 1.0 / pivot;
         answer_own[j] = admittance * (joint_torque - torque);
-        if (!(answer_own[j] > -134217728.0) || !(answer_own[j] < 134217728.0)) {
+        if (!(fabs(answer_own[j]) < 134217728.0)) {
             return ARM10_OUT_OF_RANGE;
         }
+        /*@ admit -134217728.0 < answer_own[j] < 134217728.0; */
         answer_x[j] = admittance * impedance_ux;
-        if (!(answer_x[j] > -1024.0) || !(answer_x[j] < 1024.0)) {
+        if (!(fabs(answer_x[j]) < 1024.0)) {
             return ARM10_OUT_OF_RANGE;
         }
+        /*@ admit -1024.0 < answer_x[j] < 1024.0; */
         answer_y[j] = admittance * impedance_uy;
-        if (!(answer_y[j] > -1024.0) || !(answer_y[j] < 1024.0)) {
+        if (!(fabs(answer_y[j]) < 1024.0)) {
             return ARM10_OUT_OF_RANGE;
         }
+        /*@ admit -1024.0 < answer_y[j] < 1024.0; */
         transmission[j] = admittance * model->joint_impedance[j];
         impedance_xx = impedance_xx - answer_x[j] * impedance_xu;
         impedance_xy = impedance_xy - answer_y[j] * impedance_xu;

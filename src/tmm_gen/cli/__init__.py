@@ -157,7 +157,8 @@ def _usage(error: click.ClickException) -> str:
     context = getattr(error, "ctx", None)
     if context is None:
         return said
-    return f"{said.rstrip('.')}. `{context.command_path} --help` shows what there is."
+    ended = said if said.endswith("?") else f"{said.rstrip('.')}."
+    return f"{ended} `{context.command_path} --help` shows what there is."
 
 
 class _ToldToEnd(BaseException):

@@ -16,7 +16,7 @@ from tmm_gen.cli.console import Column, progress, table
 from tmm_gen.errors import CheckFailed, UserError
 
 if TYPE_CHECKING:
-    from tmm_gen.emit.write import Changes
+    from tmm_gen.package.write import Changes
     from tmm_gen.scene import Scene
 
 # Scenes are read, and what emits them is imported, inside: a build with nothing to do needs no SymPy.
@@ -152,13 +152,13 @@ def _load(paths: Sequence[Path]) -> list[Scene]:
 
 
 def _build(scene: Scene, out: Path, force: bool) -> tuple[_Row, list[str]]:
-    from tmm_gen.emit.cache import is_up_to_date, remember
+    from tmm_gen.package.cache import is_up_to_date, remember
 
     folder = out / scene.name
     if is_up_to_date(scene.digest, folder):
         return _row(scene, folder, _UP_TO_DATE, _nothing(folder)), []
-    from tmm_gen.emit.package import emit_package
-    from tmm_gen.emit.write import write_package
+    from tmm_gen.package.texts import emit_package
+    from tmm_gen.package.write import write_package
 
     files = emit_package(scene)
     changes = write_package(files, folder, force=force)
@@ -168,8 +168,8 @@ def _build(scene: Scene, out: Path, force: bool) -> tuple[_Row, list[str]]:
 
 def _compare(scene: Scene, out: Path) -> tuple[_Row, list[str]]:
     """Generate anew, whatever is remembered, and compare."""
-    from tmm_gen.emit.package import emit_package
-    from tmm_gen.emit.write import compare_package
+    from tmm_gen.package.texts import emit_package
+    from tmm_gen.package.write import compare_package
 
     folder = out / scene.name
     changes = compare_package(emit_package(scene), folder)
@@ -181,7 +181,7 @@ def _compare(scene: Scene, out: Path) -> tuple[_Row, list[str]]:
 
 def _difference(path: Path, wanted: str) -> list[str]:
     """Return what a build would change in a file."""
-    from tmm_gen.emit.write import text_of
+    from tmm_gen.package.write import text_of
 
     held = text_of(path) if path.is_file() else ""
     name = path.as_posix()
@@ -190,7 +190,7 @@ def _difference(path: Path, wanted: str) -> list[str]:
 
 
 def _nothing(folder: Path) -> Changes:
-    from tmm_gen.emit.write import Changes, written_files
+    from tmm_gen.package.write import Changes, written_files
 
     return Changes({}, (), tuple(written_files(folder)))
 
@@ -205,7 +205,7 @@ def _row(scene: Scene, folder: Path, state: str, changes: Changes) -> _Row:
 
 def _without_motion(scene: Scene, folder: Path) -> bool:
     """Whether the C's test has nothing to compare a motion with."""
-    from tmm_gen.emit.write import text_of, without_motion
+    from tmm_gen.package.write import text_of, without_motion
 
     test = folder / "c" / f"test_{scene.name}.c"
     return test.is_file() and without_motion(text_of(test))

@@ -15,7 +15,7 @@ from tmm_gen.errors import UserError
 from tmm_gen.reading import open_table, read_file
 
 if TYPE_CHECKING:
-    from tmm_gen.control.calibration import Calibration
+    from tmm_gen.calibration.calibrate import Calibration
     from tmm_gen.scene import Scene
 
 # NumPy and SciPy are imported inside: `tmm-gen --help` has no use for them.
@@ -102,7 +102,7 @@ def calibrate(
             "[[link]] in turn."
         )
     with progress(f"fitting {loaded.name}"):
-        from tmm_gen.control.calibration import calibrate as fit
+        from tmm_gen.calibration.calibrate import calibrate as fit
         from tmm_gen.inputs.clock import UNITS, from_start
         from tmm_gen.inputs.given import input_names, read_inputs, read_tables
 
@@ -134,7 +134,7 @@ def _columns(scene: Scene, record: Path) -> tuple[str, ...]:
     UserError
         If the file cannot be read, or has none.
     """
-    from tmm_gen.simulate.columns import output_columns
+    from tmm_gen.scene.columns import output_columns
 
     try:
         with open_table(record) as file:

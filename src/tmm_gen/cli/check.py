@@ -3,13 +3,20 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
+from tmm_gen.cli.changes import changed_scene, set_option
 from tmm_gen.cli.check_lint import check_lint
 from tmm_gen.cli.check_proof import check_proof
 from tmm_gen.cli.check_target import TARGETS, check_target
 from tmm_gen.cli.console import Column, progress, table
+from tmm_gen.cli.given import positive
+
+if TYPE_CHECKING:
+    from tmm_gen.inputs.signals import Signal
+    from tmm_gen.scene import Scene
 
 # NumPy, SymPy and CasADi are imported inside: `tmm-gen --help` has no use for them.
 
@@ -41,6 +48,15 @@ _COMPENSATED = {"emit.real": "float32", "emit.compensated": True, "emit.trigonom
     is_flag=True,
     help="float32 with each number as the sum of two, and own sines: [emit] compensated.",
 )
+@click.option("--step", type=float, callback=positive, help="Time step, s; by default the scene's.")
+@click.option(
+    "--input",
+    "given",
+    metavar="NAME=VALUE|NAME=PROFILE|FILE.csv",
+    multiple=True,
+    help="A force or torque of the run that is compared, as for `tmm-gen run`; by default each is 1. Repeatable.",
+)
+@set_option
 @click.option("--json", "json_mode", is_flag=True, help="One JSON object instead of a table.")
 def check(
     scene: Path,
@@ -49,6 +65,9 @@ def check(
     lint_mode: bool,
     real: str | None,
     compensated: bool,
+    step: float | None,
+    given: tuple[str, ...],
+    changes: tuple[str, ...],
     json_mode: bool,
 ) -> int:
     """Compile SCENE's C and compare every backend with the others and with the exact response.
@@ -65,9 +84,7 @@ def check(
     With --lint gcc and clang compile the C with all warnings, gcc's analyser and cppcheck with its MISRA
     addon look at it, and its own test is run under sanitizers.
     """
-    from tmm_gen.scene import load_scene
-
-    loaded = load_scene(scene)
+    loaded = changed_scene(scene, changes, step)
     if compensated and real == "float64":
         raise click.UsageError("--compensated is a way of computing in float32: leave --real out")
     if real is not None:
@@ -76,6 +93,11 @@ def check(
         loaded = loaded.replace(**_COMPENSATED)
     if (target is not None) + prove_mode + lint_mode > 1:
         raise click.UsageError("--target, --prove and --lint are checks of their own: name one")
+    loads = _loads(loaded, given)
+    if given and (target is not None or prove_mode or lint_mode):
+        raise click.UsageError(
+            "--input is for the comparison of runs: leave it, or --target, --prove and --lint, out"
+        )
     if lint_mode:
         return check_lint(loaded, json_mode)
     if prove_mode:
@@ -85,7 +107,7 @@ def check(
     with progress(f"checking {loaded.name}", total=1.0) as advance:
         from tmm_gen.verify.check import check_scene
 
-        report = check_scene(loaded, advance)
+        report = check_scene(loaded, advance, loads)
     rows = [
         {
             "check": row.check,
@@ -96,7 +118,12 @@ def check(
         }
         for row in report.rows
     ]
-    facts = {"scene": loaded.name, "passed": report.passed, **report.facts}
+    facts = {
+        "scene": loaded.name,
+        "passed": report.passed,
+        "why": report.why or None,
+        **report.facts,
+    }
     table(rows, _COLUMNS, json_mode, title=f"{loaded.title} ({loaded.integrator.name})", more=facts)
     if not json_mode:
         if "ns_per_step" in report.facts:
@@ -105,5 +132,22 @@ def check(
                 f"(± {100 * float(str(report.facts['ns_spread'])):.0f} %), "
                 f"{report.facts['operations_per_step']} floating-point operations"
             )
+        if report.why:
+            click.echo(report.why)
         click.echo("everything holds" if report.passed else "NOT everything holds: see the rows marked 'no'")
     return 0 if report.passed else 1
+
+
+def _loads(scene: Scene, given: tuple[str, ...]) -> dict[str, Signal]:
+    """Return the forces and torques that are given.
+
+    Raises
+    ------
+    UserError
+        If a name is unknown, or that of an angle: a prescribed base is moved by the check itself.
+    """
+    if not given:
+        return {}
+    from tmm_gen.inputs.given import read_inputs
+
+    return read_inputs(given, tuple(item.name for item in scene.inputs if item.acts != "angle"))

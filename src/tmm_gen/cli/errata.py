@@ -11,7 +11,7 @@ from tmm_gen.cli.console import progress, table
 if TYPE_CHECKING:
     import sympy as sp
 
-    from tmm_gen.derive.errata import ErratumRow
+    from tmm_gen.thesis.errata import ErratumRow
 
 # SymPy and SciPy are imported inside: `tmm-gen --help` has no use for them.
 
@@ -25,8 +25,8 @@ def errata(json_mode: bool) -> None:
     what that entry alone, as printed, does to the thesis's two-station sample (at a step of 0.1 s).
     """
     with progress("deriving"):
-        from tmm_gen.derive.errata import STEP_OF_EFFECTS, errata_rows, headline
-        from tmm_gen.derive.errata_frequency import frequency_errata_rows
+        from tmm_gen.thesis.errata import STEP_OF_EFFECTS, errata_rows, headline
+        from tmm_gen.thesis.errata_frequency import frequency_errata_rows
 
         rows = [_row(row) for row in (*frequency_errata_rows(), *errata_rows())]
         whole = headline(STEP_OF_EFFECTS)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from tmm_gen.cli.console import Column, progress, table
-from tmm_gen.cli.given import PICTURE, constant_inputs, picture_option, positive
+from tmm_gen.cli.given import constant_inputs, picture_file, plot_option, positive
 from tmm_gen.cli.links import show_links
 from tmm_gen.cli.outputs import OutputFile, claim, write_outputs
 from tmm_gen.errors import UserError
@@ -26,8 +26,6 @@ if TYPE_CHECKING:
 
 _SHOWN = 8
 """Modes that fit into the band where none is asked for."""
-
-_IN = {"torque": "N m", "drive": "N m", "force_x": "N", "force_y": "N", "angle": "rad"}
 
 
 @click.command("frequency")
@@ -51,15 +49,7 @@ _IN = {"torque": "N m", "drive": "N m", "force_x": "N", "force_y": "N", "angle":
     help="A constant input that a planar arm rests under. Repeatable; the rest is zero.",
 )
 @click.option("--csv", "csv_file", type=OutputFile(), help="Write the response.")
-@click.option(
-    "--plot",
-    "picture",
-    metavar="[FILE.png]",
-    is_flag=False,
-    flag_value=PICTURE,
-    callback=picture_option,
-    help="Draw magnitude and phase; by default into NAME-frequency.png.",
-)
+@plot_option("magnitude and phase", "-frequency")
 @click.option(
     "--links-for",
     "error",
@@ -91,7 +81,6 @@ def frequency(
     With --links-for ERROR --band HZ: how few links does this scene require?
     """
     from tmm_gen.scene import load_scene
-    from tmm_gen.scene.quantity import quantities
 
     if (error is None) != (band is None):
         raise click.UsageError("--links-for ERROR and --band HZ belong together.")
@@ -105,7 +94,7 @@ def frequency(
     inputs = constant_inputs(loaded, given)
     chosen = _chosen(scene, loaded.inputs, source, "--from", "[[input]]")
     # energies go with the square of the motion
-    readable = tuple(item for item in loaded.outputs if not quantities(loaded.model.kind)[item.of].of_arm)
+    readable = tuple(item for item in loaded.outputs if not loaded.quantity(item).of_arm)
     read = _chosen(scene, readable, target, "--to", "[[output]] of a place")
     with progress(f"frequency response of {loaded.name}"):
         answer = _respond(loaded, inputs, chosen, read, (low, high), points)
@@ -142,10 +131,10 @@ class _Answer:
     @property
     def unit(self) -> str:
         """Of the magnitude."""
-        from tmm_gen.scene.quantity import quantities
+        from tmm_gen.scene.quantity import INPUT_UNITS
 
-        numerator = quantities(self.arm.kind)[self.read.of].unit.replace("^2", "²")
-        denominator = _IN[self.given.acts]
+        numerator = self.arm.scene.quantity(self.read).unit.replace("^2", "²")
+        denominator = INPUT_UNITS[self.given.acts]
         return f"{numerator} per {denominator}"
 
 
@@ -219,7 +208,7 @@ def _write(scene: Path, answer: _Answer, csv_file: Path | None, picture: Path | 
     if picture is not None:
         from tmm_gen.modal.picture import bode_picture
 
-        target = Path(f"{answer.arm.scene.name}-frequency.png") if picture == Path(PICTURE) else picture
+        target = picture_file(picture, answer.arm.scene.name, "-frequency")
         name = _shown(answer)
         texts = (answer.arm.scene.title, f"{name} for a unit of {answer.given.name}")
         drawn = (answer.hertz, answer.parts[name], answer.beam)

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
@@ -15,14 +15,41 @@ from tmm_gen.errors import UserError
 if TYPE_CHECKING:
     from tmm_gen.scene import Scene
 
+_Command = TypeVar("_Command", bound=Callable[..., Any])
+
 PICTURE = "picture"
 """What ``--plot`` without a file stands for."""
 
 _PICTURES = (".png", ".svg", ".pdf")
 
 
-def picture_option(context: click.Context, parameter: click.Parameter, value: str | None) -> Path | None:
-    """Check the name of a picture."""
+def plot_option(what: str, ending: str = "") -> Callable[[_Command], _Command]:
+    """Return the option ``--plot``; gives a command the argument ``picture``.
+
+    Parameters
+    ----------
+    what : str
+        What is drawn, to be read after "Draw".
+    ending : str
+        Of the file that is written by default, between the scene's name and ``.png``.
+    """
+    return click.option(
+        "--plot",
+        "picture",
+        metavar="[FILE.png]",
+        is_flag=False,
+        flag_value=PICTURE,
+        callback=_picture,
+        help=f"Draw {what}; by default into NAME{ending}.png.",
+    )
+
+
+def picture_file(picture: Path, name: str, ending: str = "") -> Path:
+    """Return where a picture goes: the file that was named, or one by the scene's name."""
+    return Path(f"{name}{ending}.png") if picture == Path(PICTURE) else picture
+
+
+def _picture(context: click.Context, parameter: click.Parameter, value: str | None) -> Path | None:
     if value in (None, PICTURE):
         return None if value is None else Path(value)
     return OutputFile(*_PICTURES).convert(value, parameter, context)
@@ -54,7 +81,7 @@ def constant_inputs(scene: Scene, given: Sequence[str]) -> dict[str, float]:
     found: dict[str, float] = {}
     for text in given:
         name, equals, value = text.partition("=")
-        if scene.model.kind == "chain":
+        if scene.model.linear:
             raise UserError(
                 f"--input {text}: a chain is linear, its modes do not depend on loads. Leave it out."
             )

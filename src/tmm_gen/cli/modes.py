@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from tmm_gen.cli.console import Column, progress, table
-from tmm_gen.cli.given import PICTURE, constant_inputs, picture_option
+from tmm_gen.cli.given import constant_inputs, picture_file, plot_option
 from tmm_gen.cli.outputs import claim, write_outputs
 
 if TYPE_CHECKING:
@@ -33,15 +33,7 @@ _UNSURE = 1e-6
     multiple=True,
     help="A constant input that a planar arm rests under. Repeatable; the rest is zero.",
 )
-@click.option(
-    "--plot",
-    "picture",
-    metavar="[FILE.png]",
-    is_flag=False,
-    flag_value=PICTURE,
-    callback=picture_option,
-    help="Draw the mode shapes; by default into NAME-modes.png.",
-)
+@plot_option("the mode shapes", "-modes")
 @click.option("--json", "json_mode", is_flag=True, help="One JSON object instead of a table.")
 def modes(scene: Path, count: int, given: tuple[str, ...], picture: Path | None, json_mode: bool) -> None:
     """Show natural frequencies, damping ratios and mode shapes of SCENE.
@@ -118,7 +110,7 @@ def _draw(picture: Path | None, arm: LinearArm, found: tuple[Mode, ...], beside:
         return []
     from tmm_gen.modal.picture import mode_picture
 
-    target = Path(f"{arm.scene.name}-modes.png") if picture == Path(PICTURE) else picture
+    target = picture_file(picture, arm.scene.name, "-modes")
     exact = None if beside.beam is None else (beside.beam, beside.exact)
     return write_outputs({target: mode_picture(arm, found, exact, target.suffix[1:].lower())})
 

@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING
 import click
 
 from tmm_gen.cli.console import progress
-from tmm_gen.cli.given import PICTURE, picture_option, positive
+from tmm_gen.cli.given import plot_option, positive
 from tmm_gen.cli.mpc_tune import EVERYTHING, chosen, tuned
 from tmm_gen.cli.outputs import OutputFile, claim, force_option, require_new
 from tmm_gen.cli.study_options import one_thread
 
 if TYPE_CHECKING:
+    from tmm_gen.closed_loop.compare import Trial
     from tmm_gen.control.bench import Bench
-    from tmm_gen.control.compare import Trial
     from tmm_gen.control.condition import Condition
     from tmm_gen.control.controllers import ControllerKind
     from tmm_gen.scene import Scene
@@ -53,15 +53,7 @@ _EMITTED = "mpc-modes"
     help="Of the sensors' noise, or of the search by --tune.",
 )
 @click.option("--compiled", is_flag=True, help="Run the controllers that exist as C as compiled C.")
-@click.option(
-    "--plot",
-    "picture",
-    metavar="[FILE.png]",
-    is_flag=False,
-    flag_value=PICTURE,
-    callback=picture_option,
-    help="Draw tip angles and torques; by default into NAME-mpc.png.",
-)
+@plot_option("tip angles and torques", "-mpc")
 @click.option(
     "--animate",
     "animated",
@@ -156,7 +148,7 @@ def mpc(
     claim((picture, animated), (scene,))
     require_new(out, force)
     from tmm_gen.control.condition import CONDITIONS
-    from tmm_gen.control.controllers import CONTROLLERS
+    from tmm_gen.control.controllers import BY_NAME, CONTROLLERS, require_solvers
 
     kinds = chosen("--controller", controllers, {kind.name: kind for kind in CONTROLLERS})
     cases = chosen("--condition", conditions, {case.name: case for case in CONDITIONS}) or [*CONDITIONS]
@@ -170,10 +162,12 @@ def mpc(
         tuned(scene, bench, tunables, evaluations, seed, workers, refine, out, force, json_mode)
         return
     if folder is not None:
-        names = [kind.name for kind in kinds] or [_EMITTED]
-        emit(bench, names, folder, real, name, force, json_mode)
+        kinds = kinds or [BY_NAME[_EMITTED]]
+        require_solvers(kinds)
+        emit(bench, [kind.name for kind in kinds], folder, real, name, force, json_mode)
         return
     kinds = kinds or [kind for kind in CONTROLLERS if kind.default]
+    require_solvers(kinds)
     trials = _trials(loaded, bench, kinds, cases, until, seed, compiled)
     show(loaded, trials, until, write_files(bench, trials, picture, animated), json_mode)
 
@@ -188,7 +182,7 @@ def _trials(
     compiled: bool,
 ) -> list[Trial]:
     """Return the trials of all controllers under all conditions."""
-    from tmm_gen.control.compare import compare
+    from tmm_gen.closed_loop.compare import compare
 
     done: list[Trial] = []
     with progress(f"controlling {scene.name}", total=len(kinds) * len(cases)) as advance:

@@ -8,22 +8,22 @@ from typing import TYPE_CHECKING
 import click
 
 from tmm_gen.cli.console import Column, progress, table
-from tmm_gen.cli.given import PICTURE
+from tmm_gen.cli.given import picture_file
 from tmm_gen.cli.outputs import write_outputs
 from tmm_gen.errors import UserError
 
 if TYPE_CHECKING:
+    from tmm_gen.closed_loop.compare import Trial
     from tmm_gen.control.bench import Bench
-    from tmm_gen.control.compare import Trial
     from tmm_gen.scene import Scene
 
 
 def list_all(json_mode: bool) -> None:
     """Print controllers, conditions, and what can be tuned."""
+    from tmm_gen.closed_loop.tuning import TUNABLE
     from tmm_gen.control.condition import CONDITIONS
     from tmm_gen.control.controllers import CONTROLLERS
-    from tmm_gen.control.emitted.emit import EMITTED
-    from tmm_gen.control.tuning import TUNABLE
+    from tmm_gen.onboard.emit import EMITTED
 
     rows: list[dict[str, object]] = [
         {"what": "controller", "name": kind.name, "title": kind.title, "c": kind.name in EMITTED}
@@ -36,7 +36,7 @@ def list_all(json_mode: bool) -> None:
 
 def show(scene: Scene, trials: list[Trial], until: float, files: list[Path], json_mode: bool) -> None:
     """Print the figures, and what could be done next."""
-    from tmm_gen.control.figures import BAND, RESIDUAL_FROM
+    from tmm_gen.closed_loop.figures import BAND, RESIDUAL_FROM
 
     columns: list[Column | str] = [
         "controller",
@@ -71,12 +71,12 @@ def write_files(bench: Bench, trials: list[Trial], picture: Path | None, animate
     """Write the pictures asked for, all or none; return them."""
     files: dict[Path, str | bytes] = {}
     if picture is not None:
-        from tmm_gen.control.pictures import comparison_picture
+        from tmm_gen.closed_loop.pictures import comparison_picture
 
-        target = Path(f"{bench.scene.name}-mpc.png") if picture == Path(PICTURE) else picture
+        target = picture_file(picture, bench.scene.name, "-mpc")
         files[target] = comparison_picture(trials, bench.problem, target.suffix[1:].lower())
     if animated is not None:
-        from tmm_gen.control.motion import motion
+        from tmm_gen.closed_loop.motion import motion
         from tmm_gen.report.animate import animation
 
         files[animated] = animation(motion(bench.scene, trials[-1]), animated.suffix[1:].lower())
@@ -93,7 +93,7 @@ def emit(
     UserError
         If there is none of that name in C, more than one is asked for, or the prefix is no name.
     """
-    from tmm_gen.control.emitted.emit import EMITTED, emit_controller
+    from tmm_gen.onboard.emit import EMITTED, emit_controller
     from tmm_gen.scene.identifier import scene_name_fault
 
     if len(names) != 1 or names[0] not in EMITTED:

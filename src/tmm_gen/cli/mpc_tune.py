@@ -18,8 +18,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
 
     from tmm_gen.cli.console import Advance
+    from tmm_gen.closed_loop.tuning import Tunable, Tuned
     from tmm_gen.control.bench import Bench
-    from tmm_gen.control.tuning import Tunable, Tuned
     from tmm_gen.scene import Scene
 
 EVERYTHING = "all"
@@ -82,11 +82,15 @@ def tuned(
     UserError
         If there is no tunable of that name, or the file has no line for a number that is to be found.
     """
-    from tmm_gen.control.pricing import OneByOne, side_by_side
-    from tmm_gen.control.tuning import TUNABLE, tune
+    from tmm_gen.closed_loop.pricing import OneByOne, side_by_side
+    from tmm_gen.closed_loop.search import require_cma
+    from tmm_gen.closed_loop.tuning import TUNABLE, tune
+    from tmm_gen.control.controllers import BY_NAME, require_solvers
 
     known = {tunable.name: tunable for tunable in TUNABLE}
     wanted = [*TUNABLE] if EVERYTHING in names else chosen("--tune", names, known)
+    require_cma()
+    require_solvers(BY_NAME[name] for tunable in wanted for name in tunable.controllers)
     if out is not None:  # what cannot be written is better known before the search than after it
         _text(file, bench.scene, wanted)
     found: list[Tuned] = []
@@ -112,7 +116,7 @@ def _report(advance: Advance, title: str) -> Callable[[float], None]:
 
 def _text(file: Path, scene: Scene, tunables: Iterable[Tunable]) -> str:
     """Return the text of a scene's file with the numbers of another scene in place of those that are tuned."""
-    from tmm_gen.control.tuning import number
+    from tmm_gen.closed_loop.tuning import number
     from tmm_gen.scene.rewrite import rewritten
 
     keys = dict.fromkeys(knob.key for tunable in tunables for knob in tunable.knobs)
@@ -121,7 +125,7 @@ def _text(file: Path, scene: Scene, tunables: Iterable[Tunable]) -> str:
 
 
 def _show(found: list[Tuned], evaluations: int, seed: int, files: list[Path], json_mode: bool) -> None:
-    from tmm_gen.control.tuning import number
+    from tmm_gen.closed_loop.tuning import number
 
     rows: list[dict[str, object]] = []
     for item in found:

@@ -47,6 +47,7 @@ def new(name: str, kind: Kind, out: Path, control: bool, motors: int | None, for
 
     if fault := scene_name_fault(name):
         raise UserError(f"NAME: {fault[0]} (got {show_value(name)}). {fault[1]}")
+    # nothing is loaded yet: the kind is the word that was typed
     if control and kind != "planar":
         raise UserError(f"--control: a {kind} has no motor to be controlled. Add --kind planar.")
     if motors and kind != "planar":

@@ -11,7 +11,7 @@ import click
 
 from tmm_gen.cli.changes import changed_scene, set_option
 from tmm_gen.cli.console import Column, progress, table
-from tmm_gen.cli.given import PICTURE, picture_option
+from tmm_gen.cli.given import picture_file, plot_option
 from tmm_gen.cli.outputs import OutputFile, claim, write_outputs
 from tmm_gen.errors import UserError
 
@@ -84,15 +84,7 @@ def _sweeps(_context: click.Context, parameter: click.Parameter, value: str | No
 )
 @click.option("--backend", type=click.Choice(["numpy", "c"]), default="numpy", show_default=True)
 @click.option("--csv", "csv_file", type=OutputFile(), help="Write the outputs over time.")
-@click.option(
-    "--plot",
-    "picture",
-    metavar="[FILE.png]",
-    is_flag=False,
-    flag_value=PICTURE,
-    callback=picture_option,
-    help="Draw inputs and outputs; by default into NAME.png.",
-)
+@plot_option("inputs and outputs")
 @click.option(
     "--animate",
     "animated",
@@ -132,18 +124,25 @@ def run(
         chosen = chosen.replace(**{"model.iterations": iterations})
     read = (scene, *table_files(given))
     signals = read_inputs(given, *input_names(chosen))
-    planar = chosen.model.kind == "planar"
-    if animated is not None and not planar:
+    shaped = chosen.model.in_plane
+    if animated is not None and not shaped:
         raise UserError(f"--animate {animated}: a chain has no shape to show. Use --plot.")
     claim((csv_file, picture, animated), read)
     duration = until or default_duration(chosen)
     refuse_other_clock(signals, duration)
     steps = number_of_steps(duration, chosen.integrator.step)
     with progress(f"simulating {chosen.name}", total=steps) as advance:
-        drawn = planar and (picture is not None or animated is not None)
-        simulation = simulate(chosen, signals, duration, backend, advance, trace=drawn)
+        drawn = shaped and (picture is not None or animated is not None)
+        simulation = simulate(
+            chosen, signals, duration, backend, advance, trace=drawn, substeps=not _step_given(step, changes)
+        )
     written = _write(simulation, csv_file, picture, animated, read)
     _show(simulation, written, json_mode)
+
+
+def _step_given(step: float | None, changes: Sequence[str]) -> bool:
+    """Whether the step was asked for with this command, so that no other is to be taken."""
+    return step is not None or any(c.partition("=")[0].strip() == "integrator.step" for c in changes)
 
 
 def _write(
@@ -160,7 +159,7 @@ def _write(
     if picture is not None:
         from tmm_gen.report.plots import response_picture
 
-        target = Path(f"{simulation.scene.name}.png") if picture == Path(PICTURE) else picture
+        target = picture_file(picture, simulation.scene.name)
         files[target] = response_picture(simulation, target.suffix[1:].lower())
     if animated is not None:
         from tmm_gen.report.animate import animation
@@ -178,6 +177,8 @@ def _show(simulation: Simulation, written: list[Path], json_mode: bool) -> None:
         "backend": simulation.backend,
         "step": scene.integrator.step,
         "steps": simulation.steps,
+        "substeps": simulation.substeps.count,
+        "substeps_since": 0.0,
         "until": last,
         "accuracy": accuracy and accuracy.error,
         "sensitivity": accuracy and accuracy.sensitivity,
@@ -193,6 +194,8 @@ def _show(simulation: Simulation, written: list[Path], json_mode: bool) -> None:
     table(rows, _telling(rows), json_mode, title=f"{scene.title}: {done}", more=facts)
     if json_mode:
         return
+    if simulation.substeps.count > 1:
+        click.echo(_divided(simulation))
     if accuracy is not None and not simulation.still:
         click.echo(trusted(simulation))
     for note in simulation.notes:
@@ -210,6 +213,15 @@ def _telling(rows: list[dict[str, object]]) -> list[Column | str]:
     return [c for c in _COLUMNS if any(row[c if isinstance(c, str) else c.key] is not None for row in rows)]
 
 
+def _divided(simulation: Simulation) -> str:
+    """Say that steps were divided, and why."""
+    substeps, step = simulation.substeps, simulation.scene.integrator.step
+    return (
+        f"took {substeps.count} substeps per step: at the scene's step of {step:g} s {substeps.because} "
+        f"(which --step {step:g} refuses)"
+    )
+
+
 def trusted(simulation: Simulation) -> str:
     """Say how good a run is, and from what that is known."""
     from tmm_gen.simulate.accuracy import SENSITIVE
@@ -223,7 +235,9 @@ def trusted(simulation: Simulation) -> str:
             "another machine may see another one"
         )
     if simulation.imbalance:
-        said.append(_balance(simulation.imbalance, simulation.scene.integrator.step))
+        said.append(
+            _balance(simulation.imbalance, simulation.scene.integrator.step / simulation.substeps.count)
+        )
     return "\n".join(said)
 
 
@@ -233,8 +247,9 @@ def _why(simulation: Simulation) -> str:
         return ""
     left = f"{simulation.unsolved:.0e} of the energy" if simulation.unsolved else "nothing but rounding"
     sweeps = simulation.sweeps_per_step
-    count = f" ({sweeps:.3g} a step)" if sweeps is not None else ""
-    return f" (the step errs by {simulation.step_error:.0e} per radian; sweeps{count} left {left} unsolved)"
+    of = "substep" if simulation.substeps.count > 1 else "step"
+    count = f" ({sweeps:.3g} a {of})" if sweeps is not None else ""
+    return f" (the {of} errs by {simulation.step_error:.0e} per radian; sweeps{count} left {left} unsolved)"
 
 
 def _balance(imbalance: float, step: float) -> str:

@@ -11,7 +11,7 @@ import click
 
 from tmm_gen.cli.changes import changed_scene, set_option
 from tmm_gen.cli.console import Column, progress, table
-from tmm_gen.cli.given import PICTURE, picture_option
+from tmm_gen.cli.given import picture_file, plot_option
 from tmm_gen.cli.outputs import claim, write_outputs
 
 if TYPE_CHECKING:
@@ -37,22 +37,14 @@ if TYPE_CHECKING:
     metavar="N",
     help="Steps of a map, for two thirds as many stiffnesses; 0 leaves maps out. By default what takes seconds.",
 )
-@click.option(
-    "--plot",
-    "file",
-    metavar="[FILE.png]",
-    is_flag=False,
-    flag_value=PICTURE,
-    callback=picture_option,
-    help="Draw the maps, measured beside derived; by default into NAME-stability.png.",
-)
+@plot_option("the maps, measured beside derived", "-stability")
 @set_option
 @click.option("--json", "json_mode", is_flag=True, help="One JSON object instead of a table.")
 def stability(
     scene: Path,
     mapped: tuple[str, ...],
     cells: int | None,
-    file: Path | None,
+    picture: Path | None,
     changes: tuple[str, ...],
     json_mode: bool,
 ) -> int:
@@ -66,8 +58,8 @@ def stability(
 
     loaded = changed_scene(scene, changes)
     chosen = _known(mapped or (loaded.integrator.name,))
-    claim((file,), (scene,))
-    if file is not None and cells == 0:
+    claim((picture,), (scene,))
+    if picture is not None and cells == 0:
         raise click.UsageError("--plot draws maps: leave out --cells 0.")
     with progress(f"modes of {loaded.name}", total=len(INTEGRATOR_NAMES)) as advance:
         from tmm_gen.stability.limits import scene_integrators, standings
@@ -76,7 +68,7 @@ def stability(
         motion = small_motion(loaded)
         found = standings(motion, scene_integrators(loaded), lambda name: advance(1, doing=f"derived {name}"))
     maps = _measure(motion, chosen, cells)
-    files = _draw(maps, file, loaded.name)
+    files = _draw(maps, picture, loaded.name)
     _show(motion, found, maps, files, json_mode)
     return int(any(each.differs.any() for each in maps))
 
@@ -112,7 +104,7 @@ def _draw(maps: list[GrowthMap], file: Path | None, name: str) -> list[Path]:
         return []
     from tmm_gen.stability.picture import map_picture
 
-    target = Path(f"{name}-stability.png") if file == Path(PICTURE) else file
+    target = picture_file(file, name, "-stability")
     with progress("drawing"):
         image = map_picture(maps, target.suffix[1:].lower())
     return write_outputs({target: image})

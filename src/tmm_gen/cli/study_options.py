@@ -85,7 +85,7 @@ def axes_of(scene: Scene, options: dict[str, Any]) -> Axes:
             )
     if options["links"] and scene.beam is None:
         raise UserError("--links: the scene has no [beam] to cut into links; it lists them. Leave it out.")
-    if scene.model.kind == "chain" and (options["linearisations"] or options["iterations"]):
+    if scene.model.linear and (options["linearisations"] or options["iterations"]):
         raise UserError("--linearisations and --iterations: a chain is linear. Leave them out.")
     return Axes(
         integrators=names,

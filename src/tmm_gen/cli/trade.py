@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from tmm_gen.cli.console import Column, progress, table
-from tmm_gen.cli.given import PICTURE, picture_option, positive
+from tmm_gen.cli.given import picture_file, plot_option, positive
 from tmm_gen.cli.outputs import OutputFile, claim, write_outputs
 from tmm_gen.cli.study_options import axes_of, numbers, one_of, one_thread, whole_numbers, words
 from tmm_gen.errors import CheckFailed
@@ -105,15 +105,7 @@ def grid_options(command: Callable[..., Any]) -> Callable[..., Any]:
 )
 @click.option("--backends", metavar="A,B", callback=one_of("c", "numpy"), help="c, numpy; by default c.")
 @click.option("--csv", "csv_file", type=OutputFile(), help="Write all configurations.")
-@click.option(
-    "--plot",
-    "picture",
-    metavar="[FILE.png]",
-    is_flag=False,
-    flag_value=PICTURE,
-    callback=picture_option,
-    help="Draw error against cost; by default into NAME-trade.png.",
-)
+@plot_option("error against cost", "-trade")
 @click.option(
     "--report",
     "report_file",
@@ -162,6 +154,7 @@ def run(path: Path, options: dict[str, Any]) -> Study:
     from tmm_gen.study.study import run_study
 
     scene = load_scene(path)
+    computes = executor(options)
     given = read_inputs(options["given"], *input_names(scene))
     went = excitation(scene, given, options["until"], options["output"])
     grid = configurations(scene, axes_of(scene, options), went.until)
@@ -171,7 +164,7 @@ def run(path: Path, options: dict[str, Any]) -> Study:
             scene,
             went,
             grid,
-            executor(options),
+            computes,
             options["store"],
             rounds,
             advance=lambda n, doing: advance(n, doing),
@@ -179,13 +172,20 @@ def run(path: Path, options: dict[str, Any]) -> Study:
 
 
 def executor(options: dict[str, Any]) -> Executor | None:
-    """Return who computes the errors; None for this process."""
+    """Return who computes the errors; None for this process.
+
+    Raises
+    ------
+    UserError
+        If Dask is asked for and not installed.
+    """
     if options["workers"] is None and options["scheduler"] is None:
         return None
     if options["workers"] is not None and options["scheduler"] is not None:
         raise click.UsageError("--workers starts a cluster, --scheduler names one: give one of them.")
-    from tmm_gen.study.cluster import Cluster
+    from tmm_gen.study.cluster import Cluster, require_dask
 
+    require_dask()
     return Cluster(options["workers"] or 0, options["scheduler"])
 
 
@@ -201,7 +201,7 @@ def _write(
     if picture is not None:
         from tmm_gen.study.figures import trade_picture
 
-        target = Path(f"{study.scene.name}-trade.png") if picture == Path(PICTURE) else picture
+        target = picture_file(picture, study.scene.name, "-trade")
         files[target] = trade_picture(study, target.suffix[1:].lower())
     if report_file is not None:
         from tmm_gen.study.report import report

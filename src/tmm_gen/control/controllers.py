@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 from tmm_gen.control.bench import Bench
@@ -11,6 +11,7 @@ from tmm_gen.control.command import Controller
 from tmm_gen.control.linear_mpc import LinearMpc
 from tmm_gen.control.lqr import Regulator
 from tmm_gen.control.pd import PdController
+from tmm_gen.control.qp import require_daqp
 from tmm_gen.control.rti import RealTimeIteration
 from tmm_gen.control.shaper import Kind, shaper, slowest_vibration
 from tmm_gen.scene.control import Baselines
@@ -30,12 +31,15 @@ class ControllerKind:
         From a bench to a controller.
     default : bool
         Whether it is compared unless others are chosen.
+    quadratic : bool
+        Whether it solves quadratic programs, for which an extra is needed.
     """
 
     name: str
     title: str
     make: Callable[[Bench], Controller]
     default: bool = True
+    quadratic: bool = False
 
 
 def _gains(bench: Bench, gains: tuple[float, float] | None) -> tuple[float, float]:
@@ -86,13 +90,34 @@ CONTROLLERS: tuple[ControllerKind, ...] = (
     ControllerKind(
         "lqr", "LQR, modes", lambda b: Regulator(b.modes, b.problem, _baselines(b).lqr, b.inertia)
     ),
-    ControllerKind("mpc-links", "linear MPC, links", lambda b: LinearMpc(b.links, b.problem, b.inertia)),
-    ControllerKind("mpc-modes", "linear MPC, modes", lambda b: LinearMpc(b.modes, b.problem, b.inertia)),
     ControllerKind(
-        "rti-zero", "RTI, zero order", lambda b: RealTimeIteration(b.step, b.links, b.inertia, True)
+        "mpc-links", "linear MPC, links", lambda b: LinearMpc(b.links, b.problem, b.inertia), quadratic=True
     ),
-    ControllerKind("rti", "RTI, full", lambda b: RealTimeIteration(b.step, b.links, b.inertia)),
+    ControllerKind(
+        "mpc-modes", "linear MPC, modes", lambda b: LinearMpc(b.modes, b.problem, b.inertia), quadratic=True
+    ),
+    ControllerKind(
+        "rti-zero",
+        "RTI, zero order",
+        lambda b: RealTimeIteration(b.step, b.links, b.inertia, True),
+        quadratic=True,
+    ),
+    ControllerKind(
+        "rti", "RTI, full", lambda b: RealTimeIteration(b.step, b.links, b.inertia), quadratic=True
+    ),
     ControllerKind("nmpc", "NMPC to convergence", _nmpc, default=False),
 )
 
 BY_NAME = {kind.name: kind for kind in CONTROLLERS}
+
+
+def require_solvers(kinds: Iterable[ControllerKind]) -> None:
+    """Refuse to go on where a controller's solver is missing: models take long, and would be built in vain.
+
+    Raises
+    ------
+    UserError
+        If DAQP is needed and not installed.
+    """
+    if any(kind.quadratic for kind in kinds):
+        require_daqp()

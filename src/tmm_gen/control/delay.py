@@ -13,6 +13,9 @@ from tmm_gen.control.problem import ControlProblem
 Array = NDArray[np.float64]
 Pair = tuple[float, float]
 
+_NOTHING = 1e-9
+"""Parts of a sample so short are rounding."""
+
 
 @dataclass(frozen=True)
 class Delay:
@@ -72,6 +75,7 @@ def delay_of(problem: ControlProblem, lag: float) -> Delay:
         By how much the model itself is late, samples.
     """
     samples = problem.delay / problem.sample_time - lag
-    whole = max(0, math.floor(samples + 1e-9))
-    acting = math.floor(problem.delay / problem.sample_time + 1e-9)
-    return Delay(whole, samples - whole, acting)
+    whole = max(0, math.floor(samples + _NOTHING))
+    acting = math.floor(problem.delay / problem.sample_time + _NOTHING)
+    part = samples - whole
+    return Delay(whole, part if abs(part) > _NOTHING else 0.0, acting)

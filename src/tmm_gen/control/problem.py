@@ -63,6 +63,7 @@ import math
 from dataclasses import dataclass
 
 from tmm_gen.errors import UserError
+from tmm_gen.resources import scenes_dir
 from tmm_gen.scene import Scene
 from tmm_gen.scene.control import Control, Estimator, Sensors, Weights
 
@@ -149,16 +150,21 @@ def control_problem(scene: Scene) -> ControlProblem:
     Raises
     ------
     UserError
-        If the scene has no ``[control]``.
+        If the scene has no ``[control]``, or is of a kind that cannot have it.
     """
     control = scene.control
+    if control is None and (scene.model.kind != "planar" or scene.base.kind != "motor"):
+        raise UserError(
+            f"{scene.source.origin}: only planar arms are controlled, by a torque at a hub that turns. Take one with "
+            f'kind = "planar" under [model] and kind = "motor" under [base], such as {scenes_dir() / "swing.toml"}.'
+        )
     if control is None:
         raise UserError(
             f"{scene.source.origin}: predictive control turns a hub, and knows no arms of parts by name yet. Write the "
-            'arm with base.kind = "motor" and [beam], as scenes/swing.toml does.'
+            f'arm with base.kind = "motor" and [beam], as {scenes_dir() / "swing.toml"} does.'
             if scene.parts
             else f"{scene.source.origin}: has no [control]. Add it, with for example `reference = 1.0` and "
-            "[control.bounds] with `torque = 3.0`; scenes/swing.toml has all of it."
+            f"[control.bounds] with `torque = 3.0`; {scenes_dir() / 'swing.toml'} has all of it."
         )
     start = tip_angle(scene, scene.initial.angles)
     name = next(item.name for item in scene.inputs if item.at == "base" and item.acts == "torque")

@@ -28,6 +28,17 @@ _FEASIBLE = 1e-4
 _SOLVED, _NO_SOLUTION = 1, -1
 
 
+def require_daqp() -> Any:
+    """Return the package `daqp`.
+
+    Raises
+    ------
+    UserError
+        If it is not installed.
+    """
+    return extra("mpc", "predictive control")
+
+
 @dataclass(frozen=True, eq=False)
 class Solution:
     """Of a quadratic program.
@@ -63,7 +74,7 @@ class QuadraticProgram:
     """
 
     def __init__(self, hessian: Array, rows: Array, bounded: int) -> None:
-        daqp = extra("mpc", "predictive control")
+        daqp = require_daqp()
         self._rows = rows
         self._bounded = bounded
         self._solver: Any = daqp.Model()

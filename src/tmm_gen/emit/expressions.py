@@ -45,9 +45,9 @@ def _float(value: sp.Expr) -> float:
 class ExpressionPrinter(ABC):
     """Turns SymPy expressions into text of a language."""
 
-    times = "*"
+    times = " * "
     """How a product's factors are joined."""
-    over = "/"
+    over = " / "
     """How a quotient's parts are joined."""
 
     @abstractmethod
@@ -182,3 +182,14 @@ def is_negative(term: sp.Expr) -> bool:
     """Whether a term is written with a minus sign in front."""
     numbers = [f for f in sp.Mul.make_args(term) if f.is_Number]
     return bool(sum(1 for f in numbers if f.is_negative) % 2)
+
+
+def element(name: str, ref: Ref) -> str:
+    """Write an element of an array, ``j`` being the loop's station, or the scalar itself."""
+    if ref.variable.length is None:
+        return name
+    if ref.offset is None:
+        return f"{name}[{ref.entry}]"
+    if ref.offset == 0:
+        return f"{name}[j]"
+    return f"{name}[j {'+' if ref.offset > 0 else '-'} {abs(ref.offset)}]"

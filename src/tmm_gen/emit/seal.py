@@ -11,6 +11,9 @@ PLACEHOLDER = LABEL + "0" * 64
 
 _LINE = re.compile(rf"^.*{LABEL}([0-9a-f]{{64}}).*\n", re.MULTILINE)
 
+WITHOUT_MOTION = "no motion to compare with: from no start can steps be taken within the range of the numbers"
+"""What a generated test says that has no motion in it."""
+
 
 def sealed(text: str) -> str:
     """Fill in the hash of a generated text.

@@ -7,7 +7,7 @@ from typing import Any
 
 import jinja2
 
-from tmm_gen.emit.c_names import macros, signal
+from tmm_gen.c_language.names import macros, signal
 from tmm_gen.resources import templates_dir
 
 

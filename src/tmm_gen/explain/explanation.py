@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from tmm_gen.c_language.real import Real, real_of
 from tmm_gen.derive.integrators.history import history_depth
 from tmm_gen.derive.integrators.registry import integrator
-from tmm_gen.emit.c.real import Real, real_of
 from tmm_gen.explain.footprint import Footprint, footprint, footprint_of
 from tmm_gen.explain.terms import Term, terms_of, up_to
 from tmm_gen.program.build import build_program
@@ -61,11 +61,6 @@ class Explanation:
     own: Footprint
     terms: tuple[Explained, ...]
     everything: Footprint
-
-
-def number_of_terms(scene: Scene) -> int:
-    """Return how many programs :func:`explain` builds."""
-    return len(terms_of(scene)) + 2
 
 
 def explain(scene: Scene, advance: Callable[[str], None] = lambda term: None) -> Explanation:
@@ -130,7 +125,7 @@ def _history(scene: Scene, program: Program) -> Explained:
     """Count the numbers a state would hold if it kept angle, rate and acceleration of each instant looked back to."""
     method = integrator(scene.integrator.name, **scene.integrator.parameters)
     depth = history_depth(method)
-    turning = scene.stations + (scene.base.kind != "clamp")
+    turning = scene.stations + scene.base.moves
     motion = [v for v in program.state if _is_motion(v)]
     kept = sum(v.length or 1 for v in motion)
     saved = (3 * depth * turning - kept) * real_of(scene.emit).number_size

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from tmm_gen.emit.c.real import Real, real_of
+from tmm_gen.c_language.real import Real, real_of
 from tmm_gen.emit.c.structs import structs_of
 from tmm_gen.program.build import build_program
 from tmm_gen.program.count import count_routine

@@ -45,7 +45,7 @@ def terms_of(scene: Scene) -> list[Term]:
         found += _motors(scene)
     else:
         found[1:1] = [_alike_joints(scene), _alike_links(scene)]
-    if scene.model.kind == "planar":
+    if scene.model.in_plane:
         found = [_gravity(scene), _iterations(scene), *found, *_tip(scene), _heat(scene)]
     return [*found, _inputs(scene), _outputs(scene)]
 
@@ -90,7 +90,7 @@ def _alike_joints(scene: Scene) -> Term:
 
 
 def _alike_links(scene: Scene) -> Term:
-    names = ("inertia", "mass", "length", "center") if scene.model.kind == "planar" else ("inertia",)
+    names = ("inertia", "mass", "length", "center")  # a chain takes notice of the inertia alone
     unlike = len({tuple(getattr(link, name) for name in names) for link in scene.links}) > 1
     why = "links differ: an array of each number" if unlike else "links are identical: one number for all"
 
@@ -162,11 +162,11 @@ def _spread(stations: tuple[Any, ...], names: tuple[str, ...]) -> tuple[Any, ...
 
 
 def _base(scene: Scene) -> list[Term]:
-    kind, hub = scene.base.kind, "a hub that turns"
-    if kind == "clamp":
+    hub = "a hub that turns"
+    if not scene.base.moves:
         return [Term(hub, False, 'base.kind = "clamp"', lambda s: _with_base(s, kind="motor", inertia=1.0))]
-    found = [Term(hub, True, f'base.kind = "{kind}"', _clamped)]
-    if kind == "motor":
+    found = [Term(hub, True, f'base.kind = "{scene.base.kind}"', _clamped)]
+    if scene.hub:
         c = scene.base.damping
         why = f"base.damping = {c:g}" if c else "no base.damping"
         found.append(
@@ -178,7 +178,7 @@ def _base(scene: Scene) -> list[Term]:
 def _clamped(scene: Scene) -> Scene:
     """Return the scene on a clamp, without what acts on the hub or is read off it."""
     inputs = tuple(i for i in scene.inputs if i.at != "base")
-    outputs = tuple(o for o in scene.outputs if o.at != "base" or o.of in ("torque", "force"))
+    outputs = tuple(o for o in scene.outputs if o.at != "base" or scene.quantity(o).in_joint)
     return _with_base(replace(scene, inputs=inputs, outputs=outputs), kind="clamp", inertia=0.0, damping=0.0)
 
 
@@ -196,7 +196,7 @@ def _tip_changed(what: str, value: float) -> Change:
 
 
 def _heat(scene: Scene) -> Term:
-    asked = any(o.of == "dissipated_energy" for o in scene.outputs)
+    asked = any(scene.quantity(o).accumulates for o in scene.outputs)
     damped = any(j.damping for j in scene.joints) or scene.base.damping > 0.0
     why = "an output asks for it" if asked else "no output of dissipated_energy"
     if not damped:
@@ -204,7 +204,7 @@ def _heat(scene: Scene) -> Term:
 
     def other(s: Scene) -> Scene:
         if asked:
-            return replace(s, outputs=tuple(o for o in s.outputs if o.of != "dissipated_energy"))
+            return replace(s, outputs=tuple(o for o in s.outputs if not s.quantity(o).accumulates))
         return replace(s, outputs=(*s.outputs, Output(name="explain_heat", at="arm", of="dissipated_energy")))
 
     return Term("counting energy turned to heat", asked and damped, why, other)
@@ -214,7 +214,7 @@ def _inputs(scene: Scene) -> Term:
     n = scene.stations
     taken = {station_of(i.at, n) for i in scene.inputs}
     missing = [k for k in range(1, n + 1) if k not in taken]
-    acts: tuple[Acts, ...] = ("torque", "force_x", "force_y") if scene.model.kind == "planar" else ("torque",)
+    acts: tuple[Acts, ...] = ("torque", "force_x", "force_y") if scene.model.in_plane else ("torque",)
     what = "torques and forces" if len(acts) > 1 else "torques"
 
     def other(s: Scene) -> Scene:
@@ -227,7 +227,7 @@ def _inputs(scene: Scene) -> Term:
 
 def _outputs(scene: Scene) -> Term:
     n = scene.stations
-    planar = scene.model.kind == "planar"
+    planar = scene.model.in_plane
     kinds: tuple[Of, ...] = ("position", "velocity", "torque")
     if not planar:
         kinds = ("angle", "velocity", "acceleration", "torque")

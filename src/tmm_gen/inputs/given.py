@@ -64,6 +64,8 @@ def read_inputs(
     files: list[str] = []
     for text in given:
         name, equals, value = text.partition("=")
+        if not equals and text.strip() in names and not Path(text).exists():
+            raise UserError(f"--input {text}: has no value. Write for example --input {text.strip()}=1.5.")
         if not equals or Path(text).is_file():
             files.append(text)
             continue

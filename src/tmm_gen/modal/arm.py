@@ -6,13 +6,19 @@ from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
+import sympy as sp
 from numpy.typing import NDArray
 
-from tmm_gen.modal.blocks import ElementFunctions, Kind, element_functions
+from tmm_gen.derive.elements import torsion
+from tmm_gen.derive.elements.declaration import Element
+from tmm_gen.derive.small_motion import LOAD, rest_elements
+from tmm_gen.derive.transfer import laplace_matrix
+from tmm_gen.modal.blocks import ElementFunctions, element_functions
 from tmm_gen.modal.rest import Rest, rest_at, straight
 from tmm_gen.scene import Scene, station_of
 
 Array = NDArray[np.float64]
+_Loads = tuple[tuple[int, tuple[float, ...]], ...]
 
 
 PIVOT = "pivot"
@@ -26,7 +32,9 @@ class Placed:
     Parameters
     ----------
     name : str
-        Type, see :func:`~tmm_gen.modal.blocks.element_functions`.
+        "joint", "pivot", "link", "hub", "friction" or "tip".
+    element : Element
+        Its declaration, linear in its motions.
     station : int
         0 for the hub, i for joint and link i, counted from 1.
     values : tuple of float
@@ -36,6 +44,7 @@ class Placed:
     """
 
     name: str
+    element: Element
     station: int
     values: tuple[float, ...] = ()
     loads: tuple[tuple[int, tuple[float, ...]], ...] = ()
@@ -49,8 +58,6 @@ class LinearArm:
     ----------
     scene : Scene
         What it came from.
-    kind : {"chain", "planar"}
-        Family.
     width : int
         Motions of a station: ``theta``, or ``x, y, theta``.
     elements : tuple of Placed
@@ -66,7 +73,6 @@ class LinearArm:
     """
 
     scene: Scene
-    kind: Kind
     width: int
     elements: tuple[Placed, ...]
     free: tuple[bool, ...]
@@ -76,7 +82,7 @@ class LinearArm:
 
     def functions(self, placed: Placed) -> ElementFunctions:
         """Return the functions of an element's type."""
-        return element_functions(self.kind, placed.name)
+        return element_functions(placed.element)
 
     @property
     def hub(self) -> bool:
@@ -94,86 +100,82 @@ def linear_arm(scene: Scene, rest: Rest | None = None) -> LinearArm:
     rest : Rest, optional
         About which a planar arm moves; by default straight along x and weightless.
     """
-    if scene.model.kind == "chain":
+    if scene.model.linear:
         return _chain(scene)
     return _planar(scene, rest if rest is not None else rest_at(scene, straight(scene), gravity=0.0))
 
 
 def _chain(scene: Scene) -> LinearArm:
-    loads = _loads(scene, "chain")
+    loads = _loads(scene, torsion.TORQUE, {"torque": torsion.LOAD})
     placed: list[Placed] = []
-    if scene.base.kind == "motor":
-        placed.append(Placed("friction", 0, (scene.base.damping,)))
-        placed.append(Placed("hub", 0, (scene.base.inertia,), loads[0]))
+    if scene.hub:
+        placed.append(Placed("friction", torsion.GROUND_DAMPER, 0, (scene.base.damping,)))
+        placed.append(Placed("hub", torsion.LINK, 0, (scene.base.inertia,), loads[0]))
     for i, (joint, link) in enumerate(zip(scene.joints, scene.links, strict=True), start=1):
-        placed.append(Placed("joint", i, (joint.stiffness, joint.damping)))
-        placed.append(Placed("link", i, (link.inertia,), loads[i]))
-    return LinearArm(
-        scene, "chain", 1, tuple(placed), (scene.base.kind == "motor",), _prescribed(scene), 1.0, None
-    )
+        placed.append(Placed("joint", torsion.JOINT, i, (joint.stiffness, joint.damping)))
+        placed.append(Placed("link", torsion.LINK, i, (link.inertia,), loads[i]))
+    return LinearArm(scene, 1, tuple(placed), (bool(scene.hub),), _prescribed(scene), 1.0, None)
 
 
 def _planar(scene: Scene, rest: Rest) -> LinearArm:
-    loads = _loads(scene, "planar")
-    drives = _drives(scene)
+    at_rest = rest_elements()
+    symbols = dict(zip(("force_x", "force_y", "torque"), LOAD, strict=True))
+    loads = _loads(scene, at_rest["load"], symbols)
+    drives = _drives(scene, _unit_load(at_rest["load"], symbols["torque"]))
     still = (0.0,) * 7
     placed: list[Placed] = []
-    if scene.base.kind == "motor":
-        placed.append(Placed("hub", 0, (scene.base.inertia, scene.base.damping, *still), loads[0]))
+
+    def add(name: str, station: int, *values: float, loads: _Loads = ()) -> None:
+        placed.append(Placed(name, at_rest[name], station, values, loads))
+
+    if scene.hub:
+        add("hub", 0, scene.base.inertia, scene.base.damping, *still, loads=loads[0])
     for i, (joint, link) in enumerate(zip(scene.joints, scene.links, strict=True)):
-        law = (joint.stiffness, joint.damping)
         if joint.stiffness > 0.0 and not joint.rotor_inertia and not drives[i]:
-            placed.append(Placed("joint", i + 1, (*law, *still)))
+            add("joint", i + 1, joint.stiffness, joint.damping, *still)
         else:
-            placed.append(Placed(PIVOT, i + 1, (*law, joint.armature), drives[i]))
+            law = (joint.stiffness, joint.damping, joint.armature)
+            placed.append(Placed(PIVOT, at_rest["joint"], i + 1, law, drives[i]))
         own = (link.length, link.mass, link.inertia, link.center)
         state = (float(rest.angles[i]), *map(float, rest.inner[i]), *map(float, rest.outer[i]))
-        placed.append(Placed("link", i + 1, (*own, *state), loads[i + 1]))
+        add("link", i + 1, *own, *state, loads=loads[i + 1])
     if scene.tip and (scene.tip.mass or scene.tip.inertia):
-        placed.append(Placed("tip", scene.stations, (scene.tip.mass, scene.tip.inertia, *still)))
-    free = (False, False, scene.base.kind == "motor")
-    return LinearArm(scene, "planar", 3, tuple(placed), free, _prescribed(scene), -1.0, rest)
+        add("tip", scene.stations, scene.tip.mass, scene.tip.inertia, *still)
+    free = (False, False, bool(scene.hub))
+    return LinearArm(scene, 3, tuple(placed), free, _prescribed(scene), -1.0, rest)
 
 
 def _prescribed(scene: Scene) -> int | None:
-    return next((k for k, item in enumerate(scene.inputs) if item.acts == "angle"), None)
+    return None if scene.prescribed is None else scene.inputs.index(scene.prescribed)
 
 
-def _drives(scene: Scene) -> list[tuple[tuple[int, tuple[float, ...]], ...]]:
+def _drives(scene: Scene, torque: tuple[float, ...]) -> list[_Loads]:
     """Return the torques in each joint, 1 to n, that act on its outer side for a unit of an input."""
     found: list[list[tuple[int, tuple[float, ...]]]] = [[] for _ in scene.joints]
     for number, item in enumerate(scene.inputs):
         if item.acts == "drive" and isinstance(item.at, int):
-            unit = scene.joints[item.at - 1].gear * np.array(_unit_load("planar", "torque"))
+            unit = scene.joints[item.at - 1].gear * np.array(torque)
             found[item.at - 1].append((number, tuple(unit.tolist())))
     return [tuple(each) for each in found]
 
 
-def _loads(scene: Scene, kind: Kind) -> list[tuple[tuple[int, tuple[float, ...]], ...]]:
+def _loads(scene: Scene, load: Element, symbols: dict[str, sp.Symbol]) -> list[_Loads]:
     """Return the loads at each station, 0 to n: what a unit of an input adds to the outboard forces."""
     found: list[list[tuple[int, tuple[float, ...]]]] = [[] for _ in range(scene.stations + 1)]
     for number, item in enumerate(scene.inputs):
-        if (
-            item.acts == "drive"
-        ):  # what acts on the outer side of a joint, the inner one feels the other way round
-            if isinstance(item.at, int) and (item.at > 1 or scene.base.kind == "motor"):
-                unit = -scene.joints[item.at - 1].gear * np.array(_unit_load(kind, "torque"))
+        if item.acts == "drive":  # what acts on the outer side of a joint, the inner one feels reversed
+            if isinstance(item.at, int) and (item.at > 1 or scene.hub):
+                torque = np.array(_unit_load(load, symbols["torque"]))
+                unit = -scene.joints[item.at - 1].gear * torque
                 found[item.at - 1].append((number, tuple(unit.tolist())))
-        elif item.acts != "angle":
-            found[station_of(item.at, scene.stations)].append((number, _unit_load(kind, item.acts)))
+        elif item is not scene.prescribed:
+            unit_load = _unit_load(load, symbols[item.acts])
+            found[station_of(item.at, scene.stations)].append((number, unit_load))
     return [tuple(each) for each in found]
 
 
 @cache
-def _unit_load(kind: Kind, acts: str) -> tuple[float, ...]:
+def _unit_load(load: Element, unit: sp.Symbol) -> tuple[float, ...]:
     """Return ``u2`` of a load element for a unit of an input, derived from its equations."""
-    from tmm_gen.derive.elements.torsion import LOAD as TORQUE_SYMBOL
-    from tmm_gen.derive.elements.torsion import TORQUE
-    from tmm_gen.derive.laplace.planar import LOAD, rest_elements
-    from tmm_gen.derive.transfer import laplace_matrix
-
-    if kind == "chain":
-        return (float(laplace_matrix(TORQUE).u2[0].subs(TORQUE_SYMBOL, 1)),)
-    chosen = ("force_x", "force_y", "torque").index(acts)
-    values = {symbol: int(k == chosen) for k, symbol in enumerate(LOAD)}
-    return tuple(float(entry) for entry in laplace_matrix(rest_elements()["load"]).u2.subs(values))
+    values = {symbol: int(symbol == unit) for symbol in load.inputs}
+    return tuple(float(entry) for entry in laplace_matrix(load).u2.subs(values))

@@ -5,14 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
+import sympy as sp
 from numpy.typing import NDArray
+
+from tmm_gen.derive.elements.declaration import Element
+from tmm_gen.derive.transfer import LAPLACE, laplace_matrix
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
-Kind = Literal["chain", "planar"]
 
 
 @dataclass(frozen=True)
@@ -50,21 +53,8 @@ class ElementFunctions:
 
 
 @cache
-def element_functions(kind: Kind, name: str) -> ElementFunctions:
-    """Return the functions of a type of element.
-
-    Parameters
-    ----------
-    kind : {"chain", "planar"}
-        Family.
-    name : str
-        "joint", "link", "load", "hub", "friction" (chain), "tip" (planar).
-    """
-    import sympy as sp
-
-    from tmm_gen.derive.transfer import LAPLACE, laplace_matrix
-
-    element = _elements(kind)[name]
+def element_functions(element: Element) -> ElementFunctions:
+    """Return the functions of a type of element, whose equations are linear in its motions."""
     matrix = laplace_matrix(element)
     width = matrix.U11.rows
     whole = sp.Matrix.vstack(
@@ -108,22 +98,16 @@ def element_functions(kind: Kind, name: str) -> ElementFunctions:
 
 
 def _impedance(compliance: Any) -> Any:
-    import sympy as sp
-
     law = sp.expand(sp.cancel(1 / compliance))
     return sp.Matrix([[_coefficient(0)(law), _coefficient(1)(law)]])
 
 
 def _coefficient(power: int) -> Callable[[Any], Any]:
-    from tmm_gen.derive.transfer import LAPLACE
-
     return lambda expression: expression.coeff(LAPLACE, power)
 
 
 def _filler(symbols: Sequence[Any], matrix: Any) -> Callable[..., None]:
     """Return a function that writes a matrix of expressions into the last two axes of an array."""
-    import sympy as sp
-
     entries = [
         (row, column, matrix[row, column]) for row in range(matrix.rows) for column in range(matrix.cols)
     ]
@@ -139,14 +123,3 @@ def _filler(symbols: Sequence[Any], matrix: Any) -> Callable[..., None]:
             target[..., row, column] = value
 
     return fill
-
-
-@cache
-def _elements(kind: Kind) -> dict[str, Any]:
-    if kind == "planar":
-        from tmm_gen.derive.laplace.planar import rest_elements
-
-        return rest_elements()
-    from tmm_gen.derive.elements.torsion import GROUND_DAMPER, JOINT, LINK, TORQUE
-
-    return {"joint": JOINT, "link": LINK, "hub": LINK, "friction": GROUND_DAMPER, "load": TORQUE}

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.modal.arm import LinearArm, linear_arm
+from tmm_gen.modal.arm import linear_arm
 from tmm_gen.modal.beam import BeamArm, beam_arm, frequencies_below
 from tmm_gen.modal.matrices import matrices
 from tmm_gen.modal.undamped import undamped_modes
@@ -50,11 +50,6 @@ def with_links(scene: Scene, links: int, springs: Springs | None = None) -> Scen
         outputs=(),
         initial=Initial(still, still),
     )
-
-
-def straight_arm(scene: Scene, links: int | None = None) -> LinearArm:
-    """Return the straight, weightless arm of a scene's beam, with its own number of links or another one."""
-    return linear_arm(with_links(scene, links or scene.stations))
 
 
 def straight_frequencies(
@@ -113,7 +108,7 @@ def links_needed(scene: Scene, error: float, band: float) -> LinksNeeded:
         If the scene has no beam, or not even `MOST_LINKS` links are enough.
     """
     exact = frequencies_below(beam_arm(scene), band)
-    first = max(1, len(exact) - int(scene.base.kind == "motor"))
+    first = max(1, len(exact) - scene.hub)
 
     def errors(links: int) -> Array:
         return relative_errors(straight_frequencies(scene, links, count=len(exact)), exact)

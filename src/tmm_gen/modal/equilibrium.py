@@ -27,8 +27,6 @@ _ROUNDING = 1e-9
 _HALVINGS = 30
 _OVERSHOOT = 0.9
 _NEAR = 1e-6
-_SHORT = 1e-8
-"""Step in which nothing moves, s: angles change by its square."""
 _CONVEX = 1e-12
 """Least generalised eigenvalue of the stiffness, relative to the largest, that counts as convex."""
 
@@ -50,7 +48,7 @@ def equilibrium(
     inputs : mapping from str to float, optional
         Constant inputs by name; those not given are zero.
     unbalanced : callable, optional
-        Where the torque comes from; by default the elements' equations. See :func:`kernel_unbalanced`.
+        Where the torque comes from; by default the elements' equations.
 
     Raises
     ------
@@ -114,50 +112,3 @@ def _shift(parts: Parts, inertia: Array) -> float:
     squares = eigvalsh_tridiagonal(diagonal, -springs[1:] / (root[1:] * root[:-1]))
     least = _CONVEX * float(np.max(np.abs(squares)))
     return max(0.0, -2.0 * float(squares[0])) + 2.0 * least
-
-
-def kernel_unbalanced(scene: Scene, inputs: Mapping[str, float] | None = None) -> Unbalanced:
-    """Return the torque out of balance that the scene's generated NumPy kernel sees.
-
-    The kernel gives the accelerations of an arm let go at some angles; times the mass matrix they are the torques.
-
-    Parameters
-    ----------
-    scene : Scene
-        Of kind "planar".
-    inputs : mapping from str to float, optional
-        Constant inputs by name; those not given are zero.
-    """
-    accelerations = kernel_accelerations(scene, inputs)
-    return lambda rest, linear: linear.mass @ accelerations(rest.free_angles)
-
-
-def kernel_accelerations(scene: Scene, inputs: Mapping[str, float] | None = None) -> Callable[[Array], Array]:
-    """Return the generated NumPy kernel's map from the free angles to their accelerations, rad/s^2.
-
-    ``initialise`` answers for a base that is held. It starts a free hub at angle zero, so a motor's arm, hub
-    first, is let go for one step too short to move.
-    """
-    from tmm_gen.native.python_module import numpy_module
-
-    if scene.base.kind == "motor":
-        scene = scene.replace(**{"integrator.name": "newmark", "model.linearisation": "newton"})
-    module = numpy_module(scene)
-    held = module.Input(**{item.name: (inputs or {}).get(item.name, 0.0) for item in scene.inputs})
-
-    def held_base(angles: Array) -> Array:
-        state = module.initialise(module.Params(), held, initial_angle=angles)
-        return np.array(state.acceleration, float)
-
-    if scene.base.kind != "motor":
-        return held_base
-    short = module.prepare(step=_SHORT)
-    rest = module.initialise(module.Params(), held)
-
-    def free_hub(angles: Array) -> Array:
-        still = {"rate": np.zeros(angles.size - 1), "acceleration": np.zeros(angles.size - 1)}
-        hub = {"hub_angle": angles[0], "hub_rate": 0.0, "hub_acceleration": 0.0}
-        after = module.step(short, replace(rest, angle=angles[1:], **still, **hub), held)
-        return np.array([after.hub_acceleration, *after.acceleration], float)
-
-    return free_hub

@@ -40,12 +40,13 @@ def mode_picture(
     form : {"png", "svg", "pdf"}
         Format.
     """
+    shaped = arm.scene.model.in_plane
     with style():
         columns = min(_COLUMNS, len(modes))
         rows = -(-len(modes) // columns)
         made, axes = figure(3.3 * columns, 0.6 + 2.3 * rows, nrows=rows, ncols=columns, squeeze=False)
         for number, (panel, mode) in enumerate(zip(axes.flat, modes, strict=False)):
-            if arm.kind == "chain":
+            if not shaped:
                 _draw_chain(panel, arm, mode)
             elif _is_straight(arm):
                 omega = None if exact is None or number >= len(exact[1]) else float(exact[1][number])
@@ -56,8 +57,8 @@ def mode_picture(
         for panel in axes.flat[len(modes) :]:
             panel.set_visible(False)
         for panel in axes[:, 0]:
-            panel.set_ylabel({"chain": "angle"}.get(arm.kind, "deflection" if _is_straight(arm) else "y (m)"))
-        below = {"chain": "station (0: base)"}.get(arm.kind, "x (m)")
+            panel.set_ylabel(("deflection" if _is_straight(arm) else "y (m)") if shaped else "angle")
+        below = "x (m)" if shaped else "station (0: base)"
         for column in range(columns):
             last = max(row for row in range(rows) if row * columns + column < len(modes))
             axes[last, column].set_xlabel(below)
@@ -165,7 +166,7 @@ def bode_picture(
     """
     with style():
         made, axes = figure(8.0, 5.6, nrows=2, sharex=True, gridspec_kw={"height_ratios": [2.0, 1.0]})
-        name = "chain" if arm.kind == "chain" else f"{arm.scene.stations} links"
+        name = f"{arm.scene.stations} links" if arm.scene.model.in_plane else "chain"
         curves = [(name, response, PALETTE[0], 1.6, 1.0)]
         if beam is not None:
             curves.insert(0, ("continuous beam", beam, PALETTE[1], 3.4, 0.45))

@@ -8,7 +8,6 @@ from numpy.typing import ArrayLike, NDArray
 from tmm_gen.modal.arm import PIVOT, LinearArm
 from tmm_gen.modal.sweep import States, sweep
 from tmm_gen.scene import Output, Scene, station_of
-from tmm_gen.scene.quantity import quantities
 
 Complex = NDArray[np.complex128]
 
@@ -51,36 +50,33 @@ def frequency_response(arm: LinearArm, s: ArrayLike) -> dict[str, Complex]:
 
 def component_names(arm: LinearArm) -> dict[str, tuple[str, ...]]:
     """Return the names of each output's components."""
-    known = quantities(arm.kind)
-    return {
-        item.name: (f"{item.name}_x", f"{item.name}_y") if known[item.of].vector else (item.name,)
-        for item in linear_outputs(arm.scene)
-    }
+    return {item.name: arm.scene.quantity(item).columns(item.name) for item in linear_outputs(arm.scene)}
 
 
 def linear_outputs(scene: Scene) -> tuple[Output, ...]:
     """Return the outputs that answer small motion in proportion: all but energies."""
-    return tuple(item for item in scene.outputs if not quantities(scene.model.kind)[item.of].of_arm)
+    return tuple(item for item in scene.outputs if not scene.quantity(item).of_arm)
 
 
 def _read(arm: LinearArm, states: States, s: Complex, output: Output) -> list[tuple[str, Complex]]:
     station = station_of(output.at, arm.scene.stations)
-    names = component_names(arm)[output.name]
-    if output.of in ("joint_angle", "joint_rate", "joint_torque"):
+    quantity = arm.scene.quantity(output)
+    names = quantity.columns(output.name)
+    if quantity.read in ("bend", "through"):
         at = next(k for k, e in enumerate(arm.elements) if e.name in _JOINTS and e.station == station)
-        if output.of == "joint_torque":  # beyond the joint, a motor's torque included
+        if quantity.read == "through":  # beyond the joint, a motor's torque included
             return [(names[0], states.force[at + 1][:, -1])]
-        scale = s[:, None] if output.of == "joint_rate" else np.ones((1, 1))
+        scale = s[:, None] ** quantity.order
         return [(names[0], scale * (states.motion[at + 1] - states.motion[at])[:, -1])]
-    if output.of in ("torque", "force"):
+    if quantity.in_joint:
         force = _force(arm, states, output, station)
-        if output.of == "force":
+        if quantity.vector:
             return [(name, force[:, i]) for i, name in enumerate(names)]
         # positive where the joint is bent toward positive angles, whatever side the force is counted on
         return [(names[0], arm.sign * force[:, -1])]
     motion = states.motion[_behind(arm, station)]
-    factor = {"rate": s, "velocity": s, "acceleration": s**2}.get(output.of, np.ones(len(s)))[:, None]
-    rows = [arm.width - 1] if len(names) == 1 else [0, 1]
+    factor = s[:, None] ** quantity.order
+    rows = [0, 1] if quantity.vector else [arm.width - 1]
     return [(name, factor * motion[:, row]) for name, row in zip(names, rows, strict=True)]
 
 
@@ -93,7 +89,7 @@ def _behind(arm: LinearArm, station: int) -> int:
 
 def _force(arm: LinearArm, states: States, output: Output, station: int) -> Complex:
     """Return the forces in a joint, or between the last link and the body at the tip."""
-    if arm.kind == "planar" and output.at == "tip":
+    if output.at == "tip":
         beyond: Complex = states.before_load[_behind(arm, station)]
         return beyond
     joint = max(station, 1)

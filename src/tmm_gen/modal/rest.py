@@ -47,7 +47,7 @@ class Rest:
 def straight(scene: Scene) -> Array:
     """Return the free angles of the scene's start: that of a motor's hub (0), then the links'."""
     links = np.array(scene.initial.angles, float)
-    return np.concatenate([[0.0], links]) if scene.base.kind == "motor" else links
+    return np.concatenate([np.zeros(scene.hub), links])
 
 
 def rest_at(
@@ -67,9 +67,9 @@ def rest_at(
         Constant inputs by name; those not given are zero.
     """
     given = inputs or {}
-    turning = scene.base.kind == "motor"
+    turning = scene.hub
     n = scene.stations
-    angles = np.asarray(free_angles, float)[int(turning) :]
+    angles = np.asarray(free_angles, float)[turning:]
     prescribed = sum(given.get(item.name, 0.0) for item in scene.inputs if item.acts == "angle")
     hub = float(free_angles[0]) if turning else prescribed
     falling = (scene.model.gravity or 0.0) if gravity is None else gravity
@@ -112,7 +112,7 @@ def _balance(name: str) -> Any:
     import sympy as sp
 
     from tmm_gen.derive.elements.planar import LINK, TIP
-    from tmm_gen.derive.laplace.planar import GRAVITY, REST_ANGLE, REST_FORCES, rest_balance
+    from tmm_gen.derive.small_motion import GRAVITY, REST_ANGLE, REST_FORCES, rest_balance
 
     element = LINK if name == "link" else TIP
     symbols = (GRAVITY, REST_ANGLE, *REST_FORCES["out"], *element.parameters)

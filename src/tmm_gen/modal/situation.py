@@ -30,7 +30,7 @@ def resting_arm(scene: Scene, inputs: Mapping[str, float] | None = None) -> Line
     UserError
         If there is no equilibrium.
     """
-    if scene.model.kind == "chain":
+    if scene.model.linear:
         return linear_arm(scene)
     held = {name: value for name, value in (inputs or {}).items() if value != 0.0}
     if not scene.model.gravity and not held:

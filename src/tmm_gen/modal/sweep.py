@@ -34,7 +34,8 @@ class States:
 def sweep(arm: LinearArm, s: Complex) -> States:
     """Carry ``force = S motion + e`` from the tip to the base, then motions from the base to the tip.
 
-    See :mod:`tmm_gen.derive.sweep.riccati` for the recursion.
+    With ``k_out = U11 k + U12 f`` and ``f_out = U21 k + U22 f`` the same form holds inboard of an element,
+    ``f = (U22 - S U12)^-1 [(S U11 - U21) k + e]``, and outer motions follow from inner ones (Horner & Pilkey 1978).
 
     Parameters
     ----------

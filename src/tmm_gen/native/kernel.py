@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from tmm_gen.c_language.real import real_of
 from tmm_gen.emit.c import emit_kernel, free_scene
-from tmm_gen.emit.c.real import real_of
 from tmm_gen.emit.templates import render
 from tmm_gen.native.compiler import FLAGS, compile_library
 from tmm_gen.native.differences import with_derivatives

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.emit.c.real import Real
+from tmm_gen.c_language.real import Real
 from tmm_gen.emit.c.structs import COUNTER, Struct
 from tmm_gen.program.variables import Variable
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 from typing import Any
 
-from tmm_gen.emit.c.real import Real
+from tmm_gen.c_language.real import Real
 from tmm_gen.emit.c.structs import structs_of
 from tmm_gen.native.layout import PairStructure, structure_of
 from tmm_gen.program.evaluate import VanishingPivotError

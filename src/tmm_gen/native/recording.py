@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.emit.c_names import member
+from tmm_gen.c_language.names import member
 from tmm_gen.native.kernel import NativeKernel
 from tmm_gen.native.layout import PairStructure
 

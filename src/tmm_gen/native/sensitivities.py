@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from tmm_gen.c_language.real import REALS
 from tmm_gen.emit.c import emit_kernel
-from tmm_gen.emit.c.real import REALS
 from tmm_gen.emit.c.sensitivities import LANES
 from tmm_gen.emit.templates import render
 from tmm_gen.native.compiler import FLAGS, compile_library

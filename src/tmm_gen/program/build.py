@@ -5,16 +5,15 @@ from __future__ import annotations
 from tmm_gen.derive.integrators.declaration import Integrator
 from tmm_gen.derive.integrators.registry import integrator
 from tmm_gen.derive.integrators.relations import UnsuitableUnknownError, affine_motion
+from tmm_gen.digits.product import require_safe_product
+from tmm_gen.digits.rounding import require_digits
 from tmm_gen.errors import UserError
 from tmm_gen.program.arm.assemble import Choices, build
 from tmm_gen.program.arm.product import ProductWalks
 from tmm_gen.program.arm.thesis import TaylorWalks, ThesisWalks
 from tmm_gen.program.arm.walks import Walks
-from tmm_gen.program.sensitivities.refusals import require_derivatives
 from tmm_gen.program.sensitivities.walks import TangentableWalks
 from tmm_gen.program.statements import Program
-from tmm_gen.program.torsion.rounding import require_digits
-from tmm_gen.program.torsion.safety import require_safe_product
 from tmm_gen.row.row import Row
 from tmm_gen.row.scene import row_of
 from tmm_gen.scene import Scene
@@ -40,7 +39,7 @@ def build_program(scene: Scene, *, auto: bool = False) -> Program:
     """
     chosen = integrator(scene.integrator.name, **scene.integrator.parameters)
     try:
-        if scene.model.kind == "chain":
+        if scene.model.linear:
             require_safe_product(scene, chosen)
             require_digits(scene, chosen)
         else:
@@ -70,7 +69,7 @@ def build_unchecked(scene: Scene, chosen: Integrator, *, auto: bool = False) -> 
     auto = auto and row.about == "prediction"
     derived = scene.emit.sensitivities and not auto
     if derived:
-        require_derivatives(scene, chosen, row)
+        _require_derivatives(scene, chosen, row)
     return build(
         row,
         chosen,
@@ -109,6 +108,29 @@ def _require_one_implicit_stage(scene: Scene, chosen: Integrator) -> None:
             f"implicit stage, which '{chosen.name}' does not have; use linearisation = 'newton', or an "
             "integrator such as 'newmark'"
         )
+
+
+def _require_derivatives(scene: Scene, integrator: Integrator, row: Row) -> None:
+    """Refuse a scene that asks for derivatives of a step that has none.
+
+    Raises
+    ------
+    UserError
+        If the step is not Newton's, needs other steps before it, or sums up energy.
+    """
+    what = f"scene '{scene.name}': emit.sensitivities = true"
+    if scene.model.linearisation != "newton":
+        raise UserError(
+            f"{what} needs model.linearisation = 'newton', not '{scene.model.linearisation}', whose step is no "
+            "iteration on the exact equations"
+        )
+    if integrator.startup:
+        raise UserError(
+            f"{what} needs an integrator without start-up steps, such as 'newmark', 'generalized_alpha', 'bathe' or "
+            f"'sdirk4', not '{scene.integrator.name}'"
+        )
+    if row.counts_heat:
+        raise UserError(f"{what} does not go with an output of dissipated energy; remove one of the two")
 
 
 def _refuse_unsupported(scene: Scene) -> None:

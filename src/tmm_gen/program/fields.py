@@ -8,8 +8,8 @@ from tmm_gen.derive.integrators.declaration import STEP, Integrator, Kind, Past
 from tmm_gen.derive.integrators.relations import Unknown, affine_motion
 from tmm_gen.program.passes.prune import prune
 from tmm_gen.program.statements import Routine
-from tmm_gen.program.units import quotient
 from tmm_gen.program.variables import Role, Variable
+from tmm_gen.units import quotient
 
 MOTION_NAMES: dict[Kind, tuple[str, str]] = {
     "q": ("angle", "rad"),

@@ -47,6 +47,12 @@ def update_assignments(
     for p, variable in state.items():
         value = read(state[Past(p.kind, p.lag - 1)]) if p.lag else new[p.kind]
         pending.append(Assign(read(variable), value))
+    return in_order(pending, f"new_{prefix}")
+
+
+def in_order(pending: list[Assign], prefix: str = "new_") -> list[Assign]:
+    """Order assignments that take effect at once so that nothing is overwritten before it is read."""
+    pending = list(pending)
     ordered: list[Assign] = []
     while pending:
         for index, candidate in enumerate(pending):
@@ -56,7 +62,7 @@ def update_assignments(
                 break
         else:  # a cycle: compute the first new value aside
             first = pending[0]
-            aside = local(f"new_{prefix}{first.target.variable.name}", unit=first.target.variable.unit)
+            aside = local(f"{prefix}{first.target.variable.name}", unit=first.target.variable.unit)
             ordered.append(Assign(aside, first.value))
             pending[0] = Assign(first.target, aside)
             pending.append(pending.pop(0))

@@ -85,16 +85,15 @@ def assemble(scene: Scene) -> Assembly:
     UserError
         If the scene is of another kind.
     """
-    if scene.model.kind != "chain":
+    if not scene.model.linear:
         raise UserError(
             f'{scene.source.origin}: model.kind = "{scene.model.kind}" cannot be measured yet. '
             'Use a scene with kind = "chain".'
         )
-    hub = scene.base.kind == "motor"
-    n, first = scene.stations, int(hub)
+    n, first = scene.stations, scene.hub
     m = n + first
     mass, damping, stiffness = np.zeros((m, m)), np.zeros((m, m)), np.zeros((m, m))
-    if hub:
+    if first:
         mass[0, 0] = scene.base.inertia
         damping[0, 0] = scene.base.damping
     for i, (joint, link) in enumerate(zip(scene.joints, scene.links, strict=True)):
@@ -154,15 +153,16 @@ class _Measured:
 
     def add(self, row: int, output: Output) -> None:
         station = station_of(output.at, self.scene.stations)
-        if output.of == "torque":
+        quantity = self.scene.quantity(output)
+        if quantity.in_joint:
             number = max(station, 1)  # the torque at the base is that of joint 1
             joint = self.scene.joints[number - 1]
             for sign, at in ((1.0, number), (-1.0, number - 1)):
                 self._angle(row, at, sign * joint.stiffness)
                 self._rate(row, at, sign * joint.damping)
-        elif output.of == "angle":
+        elif quantity.order == 0:
             self._angle(row, station, 1.0)
-        elif output.of == "velocity":
+        elif quantity.order == 1:
             self._rate(row, station, 1.0)
         elif self._moves(station):
             self.from_acceleration[row, self.first + station - 1] = 1.0

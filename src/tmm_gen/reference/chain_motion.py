@@ -118,7 +118,7 @@ def _fastest(signal: Signal) -> float:
 
 def linear_chain(scene: Scene) -> Linear:
     """Return a chain in coordinates whose squares are energies, or in its slowest modes."""
-    hub = int(scene.base.kind == "motor")
+    hub = scene.hub
     n = scene.stations
     inertia = np.array([scene.base.inertia] * hub + [link.inertia for link in scene.links])
     stiffness, damping = (

@@ -16,7 +16,7 @@ _NICE = (1.0, 1.5, 2.0, 3.0, 5.0, 7.0, 10.0)
 
 def default_duration(scene: Scene) -> float:
     """Return a round number of seconds that covers some periods of the lowest natural frequency."""
-    if scene.model.kind == "planar":
+    if not scene.model.linear:
         return _round_up(_PERIODS * 2.0 * math.pi / _slowest(scene))
     return _round_up(_PERIODS * 2.0 * math.pi / slowest_swing(scene))
 
@@ -42,7 +42,7 @@ def slowest_swing(scene: Scene) -> float:
     """
     from scipy.linalg import eigh_tridiagonal  # slow to import
 
-    turning = int(scene.base.kind == "motor")
+    turning = scene.hub
     inertia = np.array([scene.base.inertia] * turning + [link.inertia for link in scene.links])
     spring = np.array([joint.stiffness for joint in scene.joints])
     inner = np.sqrt(spring[1 - turning :] / inertia[:-1])

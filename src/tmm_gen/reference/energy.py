@@ -85,7 +85,7 @@ def energy(scene: Scene, signals: Mapping[str, Signal], time: Array, angle: Arra
     torque, force_x, force_y = arm.loads(time)
     beyond_x, beyond_y = (np.cumsum(f[:, ::-1], axis=1)[:, ::-1] for f in (force_x, force_y))
     supply = np.sum(rate * (torque + arm.lengths * (c * beyond_y - s * beyond_x)), axis=1)
-    if scene.base.kind == "prescribed":
+    if scene.prescribed:
         joint = scene.joints[0]
         base_angle, base_rate = arm.base_motion(time)
         spring = joint.stiffness * (base_angle + joint.rest - angle[:, 0]) + joint.damping * (
@@ -127,19 +127,9 @@ def gravitational_energy(arm: Arm, angle: Array) -> Array:
 def dissipation(arm: Arm, time: Array, rate: Array) -> Array:
     """Return what dampers of joints and hub turn to heat, (k,), W."""
     found: Array = np.sum(rate * arm.damper_torques(rate), axis=1)
-    if arm.scene.base.kind == "prescribed":
+    if arm.scene.prescribed:
         _, base_rate = arm.base_motion(time)
         found += arm.scene.joints[0].damping * (base_rate**2 - 2.0 * base_rate * rate[:, 0])
-    return found
-
-
-def angular_momentum(scene: Scene, angle: Array, rate: Array) -> Array:
-    """Return the angular momentum of hub and arm about the base point, (k,), kg m^2/s."""
-    arm = Arm(scene, {})
-    s, c = np.sin(angle), np.cos(angle)
-    place = (arm.walked(c), arm.walked(s))
-    speed = (-arm.walked(s * rate), arm.walked(c * rate))
-    found: Array = (place[0] * speed[1] - place[1] * speed[0]) @ arm.masses + rate @ arm.inertias
     return found
 
 

@@ -34,7 +34,7 @@ def fastest_mode(scene: Scene) -> FastestMode:
     """
     from scipy.linalg import eigh_tridiagonal  # slow to import
 
-    if scene.model.kind == "planar":
+    if not scene.model.linear:
         found = vibration(scene)
         return FastestMode(float(found.frequencies[-1]), float(found.damping_ratios[-1]))
     assembly = assemble(scene)

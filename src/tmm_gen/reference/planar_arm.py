@@ -44,7 +44,7 @@ class Arm:
     @property
     def first(self) -> int:
         """Place of link 1 among the coordinates."""
-        return int(self.scene.base.kind == "motor")
+        return self.scene.hub
 
     @cached_property
     def lengths(self) -> Array:
@@ -265,11 +265,11 @@ class Arm:
         return found
 
     @staticmethod
-    def point(of: str, lever: Array, q: Array, v: Array, a: Array) -> tuple[Array, Array]:
-        """Return position, velocity or acceleration of a point with given lever arms, (k,) along x and y."""
+    def point(order: int, lever: Array, q: Array, v: Array, a: Array) -> tuple[Array, Array]:
+        """Return position or its first or second derivative of a point by its lever arms, (k,) along x and y."""
         s, c = np.sin(q), np.cos(q)
-        if of == "position":
+        if order == 0:
             return c @ lever, s @ lever
-        if of == "velocity":
+        if order == 1:
             return -(s * v) @ lever, (c * v) @ lever
         return -(s * a + c * v**2) @ lever, (c * a - s * v**2) @ lever

@@ -54,7 +54,7 @@ def planar_response(
     motion = trajectory.at(times)
     found: dict[str, Array] = {}
     for output in scene.outputs:
-        if output.of == "dissipated_energy":
+        if scene.quantity(output).accumulates:
             found[output.name] = dissipated(arm, trajectory, times)
         else:
             found |= read(arm, output, times, *motion)
@@ -64,34 +64,36 @@ def planar_response(
 def read(arm: Arm, output: Output, times: Array, q: Array, v: Array, a: Array) -> dict[str, Array]:
     """Return an output's columns by name from the motion at some instants, (k, n) each."""
     station = station_of(output.at, arm.scene.stations)
-    if output.of == "angle":
+    quantity = arm.scene.quantity(output)
+    if quantity.read == "motion":
         place = station - 1 + arm.first
-        return {output.name: q[:, place] if place >= 0 else arm.base_motion(times)[0]}
-    if output.of == "rate":
-        place = station - 1 + arm.first
-        return {output.name: v[:, place] if place >= 0 else arm.base_motion(times)[1]}
-    if output.of == "kinetic_energy":
-        return {output.name: kinetic_energy(arm, q, v)}
-    if output.of == "elastic_energy":
-        return {output.name: elastic_energy(arm, times, q)}
-    if output.of == "gravitational_energy":
-        return {output.name: gravitational_energy(arm, q)}
-    if output.of in ("joint_angle", "joint_rate"):
-        place, quick = station - 1 + arm.first, output.of == "joint_rate"
-        outer = (v if quick else q)[:, place]
-        inner = (v if quick else q)[:, place - 1] if place else arm.base_motion(times)[int(quick)]
-        return {output.name: outer - inner}
-    if output.of == "joint_torque":
-        return {output.name: _through(arm, station, times, q, v, a)}
-    if output.of == "torque":
-        return {output.name: _torque(arm, output, times, q, v, a)}
-    if output.of == "force":
+        values = [
+            (q, v, a)[quantity.order][:, place] if place >= 0 else arm.base_motion(times)[quantity.order]
+        ]
+    elif quantity.read == "bend":
+        place, moved = station - 1 + arm.first, (q, v)[quantity.order]
+        inner = moved[:, place - 1] if place else arm.base_motion(times)[quantity.order]
+        values = [moved[:, place] - inner]
+    elif quantity.read == "through":
+        values = [_through(arm, station, times, q, v, a)]
+    elif quantity.read == "energy":
+        values = [_energy(arm, quantity.energy, times, q, v)]
+    elif quantity.read == "own":
+        values = [_torque(arm, output, times, q, v, a)]
+    elif quantity.read == "force":
         joint = arm.scene.stations + 1 if output.at == "tip" else max(station, 1)
-        x, y = _force(arm, joint, times, q, v, a)
+        values = list(_force(arm, joint, times, q, v, a))
     else:
         lever = np.where(np.arange(len(arm.lengths)) < station + arm.first, arm.lengths, 0.0)
-        x, y = arm.point(output.of, lever, q, v, a)
-    return {f"{output.name}_x": x, f"{output.name}_y": y}
+        values = list(arm.point(quantity.order, lever, q, v, a))
+    return dict(zip(quantity.columns(output.name), values, strict=True))
+
+
+def _energy(arm: Arm, which: str, times: Array, q: Array, v: Array) -> Array:
+    """Return an energy that depends on the present state alone, (k,), J."""
+    if which == "kinetic":
+        return kinetic_energy(arm, q, v)
+    return elastic_energy(arm, times, q) if which == "elastic" else gravitational_energy(arm, q)
 
 
 def _torque(arm: Arm, output: Output, times: Array, q: Array, v: Array, a: Array) -> Array:
@@ -139,7 +141,7 @@ def _force(arm: Arm, joint: int, times: Array, q: Array, v: Array, a: Array) -> 
     _, load_x, load_y = arm.loads(times)
     x, y = np.zeros((2, len(times)))
     for body in range(joint - 1, arm.scene.stations + 1):
-        ax, ay = arm.point("acceleration", arm.levers[body], q, v, a)
+        ax, ay = arm.point(2, arm.levers[body], q, v, a)
         x, y = x + arm.masses[body] * ax, y + arm.masses[body] * (ay + arm.gravity)
     beyond = min(joint, arm.scene.stations) - 1 + arm.first
     return x - load_x[:, beyond:].sum(axis=1), y - load_y[:, beyond:].sum(axis=1)

@@ -48,7 +48,7 @@ def exact_response(scene: Scene, signals: Mapping[str, Signal], times: Array) ->
     ReferenceError
         If the equations of a planar arm cannot be integrated.
     """
-    if scene.model.kind == "planar":
+    if not scene.model.linear:
         return planar_response(scene, signals, times)
     assembly = assemble(scene)
     ordered = [signals.get(name, Constant(0.0)) for name in assembly.inputs]

@@ -145,7 +145,7 @@ def _ground(axes: Axes, scene: Scene, x: Array, y: Array) -> None:
     axes.set_aspect("equal", adjustable="box")
     axes.set_xlabel("x (m)")
     axes.set_ylabel("y (m)")
-    if scene.base.kind == "clamp":
+    if not scene.base.moves:
         axes.plot([0.0, 0.0], [-0.07 * reach, 0.07 * reach], color=INK, linewidth=5.0, zorder=3)
     else:
         axes.plot(

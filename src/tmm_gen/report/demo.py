@@ -166,7 +166,7 @@ def _one(demo: Demo, sample: Sample, scene: Scene, duration: float) -> None:
 
 def _as_printed(sample: Sample) -> Iterator[dict[str, object]]:
     """Yield the proposed method as derived, and with the coefficients that the thesis prints."""
-    from tmm_gen.derive.errata import headline
+    from tmm_gen.thesis.errata import headline
 
     printed = headline(THESIS_STEP).printed.tip
     sample.curves["printed"] = _curve(sample, _instants(len(printed)), printed)

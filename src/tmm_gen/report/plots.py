@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.report.animate import draw_shapes
-from tmm_gen.simulate.columns import QUANTITIES, output_columns
+from tmm_gen.scene.columns import output_columns
+from tmm_gen.scene.quantity import INPUT_UNITS
 from tmm_gen.simulate.simulation import Simulation
 from tmm_gen.style import PALETTE, panelled, picture, style, subtitle
 
@@ -19,7 +20,6 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-_INPUT_UNITS = {"torque": "N m", "drive": "N m", "force_x": "N", "force_y": "N", "angle": "rad"}
 _LINES = ("-", "--", ":", "-.")
 
 
@@ -43,19 +43,19 @@ def _drawn(simulation: Simulation) -> Figure:
     units = list(dict.fromkeys(column.unit for column in columns))
     acting = [item for item in scene.inputs if np.any(simulation.inputs[item.name])]
     ratios = [3.0] * len(units) + [1.2] * bool(acting)
-    shaped = simulation.trace is not None and scene.model.kind == "planar"
+    shaped = simulation.trace is not None and scene.model.in_plane
     size = (12.0, max(5.0, 1.1 + 0.78 * sum(ratios))) if shaped else (8.0, 1.1 + 0.78 * sum(ratios))
     made, panels, arm = panelled(*size, ratios, beside=shaped)
     if shaped:
         draw_shapes(arm, simulation)
         subtitle(arm, "the arm over time", "the later the darker")
     for panel, unit in zip(panels, units, strict=False):
-        shown = [column.name for column in columns if column.unit == unit]
-        _curves(panel, simulation.time, {name: simulation.outputs[name] for name in shown})
-        panel.set_ylabel(f"{QUANTITIES[unit]} ({unit.replace('^2', '²')})")
+        shown = [column for column in columns if column.unit == unit]
+        _curves(panel, simulation.time, {column.name: simulation.outputs[column.name] for column in shown})
+        panel.set_ylabel(f"{shown[0].quantity.axis} ({unit.replace('^2', '²')})")
     if acting:
         _curves(panels[-1], simulation.time, {item.name: simulation.inputs[item.name] for item in acting})
-        acts = dict.fromkeys(_INPUT_UNITS[item.acts] for item in acting)
+        acts = dict.fromkeys(INPUT_UNITS[item.acts] for item in acting)
         panels[-1].set_ylabel(f"input ({', '.join(acts)})")
         panels[-1].update_datalim([(0.0, 0.0)])
         panels[-1].margins(y=0.3)

@@ -5,24 +5,21 @@ from __future__ import annotations
 from tmm_gen.derive.elements import torsion as element
 from tmm_gen.derive.elements.declaration import Element
 from tmm_gen.derive.station.lets import Coordinate
-from tmm_gen.row.row import Load, Reading, Row, Signal
+from tmm_gen.row.row import Load, Row
 from tmm_gen.row.words import (
-    BOUNDARIES,
-    UNITS,
+    boundary_of,
     facts_of,
     loads_of,
     optional,
     parameter,
-    place,
     prescribed_of,
+    reading_of,
     signals_of,
     symbol,
 )
-from tmm_gen.scene import Scene, station_of
+from tmm_gen.scene import Scene
 
 ANGLE = Coordinate("", "torque", True, "rad/s^2", "N m")
-KINDS = {"angle": "q", "velocity": "v", "acceleration": "a"}
-_OUTPUT_UNITS = {"q": "rad", "v": "rad/s", "a": "rad/s^2"}
 
 
 def chain_row(scene: Scene, integrator: str) -> Row:
@@ -40,7 +37,7 @@ def chain_row(scene: Scene, integrator: str) -> Row:
         else None
     )
     inertia = parameter("inertia", "link inertia", "kg m^2", [link.inertia for link in scene.links])
-    moved = scene.base.kind == "motor"
+    moved = scene.hub
     hub_inertia = parameter("hub_inertia", "hub inertia", "kg m^2", [scene.base.inertia]) if moved else None
     hub_damping = optional(
         "hub_damping",
@@ -68,7 +65,7 @@ def chain_row(scene: Scene, integrator: str) -> Row:
         about="known",
         sign=-1,
         base=base,
-        boundary=BOUNDARIES[scene.base.kind],  # type: ignore[arg-type]
+        boundary=boundary_of(scene),
         stations=stations,
         tail=tail,
         detail=stations,
@@ -78,7 +75,7 @@ def chain_row(scene: Scene, integrator: str) -> Row:
         inputs=signals_of(scene),
         loads=tuple(load for group in loads.values() for load in group.values()),
         prescribed=prescribed_of(scene),
-        readings=tuple(_reading(scene, index) for index in range(len(scene.outputs))),
+        readings=tuple(reading_of(scene, output, "outputs", 1) for output in scene.outputs),
         facts=facts_of(scene, "torsional chain (linear)", integrator),
         angles=tuple(scene.initial.angles),
         rates=tuple(scene.initial.rates),
@@ -87,13 +84,3 @@ def chain_row(scene: Scene, integrator: str) -> Row:
 
 def _torque(loads: dict[str, Load]) -> tuple[Element, ...]:
     return tuple(element.TORQUE.with_values({element.LOAD: load.symbol}) for load in loads.values())
-
-
-def _reading(scene: Scene, index: int) -> Reading:
-    output = scene.outputs[index]
-    station = station_of(output.at, scene.stations)
-    doc = f"{output.of} at {place(output.at)}"
-    if output.of == "torque":
-        return Reading("outputs", (Signal(output.name, doc, UNITS["torque"]),), "own", max(station, 1))
-    kind = KINDS[output.of]
-    return Reading("outputs", (Signal(output.name, doc, _OUTPUT_UNITS[kind]),), "motion", station, kind)

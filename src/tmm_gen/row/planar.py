@@ -8,21 +8,20 @@ from tmm_gen.derive.elements import nodes as element
 from tmm_gen.derive.elements.declaration import Element
 from tmm_gen.derive.elements.planar import DAMPING, LENGTH, MASS, STIFFNESS
 from tmm_gen.derive.station.lets import Coordinate
-from tmm_gen.row.row import Combination, Elements, Load, Parameter, Reading, Row, Signal
+from tmm_gen.row.row import Combination, Elements, Load, Parameter, Row, Signal
 from tmm_gen.row.words import (
-    BOUNDARIES,
-    UNITS,
+    boundary_of,
     facts_of,
     loads_of,
     optional,
     parameter,
-    place,
     prescribed_of,
+    reading_of,
     signals_of,
     symbol,
 )
-from tmm_gen.scene import Joint, Output, Scene, station_of
-from tmm_gen.scene.quantity import PLANAR
+from tmm_gen.scene import Joint, Scene, station_of
+from tmm_gen.scene.quantity import INPUT_UNITS
 
 ALONG_X = Coordinate("x", "force_x", False, "m/s^2", "N")
 ALONG_Y = Coordinate("y", "force_y", False, "m/s^2", "N")
@@ -30,9 +29,6 @@ ANGLE = Coordinate("u", "torque", True, "rad/s^2", "N m")
 
 COMPONENTS = ("force_x", "force_y", "torque")
 _LOADS = dict(zip(COMPONENTS, (element.LOAD_X, element.LOAD_Y, element.LOAD_TORQUE), strict=True))
-_MOTIONS = {"angle": "q", "rate": "v"}
-_BENDS = {"joint_angle": "q", "joint_rate": "v"}
-_PLACES = {"position": "q", "velocity": "v", "acceleration": "a"}
 
 
 def planar_row(scene: Scene, integrator: str) -> Row:
@@ -121,7 +117,7 @@ def planar_row(scene: Scene, integrator: str) -> Row:
         about="prediction",
         sign=1,
         base=(*hub, *_load(loads["base"])),
-        boundary=BOUNDARIES[scene.base.kind],  # type: ignore[arg-type]
+        boundary=boundary_of(scene),
         stations=tuple((pin, *station) for pin in pins),
         tail=tail,
         detail=tuple((pin, *detail) for pin in pins_in_detail),
@@ -131,7 +127,9 @@ def planar_row(scene: Scene, integrator: str) -> Row:
         inputs=signals_of(scene),
         loads=(*(load for group in loads.values() for load in group.values()), *drives),
         prescribed=prescribed_of(scene),
-        readings=tuple(_reading(scene, output) for output in scene.outputs),
+        readings=tuple(
+            reading_of(scene, o, f"{o.name}: {o.of.replace('_', ' ')}", -1) for o in scene.outputs
+        ),
         held=_held(scene),
         fall=gravity,
         counts_heat=_counts_heat(scene),
@@ -143,7 +141,7 @@ def planar_row(scene: Scene, integrator: str) -> Row:
 
 def _parameters(scene: Scene) -> dict[str, Parameter | None]:
     links, joints, base, tip = scene.links, scene.joints, scene.base, scene.tip
-    moved = base.kind == "motor"
+    moved = scene.hub
     found = (
         parameter("length", "link length", "m", [link.length for link in links]),
         parameter("mass", "link mass", "kg", [link.mass for link in links]),
@@ -198,7 +196,7 @@ def _drives(scene: Scene) -> tuple[Load, ...]:
     )
     if not acting:
         return ()
-    return (Load(sp.Symbol("drive_"), "torque of each joint's motor", UNITS["drive"], tuple(acting)),)
+    return (Load(sp.Symbol("drive_"), "torque of each joint's motor", INPUT_UNITS["drive"], tuple(acting)),)
 
 
 def _armature(scene: Scene) -> tuple[Combination, ...]:
@@ -267,45 +265,21 @@ def _load(loads: dict[str, Load]) -> Elements:
     return (element.LOAD.with_values(values),)
 
 
-def _reading(scene: Scene, output: Output) -> Reading:
-    station = station_of(output.at, scene.stations)
-    quantity = PLANAR[output.of]
-    words = output.of.replace("_", " ")
-    doc = f"{words} {'of' if quantity.of_arm else 'at'} {place(output.at, output.part)}"
-    title = f"{output.name}: {words}"
-    targets = (
-        tuple(Signal(f"{output.name}_{axis}", f"{doc}, {axis}", quantity.unit) for axis in "xy")
-        if quantity.vector
-        else (Signal(output.name, doc, quantity.unit),)
-    )
-    if output.of in _BENDS:
-        return Reading(title, targets, "bend", station, _BENDS[output.of])
-    if output.of == "joint_torque":
-        return Reading(title, targets, "own", station)
-    if output.of in _MOTIONS:
-        return Reading(title, targets, "motion", station, _MOTIONS[output.of])
-    if output.of in _PLACES:
-        return Reading(title, targets, "place", station, _PLACES[output.of])
-    if quantity.of_arm:
-        return Reading(title, targets, "energy", kind=output.of.removesuffix("_energy"))
-    joint = scene.stations + 1 if output.at == "tip" else max(station, 1)
-    if output.of == "torque":
-        return Reading(title, targets, "own", joint, sign=-1)
-    return Reading(title, targets, "force", joint)
-
-
 def _held(scene: Scene) -> dict[str, Signal]:
     """Return each load beyond a joint, or on the tip's body, whose force or torque is an output."""
     n = scene.stations
-    inmost = min((max(station_of(o.at, n), 1) for o in scene.outputs if o.of == "force"), default=n + 1)
+    inmost = min(
+        (max(station_of(o.at, n), 1) for o in scene.outputs if scene.quantity(o).read == "force"),
+        default=n + 1,
+    )
     held = [i for i in scene.inputs if i.acts in ("force_x", "force_y") and station_of(i.at, n) >= inmost]
-    if any(o.of == "torque" and o.at == "tip" for o in scene.outputs):
+    if any(scene.quantity(o).read == "own" and o.at == "tip" for o in scene.outputs):
         held += [i for i in scene.inputs if i.acts == "torque" and station_of(i.at, n) == n]
-    felt = {o.at for o in scene.outputs if o.of == "joint_torque"}
+    felt = {o.at for o in scene.outputs if scene.quantity(o).read == "through"}
     held += [i for i in scene.inputs if i.acts == "drive" and i.at in felt]
-    return {i.name: Signal(f"held_{i.name}", f"{i.name} as it last acted", UNITS[i.acts]) for i in held}
+    return {i.name: Signal(f"held_{i.name}", f"{i.name} as it last acted", INPUT_UNITS[i.acts]) for i in held}
 
 
 def _counts_heat(scene: Scene) -> bool:
-    damped = any(j.damping for j in scene.joints) or (scene.base.kind == "motor" and scene.base.damping > 0.0)
-    return damped and any(o.of == "dissipated_energy" for o in scene.outputs)
+    damped = any(j.damping for j in scene.joints) or (scene.hub > 0 and scene.base.damping > 0.0)
+    return damped and any(scene.quantity(o).accumulates for o in scene.outputs)

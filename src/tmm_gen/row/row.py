@@ -9,8 +9,10 @@ import sympy as sp
 
 from tmm_gen.derive.elements.declaration import Element
 from tmm_gen.derive.station.lets import Coordinate
+from tmm_gen.scene.quantity import Read
 
 Elements = tuple[Element, ...]
+Boundary = Literal["held", "free", "prescribed"]
 
 
 @dataclass(frozen=True)
@@ -109,7 +111,7 @@ class Reading:
 
     title: str
     targets: tuple[Signal, ...]
-    what: Literal["motion", "bend", "own", "place", "force", "energy"]
+    what: Read
     station: int = 0
     kind: str = ""
     sign: int = 1
@@ -164,7 +166,7 @@ class Row:
     about: Literal["prediction", "known"]
     sign: int
     base: Elements
-    boundary: Literal["held", "free", "prescribed"]
+    boundary: Boundary
     stations: tuple[Elements, ...]
     tail: Elements
     detail: tuple[Elements, ...]

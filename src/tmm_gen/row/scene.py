@@ -23,4 +23,5 @@ def row_of(scene: Scene, integrator: Integrator) -> Row:
         Named in headers, with its parameters.
     """
     parameters = "".join(f", {k} = {float(v):g}" for k, v in integrator.parameters.items())
+    # the one place that knows which rows there are
     return ROWS[scene.model.kind](scene, integrator.title + parameters)

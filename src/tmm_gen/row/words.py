@@ -6,18 +6,11 @@ from collections.abc import Sequence
 
 import sympy as sp
 
-from tmm_gen.row.row import Load, Parameter, Signal
-from tmm_gen.scene import Input, Scene, station_of
+from tmm_gen.row.row import Boundary, Load, Parameter, Reading, Signal
+from tmm_gen.scene import Input, Output, Scene, station_of
+from tmm_gen.scene.columns import columns_of, place
+from tmm_gen.scene.quantity import INPUT_UNITS
 from tmm_gen.scene.signal import kernel_names
-
-UNITS = {"torque": "N m", "drive": "N m", "force_x": "N", "force_y": "N", "angle": "rad"}
-
-
-def place(at: str | int, part: str = "") -> str:
-    """Return a place in words: a part by its name where there is one."""
-    if part:
-        return f"'{part}'"
-    return f"station {at}" if isinstance(at, int) else f"the {at}"
 
 
 def signals_of(scene: Scene) -> tuple[Signal, ...]:
@@ -30,7 +23,7 @@ def _signals(described: Input) -> tuple[Signal, ...]:
         doc = f"{described.acts} acting at {place(described.at, described.part)}"
         if described.acts == "drive":
             doc = f"torque of '{described.part}', between both sides; a motor's acts gear-fold"
-        return (Signal(described.name, doc, UNITS[described.acts]),)
+        return (Signal(described.name, doc, INPUT_UNITS[described.acts]),)
     names = kernel_names(described)
     return tuple(
         Signal(name, f"prescribed base {word}", unit)
@@ -43,7 +36,7 @@ BASE_MOTION = (("angle", "rad"), ("rate", "rad/s"), ("acceleration", "rad/s^2"))
 
 def prescribed_of(scene: Scene) -> tuple[str, ...]:
     """Return the names of the inputs that move a prescribed base: angle, rate, acceleration."""
-    return next((kernel_names(item) for item in scene.inputs if item.acts == "angle"), ())
+    return kernel_names(scene.prescribed) if scene.prescribed else ()
 
 
 def parameter(name: str, doc: str, unit: str, values: Sequence[float]) -> Parameter:
@@ -78,9 +71,35 @@ def loads_of(scene: Scene, components: tuple[str, ...]) -> dict[str, dict[str, L
             if (where, component) in places:
                 acting = tuple(sorted(places[where, component], key=lambda p: p[0] or 0))
                 doc = f"external {component} on each link"
-                load = Load(sp.Symbol(f"{prefix}{component}_"), doc, UNITS[component], acting)
+                load = Load(sp.Symbol(f"{prefix}{component}_"), doc, INPUT_UNITS[component], acting)
                 found[where][component] = load
     return found
+
+
+def reading_of(scene: Scene, output: Output, title: str, sign: int) -> Reading:
+    """Return how an output is read off a row.
+
+    Parameters
+    ----------
+    title : str
+        For readers of the generated code; readings of the same title stand together.
+    sign : int
+        Of a joint's own torque, positive where the joint is bent toward positive angles.
+    """
+    quantity = scene.quantity(output)
+    station = station_of(output.at, scene.stations)
+    if quantity.in_joint:  # at the tip of an arm with a body there, beyond the last joint
+        station = scene.stations + 1 if output.at == "tip" else max(station, 1)
+    targets = tuple(Signal(column.name, column.what, column.unit) for column in columns_of(scene, output))
+    kind = "" if quantity.in_joint or quantity.read == "through" else quantity.energy or "qva"[quantity.order]
+    if quantity.read == "through":
+        return Reading(title, targets, "own", station)
+    return Reading(title, targets, quantity.read, station, kind, sign if quantity.read == "own" else 1)
+
+
+def boundary_of(scene: Scene) -> Boundary:
+    """Return what a scene's base does in the integrated coordinate."""
+    return "free" if scene.hub else "prescribed" if scene.prescribed else "held"
 
 
 def facts_of(scene: Scene, model: str, integrator_title: str, **more: str) -> dict[str, str]:
@@ -94,7 +113,3 @@ def facts_of(scene: Scene, model: str, integrator_title: str, **more: str) -> di
         "sweep": scene.model.sweep,
         "unknown": scene.model.unknown,
     }
-
-
-BOUNDARIES = {"clamp": "held", "motor": "free", "prescribed": "prescribed"}
-"""What a scene's base does."""

@@ -1,6 +1,7 @@
-"""Integrators a scene may name: their parameters, defaults and ranges, as plain data.
+"""Integrators a scene may name: the one declaration of their parameters, defaults and ranges, as plain data.
 
-The methods themselves are declared and derived elsewhere; reading a scene must not wait for that.
+Their formulas are in :mod:`tmm_gen.derive.integrators`, which takes parameters from here; reading a scene must not
+wait for SymPy.
 """
 
 from __future__ import annotations

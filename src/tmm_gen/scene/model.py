@@ -74,6 +74,21 @@ class Model(Table):
     )
 
     @property
+    def linear(self) -> bool:
+        """Whether the equations of motion are linear: those of a chain are, those of links that turn far are not."""
+        return self.kind == "chain"
+
+    @property
+    def in_plane(self) -> bool:
+        """Whether the arm has a shape: nodes with places in a plane."""
+        return self.kind == "planar"
+
+    @property
+    def iterates(self) -> bool:
+        """Whether a stage's equations are solved by Newton's iteration."""
+        return not self.linear and self.linearisation == "newton"
+
+    @property
     def sweeps(self) -> int:
         """Sweeps per stage of a kernel."""
         return 1 if self.iterations == "auto" else self.iterations
@@ -81,7 +96,7 @@ class Model(Table):
     @property
     def auto(self) -> bool:
         """Whether a simulation sweeps as often as it takes."""
-        return self.kind == "planar" and self.linearisation == "newton" and self.iterations == "auto"
+        return self.iterates and self.iterations == "auto"
 
 
 class Base(Table):
@@ -104,3 +119,8 @@ class Base(Table):
     damping: NonNegative = Field(
         default=0.0, description="damping of the hub in N m s/rad", examples=["0.01"]
     )
+
+    @property
+    def moves(self) -> bool:
+        """Whether it turns at all: freely, or as prescribed."""
+        return self.kind != "clamp"

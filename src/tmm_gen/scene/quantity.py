@@ -1,8 +1,14 @@
-"""What an output can be: its unit and shape, in a chain and in a planar arm."""
+"""The one table of what an output can be: its unit, what it is read off and how, in a chain and in a planar arm.
+
+Rows, references, the frequency domain, columns and exports all look here; none of them knows outputs by name.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
+
+Read = Literal["motion", "bend", "place", "own", "through", "force", "energy"]
 
 
 @dataclass(frozen=True)
@@ -13,40 +19,72 @@ class Quantity:
     ----------
     unit : str
         SI.
-    vector : bool
-        Whether it has an x and a y component.
-    of_arm : bool
-        Whether it belongs to the arm as a whole (``at = "arm"``) and to no place on it.
+    axis : str
+        What the axis of a picture says.
+    read : {"motion", "bend", "place", "own", "through", "force", "energy"}
+        What it is read off: the turning of hub or link; that of one side of a joint against the other; the motion of a
+        link's outer end; a joint's own torque; the torque that a joint passes on, its motor's included; the force in a
+        joint; an energy.
+    order : int
+        How often a motion is differentiated by time.
+    energy : str
+        Which energy.
+    accumulates : bool
+        Whether it depends on the way to the present state too.
     """
 
     unit: str
-    vector: bool = False
-    of_arm: bool = False
+    axis: str
+    read: Read
+    order: int = 0
+    energy: str = ""
+    accumulates: bool = False
 
+    @property
+    def vector(self) -> bool:
+        """Whether it has an x and a y component."""
+        return self.read in ("place", "force")
+
+    @property
+    def of_arm(self) -> bool:
+        """Whether it belongs to the arm as a whole (``at = "arm"``) and to no place on it."""
+        return self.read == "energy"
+
+    @property
+    def in_joint(self) -> bool:
+        """Whether it is what a joint carries: at a link, in the joint inboard of it."""
+        return self.read in ("own", "force")
+
+    def columns(self, name: str) -> tuple[str, ...]:
+        """Return the columns of an output: its name, with ``_x`` and ``_y`` for a vector."""
+        return (f"{name}_x", f"{name}_y") if self.vector else (name,)
+
+
+_TORQUE = Quantity("N m", "torque", "own")
 
 CHAIN = {
-    "angle": Quantity("rad"),
-    "velocity": Quantity("rad/s"),
-    "acceleration": Quantity("rad/s^2"),
-    "torque": Quantity("N m"),
+    "angle": Quantity("rad", "angle", "motion"),
+    "velocity": Quantity("rad/s", "rate", "motion", 1),
+    "acceleration": Quantity("rad/s^2", "acceleration", "motion", 2),
+    "torque": _TORQUE,
 }
 """Quantities of a torsional chain: velocity and acceleration are those of the angle."""
 
 PLANAR = {
-    "position": Quantity("m", vector=True),
-    "angle": Quantity("rad"),
-    "rate": Quantity("rad/s"),
-    "velocity": Quantity("m/s", vector=True),
-    "acceleration": Quantity("m/s^2", vector=True),
-    "torque": Quantity("N m"),
-    "force": Quantity("N", vector=True),
-    "kinetic_energy": Quantity("J", of_arm=True),
-    "elastic_energy": Quantity("J", of_arm=True),
-    "gravitational_energy": Quantity("J", of_arm=True),
-    "dissipated_energy": Quantity("J", of_arm=True),
-    "joint_angle": Quantity("rad"),
-    "joint_rate": Quantity("rad/s"),
-    "joint_torque": Quantity("N m"),
+    "position": Quantity("m", "position", "place"),
+    "angle": Quantity("rad", "angle", "motion"),
+    "rate": Quantity("rad/s", "rate", "motion", 1),
+    "velocity": Quantity("m/s", "velocity", "place", 1),
+    "acceleration": Quantity("m/s^2", "acceleration", "place", 2),
+    "torque": _TORQUE,
+    "force": Quantity("N", "force", "force"),
+    "kinetic_energy": Quantity("J", "energy", "energy", energy="kinetic"),
+    "elastic_energy": Quantity("J", "energy", "energy", energy="elastic"),
+    "gravitational_energy": Quantity("J", "energy", "energy", energy="gravitational"),
+    "dissipated_energy": Quantity("J", "energy", "energy", energy="dissipated", accumulates=True),
+    "joint_angle": Quantity("rad", "angle", "bend"),
+    "joint_rate": Quantity("rad/s", "rate", "bend", 1),
+    "joint_torque": Quantity("N m", "torque", "through"),
 }
 """Quantities of a planar arm: velocity and acceleration are those of a link's outer end; what
 joints have between their sides is asked for by their names."""
@@ -55,3 +93,7 @@ joints have between their sides is asked for by their names."""
 def quantities(kind: str) -> dict[str, Quantity]:
     """Return the quantities of a kind of model, by the word a scene uses."""
     return CHAIN if kind == "chain" else PLANAR
+
+
+INPUT_UNITS = {"torque": "N m", "drive": "N m", "force_x": "N", "force_y": "N", "angle": "rad"}
+"""Units of inputs, by what they act as."""

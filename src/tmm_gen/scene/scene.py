@@ -15,6 +15,7 @@ from tmm_gen.scene.integrator import Integrator, underscored
 from tmm_gen.scene.model import Base, Model
 from tmm_gen.scene.parts.document import PartsDocument
 from tmm_gen.scene.parts.expansion import PlacedPart
+from tmm_gen.scene.quantity import Quantity, quantities
 from tmm_gen.scene.signal import Input, Output
 from tmm_gen.scene.source import Source
 from tmm_gen.scene.station import Joint, Link
@@ -86,6 +87,20 @@ class Scene:
     def stations(self) -> int:
         """Number of links, n."""
         return len(self.links)
+
+    @property
+    def hub(self) -> int:
+        """Coordinates before that of link 1: 1 of a hub that turns freely, 0 where the base is held or prescribed."""
+        return int(self.base.kind == "motor")
+
+    @property
+    def prescribed(self) -> Input | None:
+        """The input that is the base's angle, if there is one."""
+        return next((item for item in self.inputs if item.acts == "angle"), None)
+
+    def quantity(self, output: Output) -> Quantity:
+        """Return what an output is."""
+        return quantities(self.model.kind)[output.of]
 
     def replace(self, **changes: object) -> Scene:
         """Return a scene with some keys of its file changed, checked again.

@@ -14,6 +14,7 @@ from tmm_gen.inputs.signals import Signal
 from tmm_gen.reference.assembly import assemble
 from tmm_gen.reference.frequency import fastest_mode
 from tmm_gen.scene import Scene
+from tmm_gen.simulate.too_long import TooLongError
 
 Array = NDArray[np.float64]
 
@@ -24,8 +25,24 @@ _PROBES = 1000
 """Instants at which inputs are looked at to find their largest values."""
 
 
-class DivergedError(CheckFailed):
+class DivergedError(CheckFailed, TooLongError):
     """A simulation left all bounds: the message says when, where, why and what to do."""
+
+
+class BrokenOffError(TooLongError):
+    """A step of a simulation cannot be solved.
+
+    Parameters
+    ----------
+    cause : str
+        When and why, a sentence.
+    remedy : str
+        What to do.
+    """
+
+    def __init__(self, cause: str, remedy: str) -> None:
+        super().__init__(f"{cause} {remedy}")
+        self.cause = cause
 
 
 @dataclass(frozen=True)

@@ -8,9 +8,9 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.errors import UserError
 from tmm_gen.scene import Scene
 from tmm_gen.simulate.divergence import DivergedError, integrator_cause
+from tmm_gen.simulate.too_long import TooLongError
 
 Array = NDArray[np.float64]
 
@@ -55,7 +55,8 @@ class PlanarWatch:
         how = f"turns by {value:.1e} rad in one step" if math.isfinite(value) else "is no longer finite"
         raise DivergedError(
             f"scene '{self.scene.name}': the simulation has diverged: at t = {time:.6g} s link {worst + 1} of "
-            f"{self.scene.stations} {how}.\n{self.cause()}"
+            f"{self.scene.stations} {how}.\n{self.cause()}",
+            reason=f"link {worst + 1} {how} at t = {time:.3g} s",
         )
 
     def cause(self) -> str:
@@ -95,14 +96,17 @@ def planar_watch(scene: Scene, step: float) -> PlanarWatch:
 
     Raises
     ------
-    UserError
+    TooLongError
         If it starts too fast for its step.
     """
     fastest = max((abs(rate) for rate in scene.initial.rates), default=0.0)
     most = START_TURN[scene.model.auto or scene.model.sweeps > 1]
-    if fastest * step > most:
-        raise UserError(
-            f"scene '{scene.name}': a link starts at {fastest:g} rad/s and would turn by {fastest * step:.3g} rad in "
-            f"one step of {step:g} s, more than a step can follow. Use a step below {most / fastest:.1g} s."
+    turn = fastest * step
+    if turn > most:
+        raise TooLongError(
+            f"scene '{scene.name}': a link starts at {fastest:g} rad/s and would turn by {turn:.3g} rad in "
+            f"one step of {step:g} s, more than a step can follow. Use a step below {most / fastest:.1g} s.",
+            reason=f"a link would turn by {turn:.3g} rad in the first one",
+            times=turn / most,
         )
     return PlanarWatch(scene, step)

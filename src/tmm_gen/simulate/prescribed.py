@@ -62,11 +62,6 @@ class Derivative:
         return self.of.slope(time) if self.order == 1 else self.of.curvature(time)
 
 
-def angle_input(scene: Scene) -> Input | None:
-    """Return the input that prescribes the base's angle, if there is one."""
-    return next((item for item in scene.inputs if item.acts == "angle"), None)
-
-
 def kernel_signals(scene: Scene, signals: Mapping[str, Signal]) -> dict[str, Signal | Derivative]:
     """Return what a scene's kernel takes for its inputs: an angle with its rate and acceleration.
 
@@ -109,7 +104,7 @@ def prescribed(scene: Scene, signals: Mapping[str, Signal]) -> dict[str, Signal]
     UserError
         If the angle jumps, on the way or where the arm starts.
     """
-    item = angle_input(scene)
+    item = scene.prescribed
     if item is None:
         return dict(signals)
     signal = _moving(signals.get(item.name, Constant(0.0)))
@@ -186,7 +181,7 @@ def _refuse_start(scene: Scene, item: Input, signal: Signal) -> None:
 
 def followed(scene: Scene, signals: Mapping[str, Signal], until: float) -> Iterator[str]:
     """Yield what there is to say of how tables of a prescribed base are followed, in sentences."""
-    item = angle_input(scene)
+    item = scene.prescribed
     curve = signals.get(item.name) if item is not None else None
     if item is None or not isinstance(curve, Curve):
         return

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,11 +18,12 @@ from tmm_gen.inputs.signals import Constant, Signal
 from tmm_gen.reference.assembly import assemble
 from tmm_gen.reference.energy import energy
 from tmm_gen.scene import Scene
-from tmm_gen.simulate.divergence import DivergedError, watch
+from tmm_gen.simulate.divergence import BrokenOffError, DivergedError, Watch, watch
 from tmm_gen.simulate.planar_divergence import PlanarWatch, more_sweeps, planar_watch
 from tmm_gen.simulate.prescribed import followed, prescribed
 from tmm_gen.simulate.simulation import Simulation
 from tmm_gen.simulate.stepping import Backend, Course, Stepper
+from tmm_gen.simulate.substeps import Progress, Substeps, divided
 from tmm_gen.simulate.tolerance import refuse_inaccurate, refuse_unsolved, tolerance
 from tmm_gen.simulate.trace import Trace
 
@@ -70,12 +72,13 @@ def simulate(
     signals: Mapping[str, Signal],
     until: float,
     backend: Backend = "numpy",
-    advance: Callable[[float], None] | None = None,
+    advance: Progress | None = None,
     kernel: Any = None,
     *,
     trace: bool = False,
     refuse: bool = True,
     judge: bool = True,
+    substeps: bool = False,
 ) -> Simulation:
     """Simulate a scene at its own step; where it leaves open how often to sweep, as often as it takes.
 
@@ -90,7 +93,7 @@ def simulate(
     backend : {"numpy", "c"}
         Which generated kernel.
     advance : callable, optional
-        Called with the number of steps taken since the last call.
+        Called with the number of steps taken since the last call; below zero where they are taken again.
     kernel : module or NativeKernel, optional
         The scene's generated NumPy package, or its compiled C, if it is there already.
     trace : bool
@@ -100,6 +103,9 @@ def simulate(
         of both is in the result either way.
     judge : bool
         Find out about the error at all, which takes about as long as the simulation.
+    substeps : bool
+        Divide the steps of a planar arm that are too long for its motion (:mod:`tmm_gen.simulate.substeps`), instead of
+        refusing it. Only where it sweeps as often as it takes.
 
     Raises
     ------
@@ -115,35 +121,15 @@ def simulate(
     steps = number_of_steps(until, scene.integrator.step)
     signals = prescribed(scene, signals)
     inputs = {item.name: signals.get(item.name, Constant(0.0)) for item in scene.inputs}
-    step = scene.integrator.step
-    planar = scene.model.kind == "planar"
-    if planar:
-        planar_watch(scene, step)  # before a kernel is made
-    stepper = Stepper.of(scene, backend, kernel)
-
-    def run(parameters: Mapping[str, float], count: Callable[[float], None] | None) -> _Run:
-        guard = planar_watch(scene, step) if planar else watch(scene, inputs, until, step)
-        course = Course(
-            scene,
-            inputs,
-            steps,
-            step,
-            guard,
-            _trace(scene, steps, whole=trace) if trace or judge else None,
-            _unsolved(scene, inputs, steps, backend),
-            parameters=parameters,
-        )
-        return _Run.of(course, stepper, count, judge=judge)
-
-    found = run({}, advance)
-    if found.unfinished:  # more sweeps than are usually enough
-        found = run({"least_turn": _LEAST_TURN}, None)
-    accuracy, left, own, kept = found.accuracy, found.unsolved, found.step_error, found.course.trace
-    if refuse and accuracy is not None:
-        refuse_inaccurate(scene, accuracy)
-    if refuse and left is not None and own is not None:
-        refuse_unsolved(scene, left, own)
+    task = _Task(scene, inputs, until, steps, backend, kernel, advance or _unseen, trace, refuse, judge)
+    if substeps and scene.model.auto:
+        found, shared = divided(scene, steps, backend, task.attempt, task.again)
+    else:
+        found, shared = task.attempt(scene, 1), Substeps()
+    used, count = found.course.scene, shared.count
+    fine: Array = used.integrator.step * np.arange(steps * count + 1, dtype=float)
     time: Array = scene.integrator.step * np.arange(steps + 1, dtype=float)
+    kept = found.course.trace
     whole = kept if kept is not None and kept.every == 1 else None
     return Simulation(
         scene=scene,
@@ -152,14 +138,86 @@ def simulate(
         outputs={name: found.outputs[:, k] for k, name in enumerate(found.course.names)},
         inputs={name: signal.at(time) for name, signal in inputs.items()},
         rest=_rest(scene, inputs, float(time[-1])),
-        trace=whole,
-        imbalance=_imbalance(scene, inputs, time, whole),
-        unsolved=left,
-        step_error=own,
-        accuracy=accuracy,
+        trace=None if whole is None else whole.thinned(count),
+        imbalance=_imbalance(used, inputs, fine, whole),
+        unsolved=found.unsolved,
+        step_error=found.step_error,
+        accuracy=found.accuracy,
         sweeps_per_step=found.sweeps,
+        substeps=shared,
         notes=tuple(followed(scene, inputs, float(time[-1]))),
     )
+
+
+def _unseen(count: float, doing: str | None = None) -> None:
+    """Show no progress."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Task:
+    """What is to be simulated; fields as parameters of :func:`simulate`."""
+
+    scene: Scene
+    inputs: Mapping[str, Signal]
+    until: float
+    steps: int
+    backend: Backend
+    kernel: Any
+    advance: Progress
+    trace: bool
+    refuse: bool
+    judge: bool
+    _taken: list[float] = field(default_factory=list)
+
+    @cached_property
+    def stepper(self) -> Stepper:
+        """Who takes the steps; of any length."""
+        return Stepper.of(self.scene, self.backend, self.kernel)
+
+    def attempt(self, used: Scene, count: int) -> _Run:
+        """Run in so many substeps per step; `used` is the scene with their length as its step."""
+        self._guard(used)  # before a kernel is made: what starts too fast is refused at once
+        found = self._run(used, count, {}, self._count)
+        if found.unfinished:  # more sweeps than are usually enough
+            found = self._run(used, count, {"least_turn": _LEAST_TURN}, None)
+        if self.refuse and found.accuracy is not None:
+            refuse_inaccurate(used, found.accuracy)
+        if self.refuse and found.unsolved is not None and found.step_error is not None:
+            refuse_unsolved(used, found.unsolved, found.step_error)
+        return found
+
+    def again(self, count: int) -> None:
+        """Take back what progress was shown: all steps are taken again, in so many substeps each."""
+        self.advance(-sum(self._taken), f"{self.scene.name}: the step is too long, {count} substeps each")
+        self._taken.clear()
+
+    def _count(self, taken: float) -> None:
+        self._taken.append(taken)
+        self.advance(taken)
+
+    def _guard(self, used: Scene) -> Watch | PlanarWatch:
+        step = used.integrator.step
+        return watch(used, self.inputs, self.until, step) if used.model.linear else planar_watch(used, step)
+
+    def _run(
+        self,
+        used: Scene,
+        count: int,
+        parameters: Mapping[str, float],
+        advance: Callable[[float], None] | None,
+    ) -> _Run:
+        steps, step = self.steps * count, used.integrator.step
+        course = Course(
+            used,
+            self.inputs,
+            steps,
+            step,
+            self._guard(used),
+            _trace(used, steps, whole=self.trace) if self.trace or self.judge else None,
+            _unsolved(used, self.inputs, steps, self.backend),
+            parameters=parameters,
+        )
+        return _Run.of(course, self.stepper, count, advance, judge=self.judge)
 
 
 @dataclass(frozen=True, eq=False)
@@ -175,10 +233,16 @@ class _Run:
 
     @classmethod
     def of(
-        cls, course: Course, stepper: Stepper, advance: Callable[[float], None] | None, *, judge: bool
+        cls,
+        course: Course,
+        stepper: Stepper,
+        every: int,
+        advance: Callable[[float], None] | None,
+        *,
+        judge: bool,
     ) -> _Run:
-        """Take them."""
-        outputs = _outputs(course, stepper, advance)
+        """Take them, and keep the outputs of every so manieth."""
+        outputs = _outputs(course, stepper, every, advance)
         sweeps = None if stepper.sweeps is None else stepper.sweeps / course.steps
         checked = course.checked
         left, own = (None, None) if checked is None else (checked.share(), checked.step_error())
@@ -186,7 +250,7 @@ class _Run:
         if judge and course.trace is not None:
             from tmm_gen.simulate.accuracy import chain_accuracy, planar_accuracy
 
-            if course.scene.model.kind == "chain":
+            if course.scene.model.linear:
                 accuracy = chain_accuracy(course.scene, course.signals, course.trace)
             else:
                 accuracy = planar_accuracy(course, stepper, left or 0.0)
@@ -202,28 +266,30 @@ class _Run:
         return self.accuracy.from_sweeps > max(_SMALL_SHARE * self.accuracy.error, _SMALLEST)
 
 
-def _outputs(course: Course, stepper: Stepper, advance: Callable[[float], None] | None) -> Array:
-    """Take all steps and return the outputs, (steps + 1, columns)."""
+def _outputs(course: Course, stepper: Stepper, every: int, advance: Callable[[float], None] | None) -> Array:
+    """Take all steps and return the outputs at the start and after every so manieth, (rows, columns)."""
     scene, step, guard = course.scene, course.step, course.guard
-    outputs = np.empty((course.steps + 1, len(course.names)))
+    outputs = np.empty((course.steps // every + 1, len(course.names)))
     row = 0
     try:
         for block in stepper.take(course):
-            outputs[row : row + len(block)] = block
+            shown = block[-row % every :: every]
+            outputs[math.ceil(row / every) :][: len(shown)] = shown
             row += len(block)
             if advance is not None:
-                advance(len(block))
+                advance(len(block) / every)
     except ArithmeticError as error:  # what generated kernels raise
-        if isinstance(guard, PlanarWatch) and scene.model.linearisation != "newton":
+        if isinstance(guard, PlanarWatch) and not scene.model.iterates:
             raise DivergedError(
-                f"scene '{scene.name}': the simulation has diverged: {error}.\n{guard.cause()}"
+                f"scene '{scene.name}': the simulation has diverged: {error}.\n{guard.cause()}",
+                reason="it would diverge",
             ) from error
         smaller = "Look"
-        if isinstance(guard, PlanarWatch):
+        if scene.model.iterates:
             smaller = f"Try a smaller step, --step {step / 10:g}{more_sweeps(scene)}; or look"
-        raise UserError(
-            f"scene '{scene.name}' cannot be solved: {error}. "
-            f"{smaller} for numbers that are far too large or small."
+        raise BrokenOffError(
+            f"scene '{scene.name}' cannot be solved: {error}.",
+            f"{smaller} for numbers that are far too large or small.",
         ) from error
     return outputs
 
@@ -232,7 +298,7 @@ def _imbalance(scene: Scene, signals: Mapping[str, Signal], time: Array, trace: 
     """Return how well a planar arm's energies balance; None where a load is too abrupt to know its work."""
     step, until = scene.integrator.step, float(time[-1])
     abrupt = any(_abrupt(signals[item.name], item.acts, step, until) for item in scene.inputs)
-    if scene.model.kind != "planar" or trace is None or len(time) < 3 or abrupt:
+    if scene.model.linear or trace is None or len(time) < 3 or abrupt:
         return None
     return energy(scene, signals, time, trace.angle, trace.rate).imbalance
 
@@ -247,7 +313,7 @@ def _abrupt(signal: Signal, acts: str, step: float, until: float) -> bool:
 
 def _unsolved(scene: Scene, signals: Mapping[str, Signal], steps: int, backend: Backend) -> Unsolved | None:
     """Return who looks at what sweeps leave unsolved; None where nothing is solved by iteration."""
-    if scene.model.kind != "planar" or scene.model.linearisation != "newton":
+    if not scene.model.iterates:
         return None
     from tmm_gen.simulate.unsolved import Unsolved  # SymPy comes with it
 
@@ -272,7 +338,7 @@ def _rest(scene: Scene, signals: Mapping[str, Signal], until: float) -> dict[str
     if any(signal.ends > until for signal in signals.values()):
         return None
     last = {name: float(signal.at(until)) for name, signal in signals.items()}
-    if scene.model.kind == "planar":
+    if not scene.model.linear:
         return _planar_rest(scene, last)
     assembly = assemble(scene)
     if assembly.free:
@@ -283,7 +349,7 @@ def _rest(scene: Scene, signals: Mapping[str, Signal], until: float) -> dict[str
 
 def _planar_rest(scene: Scene, inputs: Mapping[str, float]) -> dict[str, float] | None:
     """Return the outputs of an arm that hangs still; None where it would turn on, or is too long to be looked at."""
-    if scene.base.kind == "motor" or scene.stations > _SHORT:
+    if scene.hub or scene.stations > _SHORT:
         return None
     from tmm_gen.modal.equilibrium import equilibrium
     from tmm_gen.reference.planar_arm import Arm
@@ -297,6 +363,6 @@ def _planar_rest(scene: Scene, inputs: Mapping[str, float]) -> dict[str, float] 
     still = np.zeros_like(angles)
     found: dict[str, Array] = {}
     for output in scene.outputs:
-        if output.of != "dissipated_energy":  # depends on the way there
+        if not scene.quantity(output).accumulates:
             found |= read(arm, output, np.zeros(1), angles, still, still)
     return {name: float(value[0]) for name, value in found.items()}

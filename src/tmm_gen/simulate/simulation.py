@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.scene import Scene
+from tmm_gen.scene.columns import OutputColumn, output_columns
 from tmm_gen.simulate.accuracy import Accuracy
-from tmm_gen.simulate.columns import OutputColumn, output_columns
 from tmm_gen.simulate.metrics import step_figures
+from tmm_gen.simulate.substeps import Substeps
 from tmm_gen.simulate.trace import Trace
 
 Array = NDArray[np.float64]
@@ -49,7 +50,10 @@ class Simulation:
     accuracy : Accuracy, optional
         What is known of the error, where that was asked for.
     sweeps_per_step : float, optional
-        On average, where the kernel sweeps as often as it takes.
+        On average, where the kernel sweeps as often as it takes; of each substep where a step is divided.
+    substeps : Substeps
+        Into how many each step was divided, and why; figures of the error are of the run in substeps, outputs are at
+        the ends of steps.
     """
 
     scene: Scene
@@ -65,6 +69,7 @@ class Simulation:
     notes: tuple[str, ...] = ()
     accuracy: Accuracy | None = None
     sweeps_per_step: float | None = None
+    substeps: Substeps = field(default_factory=Substeps)
 
     @property
     def steps(self) -> int:
@@ -74,7 +79,8 @@ class Simulation:
     @property
     def still(self) -> bool:
         """Whether nothing happens: no input, no motion."""
-        return not any(np.any(values) for values in (*self.inputs.values(), *self.outputs.values()))
+        acts = any(np.any(values) for values in self.inputs.values()) or any(self.scene.initial.rates)
+        return not acts and not any(np.any(values != values[0]) for values in self.outputs.values())
 
     def csv(self) -> str:
         """Return a table of outputs over time with 17 significant digits: every bit of a double."""

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from tmm_gen.inputs.signals import Constant, Signal
 from tmm_gen.scene import Scene
-from tmm_gen.simulate.columns import output_columns
+from tmm_gen.scene.columns import output_columns
 from tmm_gen.simulate.divergence import Watch
 from tmm_gen.simulate.planar_divergence import PlanarWatch
 from tmm_gen.simulate.prescribed import Derivative, kernel_signals

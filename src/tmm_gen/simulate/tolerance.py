@@ -12,16 +12,17 @@ import math
 from tmm_gen.errors import CheckFailed
 from tmm_gen.scene import Scene
 from tmm_gen.simulate.accuracy import MOST, SENSITIVE, Accuracy
+from tmm_gen.simulate.too_long import LEAST, TooLongError
 
 SMALLEST, LARGEST = 1e-7, 1e-4
 """Between them the tolerance follows the step: so little is always accepted, and never more than so much."""
 
 
-class UnsolvedError(CheckFailed):
+class UnsolvedError(CheckFailed, TooLongError):
     """The sweeps of a run left too much of its equations: the message says how much, and what to do."""
 
 
-class InaccurateError(CheckFailed):
+class InaccurateError(CheckFailed, TooLongError):
     """The steps of a run are too long for its motion: the message says how wrong it is, and what to do."""
 
 
@@ -58,7 +59,9 @@ def refuse_inaccurate(scene: Scene, accuracy: Accuracy) -> None:
         remedies.append(f"accept it, --set model.accuracy={accepted:g}")
     raise InaccurateError(
         f"scene '{scene.name}': with steps of {scene.integrator.step:g} s the error is {error}, more than the "
-        f"{100.0 * most:g} % that a run may have.{sensitive}\n{'; or '.join(remedies)}."
+        f"{100.0 * most:g} % that a run may have.{sensitive}\n{'; or '.join(remedies)}.",
+        reason=f"the error would be {error}",
+        times=max(LEAST, math.sqrt(2.0 * accuracy.error / most)) if known else LEAST,
     )
 
 
@@ -126,7 +129,8 @@ def refuse_unsolved(scene: Scene, share: float, step_error: float) -> None:
     raise UnsolvedError(
         f"scene '{scene.name}': {done} left loads unsolved whose work is {share:.1e} of the energy that moves, "
         f"{_limit(scene, step_error)}: the motion cannot be trusted.\n"
-        f"{again}; or accept it, --set model.unsolved={accepted:g}."
+        f"{again}; or accept it, --set model.unsolved={accepted:g}.",
+        reason=f"{done} would leave loads unsolved whose work is {share:.0e} of the energy that moves",
     )
 
 

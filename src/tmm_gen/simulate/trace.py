@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -36,7 +37,7 @@ class Trace:
     @classmethod
     def empty(cls, scene: Scene, instants: int, every: int = 1) -> Trace:
         """Return room for the start and what each so many of some steps lead to."""
-        columns = scene.stations + (scene.base.kind == "motor")
+        columns = scene.stations + scene.hub
         kept = (instants - 1) // every + 1
         return cls(np.zeros((kept, columns)), np.zeros((kept, columns)), every)
 
@@ -44,6 +45,10 @@ class Trace:
     def indices(self) -> Array:
         """Numbers of the steps that the instants lie behind, (k,)."""
         return self.every * np.arange(len(self.angle), dtype=float)
+
+    def thinned(self, every: int) -> Trace:
+        """Return the motion at every so manieth of its instants, as if no others had been."""
+        return Trace(self.angle[::every], self.rate[::every], self.every, math.ceil(self.count / every))
 
     def add(self, state: Mapping[str, Any] | Any) -> None:
         """Keep a kernel's state: `angle` and `rate`, those of a hub, and turns that are kept apart from angles."""

@@ -25,11 +25,11 @@ from tmm_gen.stability.variants import with_integrator, with_stiffness
 
 Array = NDArray[np.float64]
 
-TOLERANCE = {"chain": 1e-5, "planar": 1e-4}
-"""Spectral radii that differ by less, relatively, agree: eigenvalues that meet move by the root of rounding; those of a
-planar arm are differences of two motions."""
+TOLERANCE, TOLERANCE_FAR = 1e-5, 1e-4
+"""Spectral radii that differ by less, relatively, agree: eigenvalues that meet move by the root of rounding; those of
+an arm that turns far are differences of two motions."""
 
-GROWS = {"chain": 1e-6, "planar": 1e-5}
+GROWS, GROWS_FAR = 1e-6, 1e-5
 """Growth by less in a step is none, in either map."""
 
 _REACH = (0.02, 50.0)
@@ -74,7 +74,7 @@ class GrowthMap:
     @property
     def differs(self) -> NDArray[np.bool_]:
         """Where they differ: by more than `TOLERANCE`, or one is no number, (rows, columns)."""
-        return ~(np.abs(self.difference) <= TOLERANCE[self.scene.model.kind])
+        return ~(np.abs(self.difference) <= (TOLERANCE if self.scene.model.linear else TOLERANCE_FAR))
 
     @property
     def worst_cell(self) -> tuple[int, int]:
@@ -97,7 +97,7 @@ class GrowthMap:
     @property
     def grows(self) -> NDArray[np.bool_]:
         """Where motion grows as derived, (rows, columns)."""
-        return self.derived > 1.0 + GROWS[self.scene.model.kind]
+        return self.derived > 1.0 + (GROWS if self.scene.model.linear else GROWS_FAR)
 
 
 def growth_map(
@@ -160,8 +160,7 @@ class Rests:
     def angles(self, factor: float) -> Array:
         """Return the free angles at rest, rad."""
         found = self._rest(factor)
-        turning = self._scene.base.kind == "motor"
-        return found.free_angles if found else np.zeros(self._scene.stations + turning)
+        return found.free_angles if found else np.zeros(self._scene.stations + self._scene.hub)
 
     def _motion(self, factor: float) -> SmallMotion:
         changed = with_stiffness(self._scene, factor)
@@ -169,7 +168,7 @@ class Rests:
 
     def _found(self, factor: float) -> Rest | None:
         scene = with_stiffness(self._scene, factor)
-        if scene.model.kind == "chain":
+        if scene.model.linear:
             return None
         if scene.model.gravity:
             return equilibrium(scene)
@@ -193,7 +192,7 @@ def map_cells(columns: int) -> int:
 
 def sensible_columns(scene: Scene) -> int:
     """Return how many columns a map of an arm can have: seconds, not minutes."""
-    size = 3 * (scene.stations + (scene.base.kind == "motor"))
+    size = 3 * (scene.stations + scene.hub)
     return int(max(6, min(36, math.floor(36.0 * (30.0 / size) ** 1.2))))
 
 

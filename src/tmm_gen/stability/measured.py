@@ -40,7 +40,7 @@ class MeasuredStep:
     def __init__(self, scene: Scene) -> None:
         self.scene = scene
         self._module = numpy_module(scene)
-        self._linear = scene.model.kind == "chain"
+        self._linear = scene.model.linear
         self._names = [item.name for item in fields(self._module.State) if item.name != "steps_taken"]
         self._counts = any(item.name == "steps_taken" for item in fields(self._module.State))
         zero = self._module.initialise(self._module.Params(), self._module.Input())
@@ -144,8 +144,8 @@ class MeasuredStep:
     def _at_rest(self, factors: Array, angles: Array) -> dict[str, Array]:
         """Return the state at rest, each variable (count, cells)."""
         cells = len(factors)
-        turning = self.scene.base.kind == "motor"
-        links = angles[:, int(turning) :].T
+        turning = self.scene.hub
+        links = angles[:, turning:].T
         start = self._module.initialise(self._params(factors), self._module.Input(), initial_angle=links)
         found = {}
         for name, count in self._each():

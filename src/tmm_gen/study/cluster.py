@@ -41,6 +41,17 @@ _ALONE = 60.0
 """s a running scheduler may be without workers."""
 
 
+def require_dask() -> None:
+    """Refuse to go on without Dask.
+
+    Raises
+    ------
+    UserError
+        If it is not installed.
+    """
+    extra("study", "a cluster (--workers, --scheduler)")
+
+
 class _AloneError(TimeoutError):
     """A cluster has had no workers for too long."""
 
@@ -78,7 +89,7 @@ class Cluster:
         if not missing:
             return
         here = None if self.address else store
-        extra("study", "a cluster (--workers, --scheduler)")
+        require_dask()
         with _quiet(), self._client() as client, self._while_it_lives(store):
             for count, (task, result) in enumerate(_computed(client, missing, truths, here), start=1):
                 if store is not None and here is None and result.outcome is not Outcome.LOST:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
 from typing import Literal
 
 from tmm_gen.scene import Scene
@@ -110,18 +110,12 @@ class Configuration:
 
 def own(scene: Scene) -> Configuration:
     """Return how a scene itself wants to be computed, in C."""
-    planar = scene.model.kind == "planar"
     family = Family(
         integrator=underscored(scene.integrator.name),
         links=scene.beam.links if scene.beam else None,
-        linearisation=scene.model.linearisation if planar else None,
+        linearisation=None if scene.model.linear else scene.model.linearisation,
         iterations=scene.model.sweeps,
         real=scene.emit.real,
         backend="c",
     )
     return Configuration(family, scene.integrator.step)
-
-
-def with_step(configuration: Configuration, step: float) -> Configuration:
-    """Return a configuration at another step."""
-    return replace(configuration, step=step)

@@ -129,7 +129,7 @@ def _allowed(built: Built, configuration: Configuration) -> None:
     """Refuse what the planar kernels refuse to start with."""
     from tmm_gen.simulate.planar_divergence import planar_watch
 
-    if built.scene.model.kind == "planar":
+    if not built.scene.model.linear:
         planar_watch(built.scene, configuration.step)
 
 

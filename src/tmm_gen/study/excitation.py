@@ -17,7 +17,6 @@ from tmm_gen.inputs.curve import Curve
 from tmm_gen.inputs.signals import Constant, Signal, Sine, Table
 from tmm_gen.reference.duration import default_duration
 from tmm_gen.scene import Input, Output, Scene
-from tmm_gen.scene.quantity import quantities
 from tmm_gen.simulate.prescribed import prescribed
 from tmm_gen.study.rise import Rise
 
@@ -104,15 +103,12 @@ def excitation(
 
 def unit(scene: Scene, output: str) -> str:
     """Return the unit of an output."""
-    of = next(item.of for item in scene.outputs if item.name == output)
-    return quantities(scene.model.kind)[of].unit
+    return scene.quantity(_output(scene, output)).unit
 
 
 def columns(scene: Scene, output: str) -> tuple[str, ...]:
     """Return the columns of an output: one, or two of a vector."""
-    of = next(item.of for item in scene.outputs if item.name == output)
-    vector = quantities(scene.model.kind)[of].vector
-    return tuple(f"{output}_{axis}" for axis in "xy") if vector else (output,)
+    return scene.quantity(_output(scene, output)).columns(output)
 
 
 def _output(scene: Scene, name: str | None) -> Output:
@@ -125,9 +121,10 @@ def _output(scene: Scene, name: str | None) -> Output:
     if not scene.outputs:
         raise UserError(f"scene '{scene.name}' has no [[output]] to measure errors at. Add one.")
     at_tip = [item for item in scene.outputs if item.at == "tip"]
-    for wanted in ("position", "angle"):
+    for wanted in ("place", "motion"):
         for item in at_tip:
-            if item.of == wanted:
+            quantity = scene.quantity(item)
+            if quantity.read == wanted and quantity.order == 0:
                 return item
     return (at_tip or list(scene.outputs))[0]
 
@@ -151,11 +148,8 @@ def _signal(scene: Scene, item: Input, frequency: float, until: float) -> Signal
 
 def _torque(scene: Scene, frequency: float) -> float:
     """Return a torque, N m, that turns the arm by about `_TURN`: against its springs, or its inertia if it is free."""
-    if scene.base.kind != "motor" and all(joint.stiffness > 0.0 for joint in scene.joints):
+    if not scene.hub and all(joint.stiffness > 0.0 for joint in scene.joints):
         return _TURN / sum(1.0 / joint.stiffness for joint in scene.joints)
-    if scene.model.kind == "chain":
-        inertia = scene.base.inertia + sum(link.inertia for link in scene.links)
-        return inertia * frequency**2 * _TURN
     return _inertia_about_base(scene) * frequency**2 * _TURN
 
 

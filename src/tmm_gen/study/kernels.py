@@ -49,7 +49,7 @@ class Built:
     @cached_property
     def sizes(self) -> dict[str, int | None]:
         """Bytes of the C: ``code_bytes``, ``state_bytes``, ``model_bytes``; see :func:`code_size`."""
-        from tmm_gen.emit.c.real import real_of
+        from tmm_gen.c_language.real import real_of
         from tmm_gen.emit.c.structs import structs_of
         from tmm_gen.study.code_size import code_size
 

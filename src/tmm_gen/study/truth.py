@@ -52,7 +52,7 @@ class Truth:
         else:
             output = next(item for item in self.scene.outputs if item.name == self.excitation.output)
             arm = Arm(self.scene, self.excitation.signals)
-            if output.of == "dissipated_energy":
+            if self.scene.quantity(output).accumulates:
                 found = {output.name: dissipated(arm, self.trajectory, times)}
             else:
                 found = read(arm, output, times, *self.trajectory.at(times))
@@ -75,7 +75,7 @@ def find_truth(scene: Scene, excitation: Excitation) -> Truth:
     ReferenceError
         If the equations cannot be integrated.
     """
-    if scene.model.kind == "chain":
+    if scene.model.linear:
         return Truth(scene, excitation, None)
     # a little beyond the end: the last of many steps may lie behind it by rounding
     until = excitation.until * (1.0 + 1e-9)

@@ -6,7 +6,7 @@ import struct
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from tmm_gen.emit.c.real import Real
+from tmm_gen.c_language.real import Real
 from tmm_gen.target.run import Run
 
 

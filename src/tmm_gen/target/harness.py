@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from tmm_gen.c_language.names import element_name
 from tmm_gen.emit.c.kernel import Kernel
 from tmm_gen.emit.c.structs import dimension
-from tmm_gen.emit.c_names import element_name
 from tmm_gen.emit.templates import render
 from tmm_gen.program.variables import Variable
 from tmm_gen.scene import Scene
@@ -76,7 +76,7 @@ def swing(scene: Scene, name: str) -> tuple[float, float]:
     """Return the bounds between which the harness moves an input: those of the scene's box, or 1 either way."""
     if scene.emit.box and name in scene.emit.box:
         return scene.emit.box[name]
-    angle = next((item for item in scene.inputs if item.acts == "angle"), None)
+    angle = scene.prescribed
     if angle is None or name not in kernel_names(angle):
         return -1.0, 1.0
     half = _GENTLE * scene.integrator.step ** (2 - kernel_names(angle).index(name))

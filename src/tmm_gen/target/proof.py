@@ -11,11 +11,11 @@ import re
 from dataclasses import dataclass
 from pathlib import PurePosixPath
 
+from tmm_gen.c_language.names import macros, member
 from tmm_gen.emit.c import emit_kernel
 from tmm_gen.emit.c.box import Box, box_of
 from tmm_gen.emit.c.kernel import Kernel
 from tmm_gen.emit.c.structs import dimension
-from tmm_gen.emit.c_names import macros, member
 from tmm_gen.emit.templates import render
 from tmm_gen.errors import UserError
 from tmm_gen.program.build import build_program

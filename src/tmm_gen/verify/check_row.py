@@ -17,12 +17,15 @@ class CheckRow:
         What was found, and what it may be at most.
     meaning : str
         In a sentence.
+    why : str
+        Where the value is none since something broke off, or is too large for a known reason: that reason.
     """
 
     check: str
     value: float
     bound: float
     meaning: str
+    why: str = ""
 
     @property
     def passed(self) -> bool:

@@ -86,12 +86,16 @@ def softened(scene: Scene) -> Scene:
 def _angles(module: ModuleType, soft: Scene, step: float, steps: int) -> Array:
     """Return the angles after each step, (steps, n), all links turning alike at first, no input acting."""
     params = module.Params()
-    changed = {
-        key: [getattr(j, key) for j in soft.joints]
-        for key in ("stiffness", "damping")
-        if hasattr(params, key)
-    }
-    params = replace(params, **{name: np.array(values) for name, values in changed.items()})
+    joints = {"stiffness": [j.stiffness for j in soft.joints], "damping": [j.damping for j in soft.joints]}
+    params = replace(
+        params,
+        **{
+            # one number where all joints are alike
+            name: np.array(values) if np.ndim(getattr(params, name)) else values[0]
+            for name, values in joints.items()
+            if hasattr(params, name)
+        },
+    )
     given = module.Input(**{item.name: 0.0 for item in soft.inputs})
     start = {"initial_angle": 0.0, "initial_rate": RATE}
     if "step" in inspect.signature(module.initialise).parameters:

@@ -9,15 +9,15 @@ from functools import cache
 import numpy as np
 import pytest
 
+from tmm_gen.closed_loop.plant import Plant
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.command import Controller
 from tmm_gen.control.condition import CONDITIONS
-from tmm_gen.control.emitted.emit import emit_controller
-from tmm_gen.control.emitted.native import EmittedController
 from tmm_gen.control.extended_kalman import NonlinearFilter
 from tmm_gen.control.linear_mpc import LinearMpc
-from tmm_gen.control.plant import Plant
 from tmm_gen.control.rti import RealTimeIteration
+from tmm_gen.onboard.emit import emit_controller
+from tmm_gen.onboard.native import EmittedController
 
 SENSORS = [0, 1]
 """The swing's: encoder and accelerometer."""
@@ -39,6 +39,12 @@ def python_controller(bench: Bench, kind: str) -> Controller:
     made = RealTimeIteration(bench.step, bench.links, bench.inertia, kind == "rti-zero")
     made.estimator = NonlinearFilter(bench.step, bench.links)
     return made
+
+
+@pytest.fixture(scope="session")
+def in_python() -> Callable[[Bench, str], Controller]:
+    """Return what makes the controller that an emitted one must equal."""
+    return python_controller
 
 
 @pytest.fixture(scope="session")

@@ -8,7 +8,7 @@ import pytest
 from support.mpc_on_board import run_on_board
 
 from tmm_gen.control.bench import Bench
-from tmm_gen.control.emitted.emit import emit_controller
+from tmm_gen.onboard.emit import emit_controller
 
 pytestmark = pytest.mark.compiler
 

@@ -9,17 +9,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from tmm_gen.closed_loop.plant import Plant
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.command import Status
 from tmm_gen.control.condition import CONDITIONS
-from tmm_gen.control.emitted.emit import EMITTED, emit_controller
-from tmm_gen.control.emitted.folder import EXAMPLE
-from tmm_gen.control.emitted.native import EmittedController
-from tmm_gen.control.emitted.program_data import ITERATIONS_PER_INPUT
 from tmm_gen.control.linear_mpc import LinearMpc
-from tmm_gen.control.plant import Plant
 from tmm_gen.control.safe import BRAKE_TIME
 from tmm_gen.errors import UserError
+from tmm_gen.onboard.emit import EMITTED, emit_controller
+from tmm_gen.onboard.folder import EXAMPLE
+from tmm_gen.onboard.native import EmittedController
+from tmm_gen.onboard.program_data import ITERATIONS_PER_INPUT
 
 pytestmark = pytest.mark.compiler
 

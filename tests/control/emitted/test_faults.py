@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from tmm_gen.control.bench import Bench
-from tmm_gen.control.emitted.emit import EMITTED
+from tmm_gen.onboard.emit import EMITTED
 
 pytestmark = pytest.mark.compiler
 
@@ -42,7 +42,7 @@ def test_all_come_back(kind: str, real: str, bench: Bench, benchmark_module: Any
 
 def test_a_controller_that_latches_would_be_seen(bench: Bench, benchmark_module: Any) -> None:
     """The same loop with a gate that is shut: the estimate never starts anew."""
-    from tmm_gen.control.emitted import emit
+    from tmm_gen.onboard import emit
 
     loops = importlib.import_module("faulty_loops.loop")
     cases = importlib.import_module("faulty_loops.cases")

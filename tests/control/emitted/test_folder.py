@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 
 from tmm_gen.control.bench import Bench
-from tmm_gen.control.emitted.emit import EMITTED, emit_controller
-from tmm_gen.control.emitted.text import macro_prefix
+from tmm_gen.onboard.emit import EMITTED, emit_controller
+from tmm_gen.onboard.text import macro_prefix
 
 pytestmark = pytest.mark.compiler
 

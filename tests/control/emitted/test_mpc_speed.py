@@ -22,10 +22,13 @@ LINKS = 2
 def solvers() -> Iterator[Any]:
     """The package beside the benchmark, found as the benchmark finds it."""
     sys.path.insert(0, str(ROOT / "benchmarks"))
-    modes = ca.GlobalOptions.getNumpyMode()
-    ca.GlobalOptions.setNumpyMode(-1)
+    chooses = hasattr(ca.GlobalOptions, "setNumpyMode")  # from CasADi 3.8 on
+    modes = ca.GlobalOptions.getNumpyMode() if chooses else None
+    if chooses:
+        ca.GlobalOptions.setNumpyMode(-1)
     yield lambda name: importlib.import_module(f"mpc_solvers.{name}")
-    ca.GlobalOptions.setNumpyMode(modes)
+    if chooses:
+        ca.GlobalOptions.setNumpyMode(modes)
     sys.path.remove(str(ROOT / "benchmarks"))
 
 

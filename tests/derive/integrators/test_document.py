@@ -1,4 +1,4 @@
-"""docs/integrators.md: its table is what is derived, and its example is one file and no other change."""
+"""docs/integrators.md: its table is what is derived, and its example, a row and a file, is all an integrator takes."""
 
 from __future__ import annotations
 
@@ -19,6 +19,9 @@ from tmm_gen.derive.integrators.analysis import analyse
 from tmm_gen.derive.integrators.registry import all_integrators, integrator, names
 from tmm_gen.derive.integrators.relations import discrete_coefficients
 from tmm_gen.derive.integrators.stability import radius_at_infinity
+from tmm_gen.native.python_module import numpy_module
+from tmm_gen.scene import SceneError, load_scene
+from tmm_gen.scene.integrator import METHODS, Method, Parameter
 
 DOCUMENT = Path(__file__).resolve().parents[3] / "docs" / "integrators.md"
 
@@ -55,8 +58,10 @@ def test_what_it_says_of_single_methods() -> None:
 
 @pytest.fixture
 def added(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
-    """Put the document's example where integrators are looked for; nothing else."""
-    (code,) = re.findall(r"^```python\n(.*?)^```$", DOCUMENT.read_text(), flags=re.M | re.S)
+    """Put the document's example where integrators are declared and looked for; nothing else."""
+    row, code = re.findall(r"^```python\n(.*?)^```$", DOCUMENT.read_text(), flags=re.M | re.S)
+    method = eval(row, {"Method": Method, "Parameter": Parameter})
+    monkeypatch.setattr("tmm_gen.scene.integrator.METHODS", (*METHODS, method))
     (function,) = (node for node in ast.parse(code).body if isinstance(node, ast.FunctionDef))
     (tmp_path / f"{function.name}.py").write_text(code)
     monkeypatch.setattr(package, "__path__", [*package.__path__, str(tmp_path)])
@@ -66,7 +71,7 @@ def added(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
         delattr(package, function.name)
 
 
-def test_one_file_adds_an_integrator(
+def test_a_row_and_a_file_add_an_integrator(
     added: str,
     simulate: Callable[..., np.ndarray],
     oscillator: type,
@@ -76,7 +81,7 @@ def test_one_file_adds_an_integrator(
     assert added in names()
     method = integrator(added)
     assert method.name in [other.name for other in all_integrators()]
-    with pytest.raises(ValueError, match="alpha = 1 must be between"):
+    with pytest.raises(ValueError, match=r"alpha = 1 must be between -0\.333333 and 0"):
         integrator(added, alpha=1)
 
     found = analyse(method, 0.05)
@@ -100,6 +105,21 @@ def test_one_file_adds_an_integrator(
     monkeypatch.setattr("tmm_gen.derive.integrators.registry.all_integrators", lambda: (method,))
     assert main(["integrators"]) == 0
     assert added in capsys.readouterr().out
+
+
+def test_scenes_may_name_it_and_kernels_are_made_of_it(added: str) -> None:
+    scene = load_scene(DOCUMENT.parents[1] / "scenes" / "thesis2.toml")
+    with pytest.raises(SceneError, match="alpha: must be between"):
+        scene.replace(**{"integrator.name": added, "integrator.alpha": 0.1})
+    tips = []
+    for changes in ({"integrator.name": added, "integrator.alpha": 0.0}, {"integrator.name": "newmark"}):
+        module = numpy_module(scene.replace(**changes))
+        params, inputs = module.Params(), module.Input(**dict.fromkeys((i.name for i in scene.inputs), 1.0))
+        model, state = module.prepare(), module.initialise(params, inputs)
+        for _ in range(20):
+            state = module.step(model, state, inputs)
+        tips.append(np.array(state.angle))
+    np.testing.assert_allclose(tips[0], tips[1], rtol=1e-12)
 
 
 def test_the_example_is_gone_afterwards() -> None:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import inspect
+from importlib import import_module
+
 import pytest
 import sympy as sp
 
@@ -16,7 +19,12 @@ def test_the_same_names() -> None:
 
 
 @pytest.mark.parametrize("method", METHODS, ids=lambda m: m.name)
-def test_the_same_parameters_and_defaults(method: Method) -> None:
+def test_parameters_are_declared_once(method: Method) -> None:
+    """Formulas take the declared parameters by name, without a default of their own."""
+    module = import_module(f"tmm_gen.derive.integrators.{method.name}")
+    arguments = inspect.signature(getattr(module, method.name)).parameters
+    assert list(arguments) == [p.name for p in method.parameters]
+    assert all(argument.default is inspect.Parameter.empty for argument in arguments.values())
     declared = integrator(method.name).parameters
     assert {p.name: exact(p.default) for p in method.parameters} == dict(declared)
 

@@ -10,6 +10,7 @@ from tmm_gen.derive.elements import nodes, torsion
 from tmm_gen.derive.elements.declaration import Element
 from tmm_gen.derive.elements.planar import LENGTH, LINK
 from tmm_gen.derive.station.law import by_time, law_of
+from tmm_gen.errors import UserError
 
 RNG = np.random.default_rng(7)
 L, M, INERTIA, KAPPA = 0.3, 0.7, 0.02, 0.35
@@ -58,7 +59,11 @@ def _at(
     return {theta.q: angle, theta.v: rate, theta.a: acceleration, x.a: place[0], y.a: place[1]}
 
 
-@pytest.mark.filterwarnings("ignore:Arrays of 2-dimensional vectors are deprecated")
+def turned_by(arm: np.ndarray, force: np.ndarray) -> float:
+    """Return the moment of a force in the plane."""
+    return float(arm[0] * force[1] - arm[1] * force[0])
+
+
 @pytest.mark.parametrize("name", ROWS)
 def test_it_is_newton_and_euler(name: str) -> None:
     for _ in range(4):
@@ -68,9 +73,8 @@ def test_it_is_newton_and_euler(name: str) -> None:
         inner = forces[:2] + M * (a + KAPPA * L * (acceleration * across - rate**2 * along))
         to_inner, to_outer = -KAPPA * L * along, (1 - KAPPA) * L * along
         # I alpha = M_in - M_out + r_in x F_in - r_out x F_out
-        moment = (
-            INERTIA * acceleration + forces[2] - np.cross(to_inner, inner) + np.cross(to_outer, forces[:2])
-        )
+        moment = INERTIA * acceleration + forces[2] - turned_by(to_inner, inner)
+        moment += turned_by(to_outer, forces[:2])
         np.testing.assert_allclose(carried(ROWS[name], motion, forces), [*inner, moment], rtol=1e-11)
 
 
@@ -103,5 +107,12 @@ def test_power_through_an_element_is_what_it_holds_and_heats(name: str) -> None:
 
 def test_an_element_that_leaves_two_motions_open_is_refused() -> None:
     open_pin = Element("open", "", nodes.PIN.inboard, nodes.PIN.outboard, nodes.PIN.equations[1:])
-    with pytest.raises(ValueError, match="determined but for one coordinate"):
+    with pytest.raises(UserError, match="State the others by the inner motion"):
         law_of(open_pin)
+    law_of(nodes.PIN)
+
+
+def test_an_element_without_a_balance_of_forces_is_refused() -> None:
+    *balanced, _ = nodes.PIN.equations
+    with pytest.raises(UserError, match="State one balance of forces"):
+        law_of(Element("slack", "", nodes.PIN.inboard, nodes.PIN.outboard, tuple(balanced)))

@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 import pytest
 
+from tmm_gen.c_language.real import REALS
 from tmm_gen.emit.c import emit_kernel, free_scene
 from tmm_gen.emit.c.bind import bind
 from tmm_gen.emit.c.lower import lower
-from tmm_gen.emit.c.real import REALS
 from tmm_gen.emit.c.structs import structs_of
 from tmm_gen.errors import UserError
 from tmm_gen.native import compile_kernel

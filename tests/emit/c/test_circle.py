@@ -12,9 +12,9 @@ import pytest
 import sympy as sp
 from numpy.typing import NDArray
 
+from tmm_gen.c_language.real import REALS
 from tmm_gen.emit.c import emit_kernel
 from tmm_gen.emit.c.circle import ERROR, Turns, angles_in, constants
-from tmm_gen.emit.c.real import REALS
 from tmm_gen.native import compile_kernel
 from tmm_gen.native.compiler import compile_library
 from tmm_gen.native.library import OutOfRangeError

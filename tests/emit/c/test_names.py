@@ -5,6 +5,7 @@ from __future__ import annotations
 import keyword
 import re
 import subprocess
+from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -13,8 +14,8 @@ import pytest
 from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
+from tmm_gen.c_language.names import PREFIX, macros, signal
 from tmm_gen.emit.c import emit_c, emit_kernel
-from tmm_gen.emit.c_names import PREFIX, macros, signal
 from tmm_gen.program.build import build_program
 from tmm_gen.scene import parse_scene
 from tmm_gen.scene.identifier import name_fault, scene_name_fault
@@ -24,11 +25,10 @@ pytestmark = pytest.mark.compiler
 HEADERS = """assert complex ctype errno fenv float inttypes iso646 limits locale math setjmp signal stdarg stdbool
 stddef stdint stdio stdlib string tgmath time wchar wctype unistd sys/types sys/socket
 netinet/in pthread poll fcntl termios"""
-DIALECTS = (
-    ("gcc", "-std=c99", "-pedantic", "-Werror"),
-    ("gcc", "-std=gnu17", "-Werror"),
-    ("g++", "-std=gnu++17", "-Werror"),
-)
+DIALECTS = {
+    "C": (("gcc", "-std=c99", "-pedantic", "-Werror"), ("gcc", "-std=gnu17", "-Werror")),
+    "C++": (("g++", "-std=gnu++17", "-Werror"),),
+}
 CPP = """
 alignas alignof and and_eq asm auto bitand bitor bool break case catch char char16_t class compl
 const constexpr const_cast continue decltype default delete do double dynamic_cast else enum
@@ -103,15 +103,22 @@ def emitted(text: str) -> dict[str, str]:
     return {Path(path).name: content for path, content in emit_c(build_program(scene), scene).items()}
 
 
-def compile_all(folder: Path, files: dict[str, str], users: dict[str, str]) -> None:
-    """Compile C files in both dialects of C, and the users of headers in C++ too."""
+@pytest.fixture(params=DIALECTS)
+def language(request: pytest.FixtureRequest, need_tool: Callable[[str], str]) -> str:
+    """What headers are used from."""
+    if request.param == "C++":
+        need_tool("g++")
+    return str(request.param)
+
+
+def compile_all(folder: Path, files: dict[str, str], users: dict[str, str], language: str) -> None:
+    """Compile C files and users of their headers in the dialects of C; in C++, the users alone."""
     for name, text in {**files, **users}.items():
         (folder / name).write_text(text)
-    for compiler, *flags in DIALECTS:
-        sources = [n for n in (*files, *users) if n.endswith(".c") and (compiler == "gcc" or n in users)]
-        language = ["-x", "c++"] if compiler == "g++" else []
+    for compiler, *flags in DIALECTS[language]:
+        sources = [n for n in (*files, *users) if n.endswith(".c") and (language == "C" or n in users)]
         done = subprocess.run(
-            [compiler, *flags, "-fsyntax-only", *language, *sources],
+            [compiler, *flags, "-fsyntax-only", "-x", language.lower(), *sources],
             cwd=folder,
             capture_output=True,
             text=True,
@@ -153,13 +160,13 @@ def first_of(scene: str, called: list[str], behind: str) -> str:
 
 @FEW
 @given(called=names(40))
-def test_signals_may_have_any_name(called: list[str], tmp_path: Path) -> None:
+def test_signals_may_have_any_name(called: list[str], language: str, tmp_path: Path) -> None:
     users = {"user.c": user_of("arm", called, included())}
     users["first.c"] = first_of("arm", called, "#include <math.h>\n#include <stdio.h>\n#include <string.h>\n")
-    compile_all(tmp_path, emitted(scene_text("arm", called)), users)
+    compile_all(tmp_path, emitted(scene_text("arm", called)), users, language)
 
 
-def test_every_dialect_finds_the_same_member(tmp_path: Path) -> None:
+def test_every_dialect_finds_the_same_member(language: str, tmp_path: Path) -> None:
     """Kernels and programs of different dialects disagree on what is a macro, never on where a signal lies."""
     hostile = ["linux", "NAN", "EOF", "register", "M_PI", "k", "unix", "ARM_STEP", "tmm_k", "xor", "arm_real"]
     printed: dict[tuple[str, ...], set[str]] = {}
@@ -187,9 +194,9 @@ int main(void)
 """
         )
         subprocess.run(["gcc", "-std=c99", "-c", "arm.c"], cwd=folder, check=True)
-        for compiler, *flags in DIALECTS:
-            language = ["-x", "c++"] if compiler == "g++" else []
-            command = [compiler, *flags, *language, "main.c", "-x", "none", "arm.o", "-lm", "-o", "run"]
+        for compiler, *flags in (*DIALECTS["C"], *(DIALECTS[language] if language != "C" else ())):
+            said = "c++" if compiler == "g++" else "c"
+            command = [compiler, *flags, "-x", said, "main.c", "-x", "none", "arm.o", "-lm", "-o", "run"]
             subprocess.run(command, cwd=folder, check=True)
             done = subprocess.run(["./run"], cwd=folder, capture_output=True, text=True, check=True)
             printed.setdefault(tuple(called), set()).add(done.stdout)
@@ -212,7 +219,7 @@ def test_signals_of_own_names_stay_apart() -> None:
 @FEW
 @given(scenes=names(2), called=names(5))
 def test_scenes_may_have_any_name_and_share_a_program(
-    scenes: list[str], called: list[str], tmp_path: Path
+    scenes: list[str], called: list[str], language: str, tmp_path: Path
 ) -> None:
     fine = [name for name in dict.fromkeys([*scenes, "R", "w", "linux"]) if scene_name_fault(name) is None]
     files: dict[str, str] = {}
@@ -221,7 +228,7 @@ def test_scenes_may_have_any_name_and_share_a_program(
         # the kernel of a scene is the same but for its name, which nothing else contains
         files |= emitted(scene_text(name, called))
         users[f"user_{name}.c"] = user_of(name, called, included())
-    compile_all(tmp_path, files, users)
+    compile_all(tmp_path, files, users, language)
 
 
 def test_macros_of_two_names_differ() -> None:

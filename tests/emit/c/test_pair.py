@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import re
 from fractions import Fraction
 from functools import cache
 from pathlib import Path
@@ -11,21 +12,24 @@ from typing import Any
 import mpmath
 import numpy as np
 import pytest
+import sympy as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from tmm_gen.c_language.real import COMPENSATED
+from tmm_gen.derive.integrators.registry import names
 from tmm_gen.emit.c import emit_kernel
 from tmm_gen.emit.c import pair as arithmetic
 from tmm_gen.emit.c.bind import bind
 from tmm_gen.emit.c.circle import PAIR_ERROR, PairCircle
 from tmm_gen.emit.c.lower import lower
-from tmm_gen.emit.c.pair import Pair, functions_in, minus, over, plus, times
-from tmm_gen.emit.c.real import COMPENSATED
+from tmm_gen.emit.c.pair import Pair, PairPrinter, functions_in, minus, over, plus, times
 from tmm_gen.emit.templates import _environment
 from tmm_gen.native import compile_kernel
 from tmm_gen.native.compiler import compile_library
 from tmm_gen.native.layout import PairStructure
 from tmm_gen.program.build import build_program
+from tmm_gen.program.variables import local
 from tmm_gen.resources import scenes_dir
 from tmm_gen.scene import Scene, load_scene
 
@@ -123,14 +127,20 @@ def compensated(name: str, **changes: object) -> Scene:
 
 
 @pytest.mark.compiler
-@pytest.mark.parametrize("name", ["drivetrain", "swing"])
-def test_a_step_is_as_good_as_in_double_precision(name: str) -> None:
-    scene = compensated(name)
+@pytest.mark.parametrize(
+    ("name", "integrator"),
+    [
+        *(("thesis10", integrator) for integrator in names()),
+        ("drivetrain", "generalized_alpha"),
+        ("swing", "newmark"),
+        ("swing", "sdirk2"),
+    ],
+)
+def test_a_step_is_as_good_as_in_double_precision(name: str, integrator: str) -> None:
+    scene = compensated(name, **{"integrator.name": integrator})
     program = build_program(scene)
     mine = compile_kernel(program, scene)
-    double = compile_kernel(
-        program, load_scene(scenes_dir() / f"{name}.toml").replace(**{"emit.real": "float64"})
-    )
+    double = compile_kernel(program, scene.replace(**{"emit.real": "float64", "emit.compensated": False}))
     for kernel in (mine, double):
         kernel.prepare()
         kernel.initialise()
@@ -144,15 +154,39 @@ def test_a_step_is_as_good_as_in_double_precision(name: str) -> None:
 
 
 @pytest.mark.compiler
-@pytest.mark.parametrize("name", ["thesis10", "drivetrain"])
-def test_bound_numbers_are_those_that_prepare_computes(name: str) -> None:
-    scene = compensated(name)
+@pytest.mark.parametrize(
+    ("name", "integrator"),
+    [
+        ("thesis10", "newmark"),
+        ("thesis10", "sdirk2"),
+        ("drivetrain", "generalized_alpha"),
+        ("swing", "sdirk2"),
+    ],
+)
+def test_bound_numbers_are_those_that_prepare_computes(name: str, integrator: str) -> None:
+    scene = compensated(name, **{"integrator.name": integrator})
     program = build_program(scene)
     kernel = compile_kernel(program, scene)
     kernel.prepare()
     for variable, values in bind(lower(program), COMPENSATED).items():
         if variable.name in kernel.model:
             assert np.array_equal(np.atleast_1d(kernel.model[variable.name]), np.array(values)), variable.name
+
+
+def test_irrational_coefficients_are_constants_of_48_bits() -> None:
+    x, root = local("x"), sp.sqrt(2)
+    for coefficient in (root, 1 - root / 2, root / 6, 1 / (1 + root), sp.pi):
+        for expression, value in (
+            (coefficient, coefficient),
+            (coefficient * x, coefficient),
+            (x / coefficient, 1 / coefficient),
+        ):
+            text = PairPrinter(lambda ref: "x").text(expression)
+            assert "sqrt" not in text
+            (numbers,) = re.findall(r"{(.*?)f, (.*?)f}", text)
+            wanted = Fraction(str(value.evalf(40)))
+            found = sum(Fraction(float(np.float32(number))) for number in numbers)
+            assert abs(found - wanted) <= Fraction(2) ** -48 * abs(wanted), text
 
 
 def test_only_what_is_asked_for_is_compensated() -> None:

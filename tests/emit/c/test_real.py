@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tmm_gen.emit.c.real import DOUBLE, FLOAT
+from tmm_gen.c_language.real import DOUBLE, FLOAT
 from tmm_gen.errors import UserError
 
 

@@ -13,7 +13,7 @@ from tmm_gen.emit.c import emit_c, emit_kernel
 from tmm_gen.emit.c.kernel import Kernel
 from tmm_gen.emit.c.vectors import vectors
 from tmm_gen.emit.runs import python_items, runs
-from tmm_gen.emit.write import WITHOUT_MOTION
+from tmm_gen.emit.seal import WITHOUT_MOTION
 from tmm_gen.program.build import build_program
 from tmm_gen.scene import Scene, load_scene
 from tmm_gen.verify.host_test import run_host_test

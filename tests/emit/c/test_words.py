@@ -9,11 +9,11 @@ from typing import Any
 
 import pytest
 
+from tmm_gen.c_language.names import bare_names, declared, macros, signal
+from tmm_gen.c_language.words import taken
 from tmm_gen.emit.c import emit_c
 from tmm_gen.emit.c.box import box_of
 from tmm_gen.emit.c.kernel import Kernel
-from tmm_gen.emit.c_names import bare_names, declared, macros, signal
-from tmm_gen.emit.c_words import taken
 from tmm_gen.export.fmu.unit import _sources
 from tmm_gen.program.build import build_program
 from tmm_gen.resources import templates_dir

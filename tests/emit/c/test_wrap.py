@@ -5,7 +5,7 @@ from __future__ import annotations
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tmm_gen.emit.c.wrap import WIDTH, comment, statement
+from tmm_gen.c_language.wrap import WIDTH, comment, statement
 
 names = st.from_regex(r"[a-z]{1,20}(\[j( \+ 1)?\])?", fullmatch=True)
 expressions = st.recursive(

@@ -11,8 +11,9 @@ from pathlib import Path
 import pytest
 import sympy as sp
 
+from tmm_gen.emit.expressions import element
 from tmm_gen.emit.python.lines import WIDTH, assignment, call, comments, listing, prose, text
-from tmm_gen.emit.python.printer import PythonPrinter, element
+from tmm_gen.emit.python.printer import PythonPrinter
 from tmm_gen.program.variables import Ref, Role, Variable
 
 NAMES = [

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 
 import mpmath
 import numpy as np
@@ -13,13 +14,16 @@ from tmm_gen.modal.beam import (
     BeamBase,
     Body,
     Member,
+    beam_arm,
     beam_shape,
     damped_pole,
     frequencies_below,
     modes_below,
     natural_frequencies,
 )
+from tmm_gen.scene import load_scene
 
+ARM10 = Path(__file__).resolve().parents[3] / "scenes" / "arm10.toml"
 UNIT = Member(1.0, 1.0, 1.0)
 STEEL = Member(0.7, 40.0, 0.9)
 
@@ -191,6 +195,16 @@ def test_damped_poles_of_a_clamped_beam_have_a_closed_form() -> None:
         assert pole == pytest.approx(omega * complex(-zeta, np.sqrt(1 - zeta**2)), rel=1e-12)
     heavy = Member(1.0, 1.0, 1.0, damping_time=0.1)
     assert damped_pole(BeamArm((heavy,)), natural_frequencies(BeamArm((heavy,)), 3)[2]) is None
+
+
+@pytest.mark.filterwarnings("error")
+def test_no_damping_is_too_strong_for_an_answer() -> None:
+    scene = load_scene(ARM10)
+    for time in (1.0, 536.8102124127167, 1e6, 1e12, 1e100):
+        arm = beam_arm(scene.replace(**{"beam.damping_time": time}))
+        assert arm is not None
+        for omega in natural_frequencies(arm, 6):
+            assert omega == 0.0 or damped_pole(arm, omega) is None
 
 
 def test_mode_shapes() -> None:

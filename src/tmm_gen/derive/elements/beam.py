@@ -104,18 +104,3 @@ def waves() -> Waves:
         shape=sp.Matrix([1, *(sp.simplify(solved[name].subs(values)) for name in unknown)]),
         discriminant=discriminant,
     )
-
-
-def simply_supported_squares(number: sp.Symbol) -> sp.Poly:
-    """Return the polynomial in ``-p`` whose roots are the squared frequencies of a beam on two supports.
-
-    Its modes are ``w = sin(n pi xi)``, that is ``kappa = i n pi``.
-
-    Parameters
-    ----------
-    number : sympy.Symbol
-        ``n``.
-    """
-    square = sp.Symbol("Omega2")
-    characteristic = (system_matrix() - WAVE * sp.eye(4)).det()
-    return sp.Poly(sp.expand(characteristic.subs({WAVE: sp.I * number * sp.pi, FREQUENCY: -square})), square)

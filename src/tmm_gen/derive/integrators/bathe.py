@@ -7,16 +7,15 @@ import sympy as sp
 from tmm_gen.derive.integrators.declaration import Integrator, Kind, Scheme, Stage, end_of_step, past, stage
 from tmm_gen.derive.integrators.interpolation import Datum, backward_difference
 from tmm_gen.derive.integrators.newmark import newmark_scheme
-from tmm_gen.derive.integrators.parameters import require
 
 
-def bathe(gamma: sp.Expr = sp.S.Half) -> Integrator:
+def bathe(gamma: sp.Expr) -> Integrator:
     """Return Bathe's method.
 
     Parameters
     ----------
     gamma : sympy.Expr
-        The first stage ends at ``t + gamma*h``; between 0 and 1. With 2 - sqrt(2) both
+        The first stage ends at ``t + gamma*h``. With 2 - sqrt(2) both
         stages have equal gains.
 
     References
@@ -24,7 +23,6 @@ def bathe(gamma: sp.Expr = sp.S.Half) -> Integrator:
     K. J. Bathe, M. M. I. Baig, On a composite implicit time integration procedure for nonlinear dynamics,
     Computers & Structures 83 (2005).
     """
-    require(sp.And(gamma > 0, gamma < 1), "bathe", "gamma", gamma, "between 0 and 1, ends excluded")
     trapezoidal = newmark_scheme(sp.Rational(1, 4), sp.Rational(1, 2), span=gamma).stages[0]
     backward = Stage(sp.Integer(1), (_rate("q", gamma) - stage("v", 2), _rate("v", gamma) - stage("a", 2)))
     return Integrator(

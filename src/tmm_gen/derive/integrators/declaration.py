@@ -52,15 +52,6 @@ def pasts_in(expression: sp.Expr) -> frozenset[Past]:
     return frozenset(found)
 
 
-def stages_in(expression: sp.Expr) -> frozenset[tuple[Kind, int]]:
-    """Return the stage values (kind, stage number) on which an expression depends."""
-    found = set()
-    for symbol in expression.free_symbols:
-        if match := re.fullmatch(r"([qva])_stage(\d+)", symbol.name):
-            found.add((cast(Kind, match[1]), int(match[2])))
-    return frozenset(found)
-
-
 @dataclass(frozen=True)
 class Stage:
     """One equilibrium of a step.

@@ -5,12 +5,11 @@ from __future__ import annotations
 import sympy as sp
 
 from tmm_gen.derive.integrators.declaration import STEP, Integrator, Kind, Scheme, Stage, past, stage
-from tmm_gen.derive.integrators.parameters import require
 
 h = STEP
 
 
-def generalized_alpha(rho_inf: sp.Expr = 4 * sp.S.One / 5) -> Integrator:
+def generalized_alpha(rho_inf: sp.Expr) -> Integrator:
     """Return the generalised-alpha method.
 
     Parameters
@@ -23,7 +22,6 @@ def generalized_alpha(rho_inf: sp.Expr = 4 * sp.S.One / 5) -> Integrator:
     J. Chung, G. M. Hulbert, A time integration algorithm for structural dynamics with improved numerical
     dissipation: the generalized-alpha method, J. Appl. Mech. 60 (1993).
     """
-    require(sp.And(rho_inf >= 0, rho_inf <= 1), "generalized_alpha", "rho_inf", rho_inf, "between 0 and 1")
     alpha_m = (2 * rho_inf - 1) / (rho_inf + 1)
     alpha_f = rho_inf / (rho_inf + 1)
     gamma = sp.Rational(1, 2) - alpha_m + alpha_f

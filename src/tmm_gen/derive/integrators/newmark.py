@@ -5,7 +5,6 @@ from __future__ import annotations
 import sympy as sp
 
 from tmm_gen.derive.integrators.declaration import STEP, Integrator, Scheme, Stage, end_of_step, past, stage
-from tmm_gen.derive.integrators.parameters import require
 
 h = STEP
 
@@ -31,7 +30,7 @@ def newmark_scheme(beta: sp.Expr, gamma: sp.Expr, span: sp.Expr = sp.S.One) -> S
     )
 
 
-def newmark(beta: sp.Expr = sp.S.One / 4, gamma: sp.Expr = sp.S.Half) -> Integrator:
+def newmark(beta: sp.Expr, gamma: sp.Expr) -> Integrator:
     """Return Newmark's method.
 
     Parameters
@@ -39,17 +38,10 @@ def newmark(beta: sp.Expr = sp.S.One / 4, gamma: sp.Expr = sp.S.Half) -> Integra
     beta, gamma : sympy.Expr
         1/4, 1/2 is the average, 1/6, 1/2 the linear acceleration; beta = 0 is explicit.
 
-    Raises
-    ------
-    ValueError
-        If beta or gamma is outside 0 to 1.
-
     References
     ----------
     N. M. Newmark, A method of computation for structural dynamics, J. Eng. Mech. Div. ASCE 85 (1959).
     """
-    require(sp.And(beta >= 0, beta <= 1), "newmark", "beta", beta, "between 0 and 1")
-    require(sp.And(gamma >= 0, gamma <= 1), "newmark", "gamma", gamma, "between 0 and 1")
     return Integrator(
         name="newmark",
         title="Newmark 1959",

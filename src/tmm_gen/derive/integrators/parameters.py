@@ -1,12 +1,15 @@
-"""Parameters of integrators as exact numbers, and the ranges they must lie in."""
+"""Parameters of integrators as exact numbers, within the ranges they are declared with."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from fractions import Fraction
 from typing import TypeAlias
 
 import sympy as sp
+
+from tmm_gen.scene.integrator import Method, Parameter
 
 Number: TypeAlias = "int | float | Fraction | sp.Expr"
 """What a caller may give for a parameter."""
@@ -39,13 +42,37 @@ def exact(value: Number) -> sp.Expr:
     return sp.Rational(simple) if float(simple) == number else sp.Rational(repr(number))
 
 
-def require(condition: sp.Basic | bool, method: str, name: str, value: sp.Expr, allowed: str) -> None:
-    """Refuse a parameter that violates its range; symbolic parameters are let through.
+def bind(method: Method, given: Mapping[str, Number]) -> dict[str, sp.Expr]:
+    """Return all parameters of a method as exact numbers; those not given have its defaults.
 
     Raises
     ------
     ValueError
-        Naming the method, the parameter, its value and what is allowed.
+        If one is unknown, no number, or out of its range; symbols are let through.
     """
-    if condition == False:  # noqa: E712 - a SymPy relation: only a decided "no" refuses
-        raise ValueError(f"{method}: {name} = {value} must be {allowed}")
+    known = [parameter.name for parameter in method.parameters]
+    for name in given:
+        if name not in known:
+            choice = f"it has {', '.join(known)}" if known else "it has none"
+            raise ValueError(f"{method.name} has no parameter {name!r}; {choice}")
+    bound: dict[str, sp.Expr] = {}
+    for parameter in method.parameters:
+        try:
+            value = exact(given.get(parameter.name, parameter.default))
+        except ValueError as error:
+            raise ValueError(f"{method.name}: {parameter.name}: {error}") from None
+        if _outside(parameter, value):
+            raise ValueError(f"{method.name}: {parameter.name} = {value} must be {parameter.range}")
+        bound[parameter.name] = value
+    return bound
+
+
+def _outside(parameter: Parameter, value: sp.Expr) -> bool:
+    """Return whether a value is certainly out of range: of symbols nobody knows."""
+    low, high = _end(parameter.low), _end(parameter.high)
+    conditions = (value > low, value < high) if parameter.open else (value >= low, value <= high)
+    return any(condition == False for condition in conditions)  # noqa: E712 - SymPy: only a decided "no"
+
+
+def _end(value: float) -> sp.Expr:
+    return exact(value) if math.isfinite(value) else sp.oo * int(math.copysign(1, value))

@@ -1,4 +1,7 @@
-"""All integrators, found by looking: a module ``x`` whose function ``x`` returns an Integrator is one."""
+"""All integrators, found by looking: a module ``x`` whose function ``x`` returns an Integrator is one.
+
+Their parameters, with defaults and ranges, are declared in :mod:`tmm_gen.scene.integrator`, which needs no SymPy.
+"""
 
 from __future__ import annotations
 
@@ -7,11 +10,10 @@ import pkgutil
 from collections.abc import Callable
 from importlib import import_module
 
-import sympy as sp
-
 import tmm_gen.derive.integrators as package
 from tmm_gen.derive.integrators.declaration import Integrator
-from tmm_gen.derive.integrators.parameters import Number, exact
+from tmm_gen.derive.integrators.parameters import Number, bind
+from tmm_gen.scene.integrator import method_named, underscored
 
 Factory = Callable[..., Integrator]
 
@@ -32,21 +34,15 @@ def integrator(name: str, **parameters: Number) -> Integrator:
         If the name or a parameter is unknown, or a value is out of its range.
     """
     factories = _factories()
-    key = name.replace("-", "_")
+    key = underscored(name)
     if key not in factories:
         raise ValueError(f"no integrator is named {name!r}; there are {', '.join(factories)}")
-    allowed = inspect.signature(factories[key]).parameters
-    for given in parameters:
-        if given not in allowed:
-            choice = f"it has {', '.join(allowed)}" if allowed else "it has none"
-            raise ValueError(f"{key} has no parameter {given!r}; {choice}")
-    bound: dict[str, sp.Expr] = {}
-    for given, value in parameters.items():
-        try:
-            bound[given] = exact(value)
-        except ValueError as error:
-            raise ValueError(f"{key}: {given}: {error}") from None
-    return factories[key](**bound)
+    method = method_named(key)
+    if method is None:
+        raise ValueError(
+            f"{key}: its parameters are not declared; add a Method to METHODS of scene/integrator.py"
+        )
+    return factories[key](**bind(method, parameters))
 
 
 def names() -> tuple[str, ...]:
@@ -56,7 +52,7 @@ def names() -> tuple[str, ...]:
 
 def all_integrators() -> tuple[Integrator, ...]:
     """Return every integrator with its default parameters, sorted by name."""
-    return tuple(factory() for factory in _factories().values())
+    return tuple(integrator(name) for name in names())
 
 
 def _factories() -> dict[str, Factory]:

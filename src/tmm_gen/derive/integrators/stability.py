@@ -39,12 +39,6 @@ def stability_limit(linear: Amplification, zeta: Number = 0) -> sp.Expr:
     return sp.oo
 
 
-def spectral_radius(linear: Amplification, omega: Number, zeta: Number = 0) -> float:
-    """Return the largest modulus of the eigenvalues at ``Omega = omega``."""
-    polynomial = sp.Poly(at_damping(linear, zeta).as_expr().subs(OMEGA, exact(omega)), LAMBDA, extension=True)
-    return float(max((abs(root) for root, _ in _roots(polynomial)), default=mpmath.mpf(0)))
-
-
 def radius_at_infinity(linear: Amplification, zeta: Number = 0) -> sp.Expr:
     """Return the limit of the spectral radius for ``Omega`` to infinity; infinity where eigenvalues run away.
 
@@ -62,15 +56,6 @@ def radius_at_infinity(linear: Amplification, zeta: Number = 0) -> sp.Expr:
         else:
             radii += [sp.Float(abs(root), 15) for root, _ in _roots(factor)]
     return max(radii, key=lambda radius: radius.evalf(_DIGITS))
-
-
-def flip_limits(linear: Amplification) -> tuple[sp.Expr, ...]:
-    """Return the ``Omega`` at which an eigenvalue is -1, with ``ZETA`` and parameters left as symbols.
-
-    For one-step methods of Newmark's kind this is the closed form of the limit of stability.
-    """
-    at_flip = sp.factor(linear.characteristic.as_expr().subs(LAMBDA, -1))
-    return tuple(sp.simplify(root) for root in sp.solve(at_flip, OMEGA))
 
 
 def at_damping(linear: Amplification, zeta: Number) -> sp.Poly:

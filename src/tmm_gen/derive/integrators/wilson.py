@@ -6,18 +6,17 @@ import sympy as sp
 
 from tmm_gen.derive.integrators.declaration import STEP, Integrator, Kind, Scheme, Stage, past, stage
 from tmm_gen.derive.integrators.interpolation import TIME, Datum, interpolant
-from tmm_gen.derive.integrators.parameters import require
 
 h = STEP
 
 
-def wilson(theta: sp.Expr = 7 * sp.S.One / 5) -> Integrator:
+def wilson(theta: sp.Expr) -> Integrator:
     """Return Wilson's method.
 
     Parameters
     ----------
     theta : sympy.Expr
-        Equilibrium is imposed at ``t + theta*h``, over which the acceleration is linear; at least 1. From
+        Equilibrium is imposed at ``t + theta*h``, over which the acceleration is linear. From
         about 1.366 the method is unconditionally stable; 1 is Newmark 1/6.
 
     References
@@ -25,7 +24,6 @@ def wilson(theta: sp.Expr = 7 * sp.S.One / 5) -> Integrator:
     E. L. Wilson, I. Farhoomand, K. J. Bathe, Nonlinear dynamic analysis of complex structures, Earthquake
     Eng. Struct. Dyn. 1 (1973); Gholampour (2018), eqs. 3-60 to 3-64.
     """
-    require(theta >= 1, "wilson", "theta", theta, "at least 1")
     acceleration = interpolant([Datum(sp.Integer(0), past("a")), Datum(theta, stage("a", 1))])
     velocity = past("v") + h * _integral(acceleration)
     displacement = past("q") + h * _integral(velocity)

@@ -9,7 +9,7 @@ from tmm_gen.derive.integrators.declaration import STEP, Integrator, Scheme, Sta
 h = STEP
 
 
-def zhai(psi: sp.Expr = sp.S.Half, phi: sp.Expr = sp.S.Half) -> Integrator:
+def zhai(psi: sp.Expr, phi: sp.Expr) -> Integrator:
     """Return Zhai's method; equilibrium at ``t + h`` only yields the new acceleration.
 
     Parameters

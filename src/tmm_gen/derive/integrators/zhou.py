@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from functools import cache
-
 import sympy as sp
 
 from tmm_gen.derive.integrators.declaration import (
     STEP,
     Integrator,
-    Kind,
     Scheme,
     Stage,
     end_of_step,
@@ -20,22 +17,19 @@ from tmm_gen.derive.integrators.declaration import (
 h = STEP
 
 
-def zhou(g1: sp.Expr | None = None, g2: sp.Expr | None = None) -> Integrator:
+def zhou(g1: sp.Expr, g2: sp.Expr) -> Integrator:
     """Return the method of Zhou & Zhou.
 
     Parameters
     ----------
-    g1, g2 : sympy.Expr, optional
-        Weights of the older acceleration in velocity and displacement; where absent, the values that cancel
-        the leading error (:func:`optimal_pair`).
+    g1, g2 : sympy.Expr
+        Weights of the older acceleration in velocity and displacement; 1/3 and 1/2 cancel the leading errors of both.
 
     References
     ----------
     J. Zhou, Y. Zhou, A new simple method of implicit time integration for dynamic problems of engineering
     structures, Acta Mech. Sin. 23 (2007); Gholampour (2018), eqs. 3-80, 3-81, 3-84, 3-85.
     """
-    best1, best2 = optimal_pair()
-    g1, g2 = best1 if g1 is None else g1, best2 if g2 is None else g2
     zero = sp.Integer(0)
     return Integrator(
         name="zhou",
@@ -46,14 +40,6 @@ def zhou(g1: sp.Expr | None = None, g2: sp.Expr | None = None) -> Integrator:
         startup=(_scheme(zero, zero),),
         parameters={"g1": g1, "g2": g2},
     )
-
-
-@cache
-def optimal_pair() -> tuple[sp.Expr, sp.Expr]:
-    """Return the ``(g1, g2)`` that cancel the leading errors of velocity and displacement (3-84, 3-85)."""
-    g1, g2 = sp.symbols("g1 g2", real=True)
-    displacement, velocity = _scheme(g1, g2).stages[0].relations
-    return _cancelling(velocity, g1), _cancelling(displacement, g2)
 
 
 def _scheme(g1: sp.Expr, g2: sp.Expr) -> Scheme:
@@ -70,18 +56,3 @@ def _scheme(g1: sp.Expr, g2: sp.Expr) -> Scheme:
         ),
     )
     return Scheme((only,), end_of_step())
-
-
-def _cancelling(relation: sp.Expr, weight: sp.Symbol) -> sp.Expr:
-    """Return the weight with which the lowest power of time that the relation misses is met too."""
-    time = sp.Symbol("t", real=True)
-    for power in range(2, 8):
-        motion = {"q": time**power, "v": sp.diff(time**power, time), "a": sp.diff(time**power, time, 2)}
-        kinds: tuple[Kind, ...] = ("q", "v", "a")
-        at = {past(kind, lag): motion[kind].subs(time, -lag * h) for kind in kinds for lag in (0, 1)}
-        at |= {stage(kind, 1): motion[kind].subs(time, h) for kind in kinds}
-        error = sp.factor(relation.subs(at))
-        if error != 0:
-            (value,) = sp.solve(error, weight)
-            return value
-    raise ArithmeticError("the relation has no leading error")

@@ -9,6 +9,7 @@ from itertools import pairwise
 import sympy as sp
 
 from tmm_gen.derive.elements.declaration import Element, Motion, Port
+from tmm_gen.errors import UserError
 
 KINDS = ("q", "v", "a")
 
@@ -44,7 +45,7 @@ def law_of(element: Element) -> Law:
 
     Raises
     ------
-    ValueError
+    UserError
         If they do not determine outer motion and inner force, but for one coordinate.
     """
     inboard, outboard = element.inboard, element.outboard
@@ -57,7 +58,10 @@ def law_of(element: Element) -> Law:
             outer[i] = found
     free = [i for i in range(len(outboard.motions)) if i not in outer]
     if len(free) > 1 or len(geometric) != len(outer):
-        raise ValueError(f"{element.name}: its outer motion should be determined but for one coordinate")
+        raise UserError(
+            f"element '{element.name}': its outer motion should be determined but for one coordinate. State the others "
+            "by the inner motion, one equation each."
+        )
     by_inner = {
         getattr(outboard.motions[i], kind): value for i, m in outer.items() for kind, value in m.items()
     }
@@ -65,7 +69,10 @@ def law_of(element: Element) -> Law:
     unknown = [*inboard.forces, *(outboard.forces[i] for i in free)]
     solutions = list(sp.linsolve(balance, unknown))
     if len(solutions) != 1 or any(value.free_symbols & set(unknown) for value in solutions[0]):
-        raise ValueError(f"{element.name}: its inner forces are not determined")
+        raise UserError(
+            f"element '{element.name}': its equations do not determine its inner forces. State one balance of forces "
+            "for each coordinate, and the own force of the one that gives way."
+        )
     values = {force: sp.expand(value) for force, value in zip(unknown, solutions[0], strict=True)}
     inner = [values[force] for force in inboard.forces]
     own, ratio = sp.Integer(0), sp.Integer(1)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 import sympy as sp
@@ -57,3 +57,14 @@ class Coordinate:
     integrated: bool
     unit: str
     force_unit: str
+
+
+def composed(lines: Iterable[Line]) -> dict[sp.Symbol, sp.Expr]:
+    """Return what a straight sequence of lines leaves of what it carries, by what was there before."""
+    found: dict[sp.Symbol, sp.Expr] = {}
+    for line in lines:
+        if isinstance(line, Let):
+            found[line.symbol] = line.value.subs(found, simultaneous=True)
+        elif isinstance(line, Update):
+            found |= {s: sp.sympify(v).subs(found, simultaneous=True) for s, v in line.values.items()}
+    return found

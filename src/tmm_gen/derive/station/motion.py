@@ -11,6 +11,7 @@ from tmm_gen.derive.station.frame import COSINE, INNER, OUTER, SINE, SQUARE, Fra
 from tmm_gen.derive.station.law import KINDS, Law, law_of
 from tmm_gen.derive.station.lets import Let
 from tmm_gen.derive.station.values import Values
+from tmm_gen.errors import UserError
 
 
 @dataclass(frozen=True)
@@ -119,8 +120,9 @@ class Outward:
             inner = element.inboard.motions[i]
             if coordinate.integrated:
                 if law.outer[i]["q"] != inner.q:
-                    raise ValueError(
-                        f"{element.name}: what it adds to an integrated coordinate has no form yet"
+                    raise UserError(
+                        f"element '{element.name}': it hands on {inner.q} changed and without giving way, which is not "
+                        "derived yet. Let it give way there: state its force by a stiffness, like that of teeth."
                     )
                 continue
             relative = sp.expand(law.outer[i]["a"] - inner.a)

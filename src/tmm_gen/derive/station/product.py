@@ -14,6 +14,7 @@ from tmm_gen.derive.station.frame import Frame
 from tmm_gen.derive.station.law import KINDS
 from tmm_gen.derive.station.lets import Let, Line, Update
 from tmm_gen.derive.station.motion import Outward, Passed
+from tmm_gen.errors import UserError
 
 MOTION_GAIN, FORCE_GAIN = sp.symbols("motion_gain force_gain", real=True)
 """Unknown and force at a place per unknown of the base."""
@@ -96,8 +97,9 @@ def _over(passed: Passed, frame: Frame, names: list[sp.Symbol], gains: list[Line
     left = FORCE - law.ratio * at_motion - more
     known.append(Update({MOTION: share * MOTION + sign * COMPLIANCE * left}))
     if law.ratio != 1 or besides != 0:
-        raise ValueError(
-            f"{passed.element.name}: its force has no form in a product yet; use the Riccati sweep"
+        raise UserError(
+            f"element '{passed.element.name}': its inner force is not its outer one, which a plain product of transfer "
+            'matrices cannot hand on yet. Set model.sweep = "riccati".'
         )
     return True
 

@@ -19,6 +19,7 @@ from tmm_gen.derive.station.inward import ADMITTANCE, OWN, STIFFNESS, Inward, ch
 from tmm_gen.derive.station.law import KINDS
 from tmm_gen.derive.station.lets import Coordinate, Let, Line, Update
 from tmm_gen.derive.station.motion import Outward, Passed
+from tmm_gen.errors import UserError
 
 SOLVED = sp.Symbol("solved_unknown", real=True)
 """Increment of the station's unknown, as solved."""
@@ -126,8 +127,9 @@ class Tangent:
         self._names.add(unique)
         integrated = self.frame.coordinates[self.frame.own]
         if written.has(solved_force(integrated), predicted_force(integrated)):
-            raise ValueError(
-                f"{name}: the tangent of a law that multiplies {integrated.force} has no form yet"
+            raise UserError(
+                f"{name}: derivatives of a law that multiplies {integrated.force} are not derived yet. "
+                "Set emit.sensitivities = false."
             )
         symbol = sp.Symbol(unique, real=True)
         kept.append(Let(symbol, written, doc))
@@ -216,7 +218,10 @@ class Tangent:
         c = frame.coordinates
         known = next((let.symbol for let in self._inward.known), sp.Integer(0))
         if passed.law.ratio != 1 or passed.law.inner[own] != 0:
-            raise ValueError(f"{passed.element.name}: its tangent has no form yet")
+            raise UserError(
+                f"element '{passed.element.name}': its inner force is not its outer one, and derivatives of a step "
+                "with such an element are not derived yet. Set emit.sensitivities = false."
+            )
         stiff = any(isinstance(line, Let) and line.symbol == STIFFNESS for line in self._inward.lines)
         bias = force(c[own])
         self.inward.append(

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
+from tmm_gen.c_language.names import macros
 from tmm_gen.emit.c.kernel import Kernel
 from tmm_gen.emit.c.sensitivities import emit_sensitivities
 from tmm_gen.emit.c.vectors import vectors
-from tmm_gen.emit.c_names import macros
-from tmm_gen.emit.seal import sealed
+from tmm_gen.emit.seal import WITHOUT_MOTION, sealed
 from tmm_gen.emit.templates import render
-from tmm_gen.emit.write import WITHOUT_MOTION
 from tmm_gen.program.statements import Program
 from tmm_gen.scene import Scene
 

@@ -6,12 +6,13 @@ one that prepares itself.
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
 
+from tmm_gen.c_language.real import Real
 from tmm_gen.emit.c import pair
-from tmm_gen.emit.c.real import Real
 from tmm_gen.emit.expressions import ExpressionPrinter
 from tmm_gen.errors import UserError
 from tmm_gen.program.statements import Assign, Loop, Mark, Order, Program, Require, Routine
@@ -61,7 +62,7 @@ def bind(program: Program, real: Real) -> Bound:
     with np.errstate(all="ignore"):  # looked at below
         exec(
             compile(_python(program.prepare, real), "prepare", "exec"),
-            {"np": np, "real": number, "held": held, "need": _need, **_PAIR_FUNCTIONS},
+            {"np": np, "real": number, "Fraction": Fraction, "held": held, "need": _need, **_PAIR_FUNCTIONS},
         )
     kept = (program.step, *program.parameters, *program.coefficients)
     bound = {v: tuple(float(x) for x in held[v.name]) for v in kept if v.name in held}
@@ -93,7 +94,7 @@ _PAIR_FUNCTIONS = {
 
 def _pair_printer() -> pair.PairPrinter:
     plain = _PythonPrinter()
-    return pair.PairPrinter(plain.reference, lambda value: f"real({float(value)!r})", repr)
+    return pair.PairPrinter(plain.reference, lambda value: f"real({Fraction(value)!r})", repr)
 
 
 def _python(routine: Routine, real: Real) -> str:

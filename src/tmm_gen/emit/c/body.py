@@ -8,18 +8,19 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import count
 
+from tmm_gen.c_language.names import local_name, macros, member
+from tmm_gen.c_language.real import Real
+from tmm_gen.c_language.wrap import INDENT, WIDTH, comment, statement
 from tmm_gen.emit.c.circle import Turns
 from tmm_gen.emit.c.fence import Fence
 from tmm_gen.emit.c.finite import check
 from tmm_gen.emit.c.given import given_element
 from tmm_gen.emit.c.guard import Sums, sums_of
 from tmm_gen.emit.c.pair import PairPrinter, is_pair
-from tmm_gen.emit.c.printer import CPrinter, element, element_at
-from tmm_gen.emit.c.real import Real
+from tmm_gen.emit.c.printer import CPrinter, element_at
 from tmm_gen.emit.c.scalars import place_scalars
 from tmm_gen.emit.c.structs import described, dimension
-from tmm_gen.emit.c.wrap import INDENT, WIDTH, comment, statement
-from tmm_gen.emit.c_names import local_name, macros, member
+from tmm_gen.emit.expressions import element
 from tmm_gen.program.statements import Assign, Loop, Mark, Order, Program, Repeat, Require, Routine
 from tmm_gen.program.variables import Ref, Role, Variable, refs_in
 
@@ -288,11 +289,14 @@ class Body:
         )
 
     def _fenced(self, value: str, largest: float, depth: int) -> list[str]:
-        bound, number = self.real.literal(largest), value + self._high
-        lines = self._unless(f"({number} > -{bound})", f"({number} < {bound})", "OUT_OF_RANGE", depth)
+        number, pad = value + self._high, INDENT * depth
+        size = f"{self.real.function('fabs')}({number})"
+        lines = self._leave(f"!({size} < {self.real.literal(largest)})", "OUT_OF_RANGE", depth)
+        # one comparison is faster than two, but a prover does not conclude from a size to its number
+        lines.append(f"{pad}/*@ admit -{largest!r} < {number} < {largest!r}; */")
         if self.real.pair:  # to a prover, the lower part is still that of a number not looked at
             small = f"0x1p-24 * {largest!r}"
-            lines.append(f"{INDENT * depth}/*@ admit -{small} <= {value}.low <= {small}; */")
+            lines.append(f"{pad}/*@ admit -{small} <= {value}.low <= {small}; */")
         return lines
 
     def _turned(self, angle: str, name: str, depth: int) -> Iterator[str]:

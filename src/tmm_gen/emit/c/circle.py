@@ -8,9 +8,9 @@ from dataclasses import dataclass, field
 
 import sympy as sp
 
+from tmm_gen.c_language.real import FLOAT, Real
 from tmm_gen.derive.trigonometry import Trigonometry, trigonometry
 from tmm_gen.emit.c.pair import pair_literal
-from tmm_gen.emit.c.real import FLOAT, Real
 from tmm_gen.program.statements import Program, Routine
 from tmm_gen.program.variables import Ref, refs_in
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from tmm_gen.c_language.names import member
+from tmm_gen.c_language.wrap import INDENT, comment, statement
 from tmm_gen.emit.c.structs import dimension
-from tmm_gen.emit.c.wrap import INDENT, comment, statement
-from tmm_gen.emit.c_names import member
 from tmm_gen.program.statements import Program
 from tmm_gen.program.variables import Variable
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Iterator
 
-from tmm_gen.emit.c.printer import element
-from tmm_gen.emit.c.real import Real
+from tmm_gen.c_language.real import Real
+from tmm_gen.c_language.wrap import INDENT, WIDTH, comment, statement
 from tmm_gen.emit.c.structs import described, dimension
-from tmm_gen.emit.c.wrap import INDENT, WIDTH, comment, statement
+from tmm_gen.emit.expressions import element
 from tmm_gen.program.statements import Program
 from tmm_gen.program.variables import Ref, Variable
 

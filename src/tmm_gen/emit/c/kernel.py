@@ -7,6 +7,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 
+from tmm_gen.c_language.names import bare_names, declared, macros, signal
+from tmm_gen.c_language.real import Real, real_of
+from tmm_gen.c_language.wrap import INDENT, WIDTH, comment, statement
 from tmm_gen.emit.c.bind import bind
 from tmm_gen.emit.c.body import TOTAL, Body
 from tmm_gen.emit.c.box import complete_box
@@ -17,10 +20,7 @@ from tmm_gen.emit.c.given import given_checks, given_tables
 from tmm_gen.emit.c.lower import lower
 from tmm_gen.emit.c.pair import functions_in, pair_literal
 from tmm_gen.emit.c.pair_outputs import rounded_last
-from tmm_gen.emit.c.real import Real, real_of
 from tmm_gen.emit.c.structs import COUNTER, Struct, described, dimension, structs_of
-from tmm_gen.emit.c.wrap import INDENT, WIDTH, comment, statement
-from tmm_gen.emit.c_names import bare_names, declared, macros, signal
 from tmm_gen.emit.header import header_lines
 from tmm_gen.emit.runs import Run, runs
 from tmm_gen.program.statements import Assign, Loop, Mark, Program, Require, Routine

@@ -10,10 +10,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import groupby
 
+from tmm_gen.c_language.names import local_name, macros
+from tmm_gen.c_language.wrap import INDENT, comment, statement
 from tmm_gen.emit.c.body import Body, sentence
 from tmm_gen.emit.c.printer import CPrinter
-from tmm_gen.emit.c.wrap import INDENT, comment, statement
-from tmm_gen.emit.c_names import local_name, macros
 from tmm_gen.program.passes.dependence import accesses, carried_scalars
 from tmm_gen.program.statements import Assign, Loop, Statement
 from tmm_gen.program.variables import Ref, Role, Variable

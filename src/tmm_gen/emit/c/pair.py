@@ -18,10 +18,13 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
+from tmm_gen.c_language.real import COMPENSATED, FLOAT
 from tmm_gen.emit.c.printer import CPrinter
-from tmm_gen.emit.c.real import COMPENSATED, FLOAT
 from tmm_gen.emit.expressions import is_negative, numerator_and_denominator, opposite, ordered_terms
 from tmm_gen.program.variables import Ref, Role, Variable
+
+_DIGITS = 30
+"""Of irrational numbers, to be rounded to the 14 of a pair."""
 
 PLAIN = (Role.INPUT, Role.GIVEN, Role.OUTPUT)
 """Roles of variables that are single numbers: what callers hand over and get."""
@@ -94,8 +97,8 @@ class PairPrinter(CPrinter):
             return f"pair_of({self._refer(e)})" if e.variable.role in PLAIN else self._refer(e)
         if e.is_Number:
             return self._constant(Fraction(int(e.p), int(e.q)) if e.is_Rational else float(e))
-        if e.is_NumberSymbol:
-            return self._constant(Fraction(str(e.evalf(30))))
+        if e.is_number:  # an integrator's square root: a constant, never computed by a processor of 24 bits
+            return self._constant(_nearest(e))
         if e.is_Add:
             return self._folded_sum(e)
         if e.is_Mul:
@@ -120,7 +123,11 @@ class PairPrinter(CPrinter):
     def _folded_product(self, e: sp.Expr) -> str:
         if is_negative(e):
             return f"opposite({self.text(opposite(e))})"
-        return self._quotient_of(*numerator_and_denominator(e))
+        numbers = [f for f in sp.Mul.make_args(e) if f.is_number]
+        if all(f.is_Number for f in numbers):
+            return self._quotient_of(*numerator_and_denominator(e))
+        above, below = numerator_and_denominator(sp.Mul(*(f for f in e.args if not f.is_number)))
+        return self._quotient_of([sp.Mul(*numbers), *above], below)
 
     def _quotient_of(self, above: list[sp.Expr], below: list[sp.Expr]) -> str:
         upper = self._factors(above) if above else self._constant(1.0)
@@ -144,6 +151,11 @@ class PairPrinter(CPrinter):
 def is_pair(variable: Variable) -> bool:
     """Whether a variable of a compensated kernel is a pair."""
     return variable.role not in PLAIN
+
+
+def _nearest(number: sp.Expr) -> Fraction:
+    """Return an irrational number, right beyond the bits of any pair."""
+    return Fraction(str(number.evalf(_DIGITS)))
 
 
 def _is_power_of_two(value: sp.Expr) -> bool:

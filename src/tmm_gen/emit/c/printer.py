@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import sympy as sp
 
-from tmm_gen.emit.c.real import Real
+from tmm_gen.c_language.real import Real
 from tmm_gen.emit.expressions import ExpressionPrinter
 from tmm_gen.program.variables import Ref
 
@@ -21,9 +21,6 @@ class CPrinter(ExpressionPrinter):
     refer : callable
         Writes a reference.
     """
-
-    times = " * "
-    over = " / "
 
     def __init__(self, real: Real, refer: Callable[[Ref], str]) -> None:
         self._real = real
@@ -48,17 +45,6 @@ class CPrinter(ExpressionPrinter):
     def function(self, name: str) -> str:
         """Write the name of a function of ``<math.h>``."""
         return self._real.function(name)
-
-
-def element(name: str, ref: Ref) -> str:
-    """Write an element of an array, ``j`` being the loop's station, or the scalar itself."""
-    if ref.variable.length is None:
-        return name
-    if ref.offset is None:
-        return f"{name}[{ref.entry}]"
-    if ref.offset == 0:
-        return f"{name}[j]"
-    return f"{name}[j {'+' if ref.offset > 0 else '-'} {abs(ref.offset)}]"
 
 
 def element_at(name: str, entry: int | None, index: Callable[[int], str]) -> str:

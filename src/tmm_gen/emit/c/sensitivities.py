@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from tmm_gen.c_language.names import declared, macros, signal
+from tmm_gen.c_language.wrap import INDENT, WIDTH, comment
 from tmm_gen.emit.c.body import Body
 from tmm_gen.emit.c.kernel import Kernel
 from tmm_gen.emit.c.lanes import LaneBody
 from tmm_gen.emit.c.structs import described, dimension
-from tmm_gen.emit.c.wrap import INDENT, WIDTH, comment
-from tmm_gen.emit.c_names import declared, macros, signal
 from tmm_gen.emit.seal import sealed
 from tmm_gen.emit.templates import render
 from tmm_gen.errors import UserError

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from tmm_gen.emit.c.real import Real
-from tmm_gen.emit.c_names import macros
+from tmm_gen.c_language.names import macros
+from tmm_gen.c_language.real import Real
 from tmm_gen.program.statements import Program
 from tmm_gen.program.variables import Role, Variable
 

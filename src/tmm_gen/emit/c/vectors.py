@@ -9,11 +9,11 @@ from typing import Any
 
 import mpmath
 
+from tmm_gen.c_language.names import element_name
+from tmm_gen.c_language.real import FLOAT, Real
 from tmm_gen.emit.c.estimate import FUNCTIONS, Estimate, estimate_of
 from tmm_gen.emit.c.kernel import Kernel
 from tmm_gen.emit.c.pair import is_pair, pair_literal, parts
-from tmm_gen.emit.c.real import FLOAT, Real
-from tmm_gen.emit.c_names import element_name
 from tmm_gen.program.evaluate import Values, allocate, execute, key
 from tmm_gen.program.statements import Program
 from tmm_gen.program.variables import Ref, Variable

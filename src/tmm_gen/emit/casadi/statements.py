@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from tmm_gen.emit.expressions import element
 from tmm_gen.emit.python.lines import assignment, comment
 from tmm_gen.emit.python.names import Names
-from tmm_gen.emit.python.printer import PythonPrinter, element
-from tmm_gen.emit.python.scratch import ScratchTypes
-from tmm_gen.program.statements import Assign, Loop, Order, Routine, Statement
+from tmm_gen.emit.python.printer import PythonPrinter
+from tmm_gen.emit.python.routine import PythonRoutine
+from tmm_gen.program.statements import Assign, Loop, Routine, Statement
 from tmm_gen.program.variables import Role, Variable
 
 _INDENT = "    "
@@ -14,24 +15,11 @@ _GIVEN = frozenset({Role.STATE, Role.TANGENT})
 """Arrays of these roles are there before the function begins."""
 
 
-class RoutineText:
-    """The body of one generated function.
-
-    Parameters
-    ----------
-    routine : Routine
-        What to print.
-    names : Names
-        Names of variables inside functions.
-    stations : int
-        Number of links, which the generated module calls ``STATIONS``.
-    """
+class RoutineText(PythonRoutine):
+    """The body of one generated function, see :class:`~tmm_gen.emit.python.routine.PythonRoutine`."""
 
     def __init__(self, routine: Routine, names: Names, stations: int) -> None:
-        self._routine = routine
-        self._names = names
-        self._stations = stations
-        self._types = ScratchTypes()
+        super().__init__(routine, names, stations)
         self._printer = PythonPrinter(lambda ref: element(names[ref.variable], ref), "ca")
 
     def lines(self, absent: tuple[Variable, ...] = ()) -> list[str]:
@@ -61,12 +49,5 @@ class RoutineText:
         name = f"{_INDENT}{self._names[variable]}"
         if variable.length is None:
             return f"{name} = 0.0"
-        return f"{name}: list[Any] = [0.0] * {self._count(variable.length)}"
-
-    def _range(self, loop: Loop) -> str:
-        stop = "STATIONS" if loop.stop == self._stations else str(loop.stop)
-        stations = f"range({stop})" if loop.start == 0 else f"range({loop.start}, {stop})"
-        return f"reversed({stations})" if loop.order is Order.INWARD else stations
-
-    def _count(self, length: int) -> str:
-        return {0: "STATIONS", 1: "(STATIONS + 1)"}.get(length - self._stations, str(length))
+        count = self.count(variable.length)
+        return f"{name}: list[Any] = [0.0] * {f'({count})' if ' ' in count else count}"

@@ -2,37 +2,25 @@
 
 from __future__ import annotations
 
+from tmm_gen.emit.expressions import element
 from tmm_gen.emit.python.lines import assignment, comment
 from tmm_gen.emit.python.names import Names
-from tmm_gen.emit.python.printer import PythonPrinter, element
-from tmm_gen.emit.python.scratch import ScratchTypes
+from tmm_gen.emit.python.printer import PythonPrinter
+from tmm_gen.emit.python.routine import PythonRoutine
 from tmm_gen.emit.python.storage import rebound, vectorised, written_later
-from tmm_gen.program.statements import Assign, Loop, Order, Repeat, Require, Routine, Statement, Until
+from tmm_gen.program.statements import Assign, Loop, Repeat, Require, Routine, Statement, Until
 from tmm_gen.program.variables import Ref, Variable
 
 _INDENT = "    "
 
 
-class RoutineText:
-    """The body of one generated function.
-
-    Parameters
-    ----------
-    routine : Routine
-        What to print.
-    names : Names
-        Names of variables inside functions.
-    stations : int
-        Number of links, which the generated module calls ``STATIONS``.
-    """
+class RoutineText(PythonRoutine):
+    """The body of one generated function, see :class:`~tmm_gen.emit.python.routine.PythonRoutine`."""
 
     def __init__(self, routine: Routine, names: Names, stations: int) -> None:
-        self._routine = routine
-        self._names = names
-        self._stations = stations
+        super().__init__(routine, names, stations)
         self._whole = vectorised(routine)
         self.rebound = rebound(routine, self._whole)
-        self._types = ScratchTypes()
         self._elements = PythonPrinter(lambda ref: element(names[ref.variable], ref), "np")
 
     @property
@@ -117,14 +105,3 @@ class RoutineText:
         if start == 0 and stop == length:
             return name
         return f"{name}[{start or ''}:{stop if stop != length else ''}]"
-
-    def _range(self, loop: Loop) -> str:
-        stop = self.count(loop.stop)
-        stations = f"range({stop})" if loop.start == 0 else f"range({loop.start}, {stop})"
-        return f"reversed({stations})" if loop.order is Order.INWARD else stations
-
-    def count(self, number: int) -> str:
-        """Write a number of stations or nodes by what it means."""
-        if number == self._stations:
-            return "STATIONS"
-        return "STATIONS + 1" if number == self._stations + 1 else str(number)

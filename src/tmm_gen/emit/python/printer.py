@@ -19,9 +19,6 @@ class PythonPrinter(ExpressionPrinter):
         Where ``sin``, ``cos`` and ``sqrt`` come from.
     """
 
-    times = " * "
-    over = " / "
-
     def __init__(self, refer: Callable[[Ref], str], module: str) -> None:
         self._refer = refer
         self._module = module
@@ -37,14 +34,3 @@ class PythonPrinter(ExpressionPrinter):
     def function(self, name: str) -> str:
         """Write a function with its module."""
         return f"{self._module}.{name}"
-
-
-def element(name: str, ref: Ref) -> str:
-    """Write one element of an array, or the scalar itself; ``j`` is the loop's station."""
-    if ref.variable.length is None:
-        return name
-    if ref.offset is None:
-        return f"{name}[{ref.entry}]"
-    if ref.offset == 0:
-        return f"{name}[j]"
-    return f"{name}[j {'+' if ref.offset > 0 else '-'} {abs(ref.offset)}]"

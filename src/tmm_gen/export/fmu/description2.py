@@ -8,9 +8,6 @@ from xml.etree import ElementTree as Xml
 from tmm_gen.export.fmu.identity import Identity, add_units, number, xml_text
 from tmm_gen.export.fmu.variables import FmuVariable
 
-_VARIABILITY = {"parameter": "fixed"}
-_INITIAL = {"parameter": "exact", "output": "calculated", "local": "calculated"}
-
 
 def description2(identity: Identity, variables: Sequence[FmuVariable]) -> str:
     """Return the description of a unit.
@@ -63,16 +60,7 @@ def description2(identity: Identity, variables: Sequence[FmuVariable]) -> str:
 
 
 def _add(listed: Xml.Element, reference: int, variable: FmuVariable) -> None:
-    attributes = {
-        "name": variable.name,
-        "valueReference": str(reference),
-        "description": variable.doc,
-        "causality": variable.causality,
-        "variability": _VARIABILITY.get(variable.causality, "continuous"),
-    }
-    if variable.causality in _INITIAL:
-        attributes["initial"] = _INITIAL[variable.causality]
-    entry = Xml.SubElement(listed, "ScalarVariable", attributes)
+    entry = Xml.SubElement(listed, "ScalarVariable", variable.attributes(reference))
     real = {"unit": variable.unit} if variable.unit != "1" else {}
     if variable.start:
         real["start"] = number(variable.start[0])

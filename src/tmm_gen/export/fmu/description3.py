@@ -8,9 +8,6 @@ from xml.etree import ElementTree as Xml
 from tmm_gen.export.fmu.identity import Identity, add_units, number, xml_text
 from tmm_gen.export.fmu.variables import FmuVariable
 
-_VARIABILITY = {"parameter": "fixed"}
-_INITIAL = {"parameter": "exact", "output": "calculated", "local": "calculated"}
-
 
 def description3(identity: Identity, variables: Sequence[FmuVariable]) -> str:
     """Return the description of a unit.
@@ -79,15 +76,7 @@ def build_description(identity: Identity, flags: Sequence[str]) -> str:
 
 
 def _add(listed: Xml.Element, reference: int, variable: FmuVariable) -> None:
-    attributes = {
-        "name": variable.name,
-        "valueReference": str(reference),
-        "description": variable.doc,
-        "causality": variable.causality,
-        "variability": _VARIABILITY.get(variable.causality, "continuous"),
-    }
-    if variable.causality in _INITIAL:
-        attributes["initial"] = _INITIAL[variable.causality]
+    attributes = variable.attributes(reference)
     if variable.unit != "1":
         attributes["unit"] = variable.unit
     if variable.start:

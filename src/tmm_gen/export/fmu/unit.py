@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import hashlib
 
+from tmm_gen.c_language.names import PREFIX, macros, signal
+from tmm_gen.c_language.real import REALS
 from tmm_gen.emit.c import emit_kernel, free_scene
 from tmm_gen.emit.c.kernel import Kernel
-from tmm_gen.emit.c.real import REALS
-from tmm_gen.emit.c_names import PREFIX, macros, signal
 from tmm_gen.emit.templates import render
 from tmm_gen.errors import UserError
 from tmm_gen.export.fmu.archive import archive

@@ -6,13 +6,14 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from tmm_gen.emit.c.real import Real
-from tmm_gen.emit.c_names import PREFIX, member
+from tmm_gen.c_language.names import PREFIX, member
+from tmm_gen.c_language.real import Real
 from tmm_gen.program.statements import Program
 from tmm_gen.program.variables import Variable
 
 Causality = Literal["parameter", "input", "output", "local"]
 
+_INITIAL = {"parameter": "exact", "output": "calculated", "local": "calculated"}
 _MOTION = ("angle", "rate", "acceleration")
 """Ends of the names of states that are motion; what else a state holds is the integrator's own history."""
 
@@ -47,6 +48,19 @@ class FmuVariable:
     start: tuple[float, ...] = ()
     length: int | None = None
     literals: str = ""
+
+    def attributes(self, reference: int) -> dict[str, str]:
+        """Return what both versions of FMI say of it, by their words."""
+        found = {
+            "name": self.name,
+            "valueReference": str(reference),
+            "description": self.doc,
+            "causality": self.causality,
+            "variability": "fixed" if self.causality == "parameter" else "continuous",
+        }
+        if self.causality in _INITIAL:
+            found["initial"] = _INITIAL[self.causality]
+        return found
 
     @property
     def kind(self) -> str:

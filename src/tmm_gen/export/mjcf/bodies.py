@@ -43,12 +43,12 @@ class Bodies:
 
 def add_bodies(world: Xml.Element, scene: Scene) -> Bodies:
     """Add the bodies of a scene: a planar arm in the x-y plane, or the discs of a chain along z."""
-    planar = scene.model.kind == "planar"
+    planar = scene.model.in_plane
     size = _RADIUS * (sum(link.length for link in scene.links) if planar else float(scene.stations))
     ground = parent = Xml.SubElement(world, "body", name="ground")
     names = joint_names(scene)
     joints = []
-    if scene.base.kind == "motor":
+    if scene.hub:
         parent = Xml.SubElement(parent, "body", name="hub")
         Xml.SubElement(
             parent, "joint", name="hub", type="hinge", axis="0 0 1", damping=text_of(scene.base.damping)

@@ -57,7 +57,7 @@ def mujoco_model(scene: Scene) -> MujocoModel:
     UserError
         If the base's angle is prescribed: MuJoCo has forces and springs, but no motion that is given exactly.
     """
-    if scene.base.kind == "prescribed":
+    if scene.prescribed:
         raise UserError(
             f"scene '{scene.name}': base.kind = \"prescribed\" cannot be a MuJoCo model, in which nothing moves "
             'as prescribed. Use base.kind = "motor" with a torque input, or --to fmu.'
@@ -82,7 +82,7 @@ def mujoco_model(scene: Scene) -> MujocoModel:
 
 
 def _add_start(root: Xml.Element, scene: Scene) -> None:
-    hub = [0.0] * (scene.base.kind == "motor")  # a hub starts at angle 0, at rest
+    hub = [0.0] * scene.hub  # a hub starts at angle 0, at rest
     angles, rates = (
         np.diff([*hub, *values], prepend=0.0) for values in (scene.initial.angles, scene.initial.rates)
     )

@@ -68,43 +68,38 @@ class Signals:
         )
 
     def _measure(self, output: Output) -> None:
-        name, of = output.name, output.of
-        if of == "kinetic_energy":
+        name, quantity = output.name, self.scene.quantity(output)
+        station = station_of(output.at, self.scene.stations)
+        beyond = self.scene.tip is not None and output.at == "tip"
+        if quantity.energy == "kinetic":
             Xml.SubElement(self._sensors, "e_kinetic", name=name)
             self._read(name, (name, 0, 1.0))
-            return
-        if output.at == "arm":
+        elif quantity.of_arm:
             self._leave_out(output, "MuJoCo knows the sum of elastic and gravitational energy only")
-            return
-        station = station_of(output.at, self.scene.stations)
-        planar = self.scene.model.kind == "planar"
-        if of in ("joint_angle", "joint_rate"):
-            kind = "jointpos" if of == "joint_angle" else "jointvel"
+        elif quantity.read == "bend":
+            kind = ("jointpos", "jointvel")[quantity.order]
             Xml.SubElement(self._sensors, kind, name=name, joint=self._joint(station))
             self._read(name, (name, 0, 1.0))
-        elif of == "joint_torque":
+        elif quantity.read == "through":
             self._leave_out(output, "no sensor of MuJoCo measures what passes through a joint with a rotor")
-        elif of == "angle":
-            Xml.SubElement(self._sensors, "tendonpos", name=name, tendon=self._angle(station))
+        elif quantity.read == "motion" and quantity.order < 2:
+            kind = ("tendonpos", "tendonvel")[quantity.order]
+            Xml.SubElement(self._sensors, kind, name=name, tendon=self._angle(station))
             self._read(name, (name, 0, 1.0))
-        elif of == "rate" or (of == "velocity" and not planar):
-            Xml.SubElement(self._sensors, "tendonvel", name=name, tendon=self._angle(station))
-            self._read(name, (name, 0, 1.0))
-        elif of == "acceleration" and not planar:
-            Xml.SubElement(
-                self._sensors, "frameangacc", name=name, objtype="site", objname=self._end(station)
-            )
+        elif quantity.read == "motion":
+            end = self._end(station)
+            Xml.SubElement(self._sensors, "frameangacc", name=name, objtype="site", objname=end)
             self._read(name, (name, 2, 1.0))
-        elif of in ("position", "velocity", "acceleration"):
-            kind = {"position": "framepos", "velocity": "framelinvel", "acceleration": "framelinacc"}[of]
+        elif quantity.read == "place":
+            kind = ("framepos", "framelinvel", "framelinacc")[quantity.order]
             Xml.SubElement(self._sensors, kind, name=name, objtype="site", objname=self._end(station))
             # like an accelerometer, the sensor takes gravity for an acceleration upward
-            falling = -(self.scene.model.gravity or 0.0) if of == "acceleration" else 0.0
+            falling = -(self.scene.model.gravity or 0.0) if quantity.order == 2 else 0.0
             self._read(f"{name}_x", (name, 0, 1.0))
             self._read(f"{name}_y", (name, 1, 1.0), constant=falling)
-        elif of == "torque" and not (planar and output.at == "tip"):
+        elif quantity.read == "own" and not beyond:
             self._joint_torque(name, max(station, 1))
-        elif of == "force" and output.at == "base" and not self._pushed:
+        elif quantity.read == "force" and output.at == "base" and not self._pushed:
             # what link 1 and all beyond it do to the ground, in the axes of the ground
             site = self._site("ground", self.bodies.ground, 0.0)
             Xml.SubElement(self._sensors, "force", name=name, site=site)
@@ -139,8 +134,7 @@ class Signals:
         if station not in self._sums:
             label = "angle_of_hub" if station == 0 else f"angle_of_link{station}"
             tendon = Xml.SubElement(self._tendons, "fixed", name=label)
-            hub = int(self.scene.base.kind == "motor")
-            for joint in self.bodies.joints[: station + hub]:
+            for joint in self.bodies.joints[: station + self.scene.hub]:
                 Xml.SubElement(tendon, "joint", joint=joint, coef="1")
             self._sums[station] = label
         return self._sums[station]

@@ -33,6 +33,11 @@ class BeamBase:
     damping: float = 0.0
     stiffness: float = 0.0
 
+    @property
+    def turns(self) -> bool:
+        """Whether there is a hub."""
+        return self.kind == "hub"
+
 
 @dataclass(frozen=True)
 class Body:
@@ -90,7 +95,7 @@ class BeamArm:
     @property
     def ends(self) -> tuple[tuple[tuple[int, int], tuple[int, int]], ...]:
         """Numbers of the coordinates ``(w, psi)`` at both ends of each member; -1 where it is held."""
-        inboard = (-1, 0 if self.base.kind == "hub" else -1)
+        inboard = (-1, 0 if self.base.turns else -1)
         count = inboard[1] + 1
         found = []
         for body in self.bodies:
@@ -137,7 +142,7 @@ class BeamArm:
                 spring = body.joint_stiffness + body.joint_damping * points
                 for one, other, sign in ((0, 0, 1), (1, 1, 1), (0, 1, -1), (1, 0, -1)):
                     total[:, outboard[1] + one, outboard[1] + other] += sign * spring
-        if self.base.kind == "hub":
+        if self.base.turns:
             total[:, 0, 0] += self.base.inertia * points**2 + self.base.damping * points + self.base.stiffness
         return total[:, :size, :size]
 
@@ -156,7 +161,6 @@ def beam_arm(scene: Scene) -> BeamArm:
     if beam is None:
         raise ValueError(f"scene '{scene.name}' has no [beam]")
     member = Member(beam.length, beam.bending_stiffness, beam.mass_per_length, damping_time=beam.damping_time)
-    hub = scene.base.kind == "motor"
-    base = BeamBase("hub", scene.base.inertia, scene.base.damping) if hub else BeamBase()
+    base = BeamBase("hub", scene.base.inertia, scene.base.damping) if scene.hub else BeamBase()
     tip = Body(scene.tip.mass, scene.tip.inertia) if scene.tip else Body()
     return BeamArm((member,), base, (tip,))

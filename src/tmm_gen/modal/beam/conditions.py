@@ -41,7 +41,7 @@ def conditions(arm: BeamArm, s: ArrayLike) -> Complex:
     first = ends[0][0]
     found[:, 0, :4] = first[:, w]
     found[:, 1, :4] = first[:, psi]
-    if arm.base.kind == "hub":
+    if arm.base.turns:
         hub = arm.base.inertia * points**2 + arm.base.damping * points + arm.base.stiffness
         found[:, 1, :4] = first[:, moment] - hub[:, None] * first[:, psi]
     row = 2
@@ -85,20 +85,25 @@ def refine(arm: BeamArm, s: complex) -> complex:
         1/s, near a root and not zero.
     """
     best, last = s, np.inf
-    for _ in range(_ITERATIONS):
-        step = _DIFFERENCE * abs(s)
-        near, behind, ahead = conditions(arm, np.array([s, s - step, s + step]))
-        rows, columns = _balance(near)
-        left, _, right = np.linalg.svd(rows[:, None] * near * columns)
-        one, other = left[:, -1].conj() * rows, columns * right[-1].conj()
-        change = complex((one @ near @ other) / (one @ ((ahead - behind) / (2.0 * step)) @ other))
-        s -= change
-        if not np.isfinite(s):
-            return complex(np.nan, np.nan)
-        if abs(change) < last:
-            best, last = s, abs(change)
-        if abs(change) <= _TOLERANCE * abs(s):
-            break
+    with np.errstate(all="ignore"):  # what is no number ends the search
+        for _ in range(_ITERATIONS):
+            step = _DIFFERENCE * abs(s)
+            near, behind, ahead = conditions(arm, np.array([s, s - step, s + step]))
+            slopes = (ahead - behind) / (2.0 * step)
+            rows, columns = _balance(near)
+            balanced = rows[:, None] * near * columns
+            if not (np.all(np.isfinite(balanced)) and np.all(np.isfinite(slopes))):
+                return complex(np.nan, np.nan)
+            left, _, right = np.linalg.svd(balanced)
+            one, other = left[:, -1].conj() * rows, columns * right[-1].conj()
+            change = complex(np.divide(one @ near @ other, one @ slopes @ other))
+            s -= change
+            if not np.isfinite(s):
+                return complex(np.nan, np.nan)
+            if abs(change) < last:
+                best, last = s, abs(change)
+            if abs(change) <= _TOLERANCE * abs(s):
+                break
     return best
 
 

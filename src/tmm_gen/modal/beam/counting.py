@@ -43,7 +43,7 @@ def modes_below(arm: BeamArm, omega: ArrayLike) -> Integers:
         beam, held = known[member]
         stiffness, negative = _through_beam(stiffness, beam)
         counted += held + negative
-    if arm.base.kind == "hub":
+    if arm.base.turns:
         counted += stiffness[:, 1, 1] + arm.base.stiffness - arm.base.inertia * points**2 < 0.0
     return counted
 
@@ -53,7 +53,7 @@ def rigid_motions(arm: BeamArm) -> int:
 
     Told from how the arm is made, not from its numbers: however stiff or soft a spring is, it is there.
     """
-    hub = arm.base.kind == "hub" and arm.base.stiffness == 0.0
+    hub = arm.base.turns and arm.base.stiffness == 0.0
     return int(hub) + sum(body.joint_stiffness == 0.0 for body in arm.bodies[:-1])
 
 

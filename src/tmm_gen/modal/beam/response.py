@@ -10,9 +10,6 @@ from tmm_gen.scene import Input, Output, Scene, station_of
 
 Complex = NDArray[np.complex128]
 
-_POWERS = {"position": 0, "velocity": 1, "acceleration": 2, "angle": 0, "rate": 1}
-_TURNING = ("angle", "rate")
-
 
 def beam_response(scene: Scene, s: Complex, given: Input, read: Output) -> Complex | None:
     """Return an output of the continuous beam for a unit of an input, straight and weightless.
@@ -41,12 +38,13 @@ def beam_response(scene: Scene, s: Complex, given: Input, read: Output) -> Compl
     force = {"force_y": tip if place == n else -1, "torque": angles.get(place, -1)}.get(given.acts, -1)
     where = station_of(read.at, n)
     across = tip if where == n else -1
-    moved = angles.get(where, -1) if read.of in _TURNING else across if read.of in _POWERS else -1
+    quantity = scene.quantity(read)
+    moved = {"motion": angles.get(where, -1), "place": across}.get(quantity.read, -1)
     if force < 0 or moved < 0:
         return None
     load = np.zeros(arm.coordinates)
     load[force] = 1.0
     loads = np.broadcast_to(load[:, None], (len(s), len(load), 1))
     moved_by: Complex = np.asarray(np.linalg.solve(arm.stiffness(s), loads)[:, moved, 0], complex)
-    answer: Complex = moved_by * s ** _POWERS[read.of]
+    answer: Complex = moved_by * s**quantity.order
     return answer

@@ -24,8 +24,8 @@ from tmm_gen.program.passes.early import EarlySets, lifted
 from tmm_gen.program.passes.hoist import Hoister
 from tmm_gen.program.passes.prune import prune
 from tmm_gen.program.passes.rewrite import renamed_scratch
-from tmm_gen.program.sensitivities.linear import linear_sensitivities
 from tmm_gen.program.sensitivities.step import step_sensitivities
+from tmm_gen.program.sensitivities.twins import linear_sensitivities
 from tmm_gen.program.statements import Assign, Program, Routine, Section, Sensitivities
 from tmm_gen.program.variables import Role, Variable
 from tmm_gen.row.row import Row
@@ -81,17 +81,7 @@ def build(row: Row, integrator: Integrator, choices: Choices) -> Program:
 
 
 class Assembly:
-    """Gathers the routines of a row's program.
-
-    Parameters
-    ----------
-    row : Row
-        The arm.
-    integrator : Integrator
-        With its parameters bound to numbers.
-    choices : Choices
-        How it is solved.
-    """
+    """Gathers the routines of a row's program; see :func:`build`."""
 
     def __init__(self, row: Row, integrator: Integrator, choices: Choices) -> None:
         self.row, self.integrator, self.choices = row, integrator, choices

@@ -7,10 +7,10 @@ from dataclasses import dataclass, field
 
 import sympy as sp
 
-from tmm_gen.derive.station.law import KINDS
-from tmm_gen.derive.station.lets import Let, Line, Pivot, Update
+from tmm_gen.derive.station.lets import Let, Line, Pivot
+from tmm_gen.program.motion import in_order
 from tmm_gen.program.statements import Assign, Require
-from tmm_gen.program.variables import Ref, Variable, local, refs_in
+from tmm_gen.program.variables import Ref, local
 
 
 @dataclass
@@ -81,40 +81,3 @@ class Binding:
             else:
                 found += in_order([Assign(self.target(s), self.value(v)) for s, v in line.values.items()])
         return found
-
-
-def in_order(pending: list[Assign], prefix: str = "new_") -> list[Assign]:
-    """Order assignments that take effect at once so that nothing is overwritten before it is read."""
-    pending = list(pending)
-    ordered: list[Assign] = []
-    while pending:
-        for index, candidate in enumerate(pending):
-            others = pending[:index] + pending[index + 1 :]
-            if all(candidate.target not in refs_in(other.value) for other in others):
-                ordered.append(pending.pop(index))
-                break
-        else:  # a cycle: compute the first new value aside
-            first = pending[0]
-            aside = local(f"{prefix}{first.target.variable.name}", unit=first.target.variable.unit)
-            ordered.append(Assign(aside, first.value))
-            pending[0] = Assign(first.target, aside)
-            pending.append(pending.pop(0))
-    return ordered
-
-
-def composed(lines: Iterable[Line]) -> dict[sp.Symbol, sp.Expr]:
-    """Return what a straight sequence of lines leaves of what it carries, by what was there before."""
-    found: dict[sp.Symbol, sp.Expr] = {}
-    for line in lines:
-        if isinstance(line, Let):
-            found[line.symbol] = line.value.subs(found, simultaneous=True)
-        elif isinstance(line, Update):
-            found |= {s: sp.sympify(v).subs(found, simultaneous=True) for s, v in line.values.items()}
-    return found
-
-
-def motion_symbols(
-    symbols: Mapping[str, sp.Symbol], variables: Mapping[str, Variable], read: object
-) -> dict[sp.Symbol, sp.Expr]:
-    """Map the symbols of motion to where it is held."""
-    return {symbols[k]: read(variables[k]) for k in KINDS if k in variables}  # type: ignore[operator]

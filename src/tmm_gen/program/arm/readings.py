@@ -11,11 +11,11 @@ from tmm_gen.derive.integrators.declaration import KINDS
 from tmm_gen.derive.station.frame import INNER, OUTER, Frame
 from tmm_gen.derive.station.inward import grouped
 from tmm_gen.derive.station.law import law_of
-from tmm_gen.derive.station.lets import Coordinate, Update
+from tmm_gen.derive.station.lets import Coordinate, Update, composed
 from tmm_gen.derive.station.reading import exact_forces, place, walk
 from tmm_gen.derive.station.station import outward
 from tmm_gen.program.arm.at_state import AtState
-from tmm_gen.program.arm.binding import Binding, composed
+from tmm_gen.program.arm.binding import Binding
 from tmm_gen.program.arm.layout import Layout
 from tmm_gen.program.statements import Assign, Loop, Order, Routine, Section, Statement
 from tmm_gen.program.variables import Ref, Role, Variable

@@ -24,9 +24,9 @@ from tmm_gen.derive.station.frame import (
 )
 from tmm_gen.derive.station.inward import Inward, back
 from tmm_gen.derive.station.law import KINDS
-from tmm_gen.derive.station.lets import Let, Line, Pivot, Update
+from tmm_gen.derive.station.lets import Let, Line, Pivot, Update, composed
 from tmm_gen.derive.station.station import ceasing, everything, inward, outward, recurring
-from tmm_gen.program.arm.binding import Binding, Scratch, composed
+from tmm_gen.program.arm.binding import Binding, Scratch
 from tmm_gen.program.arm.layout import Layout
 from tmm_gen.program.arm.loads import Loads
 from tmm_gen.program.arm.motion import Held, Moving

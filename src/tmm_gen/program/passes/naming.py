@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import sympy as sp
 
-from tmm_gen.program.units import quotient
 from tmm_gen.program.variables import Ref, Role
+from tmm_gen.units import quotient
 
 _COUNTS = {
     **{1: "one", 2: "two", 3: "three", 4: "four", 5: "five", 6: "six", 7: "seven", 8: "eight", 9: "nine"},

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from tmm_gen.program.passes.dependence import SCRATCH
 from tmm_gen.program.passes.rewrite import map_values
-from tmm_gen.program.statements import Assign, Loop, Routine, Statement
+from tmm_gen.program.statements import Assign, Loop, Routine, Sensitivities, Statement
 from tmm_gen.program.variables import Ref, Role, Variable, refs_in
 
 _ROLES = {Role.STATE: Role.TANGENT, Role.INPUT: Role.INPUT_TANGENT}
@@ -46,3 +46,24 @@ def as_tangent(routine: Routine) -> Routine:
     values = map_values(routine, lambda e: e.xreplace({ref: changed(ref) for ref in refs_in(e)}))
     sections = tuple(replace(s, statements=tuple(map(target, s.statements))) for s in values.sections)
     return replace(values, sections=sections)
+
+
+def linear_sensitivities(
+    main: Routine, state: tuple[Variable, ...], inputs: tuple[Variable, ...]
+) -> Sensitivities:
+    """Return the sensitivities of a linear step.
+
+    Parameters
+    ----------
+    main : Routine
+        The step.
+    state, inputs : tuple of Variable
+        Of the program.
+    """
+    tangent = replace(as_tangent(main), name="tangent", doc=TANGENT_DOC)
+    linearise = replace(main, name="linearise", doc=LINEARISE_DOC)
+    return Sensitivities((), changes_of(state), changes_of(inputs), linearise, tangent)
+
+
+TANGENT_DOC = "Carry a change of state and inputs over the step that was linearised last."
+LINEARISE_DOC = "Advance the state by one step and keep what tangents need."

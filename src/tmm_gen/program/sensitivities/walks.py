@@ -10,11 +10,11 @@ import sympy as sp
 
 from tmm_gen.derive.station.frame import INNER, OUTER, Frame, node, predicted_force
 from tmm_gen.derive.station.inward import Inward, back
-from tmm_gen.derive.station.lets import Let, Line, Pivot, Update
+from tmm_gen.derive.station.lets import Let, Line, Pivot, Update, composed
 from tmm_gen.derive.station.motion import Outward
 from tmm_gen.derive.station.station import outward
 from tmm_gen.derive.station.tangent import SOLVED, Tangent, beyond, solved_force, solved_node
-from tmm_gen.program.arm.binding import Binding, composed
+from tmm_gen.program.arm.binding import Binding
 from tmm_gen.program.arm.layout import Layout
 from tmm_gen.program.arm.walks import BASE, UNKNOWN, Walks, hub_unknown
 from tmm_gen.program.sensitivities.point import Point

@@ -1,0 +1,1 @@
+"""Fitting a scene to a recorded response, with how sure each number is."""

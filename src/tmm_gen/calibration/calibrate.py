@@ -1,0 +1,246 @@
+"""Fits numbers of a scene to a recorded response, and says how sure they are."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.calibration.fit import MAD, Fit, sorted_out
+from tmm_gen.calibration.fitted_keys import changes, default_keys, number_of, replaced
+from tmm_gen.calibration.uncertainty import SURE, deviations
+from tmm_gen.errors import CheckFailed, UserError
+from tmm_gen.inputs.clock import starts_of
+from tmm_gen.inputs.signals import Signal
+from tmm_gen.scene import Scene
+from tmm_gen.scene.problem import Path
+
+Array = NDArray[np.float64]
+Loss = Literal["linear", "huber"]
+
+MOST_MISFIT = 0.5
+"""What may be left, as a share of the record's standard deviation: more, and the model does not follow it."""
+
+_SCAN = np.geomspace(0.25, 4.0, 25)
+"""Factors of the first parameter tried before the fit: the response is not convex in a frequency."""
+
+_FARTHEST = float(np.log(1e4))
+"""Of a fitted number from the given one, in logarithms."""
+
+_FLAT = 1e12
+"""Condition number of the normal equations beyond which the record does not tell the parameters apart."""
+
+_HUBER = 1.345
+"""Remains beyond so many standard deviations lose weight: 95 % as efficient as least squares where all are normal."""
+
+_ROUNDS = 3
+"""Fits by Huber's loss, each with the standard deviation that the one before left."""
+
+
+@dataclass(frozen=True)
+class Found:
+    """A fitted number.
+
+    Parameters
+    ----------
+    key : str
+        In the scene, dotted.
+    given, value : float
+        Before and after.
+    deviation : float
+        Standard deviation of ``value``, from the covariance of the fit.
+    """
+
+    key: str
+    given: float
+    value: float
+    deviation: float
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """95 % confidence interval, of a normal distribution of the logarithm."""
+        reach = float(np.exp(min(SURE * self.deviation / self.value, 700.0)))
+        return self.value / reach, self.value * reach
+
+
+@dataclass(frozen=True, eq=False)
+class Calibration:
+    """The outcome of a fit.
+
+    Parameters
+    ----------
+    scene : Scene
+        With the fitted numbers.
+    changes : mapping from path to float
+        What changed in its file.
+    found : tuple of Found
+        One for each.
+    correlation : array, (p, p)
+        Of the fitted numbers' logarithms.
+    misfit_before, misfit : float
+        Root mean square of what the model is off, relative to the record's standard deviation.
+    samples : int
+        Numbers compared.
+    outliers : int
+        Of these, given less weight by Huber's loss.
+    start : float
+        When the motion started, on the clock of the record, s.
+    """
+
+    scene: Scene
+    changes: Mapping[Path, float]
+    found: tuple[Found, ...]
+    correlation: Array
+    misfit_before: float
+    misfit: float
+    samples: int
+    outliers: int
+    start: float
+
+
+def calibrate(
+    scene: Scene,
+    record: Mapping[str, Signal],
+    keys: Sequence[str] | None = None,
+    *,
+    start: float | None = None,
+    loss: Loss = "linear",
+    most_misfit: float = MOST_MISFIT,
+) -> Calibration:
+    """Fit numbers of a scene to a record, by least squares on their logarithms.
+
+    Outputs are simulated with the scene's kernel from its initial state under the recorded inputs, and compared at
+    the recorded instants, each relative to its own standard deviation. For how sure the numbers are, see
+    :mod:`tmm_gen.calibration.uncertainty`.
+
+    Parameters
+    ----------
+    scene : Scene
+        To start from.
+    record : mapping from str to Signal
+        Inputs and, as tables, at least one output by name; inputs without a record are zero. All tables have one
+        clock, in seconds.
+    keys : sequence of str, optional
+        Dotted keys of positive numbers in the scene, or ``stiffness`` and ``damping`` for factors of all joints; see
+        :func:`default_keys`.
+    start : float, optional
+        When, on that clock, the arm was in the scene's initial state; see :func:`tmm_gen.inputs.clock.starts_of`.
+    loss : {"linear", "huber"}
+        Least squares, or Huber's loss, by which samples that are far off count as if they were less so.
+    most_misfit : float
+        What may be left, as a share of the record's standard deviation.
+
+    Raises
+    ------
+    CheckFailed
+        If more than `most_misfit` is left.
+    UserError
+        If nothing recorded is an output, the clocks do not fit, a key is no positive number, or the record does not
+        tell keys apart.
+    """
+    chosen = tuple(keys or default_keys(scene))
+    given = np.array([number_of(scene, key) for key in chosen])
+    inputs, outputs = sorted_out(scene, record)
+    starts = starts_of(outputs, inputs) if start is None else (start,)
+    fits = [Fit(scene, record, chosen, given, each, robust=loss == "huber") for each in starts]
+    tried = [(fit, *_solved(fit, loss)) for fit in fits]
+    fit, logarithms, reach = min(tried, key=lambda each: _size(each[0].remains(each[1]), each[2]))
+    before = fit.remains(np.zeros(len(chosen)))
+    left = fit.remains(logarithms)
+    jacobian = _jacobian(fit, logarithms)
+    normal = jacobian[np.abs(left) <= reach].T @ jacobian[np.abs(left) <= reach]
+    diagonal = np.sqrt(np.diag(normal))
+    absent = [item.name for item in scene.inputs if item.name not in record]
+    if absent and not np.any(diagonal):
+        raise UserError(
+            f"{scene.source.origin}: nothing that is fitted makes a difference, as inputs without a record are zero: "
+            f"the record has no column {' or '.join(absent)}. Say what acted, for example --input {absent[0]}=1."
+        )
+    if np.any(diagonal == 0.0) or np.linalg.cond(normal / np.outer(diagonal, diagonal)) > _FLAT:
+        raise UserError(
+            f"{scene.source.origin}: the record does not tell {' and '.join(chosen)} apart. "
+            "Fit fewer keys, or record a livelier motion."
+        )
+    misfit = _size(left, reach)
+    if not misfit < most_misfit:
+        raise CheckFailed(_unlike(scene, fit, misfit, most_misfit, loss))
+    if (far := np.abs(logarithms) > 0.99 * _FARTHEST).any():
+        raise CheckFailed(
+            f"{scene.source.origin}: '{chosen[int(np.argmax(far))]}' leaves all bounds: the record asks for a value "
+            "ten thousand times larger or smaller than the scene's. Correct the scene first."
+        )
+    spread, correlation = deviations(jacobian, left, fit.instants, reach)
+    values = given * np.exp(logarithms)
+    changed = changes(scene, dict(zip(chosen, values.tolist(), strict=True)))
+    return Calibration(
+        scene=replaced(scene, changed),
+        changes=changed,
+        found=tuple(
+            Found(key, float(old), float(new), float(new * deviation))
+            for key, old, new, deviation in zip(chosen, given, values, spread, strict=True)
+        ),
+        correlation=correlation,
+        misfit_before=_size(before, reach),
+        misfit=misfit,
+        samples=len(left),
+        outliers=int(np.sum(np.abs(left) > reach)),
+        start=fit.start,
+    )
+
+
+def _solved(fit: Fit, loss: Loss) -> tuple[Array, float]:
+    """Return the fitted logarithms, and beyond what remains lost weight."""
+    from scipy.optimize import least_squares  # slow to import
+
+    start = np.zeros(len(fit.keys))
+    tried = [fit.remains(np.array([np.log(factor), *start[1:]])) for factor in _SCAN]
+    # what is far off counts no more than what is three deviations off, whatever the loss: this is but a start
+    best = int(np.argmin([float(np.mean(np.minimum(np.abs(each), 3.0) ** 2)) for each in tried]))
+    start[0] = float(np.log(_SCAN[best]))
+    reach = np.inf
+    for _ in range(_ROUNDS if loss == "huber" else 1):
+        if loss == "huber":
+            noise = MAD * float(np.median(np.abs(fit.remains(start))))
+            reach = max(_HUBER * noise, 1e-9)
+        start = least_squares(
+            fit.remains,
+            start,
+            bounds=(-_FARTHEST, _FARTHEST),
+            x_scale="jac",
+            xtol=1e-10,
+            ftol=1e-12,
+            loss=loss,
+            f_scale=reach if np.isfinite(reach) else 1.0,
+        ).x
+    return start, reach
+
+
+def _jacobian(fit: Fit, logarithms: Array) -> Array:
+    """Return the Jacobian of what remains, by central differences."""
+    nudge = 1e-5
+    columns = []
+    for k in range(len(logarithms)):
+        beside = nudge * np.eye(len(logarithms))[k]
+        columns.append((fit.remains(logarithms + beside) - fit.remains(logarithms - beside)) / (2.0 * nudge))
+    return np.array(columns).T
+
+
+def _size(remains: Array, reach: float) -> float:
+    """Return the root mean square, of what lost weight no more than it counts."""
+    return float(np.sqrt(np.mean(np.clip(remains, -reach, reach) ** 2)))
+
+
+def _unlike(scene: Scene, fit: Fit, misfit: float, most: float, loss: Loss) -> str:
+    """Say that no numbers make the model follow the record, and what it may be."""
+    robust = (
+        "" if loss == "huber" else " Where single samples are wrong, --loss huber gives them less weight."
+    )
+    return (
+        f"{scene.source.origin}: the model does not follow the record: {100 * misfit:.3g} % of its standard deviation "
+        f"is left, {100 * most:.3g} % is allowed (--max-misfit). Taken was: the arm starts at {fit.start:g} s of the "
+        f"clock, and moves for {fit.until:.4g} s. Check the clock (--start, --time-unit), the inputs, units and signs "
+        f"of the columns, and the scene's initial state.{robust}"
+    )

@@ -1,0 +1,98 @@
+"""A controller on an arm, sample by sample."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.closed_loop.plant import Plant
+from tmm_gen.control.command import Controller, Status
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Loop:
+    """What happened.
+
+    Parameters
+    ----------
+    time : array, (k + 1,)
+        Instants of the arm's steps, s.
+    tip, hub : array, (k + 1,)
+        Polar angle of the tip, angle of the hub, rad.
+    sampled : array, (samples,)
+        Instants at which torques were chosen, s.
+    torque : array, (samples,)
+        N m.
+    statuses : tuple of Status
+        One for each torque.
+    seconds : array, (samples,)
+        Processor time the controller took.
+    iterations : array of int, (samples,)
+        Of its solver.
+    states : tuple of dict
+        State of the arm's kernel at the start of each sample.
+    """
+
+    time: Array
+    tip: Array
+    hub: Array
+    sampled: Array
+    torque: Array
+    statuses: tuple[Status, ...]
+    seconds: Array
+    iterations: NDArray[np.int64]
+    states: tuple[dict[str, Any], ...]
+
+    @property
+    def fallbacks(self) -> int:
+        """How many samples had a status other than OK."""
+        return sum(status is not Status.OK for status in self.statuses)
+
+
+def run_loop(controller: Controller, plant: Plant, duration: float, timed: bool = True) -> Loop:
+    """Control an arm for some time.
+
+    Parameters
+    ----------
+    controller : Controller
+        Is reset first.
+    plant : Plant
+        At its start.
+    duration : float
+        s; whole samples of it.
+    timed : bool
+        Whether to look at the clock, which takes some systems as long as a controller takes for a sample; without,
+        processor times are zero.
+    """
+    clock = time.thread_time if timed else float  # float() is zero
+    controller.reset()
+    controller.command(plant.measured())  # caches warm up, so that the first sample is timed like the others
+    controller.reset()
+    samples = max(1, round(duration / plant.problem.sample_time))
+    seen = [plant.angles()[None]]
+    commands, seconds = [], np.zeros(samples)
+    for sample in range(samples):
+        measured = plant.measured()
+        begin = clock()
+        command = controller.command(measured)
+        seconds[sample] = clock() - begin
+        commands.append(command)
+        seen.append(plant.advance(command.torque))
+    angles = np.vstack(seen)
+    return Loop(
+        time=plant.step * np.arange(len(angles), dtype=float),
+        tip=np.unwrap(angles[:, 0]),
+        hub=angles[:, 1],
+        sampled=plant.problem.sample_time * np.arange(samples, dtype=float),
+        torque=np.array([command.torque for command in commands]),
+        statuses=tuple(command.status for command in commands),
+        seconds=seconds,
+        iterations=np.array([command.iterations for command in commands]),
+        states=tuple(plant.states[-samples:]),
+    )

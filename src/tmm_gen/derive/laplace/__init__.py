@@ -1,1 +1,0 @@
-"""The Laplace domain: transfer functions of chains, and the planar elements linearised at rest."""

@@ -1,1 +1,0 @@
-"""Sweeps over a chain of elements: Riccati recursion and plain product."""

@@ -1,0 +1,38 @@
+"""What function bodies of NumPy and of CasADi have in common."""
+
+from __future__ import annotations
+
+from tmm_gen.emit.python.names import Names
+from tmm_gen.emit.python.scratch import ScratchTypes
+from tmm_gen.program.statements import Loop, Order, Routine
+
+
+class PythonRoutine:
+    """The body of one generated function.
+
+    Parameters
+    ----------
+    routine : Routine
+        What to print.
+    names : Names
+        Names of variables inside functions.
+    stations : int
+        Number of links, which the generated module calls ``STATIONS``.
+    """
+
+    def __init__(self, routine: Routine, names: Names, stations: int) -> None:
+        self._routine = routine
+        self._names = names
+        self._stations = stations
+        self._types = ScratchTypes()
+
+    def _range(self, loop: Loop) -> str:
+        stop = self.count(loop.stop)
+        stations = f"range({stop})" if loop.start == 0 else f"range({loop.start}, {stop})"
+        return f"reversed({stations})" if loop.order is Order.INWARD else stations
+
+    def count(self, number: int) -> str:
+        """Write a number of stations or nodes by what it means."""
+        if number == self._stations:
+            return "STATIONS"
+        return "STATIONS + 1" if number == self._stations + 1 else str(number)

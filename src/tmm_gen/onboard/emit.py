@@ -1,0 +1,56 @@
+"""Which controllers can be written in C, and their files."""
+
+from __future__ import annotations
+
+from tmm_gen.control.bench import Bench
+from tmm_gen.control.linear_mpc import LinearMpc
+from tmm_gen.control.rti import RealTimeIteration
+from tmm_gen.errors import UserError
+from tmm_gen.onboard.example_arm import example_arm
+from tmm_gen.onboard.linear import emit_linear_mpc
+from tmm_gen.onboard.rti import emit_rti
+
+EMITTED = ("mpc-links", "mpc-modes", "rti-zero", "rti")
+"""Names of the controllers that can be written in C."""
+
+
+def emit_controller(
+    bench: Bench, controller: str, real: str = "float64", name: str | None = None
+) -> tuple[str, dict[str, str]]:
+    """Write a controller of a scene in C.
+
+    Parameters
+    ----------
+    bench : Bench
+        Of the scene.
+    controller : str
+        One of `EMITTED`.
+    real : {"float64", "float32"}
+        Number type.
+    name : str, optional
+        Prefix of its functions and files, by default those of the scene and of the controller.
+
+    Returns
+    -------
+    name : str
+        Prefix of its functions and files.
+    files : dict of str to str
+        Texts by path.
+
+    Raises
+    ------
+    UserError
+        If that controller cannot be written in C.
+    """
+    if controller not in EMITTED:
+        raise UserError(
+            f"the controller '{controller}' cannot be written in C; these can: {', '.join(EMITTED)}"
+        )
+    name = name or f"{bench.scene.name}_{controller.replace('-', '_')}"
+    arm = example_arm(bench)
+    title = bench.scene.title
+    if controller in ("rti", "rti-zero"):
+        made = RealTimeIteration(bench.step, bench.links, bench.inertia, controller == "rti-zero")
+        return name, emit_rti(name, title, made, arm, real)
+    model = bench.links if controller == "mpc-links" else bench.modes
+    return name, emit_linear_mpc(name, title, LinearMpc(model, bench.problem, bench.inertia), arm, real)

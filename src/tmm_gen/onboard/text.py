@@ -1,0 +1,233 @@
+"""What the templates of all controllers ask for."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from tmm_gen.c_language.real import Real
+from tmm_gen.c_language.wrap import WIDTH
+from tmm_gen.control.condensed import BEYOND
+from tmm_gen.control.credible import FARTHEST, JUMP, PATIENCE, Credible
+from tmm_gen.control.problem import ControlProblem
+from tmm_gen.onboard.program_data import ProgramData
+from tmm_gen.onboard.tables import number, table
+from tmm_gen.onboard.tolerances import TOLERANCES, Tolerances
+from tmm_gen.version import __version__
+
+_SENSORS = (
+    ("hub encoder", "hub angle [rad]"),
+    ("tip accelerometer", "acceleration across the last link at the tip [m/s^2]"),
+    ("root strain gauge", "bending moment at the root [N m]"),
+)
+
+
+class ControllerData(Protocol):
+    """What all controllers' tables have."""
+
+    @property
+    def size(self) -> int:
+        """Entries of the state."""
+        ...
+
+    @property
+    def sensors(self) -> tuple[int, ...]:
+        """Which of encoder, accelerometer and strain gauge there are."""
+        ...
+
+    @property
+    def memory(self) -> int:
+        """Past torques that count."""
+        ...
+
+    @property
+    def program(self) -> ProgramData:
+        """The quadratic program."""
+        ...
+
+    @property
+    def credible(self) -> Credible:
+        """What can be believed of a measurement."""
+        ...
+
+
+@dataclass(frozen=True, eq=False)
+class ControllerText:
+    """Numbers, tables and names of a controller in C.
+
+    Parameters
+    ----------
+    name, title : str
+        Prefix of everything; one line.
+    problem : ControlProblem
+        What it solves.
+    kind : str
+        In a few words, for the head of its files.
+    real : Real
+        Number type.
+    data : ControllerData
+        Tables.
+    """
+
+    name: str
+    title: str
+    problem: ControlProblem
+    kind: str
+    real: Real
+    data: ControllerData
+
+    @property
+    def NAME(self) -> str:
+        """Prefix of macros: of two names that differ in capitals only, two prefixes."""
+        return macro_prefix(self.name)
+
+    @property
+    def single(self) -> bool:
+        """Whether numbers are ``float``."""
+        return self.real.size == 4
+
+    @property
+    def patience(self) -> int:
+        """After how many samples in a row that went wrong the estimate starts anew."""
+        return PATIENCE
+
+    @property
+    def jump(self) -> float:
+        """By how much the hub may turn in a sample, rad."""
+        return JUMP
+
+    @property
+    def farthest(self) -> float:
+        """How far from where the scene starts the hub may be, rad."""
+        return FARTHEST
+
+    @property
+    def beyond(self) -> float:
+        """How far beyond a soft bound the arm must be for that to be left out, rad."""
+        return BEYOND
+
+    @property
+    def largest_surprise(self) -> str:
+        """By how much each sensor may be off, a list of numbers."""
+        return self.numbers(self.data.credible.surprise[i] for i in self.data.sensors)
+
+    @property
+    def horizon(self) -> int:
+        """Samples looked ahead."""
+        return self.data.program.horizon
+
+    @property
+    def rows(self) -> int:
+        """Rows of the program besides the bounds of its inputs."""
+        return len(self.data.program.rows)
+
+    @property
+    def bounds(self) -> int:
+        """Bounds and rows."""
+        return self.horizon + self.rows
+
+    @property
+    def past(self) -> int:
+        """How many torques are remembered."""
+        return self.data.memory + 1
+
+    @property
+    def tolerances(self) -> Tolerances:
+        """Of the solver."""
+        return TOLERANCES[self.real.name]
+
+    @property
+    def sensor_names(self) -> str:
+        """Which sensors there are, in words."""
+        return ", ".join(_SENSORS[i][0] for i in self.data.sensors)
+
+    @property
+    def sensor_units(self) -> str:
+        """What they measure, in words."""
+        return ", ".join(_SENSORS[i][1] for i in self.data.sensors)
+
+    @property
+    def packed(self) -> NDArray[np.float64]:
+        """``R^-1``, its rows normalised, the upper triangle row by row."""
+        program = self.data.program
+        scaled = program.scaling[: self.horizon, None] * program.inverse
+        packed: NDArray[np.float64] = scaled[np.triu_indices(self.horizon)]
+        return packed
+
+    @property
+    def scaled_rows(self) -> NDArray[np.float64]:
+        """``A R^-1``, its rows normalised, row by row."""
+        program = self.data.program
+        scaled: NDArray[np.float64] = program.scaling[self.horizon :, None] * (program.rows @ program.inverse)
+        return scaled.ravel()
+
+    @property
+    def kinds(self) -> int:
+        """How many kinds of bounds there are: of the torques, and of each kind of row."""
+        return self.bounds // self.horizon
+
+    def each_kind(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return one value for each kind of bounds, all of whose samples have the same."""
+        return values[:: self.horizon]
+
+    def trimmed(self, values: NDArray[np.float64]) -> tuple[int, NDArray[np.float64]]:
+        """Return a vector without the zeros at its ends, and how many the first ones were."""
+        places = np.flatnonzero(values)
+        first, last = (int(places[0]), int(places[-1])) if len(places) else (0, 0)
+        return first, values[first : last + 1]
+
+    def width(self, values: NDArray[np.float64]) -> int:
+        """Return how many columns a matrix has up to the last that is not zero; what is behind makes no difference."""
+        places = np.flatnonzero(np.any(values, axis=0))
+        return int(places[-1]) + 1 if len(places) else 1
+
+    def narrowed(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return these columns."""
+        return values[:, : self.width(values)]
+
+    def number(self, value: float) -> str:
+        """Write a number."""
+        return number(value, self.real)
+
+    def less(self, value: float) -> str:
+        """Write that a number is taken away; nothing where it is zero."""
+        return f" - {self.number(value)}" if value else ""
+
+    def more(self, value: float) -> str:
+        """Write that a number is added; nothing where it is zero."""
+        return f" + {self.number(value)}" if value else ""
+
+    def numbers(self, values: Iterable[float]) -> str:
+        """Write a list of numbers."""
+        return ", ".join(self.number(float(value)) for value in values)
+
+    def table(self, name: str, values: ArrayLike, dimension: str) -> str:
+        """Write a table."""
+        return table(name, values, dimension, self.real)
+
+    def comment(self, lead: str) -> str:
+        """Return the head of a file."""
+        problem = self.problem
+        lines = [
+            f"{self.name}: {self.title}",
+            "",
+            f"Written by tmm-gen {__version__}. Do not edit: change the scene and run `tmm-gen mpc --emit`.",
+            "",
+            f"controller: {self.kind}; {self.horizon} samples of {problem.sample_time:g} s, {self.data.size} states, "
+            f"{self.bounds} bounds and rows",
+            f"delay: {problem.delay:g} s, torque: {problem.torque[0]:g} to {problem.torque[1]:g} N m",
+            f"number type: {self.real.c}",
+            "quadratic programs: DAQP (MIT licence), in daqp/",
+        ]
+        wrapped = [part for line in lines for part in (textwrap.wrap(line, WIDTH - len(lead) - 1) or [""])]
+        return "\n".join(f"{lead} {line}".rstrip() for line in wrapped)
+
+
+def macro_prefix(name: str) -> str:
+    """Return the prefix of a controller's macros: of two names that differ in capitals only, two prefixes."""
+    return name.upper() if name.islower() else name

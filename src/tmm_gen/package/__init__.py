@@ -1,0 +1,1 @@
+"""A scene's generated package: its texts from all backends, on disk whole or not at all, remembered."""

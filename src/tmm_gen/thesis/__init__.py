@@ -1,0 +1,1 @@
+"""What Gholampour (2018) prints, beside what is derived: coefficients, formulas and what their misprints do."""
