@@ -49,10 +49,10 @@ LOADS: dict[str, tuple[str, Loads]] = {
     "fall10": ("released", {}),
     "swing": ("turning back and forth at 1 Hz", {"hub_torque": lambda t: np.cos(2.0 * np.pi * t)}),
     "elbow": (
-        "released, then 0.05 and 0.03 N m at 2 and 3 rad/s",
+        "released, then 0.02 and 0.01 N m at 9 and 13 rad/s",
         {
-            "shoulder_torque": lambda t: 0.05 * np.sin(2.0 * t),
-            "elbow_torque": lambda t: 0.03 * np.sin(3.0 * t),
+            "shoulder_torque": lambda t: 0.02 * np.sin(9.0 * t),
+            "elbow_torque": lambda t: 0.01 * np.sin(13.0 * t),
         },
     ),
 }
