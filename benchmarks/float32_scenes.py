@@ -48,6 +48,13 @@ LOADS: dict[str, tuple[str, Loads]] = {
     "arm50": ("base swung by 1 rad at 0.5 Hz", {"base_angle": lambda t: 0.5 * (1.0 - np.cos(np.pi * t))}),
     "fall10": ("released", {}),
     "swing": ("turning back and forth at 1 Hz", {"hub_torque": lambda t: np.cos(2.0 * np.pi * t)}),
+    "elbow": (
+        "released, then 0.02 and 0.01 N m at 9 and 13 rad/s",
+        {
+            "shoulder_torque": lambda t: 0.02 * np.sin(9.0 * t),
+            "elbow_torque": lambda t: 0.01 * np.sin(13.0 * t),
+        },
+    ),
 }
 
 

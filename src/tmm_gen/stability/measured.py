@@ -136,6 +136,8 @@ class MeasuredStep:
 
     def _params(self, factor: Array) -> Any:
         default = self._module.Params()
+        if not hasattr(default, "stiffness"):  # joints that all turn freely
+            return default
         stiffness = np.asarray(default.stiffness, float)
         return replace(
             default, stiffness=stiffness[..., None] * factor if stiffness.ndim else stiffness * factor
