@@ -153,6 +153,7 @@ def control_problem(scene: Scene) -> ControlProblem:
         If the scene has no ``[control]``, or is of a kind that cannot have it.
     """
     control = scene.control
+    # the sentence asks for just these two words
     if control is None and (scene.model.kind != "planar" or scene.base.kind != "motor"):
         raise UserError(
             f"{scene.source.origin}: only planar arms are controlled, by a torque at a hub that turns. Take one with "

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from tmm_gen.emit.python.names import Names
-from tmm_gen.emit.python.scratch import ScratchTypes
-from tmm_gen.program.statements import Loop, Order, Routine
+from tmm_gen.program.statements import Assign, Loop, Order, Routine
+from tmm_gen.program.variables import Role, Variable
 
 
 class PythonRoutine:
@@ -36,3 +36,18 @@ class PythonRoutine:
         if number == self._stations:
             return "STATIONS"
         return "STATIONS + 1" if number == self._stations + 1 else str(number)
+
+
+class ScratchTypes:
+    """Says at which assignments of a function a scratch scalar needs an annotation."""
+
+    def __init__(self) -> None:
+        self._declared: set[Variable] = set()
+
+    def annotation(self, statement: Assign) -> str:
+        """Return what follows the target: a number now may be an array or a symbol at the next station."""
+        variable = statement.target.variable
+        if variable.role not in (Role.LOCAL, Role.OUTPUT) or variable in self._declared:
+            return ""
+        self._declared.add(variable)
+        return ": Any" if statement.value.is_number else ""
