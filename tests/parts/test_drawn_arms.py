@@ -24,7 +24,7 @@ from tmm_gen.verify.agreement import (
     reached_vectors,
 )
 
-pytestmark = pytest.mark.compiler
+pytestmark = [pytest.mark.compiler, pytest.mark.long]
 
 AGREE = 1e-12
 UNTIL = 0.05
