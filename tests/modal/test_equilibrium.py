@@ -45,7 +45,8 @@ def test_level_links_come_to_hang(gravity: float, two: Callable[..., Scene]) -> 
 
 def test_a_motor_holds_the_torque_of_the_weights(two: Callable[..., Scene]) -> None:
     upper = equilibrium(two(), {"torque": 0.4}).free_angles[0]
-    assert 20 * 0.4 == pytest.approx(9.81 * (2.0 * 0.25 + 1.0 * 0.5) * np.cos(upper), rel=1e-9)
+    weights = 9.81 * (2.0 * 0.25 + 1.0 * 0.5) * np.cos(upper)
+    assert weights == pytest.approx(20 * 0.4, rel=1e-9)
     with pytest.raises(UserError, match="no static equilibrium"):
         equilibrium(two(), {"torque": 0.6})
 
