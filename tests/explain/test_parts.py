@@ -42,3 +42,9 @@ def test_a_motor_is_no_load_on_a_link(terms: dict[str, Explained]) -> None:
 def test_dampers_of_joints_that_turn_freely_cost_something(terms: dict[str, Explained]) -> None:
     assert not terms["joint damping"].modelled
     assert terms["joint damping"].worth.step > 0
+
+
+def test_heat_is_no_term_of_a_scene_with_derivatives() -> None:
+    names = [term.term for term in explain(parse_scene(TWO).replace(**{"emit.sensitivities": True})).terms]
+    assert "mass at the tip" in names
+    assert "counting energy turned to heat" not in names

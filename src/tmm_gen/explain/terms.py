@@ -46,7 +46,9 @@ def terms_of(scene: Scene) -> list[Term]:
     else:
         found[1:1] = [_alike_joints(scene), _alike_links(scene)]
     if scene.model.in_plane:
-        found = [_gravity(scene), _iterations(scene), *found, *_tip(scene), _heat(scene)]
+        found = [_gravity(scene), _iterations(scene), *found, *_tip(scene)]
+        if not scene.emit.sensitivities:  # heat has no derivatives: the two do not go together
+            found.append(_heat(scene))
     return [*found, _inputs(scene), _outputs(scene)]
 
 

@@ -74,14 +74,13 @@ def equilibrium(
                 break
             share *= 0.5
         angles = angles + share * turn
-    remedy = (
-        'hold the base (base.kind = "clamp" or "prescribed")'
-        if scene.hub
-        else "let no input turn it on and on (smaller values of --input)"
-    )
+    remedies = ["start nearer by [initial] angles"]
+    if scene.hub:
+        remedies = ['hold the base (base.kind = "clamp" or "prescribed")', *remedies]
+    elif any((inputs or {}).values()):
+        remedies = ["let no input turn it on and on (smaller values of --input)", *remedies]
     raise UserError(
-        f"scene '{scene.name}': no static equilibrium found from its initial angles; "
-        f"{remedy}, or start nearer by [initial] angles"
+        f"scene '{scene.name}': no static equilibrium found from its initial angles; {', or '.join(remedies)}"
     )
 
 
