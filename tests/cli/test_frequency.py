@@ -13,7 +13,7 @@ from tmm_gen.cli import main
 
 SCENES = Path(__file__).resolve().parents[2] / "scenes"
 THESIS2 = str(SCENES / "thesis2.toml")
-ELBOW = THESIS2.replace("thesis2", "elbow")
+ELBOW = str(SCENES / "elbow.toml")
 DRIVE = str(SCENES / "drivetrain.toml")
 
 ARM = """
