@@ -13,6 +13,7 @@ from tmm_gen.cli import main
 
 SCENES = Path(__file__).resolve().parents[2] / "scenes"
 THESIS2 = str(SCENES / "thesis2.toml")
+ELBOW = str(SCENES / "elbow.toml")
 DRIVE = str(SCENES / "drivetrain.toml")
 
 ARM = """
@@ -129,6 +130,7 @@ def test_how_few_links(capsys: pytest.CaptureFixture[str]) -> None:
         ([THESIS2, "--low", "1e9"], "is empty"),
         ([THESIS2, "--links-for", "0.01"], "belong together"),
         ([THESIS2, "--links-for", "0.01", "--band", "5"], "has no [beam]"),
+        ([ELBOW, "--links-for", "0.01", "--band", "5"], "is an arm by parts"),
         (["arm.toml", "--links-for", "1e-12", "--band", "5"], "are not enough"),
         ([THESIS2, "--csv", "."], "is a directory"),
     ],

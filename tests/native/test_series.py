@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from tmm_gen.native import NonFiniteStateError, compile_kernel
+from tmm_gen.native.recording import record
 from tmm_gen.native.series import Series
 from tmm_gen.program.build import build_program
 from tmm_gen.scene import Scene, parse_scene
@@ -90,3 +91,19 @@ def test_what_goes_wrong_is_raised() -> None:
         Series(kernel, {"outer": lambda t: np.full(np.shape(t), np.nan)}, 3, 0.1).run()
     with pytest.raises(ValueError, match="time step"):
         Series(kernel, {}, 3, -0.1).run()
+
+
+def test_names_that_are_macros_are_recorded() -> None:
+    """Inputs and outputs have a prefix in C where a macro has their name, and none here."""
+    text = SCENE.format(integrator="newmark", real="float64")
+    text = text.replace('"inner"', '"NAN"').replace('"tip"\nat', '"step"\nat').replace('"rate"', '"I"')
+    plain, renamed = scene("newmark"), parse_scene(text)
+    runs = []
+    for arm in (plain, renamed):
+        kernel = compile_kernel(build_program(arm), arm)
+        kernel.prepare()
+        kernel.initialise()
+        given = {item.name: np.linspace(0.1, 0.4, 4) for item in arm.inputs}
+        runs.append(list(record(kernel, given, 4).outputs.values()))
+    assert np.array_equal(*runs)
+    assert np.all(runs[0][0] != 0.0)

@@ -326,6 +326,20 @@ def test_faults_are_told_and_remedies_work(case: Case, elbow_text: str) -> None:
     parse_scene(cured)
 
 
+def test_a_part_on_itself_is_no_branch_besides(elbow_text: str) -> None:
+    with pytest.raises(SceneError) as raised:
+        parse_scene(elbow_text.replace('name = "shoulder"\n', 'name = "shoulder"\non = "shoulder"\n', 1))
+    (problem,) = raised.value.problems
+    assert "closes a loop: 'shoulder' on 'shoulder'" in str(problem)
+
+
+def test_numbers_of_parts_change_by_name(elbow_text: str) -> None:
+    changed = parse_scene(elbow_text).replace(**{"motor.elbow.gear": 7.0, "body.tool.mass": 0.25})
+    assert [joint.gear for joint in changed.joints if joint.rotor_inertia] == [100.0, 7.0]
+    assert changed.tip is not None
+    assert changed.tip.mass == 0.25
+
+
 def test_a_motor_on_a_moved_base_is_refused(elbow_text: str) -> None:
     text = elbow_text.replace('kind = "clamp"', 'kind = "prescribed"')
     text += '\n[[input]]\nname = "turn"\nat = "base"\nacts = "angle"\n'

@@ -62,6 +62,17 @@ def test_stations_are_counted_from_one(chain: str) -> None:
     assert changed.joints[0].damping == 0.0
 
 
+def test_tables_are_found_by_name_and_as_errors_have_them(chain: str) -> None:
+    name = parse_scene(chain).outputs[-1].name
+    last = len(parse_scene(chain).outputs)
+    right = parse_scene(chain).replace(**{f"output.{last}.of": "velocity"})
+    assert right.outputs[-1].of == "velocity"
+    assert parse_scene(chain).replace(**{f"output.{name}.of": "velocity"}) == right
+    assert parse_scene(chain).replace(**{f"output[{last}].of": "velocity"}) == right
+    with pytest.raises(SceneError, match=r"output\.nothing\.of: is not in this scene"):
+        parse_scene(chain).replace(**{"output.nothing.of": "velocity"})
+
+
 def test_none_removes_a_key(chain: str, planar: str) -> None:
     assert parse_scene(chain).replace(**{"integrator.beta": None}).integrator.parameters == {}
     assert parse_scene(planar).replace(tip=None).tip is None

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tmm_gen.errors import UserError
-from tmm_gen.inputs.signals import Constant
+from tmm_gen.inputs.signals import Constant, Sine
 from tmm_gen.scene import Scene, load_scene
 from tmm_gen.study.excitation import columns, excitation, unit
 from tmm_gen.study.rise import SMOOTH, Rise
@@ -54,3 +54,13 @@ def test_nothing_that_moves_is_refused(chain: Scene) -> None:
 def test_unknown_output_is_refused(chain: Scene) -> None:
     with pytest.raises(UserError, match="no such output; choose from tip"):
         excitation(chain, output="hub")
+
+
+def test_a_motor_turns_what_is_beyond_it() -> None:
+    scene = load_scene("scenes/elbow.toml")
+    went = excitation(scene)
+    elbow = went.signals["elbow_torque"]
+    assert isinstance(elbow, Sine)
+    forearm, payload, rotor = 0.162 * 0.4**3 / 3.0, 0.3 * 0.4**2 + 2e-4, 50.0**2 * 1e-5
+    turn = 50.0 * elbow.amplitude / elbow.frequency**2 / (forearm + payload + rotor)
+    assert turn == pytest.approx(1.0, rel=0.5)  # amplitudes have one digit

@@ -31,8 +31,13 @@ def show_links(scene: Scene, error: float, band: float, json_mode: bool) -> None
     Raises
     ------
     UserError
-        If the scene has no beam, or no number of links is enough.
+        If the scene has no ``[beam]``, or no number of links is enough.
     """
+    if scene.parts:
+        raise UserError(
+            f"scene '{scene.name}' is an arm by parts, whose beams --links-for does not cut yet. "
+            "Change `links` of a [[beam]] and compare what `tmm-gen modes` says, or use a planar scene with [beam]."
+        )
     if scene.beam is None:
         raise UserError(
             f"scene '{scene.name}' has no [beam]: only a beam can be cut into more or fewer links. "

@@ -153,6 +153,11 @@ def control_problem(scene: Scene) -> ControlProblem:
         If the scene has no ``[control]``, or is of a kind that cannot have it.
     """
     control = scene.control
+    if control is None and scene.parts:
+        raise UserError(
+            f"{scene.source.origin}: predictive control turns a hub, and knows no arms of parts by name yet. Write the "
+            f'arm with base.kind = "motor" and [beam], as {scenes_dir() / "swing.toml"} does.'
+        )
     # the sentence asks for just these two words
     if control is None and (scene.model.kind != "planar" or scene.base.kind != "motor"):
         raise UserError(
@@ -161,10 +166,7 @@ def control_problem(scene: Scene) -> ControlProblem:
         )
     if control is None:
         raise UserError(
-            f"{scene.source.origin}: predictive control turns a hub, and knows no arms of parts by name yet. Write the "
-            f'arm with base.kind = "motor" and [beam], as {scenes_dir() / "swing.toml"} does.'
-            if scene.parts
-            else f"{scene.source.origin}: has no [control]. Add it, with for example `reference = 1.0` and "
+            f"{scene.source.origin}: has no [control]. Add it, with for example `reference = 1.0` and "
             f"[control.bounds] with `torque = 3.0`; {scenes_dir() / 'swing.toml'} has all of it."
         )
     start = tip_angle(scene, scene.initial.angles)

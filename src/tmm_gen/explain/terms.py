@@ -46,7 +46,9 @@ def terms_of(scene: Scene) -> list[Term]:
     else:
         found[1:1] = [_alike_joints(scene), _alike_links(scene)]
     if scene.model.in_plane:
-        found = [_gravity(scene), _iterations(scene), *found, *_tip(scene), _heat(scene)]
+        found = [_gravity(scene), _iterations(scene), *found, *_tip(scene)]
+        if not scene.emit.sensitivities:  # heat has no derivatives: the two do not go together
+            found.append(_heat(scene))
     return [*found, _inputs(scene), _outputs(scene)]
 
 
@@ -73,7 +75,8 @@ def _joint_damping(scene: Scene) -> Term:
 
 
 def _with_damping(scene: Scene, time: float) -> Scene:
-    joints = tuple(j.model_copy(update={"damping": time * j.stiffness}) for j in scene.joints)
+    # a joint that turns freely has no stiffness to be damped by
+    joints = tuple(j.model_copy(update={"damping": time * (j.stiffness or 1.0)}) for j in scene.joints)
     return replace(scene, joints=joints)
 
 
@@ -186,9 +189,18 @@ def _tip(scene: Scene) -> list[Term]:
     found = []
     for what in ("mass", "inertia"):
         value = getattr(scene.tip, what) if scene.tip else 0.0
-        why = f"tip.{what} = {value:g}" if value else f"no tip.{what}"
+        why = f"{_key_at_tip(scene, what)} = {value:g}" if value else f"no {_key_at_tip(scene, what)}"
         found.append(Term(f"{what} at the tip", value > 0.0, why, _tip_changed(what, 0.0 if value else 1.0)))
     return found
+
+
+def _key_at_tip(scene: Scene, what: str) -> str:
+    """Return what the file calls a number of the tip: of [tip], or of the bodies on the last part."""
+    if not scene.parts:
+        return f"tip.{what}"
+    last = scene.parts[-1].last
+    bodies = [f"'{part.name}'" for part in scene.parts if part.kind == "body" and part.last == last]
+    return f"{what} of {' and '.join(bodies)}" if bodies else f"[[body]] with {what} on the last part"
 
 
 def _tip_changed(what: str, value: float) -> Change:
@@ -212,7 +224,7 @@ def _heat(scene: Scene) -> Term:
 
 def _inputs(scene: Scene) -> Term:
     n = scene.stations
-    taken = {station_of(i.at, n) for i in scene.inputs}
+    taken = {station_of(i.at, n) for i in scene.inputs if i.acts != "drive"}
     missing = [k for k in range(1, n + 1) if k not in taken]
     acts: tuple[Acts, ...] = ("torque", "force_x", "force_y") if scene.model.in_plane else ("torque",)
     what = "torques and forces" if len(acts) > 1 else "torques"

@@ -53,7 +53,7 @@ def equilibrium(
     Raises
     ------
     UserError
-        If there is none: a torque on a free hub turns the arm forever.
+        If there is none: a torque on a free hub or joint turns the arm forever.
     """
     angles = straight(scene)
     rest, linear, torque = _look(scene, angles, inputs, unbalanced)
@@ -74,9 +74,13 @@ def equilibrium(
                 break
             share *= 0.5
         angles = angles + share * turn
+    remedies = ["start nearer by [initial] angles"]
+    if scene.hub:
+        remedies = ['hold the base (base.kind = "clamp" or "prescribed")', *remedies]
+    elif any((inputs or {}).values()):
+        remedies = ["let no input turn it on and on (smaller values of --input)", *remedies]
     raise UserError(
-        f"scene '{scene.name}': no static equilibrium found from its initial angles; "
-        'hold the base (base.kind = "clamp" or "prescribed"), or start nearer by [initial] angles'
+        f"scene '{scene.name}': no static equilibrium found from its initial angles; {', or '.join(remedies)}"
     )
 
 
@@ -94,12 +98,17 @@ def _descent(linear: Matrices, torque: Array) -> Array:
     springs = springs_of(parts)
     if springs.rigid or springs.negative:
         inertia = parts.diagonal
-        ground, shift = parts.ground_stiffness, _shift(parts, inertia)
+        ground, shift = parts.ground_stiffness, _shift(parts, inertia) or _pull(torque, inertia)
         while springs.rigid or springs.negative:
             springs = springs_of(replace(parts, ground_stiffness=ground + shift * inertia))
             shift *= 2.0
     found: Array = springs.angles(springs.loads(torque[:, None]))[:, 0]
     return found
+
+
+def _pull(torque: Array, inertia: Array) -> float:
+    """Return a shift that turns the arm by about 1 rad where it has no stiffness at all: rigid links, level."""
+    return float(np.max(np.abs(torque / inertia))) or 1.0
 
 
 def _shift(parts: Parts, inertia: Array) -> float:

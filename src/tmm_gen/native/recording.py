@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.c_language.names import member
 from tmm_gen.native.kernel import NativeKernel
 from tmm_gen.native.layout import PairStructure
 
@@ -48,9 +47,8 @@ def record(kernel: NativeKernel, inputs: Mapping[str, Array], steps: int) -> Rec
     """
     given, found, reached = ((kernel.types[which] * steps)() for which in ("inputs", "outputs", "state"))
     columns = _columns(given)
-    members = {v.name: member(v, kernel.program.name) for v in kernel.program.inputs}
     for name, values in inputs.items():
-        columns[members[name]][...] = values  # what is single precision is rounded here, as everywhere
+        columns[name][...] = values  # what is single precision is rounded here, as everywhere
     done, status = kernel.record(given, found, reached)
     failed = None
     if status:
@@ -60,7 +58,7 @@ def record(kernel: NativeKernel, inputs: Mapping[str, Array], steps: int) -> Rec
             failed = error
     kept = done + bool(status)
     read = _numbers(found)
-    outputs = {v.name: read[member(v, kernel.program.name)][:done] for v in kernel.program.outputs}
+    outputs = {v.name: read[v.name][:done] for v in kernel.program.outputs}
     return Recording(outputs, {name: values[:kept] for name, values in _numbers(reached).items()}, failed)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import re
 from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
@@ -28,7 +29,7 @@ def changed(source: Source, changes: Mapping[str, object]) -> Source:
     if isinstance(name, str) and underscored(name) != underscored(before["name"]):
         data["integrator"] = {"name": name, "step": before["step"]}
     for key, value in changes.items():
-        path = _path(key)
+        path = _numbered(data, _path(key))
         fault = _assign(data, path, _plain(value))
         if fault:
             line = source.lines.get(path[:1], 1)
@@ -38,8 +39,25 @@ def changed(source: Source, changes: Mapping[str, object]) -> Source:
 
 
 def _path(key: str) -> Path:
-    """Split ``link.2.inertia`` into ``("link", 1, "inertia")``."""
-    return tuple(int(part) - 1 if part.isdecimal() else part for part in key.split("."))
+    """Split ``link.2.inertia`` into ``("link", 1, "inertia")``; ``link[2].inertia``, as errors have it, too."""
+    parts = re.sub(r"\[(\d+)\]", r".\1", key).split(".")
+    return tuple(int(part) - 1 if part.isdecimal() else part for part in parts)
+
+
+def _numbered(data: Any, path: Path) -> Path:
+    """Return a path with the numbers of tables that it calls by name: ``motor.elbow.gear``."""
+    found: list[str | int] = []
+    place = data
+    for part in path:
+        if isinstance(place, list) and isinstance(part, str):
+            names = [entry.get("name") for entry in place if isinstance(entry, dict)]
+            part = names.index(part) if part in names else part
+        found.append(part)
+        try:
+            place = place[part]
+        except (KeyError, IndexError, TypeError):
+            place = None
+    return tuple(found)
 
 
 def _assign(data: dict[str, Any], path: Path, value: object) -> Finding | None:
@@ -66,7 +84,9 @@ def _assign(data: dict[str, Any], path: Path, value: object) -> Finding | None:
 
 def _nowhere(path: Path) -> Finding:
     return Finding(
-        path, "is not in this scene", "Name a key of the file, tables counted from 1: link.2.inertia."
+        path,
+        "is not in this scene",
+        "Name a key of the file, tables by name or counted from 1: link.2.inertia.",
     )
 
 

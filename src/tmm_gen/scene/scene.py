@@ -109,8 +109,8 @@ class Scene:
         ----------
         **changes : object
             New values by dotted key: ``scene.replace(**{"integrator.name": "zhou", "link.2.inertia": 3.0})``,
-            tables counted from 1. None removes a key. Where the integrator's name changes, parameters of the
-            former one are dropped.
+            tables counted from 1, or by name: ``motor.elbow.gear``. None removes a key. Where the integrator's
+            name changes, parameters of the former one are dropped.
 
         Returns
         -------

@@ -140,22 +140,33 @@ def _default_signals(scene: Scene, until: float) -> dict[str, Signal]:
 def _signal(scene: Scene, item: Input, frequency: float, until: float) -> Signal:
     if item.acts == "angle":
         return Rise(_TURN, 0.5 * until)
-    torque = _torque(scene, frequency)
     if item.acts == "drive" and isinstance(item.at, int):
+        torque = _torque(scene, frequency, item.at)
         return Sine(_rounded(torque / scene.joints[item.at - 1].gear), frequency)
+    torque = _torque(scene, frequency)
     return Sine(_rounded(torque if item.acts == "torque" else torque / _length(scene)), frequency)
 
 
-def _torque(scene: Scene, frequency: float) -> float:
-    """Return a torque, N m, that turns the arm by about `_TURN`: against its springs, or its inertia if it is free."""
+def _torque(scene: Scene, frequency: float, joint: int = 0) -> float:
+    """Return a torque, N m, that turns the arm by about `_TURN`: against its springs, or its inertia if it is free.
+
+    A torque in a joint turns what is beyond the joint.
+    """
     if not scene.hub and all(joint.stiffness > 0.0 for joint in scene.joints):
         return _TURN / sum(1.0 / joint.stiffness for joint in scene.joints)
-    return _inertia_about_base(scene) * frequency**2 * _TURN
+    inertia = _inertia_beyond(scene, joint) if joint else _inertia_about_base(scene)
+    return inertia * frequency**2 * _TURN
 
 
 def _inertia_about_base(scene: Scene) -> float:
-    inertia, way = scene.base.inertia + sum(joint.armature for joint in scene.joints), 0.0
-    for link in scene.links:
+    armatures = sum(joint.armature for joint in scene.joints[1:])
+    return scene.base.inertia + armatures + _inertia_beyond(scene, 1)
+
+
+def _inertia_beyond(scene: Scene, joint: int) -> float:
+    """Return the inertia about a joint, 1 to n, of its rotor and the straight arm beyond, kg m^2."""
+    inertia, way = scene.joints[joint - 1].armature, 0.0
+    for link in scene.links[joint - 1 :]:
         inertia += link.inertia + link.mass * (way + link.center * link.length) ** 2
         way += link.length
     return inertia + (scene.tip.mass * way**2 + scene.tip.inertia if scene.tip else 0.0)

@@ -29,6 +29,9 @@ _FASTEST = 40.0
 _COARSEST = 0.004
 """s."""
 _STEPS = (64, 128, 256, 512)
+_SMALL = 0.01
+"""rad; of errors larger than this the order says nothing yet: finer steps are fitted."""
+_HALVINGS = 4
 SLOPE = 0.1
 """How far the fitted order may be from the derived one."""
 
@@ -56,18 +59,26 @@ def planar_slope(scene: Scene, module: ModuleType, facts: dict[str, object]) -> 
     )
     arm = Arm(moving, {})
     exact = arm.trajectory(float(times[-1])).at(times)[0][:, arm.first :]
-    errors = []
-    for steps in _STEPS:
+
+    def error(steps: int) -> float:
         stride = steps // _STEPS[0]
         found = _angles(module, soft, _COARSEST / stride, steps)
-        errors.append(float(np.max(np.abs(found[stride - 1 :: stride] - exact))))
-    fitted = convergence_slope([1.0 / steps for steps in _STEPS], errors).order
+        return float(np.max(np.abs(found[stride - 1 :: stride] - exact)))
+
+    counts = list(_STEPS)
+    errors = [error(steps) for steps in counts]
+    for _ in range(_HALVINGS):
+        if errors[0] > _SMALL:
+            counts = [*counts[1:], 2 * counts[-1]]
+            errors = [*errors[1:], error(counts[-1])]
+    fitted = convergence_slope([1.0 / steps for steps in counts], errors).order
     facts |= {"fitted_order": fitted, "derived_order": derived}
     return CheckRow(
         "order_against_derived",
         abs(fitted - derived),
         SLOPE,
-        f"error goes with step^{fitted:.3f}, fitted on {len(_STEPS)} steps from {_COARSEST:g} s down on the arm "
+        f"error goes with step^{fitted:.3f}, fitted on {len(counts)} steps from "
+        f"{_COARSEST * _STEPS[0] / counts[0]:g} s down on the arm "
         f"with softened joints; derived: step^{derived}",
     )
 

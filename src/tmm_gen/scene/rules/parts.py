@@ -45,7 +45,7 @@ def one_row(document: PartsDocument) -> Iterator[Finding]:
         )
         return
     for name in (BASE, *(e.name for e in hung.entries if not isinstance(e.part, BodyPart))):
-        carried = hung.carried(name)
+        carried = [entry for entry in hung.carried(name) if entry.name != name]  # on itself: told below
         for entry in carried[1:]:
             yield _branch(hung, name, carried[0], entry)
     for entry in hung.entries:
