@@ -89,7 +89,7 @@ def test_numbers_a_processor_has_no_unit_for_are_pointed_out(
     check: Callable[..., Done], arm: None, tmp_path: Path
 ) -> None:
     scene = _thesis10(
-        tmp_path, ("instructions = 700", "instructions = 70000"), ("flash = 1100", "flash = 9000")
+        tmp_path, ("instructions = 700", "instructions = 70000"), ("flash = 1300", "flash = 9000")
     )
     done = check(scene, "--target", "cortex-m4f")
     assert done.exit_code == 0, done.output

@@ -50,7 +50,7 @@ def new(name: str, kind: Kind, out: Path, control: bool, motors: int | None, for
     # nothing is loaded yet: the kind is the word that was typed
     if control and kind != "planar":
         raise UserError(f"--control: a {kind} has no motor to be controlled. Add --kind planar.")
-    if motors and kind != "planar":
+    if motors and kind != "planar":  # the same word
         raise UserError(f"--motors: a {kind} has no motors at its joints. Add --kind planar.")
     if motors and control:
         raise UserError(

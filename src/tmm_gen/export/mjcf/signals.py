@@ -126,8 +126,7 @@ class Signals:
         self._read(name, *terms)
 
     def _joint(self, station: int) -> str:
-        hub = int(self.scene.base.kind == "motor")
-        return self.bodies.joints[station - 1 + hub]
+        return self.bodies.joints[station - 1 + self.scene.hub]
 
     def _angle(self, station: int) -> str:
         """Return the tendon whose length is the absolute angle of a station, 0 for the hub."""
