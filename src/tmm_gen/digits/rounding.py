@@ -102,13 +102,15 @@ class Rounding:
         stiffness = np.array([joint.stiffness for joint in scene.joints])
         damping = np.array([joint.damping for joint in scene.joints])
         inertia = np.array([link.inertia for link in scene.links])
+        ratio = np.array([joint.ratio for joint in scene.joints])
         largest = 0.0
         for of_stiffness, of_damping in self._shares(scene.integrator.step):
             impedance = of_stiffness * stiffness + of_damping * damping
-            around = impedance + np.append(impedance[1:], 0.0)
+            inward = impedance / ratio**2  # as seen from the inner sides
+            around = impedance + np.append(inward[1:], 0.0)
             largest = max(largest, float(np.max(around / inertia)))
             if scene.hub:
-                at_hub = float(impedance[0]) + of_damping * scene.base.damping
+                at_hub = float(inward[0]) + of_damping * scene.base.damping
                 largest = max(largest, at_hub / scene.base.inertia)
         return largest
 
@@ -139,8 +141,9 @@ def first_period(scene: Scene) -> float:
     """
     if scene.hub:
         return 0.0
-    compliance = 1.0 / np.array([joint.stiffness for joint in scene.joints])
-    inertia = np.array([link.inertia for link in scene.links])
+    turns = np.array(scene.turns)  # all seen from the base's shaft
+    compliance = turns**2 / np.array([joint.stiffness for joint in scene.joints])
+    inertia = np.array([link.inertia for link in scene.links]) / turns**2
     shape = np.cumsum(compliance)
     square = 0.0
     for _ in range(_SWEEPS):

@@ -24,6 +24,8 @@ _Loads = tuple[tuple[int, tuple[float, ...]], ...]
 PIVOT = "pivot"
 """A joint that may turn freely, with a rotor in it or a torque: its law is given by numbers, not by a compliance."""
 
+GEARED = "geared joint"
+
 
 @dataclass(frozen=True)
 class Placed:
@@ -32,7 +34,7 @@ class Placed:
     Parameters
     ----------
     name : str
-        "joint", "pivot", "link", "hub", "friction" or "tip".
+        "joint", "geared joint", "pivot", "link", "hub", "friction" or "tip".
     element : Element
         Its declaration, linear in its motions.
     station : int
@@ -112,7 +114,11 @@ def _chain(scene: Scene) -> LinearArm:
         placed.append(Placed("friction", torsion.GROUND_DAMPER, 0, (scene.base.damping,)))
         placed.append(Placed("hub", torsion.LINK, 0, (scene.base.inertia,), loads[0]))
     for i, (joint, link) in enumerate(zip(scene.joints, scene.links, strict=True), start=1):
-        placed.append(Placed("joint", torsion.JOINT, i, (joint.stiffness, joint.damping)))
+        law = (joint.stiffness, joint.damping)
+        if joint.ratio == 1.0:
+            placed.append(Placed("joint", torsion.JOINT, i, law))
+        else:
+            placed.append(Placed(GEARED, torsion.GEARED_JOINT, i, (*law, joint.ratio)))
         placed.append(Placed("link", torsion.LINK, i, (link.inertia,), loads[i]))
     return LinearArm(scene, 1, tuple(placed), (bool(scene.hub),), _prescribed(scene), 1.0, None)
 
@@ -169,7 +175,7 @@ def _loads(scene: Scene, load: Element, symbols: dict[str, sp.Symbol]) -> list[_
                 unit = -scene.joints[item.at - 1].gear * torque
                 found[item.at - 1].append((number, tuple(unit.tolist())))
         elif item is not scene.prescribed:
-            unit_load = _unit_load(load, symbols[item.acts])
+            unit_load = tuple(item.factor * each for each in _unit_load(load, symbols[item.acts]))
             found[station_of(item.at, scene.stations)].append((number, unit_load))
     return [tuple(each) for each in found]
 

@@ -14,7 +14,7 @@ from itertools import groupby
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.modal.arm import PIVOT, LinearArm, Placed
+from tmm_gen.modal.arm import GEARED, PIVOT, LinearArm, Placed
 
 Array = NDArray[np.float64]
 
@@ -41,6 +41,8 @@ class Parts:
         Inertia of the body at the tip.
     rotor : array, (n,)
         Inertia of the motor in each joint, at the joint, kg m^2.
+    turn : array, (n,)
+        Turns of a joint's outer side per turn of its inner one; 1 without gears, which chains alone have.
     """
 
     hub: bool
@@ -53,6 +55,7 @@ class Parts:
     inertia: Array
     tip: Array
     rotor: Array
+    turn: Array
 
     @property
     def size(self) -> int:
@@ -73,7 +76,7 @@ class Parts:
     def twists(self, angles: Array) -> Array:
         """Return how much each joint is twisted, (n, ...)."""
         inner = angles[:-1] if self.hub else np.concatenate([np.zeros_like(angles[:1]), angles[:-1]])
-        found: Array = angles[int(self.hub) :] - inner
+        found: Array = angles[int(self.hub) :] - self.turn[:, None] * inner
         return found
 
     def weighed(self, angles: Array) -> Array:
@@ -103,7 +106,8 @@ class Parts:
         torque = joint[:, None] * self.twists(angles)
         found = ground[:, None] * angles
         found[int(self.hub) :] += torque
-        found[: len(found) - 1] -= torque if self.hub else torque[1:]
+        inward = self.turn[:, None] * torque
+        found[: len(found) - 1] -= inward if self.hub else inward[1:]
         return found
 
 
@@ -116,7 +120,7 @@ def parts_of(arm: LinearArm) -> Parts:
         Chain, or planar arm about rest.
     """
     n, width, first = arm.scene.stations, arm.width, int(arm.hub)
-    rotor = np.zeros(n)
+    rotor, turn = np.zeros(n), np.array([1.0 / joint.ratio for joint in arm.scene.joints])
     laws, links = np.zeros((n, 2)), np.zeros((3, n, width, width))
     reach = np.zeros((n, width - 1))
     bodies = {0: np.zeros((3, width, width)), n: np.zeros((3, width, width))}
@@ -127,8 +131,9 @@ def parts_of(arm: LinearArm) -> Parts:
         functions = arm.functions(alike[0])
         columns = [np.array(column) for column in zip(*(each.values for each in alike), strict=True)]
         at = np.array([each.station for each in alike])
-        if name == "joint":
-            laws[at - 1] = arm.sign * functions.impedance(columns)
+        if name in ("joint", GEARED):
+            # of the outer motion per force on the inner side, which is `turn` times that on the outer one
+            laws[at - 1] = arm.sign * functions.impedance(columns) / turn[at - 1, None]
             continue
         by_power, carrying, passing = functions.powers(columns)
         # forces enter at the inner end: what the element takes, carried there
@@ -154,6 +159,7 @@ def parts_of(arm: LinearArm) -> Parts:
         inertia=0.5 * (links[2] + links[2].transpose(0, 2, 1)),  # symmetric but for rounding
         tip=bodies[n][2],
         rotor=rotor,
+        turn=turn,
     )
 
 

@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from tmm_gen.modal.arm import PIVOT, LinearArm
+from tmm_gen.modal.arm import GEARED, PIVOT, LinearArm
 from tmm_gen.modal.sweep import States, sweep
 from tmm_gen.scene import Output, Scene, station_of
 
 Complex = NDArray[np.complex128]
 
-_JOINTS = ("joint", PIVOT)
+_JOINTS = ("joint", GEARED, PIVOT)
 _AT_ONCE = 4_000_000
 """Numbers a sweep may hold at a time; more frequencies are taken in several."""
 
@@ -73,9 +73,9 @@ def _read(arm: LinearArm, states: States, s: Complex, output: Output) -> list[tu
         if quantity.vector:
             return [(name, force[:, i]) for i, name in enumerate(names)]
         # positive where the joint is bent toward positive angles, whatever side the force is counted on
-        return [(names[0], arm.sign * force[:, -1])]
+        return [(names[0], output.factor * arm.sign * force[:, -1])]
     motion = states.motion[_behind(arm, station)]
-    factor = s[:, None] ** quantity.order
+    factor = output.factor * s[:, None] ** quantity.order
     rows = [0, 1] if quantity.vector else [arm.width - 1]
     return [(name, factor * motion[:, row]) for name, row in zip(names, rows, strict=True)]
 
@@ -94,5 +94,5 @@ def _force(arm: LinearArm, states: States, output: Output, station: int) -> Comp
         return beyond
     joint = max(station, 1)
     at = next(k for k, e in enumerate(arm.elements) if e.name in _JOINTS and e.station == joint)
-    found: Complex = states.force[at]
+    found: Complex = states.force[at + (arm.elements[at].name == GEARED)]  # on its outer side
     return found

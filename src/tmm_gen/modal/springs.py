@@ -20,7 +20,7 @@ _LEAST = float(np.finfo(float).eps)
 class Springs:
     """``K = (1 - R)^-T D (1 - R)^-1`` undone: ``D`` diagonal, ``R`` carries a share of each angle to the next.
 
-    Without gravity all shares are exactly 1, the pivots are the joints' springs, and a free hub's pivot is exactly 0:
+    Without gravity all shares are exactly 1, or what gears turn, the pivots are the joints' springs, and a free hub's pivot is exactly 0:
     the arm turns freely. With it, pivots are sums of what acts in parallel, never differences of large numbers.
 
     Parameters
@@ -108,6 +108,7 @@ def springs_of(parts: Parts) -> Springs:
     """
     ground = parts.ground_stiffness.tolist()
     springs = ([0.0] if parts.hub else []) + parts.spring.tolist()
+    turns = ([1.0] if parts.hub else []) + parts.turn.tolist()
     pivot, share = [0.0] * len(ground), [0.0] * len(ground)
     beyond = 0.0  # stiffness of all that is outboard, as the joint passes it on
     for i in reversed(range(len(ground))):
@@ -118,6 +119,6 @@ def springs_of(parts: Parts) -> Springs:
             continue
         if pivot[i] == 0.0:
             pivot[i] = _LEAST * springs[i]
-        share[i] = springs[i] / pivot[i]
-        beyond = share[i] * own
+        share[i] = turns[i] * springs[i] / pivot[i]
+        beyond = turns[i] * share[i] * own
     return Springs(parts, np.array(pivot), np.array(share))

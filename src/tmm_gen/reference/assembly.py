@@ -37,6 +37,8 @@ class Assembly:
         Shares of inputs, their rates and accelerations in the outputs; of a prescribed base only.
     angle, rate : array, (m,)
         Initial values.
+    free : bool
+        Whether the chain can turn as a whole: no angle holds it.
     inputs, outputs : tuple of str
         Names, in the order of the scene.
     """
@@ -54,14 +56,9 @@ class Assembly:
     from_input_acceleration: Array
     angle: Array
     rate: Array
+    free: bool
     inputs: tuple[str, ...]
     outputs: tuple[str, ...]
-
-    @property
-    def free(self) -> bool:
-        """Whether the chain can turn as a whole: no angle holds it."""
-        rigid = np.ones(len(self.mass))
-        return not np.any(self.stiffness @ rigid)
 
     def static(self, inputs: Array) -> Array:
         """Return the outputs at rest under constant inputs, ``(outputs,)``.
@@ -101,18 +98,18 @@ def assemble(scene: Scene) -> Assembly:
         mass[outer, outer] = link.inertia
         for matrix, value in ((stiffness, joint.stiffness), (damping, joint.damping)):
             matrix[outer, outer] += value
-            if outer:
-                matrix[outer - 1, outer - 1] += value
-                matrix[outer - 1, outer] -= value
-                matrix[outer, outer - 1] -= value
+            if outer:  # which turns the ratio less than the inner side does
+                matrix[outer - 1, outer - 1] += value / joint.ratio**2
+                matrix[outer - 1, outer] -= value / joint.ratio
+                matrix[outer, outer - 1] -= value / joint.ratio
 
     load, load_rate = np.zeros((m, len(scene.inputs))), np.zeros((m, len(scene.inputs)))
     for k, item in enumerate(scene.inputs):
         if item.acts == "angle":  # through the spring and the damper of joint 1
-            load[0, k] = scene.joints[0].stiffness
-            load_rate[0, k] = scene.joints[0].damping
+            load[0, k] = scene.joints[0].stiffness / scene.joints[0].ratio
+            load_rate[0, k] = scene.joints[0].damping / scene.joints[0].ratio
         else:
-            load[station_of(item.at, n) - 1 + first, k] = 1.0
+            load[station_of(item.at, n) - 1 + first, k] = item.factor
 
     measured = _Measured(scene, m, first)
     for row, output in enumerate(scene.outputs):
@@ -131,6 +128,7 @@ def assemble(scene: Scene) -> Assembly:
         measured.from_input_acceleration,
         angle=np.array([0.0] * first + list(scene.initial.angles)),
         rate=np.array([0.0] * first + list(scene.initial.rates)),
+        free=bool(first),
         inputs=tuple(item.name for item in scene.inputs),
         outputs=tuple(item.name for item in scene.outputs),
     )
@@ -157,17 +155,17 @@ class _Measured:
         if quantity.in_joint:
             number = max(station, 1)  # the torque at the base is that of joint 1
             joint = self.scene.joints[number - 1]
-            for sign, at in ((1.0, number), (-1.0, number - 1)):
-                self._angle(row, at, sign * joint.stiffness)
-                self._rate(row, at, sign * joint.damping)
+            for turned, at in ((output.factor, number), (-output.factor / joint.ratio, number - 1)):
+                self._angle(row, at, turned * joint.stiffness)
+                self._rate(row, at, turned * joint.damping)
         elif quantity.order == 0:
-            self._angle(row, station, 1.0)
+            self._angle(row, station, output.factor)
         elif quantity.order == 1:
-            self._rate(row, station, 1.0)
+            self._rate(row, station, output.factor)
         elif self._moves(station):
-            self.from_acceleration[row, self.first + station - 1] = 1.0
+            self.from_acceleration[row, self.first + station - 1] = output.factor
         elif self.base_input is not None:
-            self.from_input_acceleration[row, self.base_input] = 1.0
+            self.from_input_acceleration[row, self.base_input] = output.factor
 
     def _moves(self, station: int) -> bool:
         return self.first + station >= 1

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.polynomial import legendre
@@ -117,12 +117,17 @@ def _fastest(signal: Signal) -> float:
 
 
 def linear_chain(scene: Scene) -> Linear:
-    """Return a chain in coordinates whose squares are energies, or in its slowest modes."""
+    """Return a chain in coordinates whose squares are energies, or in its slowest modes.
+
+    Inertias, springs and loads are referred to the base's shaft: there all turns count alike.
+    """
     hub = scene.hub
     n = scene.stations
-    inertia = np.array([scene.base.inertia] * hub + [link.inertia for link in scene.links])
+    turns = np.array([1.0] * hub + list(scene.turns))
+    inertia = np.array([scene.base.inertia] * hub + [link.inertia for link in scene.links]) / turns**2
     stiffness, damping = (
-        np.array([getattr(j, name) for j in scene.joints]) for name in ("stiffness", "damping")
+        np.array([getattr(j, name) for j in scene.joints]) / turns[hub:] ** 2
+        for name in ("stiffness", "damping")
     )
     load = np.zeros((n + hub, len(scene.inputs)))
     base = np.zeros(len(scene.inputs))
@@ -130,13 +135,15 @@ def linear_chain(scene: Scene) -> Linear:
         if item.acts == "angle":
             base[k] = 1.0
         else:
-            load[station_of(item.at, n) - 1 + hub, k] = 1.0
+            at = station_of(item.at, n) - 1 + hub
+            load[at, k] = item.factor / turns[at]
     start = (
-        np.array([0.0] * hub + list(scene.initial.angles)),
-        np.array([0.0] * hub + list(scene.initial.rates)),
+        turns * np.array([0.0] * hub + list(scene.initial.angles)),
+        turns * np.array([0.0] * hub + list(scene.initial.rates)),
     )
     make = _whole if n + hub <= DENSE else _modal
-    return make(inertia, stiffness, damping, scene.base.damping, load, base, *start)
+    found = make(inertia, stiffness, damping, scene.base.damping, load, base, *start)
+    return replace(found, angles=found.angles / turns[:, None], through=found.through / turns[:, None])
 
 
 def _whole(

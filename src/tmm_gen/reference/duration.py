@@ -45,6 +45,9 @@ def slowest_swing(scene: Scene) -> float:
     turning = scene.hub
     inertia = np.array([scene.base.inertia] * turning + [link.inertia for link in scene.links])
     spring = np.array([joint.stiffness for joint in scene.joints])
+    turns = np.array(scene.turns)  # all seen from the base's shaft
+    inertia[turning:] /= turns**2
+    spring /= turns**2
     inner = np.sqrt(spring[1 - turning :] / inertia[:-1])
     outer = np.sqrt(spring / inertia[turning:])
     beside = np.empty(len(inner) + len(outer))

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import sympy as sp
+
 from tmm_gen.derive.elements import torsion as element
 from tmm_gen.derive.elements.declaration import Element
 from tmm_gen.derive.station.lets import Coordinate
-from tmm_gen.row.row import Load, Row
+from tmm_gen.row.row import Combination, Load, Row
 from tmm_gen.row.words import (
     boundary_of,
     facts_of,
@@ -36,6 +38,9 @@ def chain_row(scene: Scene, integrator: str) -> Row:
         if any(j.damping for j in scene.joints)
         else None
     )
+    ratios = [j.ratio for j in scene.joints]
+    ratio = parameter("ratio", "turns of a joint's inner side per turn of its outer one", "1", ratios)
+    geared = any(each != 1.0 for each in ratios)
     inertia = parameter("inertia", "link inertia", "kg m^2", [link.inertia for link in scene.links])
     moved = scene.hub
     hub_inertia = parameter("hub_inertia", "hub inertia", "kg m^2", [scene.base.inertia]) if moved else None
@@ -46,7 +51,13 @@ def chain_row(scene: Scene, integrator: str) -> Row:
         scene.base.damping if moved else None,
     )
     loads = loads_of(scene, ("torque",))
-    joint = element.JOINT.with_values({element.STIFFNESS: stiffness.symbol, element.DAMPING: symbol(damping)})
+    values = {element.STIFFNESS: stiffness.symbol, element.DAMPING: symbol(damping)}
+    doc = "turns of a joint's outer side per turn of its inner one"
+    turn = Combination("turn", doc, "1", 1 / ratio.symbol)
+    joints, in_detail = (
+        {True: element.JOINT.with_values(values), False: element.GEARED_JOINT.with_values(values | of_gear)}
+        for of_gear in ({element.RATIO: 1 / sp.Symbol(turn.name)}, {element.RATIO: ratio.symbol})
+    )
     link = element.LINK.with_values({element.INERTIA: inertia.symbol})
     base: tuple[Element, ...] = ()
     if hub_inertia is not None:
@@ -54,10 +65,12 @@ def chain_row(scene: Scene, integrator: str) -> Row:
         if hub_damping is not None:
             base += (element.GROUND_DAMPER.with_values({element.GROUND_DAMPING: hub_damping.symbol}),)
     base += _torque(loads["base"])
-    station = (joint, link, *_torque(loads["station"]))
-    stations = (station,) * scene.stations
+    beyond = (link, *_torque(loads["station"]))
+    stations, detail = (
+        tuple((kinds[each == 1.0], *beyond) for each in ratios) for kinds in (joints, in_detail)
+    )
     tail = _torque(loads["tail"])
-    found = (stiffness, damping, inertia, hub_inertia, hub_damping)
+    found = (stiffness, damping, ratio if geared else None, inertia, hub_inertia, hub_damping)
     return Row(
         name=scene.name,
         title=scene.title,
@@ -68,10 +81,10 @@ def chain_row(scene: Scene, integrator: str) -> Row:
         boundary=boundary_of(scene),
         stations=stations,
         tail=tail,
-        detail=stations,
+        detail=detail,
         detail_tail=tail,
         parameters=tuple(p for p in found if p is not None),
-        combinations=(),
+        combinations=(turn,) if geared else (),
         inputs=signals_of(scene),
         loads=tuple(load for group in loads.values() for load in group.values()),
         prescribed=prescribed_of(scene),

@@ -70,12 +70,15 @@ class Load:
         For readers.
     places : tuple of (int or None, str)
         Index of the station, from 0, and name of the input; None where the element stands outside stations.
+    factors : dict from str to float
+        What a unit of an input is there, where that is not 1.
     """
 
     symbol: sp.Symbol
     doc: str
     unit: str
     places: tuple[tuple[int | None, str], ...]
+    factors: dict[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -107,6 +110,8 @@ class Reading:
         "q", "v" or "a" of motions; which energy.
     sign : int
         Of the element's own force.
+    factor : float
+        What the outputs are for a unit of it.
     """
 
     title: str
@@ -115,6 +120,7 @@ class Reading:
     station: int = 0
     kind: str = ""
     sign: int = 1
+    factor: float = 1.0
 
 
 @dataclass(frozen=True)

@@ -65,13 +65,14 @@ def loads_of(scene: Scene, components: tuple[str, ...]) -> dict[str, dict[str, L
         index = link - 1 if where == "station" else None
         places.setdefault((where, described.acts), []).append((index, described.name))
     names = {"base": "base_", "station": "load_", "tail": "tip_"}
+    factors = {described.name: described.factor for described in scene.inputs if described.factor != 1.0}
     found: dict[str, dict[str, Load]] = {where: {} for where in names}
     for component in components:
         for where, prefix in names.items():
             if (where, component) in places:
                 acting = tuple(sorted(places[where, component], key=lambda p: p[0] or 0))
                 doc = f"external {component} on each link"
-                load = Load(sp.Symbol(f"{prefix}{component}_"), doc, INPUT_UNITS[component], acting)
+                load = Load(sp.Symbol(f"{prefix}{component}_"), doc, INPUT_UNITS[component], acting, factors)
                 found[where][component] = load
     return found
 
@@ -94,7 +95,8 @@ def reading_of(scene: Scene, output: Output, title: str, sign: int) -> Reading:
     kind = "" if quantity.in_joint or quantity.read == "through" else quantity.energy or "qva"[quantity.order]
     if quantity.read == "through":
         return Reading(title, targets, "own", station)
-    return Reading(title, targets, quantity.read, station, kind, sign if quantity.read == "own" else 1)
+    sign = sign if quantity.read == "own" else 1
+    return Reading(title, targets, quantity.read, station, kind, sign, output.factor)
 
 
 def boundary_of(scene: Scene) -> Boundary:

@@ -7,9 +7,8 @@ from collections.abc import Iterable
 from pydantic import ValidationError
 
 from tmm_gen.scene.complaints import findings
-from tmm_gen.scene.document import Document
 from tmm_gen.scene.locate import nearest_line
-from tmm_gen.scene.parts.document import PartsDocument, by_parts
+from tmm_gen.scene.parts.document import PartsDocument, document_class
 from tmm_gen.scene.problem import Finding, Problem, SceneError, show_path
 from tmm_gen.scene.rules import broken_part_rules, broken_rules
 from tmm_gen.scene.scene import Scene, scene_of
@@ -34,7 +33,7 @@ def check_data(source: Source) -> Scene:
     SceneError
         With every fault found: first those of single tables, and where there is none, those between tables.
     """
-    kind = PartsDocument if by_parts(source.data) else Document
+    kind = document_class(source.data)
     try:
         document = kind.model_validate(source.data)
     except ValidationError as error:

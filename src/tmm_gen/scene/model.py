@@ -104,15 +104,15 @@ class Base(Table):
 
     Parameters
     ----------
-    kind : {"clamp", "motor", "prescribed"}
-        Ground; a hub that turns freely under torques; or a hub whose angle is an input.
+    kind : {"clamp", "motor", "prescribed", "free"}
+        Ground; a hub that turns freely under torques; a hub whose angle is an input; or nothing at all.
     inertia : float
-        Of the hub, kg m^2; positive for a motor, 0 for a clamp.
+        Of the hub, kg m^2; positive for a motor, 0 for a clamp; where nothing holds the arm, of its first part.
     damping : float
         Viscous, from hub to ground, N m s/rad, not negative.
     """
 
-    kind: Literal["clamp", "motor", "prescribed"] = Field(description="kind of base", examples=['"clamp"'])
+    kind: Literal["clamp", "motor", "prescribed", "free"] = Field(description="kind of base", examples=['"clamp"'])
     inertia: NonNegative = Field(
         default=0.0, description="inertia of the hub in kg m^2, above 0 for a motor", examples=["0.05"]
     )
@@ -124,3 +124,8 @@ class Base(Table):
     def moves(self) -> bool:
         """Whether it turns at all: freely, or as prescribed."""
         return self.kind != "clamp"
+
+    @property
+    def turns(self) -> bool:
+        """Whether it turns freely, so that its angle is one more coordinate."""
+        return self.kind in ("motor", "free")

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, fields, replace
+from itertools import accumulate
+from operator import mul
 
 from tmm_gen.scene.beam import Beam, Tip
 from tmm_gen.scene.change import changed
@@ -91,7 +93,12 @@ class Scene:
     @property
     def hub(self) -> int:
         """Coordinates before that of link 1: 1 of a hub that turns freely, 0 where the base is held or prescribed."""
-        return int(self.base.kind == "motor")
+        return int(self.base.turns)
+
+    @property
+    def turns(self) -> tuple[float, ...]:
+        """Turns of the base's shaft per turn of each link, length n; 1 where there are no gears."""
+        return tuple(accumulate((joint.ratio for joint in self.joints), mul))
 
     @property
     def prescribed(self) -> Input | None:
@@ -159,6 +166,7 @@ def scene_of(document: Document, source: Source) -> Scene:
                 made.outputs(document.output),
                 made.initial(document.initial),
             ),
+            base=made.base or document.base,
             beam=None,
             tip=made.tip,
             parts=made.parts,

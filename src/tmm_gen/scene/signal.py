@@ -77,10 +77,13 @@ class Input(FileInput):
         "drive": N m, of the motor in a joint, times its gear between both sides.
     part : str
         Name of the part at which the file has it; empty where it has a place.
+    factor : float
+        What a unit of it is at its place, in the place's own angle: gears lie between a part and its station.
     """
 
     acts: Acts  # type: ignore[assignment]
     part: str = ""
+    factor: float = 1.0
 
 
 RATE, ACCELERATION = "_rate", "_acceleration"
@@ -125,7 +128,10 @@ class Output(FileOutput):
         that the inner side exerts on the outer one.
     part : str
         Name of the part at which the file has it; empty where it has a place.
+    factor : float
+        What it is for a unit at its place.
     """
 
     of: Read  # type: ignore[assignment]
     part: str = ""
+    factor: float = 1.0

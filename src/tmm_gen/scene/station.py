@@ -6,7 +6,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from tmm_gen.scene.table import STATION_LIMIT, Fraction, NonNegative, Positive, Table
+from tmm_gen.scene.table import STATION_LIMIT, Finite, Fraction, NonNegative, Positive, Table
 
 Repeat = Annotated[int, Field(strict=True, ge=1, le=STATION_LIMIT)]
 
@@ -26,6 +26,9 @@ class Joint(Table):
         Of a motor, on its own side, kg m^2.
     gear : float
         Turns of the motor per turn of the joint.
+    ratio : float
+        Turns of the inner side per turn of the outer one, on which the spring and the damper are; not 0. Other than 1
+        in chains with gears alone.
     """
 
     stiffness: NonNegative
@@ -33,6 +36,7 @@ class Joint(Table):
     rest: float = 0.0
     rotor_inertia: NonNegative = 0.0
     gear: Positive = 1.0
+    ratio: Finite = 1.0
 
     @property
     def armature(self) -> float:

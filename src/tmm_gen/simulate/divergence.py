@@ -91,13 +91,15 @@ def watch(scene: Scene, signals: Mapping[str, Signal], until: float, step: float
         name: float(np.max(np.abs(signal.at(np.concatenate([times, signal.knots])))))
         for name, signal in signals.items()
     }
-    torque = sum(largest.get(i.name, 0.0) for i in scene.inputs if i.acts == "torque")
+    torque = sum(abs(i.factor) * largest.get(i.name, 0.0) for i in scene.inputs if i.acts == "torque")
     prescribed = sum(largest.get(i.name, 0.0) for i in scene.inputs if i.acts == "angle")
     start, rate = np.max(np.abs(assembly.angle)), np.max(np.abs(assembly.rate))
     reach = start + rate * until + prescribed + torque * sum(1.0 / j.stiffness for j in scene.joints)
     if assembly.free:
         reach += torque * until**2 / (2.0 * float(np.trace(assembly.mass)))
-    return Watch(scene, step, _FACTOR * max(float(reach), 1e-300))
+    turns = np.abs([1.0, *scene.turns])
+    geared = (np.max(turns) / np.min(turns)) ** 2  # a torque and what it turns may be on any two shafts
+    return Watch(scene, step, _FACTOR * max(float(geared * reach), 1e-300))
 
 
 def _cause(scene: Scene, step: float) -> str:

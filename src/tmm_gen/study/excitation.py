@@ -16,7 +16,7 @@ from tmm_gen.inputs.clock import refuse_other_clock
 from tmm_gen.inputs.curve import Curve
 from tmm_gen.inputs.signals import Constant, Signal, Sine, Table
 from tmm_gen.reference.duration import default_duration
-from tmm_gen.scene import Input, Output, Scene
+from tmm_gen.scene import Input, Output, Scene, station_of
 from tmm_gen.simulate.prescribed import prescribed
 from tmm_gen.study.rise import Rise
 
@@ -143,17 +143,18 @@ def _signal(scene: Scene, item: Input, frequency: float, until: float) -> Signal
     if item.acts == "drive" and isinstance(item.at, int):
         torque = _torque(scene, frequency, item.at)
         return Sine(_rounded(torque / scene.joints[item.at - 1].gear), frequency)
-    torque = _torque(scene, frequency)
+    at = station_of(item.at, scene.stations)
+    torque = _torque(scene, frequency) * ((1.0, *scene.turns)[at] / item.factor) ** 2
     return Sine(_rounded(torque if item.acts == "torque" else torque / _length(scene)), frequency)
 
 
 def _torque(scene: Scene, frequency: float, joint: int = 0) -> float:
     """Return a torque, N m, that turns the arm by about `_TURN`: against its springs, or its inertia if it is free.
 
-    A torque in a joint turns what is beyond the joint.
+    A torque in a joint turns what is beyond the joint. With gears it is that on the base's shaft.
     """
     if not scene.hub and all(joint.stiffness > 0.0 for joint in scene.joints):
-        return _TURN / sum(1.0 / joint.stiffness for joint in scene.joints)
+        return _TURN / sum(t * t / joint.stiffness for t, joint in zip(scene.turns, scene.joints, strict=True))
     inertia = _inertia_beyond(scene, joint) if joint else _inertia_about_base(scene)
     return inertia * frequency**2 * _TURN
 
@@ -166,8 +167,8 @@ def _inertia_about_base(scene: Scene) -> float:
 def _inertia_beyond(scene: Scene, joint: int) -> float:
     """Return the inertia about a joint, 1 to n, of its rotor and the straight arm beyond, kg m^2."""
     inertia, way = scene.joints[joint - 1].armature, 0.0
-    for link in scene.links[joint - 1 :]:
-        inertia += link.inertia + link.mass * (way + link.center * link.length) ** 2
+    for turns, link in list(zip(scene.turns, scene.links, strict=True))[joint - 1 :]:
+        inertia += link.inertia / turns**2 + link.mass * (way + link.center * link.length) ** 2
         way += link.length
     return inertia + (scene.tip.mass * way**2 + scene.tip.inertia if scene.tip else 0.0)
 

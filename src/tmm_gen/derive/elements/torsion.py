@@ -8,6 +8,7 @@ from tmm_gen.derive.elements.declaration import Element, torsion_port
 
 STIFFNESS = sp.Symbol("k", positive=True)
 DAMPING = sp.Symbol("c", nonnegative=True)
+RATIO = sp.Symbol("N", real=True, nonzero=True)
 INERTIA = sp.Symbol("I", positive=True)
 GROUND_DAMPING = sp.Symbol("b", nonnegative=True)
 LOAD = sp.Symbol("T", real=True)
@@ -32,6 +33,19 @@ JOINT = Element(
     },
 )
 """Massless torsion spring with a viscous damper beside it."""
+
+_twist, _twisting = _theta_out.q - _theta_in.q / RATIO, _theta_out.v - _theta_in.v / RATIO
+
+GEARED_JOINT = Element(
+    name="geared_joint",
+    source="virtual work of a spring that is twisted by theta_out - theta_in / N",
+    inboard=_IN,
+    outboard=_OUT,
+    equations=(_tau_out - STIFFNESS * _twist - DAMPING * _twisting, _tau_in - _tau_out / RATIO),
+    parameters=(STIFFNESS, DAMPING, RATIO),
+    energies={"elastic": STIFFNESS * _twist**2 / 2, "heat": DAMPING * _twisting**2},
+)
+"""The same behind a rigid gear, or teeth that give way: N turns of the inner side per turn of the outer one."""
 
 LINK = Element(
     name="link",

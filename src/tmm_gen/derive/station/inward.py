@@ -178,7 +178,8 @@ class Inward:
                 )
             )
             stiffness = STIFFNESS
-        inner_stiffness = stiffness if sp.expand(of_inner + of_outer) == 0 else sign * of_inner
+        symmetric = sp.expand(of_inner + ratio * of_outer) == 0
+        inner_stiffness = ratio * stiffness if symmetric else sign * of_inner
         self.lines += [
             Let(PIVOT, stiffness + sign * load, "pivot of the joint"),
             Pivot(PIVOT),
@@ -246,28 +247,32 @@ class Inward:
                 back = ratio * sign * stiffness - more_outer
                 impedances[own, k] = cheapest(back * answers[name], []) if name in answers else ZERO
         if frame.about == "known":
-            forces[own] = ratio * self._shares(known, bias, load, stiffness) + more + more_outer * OWN
+            forces[own] = self._shares(known, bias, load, stiffness, ratio) + more + more_outer * OWN
         else:
             forces[own] = ratio * known + more + (more_outer - ratio * sign * stiffness) * OWN
         self._set(impedances, forces)
         self._predict([ratio * known + more if i == own else self._p[i] for i in range(len(names))])
         return answers
 
-    def _shares(self, known: sp.Expr, bias: sp.Expr, load: sp.Expr, stiffness: sp.Expr) -> sp.Expr:
+    def _shares(
+        self, known: sp.Expr, bias: sp.Expr, load: sp.Expr, stiffness: sp.Expr, ratio: sp.Expr
+    ) -> sp.Expr:
         """Pass on the known torque and the force beyond by shares: no digits are lost in a stiff joint."""
         if stiffness == 0:
-            return known
-        sign = sp.Integer(self.frame.sign)
-        passes = next(
-            (x.symbol for x in self.lines if isinstance(x, Let) and x.value == ADMITTANCE * stiffness), None
-        )
+            return ratio * known
+        sign, share = sp.Integer(self.frame.sign), ADMITTANCE * ratio * stiffness
+        passes = next((x.symbol for x in self.lines if isinstance(x, Let) and x.value == share), None)
         if passes is None:
             passes = sp.Symbol("passed_share", real=True)
             self.lines.append(
-                Let(passes, ADMITTANCE * stiffness, "share of the force beyond each joint passes on")
+                Let(passes, share, "share of the force beyond each joint passes on")
             )
         self.lines.append(
-            Let(REFLECTION, sign * ADMITTANCE * load, "share of its own known torque each joint passes on")
+            Let(
+                REFLECTION,
+                ratio * sign * ADMITTANCE * load,
+                "share of its own known torque each joint passes on",
+            )
         )
         return passes * bias + REFLECTION * known
 

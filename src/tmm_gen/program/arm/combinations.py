@@ -31,7 +31,9 @@ class Combinations:
     @property
     def section(self) -> Section:
         """What computes them."""
-        return Section("masses at the nodes between links, and what they leave over", tuple(self._statements))
+        masses = len(self._layout.row.coordinates) > 1
+        title = "masses at the nodes between links, and what they leave over" if masses else "how gears turn"
+        return Section(title, tuple(self._statements))
 
     def _add(self, found: Combination, role: Role) -> None:
         n = self._layout.stations

@@ -48,7 +48,7 @@ class Loads:
 
     def _add(self, load: Load) -> None:
         if all(index is None for index, _ in load.places):
-            self.values[load.symbol] = sp.Add(*(self._inputs[name] for _, name in load.places))
+            self.values[load.symbol] = sp.Add(*(self._acting(load, name) for _, name in load.places))
             return
         array = Variable(load.symbol.name.rstrip("_"), Role.WORK, self._n, load.doc, load.unit)
         self.values[load.symbol] = array.at()
@@ -56,6 +56,15 @@ class Loads:
         sums: dict[int, sp.Expr] = {}
         for index, name in load.places:
             assert index is not None
-            sums[index] = sums.get(index, sp.Integer(0)) + self._inputs[name]
+            sums[index] = sums.get(index, sp.Integer(0)) + self._acting(load, name)
         fill += [Assign(array.entry(index), value) for index, value in sums.items()]
         self._fill[load.symbol] = fill
+
+    def _acting(self, load: Load, name: str) -> sp.Expr:
+        """Return what an input is where it acts."""
+        return exactly(load.factors.get(name, 1.0)) * self._inputs[name]
+
+
+def exactly(value: float) -> sp.Rational:
+    """Return a number of a scene as one that no rounding of SymPy's touches."""
+    return sp.Rational(*value.as_integer_ratio())

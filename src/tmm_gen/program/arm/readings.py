@@ -17,6 +17,7 @@ from tmm_gen.derive.station.station import outward
 from tmm_gen.program.arm.at_state import AtState
 from tmm_gen.program.arm.binding import Binding
 from tmm_gen.program.arm.layout import Layout
+from tmm_gen.program.arm.loads import exactly
 from tmm_gen.program.statements import Assign, Loop, Order, Routine, Section, Statement
 from tmm_gen.program.variables import Ref, Role, Variable
 from tmm_gen.row.row import Reading
@@ -64,7 +65,7 @@ class Readings:
         value = self._at.motion(reading.station, reading.kind)  # type: ignore[arg-type]
         if reading.kind == "q" and self._turned is not None:
             value = self._turned.ref + value
-        return [Assign(targets[0], value)]
+        return [Assign(targets[0], sp.expand(exactly(reading.factor) * value))]
 
     def _bend(self, reading: Reading, targets: list[Ref]) -> list[Statement]:
         outer, inner = (
@@ -89,7 +90,7 @@ class Readings:
             values[getattr(element.outboard.motions[law.free], k)] = OUTER[k]
         value = grouped(law.own.subs(values), {k: (INNER[k], OUTER[k]) for k in KINDS})
         bound = self._loaded(reading.station - 1).value(value)
-        return [Assign(targets[0], reading.sign * bound)]
+        return [Assign(targets[0], reading.sign * exactly(reading.factor) * bound)]
 
     def _place(self, reading: Reading, targets: list[Ref]) -> list[Statement]:
         row = self._row

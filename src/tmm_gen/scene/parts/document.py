@@ -8,10 +8,15 @@ from functools import cached_property
 from pydantic import Field
 
 from tmm_gen.scene.document import Document
+from tmm_gen.scene.parts.drivetrain import drivetrain
 from tmm_gen.scene.parts.expansion import Expansion, expanded
+from tmm_gen.scene.parts.order import hanging
 from tmm_gen.scene.parts.tables import (
     BeamPart,
     BodyPart,
+    ChainJointPart,
+    ChainLinkPart,
+    GearPart,
     JointPart,
     LinkPart,
     MotorPart,
@@ -21,7 +26,7 @@ from tmm_gen.scene.parts.tables import (
 )
 from tmm_gen.scene.station import Joint, Link
 
-PARTS = ("motor", "joint", "beam", "link", "body")
+PARTS = ("motor", "joint", "gear", "beam", "link", "body")
 
 
 class PartsDocument(Document):
@@ -29,6 +34,7 @@ class PartsDocument(Document):
 
     motor: tuple[MotorPart, ...] = Field(default=(), description="driven joints")
     joint: tuple[JointPart, ...] = Field(default=(), description="joints")  # type: ignore[assignment]
+    gear: tuple[GearPart, ...] = Field(default=(), description="gears")
     beam: tuple[BeamPart, ...] = Field(default=(), description="beams")  # type: ignore[assignment]
     link: tuple[LinkPart, ...] = Field(default=(), description="rigid links")  # type: ignore[assignment]
     body: tuple[BodyPart, ...] = Field(default=(), description="rigid bodies")
@@ -58,9 +64,29 @@ class PartsDocument(Document):
         return self.expansion.links
 
 
+class ChainDocument(PartsDocument):
+    """The same of a chain, whose parts turn about one axis and do nothing else."""
+
+    joint: tuple[ChainJointPart, ...] = Field(default=(), description="joints")  # type: ignore[assignment]
+    link: tuple[ChainLinkPart, ...] = Field(default=(), description="links")  # type: ignore[assignment]
+
+    @cached_property
+    def expansion(self) -> Expansion:
+        """The row of links that the parts make; only where they hang together."""
+        return drivetrain(hanging(self.parts_by_table()).row(), self.base)
+
+
+def document_class(data: Mapping[str, object]) -> type[Document]:
+    """Return how a file writes its arm."""
+    if not by_parts(data):
+        return Document
+    model = data.get("model")
+    return ChainDocument if isinstance(model, dict) and model.get("kind") == "chain" else PartsDocument
+
+
 def by_parts(data: Mapping[str, object]) -> bool:
     """Return whether a file writes its arm as parts by name."""
-    if "motor" in data or "body" in data or isinstance(data.get("beam"), list):
+    if any(table in data for table in ("motor", "gear", "body")) or isinstance(data.get("beam"), list):
         return True
     entries = (entry for key in ("joint", "link") for entry in _entries(data.get(key)))
     return any("name" in entry or "on" in entry for entry in entries)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, cast
 from tmm_gen.scene.beam import Beam, Tip, beam_joints, beam_links
 from tmm_gen.scene.exact import exact, nearest
 from tmm_gen.scene.initial import Initial, InitialTable
+from tmm_gen.scene.model import Base
 from tmm_gen.scene.parts.order import Entry, Hanging, hanging
 from tmm_gen.scene.parts.tables import BeamPart, BodyPart, JointPart, LinkPart, MotorPart
 from tmm_gen.scene.signal import FileInput, FileOutput, Input, Output, Place
@@ -58,12 +59,15 @@ class Expansion:
         Bodies on the last part.
     parts : tuple of PlacedPart
         Base to tip.
+    base : Base or None
+        What the arm stands on, where that is not what the file says: parts may be a hub.
     """
 
     joints: tuple[Joint, ...]
     links: tuple[Link, ...]
     tip: Tip | None
     parts: tuple[PlacedPart, ...]
+    base: Base | None = None
 
     @property
     def by_name(self) -> dict[str, PlacedPart]:

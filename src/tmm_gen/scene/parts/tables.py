@@ -9,7 +9,7 @@ from pydantic import AfterValidator, BeforeValidator, Field, PlainValidator
 from tmm_gen.scene.beam import Springs
 from tmm_gen.scene.identifier import Name
 from tmm_gen.scene.signal import FileInput, FileOutput
-from tmm_gen.scene.table import STATION_LIMIT, Fraction, NonNegative, Positive, Table, fault
+from tmm_gen.scene.table import STATION_LIMIT, Finite, Fraction, NonNegative, Positive, Table, fault
 
 PartSprings = Literal[Springs, "finite-segment"]
 
@@ -37,6 +37,12 @@ def _rigid_gear(value: object) -> object:
         "of a gear is not modelled yet: gears are rigid",
         "Remove it, or put a [[joint]] of this stiffness behind the motor, with a [[link]] in between.",
     )
+
+
+def _turning(value: float) -> float:
+    if value == 0.0:
+        raise fault("is 0: what hangs on the gear would turn without end", "Write turns per turn, for example 5.0.")
+    return value
 
 
 PartName = Annotated[Name, BeforeValidator(_named), AfterValidator(_part_name)]
@@ -160,6 +166,55 @@ class BodyPart(Part):
     inertia: NonNegative = Field(
         default=0.0, description="moment of inertia about its own centre in kg m^2", examples=["0.001"]
     )
+
+
+class GearPart(Part):
+    """``[[gear]]`` of a chain: a gear pair; rigid, or with teeth that give way.
+
+    Parameters
+    ----------
+    ratio : float
+        Turns of what it hangs on per turn of what hangs on it; negative where the sense of turning changes.
+    stiffness, damping : float
+        Of the teeth, seen from its outer side, N m/rad and N m s/rad; without stiffness it is rigid.
+    """
+
+    ratio: Annotated[Finite, AfterValidator(_turning)] = Field(
+        description="turns of what it hangs on per turn of what hangs on it", examples=["5.0"]
+    )
+    stiffness: Positive | None = Field(
+        default=None,
+        description="stiffness of the teeth in N m/rad, seen from the outer side",
+        examples=["2e4"],
+        json_schema_extra={"absent": "rigid"},
+    )
+    damping: NonNegative = Field(
+        default=0.0, description="damping of the teeth in N m s/rad, seen from the outer side", examples=["2.0"]
+    )
+
+
+class ChainJointPart(Part):
+    """``[[joint]]`` by name in a chain: a shaft or a coupling that twists."""
+
+    stiffness: Positive = Field(description="torsional stiffness in N m/rad", examples=["300.0"])
+    damping: NonNegative = Field(default=0.0, description="torsional damping in N m s/rad", examples=["0.5"])
+
+
+class ChainLinkPart(Part):
+    """``[[link]]`` by name in a chain: a disc, rigidly on what it hangs on.
+
+    Parameters
+    ----------
+    inertia : float
+        About the axis of the chain, kg m^2, positive.
+    mass, length, center : object
+        Not of a chain.
+    """
+
+    inertia: Positive = Field(description="moment of inertia about the axis in kg m^2", examples=["2e-3"])
+    mass: object = Field(default=None, json_schema_extra={"hidden": True})
+    length: object = Field(default=None, json_schema_extra={"hidden": True})
+    center: object = Field(default=None, json_schema_extra={"hidden": True})
 
 
 class PartInput(FileInput):

@@ -3,11 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from typing import TypeVar
 
 from tmm_gen.scene.document import Document
-from tmm_gen.scene.parts.document import PartsDocument
+from tmm_gen.scene.parts.document import ChainDocument, PartsDocument
 from tmm_gen.scene.problem import Finding
 from tmm_gen.scene.rules.control import control_possible
+from tmm_gen.scene.rules.drivetrains import (
+    chain_in_range,
+    chain_initial,
+    chain_inputs,
+    chain_outputs,
+    chain_suits,
+    free_base,
+    shafts,
+)
 from tmm_gen.scene.rules.emission import (
     bound_without_sensitivities,
     box_names,
@@ -20,7 +30,7 @@ from tmm_gen.scene.rules.integration import (
     explicit_needs_acceleration,
     integrator_parameters,
 )
-from tmm_gen.scene.rules.kinds import base_hub, kind_keys, newton_keys
+from tmm_gen.scene.rules.kinds import base_hub, held, kind_keys, newton_keys
 from tmm_gen.scene.rules.names import distinct_names
 from tmm_gen.scene.rules.outputs import outputs_possible
 from tmm_gen.scene.rules.parts import (
@@ -40,6 +50,7 @@ Rule = Callable[[Document], Iterator[Finding]]
 RULES: tuple[Rule, ...] = (
     kind_keys,
     newton_keys,
+    held,
     base_hub,
     stations_consistent,
     initial_lengths,
@@ -64,32 +75,53 @@ def broken_rules(document: Document) -> list[Finding]:
 
 
 PartRule = Callable[[PartsDocument], Iterator[Finding]]
+ChainRule = Callable[[ChainDocument], Iterator[Finding]]
 
-HANG_TOGETHER: tuple[tuple[PartRule, ...], ...] = ((part_names, parts_suit), (one_row,), (carriers,))
-"""Rules of arms by parts; each group takes those before it for granted."""
-
-PART_RULES: tuple[PartRule, ...] = (
-    newton_keys,
-    base_hub,
-    beams_in_range,
-    part_initial,
+_ALL: tuple[Rule, ...] = (
     integrator_parameters,
     explicit_needs_acceleration,
     distinct_names,
-    part_inputs,
     prescribed_motion,
-    part_outputs,
     real_is_used,
     bound_without_sensitivities,
     budget_not_empty,
     compensated_suits,
     box_names,
 )
+"""Rules of all arms by parts."""
+
+PART_RULES: tuple[tuple[PartRule, ...], ...] = (
+    (part_names, parts_suit),
+    (one_row,),
+    (carriers,),
+    (newton_keys, held, base_hub, beams_in_range, part_initial, part_inputs, part_outputs, *_ALL),
+)
+"""Rules of arms by parts; each group takes those before it for granted."""
+
+CHAIN_RULES: tuple[tuple[ChainRule, ...], ...] = (
+    (part_names, chain_suits),
+    (one_row,),
+    (shafts,),
+    (free_base, base_hub),
+    (chain_in_range, chain_initial, chain_inputs, chain_outputs, *_ALL),
+)
+"""The same of chains by parts."""
 
 
 def broken_part_rules(document: PartsDocument) -> list[Finding]:
     """Return everything in an arm by parts that breaks a rule; how parts hang together comes first."""
-    for group in (*HANG_TOGETHER, PART_RULES):
+    if isinstance(document, ChainDocument):
+        return _first_broken(document, CHAIN_RULES)
+    return _first_broken(document, PART_RULES)
+
+
+_Doc = TypeVar("_Doc", bound=PartsDocument)
+
+
+def _first_broken(
+    document: _Doc, groups: tuple[tuple[Callable[[_Doc], Iterator[Finding]], ...], ...]
+) -> list[Finding]:
+    for group in groups:
         if broken := [finding for rule in group for finding in rule(document)]:
             return broken
     return []

@@ -104,3 +104,14 @@ def base_hub(document: Document) -> Iterator[Finding]:
                     'Remove it, or set kind = "motor".',
                     getattr(base, key),
                 )
+
+
+def held(document: Document) -> Iterator[Finding]:
+    """Find an arm that nothing holds."""
+    if document.base.kind == "free":
+        yield Finding(
+            ("base", "kind"),
+            "leaves the arm without anything that holds it, which chains of parts by name alone can do",
+            'Write "clamp", "motor" or "prescribed".',
+            "free",
+        )

@@ -41,7 +41,8 @@ def one_row(document: PartsDocument) -> Iterator[Finding]:
         yield Finding(
             ("link",),
             "is missing: an arm needs at least one [[link]] or [[beam]]",
-            'Add [[link]] with `name = "arm"`, `on = ...`, `length`, `mass` and `inertia`.',
+            'Add [[link]] with `name = "arm"`, `on = ...` and '
+            + ("`inertia`." if document.model.linear else "`length`, `mass` and `inertia`."),
         )
         return
     for name in (BASE, *(e.name for e in hung.entries if not isinstance(e.part, BodyPart))):
@@ -158,12 +159,11 @@ def _carried(document: PartsDocument, entry: Entry, host: Entry | None) -> Itera
 
 def parts_suit(document: PartsDocument) -> Iterator[Finding]:
     """Find what arms by parts do not go with."""
-    if document.model.kind != "planar":
-        table = next(e for e in entries(document.parts_by_table()))
+    for index in range(len(document.gear)):
         yield Finding(
-            table.path,
-            f'is a part by name, which model.kind = "{document.model.kind}" does not have yet',
-            'Set model.kind = "planar", or write [[joint]] and [[link]] in turn, without name and on.',
+            ("gear", index),
+            "is for chains: gears of a planar arm are in its motors",
+            'Write `gear = ...` in a [[motor]], or set model.kind = "chain".',
         )
     if document.model.linearisation != "newton":
         yield Finding(
@@ -263,7 +263,7 @@ def part_inputs(document: PartsDocument) -> Iterator[Finding]:
         at, path = str(item.at), ("input", index)
         part = parts.get(at)
         if part is None and at not in (BASE, "tip"):
-            yield _unknown_place((*path, "at"), at, [BASE, *parts])
+            yield unknown_place((*path, "at"), at, [BASE, *parts])
         elif at == BASE:
             yield from _on_base(document, index)
         elif item.acts == "angle":
@@ -323,7 +323,7 @@ def part_outputs(document: PartsDocument) -> Iterator[Finding]:
         at, path = str(item.at), ("output", index)
         part = parts.get(at)
         if part is None and at not in (BASE, "tip", "arm"):
-            yield _unknown_place((*path, "at"), at, [BASE, "arm", *parts])
+            yield unknown_place((*path, "at"), at, [BASE, "arm", *parts])
         elif (at == "arm") != PLANAR[item.of].of_arm:
             whole = ", ".join(name for name, quantity in PLANAR.items() if quantity.of_arm)
             yield Finding(
@@ -357,7 +357,8 @@ def part_outputs(document: PartsDocument) -> Iterator[Finding]:
             yield _no_frame((*path, "at"), part)
 
 
-def _unknown_place(path: Path, at: str, known: list[str]) -> Finding:
+def unknown_place(path: Path, at: str, known: list[str]) -> Finding:
+    """Return the finding for a place that no part has."""
     return Finding(path, "is not the name of a part", closest(at, known), at)
 
 
