@@ -255,9 +255,17 @@ CASES = [
         "chain",
         'kind = "planar"',
         'kind = "chain"',
-        "motor[1]",
-        "does not have yet",
+        "joint[1].rest",
+        "is not a key of [[joint]]",
         ('kind = "chain"', 'kind = "planar"'),
+    ),
+    Case(
+        "gear",
+        '[[motor]]\nname = "shoulder"',
+        '[[gear]]\nname = "g"\non = "hand"\nratio = 3.0\n\n[[motor]]\nname = "shoulder"',
+        "gear[1]",
+        "gears of a planar arm are in its motors",
+        ('[[gear]]\nname = "g"\non = "hand"\nratio = 3.0\n', ""),
     ),
     Case(
         "thesis",
@@ -280,7 +288,7 @@ CASES = [
         'kind = "clamp"',
         'kind = "free"',
         "base.kind",
-        "is not one of the choices",
+        "which chains of parts by name alone can do",
         ('"free"', '"clamp"'),
     ),
     Case(

@@ -105,7 +105,7 @@ def _parts(scene: Scene, own: Footprint) -> list[Explained]:
     for part in scene.parts:
         if part.joint:
             carried = f", on {part.kind} '{part.name}'"
-        if part.kind not in ("beam", "link") or part.fixed:
+        if part.kind not in ("beam", "link") or part.fixed or not part.last:  # not of its own, or the hub
             continue
         upto = own if part.last == scene.stations else footprint(up_to(scene, part.last))
         count = part.last - part.first + 1

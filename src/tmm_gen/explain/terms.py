@@ -42,7 +42,7 @@ def terms_of(scene: Scene) -> list[Term]:
     """Return the terms of a scene, in the order of its file."""
     found = [_joint_damping(scene), *_base(scene)]
     if scene.parts:  # by their nature unlike
-        found += _motors(scene)
+        found += [*_gears(scene), *_motors(scene)]
     else:
         found[1:1] = [_alike_joints(scene), _alike_links(scene)]
     if scene.model.in_plane:
@@ -103,6 +103,14 @@ def _alike_links(scene: Scene) -> Term:
         return replace(s, links=_spread(s.links, names))
 
     return Term("links of their own", unlike, why, other)
+
+
+def _gears(scene: Scene) -> list[Term]:
+    """Return joints whose sides turn by a ratio, beside joints without."""
+    geared = sum(joint.ratio != 1.0 for joint in scene.joints)
+    plain = tuple(joint.model_copy(update={"ratio": 1.0}) for joint in scene.joints)
+    why = f"{geared} of {scene.stations} joints have gears beside them or are teeth"
+    return [Term("ratios of gears", True, why, lambda s: replace(s, joints=plain))] if geared else []
 
 
 def _motors(scene: Scene) -> list[Term]:

@@ -20,8 +20,9 @@ _LEAST = float(np.finfo(float).eps)
 class Springs:
     """``K = (1 - R)^-T D (1 - R)^-1`` undone: ``D`` diagonal, ``R`` carries a share of each angle to the next.
 
-    Without gravity all shares are exactly 1, or what gears turn, the pivots are the joints' springs, and a free hub's pivot is exactly 0:
-    the arm turns freely. With it, pivots are sums of what acts in parallel, never differences of large numbers.
+    Without gravity all shares are exactly 1 (behind gears, what those turn), the pivots are the joints' springs, and a
+    free hub's pivot is exactly 0: the arm turns freely. With it, pivots are sums of what acts in parallel, never
+    differences of large numbers.
 
     Parameters
     ----------

@@ -11,6 +11,7 @@ from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails
 
 from tmm_gen.scene.document import Document
+from tmm_gen.scene.nonlinear import nonlinear
 from tmm_gen.scene.problem import Finding, Path, show_path
 from tmm_gen.scene.table import Table, closest, hidden
 
@@ -135,6 +136,8 @@ def _unknown_key(path: Path, owner: type[Table], value: object, document: type[D
     key, known = str(path[-1]), [name for name, field in owner.model_fields.items() if not hidden(field)]
     where = _header(path[:-1])
     message = f"is not a key of {where}"
+    if path[0] in ("joint", "gear", "motor") and (told := nonlinear(key)) is not None:
+        return told
     if elsewhere := _tables_with(key, isinstance(value, dict | list), document):
         return message, f"It belongs {elsewhere}."
     if near := get_close_matches(key.replace("-", "_"), known, n=1, cutoff=0.6):

@@ -112,7 +112,9 @@ class Base(Table):
         Viscous, from hub to ground, N m s/rad, not negative.
     """
 
-    kind: Literal["clamp", "motor", "prescribed", "free"] = Field(description="kind of base", examples=['"clamp"'])
+    kind: Literal["clamp", "motor", "prescribed", "free"] = Field(
+        description="kind of base", examples=['"clamp"']
+    )
     inertia: NonNegative = Field(
         default=0.0, description="inertia of the hub in kg m^2, above 0 for a motor", examples=["0.05"]
     )

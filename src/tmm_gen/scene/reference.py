@@ -12,7 +12,7 @@ from pydantic_core import PydanticUndefined
 
 from tmm_gen.scene.document import Document
 from tmm_gen.scene.integrator import INTEGRATOR_NAMES, METHODS
-from tmm_gen.scene.parts.document import PARTS, PartsDocument
+from tmm_gen.scene.parts.document import PARTS, ChainDocument, PartsDocument
 from tmm_gen.scene.table import Table, hidden
 
 
@@ -51,6 +51,10 @@ def keys() -> Iterator[Key]:
         table = _table_in(PartsDocument.model_fields[name].annotation)
         assert table is not None
         yield from _table_keys(table, f"[[{name}]] by name")
+    for name in ("joint", "link"):
+        table = _table_in(ChainDocument.model_fields[name].annotation)
+        assert table is not None
+        yield from _table_keys(table, f"[[{name}]] by name in a chain")
 
 
 def _table_keys(model: type[Table], header: str) -> Iterator[Key]:

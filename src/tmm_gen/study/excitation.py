@@ -154,7 +154,9 @@ def _torque(scene: Scene, frequency: float, joint: int = 0) -> float:
     A torque in a joint turns what is beyond the joint. With gears it is that on the base's shaft.
     """
     if not scene.hub and all(joint.stiffness > 0.0 for joint in scene.joints):
-        return _TURN / sum(t * t / joint.stiffness for t, joint in zip(scene.turns, scene.joints, strict=True))
+        return _TURN / sum(
+            t * t / joint.stiffness for t, joint in zip(scene.turns, scene.joints, strict=True)
+        )
     inertia = _inertia_beyond(scene, joint) if joint else _inertia_about_base(scene)
     return inertia * frequency**2 * _TURN
 

@@ -264,9 +264,7 @@ class Inward:
         passes = next((x.symbol for x in self.lines if isinstance(x, Let) and x.value == share), None)
         if passes is None:
             passes = sp.Symbol("passed_share", real=True)
-            self.lines.append(
-                Let(passes, share, "share of the force beyond each joint passes on")
-            )
+            self.lines.append(Let(passes, share, "share of the force beyond each joint passes on"))
         self.lines.append(
             Let(
                 REFLECTION,

@@ -19,8 +19,11 @@ from tmm_gen.scene.parts.tables import ChainJointPart, ChainLinkPart, GearPart, 
 from tmm_gen.scene.signal import FileInput, FileOutput, Input, Of, Output, Place
 from tmm_gen.scene.station import Joint, Link
 
-OF_LINKS: dict[str, Of] = {"angle": "angle", "rate": "velocity", "velocity": "velocity"} | {
-    "acceleration": "acceleration"
+OF_LINKS: dict[str, Of] = {
+    "angle": "angle",
+    "rate": "velocity",
+    "velocity": "velocity",
+    "acceleration": "acceleration",
 }
 """What links and motors of a chain have as outputs, and what chains call it."""
 
@@ -54,11 +57,11 @@ class Drivetrain(Expansion):
         return Initial(angles, rates)
 
     def _first(self, values: float | tuple[float, ...]) -> tuple[float, ...]:
-        found = [0.0] * len(self.links)
-        for number, part in reversed(list(enumerate(self.solid))):
-            if part.last:
-                found[part.last - 1] = values[number] if isinstance(values, tuple) else values
-        return tuple(found)
+        """Return one number for each link of the chain: that of the first part which turns as one with it."""
+        if not isinstance(values, tuple):
+            return (values,) * len(self.links)
+        found = {p.last: value for value, p in reversed(list(zip(values, self.solid, strict=True)))}
+        return tuple(found[k + 1] for k in range(len(self.links)))
 
     def _place(self, part: PlacedPart | None) -> Place:
         if part is None or part.last == 0:
@@ -76,7 +79,9 @@ class Drivetrain(Expansion):
         name = part.name if part else ""
         if part is not None and part.joint:
             # what a chain calls its torque is that of the outer side on the inner one
-            return Output(name=item.name, at=part.joint, of="torque", part=name, factor=-1.0 / self.turns[name])
+            return Output(
+                name=item.name, at=part.joint, of="torque", part=name, factor=-1.0 / self.turns[name]
+            )
         of, factor = OF_LINKS[item.of], self.turns.get(name, 1.0)
         return Output(name=item.name, at=self._place(part), of=of, part=name, factor=factor)
 

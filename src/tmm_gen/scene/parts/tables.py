@@ -41,7 +41,9 @@ def _rigid_gear(value: object) -> object:
 
 def _turning(value: float) -> float:
     if value == 0.0:
-        raise fault("is 0: what hangs on the gear would turn without end", "Write turns per turn, for example 5.0.")
+        raise fault(
+            "is 0: what hangs on the gear would turn without end", "Write turns per turn, for example 5.0."
+        )
     return value
 
 
@@ -189,7 +191,9 @@ class GearPart(Part):
         json_schema_extra={"absent": "rigid"},
     )
     damping: NonNegative = Field(
-        default=0.0, description="damping of the teeth in N m s/rad, seen from the outer side", examples=["2.0"]
+        default=0.0,
+        description="damping of the teeth in N m s/rad, seen from the outer side",
+        examples=["2.0"],
     )
 
 

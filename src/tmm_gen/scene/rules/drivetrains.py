@@ -30,6 +30,13 @@ def chain_suits(document: ChainDocument) -> Iterator[Finding]:
         )
     if document.control is not None:
         yield Finding(("control",), "is for planar arms", "Remove the table.")
+    if document.gear and document.model.sweep == "product":
+        yield Finding(
+            ("model", "sweep"),
+            "multiplies transfer matrices, which is not derived over gears",
+            'Write `sweep = "riccati"`, or remove the key.',
+            document.model.sweep,
+        )
 
 
 def _row(document: ChainDocument) -> tuple[Entry, ...]:
@@ -66,8 +73,8 @@ def shafts(document: ChainDocument) -> Iterator[Finding]:
             yield Finding(
                 (*entry.path, "on"),
                 f"gives way straight behind {before.words}, with no inertia between the two",
-                f"Put a [[link]] between '{before.name}' and '{entry.name}', or write their stiffness in series as one: "
-                "1/(1/k + 1/K), both seen from the same shaft.",
+                f"Put a [[link]] between '{before.name}' and '{entry.name}', or write both as one, in series: "
+                "1/(1/k + 1/K), seen from the same shaft.",
                 entry.part.on,
             )
     if not isinstance(row[-1].part, ChainLinkPart):
@@ -88,7 +95,7 @@ def _on_base(document: ChainDocument, first: Entry) -> Iterator[Finding]:
     kind, path = document.base.kind, (*first.path, "on")
     if isinstance(first.part, MotorPart):
         if kind != "clamp":
-            instead = {"motor": "which is a motor already", "free": "which nothing holds"}
+            instead = {"motor": "that is a motor already", "free": "that nothing holds"}
             yield Finding(
                 path,
                 f"puts motor '{first.name}' on a base {instead.get(kind, 'whose angle an input prescribes')}",
@@ -169,7 +176,9 @@ def chain_initial(document: ChainDocument) -> Iterator[Finding]:
     names = ", ".join(part.name for part in solid)
     for key in ("angles", "rates"):
         values = getattr(document.initial, key)
-        if isinstance(values, tuple) and len(values) != len(solid):
+        if not isinstance(values, tuple):  # of the first link behind each joint: what gears join follows
+            continue
+        if len(values) != len(solid):
             yield Finding(
                 ("initial", key),
                 f"has {len(values)} numbers for {len(solid)} links",
@@ -177,8 +186,7 @@ def chain_initial(document: ChainDocument) -> Iterator[Finding]:
                 values,
             )
             continue
-        each = values if isinstance(values, tuple) else (values,) * len(solid)
-        for at, alike in groupby(zip(each, solid, strict=True), key=lambda pair: pair[1].last):
+        for at, alike in groupby(zip(values, solid, strict=True), key=lambda pair: pair[1].last):
             (first, _), *others = group = list(alike)
             if at == 0 and any(value for value, _ in group):
                 yield Finding(
@@ -277,7 +285,4 @@ def _measured(
             of,
         )
     elif at == BASE and document.base.kind == "clamp":
-        yield Finding(
-            (*path, "at"), "never moves with base.kind = \"clamp\"", "Write the name of a part.", at
-        )
-
+        yield Finding((*path, "at"), 'never moves with base.kind = "clamp"', "Write the name of a part.", at)
