@@ -1,4 +1,4 @@
-"""What joints, gears and motors do beyond springs and viscous dampers: words for its not being modelled, and remedies."""
+"""What joints, gears and motors do beyond springs and viscous dampers: that it is not modelled, and what to do."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _FRICTION = (
 )
 _STIFFENING = (
     _SPRINGS,
-    "Remove it; write the `stiffness` at the torque that acts (slope of torque by angle), and try that at other torques.",
+    "Remove it; write the `stiffness` at the torque that acts, the slope of torque by angle, and try others as well.",
 )
 
 _WORDS = {
