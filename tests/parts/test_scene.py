@@ -109,7 +109,7 @@ CASES = [
         'on = "hinge"',
         'on = "elbow"',
         "link[2].on",
-        "branches are not modelled",
+        "puts a second part on [[motor]]",
         ('on = "elbow"\nlength = 0.1', 'on = "hinge"\nlength = 0.1'),
     ),
     Case(
@@ -165,7 +165,7 @@ CASES = [
         'on = "elbow"\nlength',
         'on = "hinge"\nlength',
         "link[2].on",
-        "makes a branch",
+        "puts a second part on [[motor]]",
         ('on = "hinge"\nlength = 0.3', 'on = "elbow"\nlength = 0.3'),
     ),
     Case(
