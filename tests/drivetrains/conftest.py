@@ -34,7 +34,7 @@ def scene_of(
     signals: Iterable[tuple[str, dict[str, Any]]] = (),
     **model: Any,
 ) -> Scene:
-    """Return a chain of parts, each on the one before it where nothing else is said, with an output of each."""
+    """Return a chain of parts, each on the one before it where nothing else is said, with all inputs and outputs."""
     hung: Tables = []
     before = "base"
     for table, keys in parts:
@@ -95,27 +95,27 @@ def by_hand(parts: Tables, base: dict[str, Any] | None = None) -> ByHand:
     kind = (base or {}).get("kind", "clamp")
     turning = kind in ("motor", "free") or parts[0][0] == "motor"
     m = sum("stiffness" in keys for _, keys in parts) + turning
-    angle = np.zeros(m)
+    ground = np.zeros(m)
     if turning:
-        angle[0] = 1.0
+        ground[0] = 1.0
     number = int(turning)
     mass, damping, stiffness = np.zeros((m, m)), np.zeros((m, m)), np.zeros((m, m))
     if kind == "motor":
-        mass += base["inertia"] * np.outer(angle, angle)  # type: ignore[index]
-        damping += base.get("damping", 0.0) * np.outer(angle, angle)  # type: ignore[union-attr]
+        mass += base["inertia"] * np.outer(ground, ground)  # type: ignore[index]
+        damping += base.get("damping", 0.0) * np.outer(ground, ground)  # type: ignore[union-attr]
     twists: dict[str, tuple[Array, float, float]] = {}
     names, load, reading = [], [], []
+    angles, before = {"base": ground}, "base"
     for table, keys in parts:
-        inner = angle / keys.get("ratio", 1.0)
+        angle = angles[keys.get("on", before)] / keys.get("ratio", 1.0)
+        before = keys["name"]
         if "stiffness" in keys:
+            twist, damper = np.eye(m)[number] - angle, keys.get("damping", 0.0)
             angle = np.eye(m)[number]
             number += 1
-            twist, damper = angle - inner, keys.get("damping", 0.0)
             twists[keys["name"]] = (twist, keys["stiffness"], damper)
             stiffness += keys["stiffness"] * np.outer(twist, twist)
             damping += damper * np.outer(twist, twist)
-            continue
-        angle = inner
         if table == "motor":
             rotor = keys.get("gear", 1.0) * angle
             mass += keys["rotor_inertia"] * np.outer(rotor, rotor)
@@ -126,11 +126,12 @@ def by_hand(parts: Tables, base: dict[str, Any] | None = None) -> ByHand:
             names.append(keys["name"])
             load.append(keys.get("gear", 1.0) * angle)
             reading.append(angle)
+        angles[keys["name"]] = angle
     return ByHand(mass, damping, stiffness, np.array(load).T, np.array(reading), twists, names)
 
 
-def drawn_parts(seed: int, count: int) -> tuple[Tables, dict[str, Any]]:
-    """Return a random drivetrain with so many elements that give way, and its base."""
+def drawn_parts(seed: int, count: int, branches: float = 0.0) -> tuple[Tables, dict[str, Any]]:
+    """Return a random drivetrain with so many elements that give way, a share of them on a branch, and its base."""
     random = np.random.default_rng(seed)
     parts: Tables = []
 
@@ -158,6 +159,9 @@ def drawn_parts(seed: int, count: int) -> tuple[Tables, dict[str, Any]]:
     if kind == "free":
         links(1)
     for _ in range(count):
+        solid = [keys["name"] for table, keys in parts if table in ("motor", "link")]
+        forks = solid + ["base"] * (base["kind"] in ("clamp", "motor") and kind != "rotor")
+        fork, begin = str(random.choice(forks or ["base"])), len(parts)
         if random.uniform() < 0.3:
             gear()
         law = {"stiffness": float(random.uniform(5.0, 80.0)), "damping": float(random.uniform(0.0, 0.3))}
@@ -167,6 +171,8 @@ def drawn_parts(seed: int, count: int) -> tuple[Tables, dict[str, Any]]:
             parts.append(("joint", {"name": name(), **law}))
         if random.uniform() < 0.4:
             gear()
+        if branches and random.uniform() < branches:
+            parts[begin][1]["on"] = fork
         links(2)
     return parts, base
 
@@ -184,6 +190,6 @@ def equations() -> Callable[..., ByHand]:
 
 
 @pytest.fixture(scope="session")
-def drawn() -> Callable[[int, int], tuple[Tables, dict[str, Any]]]:
+def drawn() -> Callable[..., tuple[Tables, dict[str, Any]]]:
     """Return a function that draws parts and their base."""
     return drawn_parts

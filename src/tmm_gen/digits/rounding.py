@@ -17,6 +17,7 @@ import sys
 
 import numpy as np
 import sympy as sp
+from numpy.typing import NDArray
 
 from tmm_gen.derive.elements.torsion import DAMPING, JOINT, STIFFNESS
 from tmm_gen.derive.integrators.declaration import STEP, Integrator, stage
@@ -27,6 +28,8 @@ from tmm_gen.derive.station.law import impedance_law
 from tmm_gen.digits.product import DIGITS
 from tmm_gen.errors import UserError
 from tmm_gen.scene import Scene
+
+Array = NDArray[np.float64]
 
 _EPSILON = {"float64": sys.float_info.epsilon / 2.0, "float32": 2.0**-24}
 """Unit roundoff."""
@@ -107,10 +110,10 @@ class Rounding:
         for of_stiffness, of_damping in self._shares(scene.integrator.step):
             impedance = of_stiffness * stiffness + of_damping * damping
             inward = impedance / ratio**2  # as seen from the inner sides
-            around = impedance + np.append(inward[1:], 0.0)
+            around = impedance + _carried(scene, inward)[1:]
             largest = max(largest, float(np.max(around / inertia)))
             if scene.hub:
-                at_hub = float(inward[0]) + of_damping * scene.base.damping
+                at_hub = float(_carried(scene, inward)[0]) + of_damping * scene.base.damping
                 largest = max(largest, at_hub / scene.base.inertia)
         return largest
 
@@ -144,15 +147,42 @@ def first_period(scene: Scene) -> float:
     turns = np.array(scene.turns)  # all seen from the base's shaft
     compliance = turns**2 / np.array([joint.stiffness for joint in scene.joints])
     inertia = np.array([link.inertia for link in scene.links]) / turns**2
-    shape = np.cumsum(compliance)
+    shape = _summed(scene, compliance)
     square = 0.0
     for _ in range(_SWEEPS):
         shape = shape / np.max(shape)
-        moved = np.cumsum(compliance * np.cumsum((inertia * shape)[::-1])[::-1])
+        moved = _summed(scene, compliance * _beyond(scene, inertia * shape))
         square = float(np.sum(inertia * shape * moved) / np.sum(inertia * moved * moved))
         shape = moved
     # beyond the range of floating point a joint is as good as none
     return 2.0 * math.pi / math.sqrt(square) if 0.0 < square < math.inf else 0.0
+
+
+def _carried(scene: Scene, joints: Array) -> Array:
+    """Return the sum over the joints that each link carries, (n + 1,); the base is first."""
+    if not scene.hosts:
+        return np.append(joints, 0.0)
+    return np.bincount(scene.hosts, joints, len(joints) + 1).astype(float)
+
+
+def _summed(scene: Scene, joints: Array) -> Array:
+    """Return the sum over the joints from the base to each link, (n,)."""
+    if not scene.hosts:
+        return np.cumsum(joints)
+    found = np.zeros(len(joints) + 1)
+    for number, value in enumerate(joints, start=1):
+        found[number] = found[scene.host(number)] + value
+    return found[1:]
+
+
+def _beyond(scene: Scene, links: Array) -> Array:
+    """Return the sum over all links that each joint carries, (n,)."""
+    if not scene.hosts:
+        return np.cumsum(links[::-1])[::-1]
+    found = np.append(0.0, links)
+    for number in range(len(links), 0, -1):
+        found[scene.host(number)] += found[number]
+    return found[1:]
 
 
 def _place(scene: Scene) -> str:

@@ -94,20 +94,22 @@ def assemble(scene: Scene) -> Assembly:
         mass[0, 0] = scene.base.inertia
         damping[0, 0] = scene.base.damping
     for i, (joint, link) in enumerate(zip(scene.joints, scene.links, strict=True)):
-        outer = first + i
+        outer, inner = first + i, first + scene.host(i + 1) - 1
         mass[outer, outer] = link.inertia
         for matrix, value in ((stiffness, joint.stiffness), (damping, joint.damping)):
             matrix[outer, outer] += value
-            if outer:  # which turns the ratio less than the inner side does
-                matrix[outer - 1, outer - 1] += value / joint.ratio**2
-                matrix[outer - 1, outer] -= value / joint.ratio
-                matrix[outer, outer - 1] -= value / joint.ratio
+            if inner >= 0:  # which turns the ratio more than the outer side does
+                matrix[inner, inner] += value / joint.ratio**2
+                matrix[inner, outer] -= value / joint.ratio
+                matrix[outer, inner] -= value / joint.ratio
 
     load, load_rate = np.zeros((m, len(scene.inputs))), np.zeros((m, len(scene.inputs)))
     for k, item in enumerate(scene.inputs):
-        if item.acts == "angle":  # through the spring and the damper of joint 1
-            load[0, k] = scene.joints[0].stiffness / scene.joints[0].ratio
-            load_rate[0, k] = scene.joints[0].damping / scene.joints[0].ratio
+        if item.acts == "angle":  # through springs and dampers on the base
+            for i, joint in enumerate(scene.joints):
+                if not scene.host(i + 1):
+                    load[i, k] = joint.stiffness / joint.ratio
+                    load_rate[i, k] = joint.damping / joint.ratio
         else:
             load[station_of(item.at, n) - 1 + first, k] = item.factor
 
@@ -134,6 +136,16 @@ def assemble(scene: Scene) -> Assembly:
     )
 
 
+def twists(scene: Scene) -> Array:
+    """Return how the joints of a chain without gears twist by its angles, (n, m); a base that is none does not turn."""
+    n, first = scene.stations, scene.hub
+    found = np.eye(n, n + first, k=first)
+    for i in range(n):
+        if (inner := first + scene.host(i + 1) - 1) >= 0:
+            found[i, inner] = -1.0
+    return found
+
+
 class _Measured:
     """Rows of the output matrices, filled one output at a time."""
 
@@ -155,7 +167,10 @@ class _Measured:
         if quantity.in_joint:
             number = max(station, 1)  # the torque at the base is that of joint 1
             joint = self.scene.joints[number - 1]
-            for turned, at in ((output.factor, number), (-output.factor / joint.ratio, number - 1)):
+            for turned, at in (
+                (output.factor, number),
+                (-output.factor / joint.ratio, self.scene.host(number)),
+            ):
                 self._angle(row, at, turned * joint.stiffness)
                 self._rate(row, at, turned * joint.damping)
         elif quantity.order == 0:

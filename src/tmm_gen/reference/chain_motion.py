@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from tmm_gen.inputs.profiles import Chirp
 from tmm_gen.inputs.signals import Constant, Harmonic, Signal
+from tmm_gen.reference.assembly import twists
 from tmm_gen.scene import Scene, station_of
 
 Array = NDArray[np.float64]
@@ -141,8 +142,10 @@ def linear_chain(scene: Scene) -> Linear:
         turns * np.array([0.0] * hub + list(scene.initial.angles)),
         turns * np.array([0.0] * hub + list(scene.initial.rates)),
     )
-    make = _whole if n + hub <= DENSE else _modal
-    found = make(inertia, stiffness, damping, scene.base.damping, load, base, *start)
+    if n + hub <= DENSE or scene.hosts:
+        found = _whole(inertia, stiffness, damping, scene.base.damping, load, base, *start, twists(scene))
+    else:
+        found = _modal(inertia, stiffness, damping, scene.base.damping, load, base, *start)
     return replace(found, angles=found.angles / turns[:, None], through=found.through / turns[:, None])
 
 
@@ -155,12 +158,13 @@ def _whole(
     base: Array,
     angle: Array,
     rate: Array,
+    bend: Array,
 ) -> Linear:
     """Return one block: bends of the joints, rates, and the angle of a hub, scaled to roots of energies."""
     m, n = len(inertia), len(stiffness)
     hub = m - n
     root, scale = np.sqrt(inertia), np.where(stiffness > 0.0, np.sqrt(stiffness), 1.0)
-    bend = np.eye(n, m, k=hub) - np.eye(n, m, k=hub - 1)  # of rates; joint 1 bends against the base
+    held = bend.sum(axis=1)[:, None] * base  # of joints on a base that is no coordinate
     spread = bend / root  # from scaled rates to rates of bending
     ground = np.zeros((m, m))
     if hub:
@@ -175,15 +179,15 @@ def _whole(
         system[-1, n] = 1.0 / root[0]
     push, push_rate = np.zeros((size, len(base))), np.zeros((size, len(base)))
     push[rates] = load / root[:, None]
-    push_rate[0] = -scale[0] * base
-    push_rate[n] += damping[0] / root[0] * base if not hub else 0.0
+    push_rate[:n] = -scale[:, None] * held
+    push_rate[rates] = (spread.T * damping) @ held
     read = np.zeros((m, size))
-    read[hub:, :n] = np.tril(np.ones((n, n))) / scale
+    read[hub:, :n] = np.linalg.inv(bend[:, hub:]) / scale
     if hub:
         read[:, -1] = 1.0
     first = np.concatenate([scale * (bend @ angle), root * rate, angle[:hub]])
     begun = np.zeros_like(push)
-    begun[0] = -scale[0] * base
+    begun[:n] = -scale[:, None] * held
     through = np.outer(np.ones(m), base)
     return Linear(system[None], push[None], push_rate[None], read[None], through, first[None], begun[None])
 

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from tmm_gen.reference.assembly import twists
 from tmm_gen.reference.planar_linear import vibration
 from tmm_gen.scene import Scene
 
@@ -40,7 +41,7 @@ def slowest_swing(scene: Scene) -> float:
     matrix without diagonal, which bisection finds to full relative accuracy (Demmel & Kahan 1990, SIAM J. Sci. Stat.
     Comput. 11, 873-912), whatever the ratios of stiffness.
     """
-    from scipy.linalg import eigh_tridiagonal  # slow to import
+    from scipy.linalg import eigh_tridiagonal, svd  # slow to import
 
     turning = scene.hub
     inertia = np.array([scene.base.inertia] * turning + [link.inertia for link in scene.links])
@@ -48,10 +49,12 @@ def slowest_swing(scene: Scene) -> float:
     turns = np.array(scene.turns)  # all seen from the base's shaft
     inertia[turning:] /= turns**2
     spring /= turns**2
-    inner = np.sqrt(spring[1 - turning :] / inertia[:-1])
-    outer = np.sqrt(spring / inertia[turning:])
-    beside = np.empty(len(inner) + len(outer))
-    beside[turning::2], beside[1 - turning :: 2] = outer, inner
+    if scene.hosts:
+        return float(svd(np.sqrt(spring)[:, None] * twists(scene) / np.sqrt(inertia), compute_uv=False)[-1])
+    inner_side = np.sqrt(spring[1 - turning :] / inertia[:-1])
+    outer_side = np.sqrt(spring / inertia[turning:])
+    beside = np.empty(len(inner_side) + len(outer_side))
+    beside[turning::2], beside[1 - turning :: 2] = outer_side, inner_side
     place = len(spring) + turning  # after as many negative ones, and a zero where the chain turns
     found = eigh_tridiagonal(
         np.zeros(len(beside) + 1),

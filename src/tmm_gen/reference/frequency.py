@@ -32,7 +32,7 @@ def fastest_mode(scene: Scene) -> FastestMode:
 
     A planar arm is taken as straight and without weight.
     """
-    from scipy.linalg import eigh_tridiagonal  # slow to import
+    from scipy.linalg import eigh, eigh_tridiagonal  # slow to import
 
     if not scene.model.linear:
         found = vibration(scene)
@@ -41,9 +41,12 @@ def fastest_mode(scene: Scene) -> FastestMode:
     root = np.sqrt(np.diag(assembly.mass))
     scaled = assembly.stiffness / np.outer(root, root)
     last = len(root) - 1
-    squares, shapes = eigh_tridiagonal(
-        np.diag(scaled), np.diag(scaled, 1), select="i", select_range=(last, last)
-    )
+    if scene.hosts:
+        squares, shapes = eigh(scaled, subset_by_index=(last, last))
+    else:
+        squares, shapes = eigh_tridiagonal(
+            np.diag(scaled), np.diag(scaled, 1), select="i", select_range=(last, last)
+        )
     frequency = float(np.sqrt(squares[0]))
     shape = shapes[:, 0] / root
     return FastestMode(frequency, float(shape @ assembly.damping @ shape / (2.0 * frequency)))

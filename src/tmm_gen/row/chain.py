@@ -92,6 +92,7 @@ def chain_row(scene: Scene, integrator: str) -> Row:
         facts=facts_of(scene, "torsional chain (linear)", integrator),
         angles=tuple(scene.initial.angles),
         rates=tuple(scene.initial.rates),
+        hosts=tuple(host - 1 for host in scene.hosts),
     )
 
 

@@ -73,7 +73,7 @@ class ChainDocument(PartsDocument):
     @cached_property
     def expansion(self) -> Expansion:
         """The row of links that the parts make; only where they hang together."""
-        return drivetrain(hanging(self.parts_by_table()).row(), self.base)
+        return drivetrain(hanging(self.parts_by_table()), self.base)
 
 
 def document_class(data: Mapping[str, object]) -> type[Document]:

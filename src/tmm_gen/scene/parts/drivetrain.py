@@ -14,7 +14,7 @@ from tmm_gen.scene.exact import exact, nearest
 from tmm_gen.scene.initial import Initial, InitialTable
 from tmm_gen.scene.model import Base
 from tmm_gen.scene.parts.expansion import Expansion, PlacedPart
-from tmm_gen.scene.parts.order import Entry
+from tmm_gen.scene.parts.order import BASE, Entry, Hanging
 from tmm_gen.scene.parts.tables import ChainJointPart, ChainLinkPart, GearPart, MotorPart
 from tmm_gen.scene.signal import FileInput, FileOutput, Input, Of, Output, Place
 from tmm_gen.scene.station import Joint, Link
@@ -109,53 +109,70 @@ class _Spring:
         )
 
 
-def drivetrain(row: Sequence[Entry], base: Base) -> Drivetrain:
+@dataclass(frozen=True)
+class _Shaft:
+    """The outer side of a part: turns per turn of a link (0: of the base), or of what the next link will be."""
+
+    link: int
+    turns: Fraction = Fraction(1)
+    spring: _Spring | None = None
+
+
+def drivetrain(hung: Hanging, base: Base) -> Drivetrain:
     """Expand the parts of a chain that keep all rules.
 
     Parameters
     ----------
-    row : sequence of Entry
-        Base to tip.
+    hung : Hanging
+        The parts.
     base : Base
         As the file has it.
     """
-    inertia, damping = [exact(base.inertia)], exact(base.damping)
+    kind, inertia, damping = base.kind, [exact(base.inertia)], exact(base.damping)
     joints: list[Joint] = []
+    hosts: list[int] = []
     parts: list[PlacedPart] = []
-    of_part: dict[str, float] = {}
+    turns: dict[str, float] = {}
     gears: dict[str, float] = {}
-    turns: Fraction = Fraction(1)
-    spring: _Spring | None = None
-    kind = base.kind
-    for entry in row:
-        part = entry.part
+    first: dict[int, str] = {}
+    shafts = {BASE: _Shaft(0)}
+    for entry in hung.outward():
+        part, shaft = entry.part, shafts[hung.host(entry)]
         if isinstance(part, MotorPart):
             kind, gears[part.name] = "motor", part.gear
             inertia[0] += exact(part.gear) ** 2 * exact(part.rotor_inertia)
             damping += exact(part.damping)
             parts.append(PlacedPart(part.name, entry.table))
         elif isinstance(part, ChainJointPart):
-            spring = _Spring(entry, exact(part.stiffness), exact(part.damping), turns)
-        elif isinstance(part, GearPart) and part.stiffness is not None:
-            inner = turns / exact(part.ratio)
-            spring = _Spring(entry, exact(part.stiffness), exact(part.damping), inner)
-        elif isinstance(part, GearPart) and spring is not None:
-            spring = replace(spring, outer=spring.outer * exact(part.ratio))
+            law = exact(part.stiffness), exact(part.damping)
+            shaft = replace(shaft, spring=_Spring(entry, *law, shaft.turns))
         elif isinstance(part, GearPart):
-            turns /= exact(part.ratio)
+            shaft = _behind_gear(shaft, entry, part)
         elif isinstance(part, ChainLinkPart):
-            if spring is not None:
+            if (spring := shaft.spring) is not None:
                 joints.append(spring.joint)
+                hosts.append(shaft.link)
                 inertia.append(Fraction(0))
-                of_part[spring.part.name] = nearest(spring.outer)
+                turns[spring.part.name] = nearest(spring.outer)
                 parts.append(PlacedPart(spring.part.name, spring.part.table, joint=len(joints)))
-                turns, spring = Fraction(1), None
-            elif parts and parts[-1].kind == "link":
-                parts[-1] = replace(parts[-1], fixed=part.name)
-            inertia[-1] += exact(part.inertia) * turns**2
-            at = len(joints)
-            of_part[part.name] = nearest(turns)
-            parts.append(PlacedPart(part.name, entry.table, first=at, last=at))
+                shaft = _Shaft(len(joints))
+            inertia[shaft.link] += exact(part.inertia) * shaft.turns**2
+            turns[part.name] = nearest(shaft.turns)
+            one = first.setdefault(shaft.link, part.name)
+            fixed = one if one != part.name else ""
+            parts.append(PlacedPart(part.name, entry.table, first=shaft.link, last=shaft.link, fixed=fixed))
+        shafts[entry.name] = shaft
     hub = Base.model_construct(kind=kind, inertia=nearest(inertia[0]), damping=nearest(damping))
     links = tuple(Link.model_construct(inertia=nearest(each)) for each in inertia[1:])
-    return Drivetrain(tuple(joints), links, None, tuple(parts), hub, of_part, gears)
+    return Drivetrain(tuple(joints), links, None, tuple(parts), tuple(hosts), hub, turns, gears)
+
+
+def _behind_gear(shaft: _Shaft, entry: Entry, part: GearPart) -> _Shaft:
+    """Return the outer side of a gear."""
+    ratio = exact(part.ratio)
+    if part.stiffness is not None:
+        law = exact(part.stiffness), exact(part.damping)
+        return replace(shaft, spring=_Spring(entry, *law, shaft.turns / ratio))
+    if shaft.spring is not None:
+        return replace(shaft, spring=replace(shaft.spring, outer=shaft.spring.outer * ratio))
+    return replace(shaft, turns=shaft.turns / ratio)

@@ -36,7 +36,7 @@ from tmm_gen.scene.rules.outputs import outputs_possible
 from tmm_gen.scene.rules.parts import (
     beams_in_range,
     carriers,
-    one_row,
+    one_tree,
     part_initial,
     part_inputs,
     part_names,
@@ -92,7 +92,7 @@ _ALL: tuple[Rule, ...] = (
 
 PART_RULES: tuple[tuple[PartRule, ...], ...] = (
     (part_names, parts_suit),
-    (one_row,),
+    (one_tree,),
     (carriers,),
     (newton_keys, held, base_hub, beams_in_range, part_initial, part_inputs, part_outputs, *_ALL),
 )
@@ -100,7 +100,7 @@ PART_RULES: tuple[tuple[PartRule, ...], ...] = (
 
 CHAIN_RULES: tuple[tuple[ChainRule, ...], ...] = (
     (part_names, chain_suits),
-    (one_row,),
+    (one_tree,),
     (shafts,),
     (free_base, base_hub),
     (chain_in_range, chain_initial, chain_inputs, chain_outputs, *_ALL),

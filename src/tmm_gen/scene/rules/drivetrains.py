@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from itertools import groupby, pairwise
 
 from tmm_gen.scene.parts.document import ChainDocument
 from tmm_gen.scene.parts.drivetrain import OF_LINKS, drivetrain
-from tmm_gen.scene.parts.order import BASE, Entry, entries, hanging
+from tmm_gen.scene.parts.order import BASE, Entry, Hanging, entries, hanging
 from tmm_gen.scene.parts.tables import ChainLinkPart, GearPart, MotorPart
 from tmm_gen.scene.problem import Finding, Path
 from tmm_gen.scene.rules.kinds import kind_keys
@@ -39,99 +38,136 @@ def chain_suits(document: ChainDocument) -> Iterator[Finding]:
         )
 
 
-def _row(document: ChainDocument) -> tuple[Entry, ...]:
-    return hanging(document.parts_by_table()).row()
+def _hung(document: ChainDocument) -> Hanging:
+    return hanging(document.parts_by_table())
 
 
 def _gives_way(entry: Entry) -> bool:
     return entry.table == "joint" or (isinstance(entry.part, GearPart) and entry.part.stiffness is not None)
 
 
+def _spring_before(hung: Hanging, entry: Entry) -> Entry | None:
+    """Return what gives way between a part and the next inertia inward, if anything does."""
+    host = hung.by_name.get(hung.host(entry))
+    while host is not None and host.table in ("joint", "gear"):
+        if _gives_way(host):
+            return host
+        host = hung.by_name.get(hung.host(host))
+    return None
+
+
 def shafts(document: ChainDocument) -> Iterator[Finding]:
     """Find motors off the base, springs without an inertia between them, and what turns nothing or cannot turn."""
-    row = _row(document)
-    yield from _on_base(document, row[0])
-    for entry in row[1:]:
-        if isinstance(entry.part, MotorPart):
-            yield Finding(
-                (*entry.path, "on"),
-                f"puts motor '{entry.name}' on a part that turns: motors of a chain stand on the base",
-                "Write a [[link]] with gear^2 times its rotor's inertia, and let an [[input]] act there.",
-                entry.part.on,
-            )
-    for entry in row:
-        if isinstance(entry.part, GearPart) and entry.part.stiffness is None and entry.part.damping:
-            yield Finding(
-                (*entry.path, "damping"),
-                "is of teeth that give way, and without stiffness they do not",
-                "Add `stiffness` of the teeth, for example `stiffness = 2e4`, or remove it.",
-                entry.part.damping,
-            )
-    springs = [e for e in row if _gives_way(e) or isinstance(e.part, ChainLinkPart)]
-    for before, entry in pairwise(springs):
-        if _gives_way(before) and _gives_way(entry):
-            yield Finding(
-                (*entry.path, "on"),
-                f"gives way straight behind {before.words}, with no inertia between the two",
-                f"Put a [[link]] between '{before.name}' and '{entry.name}', or write both as one, in series: "
-                "1/(1/k + 1/K), seen from the same shaft.",
-                entry.part.on,
-            )
-    if not isinstance(row[-1].part, ChainLinkPart):
+    hung = _hung(document)
+    every = hung.outward()
+    yield from _on_base(document, hung)
+    for entry in every:
+        yield from _shaft(hung, entry)
+    if not any(map(_gives_way, every)):
         yield Finding(
-            row[-1].path,
-            f"carries nothing: '{row[-1].name}' has no [[link]] on it",
-            f'Add one with `on = "{row[-1].name}"`, or remove it.',
-        )
-    if not any(map(_gives_way, row)):
-        yield Finding(
-            row[-1].path,
+            every[-1].path,
             "makes a chain that turns as one: nothing in it gives way",
             "Put a [[joint]] with `stiffness` before it, or give a [[gear]] `stiffness`.",
         )
 
 
-def _on_base(document: ChainDocument, first: Entry) -> Iterator[Finding]:
-    kind, path = document.base.kind, (*first.path, "on")
+def _shaft(hung: Hanging, entry: Entry) -> Iterator[Finding]:
+    on, carried = (*entry.path, "on"), hung.carried(entry.name)
+    before = _spring_before(hung, entry)
+    if isinstance(entry.part, MotorPart) and hung.host(entry) != BASE:
+        yield Finding(
+            on,
+            f"puts motor '{entry.name}' on a part that turns: motors of a chain stand on the base",
+            "Write a [[link]] with gear^2 times its rotor's inertia, and let an [[input]] act there.",
+            entry.part.on,
+        )
+    if isinstance(entry.part, GearPart) and entry.part.stiffness is None and entry.part.damping:
+        yield Finding(
+            (*entry.path, "damping"),
+            "is of teeth that give way, and without stiffness they do not",
+            "Add `stiffness` of the teeth, for example `stiffness = 2e4`, or remove it.",
+            entry.part.damping,
+        )
+    if before is not None and _gives_way(entry):
+        yield Finding(
+            on,
+            f"gives way straight behind {before.words}, with no inertia between the two",
+            f"Put a [[link]] between '{before.name}' and '{entry.name}', or write both as one, in series: "
+            "1/(1/k + 1/K), seen from the same shaft.",
+            entry.part.on,
+        )
+    if not isinstance(entry.part, ChainLinkPart) and not carried:
+        yield Finding(
+            entry.path,
+            f"carries nothing: '{entry.name}' has no [[link]] on it",
+            f'Add one with `on = "{entry.name}"`, or remove it.',
+        )
+    if len(carried) > 1 and (_gives_way(entry) or (entry.table == "gear" and before is not None)):
+        yield Finding(
+            (*carried[1].path, "on"),
+            f"puts a second part on {entry.words}, which carries '{carried[0].name}' and has no inertia",
+            f"Hang it on '{carried[0].name}', or put a [[link]] on '{entry.name}' and hang both on that.",
+            carried[1].part.on,
+        )
+
+
+def _on_base(document: ChainDocument, hung: Hanging) -> Iterator[Finding]:
+    kind = document.base.kind
+    first, *others = sorted(hung.carried(BASE), key=lambda e: not isinstance(e.part, MotorPart))
+    if others and (kind == "free" or isinstance(first.part, MotorPart)):
+        yield Finding(
+            (*others[0].path, "on"),
+            f"puts '{others[0].name}' on the base, where '{first.name}' is: what that turns is the first coordinate",
+            f"Hang it on '{first.name}': write `on = \"{first.name}\"`.",
+            others[0].part.on,
+        )
     if isinstance(first.part, MotorPart):
-        if kind != "clamp":
-            instead = {"motor": "that is a motor already", "free": "that nothing holds"}
-            yield Finding(
-                path,
-                f"puts motor '{first.name}' on a base {instead.get(kind, 'whose angle an input prescribes')}",
-                'Set base.kind = "clamp", or write a [[link]] with its inertia instead.',
-                first.part.on,
-            )
-        elif not first.part.rotor_inertia and not _fixed_to_base(document):
-            yield Finding(
-                (*first.path, "rotor_inertia"),
-                "is missing: a motor of a chain turns a hub, and nothing with inertia is fixed to this one",
-                "Write for example `rotor_inertia = 2e-5` (kg m^2), or put a [[link]] on the motor.",
-            )
+        yield from _motor(document, hung, first)
     elif kind == "free" and not isinstance(first.part, ChainLinkPart):
         yield Finding(
-            path,
+            (*first.path, "on"),
             f"starts a chain that nothing holds with {first.words}, which has no inertia",
             "Let a [[link]] be the first part.",
             first.part.on,
         )
-    elif kind in ("clamp", "prescribed") and (fixed := _fixed_to_base(document)):
+    elif kind in ("clamp", "prescribed"):
+        for fixed in _fixed_to_base(hung):
+            yield Finding(
+                (*fixed.path, "on"),
+                f"fixes '{fixed.name}' to the base, where it could not turn by itself",
+                "Put a [[joint]] with `stiffness` before it, or remove it.",
+                fixed.part.on,
+            )
+
+
+def _motor(document: ChainDocument, hung: Hanging, motor: Entry) -> Iterator[Finding]:
+    kind = document.base.kind
+    assert isinstance(motor.part, MotorPart)
+    if kind != "clamp":
+        instead = {"motor": "that is a motor already", "free": "that nothing holds"}
         yield Finding(
-            (*fixed.path, "on"),
-            f"fixes '{fixed.name}' to the base, where it could not turn by itself",
-            "Put a [[joint]] with `stiffness` before it, or remove it.",
-            fixed.part.on,
+            (*motor.path, "on"),
+            f"puts motor '{motor.name}' on a base {instead.get(kind, 'whose angle an input prescribes')}",
+            'Set base.kind = "clamp", or write a [[link]] with its inertia instead.',
+            motor.part.on,
+        )
+    elif not motor.part.rotor_inertia and not _fixed_to_base(hung):
+        yield Finding(
+            (*motor.path, "rotor_inertia"),
+            "is missing: a motor of a chain turns a hub, and nothing with inertia is fixed to this one",
+            "Write for example `rotor_inertia = 2e-5` (kg m^2), or put a [[link]] on the motor.",
         )
 
 
-def _fixed_to_base(document: ChainDocument) -> Entry | None:
-    """Return the first link that turns with the base, motor or rigid gears in between."""
-    for entry in _row(document):
-        if _gives_way(entry):
-            return None
-        if isinstance(entry.part, ChainLinkPart):
-            return entry
-    return None
+def _fixed_to_base(hung: Hanging) -> list[Entry]:
+    """Return the links that turn as one with the base, or with the motor on it."""
+    found: list[Entry] = []
+    names = {BASE}
+    for entry in hung.outward():
+        if hung.host(entry) in names and not _gives_way(entry):
+            names.add(entry.name)
+            found += [entry] if isinstance(entry.part, ChainLinkPart) else []
+    return found
 
 
 def free_base(document: ChainDocument) -> Iterator[Finding]:
@@ -148,7 +184,7 @@ def free_base(document: ChainDocument) -> Iterator[Finding]:
 
 def chain_in_range(document: ChainDocument) -> Iterator[Finding]:
     """Products of extreme numbers may leave the range of a float although each factor is in it."""
-    made = drivetrain(_row(document), document.base)
+    made = drivetrain(_hung(document), document.base)
     turning = made.base is not None and made.base.turns
     numbers = [
         *(link.inertia for link in made.links),
@@ -157,7 +193,7 @@ def chain_in_range(document: ChainDocument) -> Iterator[Finding]:
     ]
     wrong = [n for n in numbers if not (math.isfinite(n) and n > 0.0)]
     if wrong or not all(math.isfinite(joint.damping) for joint in made.joints):
-        table = "gear" if document.gear else _row(document)[0].table
+        table = "gear" if document.gear else made.parts[0].kind
         yield Finding(
             (table,),
             f"refers an inertia or a stiffness to {wrong[0] if wrong else math.inf:g}, out of the range of numbers",
@@ -171,7 +207,7 @@ def chain_in_range(document: ChainDocument) -> Iterator[Finding]:
 
 def chain_initial(document: ChainDocument) -> Iterator[Finding]:
     """Find initial values that are not one per link, or do not fit the gears between links that turn as one."""
-    made = drivetrain(_row(document), document.base)
+    made = drivetrain(_hung(document), document.base)
     solid = made.solid
     names = ", ".join(part.name for part in solid)
     for key in ("angles", "rates"):
@@ -186,8 +222,9 @@ def chain_initial(document: ChainDocument) -> Iterator[Finding]:
                 values,
             )
             continue
-        for at, alike in groupby(zip(values, solid, strict=True), key=lambda pair: pair[1].last):
-            (first, _), *others = group = list(alike)
+        for at in dict.fromkeys(part.last for part in solid):
+            group = [(value, part) for value, part in zip(values, solid, strict=True) if part.last == at]
+            (first, _), *others = group
             if at == 0 and any(value for value, _ in group):
                 yield Finding(
                     ("initial", key),
@@ -247,10 +284,11 @@ def chain_outputs(document: ChainDocument) -> Iterator[Finding]:
     """Find a chain without outputs, and outputs of what does not exist, never changes or is not known."""
     parts = {e.name: e for e in entries(document.parts_by_table())}
     if not document.output:
+        last = drivetrain(_hung(document), document.base).solid[-1].name
         yield Finding(
             ("output",),
             "is missing: a scene without outputs reports nothing",
-            f'Add [[output]] with `name = "tip"`, `at = "{_row(document)[-1].name}"`, `of = "angle"`.',
+            f'Add [[output]] with `name = "tip"`, `at = "{last}"`, `of = "angle"`.',
         )
     for index, item in enumerate(document.output):
         yield from _measured(document, item.of, str(item.at), parts, ("output", index))
