@@ -1,8 +1,8 @@
 # geartrain: Servo with coupling and two stages of gears on a table
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 10b4b8f399a3649c436276ea79ba3f340140fef049f792349601aea3a4882696
-# sha256 of the rest of this file: a3a0da9701a1ae83a4aa6f5d4da7682ee10ccd130a01afb5dcc27764a5ec835f
+# scene digest: 81f336894b4b7c41b0bfadf3b20b8112ee43edbda0e674b03b570e80ad5d65c3
+# sha256 of the rest of this file: 79dc4aed2024256b1423be8bac3f24010caf258ef94935f92d354da9bdae0abe
 #
 # model: torsional chain (linear)
 # stations: 3

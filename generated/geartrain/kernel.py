@@ -1,8 +1,8 @@
 # geartrain: Servo with coupling and two stages of gears on a table
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 10b4b8f399a3649c436276ea79ba3f340140fef049f792349601aea3a4882696
-# sha256 of the rest of this file: 8b6b9679bb788fcb495dd76df5b95cbe1064d074edc26473dedb2626728b9b37
+# scene digest: 81f336894b4b7c41b0bfadf3b20b8112ee43edbda0e674b03b570e80ad5d65c3
+# sha256 of the rest of this file: 3a40c8fb16ad909439aec80d17591d295dcda2f9833a128f1c5a023250f3def2
 #
 # model: torsional chain (linear)
 # stations: 3

@@ -2,8 +2,8 @@
  * geartrain: Servo with coupling and two stages of gears on a table
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 10b4b8f399a3649c436276ea79ba3f340140fef049f792349601aea3a4882696
- * sha256 of the rest of this file: 7227f610d7732782f18161cd3405e042e3e777df3e0373f8c86e451436270990
+ * scene digest: 81f336894b4b7c41b0bfadf3b20b8112ee43edbda0e674b03b570e80ad5d65c3
+ * sha256 of the rest of this file: 744968e58d3e23df3214745a9fa851abeb3a24f907234123151ea7e4d28d895f
  *
  * model: torsional chain (linear)
  * stations: 3

@@ -2,8 +2,8 @@
  * geartrain: Servo with coupling and two stages of gears on a table
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 10b4b8f399a3649c436276ea79ba3f340140fef049f792349601aea3a4882696
- * sha256 of the rest of this file: f4ac9185bc769c27378156d2d969de51ff714808d5b48225e13db10ecf0b0ef8
+ * scene digest: 81f336894b4b7c41b0bfadf3b20b8112ee43edbda0e674b03b570e80ad5d65c3
+ * sha256 of the rest of this file: 114943b15eb56e15758aa6b750eed785c114afffd3e2025c3f86377b58771ec3
  *
  * model: torsional chain (linear)
  * stations: 3

@@ -2,8 +2,8 @@
  * geartrain: Servo with coupling and two stages of gears on a table
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 10b4b8f399a3649c436276ea79ba3f340140fef049f792349601aea3a4882696
- * sha256 of the rest of this file: df867da583479d32bb5db2051e563758453944030606337b9c779a7353170b5d
+ * scene digest: 81f336894b4b7c41b0bfadf3b20b8112ee43edbda0e674b03b570e80ad5d65c3
+ * sha256 of the rest of this file: 21aca3bfc3c7ec3c5a8772ccb7a9d82689b6cfc566ce3243e378f896e0fb6d05
  *
  * model: torsional chain (linear)
  * stations: 3

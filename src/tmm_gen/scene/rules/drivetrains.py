@@ -72,7 +72,8 @@ def shafts(document: ChainDocument) -> Iterator[Finding]:
 
 
 def _shaft(hung: Hanging, entry: Entry) -> Iterator[Finding]:
-    on, carried = (*entry.path, "on"), hung.carried(entry.name)
+    on = (*entry.path, "on")
+    carried = sorted(hung.carried(entry.name), key=lambda e: not isinstance(e.part, ChainLinkPart))
     before = _spring_before(hung, entry)
     if isinstance(entry.part, MotorPart) and hung.host(entry) != BASE:
         yield Finding(
