@@ -120,6 +120,7 @@ def by_hand(parts: Tables, base: dict[str, Any] | None = None) -> ByHand:
             rotor = keys.get("gear", 1.0) * angle
             mass += keys["rotor_inertia"] * np.outer(rotor, rotor)
             damping += keys.get("damping", 0.0) * np.outer(angle, angle)
+            damping += keys.get("motor_damping", 0.0) * np.outer(rotor, rotor)
         if table == "link":
             mass += keys["inertia"] * np.outer(angle, angle)
         if table in ("motor", "link"):
@@ -155,6 +156,7 @@ def drawn_parts(seed: int, count: int, branches: float = 0.0) -> tuple[Tables, d
         base |= {"inertia": 0.1, "damping": 0.05}
     if kind == "rotor":
         keys = {"rotor_inertia": 0.01, "gear": float(random.uniform(1.0, 4.0)), "damping": 0.02}
+        keys["motor_damping"] = 0.003
         parts.append(("motor", {"name": name(), **keys}))
     if kind == "free":
         links(1)

@@ -102,6 +102,8 @@ def _undamped(scene: Scene) -> Scene:
     for part in scene.parts:
         if part.joint or part.kind == "motor":
             quiet[f"{part.kind}.{part.name}.damping"] = 0.0
+        if part.kind == "motor":
+            quiet[f"motor.{part.name}.motor_damping"] = 0.0
     if scene.base.damping and not any(part.kind == "motor" for part in scene.parts):
         quiet["base.damping"] = 0.0
     return scene.replace(**quiet)

@@ -131,6 +131,14 @@ CASES = [
         ('name = "servo"\n', 'name = "servo"\nrotor_inertia = 2e-5\n'),
     ),
     Case(
+        "motor with an elastic gear",
+        "rotor_inertia = 6e-4\n",
+        "rotor_inertia = 6e-4\ngear = 3.0\nstiffness = 4e3\n",
+        "motor[1].stiffness",
+        "is a part of its own in a chain",
+        ("gear = 3.0\nstiffness = 4e3\n", ""),
+    ),
+    Case(
         "motor on a motor",
         'kind = "clamp"',
         'kind = "motor"\ninertia = 0.1',

@@ -110,6 +110,8 @@ class Reading:
         "q", "v" or "a" of motions; which energy.
     sign : int
         Of the element's own force.
+    inner : int
+        Station that a bend is measured against, counted like the other one.
     factor : float
         What the outputs are for a unit of it.
     """
@@ -120,6 +122,7 @@ class Reading:
     station: int = 0
     kind: str = ""
     sign: int = 1
+    inner: int = 0
     factor: float = 1.0
 
 

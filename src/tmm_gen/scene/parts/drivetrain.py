@@ -141,7 +141,7 @@ def drivetrain(hung: Hanging, base: Base) -> Drivetrain:
         if isinstance(part, MotorPart):
             kind, gears[part.name] = "motor", part.gear
             inertia[0] += exact(part.gear) ** 2 * exact(part.rotor_inertia)
-            damping += exact(part.damping)
+            damping += exact(part.damping) + exact(part.gear) ** 2 * exact(part.motor_damping)
             parts.append(PlacedPart(part.name, entry.table))
         elif isinstance(part, ChainJointPart):
             law = exact(part.stiffness), exact(part.damping)

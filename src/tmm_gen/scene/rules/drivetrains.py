@@ -27,6 +27,15 @@ def chain_suits(document: ChainDocument) -> Iterator[Finding]:
             "is for planar scenes; a chain knows inertias about its axis alone",
             "Write a [[link]] with its `inertia` instead, on the same part.",
         )
+    for index, motor in enumerate(document.motor):
+        for key in ("stiffness", "damping_time"):
+            if getattr(motor, key):
+                yield Finding(
+                    ("motor", index, key),
+                    "is of an elastic gear, which is a part of its own in a chain",
+                    f"Remove it, and put a [[gear]] with `ratio` and `stiffness` on '{motor.name}'.",
+                    getattr(motor, key),
+                )
     if document.control is not None:
         yield Finding(("control",), "is for planar arms", "Remove the table.")
     if document.gear and document.model.sweep == "product":
