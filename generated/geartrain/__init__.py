@@ -1,8 +1,8 @@
 # geartrain: Servo with coupling and two stages of gears on a table
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 81f336894b4b7c41b0bfadf3b20b8112ee43edbda0e674b03b570e80ad5d65c3
-# sha256 of the rest of this file: bee64a443c6a7d4231b0554c356eed38d71bb2899b8cb18d93356bc5d480b3d9
+# scene digest: 1a4a8b5623facd447e81b78b9ab542ac7459a89297606c12999073246348dce9
+# sha256 of the rest of this file: 6521ffc45e425d163a0818ca8d4eb35fb7d241e6a0acb96d22c560d5b646e2eb
 """geartrain: Servo with coupling and two stages of gears on a table."""
 
 from .kernel import (

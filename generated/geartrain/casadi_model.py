@@ -1,8 +1,8 @@
 # geartrain: Servo with coupling and two stages of gears on a table
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 81f336894b4b7c41b0bfadf3b20b8112ee43edbda0e674b03b570e80ad5d65c3
-# sha256 of the rest of this file: 79dc4aed2024256b1423be8bac3f24010caf258ef94935f92d354da9bdae0abe
+# scene digest: 1a4a8b5623facd447e81b78b9ab542ac7459a89297606c12999073246348dce9
+# sha256 of the rest of this file: 163789fc3a3bb984bbae5a253f9429e36b2a0b542d94048874a2503bb7b13584
 #
 # model: torsional chain (linear)
 # stations: 3

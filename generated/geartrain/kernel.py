@@ -1,8 +1,8 @@
 # geartrain: Servo with coupling and two stages of gears on a table
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 81f336894b4b7c41b0bfadf3b20b8112ee43edbda0e674b03b570e80ad5d65c3
-# sha256 of the rest of this file: 3a40c8fb16ad909439aec80d17591d295dcda2f9833a128f1c5a023250f3def2
+# scene digest: 1a4a8b5623facd447e81b78b9ab542ac7459a89297606c12999073246348dce9
+# sha256 of the rest of this file: b5b1cfe25921cafd25d78a2040870284b2cb4e51c53203f98c2cdd2554bf508a
 #
 # model: torsional chain (linear)
 # stations: 3

@@ -2,8 +2,8 @@
  * geartrain: Servo with coupling and two stages of gears on a table
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 81f336894b4b7c41b0bfadf3b20b8112ee43edbda0e674b03b570e80ad5d65c3
- * sha256 of the rest of this file: 744968e58d3e23df3214745a9fa851abeb3a24f907234123151ea7e4d28d895f
+ * scene digest: 1a4a8b5623facd447e81b78b9ab542ac7459a89297606c12999073246348dce9
+ * sha256 of the rest of this file: d952875f3eb5850a1facbac0ef2145cd62731197d0ec8bffda96b101acd722b6
  *
  * model: torsional chain (linear)
  * stations: 3

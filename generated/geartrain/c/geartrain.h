@@ -2,8 +2,8 @@
  * geartrain: Servo with coupling and two stages of gears on a table
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 81f336894b4b7c41b0bfadf3b20b8112ee43edbda0e674b03b570e80ad5d65c3
- * sha256 of the rest of this file: 114943b15eb56e15758aa6b750eed785c114afffd3e2025c3f86377b58771ec3
+ * scene digest: 1a4a8b5623facd447e81b78b9ab542ac7459a89297606c12999073246348dce9
+ * sha256 of the rest of this file: f73ac33e84feb2165c9594abdca2d3ea5aa8d7be02d18f51a7e3d36a59907030
  *
  * model: torsional chain (linear)
  * stations: 3

@@ -2,8 +2,8 @@
  * geartrain: Servo with coupling and two stages of gears on a table
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 81f336894b4b7c41b0bfadf3b20b8112ee43edbda0e674b03b570e80ad5d65c3
- * sha256 of the rest of this file: 21aca3bfc3c7ec3c5a8772ccb7a9d82689b6cfc566ce3243e378f896e0fb6d05
+ * scene digest: 1a4a8b5623facd447e81b78b9ab542ac7459a89297606c12999073246348dce9
+ * sha256 of the rest of this file: 59164b928fa6657a2c20fb0dab2db138a70c1aa7d2227321bd433f8b550096df
  *
  * model: torsional chain (linear)
  * stations: 3
