@@ -13,6 +13,7 @@ from tmm_gen.derive.elements import torsion
 from tmm_gen.derive.elements.declaration import Element
 from tmm_gen.derive.small_motion import LOAD, rest_elements
 from tmm_gen.derive.transfer import laplace_matrix
+from tmm_gen.errors import UserError
 from tmm_gen.modal.blocks import ElementFunctions, element_functions
 from tmm_gen.modal.rest import Rest, rest_at, straight
 from tmm_gen.scene import Scene, station_of
@@ -101,6 +102,11 @@ def linear_arm(scene: Scene, rest: Rest | None = None) -> LinearArm:
         Chain or planar.
     rest : Rest, optional
         About which a planar arm moves; by default straight along x and weightless.
+
+    Raises
+    ------
+    UserError
+        If it is a chain that branches.
     """
     if scene.model.linear:
         return _chain(scene)
@@ -108,6 +114,11 @@ def linear_arm(scene: Scene, rest: Rest | None = None) -> LinearArm:
 
 
 def _chain(scene: Scene) -> LinearArm:
+    if scene.hosts:
+        raise UserError(
+            f"scene '{scene.name}': modes and frequency responses of a chain that branches are not computed yet. "
+            "`run` and `check` take it."
+        )
     loads = _loads(scene, torsion.TORQUE, {"torque": torsion.LOAD})
     placed: list[Placed] = []
     if scene.hub:

@@ -98,6 +98,11 @@ class Scene:
         return int(self.base.turns)
 
     @property
+    def drivetrain(self) -> bool:
+        """Whether it is a chain of parts by name: there may be gears between them."""
+        return self.model.linear and bool(self.parts)
+
+    @property
     def turns(self) -> tuple[float, ...]:
         """Turns of the base's shaft per turn of each link, length n; 1 where there are no gears."""
         found = [1.0]

@@ -54,12 +54,18 @@ def mujoco_model(scene: Scene) -> MujocoModel:
     Raises
     ------
     UserError
-        If the base's angle is prescribed: MuJoCo has forces and springs, but no motion that is given exactly.
+        If the base's angle is prescribed: MuJoCo has forces and springs, but no motion that is given exactly. If it is
+        a drivetrain.
     """
     if scene.prescribed:
         raise UserError(
             f"scene '{scene.name}': base.kind = \"prescribed\" cannot be a MuJoCo model, in which nothing moves "
             'as prescribed. Use base.kind = "motor" with a torque input, or --to fmu.'
+        )
+    if scene.drivetrain:
+        raise UserError(
+            f"scene '{scene.name}': a drivetrain of parts cannot be a MuJoCo model yet, in which a body turns with the "
+            "one it hangs on: gears are not exported. Use --to fmu."
         )
     root = Xml.Element("mujoco", model=scene.name)
     Xml.SubElement(root, "compiler", angle="radian", inertiafromgeom="false", autolimits="true")
