@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 1a4a8b5623facd447e81b78b9ab542ac7459a89297606c12999073246348dce9
-# sha256 of the rest of this file: b5b1cfe25921cafd25d78a2040870284b2cb4e51c53203f98c2cdd2554bf508a
+# sha256 of the rest of this file: 9f6fa6229dfaae487d5836a3d8a04c2ae360d761fcfe9ae3d8b137461bfdb0e7
 #
 # model: torsional chain (linear)
 # stations: 3
@@ -412,7 +412,6 @@ def initialise(
     joint_torque = np.zeros((STATIONS, *batch), dtype)
     known_angle = np.zeros((STATIONS + 1, *batch), dtype)
     known_rate = np.zeros((STATIONS + 1, *batch), dtype)
-    solved = np.zeros((STATIONS, *batch), dtype)
 
     # how gears turn
     start_turn = 1.0 / ratio
@@ -469,12 +468,8 @@ def initialise(
     hub_unknown = unknown
 
     # sweep outward: the unknown of each station
-    unknown = answer_own[:1]
-    solved[:1] = unknown
-    unknown = answer_own[1:2]
-    solved[1:2] = unknown
-    unknown = answer_own[2:]
-    solved[2:] = unknown
+    unknown = answer_own
+    solved = unknown
 
     # motion at the end of the step
     hub_angle = known_angle[0]
@@ -618,13 +613,7 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
     torque = load_torque
-    for j in reversed(range(2, STATIONS)):
-        answer_own[j] = admittance[j] * (torque - joint_torque[j])
-        torque = joint_torque[j] * reflection[j] + torque * transmission[j]
-    for j in reversed(range(1, 2)):
-        answer_own[j] = admittance[j] * (torque - joint_torque[j])
-        torque = joint_torque[j] * reflection[j] + torque * transmission[j]
-    for j in reversed(range(1)):
+    for j in reversed(range(STATIONS)):
         answer_own[j] = admittance[j] * (torque - joint_torque[j])
         torque = joint_torque[j] * reflection[j] + torque * transmission[j]
 
@@ -633,13 +622,7 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     hub_unknown = unknown
 
     # sweep outward: the unknown of each station
-    for j in range(1):
-        unknown = answer_own[j] + transmission[j] * unknown
-        solved[j] = unknown
-    for j in range(1, 2):
-        unknown = answer_own[j] + transmission[j] * unknown
-        solved[j] = unknown
-    for j in range(2, STATIONS):
+    for j in range(STATIONS):
         unknown = answer_own[j] + transmission[j] * unknown
         solved[j] = unknown
 

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 1a4a8b5623facd447e81b78b9ab542ac7459a89297606c12999073246348dce9
- * sha256 of the rest of this file: d952875f3eb5850a1facbac0ef2145cd62731197d0ec8bffda96b101acd722b6
+ * sha256 of the rest of this file: 08551a217a87efd7e1412e580cddcf5b85b0531c8f488d00292caff67f19d3e4
  *
  * model: torsional chain (linear)
  * stations: 3
@@ -277,13 +277,7 @@ geartrain_status geartrain_initialise(
     const real hub_unknown = unknown;
 
     /* Sweep outward: the unknown of each station. */
-    for (int j = 0; j < 1; ++j) {
-        solved[j] = answer_own[j];
-    }
-    for (int j = 1; j < 2; ++j) {
-        solved[j] = answer_own[j];
-    }
-    for (int j = 2; j < GEARTRAIN_STATIONS; ++j) {
+    for (int j = 0; j < GEARTRAIN_STATIONS; ++j) {
         solved[j] = answer_own[j];
     }
 
@@ -369,15 +363,7 @@ geartrain_status geartrain_step(
     const real hub_unknown = unknown;
 
     /* Sweep outward: the unknown of each station. */
-    for (int j = 0; j < 1; ++j) {
-        unknown = answer_own[j] + model->transmission[j] * unknown;
-        solved[j] = unknown;
-    }
-    for (int j = 1; j < 2; ++j) {
-        unknown = answer_own[j] + model->transmission[j] * unknown;
-        solved[j] = unknown;
-    }
-    for (int j = 2; j < GEARTRAIN_STATIONS; ++j) {
+    for (int j = 0; j < GEARTRAIN_STATIONS; ++j) {
         unknown = answer_own[j] + model->transmission[j] * unknown;
         solved[j] = unknown;
     }
