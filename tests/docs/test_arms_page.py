@@ -41,6 +41,7 @@ def test_there_are_commands_and_figures() -> None:
         assert (ROOT / "docs" / figure).is_file()
 
 
-def test_the_example_builds() -> None:
-    (text,) = re.findall(r"```toml\n(name = .*?)```", PAGE, re.DOTALL)
-    assert build_program(parse_scene(text)).stations > 1
+def test_the_examples_build() -> None:
+    arm, drivetrain = re.findall(r"```toml\n(name = .*?)```", PAGE, re.DOTALL)
+    for text in (arm, drivetrain):
+        assert build_program(parse_scene(text)).stations > 1
