@@ -266,7 +266,7 @@ def _input(item: FileInput, parts: dict[str, PlacedPart], stations: int) -> Inpu
 def _output(item: FileOutput, parts: dict[str, PlacedPart], stations: int) -> Output:
     name = str(item.at)
     part = parts.get(name)
-    of_joint = part is not None and part.joint > 0
+    of_joint = (part is not None and part.joint > 0) or (name == BASE and item.of in ("torque", "force"))
     return Output(
         name=item.name,
         at=part.gear if part is not None and of_joint else place_of(name, parts, stations),

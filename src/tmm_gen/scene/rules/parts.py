@@ -14,6 +14,13 @@ from tmm_gen.scene.problem import Finding, Path
 from tmm_gen.scene.quantity import PLANAR
 from tmm_gen.scene.table import STATION_LIMIT, closest
 
+BASE_OUTPUTS = {
+    "clamp": ("torque", "force"),
+    "prescribed": ("angle", "rate", "torque", "force"),
+    "motor": ("angle", "rate"),
+}
+"""What is measured at a base; torque and force are those it exerts on all that stands on it."""
+
 
 def part_names(document: PartsDocument) -> Iterator[Finding]:
     """Find parts of the same name, and such as hang on what does not exist."""
@@ -363,11 +370,11 @@ def part_outputs(document: PartsDocument) -> Iterator[Finding]:
                 "Write the name of a motor or a joint.",
                 item.of,
             )
-        elif at == BASE and (document.base.kind == "clamp" or item.of not in ("angle", "rate")):
+        elif at == BASE and item.of not in BASE_OUTPUTS[document.base.kind]:
             yield Finding(
                 (*path, "of"),
                 f'cannot be {item.of} at the base with base.kind = "{document.base.kind}"',
-                "Measure at a part: write its name.",
+                f"Choose {' or '.join(BASE_OUTPUTS[document.base.kind])}, or measure at a part: write its name.",
                 item.of,
             )
         elif part is not None and part.fixed:
