@@ -27,6 +27,7 @@ def term(explanation: Explanation, name: str) -> Explained:
     return found
 
 
+@pytest.mark.long
 def test_joint_damping_costs_what_the_scene_without_it_lacks(
     explained: dict[str, Explanation], example: Callable[[str], Scene]
 ) -> None:
@@ -50,6 +51,7 @@ def test_identical_joints_share_one_number(
     assert term(explain(example("drivetrain")), "joints of their own").modelled
 
 
+@pytest.mark.long
 def test_history_that_no_step_reads_is_not_kept(explained: dict[str, Explanation]) -> None:
     name = "history that no step reads"
     assert term(explained["thesis10"], name).worth.state_bytes == 0  # newmark reads all it has

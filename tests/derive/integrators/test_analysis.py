@@ -45,6 +45,7 @@ def test_json_has_a_row_for_each(printed: dict) -> None:
     assert all(set(row) == KEYS for row in printed["rows"])
 
 
+@pytest.mark.long
 def test_json_is_what_is_derived(printed: dict) -> None:
     rows = {row["name"]: row for row in printed["rows"]}
     assert rows["newmark"]["parameters"] == {"beta": 0.25, "gamma": 0.5}
