@@ -26,7 +26,7 @@ from tmm_gen.scene.rules.outputs import outputs_possible
 from tmm_gen.scene.rules.parts import (
     beams_in_range,
     carriers,
-    one_row,
+    one_tree,
     part_initial,
     part_inputs,
     part_names,
@@ -65,7 +65,7 @@ def broken_rules(document: Document) -> list[Finding]:
 
 PartRule = Callable[[PartsDocument], Iterator[Finding]]
 
-HANG_TOGETHER: tuple[tuple[PartRule, ...], ...] = ((part_names, parts_suit), (one_row,), (carriers,))
+HANG_TOGETHER: tuple[tuple[PartRule, ...], ...] = ((part_names, parts_suit), (one_tree,), (carriers,))
 """Rules of arms by parts; each group takes those before it for granted."""
 
 PART_RULES: tuple[PartRule, ...] = (
