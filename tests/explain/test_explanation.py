@@ -11,6 +11,8 @@ from tmm_gen.explain.footprint import footprint
 from tmm_gen.explain.terms import terms_of
 from tmm_gen.scene import Scene
 
+pytestmark = pytest.mark.xdist_group("explanations")  # scenes are explained once
+
 
 @pytest.fixture(scope="module")
 def explained(example: Callable[[str], Scene]) -> dict[str, Explanation]:
@@ -27,7 +29,6 @@ def term(explanation: Explanation, name: str) -> Explained:
     return found
 
 
-@pytest.mark.long
 def test_joint_damping_costs_what_the_scene_without_it_lacks(
     explained: dict[str, Explanation], example: Callable[[str], Scene]
 ) -> None:
@@ -51,7 +52,6 @@ def test_identical_joints_share_one_number(
     assert term(explain(example("drivetrain")), "joints of their own").modelled
 
 
-@pytest.mark.long
 def test_history_that_no_step_reads_is_not_kept(explained: dict[str, Explanation]) -> None:
     name = "history that no step reads"
     assert term(explained["thesis10"], name).worth.state_bytes == 0  # newmark reads all it has
