@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, fields, replace
 
-from tmm_gen.scene.beam import Beam, Tip
+from tmm_gen.scene.beam import Beam, BeamEntry, Tip
 from tmm_gen.scene.change import changed
 from tmm_gen.scene.control import Control
 from tmm_gen.scene.digest import content_digest
@@ -159,7 +159,6 @@ def scene_of(document: Document, source: Source) -> Scene:
                 made.outputs(document.output),
                 made.initial(document.initial),
             ),
-            beam=None,
             tip=made.tip,
             parts=made.parts,
         )
@@ -190,7 +189,7 @@ def _scene_of(
         base=document.base,
         joints=document.joints(),
         links=document.links(),
-        beam=document.beam,
+        beam=document.beam.expanded() if isinstance(document.beam, BeamEntry) else None,
         tip=document.tip,
         inputs=inputs,
         outputs=outputs,
