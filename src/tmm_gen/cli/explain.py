@@ -9,6 +9,7 @@ import click
 
 from tmm_gen.cli.changes import changed_scene, set_option
 from tmm_gen.cli.console import Column, progress, table
+from tmm_gen.cli.hints import hinted
 
 if TYPE_CHECKING:
     from tmm_gen.explain.explanation import Explained, Explanation
@@ -28,14 +29,15 @@ def explain(scene: Path, changes: tuple[str, ...], json_mode: bool) -> None:
     out. Operations are floating-point operations, bytes are those of the C structs.
     """
     loaded = changed_scene(scene, changes)
+    found_hints = hinted(loaded, json_mode)
     with progress(f"counting {loaded.name}") as advance:
         from tmm_gen.explain.explanation import explain as explained
 
         found = explained(loaded, lambda term: advance(1, doing=f"counted {term}"))
-    _show(found, json_mode)
+    _show(found, found_hints, json_mode)
 
 
-def _show(found: Explanation, json_mode: bool) -> None:
+def _show(found: Explanation, hints: list[str], json_mode: bool) -> None:
     scene, own, everything = found.scene, found.own, found.everything
     facts = {
         "scene": scene.name,
@@ -48,6 +50,7 @@ def _show(found: Explanation, json_mode: bool) -> None:
         "model_bytes": own.model_bytes,
         "everything_operations_per_step": everything.step,
         "everything_state_bytes": everything.state_bytes,
+        "hints": hints,
         "beams": (beams := _beams(scene)),
     }
     title = (
