@@ -1,0 +1,160 @@
+"""`tmm-gen rest`: static equilibria of a planar arm."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from tmm_gen.cli.changes import changed_scene, set_option
+from tmm_gen.cli.console import Column, print_json, progress, table
+from tmm_gen.cli.given import constant_inputs, picture_file, plot_option
+from tmm_gen.cli.outputs import claim, write_outputs
+from tmm_gen.errors import UserError
+
+if TYPE_CHECKING:
+    from tmm_gen.modal.equilibria import Equilibria, Equilibrium
+    from tmm_gen.scene import Scene
+
+# NumPy, SymPy and Matplotlib are imported inside: `tmm-gen --help` has no use for them.
+
+_DECIMALS = 9
+"""Of what the table shows; beyond them an arm that hangs straight would have a tip beside its base."""
+
+
+@click.command("rest")
+@click.argument("scene", metavar="SCENE", type=click.Path(path_type=Path))
+@click.option(
+    "--input",
+    "given",
+    metavar="NAME=VALUE",
+    multiple=True,
+    help="A constant input that the arm rests under. Repeatable; the rest is zero.",
+)
+@set_option
+@plot_option("the arm in each equilibrium", "-rest")
+@click.option("--json", "json_mode", is_flag=True, help="One JSON object instead of a table.")
+def rest(
+    scene: Path, given: tuple[str, ...], changes: tuple[str, ...], picture: Path | None, json_mode: bool
+) -> None:
+    """Show the static equilibria of SCENE, a planar arm, under gravity and constant inputs.
+
+    Where a descent from the scene's start ends comes first. Others are looked for from every quadrant of each joint
+    that turns freely, as motors without a torque do. Angles of joints are those of the outer side against the inner
+    one, torques what the inner side exerts on the outer one.
+    """
+    loaded = changed_scene(scene, changes)
+    if not loaded.model.in_plane:
+        raise UserError(
+            f"{scene}: a chain has no weight and rests straight, or as its inputs twist it: `tmm-gen run` shows that. "
+            "Name a planar scene."
+        )
+    inputs = constant_inputs(loaded, given)
+    claim((picture,), (scene,))
+    with progress(f"balancing {loaded.name}") as advance:
+        from tmm_gen.modal.equilibria import equilibria
+
+        held = equilibria(loaded, inputs, advance)
+        files: list[Path] = []
+        if picture is not None:
+            from tmm_gen.modal.rest_picture import rest_picture
+
+            target = picture_file(picture, loaded.name, "-rest")
+            files = write_outputs({target: rest_picture(loaded, held, target.suffix[1:].lower())})
+    _show(loaded, inputs, held, files, json_mode)
+
+
+def _show(
+    scene: Scene, inputs: dict[str, float], held: Equilibria, files: list[Path], json_mode: bool
+) -> None:
+    from tmm_gen.modal.equilibria import free_joints
+
+    names = {number: _joint_name(scene, number) for number in free_joints(scene)}
+    rows = [_row(scene, number, each) for number, each in enumerate(held.found, start=1)]
+    if json_mode:
+        facts = {
+            "scene": scene.name,
+            "inputs": [{"name": name, "value": value} for name, value in inputs.items()],
+            "free_joints": list(names.values()),
+            "starts": held.starts,
+            "files": files,
+        }
+        print_json({**facts, "rows": rows})
+        return
+    count = len(rows)
+    title = f"{scene.title}: {count} equilibri{'a' if count > 1 else 'um'}"
+    columns = [Column("equilibrium"), Column("state")]
+    columns += [Column(axis, f"tip {axis} (m)", _six, "right") for axis in "xy"]
+    for joint in _told(scene):
+        name = _joint_name(scene, joint)
+        columns.append(Column(f"angle{joint}", f"{name} angle (rad)", _six, "right"))
+        columns.append(Column(f"torque{joint}", "torque (N m)", _six, "right"))
+    table([_flat(scene, row) for row in rows], columns, title=title)
+    if names:
+        motors = any(part.kind == "motor" for part in scene.parts) or scene.hub
+        turning = f"{', '.join(names.values())} turn{'s' * (len(names) == 1)} freely"
+        click.echo(f"{turning}: motors hold no torque but that of --input" if motors else turning)
+    click.echo(f"looked for from {held.starts} start{'s' * (held.starts > 1)}: there may be more")
+    for path in files:
+        click.echo(f"wrote {path}")
+    if not files:
+        click.echo("more: --plot draws them, --json has every node, angle and torque")
+
+
+def _six(value: float) -> str:
+    """Return six digits of what is more than rounding."""
+    return f"{round(value, _DECIMALS) + 0.0:.6g}"
+
+
+def _joint_name(scene: Scene, number: int) -> str:
+    """Return what to call a joint, counted from 1, or the hub, 0."""
+    if number == 0:
+        return "hub"
+    return next((part.name for part in scene.parts if part.joint == number), f"joint {number}")
+
+
+def _told(scene: Scene) -> list[int]:
+    """Return the joints that have a column: those by name, else the first."""
+    return [part.joint for part in scene.parts if part.joint] or [1]
+
+
+def _row(scene: Scene, number: int, each: Equilibrium) -> dict[str, object]:
+    import numpy as np
+
+    from tmm_gen.modal.rest_picture import nodes
+
+    at, place = each.rest, nodes(scene, each.rest)
+    turned = np.diff(at.angles, prepend=at.hub)
+    return {
+        "equilibrium": number,
+        "state": each.state + (", reached from the start" if each.reached else ""),
+        "stable": each.stable,
+        "from_start": each.reached,
+        "falls": each.falls,
+        "loose": each.loose,
+        "hub_angle": at.hub,
+        "angles": at.angles,
+        "nodes": place.T,
+        "parts": [
+            {"name": part.name, "x": x, "y": y, "angle": float(at.angles[part.last - 1])}
+            for part in scene.parts
+            if part.last and not part.fixed
+            for x, y in [place[:, part.last].tolist()]
+        ],
+        "joints": [
+            {"name": _joint_name(scene, joint), "angle": angle, "torque": torque}
+            for joint, (angle, torque) in enumerate(
+                zip(turned.tolist(), at.inner[:, 2].tolist(), strict=True), start=1
+            )
+        ],
+    }
+
+
+def _flat(scene: Scene, row: dict[str, object]) -> dict[str, object]:
+    """Return a row of the table: of joints those that have a column."""
+    joints, (x, y) = row["joints"], row["nodes"][-1]  # type: ignore[index]
+    flat = {"equilibrium": row["equilibrium"], "state": row["state"], "x": x, "y": y}
+    for joint in _told(scene):
+        flat |= {f"{key}{joint}": joints[joint - 1][key] for key in ("angle", "torque")}  # type: ignore[index]
+    return flat
