@@ -13,9 +13,9 @@ from scipy.optimize import brentq, minimize
 from scipy.special import ellipe, ellipk
 
 from tmm_gen.errors import UserError
-from tmm_gen.modal.equilibria import Equilibria, equilibria, free_joints
-from tmm_gen.modal.rest_picture import nodes
+from tmm_gen.modal.equilibria import Equilibria, Equilibrium, equilibria, free_joints
 from tmm_gen.scene import Scene, parse_scene
+from tmm_gen.simulate.places import node_places
 
 HEAD = """\
 name = "arm"
@@ -56,6 +56,10 @@ links = 10
 
 def turned(found: Equilibria) -> list[tuple[float, ...]]:
     return [tuple(np.round(each.rest.free_angles, 9)) for each in found.found]
+
+
+def tip(scene: Scene, each: Equilibrium) -> NDArray[np.float64]:
+    return np.concatenate(node_places(scene, each.rest.angles[None]))[:, -1]
 
 
 def test_two_links_hang_or_stand_in_four_ways() -> None:
@@ -153,7 +157,7 @@ def test_a_cantilever_droops_as_the_elastica(stiffness: float) -> None:
         cut = scene.replace(**{"beam.links": links})
         (each,) = equilibria(cut).found
         assert each.stable
-        errors.append(np.hypot(*(nodes(cut, each.rest)[:, -1] - exact)))
+        errors.append(np.hypot(*(tip(cut, each) - exact)))
     assert errors[-1] < 1e-3
     assert np.log2(errors[1] / errors[2]) == pytest.approx(2.0, abs=0.1)
 
@@ -173,10 +177,10 @@ def test_a_column_buckles_to_either_side_as_far_as_elliptic_integrals_say() -> N
     )
     found = sorted(equilibria(scene, {"root": np.pi / 2}).found, key=lambda e: -e.falls)
     assert [e.falls for e in found] == [1, 0, 0]
-    assert nodes(scene, found[0].rest)[:, -1] == pytest.approx([0.0, 1.0])
+    assert tip(scene, found[0]) == pytest.approx([0.0, 1.0])
     m = brentq(lambda m: (2.0 * ellipk(m) / np.pi) ** 2 - load, 1e-9, 0.9)
     height = 2.0 * ellipe(m) / ellipk(m) - 1.0
-    left, right = (nodes(scene, each.rest)[:, -1] for each in found[1:])
+    left, right = (tip(scene, each) for each in found[1:])
     assert left == pytest.approx(right * [-1.0, 1.0], abs=1e-9)
     assert left[1] == pytest.approx(height, abs=2e-3)
 
@@ -185,9 +189,10 @@ def potential(scene: Scene, given: Mapping[str, float]) -> Callable[[NDArray[np.
     """Return the energy of weights, springs with slack angles, and constant loads, written down once more."""
 
     def energy(angles: NDArray[np.float64]) -> float:
-        twists = np.diff(angles, prepend=0.0)
-        lengths = np.array([link.length for link in scene.links])
-        outer = np.cumsum(lengths * [np.cos(angles), np.sin(angles)], axis=1)
+        turned = np.concatenate([[0.0], angles])
+        hosts = [scene.host(joint) for joint in range(1, scene.stations + 1)]
+        twists = angles - turned[hosts]
+        outer = np.concatenate(node_places(scene, angles[None]))[:, 1:]
         total = 0.0
         for joint, link, twist, angle, end in zip(
             scene.joints, scene.links, twists, angles, outer[1], strict=True

@@ -116,7 +116,7 @@ CASES = [
         'on = "hinge"',
         'on = "elbow"',
         "link[2].on",
-        "branches are not modelled",
+        "puts a second part on [[motor]]",
         ('on = "elbow"\nlength = 0.1', 'on = "hinge"\nlength = 0.1'),
     ),
     Case(
@@ -172,7 +172,7 @@ CASES = [
         'on = "elbow"\nlength',
         'on = "hinge"\nlength',
         "link[2].on",
-        "makes a branch",
+        "puts a second part on [[joint]]",
         ('on = "hinge"\nlength = 0.3', 'on = "elbow"\nlength = 0.3'),
     ),
     Case(
@@ -191,7 +191,7 @@ CASES = [
         'on = "elbow"\nlength = 0.3',
         'on = "base"\nlength = 0.3',
         "link[1].on",
-        "branch",
+        "where it could not move",
         ('on = "base"\nlength', 'on = "elbow"\nlength'),
     ),
     Case(

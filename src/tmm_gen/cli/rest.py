@@ -58,7 +58,7 @@ def rest(
         held = equilibria(loaded, inputs, advance)
         files: list[Path] = []
         if picture is not None:
-            from tmm_gen.modal.rest_picture import rest_picture
+            from tmm_gen.report.rest_picture import rest_picture
 
             target = picture_file(picture, loaded.name, "-rest")
             files = write_outputs({target: rest_picture(loaded, held, target.suffix[1:].lower())})
@@ -85,7 +85,8 @@ def _show(
     count = len(rows)
     title = f"{scene.title}: {count} equilibri{'a' if count > 1 else 'um'}"
     columns = [Column("equilibrium"), Column("state")]
-    columns += [Column(axis, f"tip {axis} (m)", _six, "right") for axis in "xy"]
+    for end, name in _ends(scene):
+        columns += [Column(f"{axis}{end}", f"{name} {axis} (m)", _six, "right") for axis in "xy"]
     for joint in _told(scene):
         name = _joint_name(scene, joint)
         columns.append(Column(f"angle{joint}", f"{name} angle (rad)", _six, "right"))
@@ -119,13 +120,24 @@ def _told(scene: Scene) -> list[int]:
     return [part.joint for part in scene.parts if part.joint] or [1]
 
 
+def _ends(scene: Scene) -> list[tuple[int, str]]:
+    """Return the links that carry nothing, with names: "tip" of an arm without branches, else that of the last part."""
+    from tmm_gen.simulate.places import ends
+
+    names = {part.last: part.name for part in scene.parts}
+    found = ends(scene)
+    return [(end, "tip" if len(found) == 1 else names[end]) for end in found]
+
+
 def _row(scene: Scene, number: int, each: Equilibrium) -> dict[str, object]:
     import numpy as np
 
-    from tmm_gen.modal.rest_picture import nodes
+    from tmm_gen.simulate.places import node_places
 
-    at, place = each.rest, nodes(scene, each.rest)
-    turned = np.diff(at.angles, prepend=at.hub)
+    at = each.rest
+    place = np.concatenate(node_places(scene, at.angles[None]))
+    angles = np.concatenate([[at.hub], at.angles])
+    turned = at.angles - angles[[scene.host(joint) for joint in range(1, scene.stations + 1)]]
     return {
         "equilibrium": number,
         "state": each.state + (", reached from the start" if each.reached else ""),
@@ -153,8 +165,10 @@ def _row(scene: Scene, number: int, each: Equilibrium) -> dict[str, object]:
 
 def _flat(scene: Scene, row: dict[str, object]) -> dict[str, object]:
     """Return a row of the table: of joints those that have a column."""
-    joints, (x, y) = row["joints"], row["nodes"][-1]  # type: ignore[index]
-    flat = {"equilibrium": row["equilibrium"], "state": row["state"], "x": x, "y": y}
+    joints, places = row["joints"], row["nodes"]
+    flat = {"equilibrium": row["equilibrium"], "state": row["state"]}
+    for end, _ in _ends(scene):
+        flat |= {f"x{end}": places[end][0], f"y{end}": places[end][1]}  # type: ignore[index]
     for joint in _told(scene):
         flat |= {f"{key}{joint}": joints[joint - 1][key] for key in ("angle", "torque")}  # type: ignore[index]
     return flat

@@ -6,7 +6,6 @@ import contextlib
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from itertools import pairwise
 
 from tmm_gen.scene import Scene
 from tmm_gen.scene.check import document_of
@@ -17,7 +16,7 @@ from tmm_gen.scene.problem import Path, show_path
 Measured = Iterator[tuple[Path, float]]
 
 _MOST_LINKS = 200
-"""Links up to which the frequencies of a planar arm are found in no time."""
+"""Links up to which frequencies are found in no time."""
 
 
 @dataclass(frozen=True)
@@ -56,9 +55,9 @@ def hints(scene: Scene) -> list[str]:
 
 
 def _length(scene: Scene, document: Document) -> Measured:
-    if scene.model.in_plane:
-        table = next(name for name in ("beam", "link") if getattr(document, name))
-        yield (table,), sum(link.length for link in scene.links)
+    length = sum(link.length for link in scene.links)
+    if length > 0.0:  # a chain has none
+        yield next((name,) for name in ("beam", "link") if getattr(document, name)), length
 
 
 def _gravity(scene: Scene, _document: Document) -> Measured:
@@ -67,16 +66,13 @@ def _gravity(scene: Scene, _document: Document) -> Measured:
 
 def _slowest(scene: Scene, _document: Document) -> Measured:
     """Return the lowest frequency, Hz, at which springs give way; turning on free hinges is none."""
-    from tmm_gen.reference.duration import slowest_swing
-    from tmm_gen.reference.planar_linear import vibration
+    from tmm_gen.reference.duration import slowest_vibration
 
-    table = "joint" if "joint" in scene.source.data else "beam"
+    if scene.stations > _MOST_LINKS:
+        return
     with contextlib.suppress(ArithmeticError, ValueError):  # numbers beyond floating point: others tell
-        if scene.model.linear:
-            yield (table,), slowest_swing(scene) / (2.0 * math.pi)
-        elif scene.stations <= _MOST_LINKS:
-            frequencies = vibration(scene).frequencies
-            yield from (((table,), float(w) / (2.0 * math.pi)) for w in frequencies[frequencies > 0.0][:1])
+        if (found := slowest_vibration(scene)) is not None:
+            yield ("joint",) if "joint" in scene.source.data else ("beam",), found / (2.0 * math.pi)
 
 
 def _young(_scene: Scene, document: Document) -> Measured:
@@ -107,15 +103,14 @@ def _stiff_for_weight(_scene: Scene, document: Document) -> Measured:
             yield (*path, "bending_stiffness"), stiffness / mass / mass
 
 
-def _heavy(scene: Scene, document: Document) -> Measured:
-    for number, link in enumerate(document.link if scene.model.in_plane else ()):
-        yield ("link", number, "mass"), link.mass / link.length
+def _heavy(_scene: Scene, document: Document) -> Measured:
+    for number, link in enumerate(document.link):
+        if link.length > 0.0:
+            yield ("link", number, "mass"), link.mass / link.length
 
 
-def _payload(scene: Scene, document: Document) -> Measured:
+def _payload(_scene: Scene, document: Document) -> Measured:
     """Return the mass of each body over that of all beams and links."""
-    if not scene.model.in_plane:
-        return
     own = sum(beam.stiffness_and_mass()[1] * beam.length for beam in document.beams().values())
     own += sum(link.mass * getattr(link, "repeat", 1) for link in document.link)
     bodies: dict[Path, float] = {
@@ -123,19 +118,20 @@ def _payload(scene: Scene, document: Document) -> Measured:
     }
     if document.tip is not None:
         bodies["tip",] = document.tip.mass
-    yield from (((*path, "mass"), mass / own) for path, mass in bodies.items())
+    yield from (((*path, "mass"), mass / own) for path, mass in bodies.items() if own > 0.0)
 
 
-def _gyration(scene: Scene, document: Document) -> Measured:
+def _gyration(_scene: Scene, document: Document) -> Measured:
     """Return the radius of gyration of each rigid link over its length."""
-    for number, link in enumerate(document.link if scene.model.in_plane else ()):
-        yield ("link", number, "inertia"), math.sqrt(link.inertia / link.mass) / link.length
+    for number, link in enumerate(document.link):
+        if link.length > 0.0:
+            yield ("link", number, "inertia"), math.sqrt(link.inertia / link.mass) / link.length
 
 
 def _turns(scene: Scene, document: Document) -> Measured:
-    """Return how many turns an angle of the file is; of the start those between one link and the next."""
+    """Return how many turns an angle of the file is; of the start those between one link and what it stands on."""
     angles = (0.0, *scene.initial.angles)
-    between = max(abs(after - before) for before, after in pairwise(angles))
+    between = max(abs(angles[k] - angles[scene.host(k)]) for k in range(1, len(angles)))
     yield ("initial", "angles"), between / (2.0 * math.pi)
     for number, joint in enumerate(document.joint):
         yield ("joint", number, "rest"), abs(getattr(joint, "rest", 0.0)) / (2.0 * math.pi)

@@ -46,7 +46,7 @@ def terms_of(scene: Scene) -> list[Term]:
     else:
         found[1:1] = [_alike_joints(scene), _alike_links(scene)]
     if scene.model.in_plane:
-        found = [_gravity(scene), _iterations(scene), *found, *_tip(scene)]
+        found = [_gravity(scene), _iterations(scene), *found, *([] if scene.hosts else _tip(scene))]
         if not scene.emit.sensitivities:  # heat has no derivatives: the two do not go together
             found.append(_heat(scene))
     return [*found, _inputs(scene), _outputs(scene)]
@@ -147,6 +147,7 @@ def up_to(scene: Scene, station: int) -> Scene:
         scene,
         joints=scene.joints[:station],
         links=scene.links[:station],
+        hosts=scene.hosts[:station],
         tip=scene.tip if station == n else None,
         inputs=tuple(i for i in scene.inputs if station_of(i.at, n) <= station),
         outputs=tuple(o for o in scene.outputs if o.at == "arm" or station_of(o.at, n) <= station),

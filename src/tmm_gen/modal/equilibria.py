@@ -115,7 +115,7 @@ def equilibria(
     def keep(rest: Rest | None, reached: bool = False) -> None:
         if rest is not None:
             each = _judged(scene, inputs, rest, reached)
-            if not any(_same(scene, each, other) for other in found):
+            if not any(_same(each, other) for other in found):
                 found.append(each)
 
     failure: UserError | None = None
@@ -144,8 +144,8 @@ def _starts(scene: Scene) -> Iterator[Array]:
 
     All quadrants as long as they are few, else up and down; beyond that the rest of the arm goes on straight.
     """
-    shape = straight(scene)
-    pivots = [number - 1 + scene.hub for number in free_joints(scene)]
+    shape = np.concatenate([np.zeros(1 - scene.hub), straight(scene)])  # of hub or base, then of each link
+    pivots = free_joints(scene)
     quadrants = _QUADRANTS if len(_QUADRANTS) ** len(pivots) <= _STARTS else _QUADRANTS[:2]
     turned = 0
     while turned < len(pivots) and len(quadrants) ** (turned + 1) <= _STARTS:
@@ -153,9 +153,18 @@ def _starts(scene: Scene) -> Iterator[Array]:
     for directions in product(quadrants, repeat=turned):
         angles = shape.copy()
         for number, pivot in enumerate(pivots):
-            direction = directions[min(number, turned - 1)]
-            angles[pivot:] = shape[pivot:] + (direction - shape[pivot])
-        yield angles
+            beyond = _beyond(scene, pivot)
+            angles[beyond] = shape[beyond] + directions[min(number, turned - 1)] - shape[pivot]
+        yield angles[1 - scene.hub :]
+
+
+def _beyond(scene: Scene, joint: int) -> list[int]:
+    """Return the numbers of all links that turn with a joint; the hub itself is 0."""
+    turning = {joint}
+    for number in range(joint + 1, scene.stations + 1):
+        if scene.host(number) in turning:
+            turning.add(number)
+    return sorted(turning)
 
 
 def _looked(scene: Scene, inputs: Mapping[str, float] | None, angles: Array) -> tuple[Rest, Matrices]:
@@ -184,18 +193,18 @@ def _stationary(scene: Scene, inputs: Mapping[str, float] | None, angles: Array)
 
 def _judged(scene: Scene, inputs: Mapping[str, float] | None, rest: Rest, reached: bool) -> Equilibrium:
     """Return an equilibrium with whole turns at free joints taken off, and how it is held."""
-    angles = rest.free_angles.copy()
-    for number in free_joints(scene):
-        pivot = number - 1 + scene.hub
-        inner = angles[pivot - 1] if pivot else (0.0 if scene.hub else rest.hub)
-        turns = (angles[pivot] - inner) / (2.0 * np.pi)
-        angles[pivot:] -= 2.0 * np.pi * np.ceil(turns - 0.5 - _SAME)  # half a turn is one to the left
-    settled, linear = _looked(scene, inputs, angles)
+    angles = np.concatenate([[rest.hub], rest.angles])
+    for joint in free_joints(scene):
+        inner = angles[scene.host(joint)] if joint else 0.0
+        turns = (angles[joint] - inner) / (2.0 * np.pi)
+        # half a turn is one to the left
+        angles[_beyond(scene, joint)] -= 2.0 * np.pi * np.ceil(turns - 0.5 - _SAME)
+    settled, linear = _looked(scene, inputs, angles[1 - scene.hub :])
     springs = springs_of(linear.parts)
     return Equilibrium(settled, springs.negative, len(springs.loose), reached)
 
 
-def _same(scene: Scene, one: Equilibrium, other: Equilibrium) -> bool:
+def _same(one: Equilibrium, other: Equilibrium) -> bool:
     """Return whether two equilibria are one; of those that stay wherever they are put one stands for all."""
     if one.loose and other.loose:
         return True

@@ -83,16 +83,17 @@ def energy(scene: Scene, signals: Mapping[str, Signal], time: Array, angle: Arra
     arm = Arm(scene, signals)
     s, c = np.sin(angle), np.cos(angle)
     torque, force_x, force_y = arm.loads(time)
-    beyond_x, beyond_y = (np.cumsum(f[:, ::-1], axis=1)[:, ::-1] for f in (force_x, force_y))
+    beyond_x, beyond_y = arm.beyond(force_x), arm.beyond(force_y)
     supply = np.sum(rate * (torque + arm.lengths * (c * beyond_y - s * beyond_x)), axis=1)
     if scene.prescribed:
-        joint = scene.joints[0]
         base_angle, base_rate = arm.base_motion(time)
-        spring = joint.stiffness * (base_angle + joint.rest - angle[:, 0]) + joint.damping * (
-            base_rate - rate[:, 0]
-        )
-        # of the load on link 1 as Lagrange's equations have it, only what the base itself does is work put in
-        supply += base_rate * spring - rate[:, 0] * (joint.stiffness * base_angle + joint.damping * base_rate)
+        for place in np.flatnonzero(arm.inner < 0):
+            joint, moved = scene.joints[place], rate[:, place]
+            spring = joint.stiffness * (base_angle + joint.rest - angle[:, place]) + joint.damping * (
+                base_rate - moved
+            )
+            # of the load as Lagrange's equations have it, only what the base itself does is work put in
+            supply += base_rate * spring - moved * (joint.stiffness * base_angle + joint.damping * base_rate)
     return Energy(
         time,
         kinetic_energy(arm, angle, rate),
@@ -129,7 +130,9 @@ def dissipation(arm: Arm, time: Array, rate: Array) -> Array:
     found: Array = np.sum(rate * arm.damper_torques(rate), axis=1)
     if arm.scene.prescribed:
         _, base_rate = arm.base_motion(time)
-        found += arm.scene.joints[0].damping * (base_rate**2 - 2.0 * base_rate * rate[:, 0])
+        for place in np.flatnonzero(arm.inner < 0):
+            damping = arm.scene.joints[place].damping
+            found += damping * (base_rate**2 - 2.0 * base_rate * rate[:, place])
     return found
 
 

@@ -75,7 +75,31 @@ class Arm:
         """Along -y, m/s^2."""
         return self.scene.model.gravity or 0.0
 
-    # -- sums over the chain, each as long as the chain -------------------------------------------------------
+    # -- what hangs on what ------------------------------------------------------------------------------------
+
+    @cached_property
+    def inner(self) -> NDArray[np.int_]:
+        """Coordinate on the inner side of each joint, (joints,); -1 where that is no coordinate but the base."""
+        return np.array([self.scene.host(j + 1) - 1 + self.first for j in range(self.scene.stations)])
+
+    @cached_property
+    def paths(self) -> Array:
+        """Whether a coordinate (column) lies between the base and another (row), itself included, (n, n)."""
+        found = np.eye(len(self.lengths))
+        for joint, inner in enumerate(self.inner):
+            if inner >= 0:
+                found[joint + self.first] += found[inner]
+        return found
+
+    def along(self, x: Array) -> Array:
+        """Sum values from the base to each coordinate, (..., n)."""
+        return x @ self.paths.T if self.scene.hosts else np.cumsum(x, axis=-1)
+
+    def beyond(self, x: Array) -> Array:
+        """Sum values of each coordinate and all that it carries, (..., n)."""
+        return x @ self.paths if self.scene.hosts else np.cumsum(x[..., ::-1], axis=-1)[..., ::-1]
+
+    # -- sums over the arm, each as long as the arm ------------------------------------------------------------
 
     @cached_property
     def _centers(self) -> Array:
@@ -84,7 +108,7 @@ class Arm:
 
     def walked(self, x: Array) -> Array:
         """Sum lever arms times values from the base to each body, (..., n) to (..., bodies); the tip is last."""
-        ends = np.cumsum(self.lengths * x, axis=-1)
+        ends = self.along(self.lengths * x)
         found = np.empty((*x.shape[:-1], x.shape[-1] + 1 - self.first))
         found[..., :-1] = (ends - self.lengths * x + self._centers * x)[..., self.first :]
         found[..., -1] = ends[..., -1]
@@ -92,11 +116,11 @@ class Arm:
 
     def gathered(self, forces: Array) -> Array:
         """Sum forces on the bodies times their lever arms in each link, (..., bodies) to (..., n)."""
-        beyond = np.cumsum(forces[..., ::-1], axis=-1)[..., ::-1]
-        found = np.zeros((*forces.shape[:-1], len(self.lengths)))
-        own = slice(self.first, None)
-        found[..., own] = self.lengths[own] * beyond[..., 1:] + self._centers[own] * forces[..., :-1]
-        return found
+        links = np.zeros((*forces.shape[:-1], len(self.lengths)))
+        links[..., self.first :] = forces[..., :-1]
+        at_ends = np.zeros_like(links)
+        at_ends[..., -1] = forces[..., -1]
+        return self.lengths * (self.beyond(links + at_ends) - links) + self._centers * links
 
     @cached_property
     def rotors(self) -> Array:
@@ -116,16 +140,16 @@ class Arm:
 
     def bent(self, x: Array) -> Array:
         """Return differences across the joints, (..., n) to (..., joints); a base that is no coordinate is zero."""
-        padded = x if self.first else np.concatenate([np.zeros((*x.shape[:-1], 1)), x], axis=-1)
-        return np.diff(padded, axis=-1)
+        padded = np.concatenate([x, np.zeros((*x.shape[:-1], 1))], axis=-1)  # the base comes last, at -1
+        return np.asarray(x[..., self.first :] - padded[..., self.inner])
 
     def _pulled(self, torques: Array) -> Array:
         """Return what torques in the joints do to the coordinates, (..., joints) to (..., n)."""
-        found = np.zeros((*torques.shape[:-1], len(self.lengths)))
-        found[..., self.first :] += torques
-        inner = torques if self.first else torques[..., 1:]
-        found[..., : inner.shape[-1]] -= inner
-        return found
+        found = np.zeros((*torques.shape[:-1], len(self.lengths) + 1))  # the base comes last, at -1
+        found[..., self.first : -1] += torques
+        for joint, inner in enumerate(self.inner):
+            found[..., inner] -= torques[..., joint]
+        return found[..., :-1]
 
     def spring_torques(self, q: Array) -> Array:
         """Return what springs exert against angles, (..., n), N m."""
@@ -145,8 +169,7 @@ class Arm:
     def strained(self, times: Array, q: Array) -> Array:
         """Return what the springs of the joints are wound up by, (k, joints), rad."""
         found = self.bent(q) - self.slack
-        if not self.first:
-            found[:, 0] -= self.base_motion(times)[0]
+        found[:, self.inner < 0] -= self.base_motion(times)[0][:, None]
         return found
 
     # -- the same as matrices ----------------------------------------------------------------------------------
@@ -190,15 +213,17 @@ class Arm:
         for item in self.scene.inputs:
             values = np.broadcast_to(self.signal(item.name).at(times), times.shape)
             place = station_of(item.at, self.scene.stations) - 1 + self.first
-            if item.acts == "angle":  # through the spring and the damper of joint 1
-                joint = self.scene.joints[0]
+            if item.acts == "angle":  # through the springs and the dampers of joints on the base
                 rate = self.signal(item.name).slope(times)
-                torque[:, 0] += joint.stiffness * values + joint.damping * rate
+                for on_base in np.flatnonzero(self.inner < 0):
+                    joint = self.scene.joints[on_base]
+                    torque[:, on_base] += joint.stiffness * values + joint.damping * rate
             elif item.acts == "drive":  # between both sides of the joint
                 geared = self.scene.joints[place - self.first].gear * values
                 torque[:, place] += geared
-                if place:
-                    torque[:, place - 1] -= geared
+                on = int(self.inner[place - self.first])
+                if on >= 0:
+                    torque[:, on] -= geared
             else:
                 {"torque": torque, "force_x": along_x, "force_y": along_y}[item.acts][:, place] += values
         return torque, along_x, along_y
@@ -223,7 +248,7 @@ class Arm:
         across = self.gathered(self.masses * self.walked(s * a + c * v**2))
         inertial = c * along + s * across + self.inertias * a
         weight = self.gravity * self.moments * c
-        beyond_x, beyond_y = (np.cumsum(f[:, ::-1], axis=1)[:, ::-1] for f in (force_x, force_y))
+        beyond_x, beyond_y = self.beyond(force_x), self.beyond(force_y)
         pushed = self.lengths * (c * beyond_y - s * beyond_x)
         joints = self.spring_torques(q) + self.damper_torques(v)
         if self.rotors.any():
@@ -243,7 +268,7 @@ class Arm:
         by_q = pull + stiffness
         by_q[:, diagonal, diagonal] -= pull.sum(axis=2)
         by_q[:, diagonal, diagonal] -= self.gravity * self.moments * np.sin(q)
-        beyond_x, beyond_y = (np.cumsum(f[:, ::-1], axis=1)[:, ::-1] for f in (force_x, force_y))
+        beyond_x, beyond_y = self.beyond(force_x), self.beyond(force_y)
         by_q[:, diagonal, diagonal] += self.lengths * (np.sin(q) * beyond_y + np.cos(q) * beyond_x)
         by_v = 2.0 * sine * v[:, None, :] + damping
         by_a = cosine + self.own_inertias

@@ -39,7 +39,7 @@ def vibration(scene: Scene) -> Vibration:
     hub = len(mass) - scene.stations
     stiffness = np.array([joint.stiffness for joint in scene.joints])
     # joints without a spring, and a free hub, let all beyond them turn, whatever the numbers are
-    unit = np.tri(len(mass), scene.stations, -hub)
+    unit = arm.paths[:, hub:]
     held = stiffness > 0.0
     turning = hub + int(np.sum(~held))
     # angles for a unit of energy in each joint: no stiffness hides the slowest swing

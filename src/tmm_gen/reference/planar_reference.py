@@ -71,9 +71,8 @@ def read(arm: Arm, output: Output, times: Array, q: Array, v: Array, a: Array) -
             (q, v, a)[quantity.order][:, place] if place >= 0 else arm.base_motion(times)[quantity.order]
         ]
     elif quantity.read == "bend":
-        place, moved = station - 1 + arm.first, (q, v)[quantity.order]
-        inner = moved[:, place - 1] if place else arm.base_motion(times)[quantity.order]
-        values = [moved[:, place] - inner]
+        moved = (q, v)[quantity.order]
+        values = [arm.bent(moved)[:, station - 1] - _ground(arm, station, times)[quantity.order]]
     elif quantity.read == "through":
         values = [_through(arm, station, times, q, v, a)]
     elif quantity.read == "energy":
@@ -84,9 +83,17 @@ def read(arm: Arm, output: Output, times: Array, q: Array, v: Array, a: Array) -
         joint = arm.scene.stations + 1 if output.at == "tip" else max(station, 1)
         values = list(_force(arm, joint, times, q, v, a))
     else:
-        lever = np.where(np.arange(len(arm.lengths)) < station + arm.first, arm.lengths, 0.0)
+        on_the_way = arm.paths[station - 1 + arm.first] if station else 0.0
+        lever = arm.lengths * on_the_way
         values = list(arm.point(quantity.order, lever, q, v, a))
     return dict(zip(quantity.columns(output.name), values, strict=True))
+
+
+def _ground(arm: Arm, number: int, times: Array) -> tuple[Array, Array]:
+    """Return the angle and the rate on the inner side of a joint where that is a prescribed base, zero elsewhere."""
+    angle, rate = arm.base_motion(times)
+    on_base = float(arm.inner[number - 1] < 0)
+    return on_base * angle, on_base * rate
 
 
 def _energy(arm: Arm, which: str, times: Array, q: Array, v: Array) -> Array:
@@ -110,20 +117,16 @@ def _torque(arm: Arm, output: Output, times: Array, q: Array, v: Array, a: Array
         )
         return np.asarray(outside - arm.scene.tip.inertia * a[:, -1])
     number = max(station_of(output.at, arm.scene.stations), 1)
-    joint, outer = arm.scene.joints[number - 1], number - 1 + arm.first
-    angle, rate = q[:, outer], v[:, outer]
-    if outer:
-        return joint.stiffness * (angle - q[:, outer - 1]) + joint.damping * (rate - v[:, outer - 1])
-    base_angle, base_rate = arm.base_motion(times)
-    return joint.stiffness * (angle - base_angle) + joint.damping * (rate - base_rate)
+    joint, (angle, rate) = arm.scene.joints[number - 1], _ground(arm, number, times)
+    bent, bent_rate = arm.bent(q)[:, number - 1] - angle, arm.bent(v)[:, number - 1] - rate
+    return joint.stiffness * bent + joint.damping * bent_rate
 
 
 def _through(arm: Arm, number: int, times: Array, q: Array, v: Array, a: Array) -> Array:
     """Return the torque of a joint's inner side on the outer one: motor, spring, damper, less what its rotor takes."""
-    joint, outer = arm.scene.joints[number - 1], number - 1 + arm.first
-    bent, bent_rate = arm.strained(times, q)[:, number - 1], arm.bent(v)[:, number - 1]
-    if not outer:
-        bent_rate = bent_rate - arm.base_motion(times)[1]
+    joint = arm.scene.joints[number - 1]
+    bent = arm.strained(times, q)[:, number - 1]
+    bent_rate = arm.bent(v)[:, number - 1] - _ground(arm, number, times)[1]
     drive = sum(
         (
             joint.gear * np.broadcast_to(arm.signal(i.name).at(times), times.shape)
@@ -140,11 +143,15 @@ def _force(arm: Arm, joint: int, times: Array, q: Array, v: Array, a: Array) -> 
     """Return the force on everything beyond a joint: its change of momentum, less weight and loads."""
     _, load_x, load_y = arm.loads(times)
     x, y = np.zeros((2, len(times)))
-    for body in range(joint - 1, arm.scene.stations + 1):
+    place = min(joint, arm.scene.stations) - 1 + arm.first
+    beyond = arm.paths[:, place] > 0.0
+    bodies = np.append(beyond[arm.first :], beyond[-1])
+    if joint > arm.scene.stations:
+        bodies[:-1] = False
+    for body in np.flatnonzero(bodies):
         ax, ay = arm.point(2, arm.levers[body], q, v, a)
         x, y = x + arm.masses[body] * ax, y + arm.masses[body] * (ay + arm.gravity)
-    beyond = min(joint, arm.scene.stations) - 1 + arm.first
-    return x - load_x[:, beyond:].sum(axis=1), y - load_y[:, beyond:].sum(axis=1)
+    return x - load_x[:, beyond].sum(axis=1), y - load_y[:, beyond].sum(axis=1)
 
 
 def dissipated(arm: Arm, trajectory: Trajectory, times: Array) -> Array:

@@ -62,7 +62,7 @@ def planar_row(scene: Scene, integrator: str) -> Row:
         )
         alike = len({(link.mass, link.center) for link in scene.links}) == 1
         if (
-            alike
+            alike and not scene.hosts
         ):  # neighbours at a node make up one link's mass; what that is too much, the tip takes off again
             end_mass = Combination(
                 "end_mass",
@@ -136,6 +136,7 @@ def planar_row(scene: Scene, integrator: str) -> Row:
         facts=facts_of(scene, model, integrator, linearisation=scene.model.linearisation + iterations),
         angles=tuple(scene.initial.angles),
         rates=tuple(scene.initial.rates),
+        hosts=tuple(host - 1 for host in scene.hosts),
     )
 
 

@@ -158,6 +158,9 @@ class Row:
         For headers.
     angles, rates : tuple of float
         To start from.
+    hosts : tuple of int
+        Index of the station on whose outer end each one hangs, -1 for the base; each branch stands to its end before
+        the next. Empty where each station carries the next.
     """
 
     name: str
@@ -183,12 +186,33 @@ class Row:
     facts: dict[str, str] = field(default_factory=dict)
     angles: tuple[float, ...] = ()
     rates: tuple[float, ...] = ()
+    hosts: tuple[int, ...] = ()
+
+    def host(self, station: int) -> int:
+        """Return the index of the station on whose outer end one hangs, -1 for the base."""
+        return self.hosts[station] if self.hosts else station - 1
+
+    def carried(self, station: int) -> tuple[int, ...]:
+        """Return the stations that hang on one's outer end; -1 is the base."""
+        if not self.hosts:
+            return (station + 1,) if station + 1 < len(self.stations) else ()
+        return tuple(index for index, host in enumerate(self.hosts) if host == station)
+
+    def beyond(self, station: int) -> int:
+        """Return where what a station carries ends: the index behind the last one."""
+        behind = (k for k in range(station + 1, len(self.stations)) if self.host(k) < station)
+        return next(behind, len(self.stations))
 
     def runs(self, stations: tuple[Elements, ...] | None = None) -> tuple[tuple[int, int, Elements], ...]:
-        """Return runs of stations of the same elements: from where to where, and which."""
+        """Return runs of stations of the same elements: from where to where, and which.
+
+        The first station of a branch is a run of its own; where others hang on a station, a run ends.
+        """
+        rooted = {k for k, host in enumerate(self.hosts) if host != k - 1}
+        begins = rooted | {k + 1 for k in rooted} | {self.hosts[k] + 1 for k in rooted}
         found: list[tuple[int, int, Elements]] = []
         for index, elements in enumerate(self.stations if stations is None else stations):
-            if found and found[-1][2] == elements:
+            if found and found[-1][2] == elements and index not in begins:
                 found[-1] = (found[-1][0], index + 1, elements)
             else:
                 found.append((index, index + 1, elements))

@@ -57,6 +57,8 @@ class Scene:
         Controller of the arm.
     parts : tuple of PlacedPart
         The parts by name that joints and links came from, base to tip; none where the file writes no parts.
+    hosts : tuple of int
+        Number of the link on whose outer end each joint stands, 0 for the base; empty where each link carries the next.
     """
 
     name: str
@@ -75,12 +77,14 @@ class Scene:
     control: Control | None
     source: Source = field(repr=False)
     parts: tuple[PlacedPart, ...] = ()
+    hosts: tuple[int, ...] = ()
     digest: str = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
         """Fingerprint the content, which is all fields but the source."""
         names = [item.name for item in fields(self) if item.name not in ("source", "digest")]
-        content = {name: getattr(self, name) for name in names if name != "parts" or self.parts}
+        told = [name for name in names if name not in ("parts", "hosts") or getattr(self, name)]
+        content = {name: getattr(self, name) for name in told}
         object.__setattr__(self, "digest", content_digest(content))
 
     @property
@@ -92,6 +96,10 @@ class Scene:
     def hub(self) -> int:
         """Coordinates before that of link 1: 1 of a hub that turns freely, 0 where the base is held or prescribed."""
         return int(self.base.kind == "motor")
+
+    def host(self, joint: int) -> int:
+        """Return the number of the link on whose outer end a joint stands, 0 for the base; both count from 1."""
+        return self.hosts[joint - 1] if self.hosts else joint - 1
 
     @property
     def prescribed(self) -> Input | None:
@@ -161,6 +169,7 @@ def scene_of(document: Document, source: Source) -> Scene:
             ),
             tip=made.tip,
             parts=made.parts,
+            hosts=made.hosts if made.hosts != tuple(range(len(made.hosts))) else (),
         )
     inputs = tuple(Input(name=item.name, at=item.at, acts=item.acts) for item in document.input)
     outputs = tuple(Output(name=item.name, at=item.at, of=item.of) for item in document.output)

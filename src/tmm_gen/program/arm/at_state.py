@@ -12,6 +12,7 @@ from tmm_gen.derive.station.frame import INNER, OUTER
 from tmm_gen.derive.station.lets import Line, Pivot, Update
 from tmm_gen.derive.station.reading import TOTAL, kinds_of, place, walk
 from tmm_gen.program.arm.binding import Binding, Scratch
+from tmm_gen.program.arm.branches import from_fork, kept_at_fork, resumed
 from tmm_gen.program.arm.layout import Layout
 from tmm_gen.program.statements import Assign, Loop, Order, Statement
 from tmm_gen.program.variables import Ref
@@ -53,20 +54,21 @@ class AtState:
             values[sp.Symbol(name)] = variable.at() if index is None else variable.entry(max(index, 0))
         for kind in KINDS:
             state = layout.state[Past(kind, 0)]
-            values[INNER[kind]] = state.at(-1) if index is None else self.motion(max(index, 0), kind)
+            inner = 0 if index is None or index < 0 else layout.row.host(index) + 1
+            values[INNER[kind]] = state.at(-1) if index is None else self.motion(inner, kind)
             values[OUTER[kind]] = state.at() if index is None else self.motion(index + 1, kind)
         values |= {sp.Symbol(name, real=True): value for name, value in more.items()}
         return Binding(self.scratch, values)
 
     def loop(self, lines: Sequence[Line], start: int, stop: int, **more: sp.Expr) -> list[Statement]:
-        """Write lines for a run of stations; the first one's inner side is the base."""
+        """Write lines for a run of stations; the first one's inner side is the base, or where a branch begins."""
         if not lines or start >= stop:
             return []
         inner = any(symbols & set(INNER.values()) for symbols in map(_symbols, lines))
-        if not inner or start > 0:
+        if not inner or self.layout.row.host(start) == start - 1 >= 0:
             return [Loop(Order.OUTWARD, start, stop, tuple(self.at_station(None, **more).lines(lines)))]
-        first: list[Statement] = list(self.at_station(0, **more).lines(lines))
-        return [*first, *self.loop(lines, 1, stop, **more)]
+        first: list[Statement] = list(self.at_station(start, **more).lines(lines))
+        return [*first, *self.loop(lines, start + 1, stop, **more)]
 
     def summed(self, energy: str, target: Ref, *, loops_only: bool = False) -> list[Statement]:
         """Return the statements that add up an energy of the whole row."""
@@ -80,14 +82,15 @@ class AtState:
         total = {TOTAL.name: target}
         zero = sp.Integer(0)
         found: list[Statement] = [Assign(target, zero)]
-        found += [
-            Assign(self.scratch.ref(place(c, kind).name), zero) for c in carried for kind in sorted(kinds)
-        ]
+        places = [self.scratch.ref(place(c, kind).name) for c in carried for kind in sorted(kinds)]
+        found += [Assign(ref, zero) for ref in places]
         at_base = walk(row.base, row.coordinates, kinds, energy, moved=True)
         found += self.at_station(-1, **total).lines(at_base)
         for start, stop, elements in row.runs(row.detail):
             lines = walk(elements, row.coordinates, kinds, energy)
+            found += resumed(row, start, from_fork(places))
             found += self.loop(lines, start, stop, **total)
+            found += kept_at_fork(row, stop, places)
         at_tip = walk(row.detail_tail, row.coordinates, kinds, energy, moved=True)
         found += self.at_station(self.layout.stations - 1, **total).lines(at_tip)
         return found

@@ -48,8 +48,17 @@ class Combinations:
             return
         if n > 1:
             self._statements.append(Loop(Order.OUTWARD, 0, n - 1, (Assign(variable.at(), own + beyond),)))
-        last = self._entry(found.own, n - 1) + self._entry(found.last, n - 1)
-        self._statements.append(Assign(variable.entry(n - 1), last))
+        for index in self._otherwise():
+            value = self._entry(found.own, index)
+            value += sp.Add(*(self._entry(found.beyond, k) for k in self._layout.row.carried(index)))
+            value += self._entry(found.last, index) if index == n - 1 else 0
+            self._statements.append(Assign(variable.entry(index), value))
+
+    def _otherwise(self) -> list[int]:
+        """Return the stations that do not carry the next one alone, the last above all."""
+        row, n = self._layout.row, self._layout.stations
+        rooted = [k for k, host in enumerate(row.hosts) if host != k - 1]
+        return sorted({n - 1, *(k - 1 for k in rooted), *(row.hosts[k] for k in rooted)} - {-1})
 
     def _at(self, value: sp.Expr, offset: int) -> sp.Expr:
         return _bound(value, {s: v.at(offset) for s, v in self._symbols().items()})

@@ -16,6 +16,7 @@ from tmm_gen.derive.station.reading import exact_forces, place, walk
 from tmm_gen.derive.station.station import outward
 from tmm_gen.program.arm.at_state import AtState
 from tmm_gen.program.arm.binding import Binding
+from tmm_gen.program.arm.branches import resumed, rooted
 from tmm_gen.program.arm.layout import Layout
 from tmm_gen.program.statements import Assign, Loop, Order, Routine, Section, Statement
 from tmm_gen.program.variables import Ref, Role, Variable
@@ -69,7 +70,7 @@ class Readings:
     def _bend(self, reading: Reading, targets: list[Ref]) -> list[Statement]:
         outer, inner = (
             self._at.motion(station, reading.kind)  # type: ignore[arg-type]
-            for station in (reading.station, reading.station - 1)
+            for station in (reading.station, self._row.host(reading.station - 1) + 1)
         )
         return [Assign(targets[0], outer - inner)]
 
@@ -96,9 +97,19 @@ class Readings:
         carried = [c for c in row.coordinates if not c.integrated]
         names = {place(c, reading.kind).name: t for c, t in zip(carried, targets, strict=True)}
         found: list[Statement] = [Assign(t, ZERO) for t in targets]
+        within = self._inward_of(reading.station)
         for start, stop, elements in row.runs():
-            lines = walk(elements, row.coordinates, frozenset({reading.kind}), None)
-            found += self._at.loop(lines, start, min(stop, reading.station), **names)
+            if start in within:
+                lines = walk(elements, row.coordinates, frozenset({reading.kind}), None)
+                found += self._at.loop(lines, start, min(stop, reading.station), **names)
+        return found
+
+    def _inward_of(self, station: int) -> set[int]:
+        """Return the indices of the stations from a station, counted from 1, to the base."""
+        found, index = set(), station - 1
+        while index >= 0:
+            found.add(index)
+            index = self._row.host(index)
         return found
 
     def _force(self, reading: Reading, targets: list[Ref]) -> list[Statement]:
@@ -126,12 +137,14 @@ class Readings:
                 *self._at.at_station(None).lines(lines),
                 *(Assign(v.at(1), moving[name]) for name, v in nodes.items()),
             ]
-            found.append(Loop(Order.OUTWARD, start, stop, tuple(body)))
+            found += resumed(row, start, {moving[name]: v.entry for name, v in nodes.items()})
+            found.append(rooted(row, Loop(Order.OUTWARD, start, stop, tuple(body))))
         names = dict(zip([c.name for c in carried], targets, strict=True))
+        to_tip = row.beyond(reading.station - 1) == n
         beyond = self._beyond({name: v.entry(n) for name, v in nodes.items()})
         for i, c in enumerate(row.coordinates):
             if not c.integrated:
-                found.append(Assign(names[c.name], beyond[i]))
+                found.append(Assign(names[c.name], beyond[i] if to_tip else ZERO))
         return [*found, *self._forces_in(reading.station, nodes, names)]
 
     def _forces_in(self, joint: int, nodes: dict[str, Variable], names: dict[str, Ref]) -> list[Statement]:
@@ -140,9 +153,10 @@ class Readings:
         wanted = {s for s, c in zip(forces, row.coordinates, strict=True) if not c.integrated}
         fill, loads = self._held_loads()
         found: list[Statement] = list(fill)
+        end = row.beyond(joint - 1)
         for start, stop, elements in reversed(row.runs(row.detail)):
             first = max(start, joint - 1)
-            if first >= stop:
+            if first >= stop or start >= end:
                 continue
             out = outward(elements, _plain(row.coordinates))
             lines = [
@@ -157,7 +171,7 @@ class Readings:
                 if not c.integrated:
                     values[symbol] = names[c.name]
             body = Binding(self._at.scratch, values).lines(lines)
-            found.append(Loop(Order.INWARD, first, stop, tuple(body)))
+            found.append(rooted(row, Loop(Order.INWARD, first, stop, tuple(body))))
         return found
 
     def _beyond(self, nodes: dict[str, sp.Expr] | None = None) -> list[sp.Expr]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -27,10 +27,11 @@ from tmm_gen.derive.station.law import KINDS
 from tmm_gen.derive.station.lets import Let, Line, Pivot, Update, composed
 from tmm_gen.derive.station.station import ceasing, everything, inward, outward, recurring
 from tmm_gen.program.arm.binding import Binding, Scratch
+from tmm_gen.program.arm.branches import Gathered, from_fork, kept_at_fork, resumed, rooted
 from tmm_gen.program.arm.layout import Layout
 from tmm_gen.program.arm.loads import Loads
 from tmm_gen.program.arm.motion import Held, Moving
-from tmm_gen.program.statements import Assign, Loop, Order, Section, Statement
+from tmm_gen.program.statements import Assign, Loop, Order, Require, Section, Statement
 from tmm_gen.program.variables import Ref, Role, Variable, local, refs_in
 
 BASE = 0
@@ -175,17 +176,19 @@ class Walks:
             for name, ref in zip(self.nodes, carried.values(), strict=True)
         }
         along = Binding(self.scratch, {**here.values, **carried, **moving})
+        kept = {ref: v.entry for ref, v in zip(carried.values(), self.nodes.values(), strict=True)}
         for start, stop, elements in self.runs:
             lets = outward(elements, self.frame).lets
             self.scratch.describe(let for let in lets if let.symbol not in moving)
             at_nodes = _depending(lets, set(carried))
             still = [let for let in lets if let not in at_nodes]
             if still:
-                first.append(Loop(Order.OUTWARD, start, stop, tuple(here.lines(still))))
+                first.append(self.over(Order.OUTWARD, start, stop, here.lines(still)))
             if at_nodes:
+                walk += resumed(self.layout.row, start, kept)
                 body = [Assign(along.target(let.symbol), along.value(let.value)) for let in at_nodes]
                 body += [Assign(v.at(1), self.scratch.ref(f"node_{name}")) for name, v in self.nodes.items()]
-                walk.append(Loop(Order.OUTWARD, start, stop, tuple(body)))
+                walk.append(self.over(Order.OUTWARD, start, stop, body))
         return [*first, *self._start_nodes(), *walk] if walk else first
 
     def _start_nodes(self) -> list[Statement]:
@@ -202,7 +205,7 @@ class Walks:
         found: list[Statement] = self.loads.filled(self._driven)
         for (start, stop, _), derived in zip(self.runs, self._inwards, strict=True):
             if derived.known:
-                found.append(Loop(Order.OUTWARD, start, stop, tuple(here.lines(derived.known))))
+                found.append(self.over(Order.OUTWARD, start, stop, here.lines(derived.known)))
         return found
 
     @property
@@ -214,17 +217,38 @@ class Walks:
         """Walk in with the force beyond each place as an affine function of the motion there."""
         here = self.at_station()
         found: list[Statement] = self.loads.filled_besides(self._driven)
-        arriving, begin = self._tail.zero, self.tail()
         unread = set() if self.frame.predicted else set(map(predicted_force, self.frame.coordinates))
-        for (start, stop, _), derived in reversed(list(zip(self.runs, self._inwards, strict=True))):
+        row, gathered = self.layout.row, Gathered(self.layout.row)
+        for (start, stop, _), derived, arriving in reversed(
+            list(zip(self.runs, self._inwards, self._arriving, strict=True))
+        ):
+            begin = self.tail() if stop == len(row.stations) else {}
+            begin |= self._joined(gathered, stop - 1, arriving)
             begin |= dict.fromkeys(arriving - derived.arriving - unread, sp.Integer(0))
             for symbol in _entries(self.frame):
                 if symbol in begin:
                     found.append(Assign(self.scratch.ref(symbol.name), begin[symbol]))
             lines = [*derived.lines, *ceasing(derived, stop - start)]
-            found.append(Loop(Order.INWARD, start, stop, tuple(here.lines(lines))))
-            arriving, begin = derived.zero, {}
+            found.append(self.over(Order.INWARD, start, stop, here.lines(lines)))
+            found += gathered.leave(start, self._carried(derived.zero))
+        if row.boundary == "free":
+            at_base = self._joined(gathered, BASE - 1, self._at_base)
+            found += [Assign(self.scratch.ref(s.name), value) for s, value in at_base.items()]
         return found
+
+    def over(self, order: Order, start: int, stop: int, body: Sequence[Assign | Require]) -> Loop:
+        """Return a loop over a run of stations."""
+        return rooted(self.layout.row, Loop(order, start, stop, tuple(body)))
+
+    def _carried(self, zero: Collection[sp.Symbol]) -> list[Ref]:
+        """Return the scalars of the walk inward that are not known to be zero."""
+        return [self.scratch.ref(s.name) for s in _entries(self.frame) if s not in zero]
+
+    def _joined(
+        self, gathered: Gathered, station: int, zero: Collection[sp.Symbol]
+    ) -> dict[sp.Symbol, sp.Expr]:
+        values = gathered.joined(station, self._carried(zero))
+        return {sp.Symbol(ref.name, real=True): value for ref, value in values.items()}
 
     def tail(self) -> dict[sp.Symbol, sp.Expr]:
         """Return what stands beyond the last station, as forces there."""
@@ -236,19 +260,23 @@ class Walks:
         """Solve for the unknown of the base."""
         here, unknown = self.at_node(BASE), self.scratch.ref("unknown")
         boundary = self.layout.row.boundary
-        if boundary == "held":
-            return [Assign(unknown, sp.Integer(0))]
-        if boundary == "prescribed":
-            return [Assign(unknown, prescribed_unknown(self.frame.still, self.loads))]
+        if boundary != "free":
+            return [Assign(unknown, self._unknown_of_base())]
         return [*here.lines(self._free_base()), Assign(hub_unknown(), unknown)]
+
+    def _unknown_of_base(self) -> sp.Expr:
+        boundary = self.layout.row.boundary
+        if boundary == "held":
+            return sp.Integer(0)
+        return hub_unknown() if boundary == "free" else prescribed_unknown(self.frame.still, self.loads)
 
     def _free_base(self) -> list[Line]:
         frame = self.frame
         own = frame.coordinates[frame.own]
-        derived = inward(self.layout.row.base, frame, self._inwards[0].zero, moved=True)
+        derived = inward(self.layout.row.base, frame, self._at_base, moved=True)
         left = composed(derived.lines)
         stiffness, bias = left.get(impedance(own, own), impedance(own, own)), left.get(force(own), force(own))
-        if impedance(own, own) in self._inwards[0].zero:
+        if impedance(own, own) in self._at_base:
             stiffness = stiffness.subs(impedance(own, own), 0)
         sign = sp.Integer(frame.sign)
         constant = sp.expand(sign * (stiffness - stiffness.coeff(impedance(own, own)) * impedance(own, own)))
@@ -270,12 +298,19 @@ class Walks:
     def answers(self) -> list[Statement]:
         """Walk out with the unknowns."""
         here, unknown = self.at_station(), self.scratch.ref("unknown")
-        moved = [change(c) for c in self.frame.coordinates if not c.integrated]
-        found: list[Statement] = [Assign(self.scratch.ref(s.name), sp.Integer(0)) for s in moved]
+        row, zero = self.layout.row, sp.Integer(0)
+        moved = [self.scratch.ref(change(c).name) for c in self.frame.coordinates if not c.integrated]
+        found: list[Statement] = [Assign(ref, zero) for ref in moved]
         for (start, stop, _), derived in zip(self.runs, self._inwards, strict=True):
+            found += resumed(row, start, from_fork(moved) | {unknown: self._solved_at})
             body = [*here.lines(back(derived)), Assign(self.solved.at(), unknown), *self.after_answer()]
-            found.append(Loop(Order.OUTWARD, start, stop, tuple(body)))
+            found.append(self.over(Order.OUTWARD, start, stop, body))
+            found += kept_at_fork(row, stop, moved)
         return found
+
+    def _solved_at(self, node: int) -> sp.Expr:
+        """Return the unknown at a node, counted from the base."""
+        return self.solved.entry(node - 1) if node else self._unknown_of_base()
 
     def after_update(self) -> list[Statement]:
         """Return updates of other states than motion of stations; they read the history before it ages."""
@@ -288,13 +323,21 @@ class Walks:
     # -- derivation ----------------------------------------------------------------------------------------
 
     def _derive(self) -> list[Inward]:
-        self._tail = inward(self.layout.row.tail, self.frame, everything(self.frame), moved=True)
-        zero = self._tail.zero
+        row = self.layout.row
+        self._tail = inward(row.tail, self.frame, everything(self.frame), moved=True)
+        self._arriving: list[frozenset[sp.Symbol]] = []
+        """What is known to be zero beyond each run."""
         found: list[Inward] = []
+        begun: dict[int, frozenset[sp.Symbol]] = {}
         for start, stop, elements in reversed(self.runs):
+            zero = self._tail.zero if stop == len(row.stations) else everything(self.frame)
+            for station in row.carried(stop - 1):
+                zero &= begun[station]
             derived = recurring(elements, self.frame, zero, stop - start)
-            zero = derived.zero
+            begun[start] = derived.zero
+            self._arriving.insert(0, zero)
             found.insert(0, derived)
+        self._at_base = frozenset.intersection(*(begun[station] for station in row.carried(BASE - 1)))
         return found
 
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import sympy as sp
@@ -15,10 +16,11 @@ from tmm_gen.derive.station.motion import Outward
 from tmm_gen.derive.station.station import outward
 from tmm_gen.derive.station.tangent import SOLVED, Tangent, beyond, solved_force, solved_node
 from tmm_gen.program.arm.binding import Binding
+from tmm_gen.program.arm.branches import Gathered, resumed
 from tmm_gen.program.arm.layout import Layout
 from tmm_gen.program.arm.walks import BASE, UNKNOWN, Walks, hub_unknown
 from tmm_gen.program.sensitivities.point import Point
-from tmm_gen.program.statements import Assign, Loop, Order, Section, Statement
+from tmm_gen.program.statements import Assign, Loop, Order, Require, Section, Statement
 from tmm_gen.program.variables import Role, Variable, refs_in
 
 ZERO = sp.Integer(0)
@@ -43,6 +45,23 @@ class TangentableWalks(Walks):
             found.append((start, stop, derived, out, Tangent(derived, out)))
         return found
 
+    def _walk_in(
+        self, at_tip: Mapping[sp.Symbol, sp.Expr], bodies: Sequence[Sequence[Assign | Require]]
+    ) -> list[Statement]:
+        """Walk inward with scalars that begin with given values at the tip, and with zero where branches end."""
+        row, gathered = self.layout.row, Gathered(self.layout.row)
+        carried = {s: self.scratch.ref(s.name) for s in at_tip}
+        found: list[Statement] = []
+        for (start, stop, _), body in reversed(list(zip(self.runs, bodies, strict=True))):
+            begin = gathered.joined(stop - 1, carried.values())
+            if not row.carried(stop - 1):
+                begin = {ref: at_tip[s] if stop == len(row.stations) else ZERO for s, ref in carried.items()}
+            found += [Assign(ref, value) for ref, value in begin.items()]
+            found.append(self.over(Order.INWARD, start, stop, body))
+            found += gathered.leave(start, carried.values())
+        at_base = gathered.joined(BASE - 1, carried.values())
+        return [*found, *(Assign(ref, value) for ref, value in at_base.items())]
+
 
 class LinearisedWalks(TangentableWalks):
     """The same walks, which also keep their point of linearisation and their factors."""
@@ -63,7 +82,7 @@ class LinearisedWalks(TangentableWalks):
 
     def _keep(self) -> list[Statement]:
         """Walk out and in with motion and forces as solved."""
-        n, here = self.layout.stations, self.at_station()
+        row, n, here = self.layout.row, self.layout.stations, self.at_station()
         carried = [c for c in self.frame.coordinates if not c.integrated]
         solved = {c.name: _solved_node(c.name, n) for c in carried}
         values = dict(here.values)
@@ -84,22 +103,19 @@ class LinearisedWalks(TangentableWalks):
                 swing = sp.Add(*(p.swings.get(i, ZERO) for p in out.passed))
                 body.append(Assign(moved[c.name], moved[c.name] + here.value(swing) * self.solved.at()))
                 body.append(Assign(solved[c.name].at(1), self.nodes[c.name].at(1) + moved[c.name]))
-            found.append(Loop(Order.OUTWARD, start, stop, tuple(body)))
+            found += resumed(
+                row, start, {ref: partial(_moved, solved[c], self.nodes[c]) for c, ref in moved.items()}
+            )
+            found.append(self.over(Order.OUTWARD, start, stop, body))
         tip_values = dict(self.at_node(n).values) | {solved_node(c): solved[c.name].entry(n) for c in carried}
         last = self.solved.entry(n - 1)
         at_tip = Binding(self.scratch, tip_values | {SOLVED: last})
         tail = self._tail_tangent()
         left = composed(tail.keep_in)
-        for c in carried:
-            for symbol in (solved_force(c), predicted_force(c)):
-                value = left.get(symbol, symbol).subs(
-                    {s: 0 for x in carried for s in (solved_force(x), predicted_force(x))}
-                )
-                found.append(Assign(self.scratch.ref(symbol.name), at_tip.value(value)))
-        for start, stop, _, _, tangent in reversed(tangents):
-            lines = [*tangent.keep_out, *tangent.keep_in]
-            found.append(Loop(Order.INWARD, start, stop, tuple(keep.lines(lines))))
-        return found
+        forces = [s for c in carried for s in (solved_force(c), predicted_force(c))]
+        at_end = {s: at_tip.value(left.get(s, s).subs(dict.fromkeys(forces, 0))) for s in forces}
+        lines = [[*tangent.keep_out, *tangent.keep_in] for *_, tangent in tangents]
+        return [*found, *self._walk_in(at_end, [keep.lines(x) for x in lines])]
 
     def _tail_tangent(self) -> Tangent:
         row = self.layout.row
@@ -137,7 +153,7 @@ class TangentWalks(TangentableWalks):
         for start, stop, derived, _, _ in self._tangents:
             lets = [replace(let, value=_varying(let.value, changing)) for let in derived.known]
             if lets:
-                found.append(Loop(Order.OUTWARD, start, stop, tuple(here.lines(lets))))
+                found.append(self.over(Order.OUTWARD, start, stop, here.lines(lets)))
         return found
 
     def _nodes(self) -> list[Statement]:
@@ -155,7 +171,8 @@ class TangentWalks(TangentableWalks):
         for start, stop, _, _, tangent in self._tangents:
             body = along.lines(tangent.outward)
             body += [Assign(v.at(1), names[s]) for s, v in arrays.items()]
-            found.append(Loop(Order.OUTWARD, start, stop, tuple(body)))
+            found += resumed(self.layout.row, start, {names[s]: v.entry for s, v in arrays.items()})
+            found.append(self.over(Order.OUTWARD, start, stop, body))
         return found
 
     def _forces(self) -> list[Statement]:
@@ -172,15 +189,11 @@ class TangentWalks(TangentableWalks):
         symbols = [sp.Symbol(c.force, real=True) for c in self.frame.coordinates]
         symbols += [predicted_force(c) for c in carried]
         at_tip = Binding(self.scratch, there)
-        found: list[Statement] = self.loads.filled_besides(self._driven)
-        for symbol in symbols:
-            value = left.get(symbol, symbol).subs(dict.fromkeys(symbols, 0))
-            found.append(Assign(self.scratch.ref(symbol.name), at_tip.value(value)))
+        at_end = {s: at_tip.value(left.get(s, s).subs(dict.fromkeys(symbols, 0))) for s in symbols}
         binding = Binding(self.scratch, here)
-        for start, stop, derived, _, tangent in reversed(self._tangents):
-            lines = [*_early(derived.lines), *tangent.inward]
-            found.append(Loop(Order.INWARD, start, stop, tuple(binding.lines(lines))))
-        return found
+        lines = [[*_early(derived.lines), *tangent.inward] for *_, derived, _, tangent in self._tangents]
+        walk = self._walk_in(at_end, [binding.lines(x) for x in lines])
+        return [*self.loads.filled_besides(self._driven), *walk]
 
     def _base(self) -> list[Statement]:
         if self.layout.row.boundary != "free":
@@ -196,6 +209,11 @@ class TangentWalks(TangentableWalks):
             Update({UNKNOWN: value}),
         ]
         return [*here.lines(lines), Assign(hub_unknown(), self.scratch.ref("unknown"))]
+
+
+def _moved(solved: Variable, predicted: Variable, node: int) -> sp.Expr:
+    """Return the change of a node's acceleration by what the sweep has found."""
+    return solved.entry(node) - predicted.entry(node)
 
 
 def _varying(law: sp.Expr, changing: set[sp.Symbol]) -> sp.Expr:

@@ -1,4 +1,4 @@
-"""From parts that hang together to the joints and links of one row."""
+"""From parts that hang together to the joints and links of a row, and what each stands on."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, cast
 from tmm_gen.scene.beam import Beam, Tip, beam_joints, beam_links
 from tmm_gen.scene.exact import exact, nearest
 from tmm_gen.scene.initial import Initial, InitialTable
-from tmm_gen.scene.parts.order import Entry, Hanging, hanging
+from tmm_gen.scene.parts.order import BASE, Entry, Hanging, hanging
 from tmm_gen.scene.parts.tables import BeamPart, BodyPart, JointPart, LinkPart, MotorPart
 from tmm_gen.scene.signal import FileInput, FileOutput, Input, Output, Place
 from tmm_gen.scene.station import Joint, Link
@@ -55,15 +55,18 @@ class Expansion:
     joints : tuple of Joint, length n
     links : tuple of Link, length n
     tip : Tip or None
-        Bodies on the last part.
+        Bodies on the last part of an arm without branches; on other parts they are in the links.
     parts : tuple of PlacedPart
-        Base to tip.
+        From the base outward, branch by branch.
+    hosts : tuple of int, length n
+        Number of the link on whose outer end each joint stands, 0 for the base.
     """
 
     joints: tuple[Joint, ...]
     links: tuple[Link, ...]
     tip: Tip | None
     parts: tuple[PlacedPart, ...]
+    hosts: tuple[int, ...]
 
     @property
     def by_name(self) -> dict[str, PlacedPart]:
@@ -92,15 +95,18 @@ class Expansion:
 def expanded(document: PartsDocument) -> Expansion:
     """Expand parts that keep all rules."""
     hung = hanging(document.parts_by_table())
-    row = hung.row()
+    row = hung.outward()
+    branched = any(len(hung.carried(name)) > 1 for name in (BASE, *(entry.name for entry in row)))
     joints: list[Joint] = []
     links: list[Link] = []
+    hosts: list[int] = []
     parts: list[PlacedPart] = []
+    outer = {BASE: 0}
     pending: Joint | None = None
     for entry in row:
-        part = entry.part
+        part, host = entry.part, outer[hung.host(entry)]
         if isinstance(part, MotorPart | JointPart):
-            pending = _joint(part)
+            pending, outer[entry.name] = _joint(part), host
             parts.append(PlacedPart(entry.name, entry.table, joint=len(joints) + 1))
             continue
         first = len(links) + 1
@@ -112,6 +118,7 @@ def expanded(document: PartsDocument) -> Expansion:
             else:
                 joints.append(pending)
                 links.append(link)
+                hosts.append(host)
         else:
             assert isinstance(part, BeamPart)
             more = beam_joints(_beam(part)), beam_links(_beam(part))
@@ -119,15 +126,16 @@ def expanded(document: PartsDocument) -> Expansion:
                 more = (pending, *_springs(part)), _pieces(part)
             joints += more[0]
             links += more[1]
-        pending = None
+            hosts += (host, *range(first, len(links)))
+        pending, outer[entry.name] = None, len(links)
         bodies = hung.bodies(entry.name)
-        if entry is not row[-1]:
+        if branched or entry is not row[-1]:
             for body in bodies:
                 links[-1] = joined(links[-1], _weight(body))
         placed = PlacedPart(entry.name, entry.table, first=first, last=len(links), fixed=_fixed(hung, entry))
         parts += [placed, *(_placed_body(body, placed) for body in bodies)]
-    tip = _tip(hung.bodies(row[-1].name))
-    return Expansion(tuple(joints), tuple(links), tip, tuple(parts))
+    tip = None if branched else _tip(hung.bodies(row[-1].name))
+    return Expansion(tuple(joints), tuple(links), tip, tuple(parts), tuple(hosts))
 
 
 def joined(inner: Link, outer: Link) -> Link:
@@ -188,8 +196,7 @@ def _pieces(part: BeamPart) -> tuple[Link, ...]:
 
 
 def _fixed(hung: Hanging, entry: Entry) -> str:
-    carried = hung.carried(entry.name)
-    return carried[0].name if carried and carried[0].table == "link" else ""
+    return next((e.name for e in hung.carried(entry.name) if e.table == "link"), "")
 
 
 def _placed_body(entry: Entry, on: PlacedPart) -> PlacedPart:

@@ -1,4 +1,4 @@
-"""In which order parts hang on each other, from the base outward."""
+"""In which order parts hang on each other, from the base outward, branch by branch."""
 
 from __future__ import annotations
 
@@ -97,14 +97,16 @@ class Hanging:
         """Return the bodies on a part's outer end."""
         return tuple(e for e in self.entries if isinstance(e.part, BodyPart) and self.host(e) == name)
 
-    def row(self) -> tuple[Entry, ...]:
-        """Return motors, joints, beams and links from the base outward, as far as each carries one."""
-        found: list[Entry] = []
-        name = BASE
-        while (carried := self.carried(name)) and carried[0] not in found:
-            found.append(carried[0])
-            name = carried[0].name
-        return tuple(found)
+    def outward(self) -> tuple[Entry, ...]:
+        """Return motors, joints, beams and links from the base outward, each branch to its end before the next."""
+        found: dict[str, Entry] = {}
+        waiting = list(reversed(self.carried(BASE)))
+        while waiting:
+            entry = waiting.pop()
+            if entry.name not in found:  # what closes a loop is told by a rule
+                found[entry.name] = entry
+                waiting += reversed(self.carried(entry.name))
+        return tuple(found.values())
 
 
 def hanging(tables: Tables) -> Hanging:

@@ -27,7 +27,7 @@ from tmm_gen.scene.rules.outputs import outputs_possible
 from tmm_gen.scene.rules.parts import (
     beams_in_range,
     carriers,
-    one_row,
+    one_tree,
     part_initial,
     part_inputs,
     part_names,
@@ -68,7 +68,7 @@ PartRule = Callable[[PartsDocument], Iterator[Finding]]
 
 HANG_TOGETHER: tuple[tuple[PartRule, ...], ...] = (
     (part_names, parts_suit, beams_given),
-    (one_row,),
+    (one_tree,),
     (carriers,),
 )
 """Rules of arms by parts; each group takes those before it for granted."""

@@ -1,4 +1,4 @@
-"""Parts hang on each other in one row, each on something that can carry it."""
+"""Parts hang on each other without loops, each on something that can carry it."""
 
 from __future__ import annotations
 
@@ -34,8 +34,8 @@ def part_names(document: PartsDocument) -> Iterator[Finding]:
             yield Finding((*entry.path, "on"), "is not the name of a part", closest(on, [BASE, *first]), on)
 
 
-def one_row(document: PartsDocument) -> Iterator[Finding]:
-    """Find branches, loops, and what is missing for an arm."""
+def one_tree(document: PartsDocument) -> Iterator[Finding]:
+    """Find loops, branches where none can be, and what is missing for an arm."""
     hung = hanging(document.parts_by_table())
     if not any(e.table in ("beam", "link") for e in hung.entries):
         yield Finding(
@@ -47,7 +47,7 @@ def one_row(document: PartsDocument) -> Iterator[Finding]:
     for name in (BASE, *(e.name for e in hung.entries if not isinstance(e.part, BodyPart))):
         carried = [entry for entry in hung.carried(name) if entry.name != name]  # on itself: told below
         for entry in carried[1:]:
-            yield _branch(hung, name, carried[0], entry)
+            yield from _branch(hung, name, carried, entry)
     for entry in hung.entries:
         if hung.on(entry) != BASE and _in_a_loop(hung, entry):
             yield Finding(
@@ -58,21 +58,31 @@ def one_row(document: PartsDocument) -> Iterator[Finding]:
             )
 
 
-def _branch(hung: Hanging, name: str, first: Entry, entry: Entry) -> Finding:
-    last = hung.row()[-1].name if hung.row() else first.name
-    where = "the base" if name == BASE else f"'{name}'"
+def _branch(hung: Hanging, name: str, carried: list[Entry], entry: Entry) -> Iterator[Finding]:
+    """Find what is wrong with another part on the same one."""
+    first, path, host = carried[0], (*entry.path, "on"), hung.by_name.get(name)
     if entry.part.on is None:
-        return Finding(
-            (*entry.path, "on"),
+        where = "the base" if host is None else f"'{name}'"
+        yield Finding(
+            path,
             f"is missing: {where} already carries '{first.name}'",
-            f"Write what '{entry.name}' hangs on, for example `on = \"{last}\"`.",
+            f'Write what \'{entry.name}\' hangs on, for example `on = "{first.name}"`, or `on = "base"` for a branch.',
         )
-    return Finding(
-        (*entry.path, "on"),
-        f"makes a branch: {where} already carries '{first.name}', and branches are not modelled yet",
-        f"Hang it behind '{first.name}', for example `on = \"{last}\"`, or remove one of the two.",
-        entry.part.on,
-    )
+    elif host is not None and host.turns:
+        yield Finding(
+            path,
+            f"puts a second part on {host.words}, which carries '{first.name}' already",
+            f"Hang it on '{first.name}', or put a [[link]] on '{name}' and hang both on that.",
+            entry.part.on,
+        )
+    elif host is not None and (fixed := next((e for e in carried if e.table == "link"), None)) is not None:
+        other = entry if entry is not fixed else first
+        yield Finding(
+            (*other.path, "on"),
+            f"hangs inside of a rigid body: '{fixed.name}' is fixed to '{name}', and both are one",
+            f"Write `on = \"{fixed.name}\"`, or put a [[joint]] between '{name}' and '{fixed.name}'.",
+            other.part.on,
+        )
 
 
 def _chain_of(hung: Hanging, entry: Entry) -> tuple[str, ...]:
@@ -97,7 +107,7 @@ def carriers(document: PartsDocument) -> Iterator[Finding]:
     for entry in hung.entries:
         host = hung.by_name.get(hung.host(entry))
         yield from _carried(document, entry, host)
-    for entry in hung.row():
+    for entry in hung.outward():
         if entry.turns and not hung.carried(entry.name):
             yield Finding(
                 entry.path,

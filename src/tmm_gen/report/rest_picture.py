@@ -4,24 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from tmm_gen.modal.equilibria import Equilibria
-from tmm_gen.modal.rest import Rest
 from tmm_gen.scene import Scene
+from tmm_gen.simulate.places import node_places, outline
 from tmm_gen.style import FAINT, PALETTE, figure, picture, style
 
-Array = NDArray[np.float64]
-
 _COLUMNS = 4
-
-
-def nodes(scene: Scene, rest: Rest) -> Array:
-    """Return the places of the base and of each link's outer end, (2, n + 1), m."""
-    lengths = np.array([link.length for link in scene.links])
-    along = lengths * np.array([np.cos(rest.angles), np.sin(rest.angles)])
-    return np.concatenate([np.zeros((2, 1)), np.cumsum(along, axis=1)], axis=1)
 
 
 def rest_picture(scene: Scene, held: Equilibria, form: str = "png") -> bytes:
@@ -46,7 +34,14 @@ def rest_picture(scene: Scene, held: Equilibria, form: str = "png") -> bytes:
         for number, (panel, each) in enumerate(zip(axes.flat, held.found, strict=False), start=1):
             marker: Any = "o" if scene.stations <= 30 else None
             colour = PALETTE[0] if each.stable else PALETTE[1]
-            panel.plot(*nodes(scene, each.rest), color=colour, marker=marker, markersize=3.5, zorder=3)
+            places = node_places(scene, each.rest.angles[None])
+            panel.plot(
+                *(outline(scene, along[0]) for along in places),
+                color=colour,
+                marker=marker,
+                markersize=3.5,
+                zorder=3,
+            )
             panel.plot(0.0, 0.0, marker="s", color=FAINT, markersize=9, zorder=2)
             panel.set(xlim=(-reach, reach), ylim=(-reach, reach), aspect="equal", xlabel="x (m)")
             panel.set_title(f"{number}:  {each.state}", fontsize=9.5, fontweight="normal")
