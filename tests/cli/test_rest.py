@@ -48,7 +48,7 @@ def test_keys_are_changed_and_pictures_drawn(
     shown = json.loads(capsys.readouterr().out)
     assert shown["files"] == ["elbow-rest.png"]
     assert Path("elbow-rest.png").read_bytes().startswith(b"\x89PNG")
-    assert [(row["state"], row["loose"]) for row in shown["rows"]] == [
+    assert [(row["state"], row["idle"]) for row in shown["rows"]] == [
         ("stays anywhere, reached from the start", 2)
     ]
 

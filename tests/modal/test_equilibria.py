@@ -115,8 +115,21 @@ def test_each_link_stands_along_its_load(side: float) -> None:
 
 def test_without_weight_an_arm_stays_wherever_it_is_put() -> None:
     found = equilibria(parse_scene(LINKS).replace(**{"model.gravity": 0.0, "initial.angles": 0.3})).found
-    assert [(e.loose, e.falls, e.stable, e.reached) for e in found] == [(2, 0, False, True)]
+    assert [(e.idle.shape[1], e.falls, e.stable, e.reached) for e in found] == [(2, 0, False, True)]
     assert found[0].rest.angles == pytest.approx(0.3)
+
+
+def test_a_hub_that_nothing_holds_does_not_hide_how_links_stand_on_it() -> None:
+    """A free hinge on a free hub: the hub stays anywhere, the link hangs or stands."""
+    text = LINKS.replace('{ kind = "clamp" }', '{ kind = "motor", inertia = 0.1 }').replace(
+        "motor = [", "joint = [", 1
+    )
+    text = text.replace(
+        'joint = [{ name = "m", gear = 20 }]\njoint = [{ name = "h"', 'joint = [{ name = "m" }, { name = "h"'
+    )
+    found = equilibria(parse_scene(text)).found
+    assert sorted((e.falls, e.idle.shape[1]) for e in found) == [(0, 1), (1, 1), (1, 1), (2, 1)]
+    assert [e.state for e in found] == ["stays anywhere", *["falls over"] * 3]
 
 
 def test_an_arm_that_starts_upright_is_said_to_fall() -> None:

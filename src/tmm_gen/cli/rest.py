@@ -144,7 +144,7 @@ def _row(scene: Scene, number: int, each: Equilibrium) -> dict[str, object]:
         "stable": each.stable,
         "from_start": each.reached,
         "falls": each.falls,
-        "loose": each.loose,
+        "idle": each.idle.shape[1],
         "hub_angle": at.hub,
         "angles": at.angles,
         "nodes": place.T,

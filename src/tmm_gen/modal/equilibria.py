@@ -44,21 +44,21 @@ class Equilibrium:
         Angles and forces; at joints that turn freely no angle is more than half a turn.
     falls : int
         Directions in which the arm falls over: 0 where it is stable.
-    loose : int
-        Joints about which nothing holds the arm at all: it stays wherever it is put.
+    idle : array, (d, k)
+        Motions of the free angles that nothing resists at all: the arm stays wherever it is put.
     reached : bool
         Whether a descent from the scene's initial angles ends there.
     """
 
     rest: Rest
     falls: int
-    loose: int
+    idle: Array
     reached: bool
 
     @property
     def stable(self) -> bool:
         """Whether the arm comes back from a small push, whatever its direction."""
-        return self.falls == 0 and self.loose == 0
+        return self.falls == 0 and self.idle.shape[1] == 0
 
     @property
     def state(self) -> str:
@@ -201,14 +201,15 @@ def _judged(scene: Scene, inputs: Mapping[str, float] | None, rest: Rest, reache
         angles[_beyond(scene, joint)] -= 2.0 * np.pi * np.ceil(turns - 0.5 - _SAME)
     settled, linear = _looked(scene, inputs, angles[1 - scene.hub :])
     springs = springs_of(linear.parts)
-    return Equilibrium(settled, springs.negative, len(springs.loose), reached)
+    idle = springs.turned if springs.rigid else np.zeros((len(springs.pivot), 0))
+    return Equilibrium(settled, springs.negative, idle, reached)
 
 
 def _same(one: Equilibrium, other: Equilibrium) -> bool:
-    """Return whether two equilibria are one; of those that stay wherever they are put one stands for all."""
-    if one.loose and other.loose:
-        return True
+    """Return whether two equilibria are one, or differ by a motion that nothing resists."""
     turns = one.rest.free_angles - other.rest.free_angles
+    if one.idle.shape == other.idle.shape:
+        turns = turns - one.idle @ np.linalg.lstsq(one.idle, turns)[0]
     apart = np.abs(turns - 2.0 * np.pi * np.round(turns / (2.0 * np.pi)))
     return bool(np.all(apart < _SAME))
 
