@@ -40,6 +40,19 @@ def test_json_has_every_node_angle_and_torque(capsys: pytest.CaptureFixture[str]
     assert parts["upper"]["angle"] == first["angles"][5]
 
 
+def test_the_outer_side_of_an_elastic_gear_is_told(capsys: pytest.CaptureFixture[str]) -> None:
+    arguments = ["rest", ELBOW, "--json", "--input", "shoulder_torque=0.02"]
+    assert main(arguments) == 0
+    rigid = json.loads(capsys.readouterr().out)["rows"][0]["joints"]
+    assert main([*arguments, "--set", "motor.shoulder.stiffness=4000.0"]) == 0
+    elastic = json.loads(capsys.readouterr().out)["rows"][0]["joints"]
+    assert [joint["name"] for joint in elastic].count("shoulder") == 1
+    assert len(elastic) == len(rigid)
+    for one, other in zip(elastic, rigid, strict=True):  # the gear gives way under the torque, the arm stays
+        assert one["angle"] == pytest.approx(other["angle"], abs=1e-9)
+        assert one["torque"] == pytest.approx(other["torque"], abs=1e-9)
+
+
 def test_keys_are_changed_and_pictures_drawn(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -87,10 +87,9 @@ def _show(
     columns = [Column("equilibrium"), Column("state")]
     for end, name in _ends(scene):
         columns += [Column(f"{axis}{end}", f"{name} {axis} (m)", _six, "right") for axis in "xy"]
-    for joint in _told(scene):
-        name = _joint_name(scene, joint)
-        columns.append(Column(f"angle{joint}", f"{name} angle (rad)", _six, "right"))
-        columns.append(Column(f"torque{joint}", "torque (N m)", _six, "right"))
+    for name in [part.name for part in scene.parts if part.joint] or ["joint 1"]:
+        columns.append(Column(f"{name} angle", f"{name} angle (rad)", _six, "right"))
+        columns.append(Column(f"{name} torque", "torque (N m)", _six, "right"))
     table([_flat(scene, row) for row in rows], columns, title=title)
     if names:
         motors = any(part.kind == "motor" for part in scene.parts) or scene.hub
@@ -112,12 +111,8 @@ def _joint_name(scene: Scene, number: int) -> str:
     """Return what to call a joint, counted from 1, or the hub, 0."""
     if number == 0:
         return "hub"
-    return next((part.name for part in scene.parts if part.joint == number), f"joint {number}")
-
-
-def _told(scene: Scene) -> list[int]:
-    """Return the joints that have a column: those by name, else the first."""
-    return [part.joint for part in scene.parts if part.joint] or [1]
+    named = (part.name for part in scene.parts if number in (part.joint, part.gear))
+    return next(named, f"joint {number}")
 
 
 def _ends(scene: Scene) -> list[tuple[int, str]]:
@@ -129,7 +124,7 @@ def _ends(scene: Scene) -> list[tuple[int, str]]:
     return [(end, "tip" if len(found) == 1 else names[end]) for end in found]
 
 
-def _row(scene: Scene, number: int, each: Equilibrium) -> dict[str, object]:
+def _row(scene: Scene, number: int, each: Equilibrium) -> dict[str, Any]:
     import numpy as np
 
     from tmm_gen.simulate.places import node_places
@@ -137,7 +132,7 @@ def _row(scene: Scene, number: int, each: Equilibrium) -> dict[str, object]:
     at = each.rest
     place = np.concatenate(node_places(scene, at.angles[None]))
     angles = np.concatenate([[at.hub], at.angles])
-    turned = at.angles - angles[[scene.host(joint) for joint in range(1, scene.stations + 1)]]
+    turned = at.angles - angles[[scene.inner(joint) for joint in range(1, scene.stations + 1)]]
     return {
         "equilibrium": number,
         "state": each.state + (", reached from the start" if each.reached else ""),
@@ -155,20 +150,23 @@ def _row(scene: Scene, number: int, each: Equilibrium) -> dict[str, object]:
             for x, y in [place[:, part.last].tolist()]
         ],
         "joints": [
-            {"name": _joint_name(scene, joint), "angle": angle, "torque": torque}
-            for joint, (angle, torque) in enumerate(
-                zip(turned.tolist(), at.inner[:, 2].tolist(), strict=True), start=1
-            )
+            {
+                "name": _joint_name(scene, joint),
+                "angle": float(turned[joint - 1]),
+                "torque": float(at.inner[joint - 1, 2]),
+            }
+            for joint, link in enumerate(scene.links, start=1)
+            if not link.massless  # of an elastic gear, whose shaft is in between, the outer side is told
         ],
     }
 
 
-def _flat(scene: Scene, row: dict[str, object]) -> dict[str, object]:
+def _flat(scene: Scene, row: dict[str, Any]) -> dict[str, object]:
     """Return a row of the table: of joints those that have a column."""
-    joints, places = row["joints"], row["nodes"]
+    places = row["nodes"]
     flat = {"equilibrium": row["equilibrium"], "state": row["state"]}
     for end, _ in _ends(scene):
-        flat |= {f"x{end}": places[end][0], f"y{end}": places[end][1]}  # type: ignore[index]
-    for joint in _told(scene):
-        flat |= {f"{key}{joint}": joints[joint - 1][key] for key in ("angle", "torque")}  # type: ignore[index]
+        flat |= {f"x{end}": places[end][0], f"y{end}": places[end][1]}
+    for joint in row["joints"]:
+        flat |= {f"{joint['name']} {key}": joint[key] for key in ("angle", "torque")}
     return flat
