@@ -1,8 +1,8 @@
 # gripper: Gripper with two fingers on a flexible wrist
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 8bddb6557c10b75c631be7e126f0d8c58d4f977d0dedba2f6c8b1b3d350bb90a
-# sha256 of the rest of this file: ad487ad0e3c6976c143f8f83d7046d9c974dfc7da8977d123ecf0c2e778f9015
+# scene digest: c8f8226e93fd9d4e49ccbb14a6d21dfabaa9c32be55619277914a499c6eae156
+# sha256 of the rest of this file: 80ae9dc69519e5e1c85a7a4f0006f5985fc8d85492eceb6196528d85a76c9310
 """gripper: Gripper with two fingers on a flexible wrist."""
 
 from .kernel import (

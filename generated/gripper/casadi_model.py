@@ -1,8 +1,8 @@
 # gripper: Gripper with two fingers on a flexible wrist
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 8bddb6557c10b75c631be7e126f0d8c58d4f977d0dedba2f6c8b1b3d350bb90a
-# sha256 of the rest of this file: a6f64f2b551c0cbec7109d0cc923a9eecd2c559b44a363531f7bf8dbce56e99a
+# scene digest: c8f8226e93fd9d4e49ccbb14a6d21dfabaa9c32be55619277914a499c6eae156
+# sha256 of the rest of this file: db625fb7d1d695cdaa9bccd6e2993830ca1c15a241de4033945feddb0fe3098f
 #
 # model: planar arm, large rotations, gravity
 # stations: 8
@@ -60,7 +60,7 @@ STAGE_INSTANTS = ((1.0,),)
 def default_parameters() -> ca.DM:
     """Return the scene's step and physical parameters, a column ``p``."""
     values = (
-        0.0005,
+        0.00025,
         0.03,
         0.03,
         0.03,

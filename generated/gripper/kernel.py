@@ -1,8 +1,8 @@
 # gripper: Gripper with two fingers on a flexible wrist
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 8bddb6557c10b75c631be7e126f0d8c58d4f977d0dedba2f6c8b1b3d350bb90a
-# sha256 of the rest of this file: 37b5cb34d9443f4c88c70ee8663b472c1ca8da9cfbcce40371d5a632c95b9180
+# scene digest: c8f8226e93fd9d4e49ccbb14a6d21dfabaa9c32be55619277914a499c6eae156
+# sha256 of the rest of this file: 0265791e7539880dc35c8d4e84eb79013a9bbf20722e59caa874cd86b63b5516
 #
 # model: planar arm, large rotations, gravity
 # stations: 8
@@ -39,7 +39,7 @@ Array = NDArray[Any]
 
 STATIONS = 8
 """Number of links."""
-STEP = 0.0005
+STEP = 0.00025
 """Time step of the scene (s)."""
 INPUT_NAMES: tuple[str, ...] = ("left_torque", "right_torque")
 OUTPUT_NAMES: tuple[str, ...] = ("left_tip_x", "left_tip_y", "right_tip_x", "right_tip_y", "left", "right")

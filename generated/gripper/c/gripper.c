@@ -2,8 +2,8 @@
  * gripper: Gripper with two fingers on a flexible wrist
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 8bddb6557c10b75c631be7e126f0d8c58d4f977d0dedba2f6c8b1b3d350bb90a
- * sha256 of the rest of this file: 95f46eb86f9d7b8cbf7ad776c4af0b9095e68aa3da524435f502b3af0fee4914
+ * scene digest: c8f8226e93fd9d4e49ccbb14a6d21dfabaa9c32be55619277914a499c6eae156
+ * sha256 of the rest of this file: 7c13ef4fd22223198cd07b4aa082ff78deb1d1a9927d488a696998aa2cdf5237
  *
  * model: planar arm, large rotations, gravity
  * stations: 8

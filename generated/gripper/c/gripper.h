@@ -2,8 +2,8 @@
  * gripper: Gripper with two fingers on a flexible wrist
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 8bddb6557c10b75c631be7e126f0d8c58d4f977d0dedba2f6c8b1b3d350bb90a
- * sha256 of the rest of this file: 0a0b1379401921b5d4003f30479c476d5553ab523349a2f33826fe8984fb4340
+ * scene digest: c8f8226e93fd9d4e49ccbb14a6d21dfabaa9c32be55619277914a499c6eae156
+ * sha256 of the rest of this file: 0881782ed87126220b444b5a3e9d342d59f4e4f5f940378db512f113368a1f98
  *
  * model: planar arm, large rotations, gravity
  * stations: 8
@@ -35,7 +35,7 @@ extern "C" {
 #define GRIPPER_STATIONS 8
 
 /** The scene's time step [s]. */
-#define GRIPPER_STEP 0.0005
+#define GRIPPER_STEP 0.00025
 
 /** Type of all numbers. */
 typedef double gripper_real;

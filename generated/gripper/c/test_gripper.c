@@ -2,8 +2,8 @@
  * gripper: Gripper with two fingers on a flexible wrist
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 8bddb6557c10b75c631be7e126f0d8c58d4f977d0dedba2f6c8b1b3d350bb90a
- * sha256 of the rest of this file: 725776932464b45b47c7a151fa0482105b72e398781f8c2df5d48cfcc527932e
+ * scene digest: c8f8226e93fd9d4e49ccbb14a6d21dfabaa9c32be55619277914a499c6eae156
+ * sha256 of the rest of this file: 3e6defd0830fb30a8ca7eb5329c06af458eb58efeecd52e41d58d1bf4390c79e
  *
  * model: planar arm, large rotations, gravity
  * stations: 8
@@ -106,12 +106,12 @@ static void test_motion(tally *count)
     status = gripper_step(&model, &state, &inputs);
     expect_code(count, "step 1", status, GRIPPER_OK);
     gripper_output(&model, &state, &outputs);
-    expect(count, "left_tip_x", outputs.left_tip_x, 0.23786432555556555, 2.3e-15);
-    expect(count, "left_tip_y", outputs.left_tip_y, 0.004347709521502045, 3e-15);
-    expect(count, "right_tip_x", outputs.right_tip_x, 0.23812320772227957, 2.3e-15);
-    expect(count, "right_tip_y", outputs.right_tip_y, 0.0005896140160038868, 2.9e-15);
-    expect(count, "left", outputs.left, 0.095558640473097, 1.3e-14);
-    expect(count, "right", outputs.right, 0.06157193667544941, 1.1e-14);
+    expect(count, "left_tip_x", outputs.left_tip_x, 0.23922753256306775, 9.1e-16);
+    expect(count, "left_tip_y", outputs.left_tip_y, 0.0027224847232369363, 1.7e-16);
+    expect(count, "right_tip_x", outputs.right_tip_x, 0.23942608400451557, 9.4e-16);
+    expect(count, "right_tip_y", outputs.right_tip_y, -0.0009316356351664623, 1.7e-16);
+    expect(count, "left", outputs.left, 0.10857944124100102, 6.8e-16);
+    expect(count, "right", outputs.right, 0.07581759748485563, 1.4e-15);
 
     /* Step 2. */
     inputs.left_torque = -0.25;
@@ -119,12 +119,12 @@ static void test_motion(tally *count)
     status = gripper_step(&model, &state, &inputs);
     expect_code(count, "step 2", status, GRIPPER_OK);
     gripper_output(&model, &state, &outputs);
-    expect(count, "left_tip_x", outputs.left_tip_x, 0.22442762499587376, 2.3e-15);
-    expect(count, "left_tip_y", outputs.left_tip_y, 0.013423640560352623, 3e-15);
-    expect(count, "right_tip_x", outputs.right_tip_x, 0.2251664509538318, 2.3e-15);
-    expect(count, "right_tip_y", outputs.right_tip_y, 0.009682963831843756, 2.9e-15);
-    expect(count, "left", outputs.left, 0.04350332035931623, 1.3e-14);
-    expect(count, "right", outputs.right, 0.0001854543362217146, 1.1e-14);
+    expect(count, "left_tip_x", outputs.left_tip_x, 0.23893584373726964, 9.1e-16);
+    expect(count, "left_tip_y", outputs.left_tip_y, 0.002496377733116894, 1.7e-16);
+    expect(count, "right_tip_x", outputs.right_tip_x, 0.23923830559024625, 9.4e-16);
+    expect(count, "right_tip_y", outputs.right_tip_y, -0.0009031131606128145, 1.7e-16);
+    expect(count, "left", outputs.left, 0.10700040920635824, 6.8e-16);
+    expect(count, "right", outputs.right, 0.06980457099456629, 1.4e-15);
 
     /* Step 3. */
     inputs.left_torque = 0.375;
@@ -132,38 +132,38 @@ static void test_motion(tally *count)
     status = gripper_step(&model, &state, &inputs);
     expect_code(count, "step 3", status, GRIPPER_OK);
     gripper_output(&model, &state, &outputs);
-    expect(count, "left_tip_x", outputs.left_tip_x, 0.2003000163265293, 2.3e-15);
-    expect(count, "left_tip_y", outputs.left_tip_y, 0.0314293997047408, 3e-15);
-    expect(count, "right_tip_x", outputs.right_tip_x, 0.20271967325378615, 2.3e-15);
-    expect(count, "right_tip_y", outputs.right_tip_y, 0.027567622146078836, 2.9e-15);
-    expect(count, "left", outputs.left, -0.04820501562896367, 1.3e-14);
-    expect(count, "right", outputs.right, -0.10897121669495188, 1.1e-14);
+    expect(count, "left_tip_x", outputs.left_tip_x, 0.23833673172753786, 9.1e-16);
+    expect(count, "left_tip_y", outputs.left_tip_y, 0.0022347855171369435, 1.7e-16);
+    expect(count, "right_tip_x", outputs.right_tip_x, 0.238890872665501, 9.4e-16);
+    expect(count, "right_tip_y", outputs.right_tip_y, -0.0007139489305274812, 1.7e-16);
+    expect(count, "left", outputs.left, 0.10749491042494437, 6.8e-16);
+    expect(count, "right", outputs.right, 0.0633676100953071, 1.4e-15);
 
     /* State after the last step. */
-    expect(count, "angle[0]", state.angle[0], -0.14139972989894434, 8e-14);
-    expect(count, "angle[1]", state.angle[1], -0.8955073739318136, 8e-14);
-    expect(count, "angle[2]", state.angle[2], 0.8447134470895626, 8e-14);
-    expect(count, "angle[3]", state.angle[3], 0.5474531635297737, 8e-14);
-    expect(count, "angle[4]", state.angle[4], 0.49924814790081007, 8e-14);
-    expect(count, "angle[5]", state.angle[5], -0.4466272162098578, 8e-14);
-    expect(count, "angle[6]", state.angle[6], 0.43848194683482183, 8e-14);
-    expect(count, "angle[7]", state.angle[7], -0.4335228258029376, 8e-14);
-    expect(count, "rate[0]", state.rate[0], -291.60761865137704, 8e-11);
-    expect(count, "rate[1]", state.rate[1], 93.4448255755426, 8e-11);
-    expect(count, "rate[2]", state.rate[2], 586.5874680526899, 8e-11);
-    expect(count, "rate[3]", state.rate[3], 823.1242781211471, 8e-11);
-    expect(count, "rate[4]", state.rate[4], 609.1374015155386, 8e-11);
-    expect(count, "rate[5]", state.rate[5], -699.5253298674925, 8e-11);
-    expect(count, "rate[6]", state.rate[6], 565.7531450551611, 8e-11);
-    expect(count, "rate[7]", state.rate[7], -659.1098033307774, 8e-11);
-    expect(count, "acceleration[0]", state.acceleration[0], 1374740.2108809126, 1.3e-07);
-    expect(count, "acceleration[1]", state.acceleration[1], -24050.15230065086, 1.3e-07);
-    expect(count, "acceleration[2]", state.acceleration[2], -382433.1136112277, 1.3e-07);
-    expect(count, "acceleration[3]", state.acceleration[3], 471615.1077444481, 1.3e-07);
-    expect(count, "acceleration[4]", state.acceleration[4], 441217.197058574, 1.3e-07);
-    expect(count, "acceleration[5]", state.acceleration[5], -168517.26459885843, 1.3e-07);
-    expect(count, "acceleration[6]", state.acceleration[6], 341694.72137789585, 1.3e-07);
-    expect(count, "acceleration[7]", state.acceleration[7], -175626.73411319772, 1.3e-07);
+    expect(count, "angle[0]", state.angle[0], -0.07848625255781526, 7.2e-15);
+    expect(count, "angle[1]", state.angle[1], -0.05685635436783249, 7.2e-15);
+    expect(count, "angle[2]", state.angle[2], -0.07345433166029998, 7.2e-15);
+    expect(count, "angle[3]", state.angle[3], 0.050898333806720986, 7.2e-15);
+    expect(count, "angle[4]", state.angle[4], 0.15839324423166537, 7.2e-15);
+    expect(count, "angle[5]", state.angle[5], -0.1417607094699053, 7.2e-15);
+    expect(count, "angle[6]", state.angle[6], 0.11426594390202809, 7.2e-15);
+    expect(count, "angle[7]", state.angle[7], -0.12792472807450606, 7.2e-15);
+    expect(count, "rate[0]", state.rate[0], -11.542477441284314, 2.2e-11);
+    expect(count, "rate[1]", state.rate[1], -60.82191744804474, 2.2e-11);
+    expect(count, "rate[2]", state.rate[2], -1.5806056022805681, 2.2e-11);
+    expect(count, "rate[3]", state.rate[3], 81.65362219482728, 2.2e-11);
+    expect(count, "rate[4]", state.rate[4], 91.76804314866682, 2.2e-11);
+    expect(count, "rate[5]", state.rate[5], -212.43031806898838, 2.2e-11);
+    expect(count, "rate[6]", state.rate[6], 59.7248018019136, 2.2e-11);
+    expect(count, "rate[7]", state.rate[7], -92.57442597078493, 2.2e-11);
+    expect(count, "acceleration[0]", state.acceleration[0], -412603.32669742004, 1.5e-07);
+    expect(count, "acceleration[1]", state.acceleration[1], 398555.4448173251, 1.5e-07);
+    expect(count, "acceleration[2]", state.acceleration[2], 247974.51142034258, 1.5e-07);
+    expect(count, "acceleration[3]", state.acceleration[3], -158270.9951450543, 1.5e-07);
+    expect(count, "acceleration[4]", state.acceleration[4], -37063.70756643285, 1.5e-07);
+    expect(count, "acceleration[5]", state.acceleration[5], 53133.1643411311, 1.5e-07);
+    expect(count, "acceleration[6]", state.acceleration[6], -161698.94759494535, 1.5e-07);
+    expect(count, "acceleration[7]", state.acceleration[7], 455466.1412043478, 1.5e-07);
 
     /* Bad input is refused and leaves the state alone. */
     gripper_state before;
