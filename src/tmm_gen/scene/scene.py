@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, fields, replace
 
-from tmm_gen.scene.beam import Beam, Tip
+from tmm_gen.scene.beam import Beam, BeamEntry, Tip
 from tmm_gen.scene.change import changed
 from tmm_gen.scene.control import Control
 from tmm_gen.scene.digest import content_digest
@@ -179,7 +179,6 @@ def scene_of(document: Document, source: Source) -> Scene:
                 made.outputs(document.output),
                 made.initial(document.initial),
             ),
-            beam=None,
             tip=made.tip,
             parts=made.parts,
             hosts=made.hosts if made.hosts != tuple(range(len(made.hosts))) else (),
@@ -211,7 +210,7 @@ def _scene_of(
         base=document.base,
         joints=document.joints(),
         links=document.links(),
-        beam=document.beam,
+        beam=document.beam.expanded() if isinstance(document.beam, BeamEntry) else None,
         tip=document.tip,
         inputs=inputs,
         outputs=outputs,

@@ -203,10 +203,11 @@ def _weight(entry: Entry) -> Link:
 
 
 def _beam(part: BeamPart, springs: str = "half-clamp") -> Beam:
+    stiffness, mass = part.stiffness_and_mass()
     return Beam.model_construct(
         length=part.length,
-        bending_stiffness=part.bending_stiffness,
-        mass_per_length=part.mass_per_length,
+        bending_stiffness=stiffness,
+        mass_per_length=mass,
         links=part.links,
         springs=part.springs if part.springs not in (None, "finite-segment") else springs,
         damping_time=part.damping_time,

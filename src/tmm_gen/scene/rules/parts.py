@@ -223,21 +223,21 @@ def beams_in_range(document: PartsDocument) -> Iterator[Finding]:
                     (*entry.path, "gear"), "rotor inertia at the joint", rotor, entry.part.gear
                 )
             continue
-        key = {"beam": "mass_per_length"}.get(placed.kind, "mass")
+        part = entry.part
+        key = part.key_of("mass_per_length") if isinstance(part, BeamPart) else "mass"
         for link in made.links[placed.first - 1 : placed.last]:
             values = {"mass": link.mass, "moment of inertia": link.inertia}
             wrong = [k for k, v in values.items() if not (math.isfinite(v) and v > 0.0)]
             if wrong:
-                value = getattr(entry.part, key)
+                value = None if key == "section" else getattr(part, key)
                 yield _out_of_range((*entry.path, key), f"link {wrong[0]}", values[wrong[0]], value)
                 break
-        if not isinstance(entry.part, BeamPart):
+        if not isinstance(part, BeamPart):
             continue
         for joint in made.joints[placed.first - 1 : placed.last]:
             if not (math.isfinite(joint.stiffness) and math.isfinite(joint.damping)):
-                value = entry.part.bending_stiffness
-                path = (*entry.path, "bending_stiffness")
-                yield _out_of_range(path, "spring's stiffness", joint.stiffness, value)
+                path = (*entry.path, part.key_of("bending_stiffness"))
+                yield _out_of_range(path, "spring's stiffness", joint.stiffness, part.bending_stiffness)
                 break
     if len(made.links) > STATION_LIMIT:
         yield Finding(
