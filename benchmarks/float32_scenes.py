@@ -55,6 +55,13 @@ LOADS: dict[str, tuple[str, Loads]] = {
             "elbow_torque": lambda t: 0.01 * np.sin(13.0 * t),
         },
     ),
+    "geartrain": (
+        "turning back and forth at 1 Hz",
+        {
+            "motor_torque": lambda t: 2.0 * np.cos(2.0 * np.pi * t),
+            "load_torque": lambda t: 3.0 * np.cos(6.0 * np.pi * t),
+        },
+    ),
 }
 
 

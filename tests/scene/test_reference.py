@@ -31,6 +31,7 @@ def test_every_table_and_parameter_is_there() -> None:
     tables = {table.split(".")[0] for table, _ in found} | {key for table, key in found if not table}
     assert tables - {""} == set(PartsDocument.model_fields)
     assert not any(key.key == "mass" and key.table == "[[link]] by name in a chain" for key in keys())
+    assert {("motor", "stiffness"), ("beam.material", "young"), ("beam.section", "thickness")} <= found
     assert {p.name for m in METHODS for p in m.parameters} <= {key for t, key in found if t == "integrator"}
 
 

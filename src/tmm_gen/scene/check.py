@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from pydantic import ValidationError
 
 from tmm_gen.scene.complaints import findings
+from tmm_gen.scene.document import Document
 from tmm_gen.scene.locate import nearest_line
 from tmm_gen.scene.parts.document import PartsDocument, document_class
 from tmm_gen.scene.problem import Finding, Problem, SceneError, show_path
@@ -33,15 +34,26 @@ def check_data(source: Source) -> Scene:
     SceneError
         With every fault found: first those of single tables, and where there is none, those between tables.
     """
-    kind = document_class(source.data)
-    try:
-        document = kind.model_validate(source.data)
-    except ValidationError as error:
-        raise _located(findings(error, kind), source) from None
+    document = document_of(source)
     broken = broken_part_rules(document) if isinstance(document, PartsDocument) else broken_rules(document)
     if broken:
         raise _located(broken, source)
     return scene_of(document, source)
+
+
+def document_of(source: Source) -> Document:
+    """Return the tables of a file as they are written, each well formed.
+
+    Raises
+    ------
+    SceneError
+        With every fault of single tables.
+    """
+    kind = document_class(source.data)
+    try:
+        return kind.model_validate(source.data)
+    except ValidationError as error:
+        raise _located(findings(error, kind), source) from None
 
 
 def _located(found: Iterable[Finding], source: Source) -> SceneError:

@@ -8,6 +8,7 @@ from typing import TypeVar
 from tmm_gen.scene.document import Document
 from tmm_gen.scene.parts.document import ChainDocument, PartsDocument
 from tmm_gen.scene.problem import Finding
+from tmm_gen.scene.rules.beams import beams_given
 from tmm_gen.scene.rules.control import control_possible
 from tmm_gen.scene.rules.drivetrains import (
     chain_in_range,
@@ -71,7 +72,7 @@ RULES: tuple[Rule, ...] = (
 
 def broken_rules(document: Document) -> list[Finding]:
     """Return everything in a document that breaks a rule, in the order of the rules."""
-    return [finding for rule in RULES for finding in rule(document)]
+    return [*beams_given(document)] or [finding for rule in RULES for finding in rule(document)]
 
 
 PartRule = Callable[[PartsDocument], Iterator[Finding]]
@@ -91,7 +92,7 @@ _ALL: tuple[Rule, ...] = (
 """Rules of all arms by parts."""
 
 PART_RULES: tuple[tuple[PartRule, ...], ...] = (
-    (part_names, parts_suit),
+    (part_names, parts_suit, beams_given),
     (one_tree,),
     (carriers,),
     (newton_keys, held, base_hub, beams_in_range, part_initial, part_inputs, part_outputs, *_ALL),
