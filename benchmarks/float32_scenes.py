@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable
+from itertools import cycle
 from pathlib import Path
 
 import numpy as np
@@ -53,6 +54,13 @@ LOADS: dict[str, tuple[str, Loads]] = {
         {
             "shoulder_torque": lambda t: 0.02 * np.sin(9.0 * t),
             "elbow_torque": lambda t: 0.01 * np.sin(13.0 * t),
+        },
+    ),
+    "gripper": (
+        "released, then 0.002 N m at 3 and 4 rad/s",
+        {
+            "left_torque": lambda t: 0.002 * np.sin(3.0 * t),
+            "right_torque": lambda t: 0.002 * np.sin(4.0 * t),
         },
     ),
 }
@@ -106,7 +114,7 @@ def measure(
 
 def draw(found: dict[bool, dict[tuple[str, str], SingleError]]) -> bytes:
     """Show the error of one output of each case over the steps taken, plain beside compensated."""
-    colours = dict(zip(LOADS, (*PALETTE, FAINT), strict=True))
+    colours = dict(zip(LOADS, cycle((*PALETTE, FAINT)), strict=False))
     with style():
         made, axes = figure(10.0, 4.6, nrows=1, ncols=2, sharey=True)
         for axis, (compensated, errors) in zip(axes, found.items(), strict=True):
