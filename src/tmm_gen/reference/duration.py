@@ -26,10 +26,9 @@ def _slowest(scene: Scene) -> float:
     frequencies = vibration(scene).frequencies
     found = [float(w) for w in frequencies[frequencies > 0.0][:1]]
     if any(joint.stiffness == 0.0 for joint in scene.joints):
-        length = sum(link.length for link in scene.links)
         gravity = scene.model.gravity or 0.0
         # without gravity nothing sets a time: as if there were some
-        found.append(math.sqrt((gravity or STANDARD_GRAVITY) / length))
+        found.append(math.sqrt((gravity or STANDARD_GRAVITY) / scene.reach))
     return min(found)
 
 

@@ -102,6 +102,20 @@ class Scene:
         return self.hosts[joint - 1] if self.hosts else joint - 1
 
     @property
+    def reach(self) -> float:
+        """The longest way from the base to the outer end of a link, m."""
+        ways = [0.0]
+        for joint, link in enumerate(self.links, start=1):
+            ways.append(ways[self.host(joint)] + link.length)
+        return max(ways)
+
+    @property
+    def ends(self) -> tuple[int, ...]:
+        """Numbers of the links that carry no other."""
+        carrying = {self.host(joint) for joint in range(1, self.stations + 1)}
+        return tuple(number for number in range(1, self.stations + 1) if number not in carrying)
+
+    @property
     def prescribed(self) -> Input | None:
         """The input that is the base's angle, if there is one."""
         return next((item for item in self.inputs if item.acts == "angle"), None)

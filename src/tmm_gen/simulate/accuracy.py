@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from tmm_gen.errors import UserError
 from tmm_gen.inputs.signals import Signal
+from tmm_gen.modal.limbs import limbs_of
 from tmm_gen.reference.chain_motion import exact_angles
 from tmm_gen.scene import Scene
 from tmm_gen.simulate.planar_divergence import free_watch
@@ -127,7 +128,7 @@ def _leapt(scene: Scene, trace: Trace) -> float:
         return 0.0
     places = _places(scene, trace.angle)
     way = float(np.max(np.hypot(*(places - places[:, :1]))))
-    if way <= _STILL * sum(link.length for link in scene.links):
+    if way <= _STILL * scene.reach:
         return 0.0
     return float(np.max(np.hypot(*np.diff(places, axis=1)))) / way
 
@@ -210,7 +211,7 @@ class _Repetition:
         drift = (np.mean(apart[:, half:], axis=1) - np.mean(apart[:, :half], axis=1)) / half
         places = _places(self.scene, self.trace.angle)
         way = float(np.max(np.hypot(*(places - places[:, :1]))))
-        least = _STILL * sum(link.length for link in self.scene.links)
+        least = _STILL * self.scene.reach
         return float(np.max(np.hypot(*drift))) * self.course.steps / max(way, least)
 
     def judged(self, other: Trace, factor: float, share: float, growth: float | None) -> Accuracy:
@@ -225,8 +226,7 @@ class _Repetition:
         off = weight * np.max(np.hypot(*(mine - others)), axis=1)
         way = np.max(np.hypot(*(others - others[:, :1])), axis=1)
         times = self.scene.integrator.step * self.trace.every * stride * np.arange(count, dtype=float)
-        length = sum(link.length for link in self.scene.links)
-        return _judged(off, way, times, _STILL * length, growth)
+        return _judged(off, way, times, _STILL * self.scene.reach, growth)
 
     def sensitivity(self, factor: float, undisturbed: Trace) -> float | None:
         """Return how many times larger a small disturbance of the start becomes."""
@@ -257,9 +257,10 @@ def _judged(off: Array, way: Array, times: Array, least: float, growth: float | 
 
 def _places(scene: Scene, angle: Array) -> Array:
     """Return the places of the links' outer ends, (2, k, n), m."""
-    own = angle[:, angle.shape[1] - scene.stations :]
-    lengths = np.array([link.length for link in scene.links])
-    return np.stack([np.cumsum(lengths * np.cos(own), axis=1), np.cumsum(lengths * np.sin(own), axis=1)])
+    own = angle[:, angle.shape[1] - scene.stations :].T
+    lengths = np.array([link.length for link in scene.links])[:, None]
+    limbs = limbs_of(scene)
+    return np.stack([limbs.outward(lengths * np.cos(own)).T, limbs.outward(lengths * np.sin(own)).T])
 
 
 def _order(scene: Scene) -> float:
