@@ -176,8 +176,17 @@ def plain_power(label: str) -> str:
 
 
 def subtitle(axes: Axes, title: str, below: str) -> None:
-    """Put a title over axes, and a fainter line between both."""
-    axes.set_title(title, pad=22)
+    """Put a title over axes, and a fainter line between both; a legend of several names there stays below them."""
+    legend = axes.get_legend()
+    above = 20.0 if legend is not None and len(legend.get_texts()) > 2 else 0.0
+    axes.set_title(title, pad=22 + above)
     axes.annotate(
-        below, (0.0, 1.0), (0.0, 8.0), "axes fraction", "offset points", color=FAINT, fontsize=9, va="bottom"
+        below,
+        (0.0, 1.0),
+        (0.0, 8.0 + above),
+        "axes fraction",
+        "offset points",
+        color=FAINT,
+        fontsize=9,
+        va="bottom",
     )

@@ -165,7 +165,7 @@ CASES = [
         'on = "elbow"\nlength',
         'on = "hinge"\nlength',
         "link[2].on",
-        "puts a second part on [[motor]]",
+        "puts a second part on [[joint]]",
         ('on = "hinge"\nlength = 0.3', 'on = "elbow"\nlength = 0.3'),
     ),
     Case(
@@ -184,7 +184,7 @@ CASES = [
         'on = "elbow"\nlength = 0.3',
         'on = "base"\nlength = 0.3',
         "link[1].on",
-        "branch",
+        "where it could not move",
         ('on = "base"\nlength', 'on = "elbow"\nlength'),
     ),
     Case(

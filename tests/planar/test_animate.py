@@ -11,8 +11,9 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from tmm_gen.report.animate import animation, frame_instants, link_angles, node_positions
+from tmm_gen.report.animate import animation, frame_instants, link_angles
 from tmm_gen.scene import Scene, load_scene
+from tmm_gen.simulate.places import node_places
 from tmm_gen.simulate.run import simulate
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -25,7 +26,7 @@ def moved(unlike: Callable[..., Scene], swinging: Any) -> Any:
 
 
 def test_nodes_are_where_the_outputs_say(moved: Any) -> None:
-    x, y = node_positions(moved.scene, link_angles(moved))
+    x, y = node_places(moved.scene, link_angles(moved))
     assert x[:, -1] == pytest.approx(moved.outputs["position_of_tip_x"])
     assert y[:, 1] == pytest.approx(moved.outputs["position_of_1_y"])
     assert not np.any(x[:, 0])

@@ -118,7 +118,9 @@ def _draw(picture: Path | None, arm: LinearArm, found: tuple[Mode, ...], beside:
 
 def _ends_at_rest(scene: Scene, angles: Sequence[float]) -> str:
     """Say where the last link rests, or the last of each branch by the part's name."""
-    turned = {number: f"{math.degrees(angles[number - 1]):.3f}" for number in scene.ends}
+    from tmm_gen.simulate.places import ends
+
+    turned = {number: f"{math.degrees(angles[number - 1]):.3f}" for number in ends(scene)}
     if not scene.hosts:
         return f"the last link rests at {turned[scene.stations]}"
     names = {part.last: part.name for part in reversed(scene.parts)}

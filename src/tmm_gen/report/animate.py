@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from tmm_gen.scene import Scene
 from tmm_gen.scratch import scratch_folder
+from tmm_gen.simulate.places import ends, node_places, outline
 from tmm_gen.simulate.simulation import Simulation
 from tmm_gen.style import FAINT, INK, PALETTE, figure, style
 
@@ -26,15 +27,6 @@ SHAPES = 12
 """Positions of the arm in a still picture."""
 
 FORMS = (".gif", ".html")
-
-
-def node_positions(scene: Scene, angles: Array) -> tuple[Array, Array]:
-    """Return the places of base and nodes, (k, n + 1) along x and along y, from angles of the links, (k, n)."""
-    length = np.array([link.length for link in scene.links])
-    zero = np.zeros((len(angles), 1))
-    x = np.hstack([zero, np.cumsum(length * np.cos(angles), axis=1)])
-    y = np.hstack([zero, np.cumsum(length * np.sin(angles), axis=1)])
-    return x, y
 
 
 def link_angles(simulation: Simulation) -> Array:
@@ -73,13 +65,14 @@ def animation(simulation: Simulation, form: str) -> bytes:
 
     scene = simulation.scene
     shown, speed = frame_instants(simulation)
-    x, y = node_positions(scene, link_angles(simulation))
+    x, y = node_places(scene, link_angles(simulation))
+    lines, tips = [outline(scene, places) for places in (x, y)], list(ends(scene))
     with style():
         made, axes = figure(5.6, 5.2)
         FigureCanvasAgg(made)
         _ground(axes, scene, x[shown], y[shown])
         axes.set_title(scene.title)
-        (path,) = axes.plot([], [], color=PALETTE[5], linewidth=1.2, zorder=1)
+        paths = [axes.plot([], [], color=PALETTE[5], linewidth=1.2, zorder=1)[0] for _ in tips]
         (arm,) = axes.plot(
             [],
             [],
@@ -95,11 +88,12 @@ def animation(simulation: Simulation, form: str) -> bytes:
 
         def draw(index: int) -> tuple[Any, ...]:
             k = shown[index]
-            arm.set_data(x[k], y[k])
-            tip.set_data(x[k, -1:], y[k, -1:])
-            path.set_data(x[: k + 1, -1], y[: k + 1, -1])
+            arm.set_data(lines[0][k], lines[1][k])
+            tip.set_data(x[k, tips], y[k, tips])
+            for path, number in zip(paths, tips, strict=True):
+                path.set_data(x[: k + 1, number], y[: k + 1, number])
             clock.set_text(f"{simulation.time[k]:.2f} s{faster}")
-            return arm, tip, path, clock
+            return arm, tip, *paths, clock
 
         moving = FuncAnimation(made, draw, frames=len(shown), blit=False)
         with scratch_folder() as folder:
@@ -112,18 +106,19 @@ def animation(simulation: Simulation, form: str) -> bytes:
 
 
 def draw_shapes(axes: Axes, simulation: Simulation) -> None:
-    """Draw the arm at instants spread over the motion, the later the darker, and the way of its tip."""
+    """Draw the arm at instants spread over the motion, the later the darker, and the way of its tips."""
     import matplotlib as mpl
 
     scene = simulation.scene
-    x, y = node_positions(scene, link_angles(simulation))
+    x, y = node_places(scene, link_angles(simulation))
     shown = np.unique(np.round(np.linspace(0, simulation.steps, SHAPES)).astype(int))
     _ground(axes, scene, x, y)
     colours = mpl.colormaps["Blues"](np.linspace(0.25, 1.0, len(shown)))
-    axes.plot(x[:, -1], y[:, -1], color=PALETTE[4], linewidth=1.0, zorder=1)
+    tips, line = list(ends(scene)), [outline(scene, places) for places in (x, y)]
+    axes.plot(x[:, tips], y[:, tips], color=PALETTE[4], linewidth=1.0, zorder=1)
     for k, colour in zip(shown, colours, strict=True):
-        axes.plot(x[k], y[k], color=colour, linewidth=2.0)
-        axes.plot(x[k, -1], y[k, -1], "o", color=colour, markersize=6.0 if scene.tip else 3.5)
+        axes.plot(line[0][k], line[1][k], color=colour, linewidth=2.0)
+        axes.plot(x[k, tips], y[k, tips], "o", color=colour, markersize=6.0 if scene.tip else 3.5)
     for k, colour in ((shown[0], colours[0]), (shown[-1], colours[-1])):
         axes.annotate(
             f"{simulation.time[k]:.3g} s",
@@ -136,7 +131,7 @@ def draw_shapes(axes: Axes, simulation: Simulation) -> None:
 
 def _ground(axes: Axes, scene: Scene, x: Array, y: Array) -> None:
     """Set out a field in true proportion, with the base in it."""
-    reach = sum(link.length for link in scene.links)
+    reach = scene.reach
     left, right = float(min(x.min(), -0.1 * reach)), float(max(x.max(), 0.1 * reach))
     low, high = float(min(y.min(), -0.1 * reach)), float(max(y.max(), 0.1 * reach))
     margin = 0.08 * reach

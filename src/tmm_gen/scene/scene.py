@@ -110,12 +110,6 @@ class Scene:
         return max(ways)
 
     @property
-    def ends(self) -> tuple[int, ...]:
-        """Numbers of the links that carry no other."""
-        carrying = {self.host(joint) for joint in range(1, self.stations + 1)}
-        return tuple(number for number in range(1, self.stations + 1) if number not in carrying)
-
-    @property
     def prescribed(self) -> Input | None:
         """The input that is the base's angle, if there is one."""
         return next((item for item in self.inputs if item.acts == "angle"), None)

@@ -17,9 +17,9 @@ from numpy.typing import NDArray
 
 from tmm_gen.errors import UserError
 from tmm_gen.inputs.signals import Signal
-from tmm_gen.modal.limbs import limbs_of
 from tmm_gen.reference.chain_motion import exact_angles
 from tmm_gen.scene import Scene
+from tmm_gen.simulate.places import node_places
 from tmm_gen.simulate.planar_divergence import free_watch
 from tmm_gen.simulate.step_error import error_per_radian
 from tmm_gen.simulate.stepping import Course, Stepper
@@ -257,10 +257,8 @@ def _judged(off: Array, way: Array, times: Array, least: float, growth: float | 
 
 def _places(scene: Scene, angle: Array) -> Array:
     """Return the places of the links' outer ends, (2, k, n), m."""
-    own = angle[:, angle.shape[1] - scene.stations :].T
-    lengths = np.array([link.length for link in scene.links])[:, None]
-    limbs = limbs_of(scene)
-    return np.stack([limbs.outward(lengths * np.cos(own)).T, limbs.outward(lengths * np.sin(own)).T])
+    x, y = node_places(scene, angle[:, angle.shape[1] - scene.stations :])
+    return np.stack([x[:, 1:], y[:, 1:]])
 
 
 def _order(scene: Scene) -> float:

@@ -56,9 +56,14 @@ def add_bodies(world: Xml.Element, scene: Scene) -> Bodies:
         _inertial(parent, _LIGHT, 0.0, scene.base.inertia)  # about a fixed point its mass does nothing
         _disc(parent, 2.0 * size)
         joints.append("hub")
-    place, links = (0.0, 0.0), []
+    inmost = parent
+    links: list[Xml.Element] = []
+    called = link_names(scene)
     for number, (joint, link) in enumerate(zip(scene.joints, scene.links, strict=True), start=1):
-        parent = Xml.SubElement(parent, "body", name=f"link{number}", pos=text_of(place[0], 0.0, place[1]))
+        host = scene.host(number)
+        along = (scene.links[host - 1].length, 0.0) if planar else (0.0, 1.0)
+        parent, place = (links[host - 1], along) if host else (inmost, (0.0, 0.0))
+        parent = Xml.SubElement(parent, "body", name=called[number - 1], pos=text_of(place[0], 0.0, place[1]))
         hinge = Xml.SubElement(
             parent,
             "joint",
@@ -79,18 +84,34 @@ def add_bodies(world: Xml.Element, scene: Scene) -> Bodies:
             Xml.SubElement(
                 parent, "geom", type="capsule", size=_drawn(size), fromto=text_of(0, 0, 0, link.length, 0, 0)
             )
-            place = (link.length, 0.0)
         else:
             _inertial(parent, 1.0, 0.0, link.inertia)
             _disc(parent, 10.0 * size / scene.stations)
-            place = (0.0, 1.0)
     tip = parent
     if planar:
-        tip = Xml.SubElement(parent, "body", name="tip", pos=text_of(place[0], 0.0, 0.0))
+        tip = Xml.SubElement(parent, "body", name=called[-1], pos=text_of(scene.links[-1].length, 0.0, 0.0))
         if scene.tip is not None and (scene.tip.mass or scene.tip.inertia):
             _inertial(tip, scene.tip.mass, 0.0, scene.tip.inertia)
             Xml.SubElement(tip, "geom", type="sphere", size=_drawn(2.0 * size))
     return Bodies(ground, tuple(links), tip, tuple(joints))
+
+
+def link_names(scene: Scene) -> tuple[str, ...]:
+    """Return what the bodies of links and tip are called: as the parts they come from, or by number."""
+    found = [f"link{number}" for number in range(1, scene.stations + 1)]
+    for part in scene.parts:
+        if part.kind in ("beam", "link") and not part.fixed:
+            count = part.last - part.first + 1
+            pieces = [part.name] if count == 1 else [f"{part.name}_{k}" for k in range(1, count + 1)]
+            found[part.first - 1 : part.last] = pieces
+    taken, names = {"world", "ground", "hub"}, []
+    for name in (*found, "tip"):
+        free = name
+        while free in taken:
+            free += "_"
+        taken.add(free)
+        names.append(free)
+    return tuple(names)
 
 
 def joint_names(scene: Scene) -> tuple[str, ...]:

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from xml.etree import ElementTree as Xml
-
-import numpy as np
 
 from tmm_gen.errors import UserError
 from tmm_gen.export.mjcf.bodies import add_bodies, text_of
@@ -82,12 +81,16 @@ def mujoco_model(scene: Scene) -> MujocoModel:
 
 
 def _add_start(root: Xml.Element, scene: Scene) -> None:
-    hub = [0.0] * scene.hub  # a hub starts at angle 0, at rest
-    angles, rates = (
-        np.diff([*hub, *values], prepend=0.0) for values in (scene.initial.angles, scene.initial.rates)
-    )
+    angles, rates = (_relative(scene, values) for values in (scene.initial.angles, scene.initial.rates))
     frames = Xml.SubElement(root, "keyframe")
     Xml.SubElement(frames, "key", name=KEYFRAME, qpos=text_of(*angles), qvel=text_of(*rates))
+
+
+def _relative(scene: Scene, values: Sequence[float]) -> list[float]:
+    """Return what each joint turns by of absolute angles or rates of links, a hub, which starts at rest, first."""
+    absolute = [0.0, *values]
+    turned = [absolute[number] - absolute[scene.host(number)] for number in range(1, len(absolute))]
+    return [0.0] * scene.hub + turned
 
 
 def _document(root: Xml.Element, scene: Scene, signals: Signals) -> str:

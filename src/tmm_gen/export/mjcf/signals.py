@@ -81,7 +81,7 @@ class Signals:
             Xml.SubElement(self._sensors, kind, name=name, joint=self._joint(station))
             self._read(name, (name, 0, 1.0))
         elif quantity.read == "through":
-            self._leave_out(output, "no sensor of MuJoCo measures what passes through a joint with a rotor")
+            self._through(name, station)
         elif quantity.read == "motion" and quantity.order < 2:
             kind = ("tendonpos", "tendonvel")[quantity.order]
             Xml.SubElement(self._sensors, kind, name=name, tendon=self._angle(station))
@@ -125,6 +125,38 @@ class Signals:
                 terms.append((f"{name}_{part}", 0, value))
         self._read(name, *terms)
 
+    def _through(self, name: str, station: int) -> None:
+        """Read what a joint's inner side exerts on the outer one: motor, spring, damper, less what its rotor takes."""
+        joint = self.scene.joints[station - 1]
+        terms: list[tuple[str, int, float]] = []
+
+        def measured(part: str, kind: str, factor: float, index: int = 0, **of: str) -> None:
+            Xml.SubElement(self._sensors, kind, {"name": f"{name}_{part}", **of})
+            terms.append((f"{name}_{part}", index, factor))
+
+        at = self._joint(station)
+        for item in self.scene.inputs:
+            if item.acts == "drive" and item.at == station:
+                measured(item.name, "actuatorfrc", joint.gear, actuator=item.name)
+        if joint.stiffness:
+            measured("spring", "jointpos", -joint.stiffness, joint=at)
+        if joint.damping:
+            measured("damper", "jointvel", -joint.damping, joint=at)
+        if joint.rotor_inertia:
+            for side, number, sign in (("outer", station, -1.0), ("inner", self.scene.host(station), 1.0)):
+                if number:
+                    site = self._end(number)
+                    measured(side, "frameangacc", sign * joint.armature, 2, objtype="site", objname=site)
+        self._read(name, *terms, constant=joint.stiffness * joint.rest)
+
+    def _way_to(self, station: int) -> list[int]:
+        """Return the numbers of the joints from a link inward; the hub's is 0."""
+        found = []
+        while station > 0:
+            found.append(station)
+            station = self.scene.host(station)
+        return [*found, 0] if self.scene.hub else found
+
     def _joint(self, station: int) -> str:
         return self.bodies.joints[station - 1 + self.scene.hub]
 
@@ -133,8 +165,10 @@ class Signals:
         if station not in self._sums:
             label = "angle_of_hub" if station == 0 else f"angle_of_link{station}"
             tendon = Xml.SubElement(self._tendons, "fixed", name=label)
-            for joint in self.bodies.joints[: station + self.scene.hub]:
-                Xml.SubElement(tendon, "joint", joint=joint, coef="1")
+            for number in reversed(self._way_to(station)):
+                Xml.SubElement(
+                    tendon, "joint", joint=self.bodies.joints[number - 1 + self.scene.hub], coef="1"
+                )
             self._sums[station] = label
         return self._sums[station]
 

@@ -195,8 +195,7 @@ def _pieces(part: BeamPart) -> tuple[Link, ...]:
 
 
 def _fixed(hung: Hanging, entry: Entry) -> str:
-    carried = hung.carried(entry.name)
-    return carried[0].name if carried and carried[0].table == "link" else ""
+    return next((e.name for e in hung.carried(entry.name) if e.table == "link"), "")
 
 
 def _placed_body(entry: Entry, on: PlacedPart) -> PlacedPart:

@@ -75,7 +75,7 @@ def _branch(hung: Hanging, name: str, carried: list[Entry], entry: Entry) -> Ite
             f"Hang it on '{first.name}', or put a [[link]] on '{name}' and hang both on that.",
             entry.part.on,
         )
-    elif (fixed := next((e for e in carried if e.table == "link"), None)) is not None:
+    elif host is not None and (fixed := next((e for e in carried if e.table == "link"), None)) is not None:
         other = entry if entry is not fixed else first
         yield Finding(
             (*other.path, "on"),
