@@ -234,15 +234,24 @@ def fork_file(tmp_path: Path) -> Path:
     return path
 
 
+def hand_text(mass: float, inertia: float, sides: tuple[str, ...] = ("left", "right")) -> str:
+    """Return a palm with two fingers alike, or one finger on the base."""
+    palm = PALM.format(mass=mass, inertia=inertia) if len(sides) > 1 else ""
+    signs = {"left": 1.0, "right": -1.0}
+    on = "palm" if palm else "base"
+    fingers = [FINGER.format(side=s, on=on, rest=0.5 * signs[s], bent=0.3 * signs[s]) for s in sides]
+    return "".join([HEAD, palm, *fingers])
+
+
 @pytest.fixture
 def hand() -> Callable[..., Scene]:
-    """A palm with two fingers alike, or one finger on the base."""
+    """The same as a scene."""
+    return lambda *values, **more: parse_scene(hand_text(*values, **more))
 
-    def made(mass: float, inertia: float, sides: tuple[str, ...] = ("left", "right")) -> Scene:
-        palm = PALM.format(mass=mass, inertia=inertia) if len(sides) > 1 else ""
-        signs = {"left": 1.0, "right": -1.0}
-        on = "palm" if palm else "base"
-        fingers = [FINGER.format(side=s, on=on, rest=0.5 * signs[s], bent=0.3 * signs[s]) for s in sides]
-        return parse_scene("".join([HEAD, palm, *fingers]))
 
-    return made
+@pytest.fixture
+def hand_file(tmp_path: Path) -> Path:
+    """A palm with two fingers in gravity, in a file."""
+    path = tmp_path / "hand.toml"
+    path.write_text(hand_text(0.1, 1e-4).replace("gravity = 0.0", "gravity = 9.81"))
+    return path

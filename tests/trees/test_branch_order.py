@@ -51,7 +51,9 @@ def test_modes(pair: Sequence[Scene]) -> None:
 
 
 def test_frequency_response(pair: Sequence[Scene]) -> None:
-    one, other = (frequency_response(resting_arm(scene), 2j * np.pi * np.array([1.0, 30.0])) for scene in pair)
+    one, other = (
+        frequency_response(resting_arm(scene), 2j * np.pi * np.array([1.0, 30.0])) for scene in pair
+    )
     assert set(one) == set(other)
     for name, values in one.items():
         assert values == pytest.approx(other[name], rel=1e-7, abs=1e-9 * np.abs(values).max()), name
@@ -62,7 +64,8 @@ def test_run(pair: Sequence[Scene]) -> None:
     one, other = (simulate(scene, held, 0.1) for scene in pair)
     for name, values in one.outputs.items():
         assert values == pytest.approx(other.outputs[name], abs=1e-8 * np.abs(values).max()), name
-    assert one.accuracy is not None and other.accuracy is not None
+    assert one.accuracy is not None
+    assert other.accuracy is not None
     assert one.accuracy.error == pytest.approx(other.accuracy.error, rel=0.2)
 
 

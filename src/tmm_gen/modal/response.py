@@ -90,7 +90,9 @@ def _force(arm: LinearArm, states: States, output: Output, station: int) -> Comp
     """Return the forces in a joint, or between the last link and the body at the tip."""
     if output.at == "tip":
         link = _behind(arm, station) - 1
-        beyond = states.force[-1].copy() if link + 1 < len(states.force) else np.zeros_like(states.force[-1])
+        beyond: Complex = (
+            states.force[-1].copy() if link + 1 < len(states.force) else np.zeros_like(states.force[-1])
+        )
         for number, load in arm.elements[link].loads:
             beyond[:, :, number] -= np.array(load)
         return beyond

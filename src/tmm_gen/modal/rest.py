@@ -56,7 +56,9 @@ def slack(scene: Scene) -> Array:
     limbs, start = limbs_of(scene), np.array(scene.initial.angles, float)
     held = np.array([joint.stiffness > 0.0 for joint in scene.joints])
     rest = np.array([joint.rest for joint in scene.joints])
-    return np.concatenate([np.zeros(scene.hub), limbs.outward(np.where(held, rest, start - limbs.inner(start)))])
+    return np.concatenate(
+        [np.zeros(scene.hub), limbs.outward(np.where(held, rest, start - limbs.inner(start)))]
+    )
 
 
 def rest_at(

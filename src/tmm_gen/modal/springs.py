@@ -116,7 +116,9 @@ def springs_of(parts: Parts) -> Springs:
     ground = parts.ground_stiffness.tolist()
     springs = ([0.0] if parts.hub else []) + parts.spring.tolist()
     pivot, share = [0.0] * len(ground), [0.0] * len(ground)
-    beyond = [0.0] * (len(ground) + 1)  # on the base and each angle: stiffness of all outboard, as joints pass it on
+    beyond = [0.0] * (
+        len(ground) + 1
+    )  # on the base and each angle: stiffness of all outboard, as joints pass it on
     for i in reversed(range(len(ground))):
         own = ground[i] + beyond[i + 1]
         pivot[i] = springs[i] + own

@@ -87,12 +87,10 @@ class Carried:
 
 def _over(blocks: Blocks, impedance: Complex, bias: Complex) -> Carried:
     width = impedance.shape[1]
-    inward = np.linalg.solve(
-        blocks.U22 - impedance @ blocks.U12,
-        np.concatenate([impedance @ blocks.U11 - blocks.U21, bias], axis=2),
-    )
-    impedance, bias = inward[:, :, :width], inward[:, :, width:]
-    return Carried(impedance, bias, blocks.U11 + blocks.U12 @ impedance, blocks.U12 @ bias)
+    right = np.concatenate([impedance @ blocks.U11 - blocks.U21, bias], axis=2)
+    both: Complex = np.asarray(np.linalg.solve(blocks.U22 - impedance @ blocks.U12, right), complex)
+    inner, left = both[:, :, :width], both[:, :, width:]
+    return Carried(inner, left, blocks.U11 + blocks.U12 @ inner, blocks.U12 @ left)
 
 
 def _pivot(placed: Placed, s: Complex, impedance: Complex, bias: Complex) -> Carried:
