@@ -1,8 +1,8 @@
 # elbow: Flexible arm with motors at shoulder and elbow
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 06f298327cf2c2c8fa821c06747d2f49d9011eb9eaa180b506b84fce6306d06e
-# sha256 of the rest of this file: a3ca510df1ba6942673cdab48b9dbf2b72306c77e12532320db789c2924c2df5
+# scene digest: 2cf3828155010d9c4885fc2a677583998b6bf00b0d62ade41f995022bcf74f11
+# sha256 of the rest of this file: 3bf36e86d981101f32a19d7547aba3f8f4b6863f679a7e9d8f130420dcf1fc8d
 """elbow: Flexible arm with motors at shoulder and elbow."""
 
 from .kernel import (

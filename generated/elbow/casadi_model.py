@@ -1,8 +1,8 @@
 # elbow: Flexible arm with motors at shoulder and elbow
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 06f298327cf2c2c8fa821c06747d2f49d9011eb9eaa180b506b84fce6306d06e
-# sha256 of the rest of this file: 8fe5702d998585a1cb60bb15e38a761928679c393a6d10017819cd00b35ccd51
+# scene digest: 2cf3828155010d9c4885fc2a677583998b6bf00b0d62ade41f995022bcf74f11
+# sha256 of the rest of this file: 28fbc393531415800465764696cf6cc5ba86f7ecdd2d02fe585db9504534d0e7
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 12

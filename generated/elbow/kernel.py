@@ -1,8 +1,8 @@
 # elbow: Flexible arm with motors at shoulder and elbow
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 06f298327cf2c2c8fa821c06747d2f49d9011eb9eaa180b506b84fce6306d06e
-# sha256 of the rest of this file: f4dbb0e9ca479b2043ab07b08dba26a3b2cc8e6fa106d39889a3913a888e3c45
+# scene digest: 2cf3828155010d9c4885fc2a677583998b6bf00b0d62ade41f995022bcf74f11
+# sha256 of the rest of this file: 601dad6410394a10b539ff189544daeb15fe3448673a24aeb79dada396b912ce
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 12
@@ -459,13 +459,9 @@ def initialise(
     answer_y = np.zeros((STATIONS, *batch), dtype)
     drive = np.zeros((STATIONS, *batch), dtype)
     joint_torque = np.zeros((STATIONS, *batch), dtype)
-    lever_cosine = np.zeros((STATIONS, *batch), dtype)
-    lever_sine = np.zeros((STATIONS, *batch), dtype)
     predicted_acceleration = np.zeros((STATIONS + 1, *batch), dtype)
     predicted_angle = np.zeros((STATIONS + 1, *batch), dtype)
     predicted_rate = np.zeros((STATIONS + 1, *batch), dtype)
-    relative_x = np.zeros((STATIONS, *batch), dtype)
-    relative_y = np.zeros((STATIONS, *batch), dtype)
     solved = np.zeros((STATIONS, *batch), dtype)
     start_node_mass = np.zeros((STATIONS, *batch), dtype)
     transmission = np.zeros((STATIONS, *batch), dtype)
@@ -485,46 +481,16 @@ def initialise(
     predicted_acceleration[1:] = 0.0
 
     # accelerations of the nodes, seen from a falling frame: gravity is the base's own
-    lever_cosine[:1] = length[:1] * np.cos(predicted_angle[1:2])
-    lever_sine[:1] = length[:1] * np.sin(predicted_angle[1:2])
-    square = predicted_rate[1:2] * predicted_rate[1:2]
-    relative_x[:1] = -lever_cosine[:1] * square - lever_sine[:1] * predicted_acceleration[1:2]
-    relative_y[:1] = lever_cosine[:1] * predicted_acceleration[1:2] - lever_sine[:1] * square
-    lever_cosine[1:6] = length[1:6] * np.cos(predicted_angle[2:7])
-    lever_sine[1:6] = length[1:6] * np.sin(predicted_angle[2:7])
-    square = predicted_rate[2:7] * predicted_rate[2:7]
-    relative_x[1:6] = -lever_cosine[1:6] * square - lever_sine[1:6] * predicted_acceleration[2:7]
-    relative_y[1:6] = lever_cosine[1:6] * predicted_acceleration[2:7] - lever_sine[1:6] * square
-    lever_cosine[6:7] = length[6:7] * np.cos(predicted_angle[7:8])
-    lever_sine[6:7] = length[6:7] * np.sin(predicted_angle[7:8])
-    square = predicted_rate[7:8] * predicted_rate[7:8]
-    relative_x[6:7] = -lever_cosine[6:7] * square - lever_sine[6:7] * predicted_acceleration[7:8]
-    relative_y[6:7] = lever_cosine[6:7] * predicted_acceleration[7:8] - lever_sine[6:7] * square
-    lever_cosine[7:] = length[7:] * np.cos(predicted_angle[8:])
-    lever_sine[7:] = length[7:] * np.sin(predicted_angle[8:])
-    square = predicted_rate[8:] * predicted_rate[8:]
-    relative_x[7:] = -lever_cosine[7:] * square - lever_sine[7:] * predicted_acceleration[8:]
-    relative_y[7:] = lever_cosine[7:] * predicted_acceleration[8:] - lever_sine[7:] * square
+    lever_cosine = length * np.cos(predicted_angle[1:])
+    lever_sine = length * np.sin(predicted_angle[1:])
+    square = predicted_rate[1:] * predicted_rate[1:]
+    relative_x = -lever_cosine * square - lever_sine * predicted_acceleration[1:]
+    relative_y = lever_cosine * predicted_acceleration[1:] - lever_sine * square
     node_x: Any = 0.0
     node_y = gravity
     acceleration_x[0] = node_x
     acceleration_y[0] = node_y
-    for j in range(1):
-        node_x = node_x + relative_x[j]
-        node_y = node_y + relative_y[j]
-        acceleration_x[j + 1] = node_x
-        acceleration_y[j + 1] = node_y
-    for j in range(1, 6):
-        node_x = node_x + relative_x[j]
-        node_y = node_y + relative_y[j]
-        acceleration_x[j + 1] = node_x
-        acceleration_y[j + 1] = node_y
-    for j in range(6, 7):
-        node_x = node_x + relative_x[j]
-        node_y = node_y + relative_y[j]
-        acceleration_x[j + 1] = node_x
-        acceleration_y[j + 1] = node_y
-    for j in range(7, STATIONS):
+    for j in range(STATIONS):
         node_x = node_x + relative_x[j]
         node_y = node_y + relative_y[j]
         acceleration_x[j + 1] = node_x
@@ -839,16 +805,10 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     answer_y = np.zeros((STATIONS, *batch), dtype)
     drive = np.zeros((STATIONS, *batch), dtype)
     joint_torque = np.zeros((STATIONS, *batch), dtype)
-    lever_cosine = np.zeros((STATIONS, *batch), dtype)
-    lever_sine = np.zeros((STATIONS, *batch), dtype)
     predicted_acceleration = np.zeros((STATIONS + 1, *batch), dtype)
     predicted_angle = np.zeros((STATIONS + 1, *batch), dtype)
     predicted_rate = np.zeros((STATIONS + 1, *batch), dtype)
-    relative_x = np.zeros((STATIONS, *batch), dtype)
-    relative_y = np.zeros((STATIONS, *batch), dtype)
     solved = np.zeros((STATIONS, *batch), dtype)
-    swing_x = np.zeros((STATIONS, *batch), dtype)
-    swing_y = np.zeros((STATIONS, *batch), dtype)
     transmission = np.zeros((STATIONS, *batch), dtype)
 
     # predicted motion
@@ -860,58 +820,19 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     predicted_acceleration[1:] = acceleration
 
     # accelerations of the nodes, seen from a falling frame: gravity is the base's own
-    lever_cosine[:1] = length[:1] * np.cos(predicted_angle[1:2])
-    lever_sine[:1] = length[:1] * np.sin(predicted_angle[1:2])
-    square = predicted_rate[1:2] * predicted_rate[1:2]
-    relative_x[:1] = -lever_cosine[:1] * square - lever_sine[:1] * predicted_acceleration[1:2]
-    relative_y[:1] = lever_cosine[:1] * predicted_acceleration[1:2] - lever_sine[:1] * square
-    turning = predicted_rate[1:2] * step
-    swing_x[:1] = -lever_sine[:1] - angle_per_acceleration * relative_y[:1] - lever_cosine[:1] * turning
-    swing_y[:1] = lever_cosine[:1] + angle_per_acceleration * relative_x[:1] - lever_sine[:1] * turning
-    lever_cosine[1:6] = length[1:6] * np.cos(predicted_angle[2:7])
-    lever_sine[1:6] = length[1:6] * np.sin(predicted_angle[2:7])
-    square = predicted_rate[2:7] * predicted_rate[2:7]
-    relative_x[1:6] = -lever_cosine[1:6] * square - lever_sine[1:6] * predicted_acceleration[2:7]
-    relative_y[1:6] = lever_cosine[1:6] * predicted_acceleration[2:7] - lever_sine[1:6] * square
-    turning = predicted_rate[2:7] * step
-    swing_x[1:6] = -lever_sine[1:6] - angle_per_acceleration * relative_y[1:6] - lever_cosine[1:6] * turning
-    swing_y[1:6] = lever_cosine[1:6] + angle_per_acceleration * relative_x[1:6] - lever_sine[1:6] * turning
-    lever_cosine[6:7] = length[6:7] * np.cos(predicted_angle[7:8])
-    lever_sine[6:7] = length[6:7] * np.sin(predicted_angle[7:8])
-    square = predicted_rate[7:8] * predicted_rate[7:8]
-    relative_x[6:7] = -lever_cosine[6:7] * square - lever_sine[6:7] * predicted_acceleration[7:8]
-    relative_y[6:7] = lever_cosine[6:7] * predicted_acceleration[7:8] - lever_sine[6:7] * square
-    turning = predicted_rate[7:8] * step
-    swing_x[6:7] = -lever_sine[6:7] - angle_per_acceleration * relative_y[6:7] - lever_cosine[6:7] * turning
-    swing_y[6:7] = lever_cosine[6:7] + angle_per_acceleration * relative_x[6:7] - lever_sine[6:7] * turning
-    lever_cosine[7:] = length[7:] * np.cos(predicted_angle[8:])
-    lever_sine[7:] = length[7:] * np.sin(predicted_angle[8:])
-    square = predicted_rate[8:] * predicted_rate[8:]
-    relative_x[7:] = -lever_cosine[7:] * square - lever_sine[7:] * predicted_acceleration[8:]
-    relative_y[7:] = lever_cosine[7:] * predicted_acceleration[8:] - lever_sine[7:] * square
-    turning = predicted_rate[8:] * step
-    swing_x[7:] = -lever_sine[7:] - angle_per_acceleration * relative_y[7:] - lever_cosine[7:] * turning
-    swing_y[7:] = lever_cosine[7:] + angle_per_acceleration * relative_x[7:] - lever_sine[7:] * turning
+    lever_cosine = length * np.cos(predicted_angle[1:])
+    lever_sine = length * np.sin(predicted_angle[1:])
+    square = predicted_rate[1:] * predicted_rate[1:]
+    relative_x = -lever_cosine * square - lever_sine * predicted_acceleration[1:]
+    relative_y = lever_cosine * predicted_acceleration[1:] - lever_sine * square
+    turning = predicted_rate[1:] * step
+    swing_x = -lever_sine - angle_per_acceleration * relative_y - lever_cosine * turning
+    swing_y = lever_cosine + angle_per_acceleration * relative_x - lever_sine * turning
     node_x: Any = 0.0
     node_y = gravity
     acceleration_x[0] = node_x
     acceleration_y[0] = node_y
-    for j in range(1):
-        node_x = node_x + relative_x[j]
-        node_y = node_y + relative_y[j]
-        acceleration_x[j + 1] = node_x
-        acceleration_y[j + 1] = node_y
-    for j in range(1, 6):
-        node_x = node_x + relative_x[j]
-        node_y = node_y + relative_y[j]
-        acceleration_x[j + 1] = node_x
-        acceleration_y[j + 1] = node_y
-    for j in range(6, 7):
-        node_x = node_x + relative_x[j]
-        node_y = node_y + relative_y[j]
-        acceleration_x[j + 1] = node_x
-        acceleration_y[j + 1] = node_y
-    for j in range(7, STATIONS):
+    for j in range(STATIONS):
         node_x = node_x + relative_x[j]
         node_y = node_y + relative_y[j]
         acceleration_x[j + 1] = node_x
@@ -951,130 +872,7 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     force_x: Any = 0.0
     force_y: Any = 0.0
     torque = predicted_acceleration[12] * tip_inertia
-    for j in reversed(range(7, STATIONS)):
-        impedance_xx = impedance_xx + node_mass[j]
-        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
-        impedance_yy = impedance_yy + node_mass[j]
-        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
-        impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
-        impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
-        impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
-        impedance_ux = impedance_ux - impedance_xx * lever_sine[j] + impedance_yx * lever_cosine[j]
-        impedance_uy = impedance_uy - impedance_xy * lever_sine[j] + impedance_yy * lever_cosine[j]
-        impedance_uu = (
-            impedance_uu
-            + rod_inertia[j]
-            + lever_cosine[j] * (impedance_yu - angle_per_acceleration * force_x)
-            + lever_sine[j] * (-impedance_xu - angle_per_acceleration * force_y)
-        )
-        torque = (
-            torque
-            - force_x * lever_sine[j]
-            + force_y * lever_cosine[j]
-            + predicted_acceleration[j + 1] * rod_inertia[j]
-        )
-        pivot = impedance_uu + joint_impedance[j]
-        good = _positive_pivot(good, pivot, "pivot", j)
-        admittance = 1.0 / pivot
-        answer_own[j] = admittance * (joint_torque[j] - torque)
-        answer_x[j] = admittance * impedance_ux
-        answer_y[j] = admittance * impedance_uy
-        transmission[j] = admittance * joint_impedance[j]
-        impedance_xx = impedance_xx - answer_x[j] * impedance_xu
-        impedance_xy = impedance_xy - answer_y[j] * impedance_xu
-        force_x = force_x + answer_own[j] * impedance_xu
-        impedance_xu = impedance_xu * transmission[j]
-        impedance_yx = impedance_yx - answer_x[j] * impedance_yu
-        impedance_yy = impedance_yy - answer_y[j] * impedance_yu
-        force_y = force_y + answer_own[j] * impedance_yu
-        impedance_yu = impedance_yu * transmission[j]
-        impedance_ux = answer_x[j] * joint_impedance[j]
-        impedance_uy = answer_y[j] * joint_impedance[j]
-        impedance_uu = impedance_uu * transmission[j]
-        torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
-    for j in reversed(range(6, 7)):
-        impedance_xx = impedance_xx + node_mass[j]
-        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
-        impedance_yy = impedance_yy + node_mass[j]
-        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
-        impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
-        impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
-        impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
-        impedance_ux = impedance_ux - impedance_xx * lever_sine[j] + impedance_yx * lever_cosine[j]
-        impedance_uy = impedance_uy - impedance_xy * lever_sine[j] + impedance_yy * lever_cosine[j]
-        impedance_uu = (
-            impedance_uu
-            + rod_inertia[j]
-            + lever_cosine[j] * (impedance_yu - angle_per_acceleration * force_x)
-            + lever_sine[j] * (-impedance_xu - angle_per_acceleration * force_y)
-        )
-        torque = (
-            torque
-            - force_x * lever_sine[j]
-            + force_y * lever_cosine[j]
-            + predicted_acceleration[j + 1] * rod_inertia[j]
-        )
-        pivot = impedance_uu + joint_impedance[j]
-        good = _positive_pivot(good, pivot, "pivot", j)
-        admittance = 1.0 / pivot
-        answer_own[j] = admittance * (joint_torque[j] - torque)
-        answer_x[j] = admittance * impedance_ux
-        answer_y[j] = admittance * impedance_uy
-        transmission[j] = admittance * joint_impedance[j]
-        impedance_xx = impedance_xx - answer_x[j] * impedance_xu
-        impedance_xy = impedance_xy - answer_y[j] * impedance_xu
-        force_x = force_x + answer_own[j] * impedance_xu
-        impedance_xu = impedance_xu * transmission[j]
-        impedance_yx = impedance_yx - answer_x[j] * impedance_yu
-        impedance_yy = impedance_yy - answer_y[j] * impedance_yu
-        force_y = force_y + answer_own[j] * impedance_yu
-        impedance_yu = impedance_yu * transmission[j]
-        impedance_ux = answer_x[j] * joint_impedance[j]
-        impedance_uy = answer_y[j] * joint_impedance[j]
-        impedance_uu = impedance_uu * transmission[j]
-        torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
-    for j in reversed(range(1, 6)):
-        impedance_xx = impedance_xx + node_mass[j]
-        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
-        impedance_yy = impedance_yy + node_mass[j]
-        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
-        impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
-        impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
-        impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
-        impedance_ux = impedance_ux - impedance_xx * lever_sine[j] + impedance_yx * lever_cosine[j]
-        impedance_uy = impedance_uy - impedance_xy * lever_sine[j] + impedance_yy * lever_cosine[j]
-        impedance_uu = (
-            impedance_uu
-            + rod_inertia[j]
-            + lever_cosine[j] * (impedance_yu - angle_per_acceleration * force_x)
-            + lever_sine[j] * (-impedance_xu - angle_per_acceleration * force_y)
-        )
-        torque = (
-            torque
-            - force_x * lever_sine[j]
-            + force_y * lever_cosine[j]
-            + predicted_acceleration[j + 1] * rod_inertia[j]
-        )
-        pivot = impedance_uu + joint_impedance[j]
-        good = _positive_pivot(good, pivot, "pivot", j)
-        admittance = 1.0 / pivot
-        answer_own[j] = admittance * (joint_torque[j] - torque)
-        answer_x[j] = admittance * impedance_ux
-        answer_y[j] = admittance * impedance_uy
-        transmission[j] = admittance * joint_impedance[j]
-        impedance_xx = impedance_xx - answer_x[j] * impedance_xu
-        impedance_xy = impedance_xy - answer_y[j] * impedance_xu
-        force_x = force_x + answer_own[j] * impedance_xu
-        impedance_xu = impedance_xu * transmission[j]
-        impedance_yx = impedance_yx - answer_x[j] * impedance_yu
-        impedance_yy = impedance_yy - answer_y[j] * impedance_yu
-        force_y = force_y + answer_own[j] * impedance_yu
-        impedance_yu = impedance_yu * transmission[j]
-        impedance_ux = answer_x[j] * joint_impedance[j]
-        impedance_uy = answer_y[j] * joint_impedance[j]
-        impedance_uu = impedance_uu * transmission[j]
-        torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
-    for j in reversed(range(1)):
+    for j in reversed(range(STATIONS)):
         impedance_xx = impedance_xx + node_mass[j]
         force_x = force_x + acceleration_x[j + 1] * node_mass[j]
         impedance_yy = impedance_yy + node_mass[j]
@@ -1122,22 +920,7 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     # sweep outward: the unknown of each station
     change_x: Any = 0.0
     change_y: Any = 0.0
-    for j in range(1):
-        unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y + transmission[j] * unknown
-        change_x = change_x + swing_x[j] * unknown
-        change_y = change_y + swing_y[j] * unknown
-        solved[j] = unknown
-    for j in range(1, 6):
-        unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y + transmission[j] * unknown
-        change_x = change_x + swing_x[j] * unknown
-        change_y = change_y + swing_y[j] * unknown
-        solved[j] = unknown
-    for j in range(6, 7):
-        unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y + transmission[j] * unknown
-        change_x = change_x + swing_x[j] * unknown
-        change_y = change_y + swing_y[j] * unknown
-        solved[j] = unknown
-    for j in range(7, STATIONS):
+    for j in range(STATIONS):
         unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y + transmission[j] * unknown
         change_x = change_x + swing_x[j] * unknown
         change_y = change_y + swing_y[j] * unknown
@@ -1184,16 +967,7 @@ def output(model: Model, state: State) -> Output:
     # payload: position
     payload_x: Any = 0.0
     payload_y: Any = 0.0
-    for j in range(1):
-        payload_x = payload_x + length[j] * np.cos(angle[j])
-        payload_y = payload_y + length[j] * np.sin(angle[j])
-    for j in range(1, 6):
-        payload_x = payload_x + length[j] * np.cos(angle[j])
-        payload_y = payload_y + length[j] * np.sin(angle[j])
-    for j in range(6, 7):
-        payload_x = payload_x + length[j] * np.cos(angle[j])
-        payload_y = payload_y + length[j] * np.sin(angle[j])
-    for j in range(7, STATIONS):
+    for j in range(STATIONS):
         payload_x = payload_x + length[j] * np.cos(angle[j])
         payload_y = payload_y + length[j] * np.sin(angle[j])
 

@@ -122,7 +122,13 @@ def written(tables: Iterable[tuple[str, dict[str, Any]]], name: str = "drawn") -
 
 
 def drawn_arm(
-    seed: int, count: int, *, integrator: str = "newmark", step: float = 1e-3, **model: Any
+    seed: int,
+    count: int,
+    *,
+    integrator: str = "newmark",
+    step: float = 1e-3,
+    branching: bool = False,
+    **model: Any,
 ) -> Scene:
     """Return a random arm of so many parts, in shuffled order, with every input and output."""
     random = np.random.default_rng(seed)
@@ -133,7 +139,10 @@ def drawn_arm(
     for number in range(count):
         name = f"part{number}"
         if number % 2 == 0:
-            on = _turns(random, hung, name, on, motor=number > 0 or kind != "prescribed")
+            if branching:
+                on = str(random.choice(["base", *solid]))
+            motor = (number > 0 and on != "base") or kind != "prescribed"
+            on = _turns(random, hung, name, on, motor=motor, elastic=branching)
             turning.append(name)
         else:
             on = _solid(random, hung, name, on)
@@ -174,7 +183,9 @@ def drawn_arm(
     return parse_scene(written(tables))
 
 
-def _turns(random: np.random.Generator, hung: list[Any], name: str, on: str, *, motor: bool) -> str:
+def _turns(
+    random: np.random.Generator, hung: list[Any], name: str, on: str, *, motor: bool, elastic: bool
+) -> str:
     keys: dict[str, Any] = {"name": name, "on": on}
     if random.uniform() < 0.2:
         keys["damping"] = 0.0
@@ -182,6 +193,12 @@ def _turns(random: np.random.Generator, hung: list[Any], name: str, on: str, *, 
         keys["damping"] = random.uniform(0.01, 0.2)
     if motor and random.uniform() < 0.5:
         keys |= {"rotor_inertia": random.uniform(0.0, 3e-5), "gear": float(random.choice([1.0, 20.0, 100.0]))}
+        if elastic and random.uniform() < 0.5:
+            keys |= {
+                "rotor_inertia": 1e-5 if keys["gear"] > 1.0 else 1e-2,
+                "stiffness": random.uniform(50, 500),
+            }
+            keys |= {"damping_time": 0.001, "motor_damping": 1e-6}
         hung.append(("[motor]", keys))
     else:
         keys |= {"stiffness": float(random.choice([0.0, random.uniform(3.0, 30.0)]))}

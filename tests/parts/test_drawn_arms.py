@@ -28,13 +28,13 @@ pytestmark = [pytest.mark.compiler, pytest.mark.long]
 
 AGREE = 1e-12
 UNTIL = 0.05
-FEW = settings(max_examples=6, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck))
+FEW = settings(max_examples=8, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck))
 
 
 @FEW
-@given(seed=st.integers(0, 10_000), count=st.integers(2, 8))
-def test_backends_agree(seed: int, count: int, drawn: Callable[..., Scene]) -> None:
-    scene = drawn(seed, count)
+@given(seed=st.integers(0, 10_000), count=st.integers(2, 12), branching=st.booleans())
+def test_backends_agree(seed: int, count: int, branching: bool, drawn: Callable[..., Scene]) -> None:
+    scene = drawn(seed, count, branching=branching)
     program = build_program(scene)
     module = numpy_module(scene, program)
     ours = numpy_step(module, program)
@@ -45,13 +45,18 @@ def test_backends_agree(seed: int, count: int, drawn: Callable[..., Scene]) -> N
 
 
 @FEW
-@given(seed=st.integers(0, 10_000), count=st.integers(2, 8), order=st.sampled_from([2, 4]))
+@given(
+    seed=st.integers(0, 10_000),
+    count=st.integers(2, 12),
+    order=st.sampled_from([2, 4]),
+    branching=st.booleans(),
+)
 def test_steps_are_those_of_lagranges_equations(
-    seed: int, count: int, order: int, drawn: Callable[..., Scene]
+    seed: int, count: int, order: int, branching: bool, drawn: Callable[..., Scene]
 ) -> None:
     """Within ten times the step's own error, which halving the step shows."""
     name, step, sweeps = {2: ("newmark", 2.5e-4, 2), 4: ("sdirk4", 1e-3, 1)}[order]
-    scene = drawn(seed, count, integrator=name, step=step, iterations=sweeps)
+    scene = drawn(seed, count, integrator=name, step=step, branching=branching, iterations=sweeps)
     signals = {
         item.name: Sine(0.02, 3.0 + k, np.pi / 2.0 if item.acts == "angle" else 0.3)
         for k, item in enumerate(scene.inputs)

@@ -153,11 +153,11 @@ CASES = [
         ('name = "base"', 'name = "tool"'),
     ),
     Case(
-        "elastic gear",
-        "gear = 50",
+        "elastic gear without a rotor",
+        "rotor_inertia = 1e-5\ngear = 50",
         "gear = 50\nstiffness = 4000.0",
-        "motor[2].stiffness",
-        "gears are rigid",
+        "motor[2].rotor_inertia",
+        "cannot turn without inertia",
         ("\nstiffness = 4000.0", ""),
     ),
     Case(

@@ -2,8 +2,8 @@
  * elbow: Flexible arm with motors at shoulder and elbow
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 06f298327cf2c2c8fa821c06747d2f49d9011eb9eaa180b506b84fce6306d06e
- * sha256 of the rest of this file: 6636297858b269ab4de168a367765a69723dc85dd718cdcfee669f6bfb9610e2
+ * scene digest: 2cf3828155010d9c4885fc2a677583998b6bf00b0d62ade41f995022bcf74f11
+ * sha256 of the rest of this file: b19869e0896e420c7ff0c51a1aa56d782126c8ca8eeb1847f1e8552c34b824de
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 12
@@ -273,53 +273,14 @@ elbow_status elbow_initialise(
     }
 
     /* Accelerations of the nodes, seen from a falling frame: gravity is the base's own. */
-    for (int j = 0; j < 1; ++j) {
+    for (int j = 0; j < ELBOW_STATIONS; ++j) {
         lever_cosine[j] = params->length[j] * cos(predicted_angle[j + 1]);
         lever_sine[j] = params->length[j] * sin(predicted_angle[j + 1]);
         const real square = predicted_rate[j + 1] * predicted_rate[j + 1];
         relative_x[j] = -lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1];
         relative_y[j] = lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square;
     }
-    for (int j = 1; j < 6; ++j) {
-        lever_cosine[j] = params->length[j] * cos(predicted_angle[j + 1]);
-        lever_sine[j] = params->length[j] * sin(predicted_angle[j + 1]);
-        const real square = predicted_rate[j + 1] * predicted_rate[j + 1];
-        relative_x[j] = -lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1];
-        relative_y[j] = lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square;
-    }
-    for (int j = 6; j < 7; ++j) {
-        lever_cosine[j] = params->length[j] * cos(predicted_angle[j + 1]);
-        lever_sine[j] = params->length[j] * sin(predicted_angle[j + 1]);
-        const real square = predicted_rate[j + 1] * predicted_rate[j + 1];
-        relative_x[j] = -lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1];
-        relative_y[j] = lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square;
-    }
-    for (int j = 7; j < ELBOW_STATIONS; ++j) {
-        lever_cosine[j] = params->length[j] * cos(predicted_angle[j + 1]);
-        lever_sine[j] = params->length[j] * sin(predicted_angle[j + 1]);
-        const real square = predicted_rate[j + 1] * predicted_rate[j + 1];
-        relative_x[j] = -lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1];
-        relative_y[j] = lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square;
-    }
-    for (int j = 0; j < 1; ++j) {
-        node_x = node_x + relative_x[j];
-        node_y = node_y + relative_y[j];
-        acceleration_x[j + 1] = node_x;
-        acceleration_y[j + 1] = node_y;
-    }
-    for (int j = 1; j < 6; ++j) {
-        node_x = node_x + relative_x[j];
-        node_y = node_y + relative_y[j];
-        acceleration_x[j + 1] = node_x;
-        acceleration_y[j + 1] = node_y;
-    }
-    for (int j = 6; j < 7; ++j) {
-        node_x = node_x + relative_x[j];
-        node_y = node_y + relative_y[j];
-        acceleration_x[j + 1] = node_x;
-        acceleration_y[j + 1] = node_y;
-    }
-    for (int j = 7; j < ELBOW_STATIONS; ++j) {
+    for (int j = 0; j < ELBOW_STATIONS; ++j) {
         node_x = node_x + relative_x[j];
         node_y = node_y + relative_y[j];
         acceleration_x[j + 1] = node_x;
@@ -584,7 +545,7 @@ elbow_status elbow_step(
     }
 
     /* Accelerations of the nodes, seen from a falling frame: gravity is the base's own. */
-    for (int j = 0; j < 1; ++j) {
+    for (int j = 0; j < ELBOW_STATIONS; ++j) {
         lever_cosine[j] = model->length[j] * cos(predicted_angle[j + 1]);
         lever_sine[j] = model->length[j] * sin(predicted_angle[j + 1]);
         const real square = predicted_rate[j + 1] * predicted_rate[j + 1];
@@ -594,55 +555,7 @@ elbow_status elbow_step(
         swing_x[j] = -lever_sine[j] - angle_per_acceleration * relative_y[j] - lever_cosine[j] * turning;
         swing_y[j] = lever_cosine[j] + angle_per_acceleration * relative_x[j] - lever_sine[j] * turning;
     }
-    for (int j = 1; j < 6; ++j) {
-        lever_cosine[j] = model->length[j] * cos(predicted_angle[j + 1]);
-        lever_sine[j] = model->length[j] * sin(predicted_angle[j + 1]);
-        const real square = predicted_rate[j + 1] * predicted_rate[j + 1];
-        relative_x[j] = -lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1];
-        relative_y[j] = lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square;
-        const real turning = predicted_rate[j + 1] * step;
-        swing_x[j] = -lever_sine[j] - angle_per_acceleration * relative_y[j] - lever_cosine[j] * turning;
-        swing_y[j] = lever_cosine[j] + angle_per_acceleration * relative_x[j] - lever_sine[j] * turning;
-    }
-    for (int j = 6; j < 7; ++j) {
-        lever_cosine[j] = model->length[j] * cos(predicted_angle[j + 1]);
-        lever_sine[j] = model->length[j] * sin(predicted_angle[j + 1]);
-        const real square = predicted_rate[j + 1] * predicted_rate[j + 1];
-        relative_x[j] = -lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1];
-        relative_y[j] = lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square;
-        const real turning = predicted_rate[j + 1] * step;
-        swing_x[j] = -lever_sine[j] - angle_per_acceleration * relative_y[j] - lever_cosine[j] * turning;
-        swing_y[j] = lever_cosine[j] + angle_per_acceleration * relative_x[j] - lever_sine[j] * turning;
-    }
-    for (int j = 7; j < ELBOW_STATIONS; ++j) {
-        lever_cosine[j] = model->length[j] * cos(predicted_angle[j + 1]);
-        lever_sine[j] = model->length[j] * sin(predicted_angle[j + 1]);
-        const real square = predicted_rate[j + 1] * predicted_rate[j + 1];
-        relative_x[j] = -lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1];
-        relative_y[j] = lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square;
-        const real turning = predicted_rate[j + 1] * step;
-        swing_x[j] = -lever_sine[j] - angle_per_acceleration * relative_y[j] - lever_cosine[j] * turning;
-        swing_y[j] = lever_cosine[j] + angle_per_acceleration * relative_x[j] - lever_sine[j] * turning;
-    }
-    for (int j = 0; j < 1; ++j) {
-        node_x = node_x + relative_x[j];
-        node_y = node_y + relative_y[j];
-        acceleration_x[j + 1] = node_x;
-        acceleration_y[j + 1] = node_y;
-    }
-    for (int j = 1; j < 6; ++j) {
-        node_x = node_x + relative_x[j];
-        node_y = node_y + relative_y[j];
-        acceleration_x[j + 1] = node_x;
-        acceleration_y[j + 1] = node_y;
-    }
-    for (int j = 6; j < 7; ++j) {
-        node_x = node_x + relative_x[j];
-        node_y = node_y + relative_y[j];
-        acceleration_x[j + 1] = node_x;
-        acceleration_y[j + 1] = node_y;
-    }
-    for (int j = 7; j < ELBOW_STATIONS; ++j) {
+    for (int j = 0; j < ELBOW_STATIONS; ++j) {
         node_x = node_x + relative_x[j];
         node_y = node_y + relative_y[j];
         acceleration_x[j + 1] = node_x;
@@ -832,25 +745,7 @@ elbow_status elbow_step(
     /* Sweep outward: the unknown of each station. */
     real change_x = 0.0;
     real change_y = 0.0;
-    for (int j = 0; j < 1; ++j) {
-        unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y + transmission[j] * unknown;
-        change_x = change_x + swing_x[j] * unknown;
-        change_y = change_y + swing_y[j] * unknown;
-        solved[j] = unknown;
-    }
-    for (int j = 1; j < 6; ++j) {
-        unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y + transmission[j] * unknown;
-        change_x = change_x + swing_x[j] * unknown;
-        change_y = change_y + swing_y[j] * unknown;
-        solved[j] = unknown;
-    }
-    for (int j = 6; j < 7; ++j) {
-        unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y + transmission[j] * unknown;
-        change_x = change_x + swing_x[j] * unknown;
-        change_y = change_y + swing_y[j] * unknown;
-        solved[j] = unknown;
-    }
-    for (int j = 7; j < ELBOW_STATIONS; ++j) {
+    for (int j = 0; j < ELBOW_STATIONS; ++j) {
         unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y + transmission[j] * unknown;
         change_x = change_x + swing_x[j] * unknown;
         change_y = change_y + swing_y[j] * unknown;
@@ -882,19 +777,7 @@ void elbow_output(
     /* Payload: position. */
     outputs->payload_x = 0.0;
     outputs->payload_y = 0.0;
-    for (int j = 0; j < 1; ++j) {
-        outputs->payload_x = outputs->payload_x + model->length[j] * cos(state->angle[j]);
-        outputs->payload_y = outputs->payload_y + model->length[j] * sin(state->angle[j]);
-    }
-    for (int j = 1; j < 6; ++j) {
-        outputs->payload_x = outputs->payload_x + model->length[j] * cos(state->angle[j]);
-        outputs->payload_y = outputs->payload_y + model->length[j] * sin(state->angle[j]);
-    }
-    for (int j = 6; j < 7; ++j) {
-        outputs->payload_x = outputs->payload_x + model->length[j] * cos(state->angle[j]);
-        outputs->payload_y = outputs->payload_y + model->length[j] * sin(state->angle[j]);
-    }
-    for (int j = 7; j < ELBOW_STATIONS; ++j) {
+    for (int j = 0; j < ELBOW_STATIONS; ++j) {
         outputs->payload_x = outputs->payload_x + model->length[j] * cos(state->angle[j]);
         outputs->payload_y = outputs->payload_y + model->length[j] * sin(state->angle[j]);
     }

@@ -2,8 +2,8 @@
  * elbow: Flexible arm with motors at shoulder and elbow
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 06f298327cf2c2c8fa821c06747d2f49d9011eb9eaa180b506b84fce6306d06e
- * sha256 of the rest of this file: 30e4ae6ab7738b1e8323289abb24e9307fdd7e6641fdde023b1f2afb2d1cea7f
+ * scene digest: 2cf3828155010d9c4885fc2a677583998b6bf00b0d62ade41f995022bcf74f11
+ * sha256 of the rest of this file: 349f18f41b9401272bdae270af2ee432d532fd3cbd6cee7ac32d95f6ec497cd0
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 12

@@ -2,8 +2,8 @@
  * elbow: Flexible arm with motors at shoulder and elbow
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 06f298327cf2c2c8fa821c06747d2f49d9011eb9eaa180b506b84fce6306d06e
- * sha256 of the rest of this file: 95d800783731cfcaba2c78a8672b677aa36bd6439605e919f38e9cb458102362
+ * scene digest: 2cf3828155010d9c4885fc2a677583998b6bf00b0d62ade41f995022bcf74f11
+ * sha256 of the rest of this file: 4810abb7b8db15b03ccebcf134ba0333ca979c7017b11bcf7a273f14072b8ad3
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 12

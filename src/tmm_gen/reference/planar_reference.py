@@ -71,8 +71,9 @@ def read(arm: Arm, output: Output, times: Array, q: Array, v: Array, a: Array) -
             (q, v, a)[quantity.order][:, place] if place >= 0 else arm.base_motion(times)[quantity.order]
         ]
     elif quantity.read == "bend":
-        moved = (q, v)[quantity.order]
-        values = [arm.bent(moved)[:, station - 1] - _ground(arm, station, times)[quantity.order]]
+        moved, inner = (q, v)[quantity.order], arm.scene.inner(station) - 1 + arm.first
+        against = moved[:, inner] if inner >= 0 else arm.base_motion(times)[quantity.order]
+        values = [moved[:, station - 1 + arm.first] - against]
     elif quantity.read == "through":
         values = [_through(arm, station, times, q, v, a)]
     elif quantity.read == "energy":

@@ -56,14 +56,14 @@ def planar_row(scene: Scene, integrator: str) -> Row:
     tip_mass, tip_body = symbol(named["tip_mass"]), _body(named["tip_inertia"])
     detail = (inner, _rod(length, left_over), outer, *on_link)
     combinations: tuple[Combination, ...] = ()
+    shaft: Elements = ()
     if scene.model.linearisation == "newton":
         rest = Combination(
             "rod_inertia", "inertia of a link that masses at its ends leave over", "kg m^2", left_over
         )
         alike = len({(link.mass, link.center) for link in scene.links}) == 1
-        if (
-            alike and not scene.hosts
-        ):  # neighbours at a node make up one link's mass; what that is too much, the tip takes off again
+        if alike and not scene.hosts:
+            # neighbours at a node make up one link's mass; what that is too much, the tip takes off again
             end_mass = Combination(
                 "end_mass",
                 "mass at the tip less the share of a link beyond it",
@@ -82,7 +82,8 @@ def planar_row(scene: Scene, integrator: str) -> Row:
             )
             combinations, node_mass, beyond = (joined, rest), sp.Symbol(joined.name), sp.Integer(0)
         rod_inertia = sp.Symbol(rest.name)
-        station: Elements = (_rod(length, rod_inertia), _mass(node_mass), *on_link)
+        shaft = (_mass(node_mass),)
+        station: Elements = (_rod(length, rod_inertia), *shaft, *on_link)
         tail: Elements = (*((_mass(beyond),) if beyond != 0 else ()), *tip_body, *at_tip)
     else:
         combinations = (
@@ -118,9 +119,9 @@ def planar_row(scene: Scene, integrator: str) -> Row:
         sign=1,
         base=(*hub, *_load(loads["base"])),
         boundary=boundary_of(scene),
-        stations=tuple((pin, *station) for pin in pins),
+        stations=_behind(scene, pins, station, shaft),
         tail=tail,
-        detail=tuple((pin, *detail) for pin in pins_in_detail),
+        detail=_behind(scene, pins_in_detail, detail),
         detail_tail=(*((_mass(tip_mass),) if tip_mass != 0 else ()), *tip_body, *at_tip),
         parameters=tuple(p for p in named.values() if p is not None),
         combinations=(*combinations, *_armature(scene)),
@@ -241,6 +242,13 @@ def _pin(
             if not at
         }
     return element.DRIVEN_PIN.with_values(values)
+
+
+def _behind(scene: Scene, pins: Elements, station: Elements, shaft: Elements = ()) -> tuple[Elements, ...]:
+    """Return each pin with what stands behind it; a shaft has neither length nor mass of its own."""
+    return tuple(
+        (pin, *(shaft if link.massless else station)) for pin, link in zip(pins, scene.links, strict=True)
+    )
 
 
 def _mass(value: sp.Expr) -> Element:

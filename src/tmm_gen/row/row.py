@@ -107,6 +107,8 @@ class Reading:
         "q", "v" or "a" of motions; which energy.
     sign : int
         Of the element's own force.
+    inner : int
+        Station that a bend is measured against, counted like the other one.
     """
 
     title: str
@@ -115,6 +117,7 @@ class Reading:
     station: int = 0
     kind: str = ""
     sign: int = 1
+    inner: int = 0
 
 
 @dataclass(frozen=True)

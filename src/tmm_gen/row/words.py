@@ -94,7 +94,8 @@ def reading_of(scene: Scene, output: Output, title: str, sign: int) -> Reading:
     kind = "" if quantity.in_joint or quantity.read == "through" else quantity.energy or "qva"[quantity.order]
     if quantity.read == "through":
         return Reading(title, targets, "own", station)
-    return Reading(title, targets, quantity.read, station, kind, sign if quantity.read == "own" else 1)
+    inner = scene.inner(station) if quantity.read == "bend" else 0
+    return Reading(title, targets, quantity.read, station, kind, sign if quantity.read == "own" else 1, inner)
 
 
 def boundary_of(scene: Scene) -> Boundary:

@@ -101,6 +101,11 @@ class Scene:
         """Return the number of the link on whose outer end a joint stands, 0 for the base; both count from 1."""
         return self.hosts[joint - 1] if self.hosts else joint - 1
 
+    def inner(self, joint: int) -> int:
+        """Return the number of the link that a joint turns against: a shaft behind an elastic gear is passed over."""
+        host = self.host(joint)
+        return self.host(host) if host and self.links[host - 1].massless else host
+
     @property
     def reach(self) -> float:
         """The longest way from the base to the outer end of a link, m."""

@@ -62,6 +62,11 @@ class Link(Table):
         default=0.5, description="centre of mass along the link, 0 to 1", examples=["0.5"]
     )
 
+    @property
+    def massless(self) -> bool:
+        """Whether it stands for what has no inertia of its own: the shaft behind a motor's elastic gear."""
+        return self.inertia == 0.0
+
 
 class JointEntry(Table):
     """``[[joint]]`` as written: one or more identical joints."""

@@ -11,6 +11,7 @@ from tmm_gen.emit.c.interleave import interleave
 from tmm_gen.program.passes.contract import contract
 from tmm_gen.program.passes.dependence import read_before_written
 from tmm_gen.program.passes.fuse import fuse
+from tmm_gen.program.passes.join import join
 from tmm_gen.program.statements import (
     Assign,
     Loop,
@@ -52,7 +53,7 @@ def _lowered_sensitivities(found: Sensitivities | None) -> Sensitivities | None:
 def _lowered(routine: Routine) -> Routine:
     if (variable := read_before_written(routine)) is not None:
         raise ValueError(f"{routine.name} reads {variable.name} before it is written")
-    return contract(fuse(routine))
+    return contract(join(fuse(routine)))
 
 
 def _defining_all_state(program: Program) -> Routine:

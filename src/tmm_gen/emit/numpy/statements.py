@@ -8,6 +8,7 @@ from tmm_gen.emit.python.names import Names
 from tmm_gen.emit.python.printer import PythonPrinter
 from tmm_gen.emit.python.routine import PythonRoutine
 from tmm_gen.emit.python.storage import rebound, vectorised, written_later
+from tmm_gen.program.passes.join import join
 from tmm_gen.program.statements import Assign, Loop, Repeat, Require, Routine, Statement, Until
 from tmm_gen.program.variables import Ref, Variable
 
@@ -18,6 +19,7 @@ class RoutineText(PythonRoutine):
     """The body of one generated function, see :class:`~tmm_gen.emit.python.routine.PythonRoutine`."""
 
     def __init__(self, routine: Routine, names: Names, stations: int) -> None:
+        routine = join(routine)
         super().__init__(routine, names, stations)
         self._whole = vectorised(routine)
         self.rebound = rebound(routine, self._whole)

@@ -11,7 +11,7 @@ _RADIUS = 0.02
 """Of what is drawn, over the length of the arm; nothing collides, nothing drawn has mass."""
 
 _LIGHT = 1e-9
-"""Mass of a hub, kg: MuJoCo wants one, but it is not to weigh on the ground."""
+"""Mass of a hub, kg, or of a shaft, and its inertia: MuJoCo wants some, but it is not to weigh on the ground."""
 
 
 def text_of(*values: float) -> str:
@@ -80,6 +80,9 @@ def add_bodies(world: Xml.Element, scene: Scene) -> Bodies:
         joints.append(names[number - 1])
         links.append(parent)
         if planar:
+            if link.massless:  # a motor's shaft: MuJoCo wants some mass of everything that moves
+                _inertial(parent, _LIGHT, 0.0, _LIGHT)
+                continue
             _inertial(parent, link.mass, link.center * link.length, link.inertia)
             Xml.SubElement(
                 parent, "geom", type="capsule", size=_drawn(size), fromto=text_of(0, 0, 0, link.length, 0, 0)
@@ -104,6 +107,8 @@ def link_names(scene: Scene) -> tuple[str, ...]:
             count = part.last - part.first + 1
             pieces = [part.name] if count == 1 else [f"{part.name}_{k}" for k in range(1, count + 1)]
             found[part.first - 1 : part.last] = pieces
+        elif part.gear > part.joint:
+            found[part.joint - 1] = f"{part.name}_shaft"
     taken, names = {"world", "ground", "hub"}, []
     for name in (*found, "tip"):
         free = name
@@ -117,6 +122,7 @@ def link_names(scene: Scene) -> tuple[str, ...]:
 def joint_names(scene: Scene) -> tuple[str, ...]:
     """Return what the joints are called: as in the scene, or by their number where it does not name them."""
     named = {part.joint: part.name for part in scene.parts if part.joint}
+    named |= {p.gear: f"{p.name}_gear" for p in scene.parts if p.gear > p.joint}
     taken = {"hub", *named.values()}
     found = []
     for number in range(1, scene.stations + 1):

@@ -77,9 +77,13 @@ class Signals:
         elif quantity.of_arm:
             self._leave_out(output, "MuJoCo knows the sum of elastic and gravitational energy only")
         elif quantity.read == "bend":
-            kind = ("jointpos", "jointvel")[quantity.order]
+            kind, host = ("jointpos", "jointvel")[quantity.order], self.scene.host(station)
             Xml.SubElement(self._sensors, kind, name=name, joint=self._joint(station))
-            self._read(name, (name, 0, 1.0))
+            terms = [(name, 0, 1.0)]
+            if self.scene.inner(station) != host:
+                Xml.SubElement(self._sensors, kind, name=f"{name}_motor", joint=self._joint(host))
+                terms.append((f"{name}_motor", 0, 1.0))
+            self._read(name, *terms)
         elif quantity.read == "through":
             self._through(name, station)
         elif quantity.read == "motion" and quantity.order < 2:

@@ -70,7 +70,7 @@ class Readings:
     def _bend(self, reading: Reading, targets: list[Ref]) -> list[Statement]:
         outer, inner = (
             self._at.motion(station, reading.kind)  # type: ignore[arg-type]
-            for station in (reading.station, self._row.host(reading.station - 1) + 1)
+            for station in (reading.station, reading.inner)
         )
         return [Assign(targets[0], outer - inner)]
 

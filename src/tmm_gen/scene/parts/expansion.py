@@ -18,6 +18,9 @@ from tmm_gen.scene.station import Joint, Link
 if TYPE_CHECKING:
     from tmm_gen.scene.parts.document import PartsDocument
 
+_SHAFT = Link.model_construct(inertia=0.0, mass=0.0, length=0.0, center=0.0)
+"""What turns between a motor and its elastic gear; the rotor's inertia is in the motor's joint."""
+
 OF_JOINTS = {"angle": "joint_angle", "rate": "joint_rate", "torque": "joint_torque", "force": "force"}
 """What a motor or a joint has as an output, and what scenes call it."""
 
@@ -36,6 +39,8 @@ class PlacedPart:
         Numbers of its links, from 1; for a body that of the link it sits on. 0 where it is a joint.
     fixed : str
         Name of the part that is rigidly fixed to its outer end, so that it has no frame of its own; else empty.
+    gear : int
+        Number of the joint behind a motor's shaft where the gear is elastic, else that of its own joint.
     """
 
     name: str
@@ -44,6 +49,7 @@ class PlacedPart:
     first: int = 0
     last: int = 0
     fixed: str = ""
+    gear: int = 0
 
 
 @dataclass(frozen=True)
@@ -89,7 +95,12 @@ class Expansion:
     def initial(self, table: InitialTable) -> Initial:
         """Return the motion at time zero of each link."""
         n = len(self.links)
-        return Initial(_spread(table.angles, self.solid, n), _spread(table.rates, self.solid, n))
+        found = [list(_spread(values, self.solid, n)) for values in (table.angles, table.rates)]
+        for part in self.parts:
+            if part.gear > part.joint:  # the gear is not wound up: its shaft moves with what it carries
+                for values in found:
+                    values[part.joint - 1] = values[part.joint]
+        return Initial(*map(tuple, found))
 
 
 def expanded(document: PartsDocument) -> Expansion:
@@ -106,8 +117,14 @@ def expanded(document: PartsDocument) -> Expansion:
     for entry in row:
         part, host = entry.part, outer[hung.host(entry)]
         if isinstance(part, MotorPart | JointPart):
-            pending, outer[entry.name] = _joint(part), host
-            parts.append(PlacedPart(entry.name, entry.table, joint=len(joints) + 1))
+            number, pending = len(joints) + 1, _joint(part)
+            if elastic(part):  # the motor turns a shaft, whose twist against the outer side is the gear's
+                joints.append(pending)
+                links.append(_SHAFT)
+                hosts.append(host)
+                host, pending = number, _gear(part)
+            outer[entry.name] = host
+            parts.append(PlacedPart(entry.name, entry.table, joint=number, gear=len(joints) + 1))
             continue
         first = len(links) + 1
         if isinstance(part, LinkPart):
@@ -156,9 +173,23 @@ def joined(inner: Link, outer: Link) -> Link:
 def _joint(part: MotorPart | JointPart) -> Joint:
     if isinstance(part, JointPart):
         return Joint.model_construct(stiffness=part.stiffness, damping=part.damping, rest=part.rest)
+    at_joint = exact(part.damping) + exact(part.gear) ** 2 * exact(part.motor_damping)
     return Joint.model_construct(
-        stiffness=0.0, damping=part.damping, rotor_inertia=part.rotor_inertia, gear=part.gear
+        stiffness=0.0, damping=nearest(at_joint), rotor_inertia=part.rotor_inertia, gear=part.gear
     )
+
+
+def elastic(part: object) -> bool:
+    """Return whether a part is a motor with an elastic gear."""
+    return isinstance(part, MotorPart) and part.stiffness is not None
+
+
+def _gear(part: MotorPart | JointPart) -> Joint:
+    """Return the joint between the shaft of a motor and the outer side of its elastic gear."""
+    assert isinstance(part, MotorPart)
+    assert part.stiffness is not None
+    damping = nearest(exact(part.stiffness) * exact(part.damping_time))
+    return Joint.model_construct(stiffness=part.stiffness, damping=damping)
 
 
 def _link(part: LinkPart) -> Link:
@@ -238,7 +269,7 @@ def _output(item: FileOutput, parts: dict[str, PlacedPart], stations: int) -> Ou
     of_joint = part is not None and part.joint > 0
     return Output(
         name=item.name,
-        at=part.joint if part is not None and of_joint else place_of(name, parts, stations),
+        at=part.gear if part is not None and of_joint else place_of(name, parts, stations),
         of=OF_JOINTS[item.of] if of_joint else item.of,  # type: ignore[arg-type]
         part=name if part is not None else "",
     )

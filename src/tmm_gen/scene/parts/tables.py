@@ -30,15 +30,6 @@ def _named(value: object) -> object:
     raise fault("must be the name of a part", 'Write a name in quotes, for example `"elbow"`.')
 
 
-def _rigid_gear(value: object) -> object:
-    if value is None:
-        return None
-    raise fault(
-        "of a gear is not modelled yet: gears are rigid",
-        "Remove it, or put a [[joint]] of this stiffness behind the motor, with a [[link]] in between.",
-    )
-
-
 PartName = Annotated[Name, BeforeValidator(_named), AfterValidator(_part_name)]
 Where = Annotated[str, PlainValidator(_named)]
 
@@ -73,9 +64,13 @@ class MotorPart(Part):
     gear : float
         Turns of the motor per turn of the joint, positive.
     damping : float
-        At the output, N m s/rad, not negative.
-    stiffness : None
-        Of the gear: not modelled yet.
+        At the output, N m s/rad, not negative; with an elastic gear, of the shaft against what the motor is mounted on.
+    stiffness : float or None
+        Of the gear, at the output, N m/rad; None for a rigid gear.
+    motor_damping : float
+        Of the rotor against what the motor is mounted on, on the motor's side, N m s/rad.
+    damping_time : float
+        Damping of the gear's spring over its stiffness, s.
     """
 
     rotor_inertia: NonNegative = Field(
@@ -89,8 +84,17 @@ class MotorPart(Part):
     damping: NonNegative = Field(
         default=0.0, description="damping at the output in N m s/rad", examples=["0.02"]
     )
-    stiffness: Annotated[float | None, PlainValidator(_rigid_gear)] = Field(
-        default=None, description="stiffness of the gear", json_schema_extra={"hidden": True}
+    stiffness: Positive | None = Field(
+        default=None,
+        description="stiffness of the gear at the output in N m/rad",
+        examples=["4000.0"],
+        json_schema_extra={"absent": "a rigid gear"},
+    )
+    motor_damping: NonNegative = Field(
+        default=0.0, description="damping of the rotor, on the motor's side, in N m s/rad", examples=["1e-4"]
+    )
+    damping_time: NonNegative = Field(
+        default=0.0, description="damping of the gear's spring over its stiffness in s", examples=["0.001"]
     )
 
 

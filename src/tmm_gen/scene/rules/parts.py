@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from itertools import groupby
 
 from tmm_gen.scene.parts.document import PartsDocument
-from tmm_gen.scene.parts.expansion import OF_JOINTS, PlacedPart
+from tmm_gen.scene.parts.expansion import OF_JOINTS, PlacedPart, elastic
 from tmm_gen.scene.parts.order import BASE, Entry, Hanging, entries, hanging
 from tmm_gen.scene.parts.tables import BeamPart, BodyPart, MotorPart
 from tmm_gen.scene.problem import Finding, Path
@@ -131,6 +131,13 @@ def _carried(document: PartsDocument, entry: Entry, host: Entry | None) -> Itera
             f"puts motor '{entry.name}' on a base whose angle an input prescribes already",
             'Set base.kind = "clamp", or make it a [[joint]].',
             entry.part.on,
+        )
+    if isinstance(entry.part, MotorPart) and elastic(entry.part) and entry.part.rotor_inertia == 0.0:
+        yield Finding(
+            (*entry.path, "rotor_inertia"),
+            "is 0 or missing, and a rotor behind an elastic gear cannot turn without inertia",
+            "Write `rotor_inertia = 1e-5`, or remove `stiffness` for a rigid gear.",
+            entry.part.rotor_inertia,
         )
     if isinstance(entry.part, BodyPart) and (host is None or host.turns):
         yield Finding(

@@ -1,0 +1,1402 @@
+# gripper: Gripper with two fingers on a flexible wrist
+#
+# Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+# scene digest: c8f8226e93fd9d4e49ccbb14a6d21dfabaa9c32be55619277914a499c6eae156
+# sha256 of the rest of this file: 0265791e7539880dc35c8d4e84eb79013a9bbf20722e59caa874cd86b63b5516
+#
+# model: planar arm, large rotations, gravity
+# stations: 8
+# base: clamp
+# integrator: Newmark 1959, beta = 0.25, gamma = 0.5
+# linearisation: newton
+# sweep: riccati
+# unknown: acceleration
+# operations of a step: 892, 111.5 per station (404 additions, 464 multiplications, 8 divisions, 16 sines and
+#     cosines)
+# operations of prepare: 148, 18.5 per station (42 additions, 106 multiplications)
+"""gripper: Gripper with two fingers on a flexible wrist.
+
+A state goes in, a new one comes out: ``model = prepare(params, step)``, ``state = initialise(params,
+input)``, ``state = step(model, state, input)``, ``y = output(model, state)``; or ``simulate(duration,
+inputs)`` for all of them. Arrays are never written in place.
+
+All arrays may have further axes behind, those of a batch: many arms at once, each with its own parameters,
+inputs and state. What is one number for an arm then has the batch's shape; what differs between stations has
+the stations first, base to tip. An arm with numbers that are not finite, or a step or pivot that is not
+positive, is NaN; errors are left for where no other arm is left.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Array = NDArray[Any]
+
+STATIONS = 8
+"""Number of links."""
+STEP = 0.00025
+"""Time step of the scene (s)."""
+INPUT_NAMES: tuple[str, ...] = ("left_torque", "right_torque")
+OUTPUT_NAMES: tuple[str, ...] = ("left_tip_x", "left_tip_y", "right_tip_x", "right_tip_y", "left", "right")
+STAGE_INSTANTS = ((1.0,),)
+"""When inputs are read, in steps from the start of the step."""
+INITIAL_ANGLE: ArrayLike = (0.0, 0.0, 0.0, 0.0, 0.9, 0.3, -0.9, -0.3)
+INITIAL_RATE: ArrayLike = 0.0
+
+
+class VanishingPivotError(ArithmeticError):
+    """A pivot that is positive for every passive arm is not: the model cannot be solved."""
+
+
+@dataclass(frozen=True, eq=False)
+class Params:
+    """Physical parameters, by default the scene's.
+
+    Attributes
+    ----------
+    length : array_like, shape (8, *batch)
+        Link length, base to tip (m).
+    mass : array_like, shape (8, *batch)
+        Link mass, base to tip (kg).
+    inertia : array_like, shape (8, *batch)
+        Link inertia about its centre of mass, base to tip (kg m^2).
+    center : array_like, shape (8, *batch)
+        Centre of mass along the link, 0 to 1, base to tip.
+    stiffness : array_like, shape (8, *batch)
+        Joint stiffness, base to tip (N m/rad).
+    damping : array_like, shape (8, *batch)
+        Joint damping, base to tip (N m s/rad).
+    rest : array_like, shape (8, *batch)
+        Angle at which a joint's spring is slack, base to tip (rad).
+    rotor_inertia : array_like, shape (8, *batch)
+        Inertia of a joint's motor, on its own side, base to tip (kg m^2).
+    gear : array_like, shape (8, *batch)
+        Turns of a joint's motor per turn of the joint, base to tip.
+    gravity : array_like, shape (*batch)
+        Gravity along -y (m/s^2).
+    """
+
+    length: ArrayLike = (0.03, 0.03, 0.03, 0.03, 0.08, 0.04, 0.08, 0.04)
+    mass: ArrayLike = (0.00885, 0.00885, 0.00885, 0.15885, 0.03, 0.01, 0.03, 0.01)
+    inertia: ArrayLike = (
+        6.6375e-07,
+        6.6375e-07,
+        6.6375e-07,
+        6.254406161473088e-05,
+        1.6e-05,
+        1.5e-06,
+        1.6e-05,
+        1.5e-06,
+    )
+    center: ArrayLike = (0.5, 0.5, 0.5, 0.9721435316336167, 0.5, 0.5, 0.5, 0.5)
+    stiffness: ArrayLike = (
+        98.66666666666667,
+        49.333333333333336,
+        49.333333333333336,
+        49.333333333333336,
+        0.0,
+        0.4,
+        0.0,
+        0.4,
+    )
+    damping: ArrayLike = (
+        0.19733333333333333,
+        0.09866666666666667,
+        0.09866666666666667,
+        0.09866666666666667,
+        0.06,
+        0.001,
+        0.06,
+        0.001,
+    )
+    rest: ArrayLike = (0.0, 0.0, 0.0, 0.0, 0.0, -0.6, 0.0, 0.6)
+    rotor_inertia: ArrayLike = (0.0, 0.0, 0.0, 0.0, 1e-07, 0.0, 1e-07, 0.0)
+    gear: ArrayLike = (1.0, 1.0, 1.0, 1.0, 30.0, 1.0, 30.0, 1.0)
+    gravity: ArrayLike = 9.81
+
+
+@dataclass(frozen=True, eq=False)
+class Model:
+    """What depends on parameters and step alone.
+
+    Attributes
+    ----------
+    step : array, shape (*batch)
+        Time step (s).
+    length : array, shape (8, *batch)
+        Link length, base to tip (m).
+    stiffness : array, shape (8, *batch)
+        Joint stiffness, base to tip (N m/rad).
+    damping : array, shape (8, *batch)
+        Joint damping, base to tip (N m s/rad).
+    rest : array, shape (8, *batch)
+        Angle at which a joint's spring is slack, base to tip (rad).
+    gear : array, shape (8, *batch)
+        Turns of a joint's motor per turn of the joint, base to tip.
+    gravity : array, shape (*batch)
+        Gravity along -y (m/s^2).
+    half_step_squared : array, shape (*batch)
+        Step**2/2 (s^2).
+    angle_per_acceleration : array, shape (*batch)
+        Angle per unit of acceleration: step**2/4 (s^2).
+    rate_per_acceleration : array, shape (*batch)
+        Rate per unit of acceleration: step/2 (s).
+    node_mass : array, shape (8, *batch)
+        Mass at the outer end of each link (kg).
+    rod_inertia : array, shape (8, *batch)
+        Inertia of a link that masses at its ends leave over (kg m^2).
+    armature : array, shape (8, *batch)
+        Inertia of a joint's motor at the joint, between both sides (kg m^2).
+    joint_impedance : array, shape (8, *batch)
+        Torque of a joint per difference of unknowns (kg m^2).
+    """
+
+    step: Array
+    length: Array
+    stiffness: Array
+    damping: Array
+    rest: Array
+    gear: Array
+    gravity: Array
+    half_step_squared: Array
+    angle_per_acceleration: Array
+    rate_per_acceleration: Array
+    node_mass: Array
+    rod_inertia: Array
+    armature: Array
+    joint_impedance: Array
+
+
+@dataclass(frozen=True, eq=False)
+class State:
+    """Motion at one instant.
+
+    Attributes
+    ----------
+    angle : array, shape (8, *batch)
+        Angle of each link, base to tip (rad).
+    rate : array, shape (8, *batch)
+        Rate of each link, base to tip (rad/s).
+    acceleration : array, shape (8, *batch)
+        Acceleration of each link, base to tip (rad/s^2).
+    """
+
+    angle: Array
+    rate: Array
+    acceleration: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Input:
+    """What acts on the arm during a step.
+
+    Attributes
+    ----------
+    left_torque : array_like, shape (*batch)
+        Torque of 'left', between both sides; a motor's acts gear-fold (N m).
+    right_torque : array_like, shape (*batch)
+        Torque of 'right', between both sides; a motor's acts gear-fold (N m).
+    """
+
+    left_torque: ArrayLike = 0.0
+    right_torque: ArrayLike = 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class Output:
+    """What the scene reports.
+
+    Attributes
+    ----------
+    left_tip_x : array, shape (*batch)
+        Position at 'left_pad', x (m).
+    left_tip_y : array, shape (*batch)
+        Position at 'left_pad', y (m).
+    right_tip_x : array, shape (*batch)
+        Position at 'right_pad', x (m).
+    right_tip_y : array, shape (*batch)
+        Position at 'right_pad', y (m).
+    left : array, shape (*batch)
+        Joint angle at 'left' (rad).
+    right : array, shape (*batch)
+        Joint angle at 'right' (rad).
+    """
+
+    left_tip_x: Array
+    left_tip_y: Array
+    right_tip_x: Array
+    right_tip_y: Array
+    left: Array
+    right: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Result:
+    """A simulation.
+
+    Attributes
+    ----------
+    times : array, shape (steps + 1,)
+        Instants (s).
+    outputs : dict from str to array, shape (steps + 1, *batch)
+        Outputs at these instants, by name.
+    state : State
+        Motion at the end.
+    """
+
+    times: Array
+    outputs: dict[str, Array]
+    state: State
+
+
+@np.errstate(all="ignore")
+def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
+    """Compute what depends on parameters and step alone.
+
+    Parameters
+    ----------
+    params : Params
+        Physical parameters.
+    step : array_like, shape (*batch)
+        Time step (s).
+
+    Raises
+    ------
+    FloatingPointError
+        If parameters, step or what follows from them are not finite.
+    ValueError
+        If the step is not positive, or shapes do not fit.
+    VanishingPivotError
+        If parameters or step leave a pivot that is not positive.
+    """
+    step = _array(step, None, "step")
+    length = _array(params.length, STATIONS, "length")
+    mass = _array(params.mass, STATIONS, "mass")
+    inertia = _array(params.inertia, STATIONS, "inertia")
+    center = _array(params.center, STATIONS, "center")
+    stiffness = _array(params.stiffness, STATIONS, "stiffness")
+    damping = _array(params.damping, STATIONS, "damping")
+    rest = _array(params.rest, STATIONS, "rest")
+    rotor_inertia = _array(params.rotor_inertia, STATIONS, "rotor_inertia")
+    gear = _array(params.gear, STATIONS, "gear")
+    gravity = _array(params.gravity, None, "gravity")
+    good = _positive(step)
+    numbers: tuple[Any, ...] = (step, gravity)
+    arrays: tuple[Any, ...] = (length, mass, inertia, center, stiffness, damping, rest, rotor_inertia, gear)
+    batch, dtype = _common(numbers, arrays)
+    length = _align(length, batch)
+    mass = _align(mass, batch)
+    inertia = _align(inertia, batch)
+    center = _align(center, batch)
+    stiffness = _align(stiffness, batch)
+    damping = _align(damping, batch)
+    rest = _align(rest, batch)
+    rotor_inertia = _align(rotor_inertia, batch)
+    gear = _align(gear, batch)
+    joint_impedance = np.zeros((STATIONS, *batch), dtype)
+    node_mass = np.zeros((STATIONS, *batch), dtype)
+
+    # masses at the nodes between links, and what they leave over
+    node_mass[:7] = center[:7] * mass[:7] + mass[1:] * (1.0 - center[1:])
+    node_mass[3] = center[3] * mass[3] + mass[4] * (1.0 - center[4]) + mass[6] * (1.0 - center[6])
+    node_mass[5] = center[5] * mass[5]
+    node_mass[7] = center[7] * mass[7]
+    rod_inertia = inertia - center * (length * length) * mass * (1.0 - center)
+    armature = gear * gear * rotor_inertia
+
+    # factors of the sweep that do not change from step to step
+    joint_impedance[7:] = 0.5 * damping[7:] * step + 0.25 * (step * step) * stiffness[7:]
+    joint_impedance[6:7] = armature[6:7] + 0.5 * damping[6:7] * step
+    joint_impedance[5:6] = 0.5 * damping[5:6] * step + 0.25 * (step * step) * stiffness[5:6]
+    joint_impedance[4:5] = armature[4:5] + 0.5 * damping[4:5] * step
+    joint_impedance[:4] = 0.5 * damping[:4] * step + 0.25 * (step * step) * stiffness[:4]
+
+    # Factors of the step that depend on the time step and parameters alone
+    half_step_squared = 0.5 * (step * step)
+    angle_per_acceleration = 0.25 * (step * step)
+    rate_per_acceleration = 0.5 * step
+
+    numbers = (step, gravity, half_step_squared, angle_per_acceleration, rate_per_acceleration)
+    arrays = (
+        length,
+        stiffness,
+        damping,
+        rest,
+        gear,
+        node_mass,
+        rod_inertia,
+        armature,
+        joint_impedance,
+        mass,
+        inertia,
+        center,
+        rotor_inertia,
+    )
+    good = _judged(good, numbers, arrays, "parameters or step are too large or too small for the number type")
+    return Model(
+        step=_kept(step, good, False),
+        length=_kept(length, good, True),
+        stiffness=_kept(stiffness, good, True),
+        damping=_kept(damping, good, True),
+        rest=_kept(rest, good, True),
+        gear=_kept(gear, good, True),
+        gravity=_kept(gravity, good, False),
+        half_step_squared=_kept(half_step_squared, good, False),
+        angle_per_acceleration=_kept(angle_per_acceleration, good, False),
+        rate_per_acceleration=_kept(rate_per_acceleration, good, False),
+        node_mass=_kept(node_mass, good, True),
+        rod_inertia=_kept(rod_inertia, good, True),
+        armature=_kept(armature, good, True),
+        joint_impedance=_kept(joint_impedance, good, True),
+    )
+
+
+@np.errstate(all="ignore")
+def initialise(
+    params: Params = Params(),
+    input: Input = Input(),
+    *,
+    initial_angle: ArrayLike = INITIAL_ANGLE,
+    initial_rate: ArrayLike = INITIAL_RATE,
+) -> State:
+    """Start from given angles and rates with the acceleration that satisfies the equations of motion.
+
+    Parameters
+    ----------
+    params : Params
+        Physical parameters.
+    input : Input
+        What acts at the initial instant.
+    initial_angle : number, or array_like, shape (8, *batch)
+        Angles to start from (rad).
+    initial_rate : number, or array_like, shape (8, *batch)
+        Rates to start from (rad/s).
+
+    Raises
+    ------
+    FloatingPointError
+        If an argument or the state is not finite.
+    ValueError
+        If shapes do not fit.
+    VanishingPivotError
+        If parameters leave a pivot that is not positive.
+    """
+    good: Any = True
+    left_torque = _array(input.left_torque, None, "input left_torque")
+    right_torque = _array(input.right_torque, None, "input right_torque")
+    length = _array(params.length, STATIONS, "length")
+    mass = _array(params.mass, STATIONS, "mass")
+    inertia = _array(params.inertia, STATIONS, "inertia")
+    center = _array(params.center, STATIONS, "center")
+    stiffness = _array(params.stiffness, STATIONS, "stiffness")
+    damping = _array(params.damping, STATIONS, "damping")
+    rest = _array(params.rest, STATIONS, "rest")
+    rotor_inertia = _array(params.rotor_inertia, STATIONS, "rotor_inertia")
+    gear = _array(params.gear, STATIONS, "gear")
+    gravity = _array(params.gravity, None, "gravity")
+    initial_angle = _array(initial_angle, STATIONS, "initial_angle")
+    initial_rate = _array(initial_rate, STATIONS, "initial_rate")
+    numbers: tuple[Any, ...] = (left_torque, right_torque, gravity)
+    arrays: tuple[Any, ...] = (
+        length,
+        mass,
+        inertia,
+        center,
+        stiffness,
+        damping,
+        rest,
+        rotor_inertia,
+        gear,
+        initial_angle,
+        initial_rate,
+    )
+    batch, dtype = _common(numbers, arrays)
+    length = _align(length, batch)
+    mass = _align(mass, batch)
+    inertia = _align(inertia, batch)
+    center = _align(center, batch)
+    stiffness = _align(stiffness, batch)
+    damping = _align(damping, batch)
+    rest = _align(rest, batch)
+    rotor_inertia = _align(rotor_inertia, batch)
+    gear = _align(gear, batch)
+    initial_angle = _align(initial_angle, batch)
+    initial_rate = _align(initial_rate, batch)
+    acceleration_x = np.zeros((STATIONS + 1, *batch), dtype)
+    acceleration_y = np.zeros((STATIONS + 1, *batch), dtype)
+    answer_own = np.zeros((STATIONS, *batch), dtype)
+    answer_x = np.zeros((STATIONS, *batch), dtype)
+    answer_y = np.zeros((STATIONS, *batch), dtype)
+    drive = np.zeros((STATIONS, *batch), dtype)
+    joint_torque = np.zeros((STATIONS, *batch), dtype)
+    predicted_acceleration = np.zeros((STATIONS + 1, *batch), dtype)
+    predicted_angle = np.zeros((STATIONS + 1, *batch), dtype)
+    predicted_rate = np.zeros((STATIONS + 1, *batch), dtype)
+    solved = np.zeros((STATIONS, *batch), dtype)
+    start_node_mass = np.zeros((STATIONS, *batch), dtype)
+    transmission = np.zeros((STATIONS, *batch), dtype)
+
+    # masses at the nodes between links, and what they leave over
+    start_node_mass[:7] = center[:7] * mass[:7] + mass[1:] * (1.0 - center[1:])
+    start_node_mass[3] = center[3] * mass[3] + mass[4] * (1.0 - center[4]) + mass[6] * (1.0 - center[6])
+    start_node_mass[5] = center[5] * mass[5]
+    start_node_mass[7] = center[7] * mass[7]
+    start_rod_inertia = inertia - center * (length * length) * mass * (1.0 - center)
+    start_armature = gear * gear * rotor_inertia
+
+    # predicted motion
+    predicted_rate[0] = 0.0
+    predicted_angle[0] = 0.0
+    predicted_acceleration[0] = 0.0
+    predicted_rate[1:] = initial_rate
+    predicted_angle[1:] = initial_angle
+    predicted_acceleration[1:] = 0.0
+
+    # accelerations of the nodes, seen from a falling frame: gravity is the base's own
+    lever_cosine = length * np.cos(predicted_angle[1:])
+    lever_sine = length * np.sin(predicted_angle[1:])
+    square = predicted_rate[1:] * predicted_rate[1:]
+    relative_x = -lever_cosine * square - lever_sine * predicted_acceleration[1:]
+    relative_y = lever_cosine * predicted_acceleration[1:] - lever_sine * square
+    node_x: Any = 0.0
+    node_y = gravity
+    acceleration_x[0] = node_x
+    acceleration_y[0] = node_y
+    for j in range(6):
+        node_x = node_x + relative_x[j]
+        node_y = node_y + relative_y[j]
+        acceleration_x[j + 1] = node_x
+        acceleration_y[j + 1] = node_y
+    node_x = np.copy(acceleration_x[4])
+    node_y = np.copy(acceleration_y[4])
+    for j in range(6, STATIONS):
+        node_x = node_x + relative_x[j]
+        node_y = node_y + relative_y[j]
+        acceleration_x[j + 1] = node_x
+        acceleration_y[j + 1] = node_y
+
+    # forces of the joints at the motion so far
+    drive[:] = 0.0
+    drive[4] = left_torque
+    drive[6] = right_torque
+    joint_torque[:4] = damping[:4] * (predicted_rate[:4] - predicted_rate[1:5]) + stiffness[:4] * (
+        predicted_angle[:4] - predicted_angle[1:5]
+    )
+    joint_torque[4:5] = (
+        damping[4:5] * (predicted_rate[4:5] - predicted_rate[5:6])
+        + drive[4:5] * gear[4:5]
+        + start_armature[4:5] * (predicted_acceleration[4:5] - predicted_acceleration[5:6])
+    )
+    joint_torque[5:6] = (
+        damping[5:6] * (predicted_rate[5:6] - predicted_rate[6:7])
+        + rest[5:6] * stiffness[5:6]
+        + stiffness[5:6] * (predicted_angle[5:6] - predicted_angle[6:7])
+    )
+    joint_torque[6:7] = (
+        damping[6:7] * (predicted_rate[4] - predicted_rate[7:8])
+        + drive[6:7] * gear[6:7]
+        + start_armature[6:7] * (predicted_acceleration[4] - predicted_acceleration[7:8])
+    )
+    joint_torque[7:] = (
+        damping[7:] * (predicted_rate[7:8] - predicted_rate[8:])
+        + rest[7:] * stiffness[7:]
+        + stiffness[7:] * (predicted_angle[7:8] - predicted_angle[8:])
+    )
+
+    # sweep inward: force beyond each joint as an affine function of the motion at it
+    for j in reversed(range(7, STATIONS)):
+        impedance_xx = start_node_mass[j]
+        force_x = acceleration_x[j + 1] * start_node_mass[j]
+        impedance_yy = start_node_mass[j]
+        force_y = acceleration_y[j + 1] * start_node_mass[j]
+        impedance_xu = -impedance_xx * lever_sine[j]
+        impedance_yu = impedance_yy * lever_cosine[j]
+        impedance_ux = -impedance_xx * lever_sine[j]
+        impedance_uy = impedance_yy * lever_cosine[j]
+        impedance_uu = start_rod_inertia[j] - impedance_xu * lever_sine[j] + impedance_yu * lever_cosine[j]
+        torque = (
+            force_y * lever_cosine[j]
+            - force_x * lever_sine[j]
+            + predicted_acceleration[j + 1] * start_rod_inertia[j]
+        )
+        pivot = impedance_uu
+        good = _positive_pivot(good, pivot, "pivot", j)
+        admittance = 1.0 / pivot
+        answer_own[j] = admittance * (joint_torque[j] - torque)
+        answer_x[j] = admittance * impedance_ux
+        answer_y[j] = admittance * impedance_uy
+        impedance_xx = impedance_xx - answer_x[j] * impedance_xu
+        impedance_xy = -answer_y[j] * impedance_xu
+        force_x = force_x + answer_own[j] * impedance_xu
+        impedance_yx = -answer_x[j] * impedance_yu
+        impedance_yy = impedance_yy - answer_y[j] * impedance_yu
+        force_y = force_y + answer_own[j] * impedance_yu
+        torque = joint_torque[j]
+    for j in reversed(range(6, 7)):
+        impedance_xx = impedance_xx + start_node_mass[j]
+        force_x = force_x + acceleration_x[j + 1] * start_node_mass[j]
+        impedance_yy = impedance_yy + start_node_mass[j]
+        force_y = force_y + acceleration_y[j + 1] * start_node_mass[j]
+        impedance_xu = impedance_xy * lever_cosine[j] - impedance_xx * lever_sine[j]
+        impedance_yu = impedance_yy * lever_cosine[j] - impedance_yx * lever_sine[j]
+        impedance_ux = impedance_yx * lever_cosine[j] - impedance_xx * lever_sine[j]
+        impedance_uy = impedance_yy * lever_cosine[j] - impedance_xy * lever_sine[j]
+        impedance_uu = start_rod_inertia[j] - impedance_xu * lever_sine[j] + impedance_yu * lever_cosine[j]
+        torque = (
+            torque
+            - force_x * lever_sine[j]
+            + force_y * lever_cosine[j]
+            + predicted_acceleration[j + 1] * start_rod_inertia[j]
+        )
+        start_joint_impedance = start_armature[j]
+        pivot = impedance_uu + start_joint_impedance
+        good = _positive_pivot(good, pivot, "pivot", j)
+        admittance = 1.0 / pivot
+        answer_own[j] = admittance * (joint_torque[j] - torque)
+        answer_x[j] = admittance * impedance_ux
+        answer_y[j] = admittance * impedance_uy
+        transmission[j] = admittance * start_joint_impedance
+        impedance_xx = impedance_xx - answer_x[j] * impedance_xu
+        impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        force_x = force_x + answer_own[j] * impedance_xu
+        impedance_xu = impedance_xu * transmission[j]
+        impedance_yx = impedance_yx - answer_x[j] * impedance_yu
+        impedance_yy = impedance_yy - answer_y[j] * impedance_yu
+        force_y = force_y + answer_own[j] * impedance_yu
+        impedance_yu = impedance_yu * transmission[j]
+        impedance_ux = answer_x[j] * start_joint_impedance
+        impedance_uy = answer_y[j] * start_joint_impedance
+        impedance_uu = impedance_uu * transmission[j]
+        torque = joint_torque[j] - answer_own[j] * start_joint_impedance
+    impedance_xx_of_branch_7 = impedance_xx
+    impedance_xy_of_branch_7 = impedance_xy
+    impedance_xu_of_branch_7 = impedance_xu
+    impedance_yx_of_branch_7 = impedance_yx
+    impedance_yy_of_branch_7 = impedance_yy
+    impedance_yu_of_branch_7 = impedance_yu
+    impedance_ux_of_branch_7 = impedance_ux
+    impedance_uy_of_branch_7 = impedance_uy
+    impedance_uu_of_branch_7 = impedance_uu
+    force_x_of_branch_7 = force_x
+    force_y_of_branch_7 = force_y
+    torque_of_branch_7 = torque
+    for j in reversed(range(5, 6)):
+        impedance_xx = start_node_mass[j]
+        force_x = acceleration_x[j + 1] * start_node_mass[j]
+        impedance_yy = start_node_mass[j]
+        force_y = acceleration_y[j + 1] * start_node_mass[j]
+        impedance_xu = -impedance_xx * lever_sine[j]
+        impedance_yu = impedance_yy * lever_cosine[j]
+        impedance_ux = -impedance_xx * lever_sine[j]
+        impedance_uy = impedance_yy * lever_cosine[j]
+        impedance_uu = start_rod_inertia[j] - impedance_xu * lever_sine[j] + impedance_yu * lever_cosine[j]
+        torque = (
+            force_y * lever_cosine[j]
+            - force_x * lever_sine[j]
+            + predicted_acceleration[j + 1] * start_rod_inertia[j]
+        )
+        pivot = impedance_uu
+        good = _positive_pivot(good, pivot, "pivot", j)
+        admittance = 1.0 / pivot
+        answer_own[j] = admittance * (joint_torque[j] - torque)
+        answer_x[j] = admittance * impedance_ux
+        answer_y[j] = admittance * impedance_uy
+        impedance_xx = impedance_xx - answer_x[j] * impedance_xu
+        impedance_xy = -answer_y[j] * impedance_xu
+        force_x = force_x + answer_own[j] * impedance_xu
+        impedance_yx = -answer_x[j] * impedance_yu
+        impedance_yy = impedance_yy - answer_y[j] * impedance_yu
+        force_y = force_y + answer_own[j] * impedance_yu
+        torque = joint_torque[j]
+    for j in reversed(range(4, 5)):
+        impedance_xx = impedance_xx + start_node_mass[j]
+        force_x = force_x + acceleration_x[j + 1] * start_node_mass[j]
+        impedance_yy = impedance_yy + start_node_mass[j]
+        force_y = force_y + acceleration_y[j + 1] * start_node_mass[j]
+        impedance_xu = impedance_xy * lever_cosine[j] - impedance_xx * lever_sine[j]
+        impedance_yu = impedance_yy * lever_cosine[j] - impedance_yx * lever_sine[j]
+        impedance_ux = impedance_yx * lever_cosine[j] - impedance_xx * lever_sine[j]
+        impedance_uy = impedance_yy * lever_cosine[j] - impedance_xy * lever_sine[j]
+        impedance_uu = start_rod_inertia[j] - impedance_xu * lever_sine[j] + impedance_yu * lever_cosine[j]
+        torque = (
+            torque
+            - force_x * lever_sine[j]
+            + force_y * lever_cosine[j]
+            + predicted_acceleration[j + 1] * start_rod_inertia[j]
+        )
+        start_joint_impedance = start_armature[j]
+        pivot = impedance_uu + start_joint_impedance
+        good = _positive_pivot(good, pivot, "pivot", j)
+        admittance = 1.0 / pivot
+        answer_own[j] = admittance * (joint_torque[j] - torque)
+        answer_x[j] = admittance * impedance_ux
+        answer_y[j] = admittance * impedance_uy
+        transmission[j] = admittance * start_joint_impedance
+        impedance_xx = impedance_xx - answer_x[j] * impedance_xu
+        impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        force_x = force_x + answer_own[j] * impedance_xu
+        impedance_xu = impedance_xu * transmission[j]
+        impedance_yx = impedance_yx - answer_x[j] * impedance_yu
+        impedance_yy = impedance_yy - answer_y[j] * impedance_yu
+        force_y = force_y + answer_own[j] * impedance_yu
+        impedance_yu = impedance_yu * transmission[j]
+        impedance_ux = answer_x[j] * start_joint_impedance
+        impedance_uy = answer_y[j] * start_joint_impedance
+        impedance_uu = impedance_uu * transmission[j]
+        torque = joint_torque[j] - answer_own[j] * start_joint_impedance
+    impedance_xx = impedance_xx + impedance_xx_of_branch_7
+    impedance_xy = impedance_xy + impedance_xy_of_branch_7
+    impedance_xu = impedance_xu + impedance_xu_of_branch_7
+    impedance_yx = impedance_yx + impedance_yx_of_branch_7
+    impedance_yy = impedance_yy + impedance_yy_of_branch_7
+    impedance_yu = impedance_yu + impedance_yu_of_branch_7
+    impedance_ux = impedance_ux + impedance_ux_of_branch_7
+    impedance_uy = impedance_uy + impedance_uy_of_branch_7
+    impedance_uu = impedance_uu + impedance_uu_of_branch_7
+    force_x = force_x + force_x_of_branch_7
+    force_y = force_y + force_y_of_branch_7
+    torque = torque + torque_of_branch_7
+    for j in reversed(range(4)):
+        impedance_xx = impedance_xx + start_node_mass[j]
+        force_x = force_x + acceleration_x[j + 1] * start_node_mass[j]
+        impedance_yy = impedance_yy + start_node_mass[j]
+        force_y = force_y + acceleration_y[j + 1] * start_node_mass[j]
+        impedance_xu = impedance_xu - impedance_xx * lever_sine[j] + impedance_xy * lever_cosine[j]
+        impedance_yu = impedance_yu - impedance_yx * lever_sine[j] + impedance_yy * lever_cosine[j]
+        impedance_uu = impedance_uu - impedance_ux * lever_sine[j] + impedance_uy * lever_cosine[j]
+        impedance_ux = impedance_ux - impedance_xx * lever_sine[j] + impedance_yx * lever_cosine[j]
+        impedance_uy = impedance_uy - impedance_xy * lever_sine[j] + impedance_yy * lever_cosine[j]
+        impedance_uu = (
+            impedance_uu
+            + start_rod_inertia[j]
+            - impedance_xu * lever_sine[j]
+            + impedance_yu * lever_cosine[j]
+        )
+        torque = (
+            torque
+            - force_x * lever_sine[j]
+            + force_y * lever_cosine[j]
+            + predicted_acceleration[j + 1] * start_rod_inertia[j]
+        )
+        pivot = impedance_uu
+        good = _positive_pivot(good, pivot, "pivot", j)
+        admittance = 1.0 / pivot
+        answer_own[j] = admittance * (joint_torque[j] - torque)
+        answer_x[j] = admittance * impedance_ux
+        answer_y[j] = admittance * impedance_uy
+        impedance_xx = impedance_xx - answer_x[j] * impedance_xu
+        impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        force_x = force_x + answer_own[j] * impedance_xu
+        impedance_yx = impedance_yx - answer_x[j] * impedance_yu
+        impedance_yy = impedance_yy - answer_y[j] * impedance_yu
+        force_y = force_y + answer_own[j] * impedance_yu
+        torque = joint_torque[j]
+        impedance_uu = 0.0
+        impedance_ux = 0.0
+        impedance_uy = 0.0
+        impedance_xu = 0.0
+        impedance_yu = 0.0
+
+    # the base
+    unknown: Any = 0.0
+
+    # sweep outward: the unknown of each station
+    change_x: Any = 0.0
+    change_y: Any = 0.0
+    for j in range(4):
+        unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y
+        change_x = change_x - lever_sine[j] * unknown
+        change_y = change_y + lever_cosine[j] * unknown
+        solved[j] = unknown
+    change_x_at_fork_4 = change_x
+    change_y_at_fork_4 = change_y
+    for j in range(4, 5):
+        unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y + transmission[j] * unknown
+        change_x = change_x - lever_sine[j] * unknown
+        change_y = change_y + lever_cosine[j] * unknown
+        solved[j] = unknown
+    for j in range(5, 6):
+        unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y
+        change_x = change_x - lever_sine[j] * unknown
+        change_y = change_y + lever_cosine[j] * unknown
+        solved[j] = unknown
+    change_x = change_x_at_fork_4
+    change_y = change_y_at_fork_4
+    unknown = np.copy(solved[3])
+    for j in range(6, 7):
+        unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y + transmission[j] * unknown
+        change_x = change_x - lever_sine[j] * unknown
+        change_y = change_y + lever_cosine[j] * unknown
+        solved[j] = unknown
+    for j in range(7, STATIONS):
+        unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y
+        change_x = change_x - lever_sine[j] * unknown
+        change_y = change_y + lever_cosine[j] * unknown
+        solved[j] = unknown
+
+    # motion at the end of the step
+    angle = predicted_angle[1:]
+    rate = predicted_rate[1:]
+    acceleration = predicted_acceleration[1:] + solved
+
+    numbers = ()
+    arrays = (angle, rate, acceleration)
+    good = _judged(good, numbers, arrays, "the motion has outgrown the number type")
+    return State(
+        angle=_kept(_spread(angle, batch, True), good, True),
+        rate=_kept(_spread(rate, batch, True), good, True),
+        acceleration=_kept(_spread(acceleration, batch, True), good, True),
+    )
+
+
+@np.errstate(all="ignore")
+def step(model: Model, state: State, input: Input = Input()) -> State:
+    """Advance the state by one step.
+
+    Parameters
+    ----------
+    model : Model
+        From :func:`prepare`.
+    state : State
+        At the start of the step; left as it is.
+    input : Input
+        What acts at the instant in STAGE_INSTANTS.
+
+    Returns
+    -------
+    State
+        At the end of the step.
+
+    Raises
+    ------
+    FloatingPointError
+        If an input or the new state is not finite.
+    ValueError
+        If shapes do not fit.
+    VanishingPivotError
+        If the motion, parameters or step leave a pivot that is not positive.
+    """
+    good: Any = True
+    left_torque = _array(input.left_torque, None, "input left_torque")
+    right_torque = _array(input.right_torque, None, "input right_torque")
+    step = model.step
+    length = np.asarray(model.length)
+    stiffness = np.asarray(model.stiffness)
+    damping = np.asarray(model.damping)
+    rest = np.asarray(model.rest)
+    gear = np.asarray(model.gear)
+    gravity = model.gravity
+    half_step_squared = model.half_step_squared
+    angle_per_acceleration = model.angle_per_acceleration
+    rate_per_acceleration = model.rate_per_acceleration
+    node_mass = np.asarray(model.node_mass)
+    rod_inertia = np.asarray(model.rod_inertia)
+    armature = np.asarray(model.armature)
+    joint_impedance = np.asarray(model.joint_impedance)
+    angle = np.asarray(state.angle)
+    rate = np.asarray(state.rate)
+    acceleration = np.asarray(state.acceleration)
+    numbers: tuple[Any, ...] = (
+        left_torque,
+        right_torque,
+        step,
+        gravity,
+        half_step_squared,
+        angle_per_acceleration,
+        rate_per_acceleration,
+    )
+    arrays: tuple[Any, ...] = (
+        length,
+        stiffness,
+        damping,
+        rest,
+        gear,
+        node_mass,
+        rod_inertia,
+        armature,
+        joint_impedance,
+        angle,
+        rate,
+        acceleration,
+    )
+    batch, dtype = _common(numbers, arrays)
+    length = _align(length, batch)
+    stiffness = _align(stiffness, batch)
+    damping = _align(damping, batch)
+    rest = _align(rest, batch)
+    gear = _align(gear, batch)
+    node_mass = _align(node_mass, batch)
+    rod_inertia = _align(rod_inertia, batch)
+    armature = _align(armature, batch)
+    joint_impedance = _align(joint_impedance, batch)
+    angle = _spread(angle, batch, True)
+    rate = _spread(rate, batch, True)
+    acceleration = _spread(acceleration, batch, True)
+    acceleration_x = np.zeros((STATIONS + 1, *batch), dtype)
+    acceleration_y = np.zeros((STATIONS + 1, *batch), dtype)
+    answer_own = np.zeros((STATIONS, *batch), dtype)
+    answer_x = np.zeros((STATIONS, *batch), dtype)
+    answer_y = np.zeros((STATIONS, *batch), dtype)
+    drive = np.zeros((STATIONS, *batch), dtype)
+    joint_torque = np.zeros((STATIONS, *batch), dtype)
+    predicted_acceleration = np.zeros((STATIONS + 1, *batch), dtype)
+    predicted_angle = np.zeros((STATIONS + 1, *batch), dtype)
+    predicted_rate = np.zeros((STATIONS + 1, *batch), dtype)
+    solved = np.zeros((STATIONS, *batch), dtype)
+    transmission = np.zeros((STATIONS, *batch), dtype)
+
+    # predicted motion
+    predicted_rate[0] = 0.0
+    predicted_angle[0] = 0.0
+    predicted_acceleration[0] = 0.0
+    predicted_rate[1:] = rate + acceleration * step
+    predicted_angle[1:] = angle + acceleration * half_step_squared + rate * step
+    predicted_acceleration[1:] = acceleration
+
+    # accelerations of the nodes, seen from a falling frame: gravity is the base's own
+    lever_cosine = length * np.cos(predicted_angle[1:])
+    lever_sine = length * np.sin(predicted_angle[1:])
+    square = predicted_rate[1:] * predicted_rate[1:]
+    relative_x = -lever_cosine * square - lever_sine * predicted_acceleration[1:]
+    relative_y = lever_cosine * predicted_acceleration[1:] - lever_sine * square
+    turning = predicted_rate[1:] * step
+    swing_x = -lever_sine - angle_per_acceleration * relative_y - lever_cosine * turning
+    swing_y = lever_cosine + angle_per_acceleration * relative_x - lever_sine * turning
+    node_x: Any = 0.0
+    node_y = gravity
+    acceleration_x[0] = node_x
+    acceleration_y[0] = node_y
+    for j in range(6):
+        node_x = node_x + relative_x[j]
+        node_y = node_y + relative_y[j]
+        acceleration_x[j + 1] = node_x
+        acceleration_y[j + 1] = node_y
+    node_x = np.copy(acceleration_x[4])
+    node_y = np.copy(acceleration_y[4])
+    for j in range(6, STATIONS):
+        node_x = node_x + relative_x[j]
+        node_y = node_y + relative_y[j]
+        acceleration_x[j + 1] = node_x
+        acceleration_y[j + 1] = node_y
+
+    # forces of the joints at the motion so far
+    drive[:] = 0.0
+    drive[4] = left_torque
+    drive[6] = right_torque
+    joint_torque[:4] = damping[:4] * (predicted_rate[:4] - predicted_rate[1:5]) + stiffness[:4] * (
+        predicted_angle[:4] - predicted_angle[1:5]
+    )
+    joint_torque[4:5] = (
+        armature[4:5] * (predicted_acceleration[4:5] - predicted_acceleration[5:6])
+        + damping[4:5] * (predicted_rate[4:5] - predicted_rate[5:6])
+        + drive[4:5] * gear[4:5]
+    )
+    joint_torque[5:6] = (
+        damping[5:6] * (predicted_rate[5:6] - predicted_rate[6:7])
+        + rest[5:6] * stiffness[5:6]
+        + stiffness[5:6] * (predicted_angle[5:6] - predicted_angle[6:7])
+    )
+    joint_torque[6:7] = (
+        armature[6:7] * (predicted_acceleration[4] - predicted_acceleration[7:8])
+        + damping[6:7] * (predicted_rate[4] - predicted_rate[7:8])
+        + drive[6:7] * gear[6:7]
+    )
+    joint_torque[7:] = (
+        damping[7:] * (predicted_rate[7:8] - predicted_rate[8:])
+        + rest[7:] * stiffness[7:]
+        + stiffness[7:] * (predicted_angle[7:8] - predicted_angle[8:])
+    )
+
+    # sweep inward: force beyond each joint as an affine function of the motion at it
+    for j in reversed(range(7, STATIONS)):
+        impedance_xx = node_mass[j]
+        force_x = acceleration_x[j + 1] * node_mass[j]
+        impedance_yy = node_mass[j]
+        force_y = acceleration_y[j + 1] * node_mass[j]
+        impedance_xu = impedance_xx * swing_x[j]
+        impedance_yu = impedance_yy * swing_y[j]
+        impedance_ux = -impedance_xx * lever_sine[j]
+        impedance_uy = impedance_yy * lever_cosine[j]
+        impedance_uu = (
+            rod_inertia[j]
+            + lever_cosine[j] * (impedance_yu - angle_per_acceleration * force_x)
+            + lever_sine[j] * (-impedance_xu - angle_per_acceleration * force_y)
+        )
+        torque = (
+            force_y * lever_cosine[j]
+            - force_x * lever_sine[j]
+            + predicted_acceleration[j + 1] * rod_inertia[j]
+        )
+        pivot = impedance_uu + joint_impedance[j]
+        good = _positive_pivot(good, pivot, "pivot", j)
+        admittance = 1.0 / pivot
+        answer_own[j] = admittance * (joint_torque[j] - torque)
+        answer_x[j] = admittance * impedance_ux
+        answer_y[j] = admittance * impedance_uy
+        transmission[j] = admittance * joint_impedance[j]
+        impedance_xx = impedance_xx - answer_x[j] * impedance_xu
+        impedance_xy = -answer_y[j] * impedance_xu
+        force_x = force_x + answer_own[j] * impedance_xu
+        impedance_xu = impedance_xu * transmission[j]
+        impedance_yx = -answer_x[j] * impedance_yu
+        impedance_yy = impedance_yy - answer_y[j] * impedance_yu
+        force_y = force_y + answer_own[j] * impedance_yu
+        impedance_yu = impedance_yu * transmission[j]
+        impedance_ux = answer_x[j] * joint_impedance[j]
+        impedance_uy = answer_y[j] * joint_impedance[j]
+        impedance_uu = impedance_uu * transmission[j]
+        torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
+    for j in reversed(range(6, 7)):
+        impedance_xx = impedance_xx + node_mass[j]
+        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
+        impedance_yy = impedance_yy + node_mass[j]
+        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
+        impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
+        impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
+        impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
+        impedance_ux = impedance_ux - impedance_xx * lever_sine[j] + impedance_yx * lever_cosine[j]
+        impedance_uy = impedance_uy - impedance_xy * lever_sine[j] + impedance_yy * lever_cosine[j]
+        impedance_uu = (
+            impedance_uu
+            + rod_inertia[j]
+            + lever_cosine[j] * (impedance_yu - angle_per_acceleration * force_x)
+            + lever_sine[j] * (-impedance_xu - angle_per_acceleration * force_y)
+        )
+        torque = (
+            torque
+            - force_x * lever_sine[j]
+            + force_y * lever_cosine[j]
+            + predicted_acceleration[j + 1] * rod_inertia[j]
+        )
+        pivot = impedance_uu + joint_impedance[j]
+        good = _positive_pivot(good, pivot, "pivot", j)
+        admittance = 1.0 / pivot
+        answer_own[j] = admittance * (joint_torque[j] - torque)
+        answer_x[j] = admittance * impedance_ux
+        answer_y[j] = admittance * impedance_uy
+        transmission[j] = admittance * joint_impedance[j]
+        impedance_xx = impedance_xx - answer_x[j] * impedance_xu
+        impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        force_x = force_x + answer_own[j] * impedance_xu
+        impedance_xu = impedance_xu * transmission[j]
+        impedance_yx = impedance_yx - answer_x[j] * impedance_yu
+        impedance_yy = impedance_yy - answer_y[j] * impedance_yu
+        force_y = force_y + answer_own[j] * impedance_yu
+        impedance_yu = impedance_yu * transmission[j]
+        impedance_ux = answer_x[j] * joint_impedance[j]
+        impedance_uy = answer_y[j] * joint_impedance[j]
+        impedance_uu = impedance_uu * transmission[j]
+        torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
+    impedance_xx_of_branch_7 = impedance_xx
+    impedance_xy_of_branch_7 = impedance_xy
+    impedance_xu_of_branch_7 = impedance_xu
+    impedance_yx_of_branch_7 = impedance_yx
+    impedance_yy_of_branch_7 = impedance_yy
+    impedance_yu_of_branch_7 = impedance_yu
+    impedance_ux_of_branch_7 = impedance_ux
+    impedance_uy_of_branch_7 = impedance_uy
+    impedance_uu_of_branch_7 = impedance_uu
+    force_x_of_branch_7 = force_x
+    force_y_of_branch_7 = force_y
+    torque_of_branch_7 = torque
+    for j in reversed(range(5, 6)):
+        impedance_xx = node_mass[j]
+        force_x = acceleration_x[j + 1] * node_mass[j]
+        impedance_yy = node_mass[j]
+        force_y = acceleration_y[j + 1] * node_mass[j]
+        impedance_xu = impedance_xx * swing_x[j]
+        impedance_yu = impedance_yy * swing_y[j]
+        impedance_ux = -impedance_xx * lever_sine[j]
+        impedance_uy = impedance_yy * lever_cosine[j]
+        impedance_uu = (
+            rod_inertia[j]
+            + lever_cosine[j] * (impedance_yu - angle_per_acceleration * force_x)
+            + lever_sine[j] * (-impedance_xu - angle_per_acceleration * force_y)
+        )
+        torque = (
+            force_y * lever_cosine[j]
+            - force_x * lever_sine[j]
+            + predicted_acceleration[j + 1] * rod_inertia[j]
+        )
+        pivot = impedance_uu + joint_impedance[j]
+        good = _positive_pivot(good, pivot, "pivot", j)
+        admittance = 1.0 / pivot
+        answer_own[j] = admittance * (joint_torque[j] - torque)
+        answer_x[j] = admittance * impedance_ux
+        answer_y[j] = admittance * impedance_uy
+        transmission[j] = admittance * joint_impedance[j]
+        impedance_xx = impedance_xx - answer_x[j] * impedance_xu
+        impedance_xy = -answer_y[j] * impedance_xu
+        force_x = force_x + answer_own[j] * impedance_xu
+        impedance_xu = impedance_xu * transmission[j]
+        impedance_yx = -answer_x[j] * impedance_yu
+        impedance_yy = impedance_yy - answer_y[j] * impedance_yu
+        force_y = force_y + answer_own[j] * impedance_yu
+        impedance_yu = impedance_yu * transmission[j]
+        impedance_ux = answer_x[j] * joint_impedance[j]
+        impedance_uy = answer_y[j] * joint_impedance[j]
+        impedance_uu = impedance_uu * transmission[j]
+        torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
+    for j in reversed(range(4, 5)):
+        impedance_xx = impedance_xx + node_mass[j]
+        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
+        impedance_yy = impedance_yy + node_mass[j]
+        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
+        impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
+        impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
+        impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
+        impedance_ux = impedance_ux - impedance_xx * lever_sine[j] + impedance_yx * lever_cosine[j]
+        impedance_uy = impedance_uy - impedance_xy * lever_sine[j] + impedance_yy * lever_cosine[j]
+        impedance_uu = (
+            impedance_uu
+            + rod_inertia[j]
+            + lever_cosine[j] * (impedance_yu - angle_per_acceleration * force_x)
+            + lever_sine[j] * (-impedance_xu - angle_per_acceleration * force_y)
+        )
+        torque = (
+            torque
+            - force_x * lever_sine[j]
+            + force_y * lever_cosine[j]
+            + predicted_acceleration[j + 1] * rod_inertia[j]
+        )
+        pivot = impedance_uu + joint_impedance[j]
+        good = _positive_pivot(good, pivot, "pivot", j)
+        admittance = 1.0 / pivot
+        answer_own[j] = admittance * (joint_torque[j] - torque)
+        answer_x[j] = admittance * impedance_ux
+        answer_y[j] = admittance * impedance_uy
+        transmission[j] = admittance * joint_impedance[j]
+        impedance_xx = impedance_xx - answer_x[j] * impedance_xu
+        impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        force_x = force_x + answer_own[j] * impedance_xu
+        impedance_xu = impedance_xu * transmission[j]
+        impedance_yx = impedance_yx - answer_x[j] * impedance_yu
+        impedance_yy = impedance_yy - answer_y[j] * impedance_yu
+        force_y = force_y + answer_own[j] * impedance_yu
+        impedance_yu = impedance_yu * transmission[j]
+        impedance_ux = answer_x[j] * joint_impedance[j]
+        impedance_uy = answer_y[j] * joint_impedance[j]
+        impedance_uu = impedance_uu * transmission[j]
+        torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
+    impedance_xx = impedance_xx + impedance_xx_of_branch_7
+    impedance_xy = impedance_xy + impedance_xy_of_branch_7
+    impedance_xu = impedance_xu + impedance_xu_of_branch_7
+    impedance_yx = impedance_yx + impedance_yx_of_branch_7
+    impedance_yy = impedance_yy + impedance_yy_of_branch_7
+    impedance_yu = impedance_yu + impedance_yu_of_branch_7
+    impedance_ux = impedance_ux + impedance_ux_of_branch_7
+    impedance_uy = impedance_uy + impedance_uy_of_branch_7
+    impedance_uu = impedance_uu + impedance_uu_of_branch_7
+    force_x = force_x + force_x_of_branch_7
+    force_y = force_y + force_y_of_branch_7
+    torque = torque + torque_of_branch_7
+    for j in reversed(range(4)):
+        impedance_xx = impedance_xx + node_mass[j]
+        force_x = force_x + acceleration_x[j + 1] * node_mass[j]
+        impedance_yy = impedance_yy + node_mass[j]
+        force_y = force_y + acceleration_y[j + 1] * node_mass[j]
+        impedance_xu = impedance_xu + impedance_xx * swing_x[j] + impedance_xy * swing_y[j]
+        impedance_yu = impedance_yu + impedance_yx * swing_x[j] + impedance_yy * swing_y[j]
+        impedance_uu = impedance_uu + impedance_ux * swing_x[j] + impedance_uy * swing_y[j]
+        impedance_ux = impedance_ux - impedance_xx * lever_sine[j] + impedance_yx * lever_cosine[j]
+        impedance_uy = impedance_uy - impedance_xy * lever_sine[j] + impedance_yy * lever_cosine[j]
+        impedance_uu = (
+            impedance_uu
+            + rod_inertia[j]
+            + lever_cosine[j] * (impedance_yu - angle_per_acceleration * force_x)
+            + lever_sine[j] * (-impedance_xu - angle_per_acceleration * force_y)
+        )
+        torque = (
+            torque
+            - force_x * lever_sine[j]
+            + force_y * lever_cosine[j]
+            + predicted_acceleration[j + 1] * rod_inertia[j]
+        )
+        pivot = impedance_uu + joint_impedance[j]
+        good = _positive_pivot(good, pivot, "pivot", j)
+        admittance = 1.0 / pivot
+        answer_own[j] = admittance * (joint_torque[j] - torque)
+        answer_x[j] = admittance * impedance_ux
+        answer_y[j] = admittance * impedance_uy
+        transmission[j] = admittance * joint_impedance[j]
+        impedance_xx = impedance_xx - answer_x[j] * impedance_xu
+        impedance_xy = impedance_xy - answer_y[j] * impedance_xu
+        force_x = force_x + answer_own[j] * impedance_xu
+        impedance_xu = impedance_xu * transmission[j]
+        impedance_yx = impedance_yx - answer_x[j] * impedance_yu
+        impedance_yy = impedance_yy - answer_y[j] * impedance_yu
+        force_y = force_y + answer_own[j] * impedance_yu
+        impedance_yu = impedance_yu * transmission[j]
+        impedance_ux = answer_x[j] * joint_impedance[j]
+        impedance_uy = answer_y[j] * joint_impedance[j]
+        impedance_uu = impedance_uu * transmission[j]
+        torque = joint_torque[j] - answer_own[j] * joint_impedance[j]
+
+    # the base
+    unknown: Any = 0.0
+
+    # sweep outward: the unknown of each station
+    change_x: Any = 0.0
+    change_y: Any = 0.0
+    for j in range(4):
+        unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y + transmission[j] * unknown
+        change_x = change_x + swing_x[j] * unknown
+        change_y = change_y + swing_y[j] * unknown
+        solved[j] = unknown
+    change_x_at_fork_4 = change_x
+    change_y_at_fork_4 = change_y
+    for j in range(4, 6):
+        unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y + transmission[j] * unknown
+        change_x = change_x + swing_x[j] * unknown
+        change_y = change_y + swing_y[j] * unknown
+        solved[j] = unknown
+    change_x = change_x_at_fork_4
+    change_y = change_y_at_fork_4
+    unknown = np.copy(solved[3])
+    for j in range(6, STATIONS):
+        unknown = answer_own[j] - answer_x[j] * change_x - answer_y[j] * change_y + transmission[j] * unknown
+        change_x = change_x + swing_x[j] * unknown
+        change_y = change_y + swing_y[j] * unknown
+        solved[j] = unknown
+
+    # motion at the end of the step
+    angle = predicted_angle[1:] + angle_per_acceleration * solved
+    rate = predicted_rate[1:] + rate_per_acceleration * solved
+    acceleration = predicted_acceleration[1:] + solved
+
+    numbers = ()
+    arrays = (angle, rate, acceleration)
+    good = _judged(good, numbers, arrays, "the motion has outgrown the number type")
+    return State(
+        angle=_kept(_spread(angle, batch, True), good, True),
+        rate=_kept(_spread(rate, batch, True), good, True),
+        acceleration=_kept(_spread(acceleration, batch, True), good, True),
+    )
+
+
+@np.errstate(all="ignore")
+def output(model: Model, state: State) -> Output:
+    """Read the outputs off a state.
+
+    Parameters
+    ----------
+    model : Model
+        From :func:`prepare`.
+    state : State
+        At the instant of the outputs.
+    """
+    length = np.asarray(model.length)
+    angle = np.asarray(state.angle)
+    rate = np.asarray(state.rate)
+    acceleration = np.asarray(state.acceleration)
+    numbers: tuple[Any, ...] = ()
+    arrays: tuple[Any, ...] = (length, angle, rate, acceleration)
+    batch, _ = _common(numbers, arrays)
+    length = _align(length, batch)
+    angle = _spread(angle, batch, True)
+    rate = _spread(rate, batch, True)
+    acceleration = _spread(acceleration, batch, True)
+
+    # left_tip: position
+    left_tip_x: Any = 0.0
+    left_tip_y: Any = 0.0
+    for j in range(6):
+        left_tip_x = left_tip_x + length[j] * np.cos(angle[j])
+        left_tip_y = left_tip_y + length[j] * np.sin(angle[j])
+
+    # right_tip: position
+    right_tip_x: Any = 0.0
+    right_tip_y: Any = 0.0
+    for j in range(4):
+        right_tip_x = right_tip_x + length[j] * np.cos(angle[j])
+        right_tip_y = right_tip_y + length[j] * np.sin(angle[j])
+    for j in range(6, STATIONS):
+        right_tip_x = right_tip_x + length[j] * np.cos(angle[j])
+        right_tip_y = right_tip_y + length[j] * np.sin(angle[j])
+
+    # left: joint angle
+    left = angle[4] - angle[3]
+
+    # right: joint angle
+    right = angle[6] - angle[3]
+    return Output(
+        left_tip_x=_spread(left_tip_x, batch, False),
+        left_tip_y=_spread(left_tip_y, batch, False),
+        right_tip_x=_spread(right_tip_x, batch, False),
+        right_tip_y=_spread(right_tip_y, batch, False),
+        left=_spread(left, batch, False),
+        right=_spread(right, batch, False),
+    )
+
+
+_advance = step  # an argument of simulate has the name
+
+
+def simulate(
+    duration: float,
+    inputs: Mapping[str, ArrayLike | Callable[[float], ArrayLike]] | None = None,
+    params: Params = Params(),
+    step: float = STEP,
+    *,
+    initial_angle: ArrayLike = INITIAL_ANGLE,
+    initial_rate: ArrayLike = INITIAL_RATE,
+) -> Result:
+    """Simulate from time zero in whole steps.
+
+    Parameters
+    ----------
+    duration : float
+        Time to simulate (s); the last instant is the last whole step within it.
+    inputs : mapping from str
+        Constants of shape ``(*batch)``, or functions of time (s) that return them; inputs not named are zero.
+    params : Params
+        Physical parameters.
+    step : float
+        Time step (s).
+    initial_angle : number, or array_like, shape (8, *batch)
+        Angles to start from (rad).
+    initial_rate : number, or array_like, shape (8, *batch)
+        Rates to start from (rad/s).
+
+    Raises
+    ------
+    FloatingPointError
+        If an argument or an input is not finite.
+    ValueError
+        If shapes do not fit, an input has no such name, or there is no time to simulate.
+    VanishingPivotError
+        If parameters or step leave a pivot that is not positive.
+    """
+    if np.ndim(step) != 0 or not step > 0.0:
+        raise ValueError(f"step must be one positive number, not {step!r}")
+    if not 0.0 <= duration < np.inf:
+        raise ValueError(f"duration must be a time, not {duration!r}")
+    given = dict(inputs or {})
+    if unknown := sorted(set(given) - set(INPUT_NAMES)):
+        known = ", ".join(INPUT_NAMES) or "none"
+        raise ValueError(f"no input is named {', '.join(unknown)}; there are: {known}")
+
+    def read(time: float) -> Input:
+        return Input(**{name: value(time) if callable(value) else value for name, value in given.items()})
+
+    model = prepare(params, step)
+    state = initialise(params, read(0.0), initial_angle=initial_angle, initial_rate=initial_rate)
+    rows = [output(model, state)]
+    times = step * np.arange(int(np.floor(duration / step * (1.0 + 1e-12))) + 1)
+    for index, time in enumerate(times[:-1].tolist()):
+        instants = STAGE_INSTANTS[min(index, len(STAGE_INSTANTS) - 1)]
+        state = _advance(model, state, read(time + instants[0] * step))
+        rows.append(output(model, state))
+    outputs = {name: _series([getattr(row, name) for row in rows]) for name in OUTPUT_NAMES}
+    return Result(times, outputs, state)
+
+
+def _array(value: ArrayLike, length: int | None, what: str) -> Array:
+    """Check what a user gives: a number for each arm if length is None, else an array over stations."""
+    array = np.asarray(value)
+    if array.dtype.kind in "biu":
+        array = array.astype(float)
+    if array.dtype.kind not in "fcO":
+        raise TypeError(f"{what} must be numeric, not {value!r}")
+    if length is not None and array.ndim == 0:
+        array = np.full(length, array)
+    if length is not None and array.shape[0] != length:
+        expected = f"shape ({length}, *batch), or be one number"
+        raise ValueError(f"{what} must have {expected}; it has shape {array.shape}")
+    finite = _finite(array)
+    if array.size and not np.any(finite if length is None else finite.all(axis=0)):
+        raise FloatingPointError(f"{what} must be finite, not {value!r}")
+    return array
+
+
+def _finite(value: Any) -> Array:
+    """Return which numbers are finite; of numbers that are objects nobody knows."""
+    array = np.asarray(value)
+    return np.ones(array.shape, dtype=bool) if array.dtype.kind == "O" else np.isfinite(array)
+
+
+def _positive(step: Array) -> Any:
+    """Return for which arms the time step is positive."""
+    good = np.asarray(step > 0.0)
+    if step.size and not good.any():
+        raise ValueError(f"step must be positive, not {step}")
+    return good
+
+
+def _judged(good: Any, numbers: tuple[Any, ...], arrays: tuple[Any, ...], what: str) -> Any:
+    """Return which arms are good so far and have only numbers that are finite; leave if there are none."""
+    for number in numbers:
+        good = good & _finite(number)
+    for array in arrays:
+        good = good & _finite(array).all(axis=0)
+    if np.size(good) and not np.any(good):
+        raise FloatingPointError(what)
+    return good
+
+
+def _kept(value: Any, good: Any, stations: bool) -> Array:
+    """Return a result with NaN for the arms that are not good."""
+    array = np.asarray(value)
+    if np.all(good):
+        return array
+    if stations:
+        array = _align(array, np.shape(good))
+    return np.where(good, array, array.dtype.type(np.nan))
+
+
+def _common(numbers: tuple[Any, ...], arrays: tuple[Array, ...]) -> tuple[tuple[int, ...], np.dtype[Any]]:
+    """Return the shape of the batch and the number type of everything together."""
+    single = [np.asarray(number) for number in numbers]
+    shapes = {number.shape for number in single} | {array.shape[1:] for array in arrays}
+    types = {array.dtype for array in (*single, *arrays)}
+    try:
+        batch = shapes.pop() if len(shapes) == 1 else np.broadcast_shapes(*shapes)
+    except ValueError:
+        raise ValueError(f"batch shapes do not fit together: {sorted(shapes)}") from None
+    return batch, types.pop() if len(types) == 1 else np.result_type(*types)
+
+
+def _align(array: Array, batch: tuple[int, ...]) -> Array:
+    """Give an array over stations as many axes behind the first as the batch has."""
+    missing = len(batch) + 1 - array.ndim
+    return array.reshape(array.shape[0], *(1,) * missing, *array.shape[1:]) if missing else array
+
+
+def _spread(value: Any, batch: tuple[int, ...], stations: bool) -> Array:
+    """Return a number for every arm of the batch, or an array over stations for every arm."""
+    array = np.asarray(value)
+    if array.shape[stations:] == batch:
+        return array
+    if stations:
+        return np.broadcast_to(_align(array, batch), (array.shape[0], *batch))
+    return np.broadcast_to(array, batch)
+
+
+def _positive_pivot(
+    good: Any, pivot: Any, name: str, station: int | None, batch: tuple[int, ...] | None = None
+) -> Any:
+    """Return which arms are good so far and have a positive pivot; leave if there are none.
+
+    With a batch given, the pivot may be that of all stations.
+    """
+    positive = np.asarray((pivot > 0.0) & (pivot < np.inf))
+    if batch is not None and positive.ndim > len(batch):
+        positive = np.all(positive, axis=0)
+    good = good & positive
+    if np.size(good) and not np.any(good):
+        where = "" if station is None else f" of station {station + 1}"
+        raise VanishingPivotError(
+            f"{name}{where} must be positive and finite, not {pivot}; check parameters and step"
+        )
+    return good
+
+
+def _series(values: list[Array]) -> Array:
+    """Put values at all instants together; a batch that came with an input counts from the start."""
+    shape = values[-1].shape
+    return np.stack([np.broadcast_to(value, shape) for value in values])
