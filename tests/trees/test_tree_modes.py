@@ -78,9 +78,10 @@ def linearised(scene: Scene, angles: Array, inputs: dict[str, float]) -> tuple[A
     return found[0], found[1], found[2]
 
 
+@pytest.mark.parametrize("gear", [{}, {"motor.right.stiffness": 40.0}])
 @pytest.mark.parametrize("base", BASES)
-def test_modes_without_gravity(base: str, fork: Callable[..., Scene]) -> None:
-    scene = fork(**on(base))
+def test_modes_without_gravity(base: str, gear: dict[str, float], fork: Callable[..., Scene]) -> None:
+    scene = fork(**on(base), **gear)
     rest = rest_of(scene)
     assert np.abs(rest.unbalanced).max() <= 1e-12
     assert rest.angles == pytest.approx(np.array(scene.initial.angles), abs=1e-12)

@@ -21,6 +21,11 @@ Array = NDArray[np.float64]
 POINTS = 2j * np.pi * np.array([0.4, 3.0, 19.0, 140.0])
 BASES = ({"kind": "clamp"}, {"kind": "motor", "inertia": 0.02, "damping": 0.01})
 SMALL = 1e-5
+GEARS: tuple[dict[str, float], ...] = (
+    {},
+    {"motor.right.stiffness": 40.0, "motor.right.damping_time": 1e-3, "motor.right.motor_damping": 1e-5},
+)
+"""Of the motor: rigid, and elastic, which puts a shaft without mass between."""
 
 
 def slopes_of_reading(scene: Scene, angles: Array) -> dict[str, list[Array]]:
@@ -43,10 +48,13 @@ def slopes_of_reading(scene: Scene, angles: Array) -> dict[str, list[Array]]:
     return found
 
 
+@pytest.mark.parametrize("gear", GEARS)
 @pytest.mark.parametrize("gravity", [0.0, 9.81])
 @pytest.mark.parametrize("base", BASES)
-def test_response(base: dict[str, object], gravity: float, fork: Callable[..., Scene]) -> None:
-    scene = fork(**{"base": base, "model.gravity": gravity})
+def test_response(
+    base: dict[str, object], gravity: float, gear: dict[str, float], fork: Callable[..., Scene]
+) -> None:
+    scene = fork(**{"base": base, "model.gravity": gravity}, **gear)
     arm = resting_arm(scene)
     assert arm.rest is not None
     angles = arm.rest.free_angles

@@ -65,8 +65,8 @@ def _read(arm: LinearArm, states: States, s: Complex, output: Output) -> list[tu
         at = next(k for k, e in enumerate(arm.elements) if e.name in JOINTS and e.station == station)
         if quantity.read == "through":  # beyond the joint, a motor's torque included
             return [(names[0], states.force[at + 1][:, -1])]
-        scale = s[:, None] ** quantity.order
-        return [(names[0], scale * (states.motion[at + 1] - states.motion[arm.inner[at]])[:, -1])]
+        scale, inner = s[:, None] ** quantity.order, _behind(arm, arm.scene.inner(station))
+        return [(names[0], scale * (states.motion[at + 1] - states.motion[inner])[:, -1])]
     if quantity.in_joint:
         force = _force(arm, states, output, station)
         if quantity.vector:
