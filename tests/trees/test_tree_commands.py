@@ -33,6 +33,7 @@ def test_small_motion(command: str, fork_file: Path, capsys: pytest.CaptureFixtu
     assert told(capsys, command, str(fork_file))
 
 
+@pytest.mark.compiler
 def test_studies(hand_file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert told(capsys, "explain", str(hand_file))
     assert told(capsys, "stability", str(hand_file), "--cells", "0")
