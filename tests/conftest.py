@@ -134,17 +134,34 @@ LONG = (
     "stability/test_map.py",
     "study/test_cluster.py",
 )
-"""Files whose tests take long; ``-m "not long"`` leaves them out."""
+"""Files whose tests take long, besides single ones marked so; ``-m "not long"`` leaves them out."""
 
 
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark what takes long, and what wants an optional tool; put the former last."""
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """Let a run on yet another machine repeat nothing of one kind."""
+    parser.addoption(
+        "--first-and-last",
+        action="store_true",
+        help="of each parametrised test only the first and the last case",
+    )
+
+
+@pytest.hookimpl(tryfirst=True)  # before -m looks for the marks
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Mark what takes long, and what wants an optional tool; put the former last, leave repeats out if asked."""
     for item in items:
         if item.path.relative_to(ROOT / "tests").as_posix() in LONG:
             item.add_marker(pytest.mark.long)
         if "need_tool" in getattr(item, "fixturenames", ()):
             item.add_marker(pytest.mark.tools)
     items.sort(key=lambda item: item.get_closest_marker("long") is not None)
+    if config.getoption("--first-and-last"):
+        cases: dict[str, list[pytest.Item]] = {}
+        for item in items:
+            cases.setdefault(item.nodeid.partition("[")[0], []).append(item)
+        ends = {id(item) for same in cases.values() for item in (same[0], same[-1])}
+        config.hook.pytest_deselected(items=[item for item in items if id(item) not in ends])
+        items[:] = [item for item in items if id(item) in ends]
 
 
 # -- what was left out, in one line at the very end ---------------------------------------------

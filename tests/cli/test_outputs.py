@@ -22,6 +22,7 @@ FILES: dict[tuple[str, str], tuple[list[str], str]] = {
     ("run", "--csv"): ([CHAIN], ".csv"),
     ("run", "--plot"): ([CHAIN], ".png"),
     ("run", "--animate"): ([PLANAR], ".gif"),
+    ("rest", "--plot"): ([PLANAR], ".svg"),
     ("modes", "--plot"): ([CHAIN], ".svg"),
     ("frequency", "--csv"): ([CHAIN], ".csv"),
     ("frequency", "--plot"): ([CHAIN], ".pdf"),

@@ -65,6 +65,7 @@ starts = st.one_of(
 )
 
 
+@pytest.mark.long
 @settings(max_examples=15, deadline=None, suppress_health_check=list(HealthCheck))
 @given(start=starts, unit=st.sampled_from([1.0, 1e3, 1e6, 1e9, 1.0 / 60.0]), seed=st.integers(0, 1000))
 def test_any_clock_gives_the_number_or_a_refusal(
@@ -194,6 +195,7 @@ def test_single_wrong_samples(small: Scene, record: dict[str, Table]) -> None:
     assert found.deviation < 0.02 * TRUTH
 
 
+@pytest.mark.long
 def test_intervals_hold_the_truth_under_jitter(small: Scene, record: dict[str, Table]) -> None:
     """The clock of each row is off by up to 4 ms, of all outputs at once; there is little other noise."""
     held, narrow = 0, 0

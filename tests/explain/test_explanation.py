@@ -11,6 +11,8 @@ from tmm_gen.explain.footprint import footprint
 from tmm_gen.explain.terms import terms_of
 from tmm_gen.scene import Scene
 
+pytestmark = pytest.mark.xdist_group("explanations")  # scenes are explained once
+
 
 @pytest.fixture(scope="module")
 def explained(example: Callable[[str], Scene]) -> dict[str, Explanation]:

@@ -44,6 +44,7 @@ def test_dampers_of_joints_that_turn_freely_cost_something(terms: dict[str, Expl
     assert terms["joint damping"].worth.step > 0
 
 
+@pytest.mark.long
 def test_heat_is_no_term_of_a_scene_with_derivatives() -> None:
     names = [term.term for term in explain(parse_scene(TWO).replace(**{"emit.sensitivities": True})).terms]
     assert "mass at the tip" in names

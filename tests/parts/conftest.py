@@ -170,6 +170,7 @@ def drawn_arm(
         (f"{what}_energy", "arm", f"{what}_energy") for what in ("kinetic", "elastic", "gravitational")
     ]
     outputs += [("heat", "arm", "dissipated_energy")]
+    outputs += [(f"{of}_at_base", "base", of) for of in ("torque", "force") if branching and kind != "motor"]
     start = {key: random.uniform(-0.4, 0.4, len(solid)).round(3).tolist() for key in ("angles", "rates")}
     tables = [
         ("model", {"kind": "planar", "gravity": 9.81, **model}),

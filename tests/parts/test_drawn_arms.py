@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 from tmm_gen.inputs.signals import Sine
@@ -45,6 +45,7 @@ def test_backends_agree(seed: int, count: int, branching: bool, drawn: Callable[
 
 
 @FEW
+@example(seed=15, count=6, order=4, branching=True)  # a motor with an elastic gear begins a second branch
 @given(
     seed=st.integers(0, 10_000),
     count=st.integers(2, 12),

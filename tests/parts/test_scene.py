@@ -85,6 +85,13 @@ def test_the_template_is_a_scene(motors: int) -> None:
     assert scene.stations == 4 * motors
 
 
+def test_a_section_can_be_set_by_the_name_of_its_beam() -> None:
+    scene = parse_scene(template("picker", "planar", motors=2))
+    changed = scene.replace(**{"beam.arm2.section.thickness": 0.01})  # twice as thick: eight times as stiff
+    assert changed.joints[5].stiffness == 8 * scene.joints[5].stiffness
+    assert changed.joints[:5] == scene.joints[:5]
+
+
 def test_initial_angles_are_by_part(elbow_text: str) -> None:
     scene = parse_scene(elbow_text + "\n[initial]\nangles = [0.1, 0.2, 0.3]\n")
     assert scene.initial.angles == (0.1, 0.1, 0.1, 0.2, 0.3)

@@ -151,6 +151,7 @@ def test_single_precision(real: str, falling: Callable[..., Scene]) -> None:
         simulate(falling(3, **changes, **{"integrator.step": 0.1}), {}, 2.0, "c")
 
 
+@pytest.mark.long
 @pytest.mark.compiler
 def test_folded_chains_are_sensitive_and_say_so() -> None:
     with pytest.raises(InaccurateError) as refusal:

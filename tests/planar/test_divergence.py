@@ -40,6 +40,7 @@ def test_a_step_beyond_the_integrators_limit_is_its_cause(falling: Callable[...,
         simulate(scene, {}, 1.0, "c")
 
 
+@pytest.mark.long
 def test_what_turns_too_far_in_a_step_is_refused_at_once(unlike: Callable[..., Scene]) -> None:
     scene = unlike("motor", step=0.01).replace(initial={"angles": 0.0, "rates": 60.0})
     once = scene.replace(**{"model.iterations": 1})

@@ -105,6 +105,7 @@ def test_a_step_that_will_do_is_taken_whole(falling: Callable[..., Scene]) -> No
     assert not run.substeps.because
 
 
+@pytest.mark.long
 @pytest.mark.compiler
 def test_a_start_too_fast_for_the_step() -> None:
     fast = Extreme(revolutions=100.0, step=0.01)

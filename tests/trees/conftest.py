@@ -154,6 +154,14 @@ name = "prop_arm"
 at = "prop_arm"
 of = "angle"
 [[output]]
+name = "base_torque"
+at = "base"
+of = "torque"
+[[output]]
+name = "base_force"
+at = "base"
+of = "force"
+[[output]]
 name = "prop_torque"
 at = "prop"
 of = "torque"

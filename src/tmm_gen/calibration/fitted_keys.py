@@ -18,7 +18,8 @@ def default_keys(scene: Scene) -> tuple[str, ...]:
     if scene.beam is None:
         return STIFFNESS, DAMPING
     damped = ("beam.damping_time",) if scene.beam.damping_time else ()
-    return ("beam.bending_stiffness", *damped)
+    table: Any = scene.source.data["beam"]
+    return ("beam.material.young" if "material" in table else "beam.bending_stiffness", *damped)
 
 
 def number_of(scene: Scene, key: str) -> float:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import click
 
 from tmm_gen.cli.console import Column, progress, table
+from tmm_gen.cli.hints import hinted
 from tmm_gen.errors import CheckFailed, UserError
 
 if TYPE_CHECKING:
@@ -63,16 +64,19 @@ def build(scenes: tuple[str, ...], check: bool, out: Path, force: bool, json_mod
     with progress("comparing" if check else "building", total=len(loaded)) as advance:
         rows: list[_Row] = []
         drift: list[str] = []
+        hints: list[str] = []
         for scene in loaded:
             advance(0, scene.name)
             row, found = _compare(scene, out) if check else _build(scene, out, force)
             rows.append(row)
+            if check or row.state == _BUILT:  # as compilers warn of what they compile
+                hints += hinted(scene, json_mode)
             drift += found
             advance()
     if not json_mode:
         for line in drift:
             click.echo(line)
-    table([row.as_dict() for row in rows], _columns(check), json_mode)
+    table([row.as_dict() for row in rows], _columns(check), json_mode, more={"hints": hints})
     if not json_mode and not check and (names := [s.name for s in loaded if "numpy" in s.emit.backends]):
         click.echo(import_line(out, names))
     if not json_mode:

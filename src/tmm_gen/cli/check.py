@@ -13,6 +13,7 @@ from tmm_gen.cli.check_proof import check_proof
 from tmm_gen.cli.check_target import TARGETS, check_target
 from tmm_gen.cli.console import Column, progress, table
 from tmm_gen.cli.given import positive
+from tmm_gen.cli.hints import hinted
 
 if TYPE_CHECKING:
     from tmm_gen.inputs.signals import Signal
@@ -98,6 +99,7 @@ def check(
         raise click.UsageError(
             "--input is for the comparison of runs: leave it, or --target, --prove and --lint, out"
         )
+    hints = hinted(loaded, json_mode)
     if lint_mode:
         return check_lint(loaded, json_mode)
     if prove_mode:
@@ -122,6 +124,7 @@ def check(
         "scene": loaded.name,
         "passed": report.passed,
         "why": report.why or None,
+        "hints": hints,
         **report.facts,
     }
     table(rows, _COLUMNS, json_mode, title=f"{loaded.title} ({loaded.integrator.name})", more=facts)

@@ -9,9 +9,11 @@ import click
 
 from tmm_gen.cli.changes import changed_scene, set_option
 from tmm_gen.cli.console import Column, progress, table
+from tmm_gen.cli.hints import hinted
 
 if TYPE_CHECKING:
     from tmm_gen.explain.explanation import Explained, Explanation
+    from tmm_gen.scene import Scene
 
 # SymPy is imported inside: `tmm-gen --help` has no use for it.
 
@@ -27,14 +29,15 @@ def explain(scene: Path, changes: tuple[str, ...], json_mode: bool) -> None:
     out. Operations are floating-point operations, bytes are those of the C structs.
     """
     loaded = changed_scene(scene, changes)
+    found_hints = hinted(loaded, json_mode)
     with progress(f"counting {loaded.name}") as advance:
         from tmm_gen.explain.explanation import explain as explained
 
         found = explained(loaded, lambda term: advance(1, doing=f"counted {term}"))
-    _show(found, json_mode)
+    _show(found, found_hints, json_mode)
 
 
-def _show(found: Explanation, json_mode: bool) -> None:
+def _show(found: Explanation, hints: list[str], json_mode: bool) -> None:
     scene, own, everything = found.scene, found.own, found.everything
     facts = {
         "scene": scene.name,
@@ -47,6 +50,8 @@ def _show(found: Explanation, json_mode: bool) -> None:
         "model_bytes": own.model_bytes,
         "everything_operations_per_step": everything.step,
         "everything_state_bytes": everything.state_bytes,
+        "hints": hints,
+        "beams": (beams := _beams(scene)),
     }
     title = (
         f"{scene.title}: {own.step} operations a step, {own.state_bytes} bytes of state, "
@@ -64,11 +69,35 @@ def _show(found: Explanation, json_mode: bool) -> None:
     table([_row(each) for each in found.terms], columns, json_mode, title=title, more=facts)
     if json_mode:
         return
+    for beam in beams:
+        if beam["from_section"]:
+            click.echo(
+                f"{beam['beam']}: EI = {beam['bending_stiffness']:.6g} N m^2 and {beam['mass_per_length']:.6g} kg/m, "
+                "as material and section have it"
+            )
     click.echo("modelled: what the term costs; left out: what it would cost, and leaving it out saves")
     click.echo(
         f"all that was left out put in at once: {everything.step} operations a step "
         f"({everything.step / max(own.step, 1):.1f} times as many), {everything.state_bytes} bytes of state"
     )
+
+
+def _beams(scene: Scene) -> list[dict[str, object]]:
+    """Return the numbers of each beam, given or as they follow from its material and section."""
+    from tmm_gen.scene.check import document_of
+
+    found: list[dict[str, object]] = []
+    for beam in document_of(scene.source).beams().values():
+        name, (stiffness, mass) = getattr(beam, "name", ""), beam.stiffness_and_mass()
+        found.append(
+            {
+                "beam": f"beam '{name}'" if name else "beam",
+                "bending_stiffness": stiffness,
+                "mass_per_length": mass,
+                "from_section": beam.section is not None,
+            }
+        )
+    return found
 
 
 def _row(explained: Explained) -> dict[str, object]:

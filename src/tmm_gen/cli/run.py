@@ -12,6 +12,7 @@ import click
 from tmm_gen.cli.changes import changed_scene, set_option
 from tmm_gen.cli.console import Column, progress, table
 from tmm_gen.cli.given import picture_file, plot_option
+from tmm_gen.cli.hints import hinted
 from tmm_gen.cli.outputs import OutputFile, claim, write_outputs
 from tmm_gen.errors import UserError
 
@@ -128,6 +129,7 @@ def run(
     if animated is not None and not shaped:
         raise UserError(f"--animate {animated}: a chain has no shape to show. Use --plot.")
     claim((csv_file, picture, animated), read)
+    hints = hinted(chosen, json_mode)
     duration = until or default_duration(chosen)
     refuse_other_clock(signals, duration)
     steps = number_of_steps(duration, chosen.integrator.step)
@@ -137,7 +139,7 @@ def run(
             chosen, signals, duration, backend, advance, trace=drawn, substeps=not _step_given(step, changes)
         )
     written = _write(simulation, csv_file, picture, animated, read)
-    _show(simulation, written, json_mode)
+    _show(simulation, written, hints, json_mode)
 
 
 def _step_given(step: float | None, changes: Sequence[str]) -> bool:
@@ -168,7 +170,7 @@ def _write(
     return write_outputs(files, read)
 
 
-def _show(simulation: Simulation, written: list[Path], json_mode: bool) -> None:
+def _show(simulation: Simulation, written: list[Path], hints: list[str], json_mode: bool) -> None:
     """Print the figures, what was done, and what could be done next."""
     scene, last, accuracy = simulation.scene, float(simulation.time[-1]), simulation.accuracy
     facts = {
@@ -187,6 +189,7 @@ def _show(simulation: Simulation, written: list[Path], json_mode: bool) -> None:
         "unsolved": simulation.unsolved,
         "step_error": simulation.step_error,
         "notes": list(simulation.notes),
+        "hints": hints,
         "files": written,
     }
     done = f"{last:g} s in {simulation.steps} steps of {scene.integrator.step:g} s by {scene.integrator.name}"

@@ -32,7 +32,11 @@ _CONVEX = 1e-12
 
 
 def equilibrium(
-    scene: Scene, inputs: Mapping[str, float] | None = None, unbalanced: Unbalanced | None = None
+    scene: Scene,
+    inputs: Mapping[str, float] | None = None,
+    unbalanced: Unbalanced | None = None,
+    *,
+    start: Array | None = None,
 ) -> Rest:
     """Return the static equilibrium an arm reaches from its initial angles under gravity and loads.
 
@@ -49,17 +53,19 @@ def equilibrium(
         Constant inputs by name; those not given are zero.
     unbalanced : callable, optional
         Where the torque comes from; by default the elements' equations.
+    start : array, optional
+        Free angles to descend from, rad; by default those of the scene's start.
 
     Raises
     ------
     UserError
         If there is none: a torque on a free hub or joint turns the arm forever.
     """
-    angles = straight(scene)
+    angles = straight(scene) if start is None else start
     rest, linear, torque = _look(scene, angles, inputs, unbalanced)
     before = np.inf
     for _ in range(_STEPS):
-        turn = _descent(linear, torque)
+        turn = descent(linear, torque)
         largest = float(np.max(np.abs(turn)))
         size = max(1.0, float(np.max(np.abs(angles))))
         # many links round more: then turns do not become smaller any more
@@ -92,7 +98,7 @@ def _look(
     return rest, linear, rest.unbalanced if unbalanced is None else unbalanced(rest, linear)
 
 
-def _descent(linear: Matrices, torque: Array) -> Array:
+def descent(linear: Matrices, torque: Array) -> Array:
     """Return the turn to the minimum of the local energy, or of one made convex."""
     parts = linear.parts
     springs = springs_of(parts)

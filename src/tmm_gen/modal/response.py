@@ -61,12 +61,12 @@ def _read(arm: LinearArm, states: States, s: Complex, output: Output) -> list[tu
     station = station_of(output.at, arm.scene.stations)
     quantity = arm.scene.quantity(output)
     names = quantity.columns(output.name)
-    if quantity.read in ("bend", "through"):
-        at = next(k for k, e in enumerate(arm.elements) if e.name in JOINTS and e.station == station)
-        if quantity.read == "through":  # beyond the joint, a motor's torque included
-            return [(names[0], states.force[at + 1][:, -1])]
-        scale, inner = s[:, None] ** quantity.order, _behind(arm, arm.scene.inner(station))
-        return [(names[0], scale * (states.motion[at + 1] - states.motion[inner])[:, -1])]
+    if quantity.read == "bend":
+        inner, outer = (_behind(arm, number) for number in (arm.scene.inner(station), station))
+        return [(names[0], s[:, None] ** quantity.order * (states.motion[outer] - states.motion[inner])[:, -1])]
+    if quantity.read == "through":  # beyond the joint, a motor's torque included
+        at = [k + 1 for k in _joints(arm, output)]
+        return [(names[0], states.force[at].sum(axis=0)[:, -1])]
     if quantity.in_joint:
         force = _force(arm, states, output, station)
         if quantity.vector:
@@ -96,7 +96,11 @@ def _force(arm: LinearArm, states: States, output: Output, station: int) -> Comp
         for number, load in arm.elements[link].loads:
             beyond[:, :, number] -= np.array(load)
         return beyond
-    joint = max(station, 1)
-    at = next(k for k, e in enumerate(arm.elements) if e.name in JOINTS and e.station == joint)
-    found: Complex = states.force[at]
+    found: Complex = states.force[_joints(arm, output)].sum(axis=0)
     return found
+
+
+def _joints(arm: LinearArm, output: Output) -> list[int]:
+    """Return the elements that are the joints whose torque or force an output is."""
+    joints = arm.scene.joints_of(output)
+    return [k for k, e in enumerate(arm.elements) if e.name in JOINTS and e.station in joints]

@@ -74,7 +74,7 @@ def execute(
 
     def compute(value: sp.Expr, j: int | None) -> Any:
         refs, function = compiled[value]
-        return function(*(_read(values, ref, j) for ref in refs))
+        return function(*[_read(values, name, ref, j) for name, ref in refs])
 
     def run(statement: Assign | Require, j: int | None) -> None:
         result = compute(statement.value, j)
@@ -104,24 +104,25 @@ def execute(
             run(statement, None)
 
 
-_FUNCTIONS: dict[tuple[sp.Expr, int | str], tuple[list[sp.Symbol], Callable[..., Any]]] = {}
+_FUNCTIONS: dict[tuple[sp.Expr, int | str], tuple[list[tuple[str, Ref]], Callable[..., Any]]] = {}
 
 
-def _function(value: sp.Expr, modules: Any) -> tuple[list[sp.Symbol], Callable[..., Any]]:
-    """Compile an expression once for all runs; returns its references and a function of them."""
-    key = (value, modules if isinstance(modules, str) else id(modules))
-    if key not in _FUNCTIONS:
+def _function(value: sp.Expr, modules: Any) -> tuple[list[tuple[str, Ref]], Callable[..., Any]]:
+    """Compile an expression once for all runs; returns its references with their keys, and a function of them."""
+    expression = (value, modules if isinstance(modules, str) else id(modules))
+    if expression not in _FUNCTIONS:
         refs = sorted(value.free_symbols, key=lambda s: s.name)
         # no Dummies: SymPy orders sums by names, and a Dummy's tells how many there were before in the process
         names = [sp.Symbol(f"x{k:03d}") for k in reversed(range(len(refs)))]
         plain = value.xreplace(dict(zip(refs, names, strict=True)))
         handed = modules if isinstance(modules, str) else list(modules)
-        _FUNCTIONS[key] = refs, sp.lambdify(names, plain, modules=handed)
-    return _FUNCTIONS[key]
+        function = sp.lambdify(names, plain, modules=handed)
+        _FUNCTIONS[expression] = [(key(ref.variable), ref) for ref in refs], function
+    return _FUNCTIONS[expression]
 
 
-def _read(values: Mapping[str, Any], ref: Ref, j: int | None) -> Any:
-    held = values[key(ref.variable)]
+def _read(values: Mapping[str, Any], name: str, ref: Ref, j: int | None) -> Any:
+    held = values[name]
     return held if ref.variable.length is None else held[_index(ref, j)]
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import Enum
+from functools import lru_cache
 
 import sympy as sp
 
@@ -143,6 +144,7 @@ _REFS: dict[tuple[Variable, int | None, int | None], Ref] = {}
 """Every reference made, so that equal ones are one object and compare at once."""
 
 
+@lru_cache(maxsize=1 << 14)  # passes ask again and again, and SymPy walks the whole expression each time
 def refs_in(expression: sp.Basic) -> frozenset[Ref]:
     """Return the references in an expression."""
     return frozenset(s for s in expression.free_symbols if isinstance(s, Ref))

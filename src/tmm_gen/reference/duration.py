@@ -16,19 +16,29 @@ _NICE = (1.0, 1.5, 2.0, 3.0, 5.0, 7.0, 10.0)
 
 def default_duration(scene: Scene) -> float:
     """Return a round number of seconds that covers some periods of the lowest natural frequency."""
-    if not scene.model.linear:
-        return _round_up(_PERIODS * 2.0 * math.pi / _slowest(scene))
-    return _round_up(_PERIODS * 2.0 * math.pi / slowest_swing(scene))
+    return _round_up(_PERIODS * 2.0 * math.pi / _slowest(scene))
+
+
+def slowest_vibration(scene: Scene) -> float | None:
+    """Return the lowest frequency at which springs give way, rad/s; None of an arm without a spring.
+
+    A planar arm is taken as straight and without weight.
+    """
+    if scene.model.linear:
+        return slowest_swing(scene)
+    frequencies = vibration(scene).frequencies
+    return next((float(w) for w in frequencies if w > 0.0), None)
 
 
 def _slowest(scene: Scene) -> float:
-    """Return the lowest frequency at which a planar arm bends, or swings in gravity behind free joints, rad/s."""
-    frequencies = vibration(scene).frequencies
-    found = [float(w) for w in frequencies[frequencies > 0.0][:1]]
-    if any(joint.stiffness == 0.0 for joint in scene.joints):
+    """Return the lowest frequency at which an arm bends, or swings in gravity behind free joints, rad/s."""
+    bends = slowest_vibration(scene)
+    found = [] if bends is None else [bends]
+    length = scene.reach
+    if length > 0.0 and any(joint.stiffness == 0.0 for joint in scene.joints):
         gravity = scene.model.gravity or 0.0
         # without gravity nothing sets a time: as if there were some
-        found.append(math.sqrt((gravity or STANDARD_GRAVITY) / scene.reach))
+        found.append(math.sqrt((gravity or STANDARD_GRAVITY) / length))
     return min(found)
 
 

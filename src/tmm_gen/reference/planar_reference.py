@@ -75,14 +75,15 @@ def read(arm: Arm, output: Output, times: Array, q: Array, v: Array, a: Array) -
         against = moved[:, inner] if inner >= 0 else arm.base_motion(times)[quantity.order]
         values = [moved[:, station - 1 + arm.first] - against]
     elif quantity.read == "through":
-        values = [_through(arm, station, times, q, v, a)]
+        joints = arm.scene.joints_of(output)
+        values = [np.sum([_through(arm, k, times, q, v, a) for k in joints], axis=0)]
     elif quantity.read == "energy":
         values = [_energy(arm, quantity.energy, times, q, v)]
     elif quantity.read == "own":
         values = [_torque(arm, output, times, q, v, a)]
     elif quantity.read == "force":
-        joint = arm.scene.stations + 1 if output.at == "tip" else max(station, 1)
-        values = list(_force(arm, joint, times, q, v, a))
+        joints = (arm.scene.stations + 1,) if output.at == "tip" else arm.scene.joints_of(output)
+        values = list(np.sum([_force(arm, k, times, q, v, a) for k in joints], axis=0))
     else:
         on_the_way = arm.paths[station - 1 + arm.first] if station else 0.0
         lever = arm.lengths * on_the_way

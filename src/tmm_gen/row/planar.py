@@ -284,7 +284,7 @@ def _held(scene: Scene) -> dict[str, Signal]:
     held = [i for i in scene.inputs if i.acts in ("force_x", "force_y") and station_of(i.at, n) >= inmost]
     if any(scene.quantity(o).read == "own" and o.at == "tip" for o in scene.outputs):
         held += [i for i in scene.inputs if i.acts == "torque" and station_of(i.at, n) == n]
-    felt = {o.at for o in scene.outputs if scene.quantity(o).read == "through"}
+    felt = {k for o in scene.outputs if scene.quantity(o).read == "through" for k in scene.joints_of(o)}
     held += [i for i in scene.inputs if i.acts == "drive" and i.at in felt]
     return {i.name: Signal(f"held_{i.name}", f"{i.name} as it last acted", INPUT_UNITS[i.acts]) for i in held}
 

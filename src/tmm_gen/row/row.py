@@ -102,7 +102,7 @@ class Reading:
         of that element; "place", the motion of a node in the other coordinates; "force" in them beyond an element that
         gives way; or an "energy".
     station : int
-        Counted from 1; 0 is the base, one more than the last is beyond it.
+        Counted from 1; 0 is the base, and of forces all that stands on it; one more than the last is beyond it.
     kind : str
         "q", "v" or "a" of motions; which energy.
     sign : int

@@ -89,7 +89,7 @@ def reading_of(scene: Scene, output: Output, title: str, sign: int) -> Reading:
     quantity = scene.quantity(output)
     station = station_of(output.at, scene.stations)
     if quantity.in_joint:  # at the tip of an arm with a body there, beyond the last joint
-        station = scene.stations + 1 if output.at == "tip" else max(station, 1)
+        station = scene.stations + 1 if output.at == "tip" else max(station, int(not scene.parts))
     targets = tuple(Signal(column.name, column.what, column.unit) for column in columns_of(scene, output))
     kind = "" if quantity.in_joint or quantity.read == "through" else quantity.energy or "qva"[quantity.order]
     if quantity.read == "through":

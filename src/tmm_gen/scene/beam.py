@@ -11,23 +11,18 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from tmm_gen.scene.exact import exact, nearest
+from tmm_gen.scene.section import Uniform
 from tmm_gen.scene.station import Joint, Link
 from tmm_gen.scene.table import STATION_LIMIT, NonNegative, Positive, Table
 
 Springs = Literal["half-clamp", "uniform", "thesis"]
 
 
-class Beam(Table):
-    """``[beam]``: a uniform beam, clamped to the base or to the hub.
+class BeamEntry(Uniform):
+    """``[beam]`` as written: a uniform beam, clamped to the base or to the hub.
 
     Parameters
     ----------
-    length : float
-        L, m, positive.
-    bending_stiffness : float
-        EI, N m^2, positive.
-    mass_per_length : float
-        kg/m, positive.
     links : int
         n, number of rigid links, each of length L/n.
     springs : {"half-clamp", "uniform", "thesis"}
@@ -36,9 +31,6 @@ class Beam(Table):
         Stiffness-proportional damping, s, not negative: the damping of a joint is this times its stiffness.
     """
 
-    length: Positive = Field(description="length of the beam in m", examples=["1.0"])
-    bending_stiffness: Positive = Field(description="EI in N m^2", examples=["3.2"])
-    mass_per_length: Positive = Field(description="mass per length in kg/m", examples=["0.5"])
     links: Annotated[int, Field(strict=True, ge=1, le=STATION_LIMIT)] = Field(
         description="number of rigid links", examples=["10"]
     )
@@ -48,6 +40,25 @@ class Beam(Table):
     damping_time: NonNegative = Field(
         default=0.0, description="damping of a joint over its stiffness in s", examples=["0.002"]
     )
+
+    def expanded(self) -> Beam:
+        """Return the beam this entry stands for, by its numbers."""
+        stiffness, mass = self.stiffness_and_mass()
+        return Beam.model_construct(
+            length=self.length,
+            bending_stiffness=stiffness,
+            mass_per_length=mass,
+            links=self.links,
+            springs=self.springs,
+            damping_time=self.damping_time,
+        )
+
+
+class Beam(BeamEntry):
+    """A uniform beam by its numbers: length L in m, EI in N m^2, mass per length in kg/m, all positive."""
+
+    bending_stiffness: Positive
+    mass_per_length: Positive
 
 
 class Tip(Table):

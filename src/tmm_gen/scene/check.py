@@ -34,15 +34,26 @@ def check_data(source: Source) -> Scene:
     SceneError
         With every fault found: first those of single tables, and where there is none, those between tables.
     """
-    kind = PartsDocument if by_parts(source.data) else Document
-    try:
-        document = kind.model_validate(source.data)
-    except ValidationError as error:
-        raise _located(findings(error, kind), source) from None
+    document = document_of(source)
     broken = broken_part_rules(document) if isinstance(document, PartsDocument) else broken_rules(document)
     if broken:
         raise _located(broken, source)
     return scene_of(document, source)
+
+
+def document_of(source: Source) -> Document:
+    """Return the tables of a file as they are written, each well formed.
+
+    Raises
+    ------
+    SceneError
+        With every fault of single tables.
+    """
+    kind = PartsDocument if by_parts(source.data) else Document
+    try:
+        return kind.model_validate(source.data)
+    except ValidationError as error:
+        raise _located(findings(error, kind), source) from None
 
 
 def _located(found: Iterable[Finding], source: Source) -> SceneError:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, fields, replace
 
-from tmm_gen.scene.beam import Beam, Tip
+from tmm_gen.scene.beam import Beam, BeamEntry, Tip
 from tmm_gen.scene.change import changed
 from tmm_gen.scene.control import Control
 from tmm_gen.scene.digest import content_digest
@@ -16,7 +16,7 @@ from tmm_gen.scene.model import Base, Model
 from tmm_gen.scene.parts.document import PartsDocument
 from tmm_gen.scene.parts.expansion import PlacedPart
 from tmm_gen.scene.quantity import Quantity, quantities
-from tmm_gen.scene.signal import Input, Output
+from tmm_gen.scene.signal import Input, Output, station_of
 from tmm_gen.scene.source import Source
 from tmm_gen.scene.station import Joint, Link
 
@@ -101,6 +101,13 @@ class Scene:
         """Return the number of the link on whose outer end a joint stands, 0 for the base; both count from 1."""
         return self.hosts[joint - 1] if self.hosts else joint - 1
 
+    def joints_of(self, output: Output) -> tuple[int, ...]:
+        """Return the numbers of the joints whose torque or force an output is: at the base those of all on it."""
+        number = station_of(output.at, self.stations)
+        if number or not self.parts:
+            return (max(number, 1),)
+        return tuple(k for k in range(1, self.stations + 1) if self.host(k) == 0)
+
     def inner(self, joint: int) -> int:
         """Return the number of the link that a joint turns against: a shaft behind an elastic gear is passed over."""
         host = self.host(joint)
@@ -180,7 +187,6 @@ def scene_of(document: Document, source: Source) -> Scene:
                 made.outputs(document.output),
                 made.initial(document.initial),
             ),
-            beam=None,
             tip=made.tip,
             parts=made.parts,
             hosts=made.hosts if made.hosts != tuple(range(len(made.hosts))) else (),
@@ -212,7 +218,7 @@ def _scene_of(
         base=document.base,
         joints=document.joints(),
         links=document.links(),
-        beam=document.beam,
+        beam=document.beam.expanded() if isinstance(document.beam, BeamEntry) else None,
         tip=document.tip,
         inputs=inputs,
         outputs=outputs,

@@ -120,8 +120,8 @@ damping = {damping}                  # at the output, N m s/rad
 name = "arm{k}"
 on = "motor{k}"
 length = 0.4                   # m
-bending_stiffness = {stiffness}        # EI, N m^2
-mass_per_length = {mass}         # kg/m
+material = {{ young = 70e9, density = 2700 }}   # Pa, kg/m^3: aluminium
+section = {{ kind = "rectangle", width = {width:g}, thickness = 0.005 }}   # m; or "tube", "circle"
 links = 3                      # pieces it is cut into
 damping_time = 0.002           # damping of its springs over their stiffness, s
 
@@ -277,8 +277,7 @@ def _by_parts(motors: int) -> str:
             "rotor": "2e-5",
             "gear": 100,
             "damping": 0.5,
-            "stiffness": 20.0 * share,
-            "mass": 0.4 * share,
+            "width": 0.03 * share,
         }
         parts.append(_MOTOR.format(k=k, on=on, **numbers))
         inputs.append(_MOTOR_INPUT.format(k=k))

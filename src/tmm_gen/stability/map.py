@@ -74,7 +74,7 @@ class GrowthMap:
     @property
     def differs(self) -> NDArray[np.bool_]:
         """Where they differ: by more than `TOLERANCE`, or one is no number, (rows, columns)."""
-        return ~(np.abs(self.difference) <= (TOLERANCE if self.scene.model.linear else TOLERANCE_FAR))
+        return ~(np.abs(self.difference) <= self._bounds[0])
 
     @property
     def worst_cell(self) -> tuple[int, int]:
@@ -97,7 +97,12 @@ class GrowthMap:
     @property
     def grows(self) -> NDArray[np.bool_]:
         """Where motion grows as derived, (rows, columns)."""
-        return self.derived > 1.0 + (GROWS if self.scene.model.linear else GROWS_FAR)
+        return self.derived > 1.0 + self._bounds[1]
+
+    @property
+    def _bounds(self) -> tuple[float, float]:
+        """Least difference, and least growth, that count."""
+        return (TOLERANCE, GROWS) if self.scene.model.linear else (TOLERANCE_FAR, GROWS_FAR)
 
 
 def growth_map(

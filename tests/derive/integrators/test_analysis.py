@@ -39,12 +39,14 @@ def test_analysis_gathers_what_is_derived() -> None:
     assert analyse(integrator("zhou")).stability_limit_damped == 0
 
 
+@pytest.mark.xdist_group("integrators")  # one worker analyses them
 def test_json_has_a_row_for_each(printed: dict) -> None:
     assert printed["zeta"] == 0.1
     assert [row["name"] for row in printed["rows"]] == list(names())
     assert all(set(row) == KEYS for row in printed["rows"])
 
 
+@pytest.mark.xdist_group("integrators")  # one worker analyses them
 def test_json_is_what_is_derived(printed: dict) -> None:
     rows = {row["name"]: row for row in printed["rows"]}
     assert rows["newmark"]["parameters"] == {"beta": 0.25, "gamma": 0.5}

@@ -30,6 +30,7 @@ def rounded(value: float | None, absent: str) -> str:
     return absent if value is None else f"{value:.3g}"
 
 
+@pytest.mark.xdist_group("integrators")  # one worker analyses them
 def test_the_table_is_what_is_derived(printed: dict) -> None:
     rows = re.findall(r"^\| `(.*) \|$", DOCUMENT.read_text(), flags=re.M)
     found = {cells[0]: cells[1:] for cells in (row.replace("`", "").split(" | ") for row in rows)}

@@ -84,6 +84,7 @@ def test_none_is_missed(arm: BeamArm) -> None:
         assert one <= ritz * (1 + 1e-9)
 
 
+@pytest.mark.long
 @given(arms(), st.floats(-6, 6))
 @settings(max_examples=12, deadline=None)
 def test_other_units_change_no_count(arm: BeamArm, power: float) -> None:

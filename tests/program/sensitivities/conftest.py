@@ -243,7 +243,10 @@ def _shipped(name: str) -> Scene:
 _known: dict[str, Case] = {}
 
 
-@pytest.fixture(params=list(SCENES))
+# one worker derives and compiles a scene for all tests
+@pytest.fixture(
+    params=[pytest.param(name, marks=pytest.mark.xdist_group(f"tangents of {name}")) for name in SCENES]
+)
 def case(request: pytest.FixtureRequest) -> Case:
     """Return each scene with CasADi's derivatives."""
     name = str(request.param)

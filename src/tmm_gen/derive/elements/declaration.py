@@ -69,12 +69,13 @@ class Element:
             found = (sp.sympify(values.get(symbol, symbol)) for symbol in symbols)
             return tuple(dict.fromkeys(s for value in found for s in sorted(value.free_symbols, key=str)))
 
+        others = {symbol: sp.sympify(value) for symbol, value in values.items()}
         return replace(
             self,
             parameters=written(self.parameters),
             inputs=written(self.inputs),
-            equations=tuple(equation.subs(values) for equation in self.equations),
-            energies={kind: energy.subs(values) for kind, energy in self.energies.items()},
+            equations=tuple(equation.xreplace(others) for equation in self.equations),
+            energies={kind: energy.xreplace(others) for kind, energy in self.energies.items()},
         )
 
 

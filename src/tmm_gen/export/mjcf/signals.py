@@ -85,7 +85,7 @@ class Signals:
                 terms.append((f"{name}_motor", 0, 1.0))
             self._read(name, *terms)
         elif quantity.read == "through":
-            self._through(name, station)
+            self._through(name, self.scene.joints_of(output))
         elif quantity.read == "motion" and quantity.order < 2:
             kind = ("tendonpos", "tendonvel")[quantity.order]
             Xml.SubElement(self._sensors, kind, name=name, tendon=self._angle(station))
@@ -129,29 +129,33 @@ class Signals:
                 terms.append((f"{name}_{part}", 0, value))
         self._read(name, *terms)
 
-    def _through(self, name: str, station: int) -> None:
-        """Read what a joint's inner side exerts on the outer one: motor, spring, damper, less what its rotor takes."""
-        joint = self.scene.joints[station - 1]
+    def _through(self, name: str, joints: tuple[int, ...]) -> None:
+        """Read what joints' inner sides exert on the outer ones: motor, spring, damper, less what the rotor takes."""
         terms: list[tuple[str, int, float]] = []
 
         def measured(part: str, kind: str, factor: float, index: int = 0, **of: str) -> None:
             Xml.SubElement(self._sensors, kind, {"name": f"{name}_{part}", **of})
             terms.append((f"{name}_{part}", index, factor))
 
-        at = self._joint(station)
-        for item in self.scene.inputs:
-            if item.acts == "drive" and item.at == station:
-                measured(item.name, "actuatorfrc", joint.gear, actuator=item.name)
-        if joint.stiffness:
-            measured("spring", "jointpos", -joint.stiffness, joint=at)
-        if joint.damping:
-            measured("damper", "jointvel", -joint.damping, joint=at)
-        if joint.rotor_inertia:
-            for side, number, sign in (("outer", station, -1.0), ("inner", self.scene.host(station), 1.0)):
-                if number:
-                    site = self._end(number)
-                    measured(side, "frameangacc", sign * joint.armature, 2, objtype="site", objname=site)
-        self._read(name, *terms, constant=joint.stiffness * joint.rest)
+        for station in joints:
+            joint, at = self.scene.joints[station - 1], self._joint(station)
+            for item in self.scene.inputs:
+                if item.acts == "drive" and item.at == station:
+                    measured(item.name, "actuatorfrc", joint.gear, actuator=item.name)
+            if joint.stiffness:
+                measured(f"spring_of_{at}", "jointpos", -joint.stiffness, joint=at)
+            if joint.damping:
+                measured(f"damper_of_{at}", "jointvel", -joint.damping, joint=at)
+            if joint.rotor_inertia:
+                for side, number, sign in (
+                    ("outer", station, -1.0),
+                    ("inner", self.scene.host(station), 1.0),
+                ):
+                    if number:
+                        site = {"objtype": "site", "objname": self._end(number)}
+                        measured(f"{side}_of_{at}", "frameangacc", sign * joint.armature, 2, **site)
+        slack = sum(self.scene.joints[k - 1].stiffness * self.scene.joints[k - 1].rest for k in joints)
+        self._read(name, *terms, constant=slack)
 
     def _way_to(self, station: int) -> list[int]:
         """Return the numbers of the joints from a link inward; the hub's is 0."""

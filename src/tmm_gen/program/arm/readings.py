@@ -81,7 +81,12 @@ class Readings:
             forces = self._beyond()
             own = next(i for i, c in enumerate(self._row.coordinates) if c.integrated)
             return [Assign(targets[0], sp.expand(reading.sign * forces[own]))]
-        element = self._row.detail[reading.station - 1][0]
+        stations = [reading.station - 1] if reading.station else list(self._row.carried(-1))
+        return [Assign(targets[0], sp.Add(*(reading.sign * self._torque(station) for station in stations)))]
+
+    def _torque(self, station: int) -> sp.Expr:
+        """Return the own force of the element that gives way at a station, counted from 0."""
+        element = self._row.detail[station][0]
         law = law_of(element)
         assert law.free is not None
         values = {}
@@ -89,8 +94,7 @@ class Readings:
             values[getattr(element.inboard.motions[law.free], k)] = INNER[k]
             values[getattr(element.outboard.motions[law.free], k)] = OUTER[k]
         value = grouped(law.own.subs(values), {k: (INNER[k], OUTER[k]) for k in KINDS})
-        bound = self._loaded(reading.station - 1).value(value)
-        return [Assign(targets[0], reading.sign * bound)]
+        return self._loaded(station).value(value)
 
     def _place(self, reading: Reading, targets: list[Ref]) -> list[Statement]:
         row = self._row

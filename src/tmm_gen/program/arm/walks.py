@@ -184,8 +184,8 @@ class Walks:
             still = [let for let in lets if let not in at_nodes]
             if still:
                 first.append(self.over(Order.OUTWARD, start, stop, here.lines(still)))
+            walk += resumed(self.layout.row, start, kept)  # a shaft may begin a branch, and moves no node
             if at_nodes:
-                walk += resumed(self.layout.row, start, kept)
                 body = [Assign(along.target(let.symbol), along.value(let.value)) for let in at_nodes]
                 body += [Assign(v.at(1), self.scratch.ref(f"node_{name}")) for name, v in self.nodes.items()]
                 walk.append(self.over(Order.OUTWARD, start, stop, body))

@@ -147,6 +147,8 @@ def _rename(statement: Assign | Require, names: Mapping[Ref, Ref], *, target: bo
 
 def _keeps_order(value: sp.Expr, names: Mapping[Ref, Ref]) -> bool:
     """Whether renaming leaves terms and factors in the order in which they are written."""
+    if names.keys().isdisjoint(refs_in(value)):
+        return True
     return _written_order(value, names) == _written_order(value.xreplace(dict(names)), {})
 
 

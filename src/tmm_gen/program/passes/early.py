@@ -120,6 +120,7 @@ def _early(sections: list[Section]) -> set[Variable]:
     statements = [s for section in sections for s in section.statements]
     assigns = list(_assigns(statements))
     early = {a.target.variable for a in assigns if a.target.variable.role in SCRATCH}
+    one_value = _of_one_value(assigns)
     while True:
         late = {
             a.target.variable
@@ -139,18 +140,27 @@ def _early(sections: list[Section]) -> set[Variable]:
                     if isinstance(inner, Require) and _is_early(inner.value, early - late):
                         continue
                     for ref in refs_in(inner.value):
-                        if ref.variable in early and not _one_value(ref.variable, assigns):
+                        if ref.variable in early and ref.variable not in one_value:
                             late.add(ref.variable)
         if not late:
             return {v for v in early if any(not _trivial(a) for a in assigns if a.target.variable == v)}
         early -= late
 
 
-def _one_value(variable: Variable, assigns: list[Assign]) -> bool:
-    """Whether a variable is set once, or alike in every run of stations and never from itself."""
-    mine = [a for a in assigns if a.target.variable == variable]
-    fresh = all(variable not in {r.variable for r in refs_in(a.value)} for a in mine)
-    return len(mine) == 1 or (fresh and len({a.target for a in mine}) == 1)
+def _of_one_value(assigns: list[Assign]) -> set[Variable]:
+    """Return the variables that are set once, or alike in every run of stations and never from themselves."""
+    settings: dict[Variable, list[Assign]] = {}
+    for assign in assigns:
+        settings.setdefault(assign.target.variable, []).append(assign)
+    return {
+        variable
+        for variable, mine in settings.items()
+        if len(mine) == 1
+        or (
+            len({a.target for a in mine}) == 1
+            and all(variable not in {r.variable for r in refs_in(a.value)} for a in mine)
+        )
+    }
 
 
 def _trivial(assign: Assign) -> bool:

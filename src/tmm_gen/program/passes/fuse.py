@@ -8,6 +8,7 @@ expressions, so operations and rounding stay what they were.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 from tmm_gen.program.passes.dependence import Footprint, order_keeping_dependences
 from tmm_gen.program.statements import Loop, Routine, Section, Statement
@@ -25,8 +26,10 @@ class _Item:
     def of(cls, titles: tuple[str, ...], statement: Statement) -> _Item:
         return cls(titles, statement, Footprint.of(statement))
 
-    def independent(self, other: _Item) -> bool:
-        return self.footprint.independent(other.footprint)
+
+@lru_cache(maxsize=1 << 16)  # each pair is asked about anew for every two loops that may be fused
+def _independent(one: _Item, other: _Item) -> bool:
+    return one.footprint.independent(other.footprint)
 
 
 def fuse(routine: Routine) -> Routine:
@@ -68,8 +71,8 @@ def _fuse_pair(items: list[_Item], first: int, last: int) -> tuple[list[_Item], 
     behind: list[_Item] = []
     for item in items[first + 1 : last]:
         waits_for = (one, *behind)
-        (before if all(item.independent(w) for w in waits_for) else behind).append(item)
-    if not all(other.independent(item) for item in behind):
+        (before if all(_independent(item, w) for w in waits_for) else behind).append(item)
+    if not all(_independent(other, item) for item in behind):
         return None
     later = (*behind, *items[last + 1 :])
     order = order_keeping_dependences(one.statement, other.statement, tuple(i.statement for i in later))

@@ -19,6 +19,8 @@ from tmm_gen.scene.parts.tables import (
     PartInput,
     PartOutput,
 )
+from tmm_gen.scene.problem import Path
+from tmm_gen.scene.section import Uniform
 from tmm_gen.scene.station import Joint, Link
 
 PARTS = ("motor", "joint", "beam", "link", "body")
@@ -43,6 +45,10 @@ class PartsDocument(Document):
     def parts_by_table(self) -> dict[str, tuple[Part, ...]]:
         """Return all parts by the name of their table."""
         return {table: getattr(self, table) for table in PARTS}
+
+    def beams(self) -> Mapping[Path, Uniform]:
+        """Return the beams by their places in the file."""
+        return {("beam", index): part for index, part in enumerate(self.beam)}
 
     @property
     def stations(self) -> int:

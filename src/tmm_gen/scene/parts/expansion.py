@@ -203,10 +203,11 @@ def _weight(entry: Entry) -> Link:
 
 
 def _beam(part: BeamPart, springs: str = "half-clamp") -> Beam:
+    stiffness, mass = part.stiffness_and_mass()
     return Beam.model_construct(
         length=part.length,
-        bending_stiffness=part.bending_stiffness,
-        mass_per_length=part.mass_per_length,
+        bending_stiffness=stiffness,
+        mass_per_length=mass,
         links=part.links,
         springs=part.springs if part.springs not in (None, "finite-segment") else springs,
         damping_time=part.damping_time,
@@ -266,7 +267,7 @@ def _input(item: FileInput, parts: dict[str, PlacedPart], stations: int) -> Inpu
 def _output(item: FileOutput, parts: dict[str, PlacedPart], stations: int) -> Output:
     name = str(item.at)
     part = parts.get(name)
-    of_joint = part is not None and part.joint > 0
+    of_joint = (part is not None and part.joint > 0) or (name == BASE and item.of in ("torque", "force"))
     return Output(
         name=item.name,
         at=part.gear if part is not None and of_joint else place_of(name, parts, stations),

@@ -8,6 +8,7 @@ from pydantic import AfterValidator, BeforeValidator, Field, PlainValidator
 
 from tmm_gen.scene.beam import Springs
 from tmm_gen.scene.identifier import Name
+from tmm_gen.scene.section import Uniform
 from tmm_gen.scene.signal import FileInput, FileOutput
 from tmm_gen.scene.table import STATION_LIMIT, Fraction, NonNegative, Positive, Table, fault
 
@@ -118,12 +119,9 @@ class JointPart(Part):
     )
 
 
-class BeamPart(Part):
+class BeamPart(Uniform, Part):
     """``[[beam]]``: a uniform beam, cut into rigid links with springs between them."""
 
-    length: Positive = Field(description="length of the beam in m", examples=["0.5"])
-    bending_stiffness: Positive = Field(description="EI in N m^2", examples=["14.0"])
-    mass_per_length: Positive = Field(description="mass per length in kg/m", examples=["0.16"])
     links: Annotated[int, Field(strict=True, ge=1, le=STATION_LIMIT)] = Field(
         description="number of pieces", examples=["5"]
     )

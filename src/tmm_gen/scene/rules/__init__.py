@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 from tmm_gen.scene.document import Document
 from tmm_gen.scene.parts.document import PartsDocument
 from tmm_gen.scene.problem import Finding
+from tmm_gen.scene.rules.beams import beams_given
 from tmm_gen.scene.rules.control import control_possible
 from tmm_gen.scene.rules.emission import (
     bound_without_sensitivities,
@@ -60,12 +61,16 @@ RULES: tuple[Rule, ...] = (
 
 def broken_rules(document: Document) -> list[Finding]:
     """Return everything in a document that breaks a rule, in the order of the rules."""
-    return [finding for rule in RULES for finding in rule(document)]
+    return [*beams_given(document)] or [finding for rule in RULES for finding in rule(document)]
 
 
 PartRule = Callable[[PartsDocument], Iterator[Finding]]
 
-HANG_TOGETHER: tuple[tuple[PartRule, ...], ...] = ((part_names, parts_suit), (one_tree,), (carriers,))
+HANG_TOGETHER: tuple[tuple[PartRule, ...], ...] = (
+    (part_names, parts_suit, beams_given),
+    (one_tree,),
+    (carriers,),
+)
 """Rules of arms by parts; each group takes those before it for granted."""
 
 PART_RULES: tuple[PartRule, ...] = (

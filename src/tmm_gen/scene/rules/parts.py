@@ -14,6 +14,13 @@ from tmm_gen.scene.problem import Finding, Path
 from tmm_gen.scene.quantity import PLANAR
 from tmm_gen.scene.table import STATION_LIMIT, closest
 
+BASE_OUTPUTS = {
+    "clamp": ("torque", "force"),
+    "prescribed": ("angle", "rate", "torque", "force"),
+    "motor": ("angle", "rate"),
+}
+"""What is measured at a base; torque and force are those it exerts on all that stands on it."""
+
 
 def part_names(document: PartsDocument) -> Iterator[Finding]:
     """Find parts of the same name, and such as hang on what does not exist."""
@@ -216,21 +223,21 @@ def beams_in_range(document: PartsDocument) -> Iterator[Finding]:
                     (*entry.path, "gear"), "rotor inertia at the joint", rotor, entry.part.gear
                 )
             continue
-        key = {"beam": "mass_per_length"}.get(placed.kind, "mass")
+        part = entry.part
+        key = part.key_of("mass_per_length") if isinstance(part, BeamPart) else "mass"
         for link in made.links[placed.first - 1 : placed.last]:
             values = {"mass": link.mass, "moment of inertia": link.inertia}
             wrong = [k for k, v in values.items() if not (math.isfinite(v) and v > 0.0)]
             if wrong:
-                value = getattr(entry.part, key)
+                value = None if key == "section" else getattr(part, key)
                 yield _out_of_range((*entry.path, key), f"link {wrong[0]}", values[wrong[0]], value)
                 break
-        if not isinstance(entry.part, BeamPart):
+        if not isinstance(part, BeamPart):
             continue
         for joint in made.joints[placed.first - 1 : placed.last]:
             if not (math.isfinite(joint.stiffness) and math.isfinite(joint.damping)):
-                value = entry.part.bending_stiffness
-                path = (*entry.path, "bending_stiffness")
-                yield _out_of_range(path, "spring's stiffness", joint.stiffness, value)
+                path = (*entry.path, part.key_of("bending_stiffness"))
+                yield _out_of_range(path, "spring's stiffness", joint.stiffness, part.bending_stiffness)
                 break
     if len(made.links) > STATION_LIMIT:
         yield Finding(
@@ -363,11 +370,11 @@ def part_outputs(document: PartsDocument) -> Iterator[Finding]:
                 "Write the name of a motor or a joint.",
                 item.of,
             )
-        elif at == BASE and (document.base.kind == "clamp" or item.of not in ("angle", "rate")):
+        elif at == BASE and item.of not in BASE_OUTPUTS[document.base.kind]:
             yield Finding(
                 (*path, "of"),
                 f'cannot be {item.of} at the base with base.kind = "{document.base.kind}"',
-                "Measure at a part: write its name.",
+                f"Choose {' or '.join(BASE_OUTPUTS[document.base.kind])}, or measure at a part: write its name.",
                 item.of,
             )
         elif part is not None and part.fixed:

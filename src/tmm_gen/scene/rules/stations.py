@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from tmm_gen.scene.beam import BeamEntry
 from tmm_gen.scene.document import Document
 from tmm_gen.scene.problem import Finding
 from tmm_gen.scene.table import STATION_LIMIT
@@ -14,7 +15,7 @@ def stations_consistent(document: Document) -> Iterator[Finding]:
     """Find stations given twice, not at all, too many, or not one joint per link."""
     if document.beam:
         yield from _beam_alone(document)
-        yield from _beam_in_range(document)
+        yield from _beam_in_range(document, document.beam)
         return
     planar = document.model.kind == "planar"
     for name, entries, example in (
@@ -54,15 +55,15 @@ def _beam_alone(document: Document) -> Iterator[Finding]:
             )
 
 
-def _beam_in_range(document: Document) -> Iterator[Finding]:
+def _beam_in_range(document: Document, beam: BeamEntry) -> Iterator[Finding]:
     """Products of extreme numbers may leave the range of a float although each factor is in it."""
     joints, links = document.joints(), document.links()
     derived = [
-        ("bending_stiffness", "joint stiffness", min(j.stiffness for j in joints), 0.0),
-        ("bending_stiffness", "joint stiffness", max(j.stiffness for j in joints), 0.0),
+        (beam.key_of("bending_stiffness"), "joint stiffness", min(j.stiffness for j in joints), 0.0),
+        (beam.key_of("bending_stiffness"), "joint stiffness", max(j.stiffness for j in joints), 0.0),
         ("damping_time", "joint damping", max(j.damping for j in joints), -1.0),
-        ("mass_per_length", "link mass", links[0].mass, 0.0),
-        ("mass_per_length", "link inertia", links[0].inertia, 0.0),
+        (beam.key_of("mass_per_length"), "link mass", links[0].mass, 0.0),
+        (beam.key_of("mass_per_length"), "link inertia", links[0].inertia, 0.0),
     ]
     reported = set()
     for key, what, value, above in derived:
@@ -72,7 +73,7 @@ def _beam_in_range(document: Document) -> Iterator[Finding]:
                 ("beam", key),
                 f"gives a {what} of {value:g}, out of the range of numbers",
                 "Check the units: SI, N m^2, kg/m, m, s.",
-                getattr(document.beam, key),
+                None if key == "section" else getattr(beam, key),
             )
 
 

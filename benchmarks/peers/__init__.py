@@ -1,0 +1,1 @@
+"""Other people's way to compute a step, to compare speed with."""

@@ -1,0 +1,172 @@
+"""`tmm-gen rest`: static equilibria of a planar arm."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from tmm_gen.cli.changes import changed_scene, set_option
+from tmm_gen.cli.console import Column, print_json, progress, table
+from tmm_gen.cli.given import constant_inputs, picture_file, plot_option
+from tmm_gen.cli.outputs import claim, write_outputs
+from tmm_gen.errors import UserError
+
+if TYPE_CHECKING:
+    from tmm_gen.modal.equilibria import Equilibria, Equilibrium
+    from tmm_gen.scene import Scene
+
+# NumPy, SymPy and Matplotlib are imported inside: `tmm-gen --help` has no use for them.
+
+_DECIMALS = 9
+"""Of what the table shows; beyond them an arm that hangs straight would have a tip beside its base."""
+
+
+@click.command("rest")
+@click.argument("scene", metavar="SCENE", type=click.Path(path_type=Path))
+@click.option(
+    "--input",
+    "given",
+    metavar="NAME=VALUE",
+    multiple=True,
+    help="A constant input that the arm rests under. Repeatable; the rest is zero.",
+)
+@set_option
+@plot_option("the arm in each equilibrium", "-rest")
+@click.option("--json", "json_mode", is_flag=True, help="One JSON object instead of a table.")
+def rest(
+    scene: Path, given: tuple[str, ...], changes: tuple[str, ...], picture: Path | None, json_mode: bool
+) -> None:
+    """Show the static equilibria of SCENE, a planar arm, under gravity and constant inputs.
+
+    Where a descent from the scene's start ends comes first. Others are looked for from every quadrant of each joint
+    that turns freely, as motors without a torque do. Angles of joints are those of the outer side against the inner
+    one, torques what the inner side exerts on the outer one.
+    """
+    loaded = changed_scene(scene, changes)
+    if not loaded.model.in_plane:
+        raise UserError(
+            f"{scene}: a chain has no weight and rests straight, or as its inputs twist it: `tmm-gen run` shows that. "
+            "Name a planar scene."
+        )
+    inputs = constant_inputs(loaded, given)
+    claim((picture,), (scene,))
+    with progress(f"balancing {loaded.name}") as advance:
+        from tmm_gen.modal.equilibria import equilibria
+
+        held = equilibria(loaded, inputs, advance)
+        files: list[Path] = []
+        if picture is not None:
+            from tmm_gen.report.rest_picture import rest_picture
+
+            target = picture_file(picture, loaded.name, "-rest")
+            files = write_outputs({target: rest_picture(loaded, held, target.suffix[1:].lower())})
+    _show(loaded, inputs, held, files, json_mode)
+
+
+def _show(
+    scene: Scene, inputs: dict[str, float], held: Equilibria, files: list[Path], json_mode: bool
+) -> None:
+    from tmm_gen.modal.equilibria import free_joints
+
+    names = {number: _joint_name(scene, number) for number in free_joints(scene)}
+    rows = [_row(scene, number, each) for number, each in enumerate(held.found, start=1)]
+    if json_mode:
+        facts = {
+            "scene": scene.name,
+            "inputs": [{"name": name, "value": value} for name, value in inputs.items()],
+            "free_joints": list(names.values()),
+            "starts": held.starts,
+            "files": files,
+        }
+        print_json({**facts, "rows": rows})
+        return
+    count = len(rows)
+    title = f"{scene.title}: {count} equilibri{'a' if count > 1 else 'um'}"
+    columns = [Column("equilibrium"), Column("state")]
+    for end, name in _ends(scene):
+        columns += [Column(f"{axis}{end}", f"{name} {axis} (m)", _six, "right") for axis in "xy"]
+    for name in [part.name for part in scene.parts if part.joint] or ["joint 1"]:
+        columns.append(Column(f"{name} angle", f"{name} angle (rad)", _six, "right"))
+        columns.append(Column(f"{name} torque", "torque (N m)", _six, "right"))
+    table([_flat(scene, row) for row in rows], columns, title=title)
+    if names:
+        motors = any(part.kind == "motor" for part in scene.parts) or scene.hub
+        turning = f"{', '.join(names.values())} turn{'s' * (len(names) == 1)} freely"
+        click.echo(f"{turning}: motors hold no torque but that of --input" if motors else turning)
+    click.echo(f"looked for from {held.starts} start{'s' * (held.starts > 1)}: there may be more")
+    for path in files:
+        click.echo(f"wrote {path}")
+    if not files:
+        click.echo("more: --plot draws them, --json has every node, angle and torque")
+
+
+def _six(value: float) -> str:
+    """Return six digits of what is more than rounding."""
+    return f"{round(value, _DECIMALS) + 0.0:.6g}"
+
+
+def _joint_name(scene: Scene, number: int) -> str:
+    """Return what to call a joint, counted from 1, or the hub, 0."""
+    if number == 0:
+        return "hub"
+    named = (part.name for part in scene.parts if number in (part.joint, part.gear))
+    return next(named, f"joint {number}")
+
+
+def _ends(scene: Scene) -> list[tuple[int, str]]:
+    """Return the links that carry nothing, with names: "tip" of an arm without branches, else that of the last part."""
+    from tmm_gen.simulate.places import ends
+
+    names = {part.last: part.name for part in scene.parts}
+    found = ends(scene)
+    return [(end, "tip" if len(found) == 1 else names[end]) for end in found]
+
+
+def _row(scene: Scene, number: int, each: Equilibrium) -> dict[str, Any]:
+    import numpy as np
+
+    from tmm_gen.simulate.places import node_places
+
+    at = each.rest
+    place = np.concatenate(node_places(scene, at.angles[None]))
+    angles = np.concatenate([[at.hub], at.angles])
+    turned = at.angles - angles[[scene.inner(joint) for joint in range(1, scene.stations + 1)]]
+    return {
+        "equilibrium": number,
+        "state": each.state + (", reached from the start" if each.reached else ""),
+        "stable": each.stable,
+        "from_start": each.reached,
+        "falls": each.falls,
+        "idle": each.idle.shape[1],
+        "hub_angle": at.hub,
+        "angles": at.angles,
+        "nodes": place.T,
+        "parts": [
+            {"name": part.name, "x": x, "y": y, "angle": float(at.angles[part.last - 1])}
+            for part in scene.parts
+            if part.last and not part.fixed
+            for x, y in [place[:, part.last].tolist()]
+        ],
+        "joints": [
+            {
+                "name": _joint_name(scene, joint),
+                "angle": float(turned[joint - 1]),
+                "torque": float(at.inner[joint - 1, 2]),
+            }
+            for joint, link in enumerate(scene.links, start=1)
+            if not link.massless  # of an elastic gear, whose shaft is in between, the outer side is told
+        ],
+    }
+
+
+def _flat(scene: Scene, row: dict[str, Any]) -> dict[str, object]:
+    """Return a row of the table: of joints those that have a column."""
+    places = row["nodes"]
+    flat = {"equilibrium": row["equilibrium"], "state": row["state"]}
+    for end, _ in _ends(scene):
+        flat |= {f"x{end}": places[end][0], f"y{end}": places[end][1]}
+    for joint in row["joints"]:
+        flat |= {f"{joint['name']} {key}": joint[key] for key in ("angle", "torque")}
+    return flat

@@ -1,0 +1,221 @@
+"""All static equilibria of a planar arm that are found, those on which it would fall over among them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.errors import UserError
+from tmm_gen.modal.arm import linear_arm
+from tmm_gen.modal.equilibrium import descent, equilibrium
+from tmm_gen.modal.matrices import Matrices, matrices
+from tmm_gen.modal.rest import Rest, rest_at, straight
+from tmm_gen.modal.springs import springs_of
+from tmm_gen.modal.undamped import undamped_modes
+from tmm_gen.scene import Scene
+
+Array = NDArray[np.float64]
+
+_QUADRANTS = (-0.5 * np.pi, 0.5 * np.pi, 0.0, np.pi)
+_STARTS = 64
+"""Most starts; each more joint that turns freely would make four times as many."""
+_STEPS = 60
+_LARGEST_TURN = 0.5
+_TOLERANCE = 1e-11
+_SAME = 1e-6
+"""rad; equilibria no further apart are one."""
+_NUDGE = 0.05
+"""rad that an arm is moved off an equilibrium to see where it falls."""
+_FALLS = 16
+"""Most unstable equilibria whose fall is followed."""
+
+
+@dataclass(frozen=True, eq=False)
+class Equilibrium:
+    """One static equilibrium.
+
+    Parameters
+    ----------
+    rest : Rest
+        Angles and forces; at joints that turn freely no angle is more than half a turn.
+    falls : int
+        Directions in which the arm falls over: 0 where it is stable.
+    idle : array, (d, k)
+        Motions of the free angles that nothing resists at all: the arm stays wherever it is put.
+    reached : bool
+        Whether a descent from the scene's initial angles ends there.
+    """
+
+    rest: Rest
+    falls: int
+    idle: Array
+    reached: bool
+
+    @property
+    def stable(self) -> bool:
+        """Whether the arm comes back from a small push, whatever its direction."""
+        return self.falls == 0 and self.idle.shape[1] == 0
+
+    @property
+    def state(self) -> str:
+        """Which of the three it is, in words."""
+        return "stable" if self.stable else "falls over" if self.falls else "stays anywhere"
+
+
+@dataclass(frozen=True, eq=False)
+class Equilibria:
+    """What was found from how many starts.
+
+    Parameters
+    ----------
+    found : tuple of Equilibrium
+        That which is reached from the scene's start first, then stable ones, then by the ways to fall.
+    starts : int
+        From how many configurations they were looked for.
+    """
+
+    found: tuple[Equilibrium, ...]
+    starts: int
+
+
+def free_joints(scene: Scene) -> tuple[int, ...]:
+    """Return the joints without a spring, counted from 1, base to tip; 0 is a hub."""
+    hinges = (number for number, joint in enumerate(scene.joints, start=1) if joint.stiffness == 0.0)
+    return (*([0] if scene.hub else []), *hinges)
+
+
+def equilibria(
+    scene: Scene, inputs: Mapping[str, float] | None = None, advance: Callable[[], None] = lambda: None
+) -> Equilibria:
+    """Return the static equilibria of an arm under gravity and constant inputs.
+
+    Newton's iteration, which unlike a descent stops on saddles too, from directions in all four quadrants of what
+    stands on each free joint; then descents along the fall of each unstable equilibrium that was found.
+
+    Parameters
+    ----------
+    scene : Scene
+        Of kind "planar".
+    inputs : mapping from str to float, optional
+        Constant inputs by name; those not given are zero.
+    advance : callable, optional
+        Called at each start.
+
+    Raises
+    ------
+    UserError
+        If there is none, as a torque turns the arm forever.
+    """
+    found: list[Equilibrium] = []
+
+    def keep(rest: Rest | None, reached: bool = False) -> None:
+        if rest is not None:
+            each = _judged(scene, inputs, rest, reached)
+            if not any(_same(each, other) for other in found):
+                found.append(each)
+
+    failure: UserError | None = None
+    try:
+        keep(equilibrium(scene, inputs), reached=True)
+    except UserError as error:
+        failure = error
+    count = 0
+    for start in _starts(scene):
+        keep(_stationary(scene, inputs, start))
+        count += 1
+        advance()
+    for each in [e for e in found if e.falls][:_FALLS]:
+        for side in _beside(scene, each.rest):
+            try:
+                keep(equilibrium(scene, inputs, start=side))
+            except UserError:  # it falls and falls: a torque turns it on and on
+                continue
+    if not found and failure is not None:
+        raise failure
+    return Equilibria(tuple(sorted(found, key=lambda e: (not e.reached, e.falls))), count)
+
+
+def _starts(scene: Scene) -> Iterator[Array]:
+    """Yield configurations in which what stands on each free joint points into each quadrant.
+
+    All quadrants as long as they are few, else up and down; beyond that the rest of the arm goes on straight.
+    """
+    shape = np.concatenate([np.zeros(1 - scene.hub), straight(scene)])  # of hub or base, then of each link
+    pivots = free_joints(scene)
+    quadrants = _QUADRANTS if len(_QUADRANTS) ** len(pivots) <= _STARTS else _QUADRANTS[:2]
+    turned = 0
+    while turned < len(pivots) and len(quadrants) ** (turned + 1) <= _STARTS:
+        turned += 1
+    for directions in product(quadrants, repeat=turned):
+        angles = shape.copy()
+        for number, pivot in enumerate(pivots):
+            beyond = _beyond(scene, pivot)
+            angles[beyond] = shape[beyond] + directions[min(number, turned - 1)] - shape[pivot]
+        yield angles[1 - scene.hub :]
+
+
+def _beyond(scene: Scene, joint: int) -> list[int]:
+    """Return the numbers of all links that turn with a joint; the hub itself is 0."""
+    turning = {joint}
+    for number in range(joint + 1, scene.stations + 1):
+        if scene.host(number) in turning:
+            turning.add(number)
+    return sorted(turning)
+
+
+def _looked(scene: Scene, inputs: Mapping[str, float] | None, angles: Array) -> tuple[Rest, Matrices]:
+    rest = rest_at(scene, angles, inputs=inputs)
+    return rest, matrices(linear_arm(scene, rest))
+
+
+def _stationary(scene: Scene, inputs: Mapping[str, float] | None, angles: Array) -> Rest | None:
+    """Return the equilibrium near some angles, of whatever kind; None where there is none."""
+    for _ in range(_STEPS):
+        rest, linear = _looked(scene, inputs, angles)
+        springs = springs_of(linear.parts)
+        torque = rest.unbalanced
+        if springs.rigid:  # level, say: nothing tells how far to turn
+            turn = descent(linear, torque)
+        else:
+            turn = springs.angles(springs.signs * springs.loads(torque[:, None]))[:, 0]
+        largest = float(np.max(np.abs(turn)))
+        if not np.isfinite(largest):
+            return None
+        if largest <= _TOLERANCE * max(1.0, float(np.max(np.abs(angles)))):
+            return rest
+        angles = angles + min(1.0, _LARGEST_TURN / largest) * turn
+    return None
+
+
+def _judged(scene: Scene, inputs: Mapping[str, float] | None, rest: Rest, reached: bool) -> Equilibrium:
+    """Return an equilibrium with whole turns at free joints taken off, and how it is held."""
+    angles = np.concatenate([[rest.hub], rest.angles])
+    for joint in free_joints(scene):
+        inner = angles[scene.host(joint)] if joint else 0.0
+        turns = (angles[joint] - inner) / (2.0 * np.pi)
+        # half a turn is one to the left
+        angles[_beyond(scene, joint)] -= 2.0 * np.pi * np.ceil(turns - 0.5 - _SAME)
+    settled, linear = _looked(scene, inputs, angles[1 - scene.hub :])
+    springs = springs_of(linear.parts)
+    idle = springs.turned if springs.rigid else np.zeros((len(springs.pivot), 0))
+    return Equilibrium(settled, springs.negative, idle, reached)
+
+
+def _same(one: Equilibrium, other: Equilibrium) -> bool:
+    """Return whether two equilibria are one, or differ by a motion that nothing resists."""
+    turns = one.rest.free_angles - other.rest.free_angles
+    if one.idle.shape == other.idle.shape:
+        turns = turns - one.idle @ np.linalg.lstsq(one.idle, turns)[0]
+    apart = np.abs(turns - 2.0 * np.pi * np.round(turns / (2.0 * np.pi)))
+    return bool(np.all(apart < _SAME))
+
+
+def _beside(scene: Scene, rest: Rest) -> tuple[Array, Array]:
+    """Return an arm on both sides of an unstable equilibrium, along its fastest fall."""
+    shape = undamped_modes(matrices(linear_arm(scene, rest)), 1).shapes[:, 0]
+    nudge = _NUDGE * shape / np.max(np.abs(shape))
+    return rest.free_angles + nudge, rest.free_angles - nudge
