@@ -227,7 +227,12 @@ def fork() -> Callable[..., Scene]:
     def made(
         angles: Mapping[str, float] = AS_SLACK, order: Sequence[str] = tuple(BRANCHES), **changes: object
     ) -> Scene:
-        scene = parse_scene(fork_text(order))
+        text = fork_text(order)
+        if changes.get("base", {}).get("kind") == "motor":  # type: ignore[attr-defined]
+            text = text.replace('kind = "clamp"', 'kind = "motor"\ninertia = 0.02\ndamping = 0.01')
+            text = text.replace('at = "base"\nof = "torque"', 'at = "base"\nof = "angle"')
+            text = text.replace('at = "base"\nof = "force"', 'at = "base"\nof = "rate"')
+        scene = parse_scene(text)
         start = [angles.get(part.name, 0.0) for part in scene.parts if part.kind in ("beam", "link")]
         return scene.replace(**{"initial.angles": start, **changes})
 

@@ -63,7 +63,9 @@ def _read(arm: LinearArm, states: States, s: Complex, output: Output) -> list[tu
     names = quantity.columns(output.name)
     if quantity.read == "bend":
         inner, outer = (_behind(arm, number) for number in (arm.scene.inner(station), station))
-        return [(names[0], s[:, None] ** quantity.order * (states.motion[outer] - states.motion[inner])[:, -1])]
+        return [
+            (names[0], s[:, None] ** quantity.order * (states.motion[outer] - states.motion[inner])[:, -1])
+        ]
     if quantity.read == "through":  # beyond the joint, a motor's torque included
         at = [k + 1 for k in _joints(arm, output)]
         return [(names[0], states.force[at].sum(axis=0)[:, -1])]
