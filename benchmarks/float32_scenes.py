@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable
+from itertools import cycle
 from pathlib import Path
 
 import numpy as np
@@ -60,6 +61,13 @@ LOADS: dict[str, tuple[str, Loads]] = {
         {
             "motor_torque": lambda t: 2.0 * np.cos(2.0 * np.pi * t),
             "load_torque": lambda t: 3.0 * np.cos(6.0 * np.pi * t),
+        },
+    ),
+    "gripper": (
+        "released, then 0.002 N m at 3 and 4 rad/s",
+        {
+            "left_torque": lambda t: 0.002 * np.sin(3.0 * t),
+            "right_torque": lambda t: 0.002 * np.sin(4.0 * t),
         },
     ),
 }
@@ -113,7 +121,7 @@ def measure(
 
 def draw(found: dict[bool, dict[tuple[str, str], SingleError]]) -> bytes:
     """Show the error of one output of each case over the steps taken, plain beside compensated."""
-    colours = dict(zip(LOADS, (*PALETTE, FAINT), strict=True))
+    colours = dict(zip(LOADS, cycle((*PALETTE, FAINT)), strict=False))
     with style():
         made, axes = figure(10.0, 4.6, nrows=1, ncols=2, sharey=True)
         for axis, (compensated, errors) in zip(axes, found.items(), strict=True):

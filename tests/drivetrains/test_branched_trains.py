@@ -11,9 +11,7 @@ from scipy.linalg import eigh
 
 from tmm_gen.derive.integrators.registry import integrator
 from tmm_gen.digits.rounding import Rounding, first_period
-from tmm_gen.errors import UserError
 from tmm_gen.inputs.signals import Constant, Sine
-from tmm_gen.modal.situation import resting_arm
 from tmm_gen.reference.assembly import assemble
 from tmm_gen.reference.chain_motion import exact_angles
 from tmm_gen.reference.duration import slowest_swing
@@ -97,11 +95,6 @@ def test_both_loads_settle_on_a_turned_base(chain: Chain) -> None:
     found = exact_response(scene, {"turn": Constant(1.0)}, np.array([9.0]))
     assert found["one"][0] == pytest.approx(1.0, rel=1e-6)
     assert found["two"][0] == pytest.approx(-0.2, rel=1e-6)
-
-
-def test_its_modes_are_refused_not_wrong(chain: Chain) -> None:
-    with pytest.raises(UserError, match="a chain that branches are not computed yet"):
-        resting_arm(chain(TWO_LOADS))
 
 
 @pytest.mark.parametrize(

@@ -87,7 +87,7 @@ def test_frequencies_are_those_of_the_energies(
     drawn: Callable[..., Any],
     equations: Callable[..., Any],
 ) -> None:
-    parts, base = drawn(seed, count)
+    parts, base = drawn(seed, count, 0.4)
     scene, right = chain(parts, base=base), equations(parts, base)
     squares = eigh(right.stiffness, right.mass, eigvals_only=True)
     frequencies = np.sqrt(np.maximum(squares, 0.0))[scene.hub :]
@@ -119,7 +119,7 @@ def test_responses_are_those_of_the_energies(
     equations: Callable[..., Any],
 ) -> None:
     """From every torque to every angle and torque, in the coordinates of each part; the reference's too."""
-    parts, base = drawn(seed, count)
+    parts, base = drawn(seed, count, 0.4)
     scene, right = chain(parts, base=base), equations(parts, base)
     points = 1j * np.array([2.0, 20.0, 90.0])
     swept, assembly = frequency_response(resting_arm(scene), points), assemble(scene)

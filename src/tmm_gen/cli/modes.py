@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -115,6 +116,17 @@ def _draw(picture: Path | None, arm: LinearArm, found: tuple[Mode, ...], beside:
     return write_outputs({target: mode_picture(arm, found, exact, target.suffix[1:].lower())})
 
 
+def _ends_at_rest(scene: Scene, angles: Sequence[float]) -> str:
+    """Say where the last link rests, or the last of each branch by the part's name."""
+    from tmm_gen.simulate.places import ends
+
+    turned = {number: f"{math.degrees(angles[number - 1]):.3f}" for number in ends(scene)}
+    if not scene.hosts:
+        return f"the last link rests at {turned[scene.stations]}"
+    names = {part.last: part.name for part in reversed(scene.parts)}
+    return "ends rest at " + ", ".join(f"{angle} ('{names[number]}')" for number, angle in turned.items())
+
+
 def _show(
     scene: Scene,
     arm: LinearArm,
@@ -152,8 +164,7 @@ def _show(
     if json_mode:
         return
     if arm.rest is not None and not beside.straight:
-        tip = math.degrees(float(arm.rest.angles[-1]))
-        click.echo(f"about the static equilibrium: the last link rests at {tip:.3f} degrees")
+        click.echo(f"about the static equilibrium: {_ends_at_rest(scene, arm.rest.angles.tolist())} degrees")
     unsure = [row["mode"] for row in rows if row["error_bound"] > _UNSURE]
     if unsure:
         click.echo(

@@ -1,9 +1,9 @@
-"""A scene as a row of linear elements, base to tip: what all frequency-domain sweeps run over."""
+"""A scene as linear elements from the base outward: what all frequency-domain sweeps run over."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, cached_property
 
 import numpy as np
 import sympy as sp
@@ -13,7 +13,6 @@ from tmm_gen.derive.elements import torsion
 from tmm_gen.derive.elements.declaration import Element
 from tmm_gen.derive.small_motion import LOAD, rest_elements
 from tmm_gen.derive.transfer import laplace_matrix
-from tmm_gen.errors import UserError
 from tmm_gen.modal.blocks import ElementFunctions, element_functions
 from tmm_gen.modal.rest import Rest, rest_at, straight
 from tmm_gen.scene import Scene, station_of
@@ -26,6 +25,9 @@ PIVOT = "pivot"
 """A joint that may turn freely, with a rotor in it or a torque: its law is given by numbers, not by a compliance."""
 
 GEARED = "geared joint"
+
+JOINTS = ("joint", GEARED, PIVOT)
+"""Names of the elements that stand on the outer end of a link, or on the base."""
 
 
 @dataclass(frozen=True)
@@ -64,7 +66,7 @@ class LinearArm:
     width : int
         Motions of a station: ``theta``, or ``x, y, theta``.
     elements : tuple of Placed
-        Base to tip.
+        From the base outward, branch by branch.
     free : tuple of bool
         Which motions of the inner end are free; their forces are zero there.
     prescribed : int or None
@@ -87,6 +89,16 @@ class LinearArm:
         """Return the functions of an element's type."""
         return element_functions(placed.element)
 
+    @cached_property
+    def inner(self) -> tuple[int, ...]:
+        """Where each element begins: 0 for the base, k + 1 behind element k."""
+        found, behind = [], {0: 0}
+        for k, placed in enumerate(self.elements):
+            joint = placed.name in JOINTS
+            found.append(behind[self.scene.host(placed.station)] if joint else k)
+            behind[placed.station] = k + 1
+        return tuple(found)
+
     @property
     def hub(self) -> bool:
         """Whether the base turns freely."""
@@ -102,11 +114,6 @@ def linear_arm(scene: Scene, rest: Rest | None = None) -> LinearArm:
         Chain or planar.
     rest : Rest, optional
         About which a planar arm moves; by default straight along x and weightless.
-
-    Raises
-    ------
-    UserError
-        If it is a chain that branches.
     """
     if scene.model.linear:
         return _chain(scene)
@@ -114,11 +121,6 @@ def linear_arm(scene: Scene, rest: Rest | None = None) -> LinearArm:
 
 
 def _chain(scene: Scene) -> LinearArm:
-    if scene.hosts:
-        raise UserError(
-            f"scene '{scene.name}': modes and frequency responses of a chain that branches are not computed yet. "
-            "`run` and `check` take it."
-        )
     loads = _loads(scene, torsion.TORQUE, {"torque": torsion.LOAD})
     placed: list[Placed] = []
     if scene.hub:
@@ -181,10 +183,10 @@ def _loads(scene: Scene, load: Element, symbols: dict[str, sp.Symbol]) -> list[_
     found: list[list[tuple[int, tuple[float, ...]]]] = [[] for _ in range(scene.stations + 1)]
     for number, item in enumerate(scene.inputs):
         if item.acts == "drive":  # what acts on the outer side of a joint, the inner one feels reversed
-            if isinstance(item.at, int) and (item.at > 1 or scene.hub):
+            if isinstance(item.at, int) and (scene.host(item.at) or scene.hub):
                 torque = np.array(_unit_load(load, symbols["torque"]))
                 unit = -scene.joints[item.at - 1].gear * torque
-                found[item.at - 1].append((number, tuple(unit.tolist())))
+                found[scene.host(item.at)].append((number, tuple(unit.tolist())))
         elif item is not scene.prescribed:
             unit_load = tuple(item.factor * each for each in _unit_load(load, symbols[item.acts]))
             found[station_of(item.at, scene.stations)].append((number, unit_load))

@@ -119,11 +119,14 @@ def _pull(torque: Array, inertia: Array) -> float:
 
 def _shift(parts: Parts, inertia: Array) -> float:
     """Return how far the stiffness lies below one that is convex, in units of an inertia."""
-    from scipy.linalg import eigvalsh_tridiagonal  # slow to import
+    from scipy.linalg import eigvalsh, eigvalsh_tridiagonal  # slow to import
 
     springs = np.append(0.0, parts.spring) if parts.hub else parts.spring
     root = np.sqrt(inertia)
-    diagonal = (springs + np.append(springs[1:], 0.0) + parts.ground_stiffness) / inertia
-    squares = eigvalsh_tridiagonal(diagonal, -springs[1:] / (root[1:] * root[:-1]))
+    if len(parts.free.runs) > 1:
+        squares = eigvalsh(parts.held(np.diag(1.0 / root)) / root[:, None])
+    else:
+        diagonal = (springs + np.append(springs[1:], 0.0) + parts.ground_stiffness) / inertia
+        squares = eigvalsh_tridiagonal(diagonal, -springs[1:] / (root[1:] * root[:-1]))
     least = _CONVEX * float(np.max(np.abs(squares)))
     return max(0.0, -2.0 * float(squares[0])) + 2.0 * least

@@ -9,12 +9,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import groupby
 
 import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.modal.arm import GEARED, PIVOT, LinearArm, Placed
+from tmm_gen.modal.limbs import Limbs, limbs_of
 
 Array = NDArray[np.float64]
 
@@ -27,6 +29,8 @@ class Parts:
     ----------
     hub : bool
         Whether the hub's angle is free.
+    limbs : Limbs
+        On what each link hangs.
     spring, damper : array, (n,)
         Of the joint inboard of each link, N m/rad and N m s/rad.
     ground_stiffness, ground_damping : array, (d,)
@@ -38,7 +42,7 @@ class Parts:
     inertia : array, (n, p + 1, p + 1)
         Inertia of each link against the motion of its inner end and its turning; symmetric.
     tip : array, (p + 1, p + 1)
-        Inertia of the body at the tip.
+        Inertia of the body at the tip; zero where the arm branches.
     rotor : array, (n,)
         Inertia of the motor in each joint, at the joint, kg m^2.
     turn : array, (n,)
@@ -46,6 +50,7 @@ class Parts:
     """
 
     hub: bool
+    limbs: Limbs
     spring: Array
     damper: Array
     ground_stiffness: Array
@@ -65,31 +70,39 @@ class Parts:
     @property
     def diagonal(self) -> Array:
         """The diagonal of the mass matrix, (d,)."""
-        beyond = np.concatenate([self.inertia[1:, :-1, :-1], self.tip[None, :-1, :-1]])
-        pulled = np.cumsum(beyond[::-1], axis=0)[::-1]
+        pulled = self._at_outer_ends(self.inertia[:, :-1, :-1], self.tip[:-1, :-1])
         found = self.inertia[:, -1, -1] + np.einsum("ni,nij,nj->n", self.reach, pulled, self.reach)
         found[-1] += self.tip[-1, -1]
-        found = found + self.rotor
-        found[:-1] += self.rotor[1:]
-        return np.append(self.hub_inertia + self.rotor[0], found) if self.hub else found
+        on_base, *on_links = self.limbs.carried(self.rotor)
+        found = found + self.rotor + on_links
+        return np.append(self.hub_inertia + on_base, found) if self.hub else found
+
+    @cached_property
+    def free(self) -> Limbs:
+        """On what each free angle hangs."""
+        return self.limbs.behind_hub if self.hub else self.limbs
+
+    def _at_outer_ends(self, each: Array, tip: Array) -> Array:
+        """Return what the outer end of each link has to move, (n, ...), of what each link needs and the tip."""
+        beyond = self.limbs.carried(each)[1:]
+        beyond[-1] += tip
+        return self.limbs.inward(beyond)
 
     def twists(self, angles: Array) -> Array:
         """Return how much each joint is twisted, (n, ...)."""
-        inner = angles[:-1] if self.hub else np.concatenate([np.zeros_like(angles[:1]), angles[:-1]])
-        found: Array = angles[int(self.hub) :] - self.turn[:, None] * inner
+        first = int(self.hub)
+        found: Array = angles[first:] - self.turn[:, None] * self.free.inner(angles)[first:]
         return found
 
     def weighed(self, angles: Array) -> Array:
         """Return the mass matrix times angles, (d, k), given as columns."""
         turned = angles[int(self.hub) :]
-        ends = np.cumsum(self.reach[:, :, None] * turned[:, None, :], axis=0)
-        inner = np.concatenate([np.zeros_like(ends[:1]), ends[:-1]])
-        motion = np.concatenate([inner, turned[:, None, :]], axis=1)
+        ends = self.limbs.outward(self.reach[:, :, None] * turned[:, None, :])
+        motion = np.concatenate([self.limbs.inner(ends), turned[:, None, :]], axis=1)
         force = self.inertia @ motion
         at_tip = self.tip @ np.concatenate([ends[-1], turned[-1:]])
         force[-1, -1] += at_tip[-1]
-        beyond = np.concatenate([force[1:, :-1], at_tip[None, :-1]])
-        pulled = np.cumsum(beyond[::-1], axis=0)[::-1]  # what the outer end of each link has to move
+        pulled = self._at_outer_ends(force[:, :-1], at_tip[:-1])
         torque = force[:, -1] + np.sum(self.reach[:, :, None] * pulled, axis=1)
         moved = np.concatenate([self.hub_inertia * angles[:1], torque]) if self.hub else torque
         return moved + self._between(self.rotor, np.zeros(self.size), angles) if self.rotor.any() else moved
@@ -103,12 +116,12 @@ class Parts:
         return self._between(self.damper, self.ground_damping, rates)
 
     def _between(self, joint: Array, ground: Array, angles: Array) -> Array:
-        torque = joint[:, None] * self.twists(angles)
-        found = ground[:, None] * angles
-        found[int(self.hub) :] += torque
-        inward = self.turn[:, None] * torque
-        found[: len(found) - 1] -= inward if self.hub else inward[1:]
-        return found
+        first = int(self.hub)
+        found, torque = ground[:, None] * angles, np.zeros_like(angles)
+        torque[first:] = joint[:, None] * self.twists(angles)
+        found[first:] += torque[first:]
+        torque[first:] *= self.turn[:, None]
+        return found - self.free.carried(torque)[1:]
 
 
 def parts_of(arm: LinearArm) -> Parts:
@@ -119,7 +132,7 @@ def parts_of(arm: LinearArm) -> Parts:
     arm : LinearArm
         Chain, or planar arm about rest.
     """
-    n, width, first = arm.scene.stations, arm.width, int(arm.hub)
+    n, width = arm.scene.stations, arm.width
     rotor, turn = np.zeros(n), np.array([1.0 / joint.ratio for joint in arm.scene.joints])
     laws, links = np.zeros((n, 2)), np.zeros((3, n, width, width))
     reach = np.zeros((n, width - 1))
@@ -149,7 +162,8 @@ def parts_of(arm: LinearArm) -> Parts:
     if arm.hub:
         ground = np.concatenate([bodies[0][:2, -1:, -1], ground], axis=1)
     return Parts(
-        hub=bool(first),
+        hub=arm.hub,
+        limbs=limbs_of(arm.scene),
         spring=laws[:, 0],
         damper=laws[:, 1],
         ground_stiffness=ground[0],

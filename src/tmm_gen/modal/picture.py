@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from tmm_gen.modal.arm import LinearArm
 from tmm_gen.modal.beam import BeamArm, beam_shape
+from tmm_gen.modal.limbs import limbs_of
 from tmm_gen.modal.modes import Mode
 from tmm_gen.style import FAINT, PALETTE, figure, picture, style, subtitle
 
@@ -92,15 +93,18 @@ def _draw_chain(panel: Axes, arm: LinearArm, mode: Mode) -> None:
 def _nodes(arm: LinearArm, shape: Array) -> tuple[Array, Array]:
     """Return positions of base and link ends, and how the mode moves them, (2, n + 1) each."""
     assert arm.rest is not None
-    turned = shape[int(arm.hub) :]
+    turned, limbs = shape[int(arm.hub) :], limbs_of(arm.scene)
     angles, lengths = arm.rest.angles, np.array([link.length for link in arm.scene.links])
     along = np.array([lengths * np.cos(angles), lengths * np.sin(angles)])
     across = np.array([-lengths * np.sin(angles) * turned, lengths * np.cos(angles) * turned])
     zero = np.zeros((2, 1))
-    return (
-        np.concatenate([zero, np.cumsum(along, axis=1)], axis=1),
-        np.concatenate([zero, np.cumsum(across, axis=1)], axis=1),
-    )
+    place, moved = (np.concatenate([zero, limbs.outward(each.T).T], axis=1) for each in (along, across))
+    return place, moved
+
+
+def _strokes(arm: LinearArm) -> list[list[int]]:
+    """Return the numbers of the nodes along each limb, its root first."""
+    return [[host + 1, *range(start + 1, stop + 1)] for start, stop, host in limbs_of(arm.scene).runs]
 
 
 def _draw_straight(
@@ -116,25 +120,22 @@ def _draw_straight(
         panel.plot(along, exact, color=PALETTE[1], linewidth=3.2, alpha=0.45, label="continuous beam")
     marker: Any = "o" if place.shape[1] <= 30 else None
     links = f"{arm.scene.stations} link{'s' * (arm.scene.stations > 1)}"
-    panel.plot(
-        place[0],
-        scale * deflection,
-        marker=marker,
-        markersize=3,
-        linewidth=1.2,
-        color=PALETTE[0],
-        label=links,
-    )
+    look: dict[str, Any] = {"marker": marker, "markersize": 3, "linewidth": 1.2, "color": PALETTE[0]}
+    for number, nodes in enumerate(_strokes(arm)):
+        label = None if number else links
+        panel.plot(place[0, nodes], scale * deflection[nodes], label=label, **look)
     panel.set_ylim(-1.2, 1.2)
 
 
 def _draw_bent(panel: Axes, arm: LinearArm, mode: Mode) -> None:
     place, moved = _nodes(arm, mode.shape)
-    length = sum(link.length for link in arm.scene.links)
-    step = _SWING * length / np.max(np.hypot(*moved))
-    panel.plot(*place, color=FAINT, linewidth=1.4, label="at rest")
-    panel.plot(*(place + step * moved), color=PALETTE[0], label="in the mode")
-    panel.plot(*(place - step * moved), color=PALETTE[0], linewidth=1.0, alpha=0.45)
+    step = _SWING * arm.scene.reach / np.max(np.hypot(*moved))
+    for number, nodes in enumerate(_strokes(arm)):
+        at_rest, way = place[:, nodes], step * moved[:, nodes]
+        labels = (None, None) if number else ("at rest", "in the mode")
+        panel.plot(*at_rest, color=FAINT, linewidth=1.4, label=labels[0])
+        panel.plot(*(at_rest + way), color=PALETTE[0], label=labels[1])
+        panel.plot(*(at_rest - way), color=PALETTE[0], linewidth=1.0, alpha=0.45)
     panel.set_aspect("equal", adjustable="datalim")
 
 

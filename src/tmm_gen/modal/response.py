@@ -5,13 +5,12 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from tmm_gen.modal.arm import GEARED, PIVOT, LinearArm
+from tmm_gen.modal.arm import GEARED, JOINTS, LinearArm
 from tmm_gen.modal.sweep import States, sweep
 from tmm_gen.scene import Output, Scene, station_of
 
 Complex = NDArray[np.complex128]
 
-_JOINTS = ("joint", GEARED, PIVOT)
 _AT_ONCE = 4_000_000
 """Numbers a sweep may hold at a time; more frequencies are taken in several."""
 
@@ -62,12 +61,14 @@ def _read(arm: LinearArm, states: States, s: Complex, output: Output) -> list[tu
     station = station_of(output.at, arm.scene.stations)
     quantity = arm.scene.quantity(output)
     names = quantity.columns(output.name)
-    if quantity.read in ("bend", "through"):
-        at = next(k for k, e in enumerate(arm.elements) if e.name in _JOINTS and e.station == station)
-        if quantity.read == "through":  # beyond the joint, a motor's torque included
-            return [(names[0], states.force[at + 1][:, -1])]
-        scale = s[:, None] ** quantity.order
-        return [(names[0], scale * (states.motion[at + 1] - states.motion[at])[:, -1])]
+    if quantity.read == "bend":
+        inner, outer = (_behind(arm, number) for number in (arm.scene.inner(station), station))
+        return [
+            (names[0], s[:, None] ** quantity.order * (states.motion[outer] - states.motion[inner])[:, -1])
+        ]
+    if quantity.read == "through":  # beyond the joint, a motor's torque included
+        at = [k + 1 for k in _joints(arm, output)]
+        return [(names[0], states.force[at].sum(axis=0)[:, -1])]
     if quantity.in_joint:
         force = _force(arm, states, output, station)
         if quantity.vector:
@@ -90,9 +91,20 @@ def _behind(arm: LinearArm, station: int) -> int:
 def _force(arm: LinearArm, states: States, output: Output, station: int) -> Complex:
     """Return the forces in a joint, or between the last link and the body at the tip."""
     if output.at == "tip":
-        beyond: Complex = states.before_load[_behind(arm, station)]
+        link = _behind(arm, station) - 1
+        beyond: Complex = (
+            states.force[-1].copy() if link + 1 < len(states.force) else np.zeros_like(states.force[-1])
+        )
+        for number, load in arm.elements[link].loads:
+            beyond[:, :, number] -= np.array(load)
         return beyond
-    joint = max(station, 1)
-    at = next(k for k, e in enumerate(arm.elements) if e.name in _JOINTS and e.station == joint)
-    found: Complex = states.force[at + (arm.elements[at].name == GEARED)]  # on its outer side
+    # of geared ones on the outer side
+    sides = [k + (arm.elements[k].name == GEARED) for k in _joints(arm, output)]
+    found: Complex = states.force[sides].sum(axis=0)
     return found
+
+
+def _joints(arm: LinearArm, output: Output) -> list[int]:
+    """Return the elements that are the joints whose torque or force an output is."""
+    joints = arm.scene.joints_of(output)
+    return [k for k, e in enumerate(arm.elements) if e.name in JOINTS and e.station in joints]

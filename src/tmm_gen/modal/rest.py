@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from tmm_gen.modal.limbs import limbs_of
 from tmm_gen.scene import Scene, station_of
 
 Array = NDArray[np.float64]
@@ -50,6 +51,16 @@ def straight(scene: Scene) -> Array:
     return np.concatenate([np.zeros(scene.hub), links])
 
 
+def slack(scene: Scene) -> Array:
+    """Return the free angles at which no spring is wound up; what turns freely stands as at the scene's start."""
+    limbs, start = limbs_of(scene), np.array(scene.initial.angles, float)
+    held = np.array([joint.stiffness > 0.0 for joint in scene.joints])
+    rest = np.array([joint.rest for joint in scene.joints])
+    return np.concatenate(
+        [np.zeros(scene.hub), limbs.outward(np.where(held, rest, start - limbs.inner(start)))]
+    )
+
+
 def rest_at(
     scene: Scene, free_angles: Array, gravity: float | None = None, inputs: Mapping[str, float] | None = None
 ) -> Rest:
@@ -75,25 +86,28 @@ def rest_at(
     falling = (scene.model.gravity or 0.0) if gravity is None else gravity
     loads = _loads(scene, given)
     link_balance, tip_balance = _balance("link"), _balance("tip")
-    force = np.zeros(3)
+    carried = np.zeros((n + 1, 3))  # at the base and each link's outer end
     if scene.tip:
-        force = np.array(tip_balance(falling, 0.0, *force, scene.tip.mass, scene.tip.inertia))
+        carried[n] = tip_balance(falling, 0.0, *carried[n], scene.tip.mass, scene.tip.inertia)
     inner, outer = np.zeros((n, 3)), np.zeros((n, 3))
     for i in reversed(range(n)):
         link = scene.links[i]
-        outer[i] = force - loads[i + 1]
+        outer[i] = carried[i + 1] - loads[i + 1]
         own = (link.length, link.mass, link.inertia, link.center)
-        force = inner[i] = np.array(link_balance(falling, angles[i], *outer[i], *own))
-    before = np.concatenate([[hub], angles[:-1]])
+        inner[i] = link_balance(falling, angles[i], *outer[i], *own)
+        carried[scene.host(i + 1)] += inner[i]
+    limbs = limbs_of(scene)
+    before = np.concatenate([[hub], angles])[list(limbs.hosts)]
     slack = np.array([joint.rest for joint in scene.joints])
     springs = np.array([joint.stiffness for joint in scene.joints]) * (before - angles + slack)
     for item in scene.inputs:
         if item.acts == "drive" and isinstance(item.at, int):
             springs[item.at - 1] += scene.joints[item.at - 1].gear * given.get(item.name, 0.0)
     missing = springs - inner[:, 2]
-    turned = missing - np.append(missing[1:], 0.0)
+    at_base, *at_links = limbs.carried(missing)
+    turned = missing - at_links
     if turning:
-        turned = np.concatenate([[loads[0][2] - inner[0, 2] - missing[0]], turned])
+        turned = np.concatenate([[loads[0][2] - carried[0, 2] - at_base], turned])
     return Rest(angles, hub, inner, outer, turned)
 
 

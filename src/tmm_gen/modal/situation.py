@@ -4,19 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-import numpy as np
-
 from tmm_gen.modal.arm import LinearArm, linear_arm
 from tmm_gen.modal.equilibrium import equilibrium
-from tmm_gen.modal.rest import rest_at, straight
+from tmm_gen.modal.rest import Rest, rest_at, slack
 from tmm_gen.scene import Scene
 
 
 def resting_arm(scene: Scene, inputs: Mapping[str, float] | None = None) -> LinearArm:
     """Return a scene's linear arm: a chain, or a planar arm about its static equilibrium.
-
-    Under gravity or constant inputs the equilibrium is where no link is out of balance. Without either the arm lies
-    straight along x.
 
     Parameters
     ----------
@@ -30,9 +25,16 @@ def resting_arm(scene: Scene, inputs: Mapping[str, float] | None = None) -> Line
     UserError
         If there is no equilibrium.
     """
-    if scene.model.linear:
-        return linear_arm(scene)
+    return linear_arm(scene, None if scene.model.linear else rest_of(scene, inputs))
+
+
+def rest_of(scene: Scene, inputs: Mapping[str, float] | None = None) -> Rest:
+    """Return where a planar arm comes to rest.
+
+    Under gravity or constant inputs that is where no link is out of balance. Without either its springs are slack: it
+    lies straight along x, unless joints have a `rest` or turn freely.
+    """
     held = {name: value for name, value in (inputs or {}).items() if value != 0.0}
-    if not scene.model.gravity and not held:
-        return linear_arm(scene, rest_at(scene, np.zeros_like(straight(scene))))
-    return linear_arm(scene, equilibrium(scene, held))
+    if scene.model.gravity or held:
+        return equilibrium(scene, held)
+    return rest_at(scene, slack(scene))

@@ -1,4 +1,4 @@
-"""The stiffness of an arm, taken apart by the Riccati sweep from the tip to the base: what gives way under torques."""
+"""The stiffness of an arm, taken apart by the Riccati sweep to the base: what gives way under torques."""
 
 from __future__ import annotations
 
@@ -88,19 +88,26 @@ class Springs:
 
     def bends(self, angles: Array) -> Array:
         """Return the scaled bends of angles, (d, k)."""
-        inner = np.concatenate([np.zeros_like(angles[:1]), angles[:-1]])
-        found: Array = self._roots * (angles - self.share[:, None] * inner)
+        found: Array = self._roots * (angles - self.share[:, None] * self.parts.free.inner(angles))
         return found
 
     def _solved(self, right: Array, transposed: str) -> Array:
         from scipy.linalg.lapack import dtbtrs  # slow to import
 
-        found, _ = dtbtrs(self._band, right, uplo="L", trans=transposed, diag="U")
-        return np.asarray(found, float)
+        runs, band, share = self.parts.free.runs, self._band, self.share
+        found = np.array(right, float, order="F")
+        for start, stop, host in runs if transposed == "N" else reversed(runs):
+            if host >= 0 and transposed == "N":
+                found[start] += share[start] * found[host]
+            limb = slice(start, stop)
+            found[limb], _ = dtbtrs(band[:, limb], found[limb], uplo="L", trans=transposed, diag="U")
+            if host >= 0 and transposed == "T":
+                found[host] += share[start] * found[start]
+        return found
 
 
 def springs_of(parts: Parts) -> Springs:
-    """Sweep the stiffness from the tip to the base.
+    """Sweep the stiffness from the ends to the base.
 
     Parameters
     ----------
@@ -111,15 +118,16 @@ def springs_of(parts: Parts) -> Springs:
     springs = ([0.0] if parts.hub else []) + parts.spring.tolist()
     turns = ([1.0] if parts.hub else []) + parts.turn.tolist()
     pivot, share = [0.0] * len(ground), [0.0] * len(ground)
-    beyond = 0.0  # stiffness of all that is outboard, as the joint passes it on
+    beyond = [0.0] * (
+        len(ground) + 1
+    )  # on the base and each angle: stiffness of all outboard, as joints pass it on
     for i in reversed(range(len(ground))):
-        own = ground[i] + beyond
+        own = ground[i] + beyond[i + 1]
         pivot[i] = springs[i] + own
         if springs[i] == 0.0:
-            beyond = 0.0  # a hub, or a joint that passes nothing on
-            continue
+            continue  # a hub, or a joint that passes nothing on
         if pivot[i] == 0.0:
             pivot[i] = _LEAST * springs[i]
         share[i] = turns[i] * springs[i] / pivot[i]
-        beyond = turns[i] * share[i] * own
+        beyond[parts.free.hosts[i]] += turns[i] * share[i] * own
     return Springs(parts, np.array(pivot), np.array(share))

@@ -35,7 +35,7 @@ def _slowest(scene: Scene) -> float:
     """Return the lowest frequency at which an arm bends, or swings in gravity behind free joints, rad/s."""
     bends = slowest_vibration(scene)
     found = [] if bends is None else [bends]
-    length = sum(link.length for link in scene.links)
+    length = scene.reach
     if length > 0.0 and any(joint.stiffness == 0.0 for joint in scene.joints):
         gravity = scene.model.gravity or 0.0
         # without gravity nothing sets a time: as if there were some

@@ -131,7 +131,7 @@ def draw_shapes(axes: Axes, simulation: Simulation) -> None:
 
 def _ground(axes: Axes, scene: Scene, x: Array, y: Array) -> None:
     """Set out a field in true proportion, with the base in it."""
-    reach = sum(link.length for link in scene.links)
+    reach = scene.reach
     left, right = float(min(x.min(), -0.1 * reach)), float(max(x.max(), 0.1 * reach))
     low, high = float(min(y.min(), -0.1 * reach)), float(max(y.max(), 0.1 * reach))
     margin = 0.08 * reach

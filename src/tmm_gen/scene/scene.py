@@ -127,6 +127,14 @@ class Scene:
         return self.host(host) if host and self.links[host - 1].massless else host
 
     @property
+    def reach(self) -> float:
+        """The longest way from the base to the outer end of a link, m."""
+        ways = [0.0]
+        for joint, link in enumerate(self.links, start=1):
+            ways.append(ways[self.host(joint)] + link.length)
+        return max(ways)
+
+    @property
     def prescribed(self) -> Input | None:
         """The input that is the base's angle, if there is one."""
         return next((item for item in self.inputs if item.acts == "angle"), None)

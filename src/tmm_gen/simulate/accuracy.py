@@ -128,7 +128,7 @@ def _leapt(scene: Scene, trace: Trace) -> float:
         return 0.0
     places = _places(scene, trace.angle)
     way = float(np.max(np.hypot(*(places - places[:, :1]))))
-    if way <= _STILL * sum(link.length for link in scene.links):
+    if way <= _STILL * scene.reach:
         return 0.0
     return float(np.max(np.hypot(*np.diff(places, axis=1)))) / way
 
@@ -211,7 +211,7 @@ class _Repetition:
         drift = (np.mean(apart[:, half:], axis=1) - np.mean(apart[:, :half], axis=1)) / half
         places = _places(self.scene, self.trace.angle)
         way = float(np.max(np.hypot(*(places - places[:, :1]))))
-        least = _STILL * sum(link.length for link in self.scene.links)
+        least = _STILL * self.scene.reach
         return float(np.max(np.hypot(*drift))) * self.course.steps / max(way, least)
 
     def judged(self, other: Trace, factor: float, share: float, growth: float | None) -> Accuracy:
@@ -226,8 +226,7 @@ class _Repetition:
         off = weight * np.max(np.hypot(*(mine - others)), axis=1)
         way = np.max(np.hypot(*(others - others[:, :1])), axis=1)
         times = self.scene.integrator.step * self.trace.every * stride * np.arange(count, dtype=float)
-        length = sum(link.length for link in self.scene.links)
-        return _judged(off, way, times, _STILL * length, growth)
+        return _judged(off, way, times, _STILL * self.scene.reach, growth)
 
     def sensitivity(self, factor: float, undisturbed: Trace) -> float | None:
         """Return how many times larger a small disturbance of the start becomes."""

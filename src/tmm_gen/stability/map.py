@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 from tmm_gen.derive.integrators.declaration import Integrator
 from tmm_gen.errors import UserError
 from tmm_gen.modal.arm import linear_arm
-from tmm_gen.modal.equilibrium import equilibrium
 from tmm_gen.modal.matrices import matrices
-from tmm_gen.modal.rest import Rest, rest_at, straight
+from tmm_gen.modal.rest import Rest
+from tmm_gen.modal.situation import rest_of
 from tmm_gen.scene import Scene
 from tmm_gen.stability.coupled import CoupledStep
 from tmm_gen.stability.growth import Growth
@@ -173,11 +173,7 @@ class Rests:
 
     def _found(self, factor: float) -> Rest | None:
         scene = with_stiffness(self._scene, factor)
-        if scene.model.linear:
-            return None
-        if scene.model.gravity:
-            return equilibrium(scene)
-        return rest_at(scene, np.zeros_like(straight(scene)))
+        return None if scene.model.linear else rest_of(scene)
 
 
 def derived_radii(motion: SmallMotion, growth: Growth, steps: Array) -> Array:

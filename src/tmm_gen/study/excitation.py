@@ -11,10 +11,13 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+import numpy as np
+
 from tmm_gen.errors import UserError
 from tmm_gen.inputs.clock import refuse_other_clock
 from tmm_gen.inputs.curve import Curve
 from tmm_gen.inputs.signals import Constant, Signal, Sine, Table
+from tmm_gen.modal.limbs import limbs_of
 from tmm_gen.reference.duration import default_duration
 from tmm_gen.scene import Input, Output, Scene, station_of
 from tmm_gen.simulate.prescribed import prescribed
@@ -145,7 +148,7 @@ def _signal(scene: Scene, item: Input, frequency: float, until: float) -> Signal
         return Sine(_rounded(torque / scene.joints[item.at - 1].gear), frequency)
     at = station_of(item.at, scene.stations)
     torque = _torque(scene, frequency) * ((1.0, *scene.turns)[at] / item.factor) ** 2
-    return Sine(_rounded(torque if item.acts == "torque" else torque / _length(scene)), frequency)
+    return Sine(_rounded(torque if item.acts == "torque" else torque / (scene.reach or 1.0)), frequency)
 
 
 def _torque(scene: Scene, frequency: float, joint: int = 0) -> float:
@@ -154,29 +157,31 @@ def _torque(scene: Scene, frequency: float, joint: int = 0) -> float:
     A torque in a joint turns what is beyond the joint. With gears it is that on the base's shaft.
     """
     if not scene.hub and all(joint.stiffness > 0.0 for joint in scene.joints):
-        return _TURN / sum(
-            t * t / joint.stiffness for t, joint in zip(scene.turns, scene.joints, strict=True)
-        )
+        softness = np.array([t * t / j.stiffness for t, j in zip(scene.turns, scene.joints, strict=True)])
+        return _TURN / float(np.max(limbs_of(scene).outward(softness)))
     inertia = _inertia_beyond(scene, joint) if joint else _inertia_about_base(scene)
     return inertia * frequency**2 * _TURN
 
 
 def _inertia_about_base(scene: Scene) -> float:
-    armatures = sum(joint.armature for joint in scene.joints[1:])
-    return scene.base.inertia + armatures + _inertia_beyond(scene, 1)
+    inertia = scene.base.inertia
+    for number, joint in enumerate(scene.joints, start=1):
+        inertia += joint.armature if scene.host(number) else _inertia_beyond(scene, number)
+    return inertia
 
 
 def _inertia_beyond(scene: Scene, joint: int) -> float:
     """Return the inertia about a joint, 1 to n, of its rotor and the straight arm beyond, kg m^2."""
-    inertia, way = scene.joints[joint - 1].armature, 0.0
-    for turns, link in list(zip(scene.turns, scene.links, strict=True))[joint - 1 :]:
-        inertia += link.inertia / turns**2 + link.mass * (way + link.center * link.length) ** 2
-        way += link.length
-    return inertia + (scene.tip.mass * way**2 + scene.tip.inertia if scene.tip else 0.0)
-
-
-def _length(scene: Scene) -> float:
-    return sum(link.length for link in scene.links) or 1.0
+    inertia, ways = scene.joints[joint - 1].armature, {joint: 0.0}
+    for number, link in enumerate(scene.links[joint - 1 :], start=joint):
+        way = ways.get(number if number == joint else scene.host(number))
+        if way is None:  # the next branch
+            break
+        own = link.inertia / scene.turns[number - 1] ** 2
+        inertia += own + link.mass * (way + link.center * link.length) ** 2
+        ways[number] = way + link.length
+    tip, way = scene.tip, ways[max(ways)]
+    return inertia + (tip.mass * way**2 + tip.inertia if tip else 0.0)
 
 
 def _rounded(value: float) -> float:
