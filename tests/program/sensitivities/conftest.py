@@ -178,6 +178,59 @@ def parts(base: str) -> Scene:
     return parse_scene(PARTS.format(base=base, base_input=base_input, first=first))
 
 
+BRANCHES = """\
+[[motor]]
+name = "second"
+on = "base"
+rotor_inertia = 1e-5
+gear = 40
+stiffness = 90.0
+damping_time = 1e-3
+[[link]]
+name = "thumb"
+on = "second"
+length = 0.2
+mass = 0.15
+inertia = 6e-4
+center = 0.4
+[[joint]]
+name = "third"
+on = "upper"
+stiffness = 2.0
+[[link]]
+name = "pad"
+on = "third"
+length = 0.15
+mass = 0.1
+inertia = 3e-4
+[[input]]
+name = "second_torque"
+at = "second"
+acts = "torque"
+[[input]]
+name = "lift"
+at = "pad"
+acts = "force_y"
+[[output]]
+name = "pad"
+at = "pad"
+of = "position"
+[[output]]
+name = "held"
+at = "upper"
+of = "velocity"
+"""
+
+
+def tree(base: str) -> Scene:
+    """Return the same arm with a branch on its upper arm, and one that begins with a motor's shaft on the base."""
+    hub = 'kind = "motor"\ninertia = 0.1' if base == "motor" else f'kind = "{base}"'
+    text = PARTS.format(base=base, base_input=_HUB.format("torque") if base == "motor" else "", first="motor")
+    text = text.replace(f'kind = "{base}"\n[[motor]]', f"{hub}\n[[motor]]")
+    text = text.replace('name = "shoulder"\n', 'name = "shoulder"\non = "base"\n')
+    return parse_scene(text + BRANCHES)
+
+
 @dataclass(frozen=True, eq=False)
 class Case:
     """A scene, a point, and CasADi's derivatives there.
@@ -230,6 +283,8 @@ SCENES: dict[str, Callable[[], Scene]] = {
     "prescribed": lambda: unlike("prescribed"),
     "parts": lambda: parts("clamp"),
     "parts on a moving base": lambda: parts("prescribed").replace(**{"integrator.name": "sdirk4"}),
+    "tree": lambda: tree("clamp"),
+    "tree on a hub": lambda: tree("motor").replace(**{"model.iterations": 2}),
     "sdirk4": lambda: unlike("motor").replace(**{"integrator.name": "sdirk4"}),
     "generalized_alpha": lambda: unlike("motor").replace(**{"integrator.name": "generalized_alpha"}),
     "two iterations": lambda: unlike("motor").replace(**{"model.iterations": 2}),
