@@ -131,7 +131,9 @@ def _gyration(_scene: Scene, document: Document) -> Measured:
 def _turns(scene: Scene, document: Document) -> Measured:
     """Return how many turns an angle of the file is; of the start those between one link and what it stands on."""
     angles = (0.0, *scene.initial.angles)
-    between = max(abs(angles[k] - angles[scene.host(k)]) for k in range(1, len(angles)))
+    between = max(
+        abs(joint.ratio * angles[k] - angles[scene.host(k)]) for k, joint in enumerate(scene.joints, start=1)
+    )
     yield ("initial", "angles"), between / (2.0 * math.pi)
     for number, joint in enumerate(document.joint):
         yield ("joint", number, "rest"), abs(getattr(joint, "rest", 0.0)) / (2.0 * math.pi)

@@ -213,14 +213,14 @@ class ChainLinkPart(Part):
     ----------
     inertia : float
         About the axis of the chain, kg m^2, positive.
-    mass, length, center : object
-        Not of a chain.
+    mass, length, center : float
+        Not of a chain, and refused.
     """
 
     inertia: Positive = Field(description="moment of inertia about the axis in kg m^2", examples=["2e-3"])
-    mass: object = Field(default=None, json_schema_extra={"hidden": True})
-    length: object = Field(default=None, json_schema_extra={"hidden": True})
-    center: object = Field(default=None, json_schema_extra={"hidden": True})
+    mass: Finite = Field(default=0.0, json_schema_extra={"hidden": True})
+    length: Finite = Field(default=0.0, json_schema_extra={"hidden": True})
+    center: Finite = Field(default=0.0, json_schema_extra={"hidden": True})
 
 
 class PartInput(FileInput):
