@@ -98,6 +98,24 @@ def test_initial_angles_are_by_part(elbow_text: str) -> None:
     assert np.all(np.array(scene.initial.rates) == 0.0)
 
 
+def test_initial_angles_by_name_do_not_depend_on_the_order_of_branches(elbow_text: str) -> None:
+    # in a list the branch behind a motor comes before that behind a joint, wherever the file has them
+    branch = '[[joint]]\nname = "pin"\non = "upper"\n[[link]]\nname = "flap"\non = "pin"\n'
+    branch += "length = 0.1\nmass = 0.1\ninertia = 1e-4\n"
+    angles = {"flap": 0.4, "hand": 0.3, "forearm": 0.2, "upper": 0.1}
+    for text in (
+        branch + elbow_text[elbow_text.index("[[") :],
+        elbow_text[elbow_text.index("[[") :] + branch,
+    ):
+        said = ", ".join(f"{name} = {value}" for name, value in angles.items())
+        scene = parse_scene(
+            elbow_text[: elbow_text.index("[[")] + text + f"\n[initial]\nangles = {{ {said} }}\n"
+        )
+        for part in scene.parts:
+            if part.kind in ("beam", "link"):
+                assert set(scene.initial.angles[part.first - 1 : part.last]) == {angles[part.name]}
+
+
 @dataclass(frozen=True)
 class Case:
     """A change to a good scene, the complaint it must cause, and a remedy that is tried."""
@@ -305,6 +323,46 @@ CASES = [
         "initial.angles",
         "has 2 numbers for 3 beams and links",
         ("[0.1, 0.2]", "[0.1, 0.2, 0.3]"),
+    ),
+    Case(
+        "initial by a wrong name",
+        "[[output]]",
+        "[initial]\nangles = { uper = 0.1, forearm = 0.2, hand = 0.3 }\n\n[[output]]",
+        "initial.angles.uper",
+        "is not the name of a beam or link",
+        ("uper", "upper"),
+    ),
+    Case(
+        "initial leaves out",
+        "[[output]]",
+        "[initial]\nrates = { forearm = 0.2 }\n\n[[output]]",
+        "initial.rates",
+        "leaves out upper, hand",
+        ("forearm = 0.2", "forearm = 0.2, upper = 0, hand = 0"),
+    ),
+    Case(
+        "damping of a spring that is not there",
+        "gear = 50",
+        "gear = 50\ndamping_time = 1e-3",
+        "motor[2].damping_time",
+        "without `stiffness` the gear is rigid",
+        ("gear = 50\n", "gear = 50\nstiffness = 100.0\n"),
+    ),
+    Case(
+        "where to hang it",
+        'on = "hinge"\nlength',
+        "length",
+        "link[2].on",
+        'for example `on = "hinge"`',
+        ('name = "hand"\n', 'name = "hand"\non = "hinge"\n'),
+    ),
+    Case(
+        "two on a motor, one of which turns",
+        'name = "hinge"\non = "forearm"',
+        'name = "hinge"\non = "elbow"',
+        "joint[1].on",
+        "Hang it on 'forearm'",
+        ('name = "hinge"\non = "elbow"', 'name = "hinge"\non = "forearm"'),
     ),
     Case(
         "no name",

@@ -136,7 +136,7 @@ def _value(field: FieldInfo, example: str) -> str:
     if bool in kinds:
         return "true, false"
     bounds = " and ".join(_bounds((*field.metadata, *_metadata(field.annotation))))
-    if dict in kinds:
+    if dict in kinds and not example:
         return "table"
     if tuple in kinds or list in kinds:
         return f"as `{example}`"

@@ -159,7 +159,7 @@ at = "payload"
 of = "position"                # or "velocity", "acceleration", "angle", "rate"
 
 {outputs}# [initial]
-# angles = 0.1                 # rad, absolute: one number for all, or one for each beam and link
+# angles = 0.1                 # rad, absolute: one number for all, or one each: {{ arm1 = 0.1, arm2 = 0.2 }}
 """
 
 _TAIL = """

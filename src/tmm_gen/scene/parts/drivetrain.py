@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
 from tmm_gen.scene.exact import exact, nearest
-from tmm_gen.scene.initial import Initial, InitialTable
+from tmm_gen.scene.initial import Initial, InitialTable, Values, in_order
 from tmm_gen.scene.model import Base
 from tmm_gen.scene.parts.expansion import Expansion, PlacedPart
 from tmm_gen.scene.parts.order import BASE, Entry, Hanging
@@ -56,8 +56,9 @@ class Drivetrain(Expansion):
         angles, rates = (self._first(each) for each in (table.angles, table.rates))
         return Initial(angles, rates)
 
-    def _first(self, values: float | tuple[float, ...]) -> tuple[float, ...]:
+    def _first(self, values: Values) -> tuple[float, ...]:
         """Return one number for each link of the chain: that of the first part which turns as one with it."""
+        values = in_order(values, [part.name for part in self.solid])
         if not isinstance(values, tuple):
             return (values,) * len(self.links)
         found = {p.last: value for value, p in reversed(list(zip(values, self.solid, strict=True)))}

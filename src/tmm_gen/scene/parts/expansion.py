@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, cast
 
 from tmm_gen.scene.beam import Beam, Tip, beam_joints, beam_links
 from tmm_gen.scene.exact import exact, nearest
-from tmm_gen.scene.initial import Initial, InitialTable
+from tmm_gen.scene.initial import Initial, InitialTable, Values, in_order
 from tmm_gen.scene.model import Base
 from tmm_gen.scene.parts.order import BASE, Entry, Hanging, hanging
 from tmm_gen.scene.parts.tables import BeamPart, BodyPart, JointPart, LinkPart, MotorPart
@@ -281,10 +281,9 @@ def _output(item: FileOutput, parts: dict[str, PlacedPart], stations: int) -> Ou
     )
 
 
-def _spread(
-    values: float | tuple[float, ...], solid: Sequence[PlacedPart], stations: int
-) -> tuple[float, ...]:
-    """Return one number per link of what is one number for all, or one per beam and link of the file."""
+def _spread(values: Values, solid: Sequence[PlacedPart], stations: int) -> tuple[float, ...]:
+    """Return one number per link of what is one number for all, or one per beam and link, in order or by name."""
+    values = in_order(values, [part.name for part in solid])
     if not isinstance(values, tuple):
         return (values,) * stations
     found = [0.0] * stations

@@ -11,7 +11,7 @@ from tmm_gen.scene.parts.order import BASE, Entry, Hanging, entries, hanging
 from tmm_gen.scene.parts.tables import ChainLinkPart, GearPart, MotorPart
 from tmm_gen.scene.problem import Finding, Path
 from tmm_gen.scene.rules.kinds import kind_keys
-from tmm_gen.scene.rules.parts import unknown_place
+from tmm_gen.scene.rules.parts import initial_values, unknown_place
 from tmm_gen.scene.table import STATION_LIMIT
 
 _SAME = 1e-9
@@ -221,7 +221,7 @@ def chain_initial(document: ChainDocument) -> Iterator[Finding]:
     solid = made.solid
     names = ", ".join(part.name for part in solid)
     for key in ("angles", "rates"):
-        values = getattr(document.initial, key)
+        values = yield from initial_values(document, key, solid)
         if not isinstance(values, tuple):  # of the first link behind each joint: what gears join follows
             continue
         if len(values) != len(solid):

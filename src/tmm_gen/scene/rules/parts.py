@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator, Sequence
 from itertools import groupby
 
+from tmm_gen.scene.document import Document
+from tmm_gen.scene.initial import in_order
 from tmm_gen.scene.parts.document import PartsDocument
 from tmm_gen.scene.parts.expansion import OF_JOINTS, PlacedPart, elastic
 from tmm_gen.scene.parts.order import BASE, Entry, Hanging, entries, hanging
@@ -54,6 +56,10 @@ def one_tree(document: PartsDocument) -> Iterator[Finding]:
         return
     for name in (BASE, *(e.name for e in hung.entries if not isinstance(e.part, BodyPart))):
         carried = [entry for entry in hung.carried(name) if entry.name != name]  # on itself: told below
+        if name != BASE and hung.by_name[name].turns:
+            carried.sort(
+                key=lambda entry: entry.turns
+            )  # what it drives comes first: the other is to hang on that
         for entry in carried[1:]:
             if not document.model.linear or entry.part.on is None:  # of a chain, shafts tell the rest
                 yield from _branch(hung, name, carried, entry)
@@ -72,10 +78,11 @@ def _branch(hung: Hanging, name: str, carried: list[Entry], entry: Entry) -> Ite
     first, path, host = carried[0], (*entry.path, "on"), hung.by_name.get(name)
     if entry.part.on is None:
         where = "the base" if host is None else f"'{name}'"
+        place = _place_for(hung, entry)
         yield Finding(
             path,
             f"is missing: {where} already carries '{first.name}'",
-            f'Write what \'{entry.name}\' hangs on, for example `on = "{first.name}"`, or `on = "base"` for a branch.',
+            f'Write what \'{entry.name}\' hangs on, for example `on = "{place}"`, or `on = "base"` for a branch.',
         )
     elif host is not None and host.turns:
         yield Finding(
@@ -92,6 +99,15 @@ def _branch(hung: Hanging, name: str, carried: list[Entry], entry: Entry) -> Ite
             f"Write `on = \"{fixed.name}\"`, or put a [[joint]] between '{name}' and '{fixed.name}'.",
             other.part.on,
         )
+
+
+def _place_for(hung: Hanging, entry: Entry) -> str:
+    """Return the name of a part that a part can hang on: one that carries nothing yet, rather than another."""
+    others = [
+        e for e in hung.entries if not isinstance(e.part, BodyPart) and entry.name not in _chain_of(hung, e)
+    ]
+    fit = [e for e in others if not e.turns or not (entry.turns or hung.carried(e.name))]
+    return min(fit, key=lambda e: (bool(hung.carried(e.name)), not e.turns)).name if fit else BASE
 
 
 def _chain_of(hung: Hanging, entry: Entry) -> tuple[str, ...]:
@@ -147,6 +163,13 @@ def _carried(document: PartsDocument, entry: Entry, host: Entry | None) -> Itera
             "is 0 or missing, and a rotor behind an elastic gear cannot turn without inertia",
             "Write `rotor_inertia = 1e-5`, or remove `stiffness` for a rigid gear.",
             entry.part.rotor_inertia,
+        )
+    if isinstance(entry.part, MotorPart) and not elastic(entry.part) and entry.part.damping_time:
+        yield Finding(
+            (*entry.path, "damping_time"),
+            "damps the spring of an elastic gear, and without `stiffness` the gear is rigid",
+            "Write `stiffness` too, or remove the key: `damping` and `motor_damping` damp a rigid gear.",
+            entry.part.damping_time,
         )
     if isinstance(entry.part, BodyPart) and (host is None or host.turns):
         yield Finding(
@@ -255,19 +278,40 @@ def _out_of_range(path: Path, what: str, value: float, given: object) -> Finding
     )
 
 
+def initial_values(
+    document: Document, key: str, solid: Sequence[PlacedPart]
+) -> Generator[Finding, None, float | tuple[float, ...] | None]:
+    """Find initial values by name that miss a beam or link, or name none; return good ones in order, else None."""
+    values, names = getattr(document.initial, key), [part.name for part in solid]
+    if not isinstance(values, dict) or values.keys() == set(names):
+        return in_order(values, names)
+    for name in (name for name in values if name not in names):
+        yield Finding(
+            ("initial", key, name), "is not the name of a beam or link", closest(name, names), values[name]
+        )
+    if missing := [name for name in names if name not in values]:
+        yield Finding(
+            ("initial", key),
+            f"leaves out {', '.join(missing)}",
+            f"Write a number for each of {', '.join(names)}.",
+            values,
+        )
+    return None
+
+
 def part_initial(document: PartsDocument) -> Iterator[Finding]:
     """Find initial values that are neither one number nor one per beam and link, or differ in one rigid body."""
     solid = document.expansion.solid
     for key in ("angles", "rates"):
-        values = getattr(document.initial, key)
+        values = yield from initial_values(document, key, solid)
+        names = ", ".join(part.name for part in solid)
         if not isinstance(values, tuple):
             continue
-        names = ", ".join(part.name for part in solid)
         if len(values) != len(solid):
             yield Finding(
                 ("initial", key),
                 f"has {len(values)} numbers for {len(solid)} beams and links",
-                f"Write one number for all, or one each for {names}.",
+                f"Write one number for all, or one each for {names}, in this order.",
                 values,
             )
             continue

@@ -81,6 +81,13 @@ def initial_lengths(document: Document) -> Iterator[Finding]:
     """Find initial values that are neither one number nor one per link."""
     for key in ("angles", "rates"):
         values = getattr(document.initial, key)
+        if isinstance(values, dict):
+            yield Finding(
+                ("initial", key),
+                "goes by names, and the links of this arm have none",
+                "Write one number for all links, or one per link.",
+                values,
+            )
         if isinstance(values, tuple) and len(values) != document.stations:
             yield Finding(
                 ("initial", key),
