@@ -61,6 +61,7 @@ LOADS: dict[str, tuple[str, Loads]] = {
         {
             "motor_torque": lambda t: 2.0 * np.cos(2.0 * np.pi * t),
             "load_torque": lambda t: 3.0 * np.cos(6.0 * np.pi * t),
+            "feeder_torque": lambda t: 0.2 * np.cos(4.0 * np.pi * t),
         },
     ),
     "gripper": (

@@ -1,9 +1,9 @@
-# geartrain: Servo with coupling and two stages of gears on a table
+# geartrain: Servo with two stages of gears on a table and a feeder
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 1a4a8b5623facd447e81b78b9ab542ac7459a89297606c12999073246348dce9
-# sha256 of the rest of this file: 6521ffc45e425d163a0818ca8d4eb35fb7d241e6a0acb96d22c560d5b646e2eb
-"""geartrain: Servo with coupling and two stages of gears on a table."""
+# scene digest: 066060c018d378c5aa38f61f583a4ed37c9ee269f8287dfe93f42445474eebe1
+# sha256 of the rest of this file: 8a8a33c48810519cc5baea7f075a72033dc34f1b66d5d2998db3d718621d8e6d
+"""geartrain: Servo with two stages of gears on a table and a feeder."""
 
 from .kernel import (
     INPUT_NAMES,

@@ -1,18 +1,18 @@
-# geartrain: Servo with coupling and two stages of gears on a table
+# geartrain: Servo with two stages of gears on a table and a feeder
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 1a4a8b5623facd447e81b78b9ab542ac7459a89297606c12999073246348dce9
-# sha256 of the rest of this file: 163789fc3a3bb984bbae5a253f9429e36b2a0b542d94048874a2503bb7b13584
+# scene digest: 066060c018d378c5aa38f61f583a4ed37c9ee269f8287dfe93f42445474eebe1
+# sha256 of the rest of this file: 93ac92247e5145ad7124774fdf3915ee75c0092dbc4973af9c66164fbf684330
 #
 # model: torsional chain (linear)
-# stations: 3
+# stations: 4
 # base: motor
 # integrator: Generalised alpha (Chung & Hulbert 1993), rho_inf = 0.8
 # sweep: riccati
 # unknown: acceleration
-# operations of a step: 120, 40 per station (56 additions, 64 multiplications)
-# operations of prepare: 59, 19.67 per station (10 additions, 40 multiplications, 9 divisions)
-"""geartrain: Servo with coupling and two stages of gears on a table. Functions for optimisation and control.
+# operations of a step: 159, 39.75 per station (75 additions, 84 multiplications)
+# operations of prepare: 75, 18.75 per station (13 additions, 51 multiplications, 11 divisions)
+"""geartrain: Servo with two stages of gears on a table and a feeder. Functions for optimisation and control.
 
 Columns: ``x`` the state (STATE_NAMES), ``u`` the inputs (INPUT_NAMES), ``p`` the step and the physical
 parameters (PARAMETER_NAMES), ``y`` the outputs (OUTPUT_NAMES). The same operations in the same order as in
@@ -33,24 +33,31 @@ def _numbered(name: str, count: int) -> tuple[str, ...]:
     return tuple(f"{name}_{station}" for station in range(1, count + 1))
 
 
-STATIONS = 3
+STATIONS = 4
 """Number of links."""
 STATE_NAMES: tuple[str, ...] = (
     "hub_angle",
     "hub_rate",
     "hub_acceleration",
-    *_numbered("angle", 3),
-    *_numbered("rate", 3),
-    *_numbered("acceleration", 3),
+    *_numbered("angle", 4),
+    *_numbered("rate", 4),
+    *_numbered("acceleration", 4),
 )
-INPUT_NAMES: tuple[str, ...] = ("motor_torque", "load_torque")
-OUTPUT_NAMES: tuple[str, ...] = ("motor_speed", "table", "table_speed", "coupling_torque", "teeth")
+INPUT_NAMES: tuple[str, ...] = ("motor_torque", "load_torque", "feeder_torque")
+OUTPUT_NAMES: tuple[str, ...] = (
+    "motor_speed",
+    "table",
+    "table_speed",
+    "feeder_speed",
+    "coupling_torque",
+    "teeth",
+)
 PARAMETER_NAMES: tuple[str, ...] = (
     "step",
-    *_numbered("stiffness", 3),
-    *_numbered("damping", 3),
-    *_numbered("ratio", 3),
-    *_numbered("inertia", 3),
+    *_numbered("stiffness", 4),
+    *_numbered("damping", 4),
+    *_numbered("ratio", 4),
+    *_numbered("inertia", 4),
     "hub_inertia",
     "hub_damping",
 )
@@ -63,15 +70,19 @@ def default_parameters() -> ca.DM:
     values = (
         0.0001,
         150.0,
+        60.0,
         60000.0,
         2500.0,
         0.02,
+        0.01,
         4.0,
         0.8,
         1.0,
+        -4.0,
         20.0,
         1.0,
         0.00027,
+        0.0008,
         0.011,
         0.65,
         0.0006,
@@ -99,8 +110,8 @@ def initial_function() -> ca.Function:
     Start from given angles and rates with the acceleration that satisfies the equations of motion.
     """
     given = {
-        "initial_angle": ca.SX.sym("initial_angle", 3),  # angles to start from (rad)
-        "initial_rate": ca.SX.sym("initial_rate", 3),  # rates to start from (rad/s)
+        "initial_angle": ca.SX.sym("initial_angle", 4),  # angles to start from (rad)
+        "initial_rate": ca.SX.sym("initial_rate", 4),  # rates to start from (rad/s)
     }
     u, p = _symbols(INPUT_NAMES), _symbols(PARAMETER_NAMES)
     with _as_written():
@@ -147,12 +158,12 @@ def _column(*items: Any) -> ca.SX:
 def _prepare(p: ca.SX) -> dict[str, Any]:
     """Compute what depends on parameters and step alone."""
     step = p[0]
-    stiffness = ca.vertsplit(p[1:4])
-    damping = ca.vertsplit(p[4:7])
-    ratio = ca.vertsplit(p[7:10])
-    inertia = ca.vertsplit(p[10:13])
-    hub_inertia = p[13]
-    hub_damping = p[14]
+    stiffness = ca.vertsplit(p[1:5])
+    damping = ca.vertsplit(p[5:9])
+    ratio = ca.vertsplit(p[9:13])
+    inertia = ca.vertsplit(p[13:17])
+    hub_inertia = p[17]
+    hub_damping = p[18]
     admittance: list[Any] = [0.0] * STATIONS
     reflection: list[Any] = [0.0] * STATIONS
     transmission: list[Any] = [0.0] * STATIONS
@@ -163,7 +174,7 @@ def _prepare(p: ca.SX) -> dict[str, Any]:
         turn[j] = 1.0 / ratio[j]
 
     # factors of the sweep that do not change from step to step
-    for j in reversed(range(2, STATIONS)):
+    for j in reversed(range(3, STATIONS)):
         impedance = -inertia[j]
         joint_impedance = (55.0 / 108.0) * damping[j] * step + (125.0 / 486.0) * (step * step) * stiffness[j]
         pivot = joint_impedance - impedance
@@ -171,7 +182,7 @@ def _prepare(p: ca.SX) -> dict[str, Any]:
         transmission[j] = admittance[j] * joint_impedance
         reflection[j] = -admittance[j] * impedance
         impedance = impedance * transmission[j]
-    for j in reversed(range(1, 2)):
+    for j in reversed(range(2, 3)):
         impedance = impedance - inertia[j]
         joint_impedance = (55.0 / 108.0) * damping[j] * step + (125.0 / 486.0) * (step * step) * stiffness[j]
         pivot = joint_impedance - impedance
@@ -179,6 +190,16 @@ def _prepare(p: ca.SX) -> dict[str, Any]:
         transmission[j] = admittance[j] * joint_impedance * turn[j]
         reflection[j] = -admittance[j] * impedance * turn[j]
         impedance = impedance * transmission[j] * turn[j]
+    impedance_of_branch_3 = impedance
+    for j in reversed(range(1, 2)):
+        impedance = -inertia[j]
+        joint_impedance = (55.0 / 108.0) * damping[j] * step + (125.0 / 486.0) * (step * step) * stiffness[j]
+        pivot = joint_impedance - impedance
+        admittance[j] = 1.0 / pivot
+        transmission[j] = admittance[j] * joint_impedance * turn[j]
+        reflection[j] = -admittance[j] * impedance * turn[j]
+        impedance = impedance * transmission[j] * turn[j]
+    impedance = impedance + impedance_of_branch_3
     for j in reversed(range(1)):
         impedance = impedance - inertia[j]
         joint_impedance = (55.0 / 108.0) * damping[j] * step + (125.0 / 486.0) * (step * step) * stiffness[j]
@@ -200,8 +221,8 @@ def _prepare(p: ca.SX) -> dict[str, Any]:
     angle_per_unknown = (25.0 / 54.0) * (step * step)
     twelfth_timestep = (1.0 / 12.0) * step
     eleven_twelfths_timestep = (11.0 / 12.0) * step
-    teeth_per_angle = stiffness[1] / ratio[1]
-    teeth_per_rate = damping[1] / ratio[1]
+    teeth_per_angle = stiffness[2] / ratio[2]
+    teeth_per_rate = damping[2] / ratio[2]
     return {
         "step": step,
         "stiffness": stiffness,
@@ -226,22 +247,24 @@ def _prepare(p: ca.SX) -> dict[str, Any]:
 
 def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> ca.SX:
     """Start from given angles and rates with the acceleration that satisfies the equations of motion."""
-    stiffness = ca.vertsplit(p[1:4])
-    damping = ca.vertsplit(p[4:7])
-    ratio = ca.vertsplit(p[7:10])
-    inertia = ca.vertsplit(p[10:13])
-    hub_inertia = p[13]
-    hub_damping = p[14]
+    stiffness = ca.vertsplit(p[1:5])
+    damping = ca.vertsplit(p[5:9])
+    ratio = ca.vertsplit(p[9:13])
+    inertia = ca.vertsplit(p[13:17])
+    hub_inertia = p[17]
+    hub_damping = p[18]
     initial_angle = ca.vertsplit(given["initial_angle"])
     initial_rate = ca.vertsplit(given["initial_rate"])
     motor_torque = stages[0][0]
-    load_torque = stages[0][1]
+    load_torque_ = stages[0][1]
+    feeder_torque = stages[0][2]
     acceleration: list[Any] = [0.0] * STATIONS
     angle: list[Any] = [0.0] * STATIONS
     answer_own: list[Any] = [0.0] * STATIONS
     joint_torque: list[Any] = [0.0] * STATIONS
     known_angle: list[Any] = [0.0] * (STATIONS + 1)
     known_rate: list[Any] = [0.0] * (STATIONS + 1)
+    load_torque: list[Any] = [0.0] * STATIONS
     rate: list[Any] = [0.0] * STATIONS
     solved: list[Any] = [0.0] * STATIONS
     start_turn: list[Any] = [0.0] * STATIONS
@@ -269,26 +292,48 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
             - damping[j] * known_rate[j] * start_turn[j]
             - known_angle[j] * start_turn[j] * stiffness[j]
         )
-    for j in range(2, STATIONS):
+    for j in range(2, 3):
+        joint_torque[j] = (
+            damping[j] * known_rate[j + 1]
+            + known_angle[j + 1] * stiffness[j]
+            - damping[j] * known_rate[1] * start_turn[j]
+            - known_angle[1] * start_turn[j] * stiffness[j]
+        )
+    for j in range(3, STATIONS):
         joint_torque[j] = damping[j] * (known_rate[j + 1] - known_rate[j]) + stiffness[j] * (
             known_angle[j + 1] - known_angle[j]
         )
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
-    torque = load_torque
-    for j in reversed(range(2, STATIONS)):
+    for j in range(STATIONS):
+        load_torque[j] = 0.0
+    load_torque[1] = feeder_torque
+    torque = load_torque_
+    for j in reversed(range(3, STATIONS)):
+        torque = load_torque[j] + torque
         impedance = -inertia[j]
         pivot = -impedance
         start_admittance = 1.0 / pivot
         answer_own[j] = start_admittance * (torque - joint_torque[j])
         torque = joint_torque[j]
-    for j in reversed(range(1, 2)):
+    for j in reversed(range(2, 3)):
+        torque = load_torque[j] + torque
         impedance = -inertia[j]
         pivot = -impedance
         start_admittance = 1.0 / pivot
         answer_own[j] = start_admittance * (torque - joint_torque[j])
         torque = joint_torque[j] * start_turn[j]
+    torque_of_branch_3 = torque
+    for j in reversed(range(1, 2)):
+        torque = load_torque[j]
+        impedance = -inertia[j]
+        pivot = -impedance
+        start_admittance = 1.0 / pivot
+        answer_own[j] = start_admittance * (torque - joint_torque[j])
+        torque = joint_torque[j] * start_turn[j]
+    torque = torque + torque_of_branch_3
     for j in reversed(range(1)):
+        torque = load_torque[j] + torque
         impedance = -inertia[j]
         pivot = -impedance
         start_admittance = 1.0 / pivot
@@ -308,7 +353,11 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
     for j in range(1, 2):
         unknown = answer_own[j]
         solved[j] = unknown
-    for j in range(2, STATIONS):
+    unknown = solved[0]
+    for j in range(2, 3):
+        unknown = answer_own[j]
+        solved[j] = unknown
+    for j in range(3, STATIONS):
         unknown = answer_own[j]
         solved[j] = unknown
 
@@ -344,15 +393,17 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     hub_angle = x[0]
     hub_rate = x[1]
     hub_acceleration = x[2]
-    angle = ca.vertsplit(x[3:6])
-    rate = ca.vertsplit(x[6:9])
-    acceleration = ca.vertsplit(x[9:12])
+    angle = ca.vertsplit(x[3:7])
+    rate = ca.vertsplit(x[7:11])
+    acceleration = ca.vertsplit(x[11:15])
     motor_torque = stages[0][0]
-    load_torque = stages[0][1]
+    load_torque_ = stages[0][1]
+    feeder_torque = stages[0][2]
     answer_own: list[Any] = [0.0] * STATIONS
     joint_torque: list[Any] = [0.0] * STATIONS
     known_angle: list[Any] = [0.0] * (STATIONS + 1)
     known_rate: list[Any] = [0.0] * (STATIONS + 1)
+    load_torque: list[Any] = [0.0] * STATIONS
     solved: list[Any] = [0.0] * STATIONS
 
     # motion known before the sweep
@@ -378,20 +429,39 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
             - damping[j] * known_rate[j] * turn[j]
             - known_angle[j] * stiffness[j] * turn[j]
         )
-    for j in range(2, STATIONS):
+    for j in range(2, 3):
+        joint_torque[j] = (
+            damping[j] * known_rate[j + 1]
+            + known_angle[j + 1] * stiffness[j]
+            - damping[j] * known_rate[1] * turn[j]
+            - known_angle[1] * stiffness[j] * turn[j]
+        )
+    for j in range(3, STATIONS):
         joint_torque[j] = damping[j] * (known_rate[j + 1] - known_rate[j]) + stiffness[j] * (
             known_angle[j + 1] - known_angle[j]
         )
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
-    torque = load_torque
-    for j in reversed(range(2, STATIONS)):
+    for j in range(STATIONS):
+        load_torque[j] = 0.0
+    load_torque[1] = feeder_torque
+    torque = load_torque_
+    for j in reversed(range(3, STATIONS)):
+        torque = load_torque[j] + torque
         answer_own[j] = admittance[j] * (torque - joint_torque[j])
         torque = joint_torque[j] * reflection[j] + torque * transmission[j]
+    for j in reversed(range(2, 3)):
+        torque = load_torque[j] + torque
+        answer_own[j] = admittance[j] * (torque - joint_torque[j])
+        torque = joint_torque[j] * reflection[j] + torque * transmission[j]
+    torque_of_branch_3 = torque
     for j in reversed(range(1, 2)):
+        torque = load_torque[j]
         answer_own[j] = admittance[j] * (torque - joint_torque[j])
         torque = joint_torque[j] * reflection[j] + torque * transmission[j]
+    torque = torque + torque_of_branch_3
     for j in reversed(range(1)):
+        torque = load_torque[j] + torque
         answer_own[j] = admittance[j] * (torque - joint_torque[j])
         torque = joint_torque[j] * reflection[j] + torque * transmission[j]
 
@@ -406,7 +476,11 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     for j in range(1, 2):
         unknown = answer_own[j] + transmission[j] * unknown
         solved[j] = unknown
-    for j in range(2, STATIONS):
+    unknown = solved[0]
+    for j in range(2, 3):
+        unknown = answer_own[j] + transmission[j] * unknown
+        solved[j] = unknown
+    for j in range(3, STATIONS):
         unknown = answer_own[j] + transmission[j] * unknown
         solved[j] = unknown
 
@@ -439,15 +513,16 @@ def _output(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     teeth_per_rate = model["teeth_per_rate"]
     hub_angle = x[0]
     hub_rate = x[1]
-    angle = ca.vertsplit(x[3:6])
-    rate = ca.vertsplit(x[6:9])
+    angle = ca.vertsplit(x[3:7])
+    rate = ca.vertsplit(x[7:11])
 
     # outputs
     motor_speed = hub_rate
-    table = angle[2]
-    table_speed = rate[2]
+    table = angle[3]
+    table_speed = rate[3]
+    feeder_speed = rate[1]
     coupling_torque = damping[0] * (hub_rate - rate[0]) + stiffness[0] * (hub_angle - angle[0])
     teeth = (
-        angle[0] * teeth_per_angle - angle[1] * stiffness[1] - damping[1] * rate[1] + rate[0] * teeth_per_rate
+        angle[0] * teeth_per_angle - angle[2] * stiffness[2] - damping[2] * rate[2] + rate[0] * teeth_per_rate
     )
-    return _column(motor_speed, table, table_speed, coupling_torque, teeth)
+    return _column(motor_speed, table, table_speed, feeder_speed, coupling_torque, teeth)

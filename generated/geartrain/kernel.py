@@ -1,18 +1,18 @@
-# geartrain: Servo with coupling and two stages of gears on a table
+# geartrain: Servo with two stages of gears on a table and a feeder
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 1a4a8b5623facd447e81b78b9ab542ac7459a89297606c12999073246348dce9
-# sha256 of the rest of this file: 9f6fa6229dfaae487d5836a3d8a04c2ae360d761fcfe9ae3d8b137461bfdb0e7
+# scene digest: 066060c018d378c5aa38f61f583a4ed37c9ee269f8287dfe93f42445474eebe1
+# sha256 of the rest of this file: 69f8e6ddb78d18e40904f0b1aa4eeedf8dc46e23b9a252a516564f29a5b92a38
 #
 # model: torsional chain (linear)
-# stations: 3
+# stations: 4
 # base: motor
 # integrator: Generalised alpha (Chung & Hulbert 1993), rho_inf = 0.8
 # sweep: riccati
 # unknown: acceleration
-# operations of a step: 120, 40 per station (56 additions, 64 multiplications)
-# operations of prepare: 59, 19.67 per station (10 additions, 40 multiplications, 9 divisions)
-"""geartrain: Servo with coupling and two stages of gears on a table.
+# operations of a step: 159, 39.75 per station (75 additions, 84 multiplications)
+# operations of prepare: 75, 18.75 per station (13 additions, 51 multiplications, 11 divisions)
+"""geartrain: Servo with two stages of gears on a table and a feeder.
 
 A state goes in, a new one comes out: ``model = prepare(params, step)``, ``state = initialise(params,
 input)``, ``state = step(model, state, input)``, ``y = output(model, state)``; or ``simulate(duration,
@@ -35,12 +35,19 @@ from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[Any]
 
-STATIONS = 3
+STATIONS = 4
 """Number of links."""
 STEP = 0.0001
 """Time step of the scene (s)."""
-INPUT_NAMES: tuple[str, ...] = ("motor_torque", "load_torque")
-OUTPUT_NAMES: tuple[str, ...] = ("motor_speed", "table", "table_speed", "coupling_torque", "teeth")
+INPUT_NAMES: tuple[str, ...] = ("motor_torque", "load_torque", "feeder_torque")
+OUTPUT_NAMES: tuple[str, ...] = (
+    "motor_speed",
+    "table",
+    "table_speed",
+    "feeder_speed",
+    "coupling_torque",
+    "teeth",
+)
 STAGE_INSTANTS = ((0.5555555555555556,),)
 """When inputs are read, in steps from the start of the step."""
 INITIAL_ANGLE: ArrayLike = 0.0
@@ -57,13 +64,13 @@ class Params:
 
     Attributes
     ----------
-    stiffness : array_like, shape (3, *batch)
+    stiffness : array_like, shape (4, *batch)
         Joint stiffness, base to tip (N m/rad).
-    damping : array_like, shape (3, *batch)
+    damping : array_like, shape (4, *batch)
         Joint damping, base to tip (N m s/rad).
-    ratio : array_like, shape (3, *batch)
+    ratio : array_like, shape (4, *batch)
         Turns of a joint's inner side per turn of its outer one, base to tip.
-    inertia : array_like, shape (3, *batch)
+    inertia : array_like, shape (4, *batch)
         Link inertia, base to tip (kg m^2).
     hub_inertia : array_like, shape (*batch)
         Hub inertia (kg m^2).
@@ -71,10 +78,10 @@ class Params:
         Viscous damping of the hub to ground (N m s/rad).
     """
 
-    stiffness: ArrayLike = (150.0, 60000.0, 2500.0)
-    damping: ArrayLike = (0.02, 4.0, 0.8)
-    ratio: ArrayLike = (1.0, 20.0, 1.0)
-    inertia: ArrayLike = (0.00027, 0.011, 0.65)
+    stiffness: ArrayLike = (150.0, 60.0, 60000.0, 2500.0)
+    damping: ArrayLike = (0.02, 0.01, 4.0, 0.8)
+    ratio: ArrayLike = (1.0, -4.0, 20.0, 1.0)
+    inertia: ArrayLike = (0.00027, 0.0008, 0.011, 0.65)
     hub_inertia: ArrayLike = 0.0006
     hub_damping: ArrayLike = 0.001
 
@@ -87,9 +94,9 @@ class Model:
     ----------
     step : array, shape (*batch)
         Time step (s).
-    stiffness : array, shape (3, *batch)
+    stiffness : array, shape (4, *batch)
         Joint stiffness, base to tip (N m/rad).
-    damping : array, shape (3, *batch)
+    damping : array, shape (4, *batch)
         Joint damping, base to tip (N m s/rad).
     known_rate_per_acceleration : array, shape (*batch)
         5*step/108 (s).
@@ -108,16 +115,16 @@ class Model:
     eleven_twelfths_timestep : array, shape (*batch)
         11*step/12 (s).
     teeth_per_angle : array, shape (*batch)
-        Stiffness[1]/ratio[1] (N m/rad).
+        Stiffness[2]/ratio[2] (N m/rad).
     teeth_per_rate : array, shape (*batch)
-        Damping[1]/ratio[1] (N m s/rad).
-    turn : array, shape (3, *batch)
+        Damping[2]/ratio[2] (N m s/rad).
+    turn : array, shape (4, *batch)
         Turns of a joint's outer side per turn of its inner one.
-    admittance : array, shape (3, *batch)
+    admittance : array, shape (4, *batch)
         Inverse pivot of each joint.
-    transmission : array, shape (3, *batch)
+    transmission : array, shape (4, *batch)
         Share of motion and torque each joint passes on.
-    reflection : array, shape (3, *batch)
+    reflection : array, shape (4, *batch)
         Share of its own known torque each joint passes on.
     hub_admittance : array, shape (*batch)
         Inverse pivot of the hub.
@@ -155,11 +162,11 @@ class State:
         Hub rate (rad/s).
     hub_acceleration : array, shape (*batch)
         Hub acceleration (rad/s^2).
-    angle : array, shape (3, *batch)
+    angle : array, shape (4, *batch)
         Angle of each link, base to tip (rad).
-    rate : array, shape (3, *batch)
+    rate : array, shape (4, *batch)
         Rate of each link, base to tip (rad/s).
-    acceleration : array, shape (3, *batch)
+    acceleration : array, shape (4, *batch)
         Acceleration of each link, base to tip (rad/s^2).
     """
 
@@ -181,10 +188,13 @@ class Input:
         Torque acting at 'servo' (N m).
     load_torque : array_like, shape (*batch)
         Torque acting at 'table' (N m).
+    feeder_torque : array_like, shape (*batch)
+        Torque acting at 'feeder' (N m).
     """
 
     motor_torque: ArrayLike = 0.0
     load_torque: ArrayLike = 0.0
+    feeder_torque: ArrayLike = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -199,6 +209,8 @@ class Output:
         Angle at 'table' (rad).
     table_speed : array, shape (*batch)
         Velocity at 'table' (rad/s).
+    feeder_speed : array, shape (*batch)
+        Velocity at 'feeder' (rad/s).
     coupling_torque : array, shape (*batch)
         Torque at 'coupling' (N m).
     teeth : array, shape (*batch)
@@ -208,6 +220,7 @@ class Output:
     motor_speed: Array
     table: Array
     table_speed: Array
+    feeder_speed: Array
     coupling_torque: Array
     teeth: Array
 
@@ -274,7 +287,7 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     turn = 1.0 / ratio
 
     # factors of the sweep that do not change from step to step
-    for j in reversed(range(2, STATIONS)):
+    for j in reversed(range(3, STATIONS)):
         impedance = -inertia[j]
         joint_impedance = (55.0 / 108.0) * damping[j] * step + (125.0 / 486.0) * (step * step) * stiffness[j]
         pivot = joint_impedance - impedance
@@ -283,7 +296,7 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
         transmission[j] = admittance[j] * joint_impedance
         reflection[j] = -admittance[j] * impedance
         impedance = impedance * transmission[j]
-    for j in reversed(range(1, 2)):
+    for j in reversed(range(2, 3)):
         impedance = impedance - inertia[j]
         joint_impedance = (55.0 / 108.0) * damping[j] * step + (125.0 / 486.0) * (step * step) * stiffness[j]
         pivot = joint_impedance - impedance
@@ -292,6 +305,17 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
         transmission[j] = admittance[j] * joint_impedance * turn[j]
         reflection[j] = -admittance[j] * impedance * turn[j]
         impedance = impedance * transmission[j] * turn[j]
+    impedance_of_branch_3 = impedance
+    for j in reversed(range(1, 2)):
+        impedance = -inertia[j]
+        joint_impedance = (55.0 / 108.0) * damping[j] * step + (125.0 / 486.0) * (step * step) * stiffness[j]
+        pivot = joint_impedance - impedance
+        good = _positive_pivot(good, pivot, "pivot", j)
+        admittance[j] = 1.0 / pivot
+        transmission[j] = admittance[j] * joint_impedance * turn[j]
+        reflection[j] = -admittance[j] * impedance * turn[j]
+        impedance = impedance * transmission[j] * turn[j]
+    impedance = impedance + impedance_of_branch_3
     for j in reversed(range(1)):
         impedance = impedance - inertia[j]
         joint_impedance = (55.0 / 108.0) * damping[j] * step + (125.0 / 486.0) * (step * step) * stiffness[j]
@@ -315,8 +339,8 @@ def prepare(params: Params = Params(), step: ArrayLike = STEP) -> Model:
     angle_per_unknown = (25.0 / 54.0) * (step * step)
     twelfth_timestep = (1.0 / 12.0) * step
     eleven_twelfths_timestep = (11.0 / 12.0) * step
-    teeth_per_angle = stiffness[1] / ratio[1]
-    teeth_per_rate = damping[1] / ratio[1]
+    teeth_per_angle = stiffness[2] / ratio[2]
+    teeth_per_rate = damping[2] / ratio[2]
 
     numbers = (
         step,
@@ -374,9 +398,9 @@ def initialise(
         Physical parameters.
     input : Input
         What acts at the initial instant.
-    initial_angle : number, or array_like, shape (3, *batch)
+    initial_angle : number, or array_like, shape (4, *batch)
         Angles to start from (rad).
-    initial_rate : number, or array_like, shape (3, *batch)
+    initial_rate : number, or array_like, shape (4, *batch)
         Rates to start from (rad/s).
 
     Raises
@@ -390,7 +414,8 @@ def initialise(
     """
     good: Any = True
     motor_torque = _array(input.motor_torque, None, "input motor_torque")
-    load_torque = _array(input.load_torque, None, "input load_torque")
+    load_torque_ = _array(input.load_torque, None, "input load_torque")
+    feeder_torque = _array(input.feeder_torque, None, "input feeder_torque")
     stiffness = _array(params.stiffness, STATIONS, "stiffness")
     damping = _array(params.damping, STATIONS, "damping")
     ratio = _array(params.ratio, STATIONS, "ratio")
@@ -399,7 +424,7 @@ def initialise(
     hub_damping = _array(params.hub_damping, None, "hub_damping")
     initial_angle = _array(initial_angle, STATIONS, "initial_angle")
     initial_rate = _array(initial_rate, STATIONS, "initial_rate")
-    numbers: tuple[Any, ...] = (motor_torque, load_torque, hub_inertia, hub_damping)
+    numbers: tuple[Any, ...] = (motor_torque, load_torque_, feeder_torque, hub_inertia, hub_damping)
     arrays: tuple[Any, ...] = (stiffness, damping, ratio, inertia, initial_angle, initial_rate)
     batch, dtype = _common(numbers, arrays)
     stiffness = _align(stiffness, batch)
@@ -412,6 +437,8 @@ def initialise(
     joint_torque = np.zeros((STATIONS, *batch), dtype)
     known_angle = np.zeros((STATIONS + 1, *batch), dtype)
     known_rate = np.zeros((STATIONS + 1, *batch), dtype)
+    load_torque = np.zeros((STATIONS, *batch), dtype)
+    solved = np.zeros((STATIONS, *batch), dtype)
 
     # how gears turn
     start_turn = 1.0 / ratio
@@ -432,27 +459,48 @@ def initialise(
         - damping[1:2] * known_rate[1:2] * start_turn[1:2]
         - known_angle[1:2] * start_turn[1:2] * stiffness[1:2]
     )
-    joint_torque[2:] = damping[2:] * (known_rate[3:] - known_rate[2:3]) + stiffness[2:] * (
-        known_angle[3:] - known_angle[2:3]
+    joint_torque[2:3] = (
+        damping[2:3] * known_rate[3:4]
+        + known_angle[3:4] * stiffness[2:3]
+        - damping[2:3] * known_rate[1] * start_turn[2:3]
+        - known_angle[1] * start_turn[2:3] * stiffness[2:3]
+    )
+    joint_torque[3:] = damping[3:] * (known_rate[4:] - known_rate[3:4]) + stiffness[3:] * (
+        known_angle[4:] - known_angle[3:4]
     )
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
-    torque = load_torque
-    for j in reversed(range(2, STATIONS)):
+    load_torque[:] = 0.0
+    load_torque[1] = feeder_torque
+    torque = load_torque_
+    for j in reversed(range(3, STATIONS)):
+        torque = load_torque[j] + torque
         impedance = -inertia[j]
         pivot = -impedance
         good = _positive_pivot(good, pivot, "pivot", j)
         start_admittance = 1.0 / pivot
         answer_own[j] = start_admittance * (torque - joint_torque[j])
         torque = joint_torque[j]
-    for j in reversed(range(1, 2)):
+    for j in reversed(range(2, 3)):
+        torque = load_torque[j] + torque
         impedance = -inertia[j]
         pivot = -impedance
         good = _positive_pivot(good, pivot, "pivot", j)
         start_admittance = 1.0 / pivot
         answer_own[j] = start_admittance * (torque - joint_torque[j])
         torque = joint_torque[j] * start_turn[j]
+    torque_of_branch_3 = torque
+    for j in reversed(range(1, 2)):
+        torque = load_torque[j]
+        impedance = -inertia[j]
+        pivot = -impedance
+        good = _positive_pivot(good, pivot, "pivot", j)
+        start_admittance = 1.0 / pivot
+        answer_own[j] = start_admittance * (torque - joint_torque[j])
+        torque = joint_torque[j] * start_turn[j]
+    torque = torque + torque_of_branch_3
     for j in reversed(range(1)):
+        torque = load_torque[j] + torque
         impedance = -inertia[j]
         pivot = -impedance
         good = _positive_pivot(good, pivot, "pivot", j)
@@ -468,8 +516,11 @@ def initialise(
     hub_unknown = unknown
 
     # sweep outward: the unknown of each station
-    unknown = answer_own
-    solved = unknown
+    unknown = answer_own[:2]
+    solved[:2] = unknown
+    unknown = np.copy(solved[0])
+    unknown = answer_own[2:]
+    solved[2:] = unknown
 
     # motion at the end of the step
     hub_angle = known_angle[0]
@@ -519,7 +570,8 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     """
     good: Any = True
     motor_torque = _array(input.motor_torque, None, "input motor_torque")
-    load_torque = _array(input.load_torque, None, "input load_torque")
+    load_torque_ = _array(input.load_torque, None, "input load_torque")
+    feeder_torque = _array(input.feeder_torque, None, "input feeder_torque")
     step = model.step
     stiffness = np.asarray(model.stiffness)
     damping = np.asarray(model.damping)
@@ -544,7 +596,8 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     acceleration = np.asarray(state.acceleration)
     numbers: tuple[Any, ...] = (
         motor_torque,
-        load_torque,
+        load_torque_,
+        feeder_torque,
         step,
         known_rate_per_acceleration,
         known_angle_per_acceleration,
@@ -587,6 +640,7 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     joint_torque = np.zeros((STATIONS, *batch), dtype)
     known_angle = np.zeros((STATIONS + 1, *batch), dtype)
     known_rate = np.zeros((STATIONS + 1, *batch), dtype)
+    load_torque = np.zeros((STATIONS, *batch), dtype)
     solved = np.zeros((STATIONS, *batch), dtype)
 
     # motion known before the sweep
@@ -607,13 +661,32 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
         - damping[1:2] * known_rate[1:2] * turn[1:2]
         - known_angle[1:2] * stiffness[1:2] * turn[1:2]
     )
-    joint_torque[2:] = damping[2:] * (known_rate[3:] - known_rate[2:3]) + stiffness[2:] * (
-        known_angle[3:] - known_angle[2:3]
+    joint_torque[2:3] = (
+        damping[2:3] * known_rate[3:4]
+        + known_angle[3:4] * stiffness[2:3]
+        - damping[2:3] * known_rate[1] * turn[2:3]
+        - known_angle[1] * stiffness[2:3] * turn[2:3]
+    )
+    joint_torque[3:] = damping[3:] * (known_rate[4:] - known_rate[3:4]) + stiffness[3:] * (
+        known_angle[4:] - known_angle[3:4]
     )
 
     # sweep inward: force beyond each joint as an affine function of the motion at it
-    torque = load_torque
-    for j in reversed(range(STATIONS)):
+    load_torque[:] = 0.0
+    load_torque[1] = feeder_torque
+    torque = load_torque_
+    for j in reversed(range(2, STATIONS)):
+        torque = load_torque[j] + torque
+        answer_own[j] = admittance[j] * (torque - joint_torque[j])
+        torque = joint_torque[j] * reflection[j] + torque * transmission[j]
+    torque_of_branch_3 = torque
+    for j in reversed(range(1, 2)):
+        torque = load_torque[j]
+        answer_own[j] = admittance[j] * (torque - joint_torque[j])
+        torque = joint_torque[j] * reflection[j] + torque * transmission[j]
+    torque = torque + torque_of_branch_3
+    for j in reversed(range(1)):
+        torque = load_torque[j] + torque
         answer_own[j] = admittance[j] * (torque - joint_torque[j])
         torque = joint_torque[j] * reflection[j] + torque * transmission[j]
 
@@ -622,7 +695,11 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     hub_unknown = unknown
 
     # sweep outward: the unknown of each station
-    for j in range(STATIONS):
+    for j in range(2):
+        unknown = answer_own[j] + transmission[j] * unknown
+        solved[j] = unknown
+    unknown = np.copy(solved[0])
+    for j in range(2, STATIONS):
         unknown = answer_own[j] + transmission[j] * unknown
         solved[j] = unknown
 
@@ -687,16 +764,18 @@ def output(model: Model, state: State) -> Output:
 
     # outputs
     motor_speed = hub_rate
-    table = angle[2]
-    table_speed = rate[2]
+    table = angle[3]
+    table_speed = rate[3]
+    feeder_speed = rate[1]
     coupling_torque = damping[0] * (hub_rate - rate[0]) + stiffness[0] * (hub_angle - angle[0])
     teeth = (
-        angle[0] * teeth_per_angle - angle[1] * stiffness[1] - damping[1] * rate[1] + rate[0] * teeth_per_rate
+        angle[0] * teeth_per_angle - angle[2] * stiffness[2] - damping[2] * rate[2] + rate[0] * teeth_per_rate
     )
     return Output(
         motor_speed=_spread(motor_speed, batch, False),
         table=_spread(table, batch, False),
         table_speed=_spread(table_speed, batch, False),
+        feeder_speed=_spread(feeder_speed, batch, False),
         coupling_torque=_spread(coupling_torque, batch, False),
         teeth=_spread(teeth, batch, False),
     )
@@ -726,9 +805,9 @@ def simulate(
         Physical parameters.
     step : float
         Time step (s).
-    initial_angle : number, or array_like, shape (3, *batch)
+    initial_angle : number, or array_like, shape (4, *batch)
         Angles to start from (rad).
-    initial_rate : number, or array_like, shape (3, *batch)
+    initial_rate : number, or array_like, shape (4, *batch)
         Rates to start from (rad/s).
 
     Raises

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -20,7 +21,7 @@ from tmm_gen.program.count import count_routine
 from tmm_gen.program.statements import Program
 from tmm_gen.reference.chain_motion import exact_angles
 from tmm_gen.reference.reference import exact_response
-from tmm_gen.scene import Scene, parse_scene
+from tmm_gen.scene import Scene, load_scene, parse_scene
 from tmm_gen.simulate.prescribed import kernel_signals
 from tmm_gen.verify.agreement import (
     casadi_step,
@@ -283,3 +284,17 @@ def test_a_geared_joint_costs_four_multiplications_a_stage(name: str, chain: Cha
     assert "ratio" in [p.name for p in geared.parameters]
     more = count_routine(geared.main).total - count_routine(plain.main).total
     assert 0 < more <= (4 + (name == "zhai")) * len(geared.stage_instants[-1])
+
+
+@pytest.mark.compiler
+def test_compensated_single_precision_turns_as_double_does(repository: Path) -> None:
+    """Behind a gear a turn of the hub is another angle: taking it out of all angles alike would change the motion."""
+    scene = load_scene(repository / "scenes" / "geartrain.toml")
+    single = scene.replace(**{"emit.real": "float32", "emit.compensated": True, "emit.trigonometry": "own"})
+    torques = {"motor_torque": 2.0, "load_torque": -1.0, "feeder_torque": 0.5}
+    (_, right), (_, found) = (
+        compile_kernel(build_program(s), s, flags=("-O1",)).simulate(0.2, torques, step=scene.integrator.step)
+        for s in (scene, single)
+    )
+    for name, values in right.items():
+        assert np.abs(found[name] - values).max() < 1e-6 * np.abs(values).max(), name

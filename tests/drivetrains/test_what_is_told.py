@@ -395,19 +395,22 @@ def test_what_a_train_expands_to(repository: Path) -> None:
     scene = load_scene(repository / "scenes" / "geartrain.toml")
     assert (scene.base.kind, scene.base.inertia, scene.base.damping) == ("motor", 6e-4, 1e-3)
     # pinion with layshaft, four times slower; the teeth carry the ratio of the second stage
-    assert [link.inertia for link in scene.links] == [1.2e-4 + 2.4e-3 / 16, 1.1e-2, 0.65]
-    assert [joint.stiffness for joint in scene.joints] == [150.0, 6e4, 2.5e3]
-    assert [joint.ratio for joint in scene.joints] == [1.0, 20.0, 1.0]
-    assert scene.turns == (1.0, 20.0, 20.0)
+    assert [link.inertia for link in scene.links] == [1.2e-4 + 2.4e-3 / 16, 8e-4, 1.1e-2, 0.65]
+    assert [joint.stiffness for joint in scene.joints] == [150.0, 60.0, 6e4, 2.5e3]
+    assert [joint.ratio for joint in scene.joints] == [1.0, -4.0, 20.0, 1.0]
+    assert scene.turns == (1.0, -4.0, 20.0, 20.0)
+    assert scene.hosts == (0, 1, 1, 3)
     assert [(p.name, p.joint, p.last) for p in scene.parts] == [
         ("servo", 0, 0),
         ("coupling", 1, 0),
         ("pinion", 0, 1),
         ("layshaft", 0, 1),
-        ("second", 2, 0),
-        ("wheel", 0, 2),
-        ("shaft", 3, 0),
-        ("table", 0, 3),
+        ("belt", 2, 0),
+        ("feeder", 0, 2),
+        ("second", 3, 0),
+        ("wheel", 0, 3),
+        ("shaft", 4, 0),
+        ("table", 0, 4),
     ]
 
 

@@ -1,20 +1,20 @@
 /**
- * geartrain: Servo with coupling and two stages of gears on a table
+ * geartrain: Servo with two stages of gears on a table and a feeder
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 1a4a8b5623facd447e81b78b9ab542ac7459a89297606c12999073246348dce9
- * sha256 of the rest of this file: 08551a217a87efd7e1412e580cddcf5b85b0531c8f488d00292caff67f19d3e4
+ * scene digest: 066060c018d378c5aa38f61f583a4ed37c9ee269f8287dfe93f42445474eebe1
+ * sha256 of the rest of this file: e27b3b7114fbdb09424c842815a4f310e0ebedb3019ddc7b19e9a3fb675be932
  *
  * model: torsional chain (linear)
- * stations: 3
+ * stations: 4
  * base: motor
  * integrator: Generalised alpha (Chung & Hulbert 1993), rho_inf = 0.8
  * sweep: riccati
  * unknown: acceleration
- * operations of a step: 120, 40 per station (56 additions, 64 multiplications)
- * operations of prepare: 59, 19.67 per station (10 additions, 40 multiplications, 9 divisions)
+ * operations of a step: 159, 39.75 per station (75 additions, 84 multiplications)
+ * operations of prepare: 75, 18.75 per station (13 additions, 51 multiplications, 11 divisions)
  * number type: double
- * bytes of the structs: params 112, model 240, state 96, inputs 16, outputs 40
+ * bytes of the structs: params 144, model 288, state 120, inputs 24, outputs 48
  *
  * @file geartrain.c
  */
@@ -30,9 +30,11 @@
 /* Members of the header below: no macro of a header above may have their names. */
 #undef motor_torque
 #undef load_torque
+#undef feeder_torque
 #undef motor_speed
 #undef table
 #undef table_speed
+#undef feeder_speed
 #undef coupling_torque
 #undef teeth
 
@@ -42,7 +44,10 @@ typedef geartrain_real real;
 
 static int inputs_are_finite(const geartrain_inputs *inputs)
 {
-    if (!isfinite(inputs->motor_torque) || !isfinite(inputs->load_torque)) {
+    /* Infinities and NaN less themselves are NaN, all other numbers 0. */
+    const real lost = (inputs->motor_torque - inputs->motor_torque)
+        + (inputs->load_torque - inputs->load_torque) + (inputs->feeder_torque - inputs->feeder_torque);
+    if (!(lost >= 0.0)) {
         return 0;
     }
     return 1;
@@ -51,16 +56,16 @@ static int inputs_are_finite(const geartrain_inputs *inputs)
 void geartrain_default_params(geartrain_params *params)
 {
     static const real stiffness[] = {
-        150.0, 60000.0, 2500.0
+        150.0, 60.0, 60000.0, 2500.0
     };
     static const real damping[] = {
-        0.02, 4.0, 0.8
+        0.02, 0.01, 4.0, 0.8
     };
     static const real ratio[] = {
-        1.0, 20.0, 1.0
+        1.0, -4.0, 20.0, 1.0
     };
     static const real inertia[] = {
-        0.00027, 0.011, 0.65
+        0.00027, 0.0008, 0.011, 0.65
     };
     if (params == NULL) {
         return;
@@ -110,7 +115,7 @@ geartrain_status geartrain_prepare(
     }
 
     /* Factors of the sweep that do not change from step to step. */
-    for (int j = GEARTRAIN_STATIONS - 1; j >= 2; --j) {
+    for (int j = GEARTRAIN_STATIONS - 1; j >= 3; --j) {
         impedance = -params->inertia[j];
         const real joint_impedance = (55.0 / 108.0) * params->damping[j] * step
             + (125.0 / 486.0) * (step * step) * params->stiffness[j];
@@ -123,7 +128,7 @@ geartrain_status geartrain_prepare(
         model->reflection[j] = -model->admittance[j] * impedance;
         impedance = impedance * model->transmission[j];
     }
-    for (int j = 2 - 1; j >= 1; --j) {
+    for (int j = 3 - 1; j >= 2; --j) {
         impedance = impedance - params->inertia[j];
         const real joint_impedance = (55.0 / 108.0) * params->damping[j] * step
             + (125.0 / 486.0) * (step * step) * params->stiffness[j];
@@ -136,6 +141,21 @@ geartrain_status geartrain_prepare(
         model->reflection[j] = -model->admittance[j] * impedance * model->turn[j];
         impedance = impedance * model->transmission[j] * model->turn[j];
     }
+    const real impedance_of_branch_3 = impedance;
+    for (int j = 2 - 1; j >= 1; --j) {
+        impedance = -params->inertia[j];
+        const real joint_impedance = (55.0 / 108.0) * params->damping[j] * step
+            + (125.0 / 486.0) * (step * step) * params->stiffness[j];
+        const real pivot = joint_impedance - impedance;
+        if (!(pivot > 0.0) || !(pivot <= DBL_MAX)) {
+            return GEARTRAIN_VANISHING_PIVOT;
+        }
+        model->admittance[j] = 1.0 / pivot;
+        model->transmission[j] = model->admittance[j] * joint_impedance * model->turn[j];
+        model->reflection[j] = -model->admittance[j] * impedance * model->turn[j];
+        impedance = impedance * model->transmission[j] * model->turn[j];
+    }
+    impedance = impedance + impedance_of_branch_3;
     for (int j = 1 - 1; j >= 0; --j) {
         impedance = impedance - params->inertia[j];
         const real joint_impedance = (55.0 / 108.0) * params->damping[j] * step
@@ -165,8 +185,8 @@ geartrain_status geartrain_prepare(
     model->angle_per_unknown = (25.0 / 54.0) * (step * step);
     model->twelfth_timestep = (1.0 / 12.0) * step;
     model->eleven_twelfths_timestep = (11.0 / 12.0) * step;
-    model->teeth_per_angle = params->stiffness[1] / params->ratio[1];
-    model->teeth_per_rate = params->damping[1] / params->ratio[1];
+    model->teeth_per_angle = params->stiffness[2] / params->ratio[2];
+    model->teeth_per_rate = params->damping[2] / params->ratio[2];
 
     /* What the step needs as it is. */
     model->step = step;
@@ -213,25 +233,30 @@ geartrain_status geartrain_initialise(
     real answer_own[GEARTRAIN_STATIONS]; /* unknown of a station if its inner side kept its motion */
     real known_angle[GEARTRAIN_STATIONS + 1]; /* angle of base and links without the unknown's share [rad] */
     real known_rate[GEARTRAIN_STATIONS + 1]; /* rate of base and links without the unknown's share [rad/s] */
+    real load_torque[GEARTRAIN_STATIONS]; /* external torque on each link [N m] */
     real solved[GEARTRAIN_STATIONS]; /* unknown of each station */
     real start_turn[GEARTRAIN_STATIONS]; /* turns of a joint's outer side per turn of its inner one */
     real total = 0.0; /* of the new motion: is all of it finite? */
 
-    /* How gears turn; motion known before the sweep. */
+    /* How gears turn; motion known before the sweep; sweep inward: force beyond each joint as an affine
+     * function of the motion at it. */
     known_rate[0] = 0.0;
     known_angle[0] = 0.0;
     for (int j = 0; j < GEARTRAIN_STATIONS; ++j) {
         start_turn[j] = 1.0 / params->ratio[j];
         known_rate[j + 1] = (initial_rate != NULL ? initial_rate[j] : 0.0);
         known_angle[j + 1] = (initial_angle != NULL ? initial_angle[j] : 0.0);
+        load_torque[j] = 0.0;
     }
+    load_torque[1] = inputs->feeder_torque;
+    real torque = inputs->load_torque;
 
     /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
      * of the motion at it. */
-    real torque = inputs->load_torque;
-    for (int j = GEARTRAIN_STATIONS - 1; j >= 2; --j) {
+    for (int j = GEARTRAIN_STATIONS - 1; j >= 3; --j) {
         const real joint_torque = params->damping[j] * (known_rate[j + 1] - known_rate[j])
             + params->stiffness[j] * (known_angle[j + 1] - known_angle[j]);
+        torque = load_torque[j] + torque;
         const real impedance = -params->inertia[j];
         const real pivot = -impedance;
         if (!(pivot > 0.0) || !(pivot <= DBL_MAX)) {
@@ -241,6 +266,21 @@ geartrain_status geartrain_initialise(
         answer_own[j] = start_admittance * (torque - joint_torque);
         torque = joint_torque;
     }
+    for (int j = 3 - 1; j >= 2; --j) {
+        const real joint_torque = params->damping[j] * known_rate[j + 1]
+            + known_angle[j + 1] * params->stiffness[j] - params->damping[j] * known_rate[1] * start_turn[j]
+            - known_angle[1] * start_turn[j] * params->stiffness[j];
+        torque = load_torque[j] + torque;
+        const real impedance = -params->inertia[j];
+        const real pivot = -impedance;
+        if (!(pivot > 0.0) || !(pivot <= DBL_MAX)) {
+            return GEARTRAIN_VANISHING_PIVOT;
+        }
+        const real start_admittance = 1.0 / pivot;
+        answer_own[j] = start_admittance * (torque - joint_torque);
+        torque = joint_torque * start_turn[j];
+    }
+    const real torque_of_branch_3 = torque;
     for (int j = 2 - 1; j >= 1; --j) {
         const real joint_torque = params->damping[j] * known_rate[j + 1]
             + known_angle[j + 1] * params->stiffness[j] - params->damping[j] * known_rate[j] * start_turn[j]
@@ -251,12 +291,14 @@ geartrain_status geartrain_initialise(
             return GEARTRAIN_VANISHING_PIVOT;
         }
         const real start_admittance = 1.0 / pivot;
-        answer_own[j] = start_admittance * (torque - joint_torque);
+        answer_own[j] = start_admittance * (load_torque[j] - joint_torque);
         torque = joint_torque * start_turn[j];
     }
+    torque = torque + torque_of_branch_3;
     for (int j = 1 - 1; j >= 0; --j) {
         const real joint_torque = params->damping[j] * (known_rate[j + 1] - known_rate[j])
             + params->stiffness[j] * (known_angle[j + 1] - known_angle[j]);
+        torque = load_torque[j] + torque;
         const real impedance = -params->inertia[j];
         const real pivot = -impedance;
         if (!(pivot > 0.0) || !(pivot <= DBL_MAX)) {
@@ -277,7 +319,10 @@ geartrain_status geartrain_initialise(
     const real hub_unknown = unknown;
 
     /* Sweep outward: the unknown of each station. */
-    for (int j = 0; j < GEARTRAIN_STATIONS; ++j) {
+    for (int j = 0; j < 2; ++j) {
+        solved[j] = answer_own[j];
+    }
+    for (int j = 2; j < GEARTRAIN_STATIONS; ++j) {
         solved[j] = answer_own[j];
     }
 
@@ -321,10 +366,12 @@ geartrain_status geartrain_step(
     real answer_own[GEARTRAIN_STATIONS]; /* unknown of a station if its inner side kept its motion */
     real known_angle[GEARTRAIN_STATIONS + 1]; /* angle of base and links without the unknown's share [rad] */
     real known_rate[GEARTRAIN_STATIONS + 1]; /* rate of base and links without the unknown's share [rad/s] */
+    real load_torque[GEARTRAIN_STATIONS]; /* external torque on each link [N m] */
     real solved[GEARTRAIN_STATIONS]; /* unknown of each station */
     real total = 0.0; /* of the new motion: is all of it finite? */
 
-    /* Motion known before the sweep. */
+    /* Motion known before the sweep; sweep inward: force beyond each joint as an affine function of the
+     * motion at it. */
     known_rate[0] = state->hub_rate + state->hub_acceleration * known_rate_per_acceleration;
     known_angle[0] = state->hub_angle + five_ninths_timestep * state->hub_rate
         + state->hub_acceleration * known_angle_per_acceleration;
@@ -332,27 +379,41 @@ geartrain_status geartrain_step(
         known_rate[j + 1] = state->rate[j] + state->acceleration[j] * known_rate_per_acceleration;
         known_angle[j + 1] = state->angle[j] + state->acceleration[j] * known_angle_per_acceleration
             + five_ninths_timestep * state->rate[j];
+        load_torque[j] = 0.0;
     }
+    load_torque[1] = inputs->feeder_torque;
+    real torque = inputs->load_torque;
 
     /* Forces of the joints at the motion so far; sweep inward: force beyond each joint as an affine function
      * of the motion at it. */
-    real torque = inputs->load_torque;
-    for (int j = GEARTRAIN_STATIONS - 1; j >= 2; --j) {
+    for (int j = GEARTRAIN_STATIONS - 1; j >= 3; --j) {
         const real joint_torque = model->damping[j] * (known_rate[j + 1] - known_rate[j])
             + model->stiffness[j] * (known_angle[j + 1] - known_angle[j]);
+        torque = load_torque[j] + torque;
         answer_own[j] = model->admittance[j] * (torque - joint_torque);
         torque = joint_torque * model->reflection[j] + torque * model->transmission[j];
     }
+    for (int j = 3 - 1; j >= 2; --j) {
+        const real joint_torque = model->damping[j] * known_rate[j + 1]
+            + known_angle[j + 1] * model->stiffness[j] - model->damping[j] * known_rate[1] * model->turn[j]
+            - known_angle[1] * model->stiffness[j] * model->turn[j];
+        torque = load_torque[j] + torque;
+        answer_own[j] = model->admittance[j] * (torque - joint_torque);
+        torque = joint_torque * model->reflection[j] + torque * model->transmission[j];
+    }
+    const real torque_of_branch_3 = torque;
     for (int j = 2 - 1; j >= 1; --j) {
         const real joint_torque = model->damping[j] * known_rate[j + 1]
             + known_angle[j + 1] * model->stiffness[j] - model->damping[j] * known_rate[j] * model->turn[j]
             - known_angle[j] * model->stiffness[j] * model->turn[j];
-        answer_own[j] = model->admittance[j] * (torque - joint_torque);
-        torque = joint_torque * model->reflection[j] + torque * model->transmission[j];
+        answer_own[j] = model->admittance[j] * (load_torque[j] - joint_torque);
+        torque = joint_torque * model->reflection[j] + load_torque[j] * model->transmission[j];
     }
+    torque = torque + torque_of_branch_3;
     for (int j = 1 - 1; j >= 0; --j) {
         const real joint_torque = model->damping[j] * (known_rate[j + 1] - known_rate[j])
             + model->stiffness[j] * (known_angle[j + 1] - known_angle[j]);
+        torque = load_torque[j] + torque;
         answer_own[j] = model->admittance[j] * (torque - joint_torque);
         torque = joint_torque * model->reflection[j] + torque * model->transmission[j];
     }
@@ -363,7 +424,12 @@ geartrain_status geartrain_step(
     const real hub_unknown = unknown;
 
     /* Sweep outward: the unknown of each station. */
-    for (int j = 0; j < GEARTRAIN_STATIONS; ++j) {
+    for (int j = 0; j < 2; ++j) {
+        unknown = answer_own[j] + model->transmission[j] * unknown;
+        solved[j] = unknown;
+    }
+    unknown = solved[0];
+    for (int j = 2; j < GEARTRAIN_STATIONS; ++j) {
         unknown = answer_own[j] + model->transmission[j] * unknown;
         solved[j] = unknown;
     }
@@ -399,10 +465,11 @@ void geartrain_output(
     }
     /* Outputs. */
     outputs->motor_speed = state->hub_rate;
-    outputs->table = state->angle[2];
-    outputs->table_speed = state->rate[2];
+    outputs->table = state->angle[3];
+    outputs->table_speed = state->rate[3];
+    outputs->feeder_speed = state->rate[1];
     outputs->coupling_torque = model->damping[0] * (state->hub_rate - state->rate[0])
         + model->stiffness[0] * (state->hub_angle - state->angle[0]);
-    outputs->teeth = state->angle[0] * model->teeth_per_angle - state->angle[1] * model->stiffness[1]
-        - model->damping[1] * state->rate[1] + state->rate[0] * model->teeth_per_rate;
+    outputs->teeth = state->angle[0] * model->teeth_per_angle - state->angle[2] * model->stiffness[2]
+        - model->damping[2] * state->rate[2] + state->rate[0] * model->teeth_per_rate;
 }

@@ -1,20 +1,20 @@
 /**
- * geartrain: Servo with coupling and two stages of gears on a table
+ * geartrain: Servo with two stages of gears on a table and a feeder
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 1a4a8b5623facd447e81b78b9ab542ac7459a89297606c12999073246348dce9
- * sha256 of the rest of this file: f73ac33e84feb2165c9594abdca2d3ea5aa8d7be02d18f51a7e3d36a59907030
+ * scene digest: 066060c018d378c5aa38f61f583a4ed37c9ee269f8287dfe93f42445474eebe1
+ * sha256 of the rest of this file: 7c29e33dc98863edf6f5d4580183dbc80640eb00f0802029bd11c0a89a98b7e6
  *
  * model: torsional chain (linear)
- * stations: 3
+ * stations: 4
  * base: motor
  * integrator: Generalised alpha (Chung & Hulbert 1993), rho_inf = 0.8
  * sweep: riccati
  * unknown: acceleration
- * operations of a step: 120, 40 per station (56 additions, 64 multiplications)
- * operations of prepare: 59, 19.67 per station (10 additions, 40 multiplications, 9 divisions)
+ * operations of a step: 159, 39.75 per station (75 additions, 84 multiplications)
+ * operations of prepare: 75, 18.75 per station (13 additions, 51 multiplications, 11 divisions)
  * number type: double
- * bytes of the structs: params 112, model 240, state 96, inputs 16, outputs 40
+ * bytes of the structs: params 144, model 288, state 120, inputs 24, outputs 48
  *
  * Call geartrain_default_params() and geartrain_prepare() once, geartrain_initialise() to put the arm
  * somewhere, then geartrain_step() at every tick of the clock and geartrain_output() to know. All memory is
@@ -30,7 +30,7 @@ extern "C" {
 #endif
 
 /** Number of links. */
-#define GEARTRAIN_STATIONS 3
+#define GEARTRAIN_STATIONS 4
 
 /** The scene's time step [s]. */
 #define GEARTRAIN_STEP 0.0001
@@ -85,8 +85,8 @@ typedef struct {
     geartrain_real angle_per_unknown; /**< 25*step**2/54 [rad] */
     geartrain_real twelfth_timestep; /**< step/12 [s] */
     geartrain_real eleven_twelfths_timestep; /**< 11*step/12 [s] */
-    geartrain_real teeth_per_angle; /**< stiffness[1]/ratio[1] [N m/rad] */
-    geartrain_real teeth_per_rate; /**< damping[1]/ratio[1] [N m s/rad] */
+    geartrain_real teeth_per_angle; /**< stiffness[2]/ratio[2] [N m/rad] */
+    geartrain_real teeth_per_rate; /**< damping[2]/ratio[2] [N m s/rad] */
     geartrain_real turn[GEARTRAIN_STATIONS]; /**< turns of a joint's outer side per turn of its inner one */
     geartrain_real admittance[GEARTRAIN_STATIONS]; /**< inverse pivot of each joint */
     geartrain_real transmission[GEARTRAIN_STATIONS]; /**< share of motion and torque each joint passes on */
@@ -116,6 +116,11 @@ typedef struct {
 #else /* a macro would replace the name */
     geartrain_real tmm_load_torque;
 #endif
+#ifndef feeder_torque
+    geartrain_real feeder_torque; /**< torque acting at 'feeder' [N m] */
+#else /* a macro would replace the name */
+    geartrain_real tmm_feeder_torque;
+#endif
 } geartrain_inputs;
 
 /** What the scene asks to know. */
@@ -134,6 +139,11 @@ typedef struct {
     geartrain_real table_speed; /**< velocity at 'table' [rad/s] */
 #else /* a macro would replace the name */
     geartrain_real tmm_table_speed;
+#endif
+#ifndef feeder_speed
+    geartrain_real feeder_speed; /**< velocity at 'feeder' [rad/s] */
+#else /* a macro would replace the name */
+    geartrain_real tmm_feeder_speed;
 #endif
 #ifndef coupling_torque
     geartrain_real coupling_torque; /**< torque at 'coupling' [N m] */

@@ -1,20 +1,20 @@
 /**
- * geartrain: Servo with coupling and two stages of gears on a table
+ * geartrain: Servo with two stages of gears on a table and a feeder
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 1a4a8b5623facd447e81b78b9ab542ac7459a89297606c12999073246348dce9
- * sha256 of the rest of this file: 59164b928fa6657a2c20fb0dab2db138a70c1aa7d2227321bd433f8b550096df
+ * scene digest: 066060c018d378c5aa38f61f583a4ed37c9ee269f8287dfe93f42445474eebe1
+ * sha256 of the rest of this file: ae52f3b349d1ddcf37c387d262d39226ac39e25c15198a67361c812358e6933c
  *
  * model: torsional chain (linear)
- * stations: 3
+ * stations: 4
  * base: motor
  * integrator: Generalised alpha (Chung & Hulbert 1993), rho_inf = 0.8
  * sweep: riccati
  * unknown: acceleration
- * operations of a step: 120, 40 per station (56 additions, 64 multiplications)
- * operations of prepare: 59, 19.67 per station (10 additions, 40 multiplications, 9 divisions)
+ * operations of a step: 159, 39.75 per station (75 additions, 84 multiplications)
+ * operations of prepare: 75, 18.75 per station (13 additions, 51 multiplications, 11 divisions)
  * number type: double
- * bytes of the structs: params 112, model 240, state 96, inputs 16, outputs 40
+ * bytes of the structs: params 144, model 288, state 120, inputs 24, outputs 48
  *
  * A test for any machine: the kernel against 30 digits, within what rounding explains.
  *
@@ -33,9 +33,11 @@
 /* Members of the header below: no macro of a header above may have their names. */
 #undef motor_torque
 #undef load_torque
+#undef feeder_torque
 #undef motor_speed
 #undef table
 #undef table_speed
+#undef feeder_speed
 #undef coupling_torque
 #undef teeth
 
@@ -94,58 +96,68 @@ static void test_motion(tally *count)
     }
     inputs.motor_torque = -0.375;
     inputs.load_torque = 0.0;
+    inputs.feeder_torque = 0.375;
     status = geartrain_initialise(&state, &params, initial_angle, initial_rate, &inputs);
     expect_code(count, "initialise", status, GEARTRAIN_OK);
 
     /* Step 1. */
     inputs.motor_torque = 0.25;
     inputs.load_torque = -0.5;
+    inputs.feeder_torque = -0.125;
     status = geartrain_step(&model, &state, &inputs);
     expect_code(count, "step 1", status, GEARTRAIN_OK);
     geartrain_output(&model, &state, &outputs);
-    expect(count, "motor_speed", outputs.motor_speed, -1.8189539208005785, 1.9e-14);
-    expect(count, "table", outputs.table, -0.10938331467932685, 3.9e-16);
-    expect(count, "table_speed", outputs.table_speed, -0.056902112210041426, 9.2e-16);
-    expect(count, "coupling_torque", outputs.coupling_torque, 10.526920375353068, 6.2e-14);
-    expect(count, "teeth", outputs.teeth, -1944.5565149358129, 6.9e-12);
+    expect(count, "motor_speed", outputs.motor_speed, -2.1677538859447267, 5.2e-14);
+    expect(count, "table", outputs.table, -1.8962830226200724e-06, 7.4e-20);
+    expect(count, "table_speed", outputs.table_speed, -0.037967211540185127, 4.5e-16);
+    expect(count, "feeder_speed", outputs.feeder_speed, -0.04463246954874612, 3.2e-15);
+    expect(count, "coupling_torque", outputs.coupling_torque, 14.636766946471084, 1.1e-13);
+    expect(count, "teeth", outputs.teeth, 5887.288122276116, 3.1e-11);
 
     /* Step 2. */
     inputs.motor_torque = -0.25;
     inputs.load_torque = 0.125;
+    inputs.feeder_torque = 0.5;
     status = geartrain_step(&model, &state, &inputs);
     expect_code(count, "step 2", status, GEARTRAIN_OK);
     geartrain_output(&model, &state, &outputs);
-    expect(count, "motor_speed", outputs.motor_speed, -3.4609783081391354, 1.9e-14);
-    expect(count, "table", outputs.table, -0.10938654245784944, 3.9e-16);
-    expect(count, "table_speed", outputs.table_speed, -0.007631594729682739, 9.2e-16);
-    expect(count, "coupling_torque", outputs.coupling_torque, 8.81657208815583, 6.2e-14);
-    expect(count, "teeth", outputs.teeth, -1655.411103744341, 6.9e-12);
+    expect(count, "motor_speed", outputs.motor_speed, -4.981993627096389, 5.2e-14);
+    expect(count, "table", outputs.table, -7.144445481021442e-06, 7.4e-20);
+    expect(count, "table_speed", outputs.table_speed, -0.06705924429706382, 4.5e-16);
+    expect(count, "feeder_speed", outputs.feeder_speed, -0.0055913511816196556, 3.2e-15);
+    expect(count, "coupling_torque", outputs.coupling_torque, 18.7809369954115, 1.1e-13);
+    expect(count, "teeth", outputs.teeth, 5113.756451402415, 3.1e-11);
 
     /* Step 3. */
     inputs.motor_torque = 0.375;
     inputs.load_torque = -0.375;
+    inputs.feeder_torque = 0.0;
     status = geartrain_step(&model, &state, &inputs);
     expect_code(count, "step 3", status, GEARTRAIN_OK);
     geartrain_output(&model, &state, &outputs);
-    expect(count, "motor_speed", outputs.motor_speed, -4.707153353167352, 1.9e-14);
-    expect(count, "table", outputs.table, -0.10938503227177694, 3.9e-16);
-    expect(count, "table_speed", outputs.table_speed, 0.037859578232898636, 9.2e-16);
-    expect(count, "coupling_torque", outputs.coupling_torque, 6.731501938769636, 6.2e-14);
-    expect(count, "teeth", outputs.teeth, -1265.2148004857593, 6.9e-12);
+    expect(count, "motor_speed", outputs.motor_speed, -8.481573088403998, 5.2e-14);
+    expect(count, "table", outputs.table, -1.4805203527039135e-05, 7.4e-20);
+    expect(count, "table_speed", outputs.table_speed, -0.08621605002598696, 4.5e-16);
+    expect(count, "feeder_speed", outputs.feeder_speed, 0.05430677453196881, 3.2e-15);
+    expect(count, "coupling_torque", outputs.coupling_torque, 23.787516928126887, 1.1e-13);
+    expect(count, "teeth", outputs.teeth, 4069.811567185458, 3.1e-11);
 
     /* State after the last step. */
-    expect(count, "hub_angle", state.hub_angle, -0.0007630420279636112, 4.9e-18);
-    expect(count, "hub_rate", state.hub_rate, -4.707153353167352, 1.9e-14);
-    expect(count, "hub_acceleration", state.hub_acceleration, -10151.706291883245, 2.8e-10);
-    expect(count, "angle[0]", state.angle[0], -0.06071564558429004, 3.9e-16);
-    expect(count, "angle[1]", state.angle[1], 0.022193530815347244, 3.9e-16);
-    expect(count, "angle[2]", state.angle[2], -0.10938503227177694, 3.9e-16);
-    expect(count, "rate[0]", state.rate[0], 108.36227638079907, 8.6e-13);
-    expect(count, "rate[1]", state.rate[1], -56.71788247794643, 8.6e-13);
-    expect(count, "rate[2]", state.rate[2], 0.037859578232898636, 8.6e-13);
-    expect(count, "acceleration[0]", state.acceleration[0], 269027.69418162934, 4e-09);
-    expect(count, "acceleration[1]", state.acceleration[1], -145420.58423429244, 4e-09);
-    expect(count, "acceleration[2]", state.acceleration[2], 439.62663624868003, 4e-09);
+    expect(count, "hub_angle", state.hub_angle, -0.0011395772192789105, 4.8e-18);
+    expect(count, "hub_rate", state.hub_rate, -8.481573088403998, 5.2e-14);
+    expect(count, "hub_acceleration", state.hub_acceleration, -37130.41333567505, 5.4e-10);
+    expect(count, "angle[0]", state.angle[0], -0.12338621486510096, 5.2e-16);
+    expect(count, "angle[1]", state.angle[1], 0.031249273567854494, 5.2e-16);
+    expect(count, "angle[2]", state.angle[2], -0.08508212736348587, 5.2e-16);
+    expect(count, "angle[3]", state.angle[3], -1.4805203527039135e-05, 5.2e-16);
+    expect(count, "rate[0]", state.rate[0], -281.00763715108303, 1.9e-12);
+    expect(count, "rate[1]", state.rate[1], 0.05430677453196881, 1.9e-12);
+    expect(count, "rate[2]", state.rate[2], 152.1889756495436, 1.9e-12);
+    expect(count, "rate[3]", state.rate[3], -0.08621605002598696, 1.9e-12);
+    expect(count, "acceleration[0]", state.acceleration[0], -690951.6905826383, 1.1e-08);
+    expect(count, "acceleration[1]", state.acceleration[1], 176.50017576579143, 1.1e-08);
+    expect(count, "acceleration[2]", state.acceleration[2], 390616.1862587189, 1.1e-08);
+    expect(count, "acceleration[3]", state.acceleration[3], -153.684013590159, 1.1e-08);
 
     /* Bad input is refused and leaves the state alone. */
     geartrain_state before;
@@ -163,6 +175,11 @@ static void test_motion(tally *count)
         status = geartrain_step(&model, &state, &inputs);
         expect_code(count, "bad load_torque", status, GEARTRAIN_NON_FINITE_INPUT);
         inputs.load_torque = good;
+        good = inputs.feeder_torque;
+        inputs.feeder_torque = bad[k];
+        status = geartrain_step(&model, &state, &inputs);
+        expect_code(count, "bad feeder_torque", status, GEARTRAIN_NON_FINITE_INPUT);
+        inputs.feeder_torque = good;
     }
     ++count->checks;
     if (memcmp(&before, &state, sizeof state) != 0) {

@@ -79,7 +79,11 @@ def build_unchecked(scene: Scene, chosen: Integrator, *, auto: bool = False) -> 
             iterations=scene.model.sweeps,
             walks=_walks(scene, row, derived=derived),
             places=scene.model.linearisation != "newton",
-            turns_apart=scene.emit.compensated and row.boundary == "free" and row.about == "known",
+            # behind gears a turn of the hub is another angle: those of such chains grow as they turn
+            turns_apart=scene.emit.compensated
+            and row.boundary == "free"
+            and row.about == "known"
+            and all(turn == 1.0 for turn in scene.turns),
             auto=auto,
             sensitivities=derived,
         ),
