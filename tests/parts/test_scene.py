@@ -422,3 +422,15 @@ def test_a_motor_on_a_moved_base_is_refused(elbow_text: str) -> None:
 
 def test_drawn_arms_are_scenes(drawn: Callable[..., Scene]) -> None:
     assert all(drawn(seed, 2 + seed % 7).stations >= 1 for seed in range(10))
+
+
+def test_initial_angles_by_name_are_for_chains_by_parts_too() -> None:
+    head = 'name = "d"\n[model]\nkind = "chain"\n[integrator]\nname = "newmark"\nstep = 1e-3\n[base]\nkind = "clamp"\n'
+    links = '[[joint]]\nname = "s"\nstiffness = 9.0\n[[link]]\nname = "a"\non = "s"\ninertia = 1e-2\n'
+    links += (
+        '[[joint]]\nname = "t"\non = "a"\nstiffness = 9.0\n[[link]]\nname = "b"\non = "t"\ninertia = 1e-2\n'
+    )
+    output = '[[output]]\nname = "o"\nat = "b"\nof = "angle"\n[initial]\n'
+    assert parse_scene(f"{head}{links}{output}angles = {{ b = 0.2, a = 0.1 }}\n").initial.angles == (0.1, 0.2)
+    with pytest.raises(SceneError, match=r"initial\.rates: leaves out a"):
+        parse_scene(f"{head}{links}{output}rates = {{ b = 0.2 }}\n")
