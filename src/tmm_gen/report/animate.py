@@ -141,7 +141,9 @@ def _ground(axes: Axes, scene: Scene, x: Array, y: Array) -> None:
     axes.set_xlabel("x (m)")
     axes.set_ylabel("y (m)")
     if not scene.base.moves:
-        axes.plot([0.0, 0.0], [-0.07 * reach, 0.07 * reach], color=INK, linewidth=5.0, zorder=3)
+        # a wall across the first link, so that an arm which stands upright can be seen before it
+        across = 0.07 * reach * np.array([-np.sin(scene.initial.angles[0]), np.cos(scene.initial.angles[0])])
+        axes.plot([-across[0], across[0]], [-across[1], across[1]], color=INK, linewidth=5.0, zorder=3)
     else:
         axes.plot(
             0.0, 0.0, "o", color="white", markeredgecolor=INK, markeredgewidth=2.0, markersize=13, zorder=3
