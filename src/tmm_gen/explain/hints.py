@@ -128,6 +128,14 @@ def _gyration(_scene: Scene, document: Document) -> Measured:
             yield ("link", number, "inertia"), math.sqrt(link.inertia / link.mass) / link.length
 
 
+def _rotor(scene: Scene, document: Document) -> Measured:
+    """Return what each rotor's inertia is at its joint, over that of the arm with all its mass at the end."""
+    arm = sum(link.mass for link in scene.links) * sum(link.length for link in scene.links) ** 2
+    for number, motor in enumerate(getattr(document, "motor", ())):
+        if arm > 0.0:
+            yield ("motor", number, "rotor_inertia"), motor.gear * motor.gear * motor.rotor_inertia / arm
+
+
 def _turns(scene: Scene, document: Document) -> Measured:
     """Return how many turns an angle of the file is; of the start those between one link and what it stands on."""
     angles = (0.0, *scene.initial.angles)
@@ -191,6 +199,13 @@ HINTS = (
         10.0,
         "the radius of gyration is {value:.3g} times the link's length",
         "Inertia is in kg m^2, about the centre of mass: a slender rod has mass * length^2 / 12.",
+    ),
+    Hint(
+        _rotor,
+        0.0,
+        1e3,
+        "behind its gear the rotor has {value:.3g} times the inertia of the arm",
+        "Rotor inertia is in kg m^2, on the motor's side: 200 g cm^2 are 2e-5.",
     ),
     Hint(_turns, 0.0, 1.0, "this is {value:.3g} turns", "Angles are in rad: 30 degrees are 0.5236."),
 )
