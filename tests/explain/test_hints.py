@@ -91,7 +91,7 @@ MISTAKES = {
     "g for kg at the tip": Mistake(template("a", "planar"), "mass = 0.1", "mass = 100", "weighs 250 times", "tip.mass"),
     "kg mm^2 for kg m^2": Mistake(ARM, "3e-3", "3e3", "radius of gyration is 306 times", "link[1].inertia"),
     "g cm^2 for kg m^2 of a rotor": Mistake(
-        template("a", "planar", motors=2), "2e-5           #", "200  #", "times the inertia of the arm",
+        template("a", "planar", motors=2).replace("2e-5", "3e-5", 1), "3e-5", "300", "times the inertia of the arm",
         "motor[1].rotor_inertia",
     ),
     "degrees in rest": Mistake(ARM, "rest = 0.5", "rest = 28.6", "this is 4.55 turns", "joint[1].rest"),
