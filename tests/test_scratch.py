@@ -72,10 +72,12 @@ def test_a_run_that_is_ended_leaves_nothing_half_written(
     number: int, code: int, said: str, tmp_path: Path
 ) -> None:
     words = ["run", str(SCENE), "--until", "100000", "--input", "tip_torque=1", "--csv", "out.csv"]
+    # tests that run in the background of a script inherit that interrupts are ignored
     started = [
         sys.executable,
         "-c",
-        "import sys; from tmm_gen.cli import main; print('on', flush=True); sys.exit(main())",
+        "import signal, sys; signal.signal(signal.SIGINT, signal.default_int_handler); "
+        "from tmm_gen.cli import main; print('on', flush=True); sys.exit(main())",
     ]
     (tmp_path / "out.csv").write_text("")
     with subprocess.Popen(
@@ -85,6 +87,6 @@ def test_a_run_that_is_ended_leaves_nothing_half_written(
         process.stdout.readline()
         time.sleep(random.Random(number).uniform(0.3, 0.6))
         process.send_signal(number)
-        _, err = process.communicate()
+        _, err = process.communicate(timeout=120)
     assert (process.returncode, err) == (code, said)
     assert (tmp_path / "out.csv").read_text() == ""
