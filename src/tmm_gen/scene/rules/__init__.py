@@ -34,14 +34,13 @@ from tmm_gen.scene.rules.integration import (
 from tmm_gen.scene.rules.kinds import base_hub, held, kind_keys, newton_keys
 from tmm_gen.scene.rules.names import distinct_names
 from tmm_gen.scene.rules.outputs import outputs_possible
+from tmm_gen.scene.rules.part_signals import part_inputs, part_outputs
 from tmm_gen.scene.rules.parts import (
     beams_in_range,
     carriers,
     one_tree,
     part_initial,
-    part_inputs,
     part_names,
-    part_outputs,
     parts_suit,
 )
 from tmm_gen.scene.rules.stations import initial_lengths, stations_consistent

@@ -11,7 +11,8 @@ from tmm_gen.scene.parts.order import BASE, Entry, Hanging, entries, hanging
 from tmm_gen.scene.parts.tables import ChainLinkPart, GearPart, MotorPart
 from tmm_gen.scene.problem import Finding, Path
 from tmm_gen.scene.rules.kinds import kind_keys
-from tmm_gen.scene.rules.parts import initial_values, unknown_place
+from tmm_gen.scene.rules.part_signals import unknown_place
+from tmm_gen.scene.rules.parts import initial_values
 from tmm_gen.scene.table import STATION_LIMIT
 
 _SAME = 1e-9
