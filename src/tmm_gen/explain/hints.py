@@ -66,11 +66,14 @@ def _gravity(scene: Scene, _document: Document) -> Measured:
 
 def _slowest(scene: Scene, _document: Document) -> Measured:
     """Return the lowest frequency, Hz, at which springs give way; turning on free hinges is none."""
+    import numpy as np
+
     from tmm_gen.reference.duration import slowest_vibration
 
     if scene.stations > _MOST_LINKS:
         return
-    with contextlib.suppress(ArithmeticError, ValueError):  # numbers beyond floating point: others tell
+    # numbers beyond floating point: others tell
+    with contextlib.suppress(ArithmeticError, ValueError), np.errstate(all="ignore"):
         if (found := slowest_vibration(scene)) is not None:
             yield ("joint",) if "joint" in scene.source.data else ("beam",), found / (2.0 * math.pi)
 
