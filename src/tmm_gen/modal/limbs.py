@@ -42,7 +42,8 @@ class Limbs:
     def inner(self, values: Numbers) -> Numbers:
         """Return each one's value at its host, (n, ...); zero at the base."""
         padded: Any = np.concatenate([np.zeros_like(values[:1]), values])
-        return padded[list(self.hosts)]  # type: ignore[no-any-return]
+        found: Numbers = padded[list(self.hosts)]
+        return found
 
     def carried(self, values: Numbers) -> Numbers:
         """Sum values over what hangs right on each, (n, ...) to (n + 1, ...): on the base first."""
@@ -50,7 +51,8 @@ class Limbs:
         for start, stop, host in self.runs:
             found[start + 1 : stop] = values[start + 1 : stop]
             found[host + 1] += values[start]
-        return found  # type: ignore[no-any-return]
+        summed: Numbers = found
+        return summed
 
     def outward(self, values: Numbers) -> Numbers:
         """Sum values from the base to each, itself included, (n, ...)."""
@@ -59,7 +61,8 @@ class Limbs:
             found[start:stop] = np.cumsum(values[start:stop], axis=0)
             if host >= 0:
                 found[start:stop] += found[host]
-        return found  # type: ignore[no-any-return]
+        summed: Numbers = found
+        return summed
 
     def inward(self, values: Numbers) -> Numbers:
         """Sum values of each and all that it carries, (n, ...)."""
@@ -68,7 +71,8 @@ class Limbs:
             found[start:stop] = np.cumsum(found[start:stop][::-1], axis=0)[::-1]
             if host >= 0:
                 found[host] += found[start]
-        return found  # type: ignore[no-any-return]
+        summed: Numbers = found
+        return summed
 
 
 def limbs_of(scene: Scene) -> Limbs:
