@@ -15,6 +15,7 @@ from pathlib import Path
 
 import pytest
 from hypothesis import settings
+from hypothesis.internal.conjecture import providers
 
 # Figures are drawn into files; a display is neither needed nor there.
 os.environ["MPLBACKEND"] = "Agg"
@@ -24,7 +25,11 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 # `make test` gives the same answer on the same tree; HYPOTHESIS_PROFILE=explore looks for news.
 settings.register_profile("repeatable", derandomize=True, deadline=None, database=None)
 settings.register_profile("explore", deadline=None, print_blob=True)
-settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "repeatable"))
+PROFILE = os.environ.get("HYPOTHESIS_PROFILE", "repeatable")
+settings.load_profile(PROFILE)
+if PROFILE == "repeatable" and hasattr(providers, "_get_local_constants"):
+    # Hypothesis also draws constants that our modules hold, those loaded by then: each worker would try other cases.
+    providers._get_local_constants = providers.Constants
 
 OPTIONAL_TOOLS = {
     "arm-none-eabi-gcc": "gcc-arm-none-eabi picolibc-arm-none-eabi",
