@@ -50,6 +50,8 @@ class Combination:
         What those of the next station contribute.
     last : sympy.Expr
         What stands in its place at the last one.
+    at_base : bool
+        Whether it is one value at the base: its own, and what the stations that hang there contribute.
     """
 
     name: str
@@ -58,6 +60,7 @@ class Combination:
     own: sp.Expr
     beyond: sp.Expr = sp.S.Zero
     last: sp.Expr = sp.S.Zero
+    at_base: bool = False
 
 
 @dataclass(frozen=True)
@@ -148,7 +151,7 @@ class Row:
         Each begins with the element that gives way.
     tail : tuple of Element
         Beyond the last station.
-    detail, detail_tail : tuple of tuple of Element, tuple of Element
+    detail, detail_tail, detail_base : tuple of tuple of Element, tuple of Element, tuple of Element
         The same with nothing merged: what forces and energies are read off.
     parameters : tuple of Parameter
     combinations : tuple of Combination
@@ -167,6 +170,8 @@ class Row:
         For headers.
     angles, rates : tuple of float
         To start from.
+    floats : bool
+        Whether the base moves freely in the coordinates that are not integrated too.
     hosts : tuple of int
         Index of the station on whose outer end each one hangs, -1 for the base; each branch stands to its end before
         the next. Empty where each station carries the next.
@@ -183,6 +188,7 @@ class Row:
     tail: Elements
     detail: tuple[Elements, ...]
     detail_tail: Elements
+    detail_base: Elements
     parameters: tuple[Parameter, ...]
     combinations: tuple[Combination, ...]
     inputs: tuple[Signal, ...]
@@ -196,6 +202,7 @@ class Row:
     angles: tuple[float, ...] = ()
     rates: tuple[float, ...] = ()
     hosts: tuple[int, ...] = ()
+    floats: bool = False
 
     def host(self, station: int) -> int:
         """Return the index of the station on whose outer end one hangs, -1 for the base."""

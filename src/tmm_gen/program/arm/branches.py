@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -31,18 +31,24 @@ def resumed(row: Row, start: int, kept: Mapping[Ref, Callable[[int], sp.Expr]]) 
 def kept_at_fork(row: Row, stop: int, carried: Iterable[Ref]) -> list[Assign]:
     """Return what keeps the scalars of a walk outward at a node, counted from the base, on which several parts hang."""
     several = any(row.host(k) == stop - 1 != k - 1 for k in range(stop, len(row.stations)))
-    places = {ref: _at_fork(ref, stop) for ref in carried} if several else {}
+    places = {ref: _at_fork(ref, sp.S.Zero, stop) for ref in carried} if several else {}
     return [Assign(place, ref) for ref, place in places.items() if isinstance(place, Ref)]
 
 
-def from_fork(carried: Iterable[Ref]) -> dict[Ref, Callable[[int], sp.Expr]]:
-    """Return what scalars were at a node where they were kept; at the base they are zero."""
-    return {ref: partial(_at_fork, ref) for ref in carried}
+def from_fork(carried: Sequence[Ref], at_base: Sequence[sp.Expr]) -> dict[Ref, Callable[[int], sp.Expr]]:
+    """Return what scalars were at a node where they were kept.
+
+    Parameters
+    ----------
+    at_base : sequence of sympy.Expr
+        What they were at the base.
+    """
+    return {ref: partial(_at_fork, ref, value) for ref, value in zip(carried, at_base, strict=True)}
 
 
-def _at_fork(ref: Ref, node: int) -> sp.Expr:
+def _at_fork(ref: Ref, at_base: sp.Expr, node: int) -> sp.Expr:
     doc = f"{ref.variable.doc}, kept for branches"
-    return local(f"{ref.name}_at_fork_{node}", doc, ref.variable.unit) if node else sp.S.Zero
+    return local(f"{ref.name}_at_fork_{node}", doc, ref.variable.unit) if node else at_base
 
 
 def rooted(row: Row, loop: Loop) -> Loop:

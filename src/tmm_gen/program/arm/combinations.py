@@ -37,6 +37,12 @@ class Combinations:
 
     def _add(self, found: Combination, role: Role) -> None:
         n = self._layout.stations
+        if found.at_base:
+            variable = Variable(found.name, role if role is not Role.WORK else Role.LOCAL, None, found.doc, found.unit)
+            self.variables[found.name] = variable
+            shares = (self._entry(found.beyond, k) for k in self._layout.row.carried(-1))
+            self._statements.append(Assign(variable.ref, sp.Add(self._entry(found.own, 0), *shares)))
+            return
         own, beyond = self._at(found.own, 0), self._at(found.beyond, 1)
         alike = beyond == 0 and found.last == 0 and not any(r.offset is not None for r in refs_in(own))
         kept = role if role is not Role.WORK or not alike else Role.LOCAL

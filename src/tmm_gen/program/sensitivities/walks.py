@@ -9,7 +9,7 @@ from typing import Any
 
 import sympy as sp
 
-from tmm_gen.derive.station.frame import INNER, OUTER, Frame, node, predicted_force
+from tmm_gen.derive.station.frame import INNER, OUTER, UNKNOWN, Frame, node, predicted_force
 from tmm_gen.derive.station.inward import Inward, back
 from tmm_gen.derive.station.lets import Let, Line, Pivot, Update, composed
 from tmm_gen.derive.station.motion import Outward
@@ -18,7 +18,7 @@ from tmm_gen.derive.station.tangent import SOLVED, Tangent, beyond, solved_force
 from tmm_gen.program.arm.binding import Binding
 from tmm_gen.program.arm.branches import Gathered, resumed
 from tmm_gen.program.arm.layout import Layout
-from tmm_gen.program.arm.walks import BASE, UNKNOWN, Walks, hub_unknown
+from tmm_gen.program.arm.walks import BASE, Walks, hub_unknown
 from tmm_gen.program.sensitivities.point import Point
 from tmm_gen.program.statements import Assign, Loop, Order, Require, Section, Statement
 from tmm_gen.program.variables import Role, Variable, refs_in
