@@ -1,8 +1,8 @@
 # cube: Satellite with two flexible panels
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 94e01e390f9a78c7c028cd5c3496f9f2b400bdd211e17d698b0b276451e96c89
-# sha256 of the rest of this file: 85c2cc7557684dd0faa0c1bd7de924cfc794271d640dd00e6e14fe7b6a340766
+# scene digest: 712db4c4d8d0b4ee97fa8a8caadfc624f45341647d11ba12beb3061fbeafd1b3
+# sha256 of the rest of this file: 16a02b3131e5825171cab5a3b26ed4ceb0fd7b27b78c583df487d755392436d6
 """cube: Satellite with two flexible panels."""
 
 from .kernel import (

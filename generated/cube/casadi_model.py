@@ -1,8 +1,8 @@
 # cube: Satellite with two flexible panels
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 94e01e390f9a78c7c028cd5c3496f9f2b400bdd211e17d698b0b276451e96c89
-# sha256 of the rest of this file: 7288a7523e48f96bf66f96e7b8620c8fd9d6eb85ea4231e959e621959d56a754
+# scene digest: 712db4c4d8d0b4ee97fa8a8caadfc624f45341647d11ba12beb3061fbeafd1b3
+# sha256 of the rest of this file: e5c2248fd9911ab1d4b061adea703122a5b720005f069509fd1f854978426a35
 #
 # model: planar arm, large rotations
 # stations: 12
@@ -52,16 +52,7 @@ STATE_NAMES: tuple[str, ...] = (
     "base_acceleration_y",
 )
 INPUT_NAMES: tuple[str, ...] = ("wheel", "thruster")
-OUTPUT_NAMES: tuple[str, ...] = (
-    "attitude",
-    "hub_x",
-    "hub_y",
-    "left_end_x",
-    "left_end_y",
-    "right_end_x",
-    "right_end_y",
-    "latch_torque",
-)
+OUTPUT_NAMES: tuple[str, ...] = ("attitude", "hub_x", "hub_y", "right_end_x", "right_end_y", "latch_torque")
 PARAMETER_NAMES: tuple[str, ...] = (
     "step",
     *_numbered("length", 12),
@@ -1073,16 +1064,6 @@ def _output(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     hub_x = base_place_x
     hub_y = base_place_y
 
-    # left_end: position
-    left_end_x = base_place_x
-    left_end_y = base_place_y
-    for j in range(1):
-        left_end_x = left_end_x + length[j] * ca.cos(angle[j])
-        left_end_y = left_end_y + length[j] * ca.sin(angle[j])
-    for j in range(1, 6):
-        left_end_x = left_end_x + length[j] * ca.cos(angle[j])
-        left_end_y = left_end_y + length[j] * ca.sin(angle[j])
-
     # right_end: position
     right_end_x = base_place_x
     right_end_y = base_place_y
@@ -1095,4 +1076,4 @@ def _output(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
 
     # latch_torque: joint torque
     latch_torque = damping[6] * (hub_rate - rate[6]) + stiffness[6] * (hub_angle - angle[6])
-    return _column(attitude, hub_x, hub_y, left_end_x, left_end_y, right_end_x, right_end_y, latch_torque)
+    return _column(attitude, hub_x, hub_y, right_end_x, right_end_y, latch_torque)

@@ -1,8 +1,8 @@
 # cube: Satellite with two flexible panels
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 94e01e390f9a78c7c028cd5c3496f9f2b400bdd211e17d698b0b276451e96c89
-# sha256 of the rest of this file: 53c8db3e6527286cd784d5b11233f6ca911709a634ea1300fea1ba01fe02cec7
+# scene digest: 712db4c4d8d0b4ee97fa8a8caadfc624f45341647d11ba12beb3061fbeafd1b3
+# sha256 of the rest of this file: c1e6066bf970443580b49a1cafa2eabc308e39ccc1e74cfc8075c50ad5561009
 #
 # model: planar arm, large rotations
 # stations: 12
@@ -42,16 +42,7 @@ STATIONS = 12
 STEP = 0.002
 """Time step of the scene (s)."""
 INPUT_NAMES: tuple[str, ...] = ("wheel", "thruster")
-OUTPUT_NAMES: tuple[str, ...] = (
-    "attitude",
-    "hub_x",
-    "hub_y",
-    "left_end_x",
-    "left_end_y",
-    "right_end_x",
-    "right_end_y",
-    "latch_torque",
-)
+OUTPUT_NAMES: tuple[str, ...] = ("attitude", "hub_x", "hub_y", "right_end_x", "right_end_y", "latch_torque")
 STAGE_INSTANTS = ((1.0,),)
 """When inputs are read, in steps from the start of the step."""
 INITIAL_ANGLE: ArrayLike = (
@@ -248,10 +239,6 @@ class Output:
         Position at 'hub', x (m).
     hub_y : array, shape (*batch)
         Position at 'hub', y (m).
-    left_end_x : array, shape (*batch)
-        Position at 'left_panel', x (m).
-    left_end_y : array, shape (*batch)
-        Position at 'left_panel', y (m).
     right_end_x : array, shape (*batch)
         Position at 'right_panel', x (m).
     right_end_y : array, shape (*batch)
@@ -263,8 +250,6 @@ class Output:
     attitude: Array
     hub_x: Array
     hub_y: Array
-    left_end_x: Array
-    left_end_y: Array
     right_end_x: Array
     right_end_y: Array
     latch_torque: Array
@@ -1122,13 +1107,6 @@ def output(model: Model, state: State) -> Output:
     hub_x = base_place_x
     hub_y = base_place_y
 
-    # left_end: position
-    left_end_x = base_place_x
-    left_end_y = base_place_y
-    for j in range(6):
-        left_end_x = left_end_x + length[j] * np.cos(angle[j])
-        left_end_y = left_end_y + length[j] * np.sin(angle[j])
-
     # right_end: position
     right_end_x = base_place_x
     right_end_y = base_place_y
@@ -1142,8 +1120,6 @@ def output(model: Model, state: State) -> Output:
         attitude=_spread(attitude, batch, False),
         hub_x=_spread(hub_x, batch, False),
         hub_y=_spread(hub_y, batch, False),
-        left_end_x=_spread(left_end_x, batch, False),
-        left_end_y=_spread(left_end_y, batch, False),
         right_end_x=_spread(right_end_x, batch, False),
         right_end_y=_spread(right_end_y, batch, False),
         latch_torque=_spread(latch_torque, batch, False),

@@ -23,7 +23,7 @@ REFUSED = [
     ('kind = "free"', 'kind = "free"\ninertia = 0.1', "such a base is made of the bodies on it"),
     ("inertia = 0.02", "inertia = 0.0", "nothing on it has the inertia to turn"),
     ('acts = "force_x"', 'acts = "angle"', 'cannot be "angle" with base.kind = "free"'),
-    ('at = "base"\nof = "velocity"', 'at = "base"\nof = "torque"', 'cannot be torque at the base'),
+    ('at = "base"\nof = "velocity"', 'at = "base"\nof = "torque"', "cannot be torque at the base"),
     ('kind = "free"', 'kind = "clamp"', "a body sits on a beam's or a link's outer end"),
 ]
 

@@ -48,7 +48,7 @@ of = "position"
 
 
 def test_a_free_beam_has_its_textbook_frequencies() -> None:
-    """Roots of ``cos(b) cosh(b) = 1``: 4.730041, 7.853205, 10.995608, to second order in the number of links or better."""
+    """Roots of ``cos(b) cosh(b) = 1``: 4.730041, 7.853205, 10.995608, to second order in the links or better."""
     roots = [brentq(lambda b: np.cos(b) - 1 / np.cosh(b), k, k + 1.5) for k in (4.0, 7.0, 10.3)]
     np.testing.assert_allclose(roots, [4.730041, 7.853205, 10.995608], atol=5e-7)
     exact = np.array(roots) ** 2 * np.sqrt(3.0 / 0.7 / 2.0**4)

@@ -164,9 +164,9 @@ def drawn_arm(
     inputs = [(f"torque_{name}", name, "torque") for name in turning]
     inputs += [("push", solid[0], "force_x"), ("twist", solid[-1], "torque"), ("lift", solid[-1], "force_y")]
     inputs += [("hub_push", "base", "force_x"), ("hub_lift", "base", "force_y")] * floating
-    inputs += [("hub_turn", "base", "torque")] * (kind in ("motor", "free")) + [("hub_angle", "base", "angle")] * (
-        kind == "prescribed"
-    )
+    inputs += [("hub_turn", "base", "torque")] * (kind in ("motor", "free")) + [
+        ("hub_angle", "base", "angle")
+    ] * (kind == "prescribed")
     outputs = [
         (f"{of}_in_{name}", name, of) for name in turning for of in ("angle", "rate", "torque", "force")
     ]

@@ -48,7 +48,7 @@ def test_backends_agree(
 
 
 @FEW
-@example(seed=15, count=6, order=4, branching=True, floating=False)  # a motor with an elastic gear begins a second branch
+@example(seed=15, count=6, order=4, branching=True, floating=False)  # an elastic gear begins a branch
 @given(
     seed=st.integers(0, 10_000),
     count=st.integers(2, 12),

@@ -2,8 +2,8 @@
  * cube: Satellite with two flexible panels
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 94e01e390f9a78c7c028cd5c3496f9f2b400bdd211e17d698b0b276451e96c89
- * sha256 of the rest of this file: ebe3775fd9129246d9658ac9bf231cd1dce7d96b3d53a8aef2405b2952df1d5a
+ * scene digest: 712db4c4d8d0b4ee97fa8a8caadfc624f45341647d11ba12beb3061fbeafd1b3
+ * sha256 of the rest of this file: fde6b570b22b26acb6cfe02830cd21fb91bba175a36df41dc9cb08bdb0f8c068
  *
  * model: planar arm, large rotations
  * stations: 12
@@ -16,7 +16,7 @@
  *     and cosines)
  * operations of prepare: 201, 16.75 per station (62 additions, 139 multiplications)
  * number type: double
- * bytes of the structs: params 600, model 720, state 360, inputs 16, outputs 64
+ * bytes of the structs: params 600, model 720, state 360, inputs 16, outputs 48
  *
  * @file cube.c
  */
@@ -35,8 +35,6 @@
 #undef attitude
 #undef hub_x
 #undef hub_y
-#undef left_end_x
-#undef left_end_y
 #undef right_end_x
 #undef right_end_y
 #undef latch_torque
@@ -882,14 +880,6 @@ void cube_output(
     /* Hub: position. */
     outputs->hub_x = state->base_place_x;
     outputs->hub_y = state->base_place_y;
-
-    /* Left_end: position. */
-    outputs->left_end_x = state->base_place_x;
-    outputs->left_end_y = state->base_place_y;
-    for (int j = 0; j < 6; ++j) {
-        outputs->left_end_x = outputs->left_end_x + model->length[j] * cos(state->angle[j]);
-        outputs->left_end_y = outputs->left_end_y + model->length[j] * sin(state->angle[j]);
-    }
 
     /* Right_end: position. */
     outputs->right_end_x = state->base_place_x;

@@ -2,8 +2,8 @@
  * cube: Satellite with two flexible panels
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 94e01e390f9a78c7c028cd5c3496f9f2b400bdd211e17d698b0b276451e96c89
- * sha256 of the rest of this file: c620957892d084dcf440be1dd38c280f1be9e84c1b3cd806be8440e80153cf1b
+ * scene digest: 712db4c4d8d0b4ee97fa8a8caadfc624f45341647d11ba12beb3061fbeafd1b3
+ * sha256 of the rest of this file: 558989863d222b8c8720b9b883a1b42ccab3a7d6731b4585ad830d8dcfdd8a5c
  *
  * model: planar arm, large rotations
  * stations: 12
@@ -16,7 +16,7 @@
  *     and cosines)
  * operations of prepare: 201, 16.75 per station (62 additions, 139 multiplications)
  * number type: double
- * bytes of the structs: params 600, model 720, state 360, inputs 16, outputs 64
+ * bytes of the structs: params 600, model 720, state 360, inputs 16, outputs 48
  *
  * Call cube_default_params() and cube_prepare() once, cube_initialise() to put the arm somewhere, then
  * cube_step() at every tick of the clock and cube_output() to know. All memory is the caller's; nothing is
@@ -147,16 +147,6 @@ typedef struct {
     cube_real hub_y; /**< position at 'hub', y [m] */
 #else /* a macro would replace the name */
     cube_real tmm_hub_y;
-#endif
-#ifndef left_end_x
-    cube_real left_end_x; /**< position at 'left_panel', x [m] */
-#else /* a macro would replace the name */
-    cube_real tmm_left_end_x;
-#endif
-#ifndef left_end_y
-    cube_real left_end_y; /**< position at 'left_panel', y [m] */
-#else /* a macro would replace the name */
-    cube_real tmm_left_end_y;
 #endif
 #ifndef right_end_x
     cube_real right_end_x; /**< position at 'right_panel', x [m] */

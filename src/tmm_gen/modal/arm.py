@@ -149,7 +149,9 @@ def _planar(scene: Scene, rest: Rest) -> LinearArm:
         placed.append(Placed(name, at_rest[name], station, values, loads))
 
     if isinstance(scene.base, FloatingBase):
-        placed.append(Placed("hub", at_rest["tip"], 0, (scene.base.mass, scene.base.inertia, *still), loads[0]))
+        placed.append(
+            Placed("hub", at_rest["tip"], 0, (scene.base.mass, scene.base.inertia, *still), loads[0])
+        )
     elif scene.hub:
         add("hub", 0, scene.base.inertia, scene.base.damping, *still, loads=loads[0])
     for i, (joint, link) in enumerate(zip(scene.joints, scene.links, strict=True)):

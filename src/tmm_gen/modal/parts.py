@@ -80,7 +80,8 @@ class Parts:
         on_base, *on_links = self.limbs.carried(self.rotor)
         found = found + self.rotor + on_links
         whole = np.append(self.hub_inertia + on_base, found) if self.hub else found
-        return whole - np.sum(self._moments**2, axis=1) / self.floating_mass
+        diagonal: Array = whole - np.sum(self._moments**2, axis=1) / self.floating_mass
+        return diagonal
 
     def base_moved(self, angles: Array) -> Array:
         """Return how a base that floats moves with free angles, (p,); zero where it is held."""

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from tmm_gen.modal.arm import LinearArm
 from tmm_gen.modal.beam import BeamArm, beam_shape
 from tmm_gen.modal.limbs import limbs_of
-from tmm_gen.modal.parts import parts_of
 from tmm_gen.modal.modes import Mode
+from tmm_gen.modal.parts import parts_of
 from tmm_gen.style import FAINT, PALETTE, figure, picture, style, subtitle
 
 if TYPE_CHECKING:

@@ -43,7 +43,7 @@ def _center(arm: Arm, times: Array) -> list[tuple[Array, Array]]:
     The base starts at the origin, at rest.
     """
     initial = arm.scene.initial
-    start = [np.array([[0.0] * arm.first + list(x)]) for x in (initial.angles, initial.rates)]
+    angles, rates = (np.array([[0.0] * arm.first + list(x)]) for x in (initial.angles, initial.rates))
     lever = arm.moments / arm.whole
     ends = np.unique(np.concatenate([[0.0], times, *(arm.signal(i.name).knots for i in arm.scene.inputs)]))
     ends = ends[(ends >= 0.0) & (ends <= times[-1])]
@@ -54,8 +54,10 @@ def _center(arm: Arm, times: Array) -> list[tuple[Array, Array]]:
     falls = (0.0, -arm.gravity)
     found = []
     for axis, fall in enumerate(falls):
-        begun = [arm.point(order, lever, *start, np.zeros_like(start[0]))[axis][0] for order in (0, 1)]
-        inside = (arm.loads(instants.ravel())[axis + 1].sum(axis=1) / arm.whole + fall).reshape(instants.shape)
+        begun = [arm.point(order, lever, angles, rates, np.zeros_like(angles))[axis][0] for order in (0, 1)]
+        inside = (arm.loads(instants.ravel())[axis + 1].sum(axis=1) / arm.whole + fall).reshape(
+            instants.shape
+        )
         gained = np.sum(half * weights * inside, axis=1)
         moved = np.sum(half * weights * inside * (ends[1:, None] - instants), axis=1)
         rate = begun[1] + np.concatenate([[0.0], np.cumsum(gained)])

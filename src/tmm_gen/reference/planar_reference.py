@@ -88,7 +88,11 @@ def read(arm: Arm, output: Output, times: Array, q: Array, v: Array, a: Array) -
     else:
         on_the_way = arm.paths[station - 1 + arm.first] if station else 0.0
         lever = arm.lengths * on_the_way
-        moving = zip(arm.point(quantity.order, lever, q, v, a), base_place(arm, quantity.order, times, q, v, a), strict=True)
+        moving = zip(
+            arm.point(quantity.order, lever, q, v, a),
+            base_place(arm, quantity.order, times, q, v, a),
+            strict=True,
+        )
         values = [of_point + of_base for of_point, of_base in moving]
     return dict(zip(quantity.columns(output.name), values, strict=True))
 

@@ -146,9 +146,7 @@ def planar_row(scene: Scene, integrator: str) -> Row:
     )
 
 
-def _floating(
-    scene: Scene, own: sp.Expr, of_link: sp.Expr
-) -> tuple[Elements, tuple[Combination, ...]]:
+def _floating(scene: Scene, own: sp.Expr, of_link: sp.Expr) -> tuple[Elements, tuple[Combination, ...]]:
     """Return what moves with a base that floats: its own mass, and the shares of links that hang there."""
     if not scene.floats:
         return (), ()

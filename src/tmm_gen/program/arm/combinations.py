@@ -38,7 +38,9 @@ class Combinations:
     def _add(self, found: Combination, role: Role) -> None:
         n = self._layout.stations
         if found.at_base:
-            variable = Variable(found.name, role if role is not Role.WORK else Role.LOCAL, None, found.doc, found.unit)
+            variable = Variable(
+                found.name, role if role is not Role.WORK else Role.LOCAL, None, found.doc, found.unit
+            )
             self.variables[found.name] = variable
             shares = (self._entry(found.beyond, k) for k in self._layout.row.carried(-1))
             self._statements.append(Assign(variable.ref, sp.Add(self._entry(found.own, 0), *shares)))

@@ -249,19 +249,22 @@ def _placed_body(entry: Entry, on: PlacedPart) -> PlacedPart:
 
 
 def _tip(bodies: Sequence[Entry]) -> Tip | None:
-    return Tip.model_construct(**_summed(bodies)) if bodies else None
+    mass, inertia = _summed(bodies)
+    return Tip.model_construct(mass=mass, inertia=inertia) if bodies else None
 
 
 def _floating(bodies: Sequence[Entry]) -> FloatingBase:
-    return FloatingBase.model_construct(kind="free", damping=0.0, **_summed(bodies))
+    mass, inertia = _summed(bodies)
+    return FloatingBase.model_construct(kind="free", damping=0.0, mass=mass, inertia=inertia)
 
 
-def _summed(bodies: Sequence[Entry]) -> dict[str, float]:
+def _summed(bodies: Sequence[Entry]) -> tuple[float, float]:
     """Return mass and inertia of bodies at one place."""
     weights = [_weight(body) for body in bodies]
-    return {
-        key: nearest(sum((exact(getattr(w, key)) for w in weights), Fraction(0))) for key in ("mass", "inertia")
-    }
+    mass, inertia = (
+        nearest(sum((exact(getattr(w, key)) for w in weights), Fraction(0))) for key in ("mass", "inertia")
+    )
+    return mass, inertia
 
 
 def place_of(name: str, parts: dict[str, PlacedPart], stations: int) -> Place:
@@ -269,7 +272,7 @@ def place_of(name: str, parts: dict[str, PlacedPart], stations: int) -> Place:
     part = parts.get(name)
     if part is None:
         return cast(Place, name)
-    return "tip" if part.last == stations else part.last or part.joint or BASE
+    return "tip" if part.last == stations else part.last or part.joint or "base"
 
 
 def _input(item: FileInput, parts: dict[str, PlacedPart], stations: int) -> Input:

@@ -103,7 +103,11 @@ def part_outputs(document: PartsDocument) -> Iterator[Finding]:
                 "Choose one of them, or measure at a beam, a link or a body.",
                 item.of,
             )
-        elif at not in on_base | {"arm"} and (part is None or not part.joint) and item.of in ("torque", "force"):
+        elif (
+            at not in on_base | {"arm"}
+            and (part is None or not part.joint)
+            and item.of in ("torque", "force")
+        ):
             yield Finding(
                 (*path, "of"),
                 f"cannot be {item.of} here: it is joints that pass on a {item.of}",
