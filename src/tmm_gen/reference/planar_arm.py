@@ -281,7 +281,7 @@ class Arm:
         return found - np.outer(x @ self.moments, self.moments) / self.whole
 
     def _moment(self, force: Array) -> Array:
-        """Return lever arms times the forces beyond each link, (k, n); where the arm floats, about its centre of mass."""
+        """Return lever arms times the forces beyond each link, (k, n); of an arm that floats about its centre."""
         found = self.lengths * self.beyond(force)
         return found - np.outer(force.sum(axis=1), self.moments) / self.whole
 
