@@ -10,8 +10,14 @@ from tmm_gen.scene.problem import Finding
 from tmm_gen.scene.signal import kernel_names
 from tmm_gen.scene.table import closest
 
-BOX_STATES = tuple(
-    ["angles", "rates", "accelerations", "step", "base_places", "base_velocities", "base_accelerations"],
+BOX_STATES = (
+    "angles",
+    "rates",
+    "accelerations",
+    "step",
+    "base_places",
+    "base_velocities",
+    "base_accelerations",
 )
 
 
