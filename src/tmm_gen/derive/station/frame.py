@@ -126,7 +126,9 @@ class Frame:
 
     def settled(self, value: sp.Expr) -> sp.Expr:
         """Put zero where nothing is known to move."""
-        return value.xreplace({symbols[kind]: sp.S.Zero for kind in self.still for symbols in (MOUNT, INNER, OUTER)})
+        return value.xreplace(
+            {symbols[kind]: sp.S.Zero for kind in self.still for symbols in (MOUNT, INNER, OUTER)}
+        )
 
 
 def primitive(value: sp.Expr) -> sp.Expr:

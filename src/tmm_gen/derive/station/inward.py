@@ -269,7 +269,7 @@ class Inward:
         law, outside = turning.law.own, turning.element.outboard.motions[self.frame.own]
         torque = self._known(turning, law, TORQUES[0], "torque on each shaft at the point of linearisation")
         turned = -self.frame.sign * self._gain(law, outside)
-        return Shaft(turned, gear, (torque, known), self.frame.sign, self.frame.impedance_unit)
+        return Shaft((turned, gear), (torque, known), self.frame.sign, self.frame.impedance_unit)
 
     def _shares(
         self, known: sp.Expr, bias: sp.Expr, load: sp.Expr, stiffness: sp.Expr, ratio: sp.Expr
@@ -299,11 +299,8 @@ class Inward:
         if at_point == 0:
             return ZERO
         own, element = self.frame.own, passed.element
-        inner, outer = (
-            [passed.point[getattr(port.motions[own], k)] for k in KINDS]
-            for port in (element.inboard, element.outboard)
-        )
-        differences = dict(zip(KINDS, zip(inner, outer, strict=True), strict=True))
+        inner, outer = (port.motions[own] for port in (element.inboard, element.outboard))
+        differences = {k: (passed.point[getattr(inner, k)], passed.point[getattr(outer, k)]) for k in KINDS}
         if not at_point.is_Atom or self.frame.about == "prediction":
             self.known.append(Let(symbol, grouped(at_point, differences), doc, "N m"))
             return symbol

@@ -50,9 +50,8 @@ def rooted(row: Row, loop: Loop) -> Loop:
 
     Arrays over nodes have one element more than there are stations, base first.
     """
-    begins = loop.start
-    hosts = {-back: row.host(begins - back) for back in (0, 1) if begins >= back}
-    away = {back: host for back, host in hosts.items() if host != begins + back - 1}
+    hosts = {-back: row.host(loop.start - back) for back in (0, 1) if loop.start >= back}
+    away: dict[int | None, int] = {k: host for k, host in hosts.items() if host != loop.start + k - 1}
     if not away:
         return loop
     nodes = len(row.stations) + 1

@@ -358,7 +358,9 @@ class Walks:
 
 
 def _one_inward(value: sp.Expr) -> sp.Expr:
-    return value.variable.at(value.offset - 1) if isinstance(value, Ref) and value.offset is not None else value
+    return (
+        value.variable.at(value.offset - 1) if isinstance(value, Ref) and value.offset is not None else value
+    )
 
 
 def _empty(statement: Statement) -> bool:
