@@ -59,7 +59,6 @@ def planar_row(scene: Scene, integrator: str) -> Row:
     tip_mass, tip_body = symbol(named["tip_mass"]), _body(named["tip_inertia"])
     detail = (inner, _rod(length, left_over), outer, *on_link)
     combinations: tuple[Combination, ...] = ()
-    shaft: Elements = ()
     if scene.model.linearisation == "newton":
         rest = Combination(
             "rod_inertia", "inertia of a link that masses at its ends leave over", "kg m^2", left_over
@@ -85,8 +84,7 @@ def planar_row(scene: Scene, integrator: str) -> Row:
             )
             combinations, node_mass, beyond = (joined, rest), sp.Symbol(joined.name), sp.Integer(0)
         rod_inertia = sp.Symbol(rest.name)
-        shaft = (_mass(node_mass),)
-        station: Elements = (_rod(length, rod_inertia), *shaft, *on_link)
+        station: Elements = (_rod(length, rod_inertia), _mass(node_mass), *on_link)
         tail: Elements = (*((_mass(beyond),) if beyond != 0 else ()), *tip_body, *at_tip)
     else:
         combinations = (
@@ -122,7 +120,7 @@ def planar_row(scene: Scene, integrator: str) -> Row:
         sign=1,
         base=(*floating, *hub, *_load(loads["base"])),
         boundary=boundary_of(scene),
-        stations=_behind(scene, pins, station, shaft),
+        stations=_behind(scene, pins, station),
         tail=tail,
         detail=_behind(scene, pins_in_detail, detail),
         detail_tail=(*((_mass(tip_mass),) if tip_mass != 0 else ()), *tip_body, *at_tip),
@@ -261,10 +259,10 @@ def _pin(
     return element.DRIVEN_PIN.with_values(values)
 
 
-def _behind(scene: Scene, pins: Elements, station: Elements, shaft: Elements = ()) -> tuple[Elements, ...]:
+def _behind(scene: Scene, pins: Elements, station: Elements) -> tuple[Elements, ...]:
     """Return each pin with what stands behind it; a shaft has neither length nor mass of its own."""
     return tuple(
-        (pin, *(shaft if link.massless else station)) for pin, link in zip(pins, scene.links, strict=True)
+        (pin, *(() if link.massless else station)) for pin, link in zip(pins, scene.links, strict=True)
     )
 
 

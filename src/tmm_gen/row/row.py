@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Literal
 
 import sympy as sp
 
 from tmm_gen.derive.elements.declaration import Element
+from tmm_gen.derive.station.frame import of_shaft
+from tmm_gen.derive.station.law import passes_on
 from tmm_gen.derive.station.lets import Coordinate
 from tmm_gen.scene.quantity import Read
 
@@ -213,6 +216,30 @@ class Row:
         if not self.hosts:
             return (station + 1,) if station + 1 < len(self.stations) else ()
         return tuple(index for index, host in enumerate(self.hosts) if host == station)
+
+    @cached_property
+    def shafts(self) -> frozenset[int]:
+        """Indices of the stations of one element with one station on them: nothing between the two has inertia."""
+        if self.about == "known":
+            return frozenset()
+        return frozenset(
+            k
+            for k, elements in enumerate(self.stations[:-1])
+            if len(elements) == 1 < len(self.stations[k + 1])
+            and self.carried(k) == (k + 1,)
+            and passes_on(elements[0])
+            and passes_on(self.stations[k + 1][0])
+        )
+
+    def swept(self) -> tuple[Elements, ...]:
+        """Return the stations as sweeps cross them: what turns a shaft stands in the station that the shaft turns."""
+        found = list(self.stations)
+        for k in self.shafts:
+            (element,) = self.stations[k]
+            symbols = (*element.parameters, *element.inputs)
+            found[k] = ()
+            found[k + 1] = (element.with_values({s: of_shaft(s) for s in symbols}), *self.stations[k + 1])
+        return tuple(found)
 
     def beyond(self, station: int) -> int:
         """Return where what a station carries ends: the index behind the last one."""

@@ -52,18 +52,19 @@ def _at_fork(ref: Ref, at_base: sp.Expr, node: int) -> sp.Expr:
 
 
 def rooted(row: Row, loop: Loop) -> Loop:
-    """Return a loop over a run of stations with its inner node where the first one hangs.
+    """Return a loop over a run of stations with its inner node where the first one hangs, or its shaft is mounted.
 
     Arrays over nodes have one element more than there are stations, base first.
     """
-    host = row.host(loop.start)
-    if host == loop.start - 1:
+    hosts = {-back: row.host(loop.start - back) for back in (0, 1) if loop.start >= back}
+    away: dict[int | None, int] = {k: host for k, host in hosts.items() if host != loop.start + k - 1}
+    if not away:
         return loop
     nodes = len(row.stations) + 1
 
     def value(e: sp.Expr) -> sp.Expr:
-        inner = {r for r in refs_in(e) if r.variable.length == nodes and r.offset == 0}
-        return e.xreplace({r: r.variable.entry(host + 1) for r in inner})
+        inner = {r for r in refs_in(e) if r.variable.length == nodes and r.offset in away}
+        return e.xreplace({r: r.variable.entry(away[r.offset] + 1) for r in inner})
 
     body: tuple[Assign | Require, ...] = tuple(replace(s, value=value(s.value)) for s in loop.body)
     return replace(loop, body=body)
