@@ -21,10 +21,17 @@ Run = Callable[..., subprocess.CompletedProcess[str]]
 
 REFUSED = [
     ('kind = "free"', 'kind = "free"\ninertia = 0.1', "such a base is made of the bodies on it"),
-    ("inertia = 0.02", "inertia = 0.0", "nothing on it has the inertia to turn"),
+    ("inertia = 0.02", "inertia = 0.0", "body[1].inertia: is 0 or missing"),
     ('acts = "force_x"', 'acts = "angle"', 'cannot be "angle" with base.kind = "free"'),
     ('at = "base"\nof = "velocity"', 'at = "base"\nof = "torque"', "cannot be torque at the base"),
     ('kind = "free"', 'kind = "clamp"', "a body sits on a beam's or a link's outer end"),
+    ('kind = "free"', 'kind = "clamp"', 'or write `kind = "free"` alone in [base]'),
+    ('acts = "force_x"', 'acts = "angle"', 'Write `acts = "torque"`, or remove the input.'),
+    (
+        'name = "hub"\non = "base"',
+        'name = "hub"\non = "shin"',
+        'on = "base"`, `mass = 1.0`, `inertia = 0.01`',
+    ),
 ]
 
 

@@ -76,7 +76,8 @@ def fence_of(program: Program, box: Box, routine: Routine) -> Fence:
             largest[variable.name] = max(largest[variable.name], *map(abs, values[key(variable)]))
         for required, recorded in pivots.items():
             held = values[key(recorded)]
-            least[required] = min(least[required], *(held if isinstance(held, list) else [held]))
+            taken = [pivot for pivot in (held if isinstance(held, list) else [held]) if pivot > 0.0]
+            least[required] = min([least[required], *taken])  # stations without this pivot have zero there
     return Fence(
         {name: 2.0 ** math.ceil(math.log2(MARGIN * value)) for name, value in largest.items() if value > 0.0},
         {
@@ -106,6 +107,7 @@ def kept_answers(routine: Routine) -> tuple[Variable, ...]:
 def _watched(routine: Routine) -> tuple[Routine, dict[str, Variable]]:
     """Return the routine with every pivot recorded, and the records by expression."""
     records: dict[str, Variable] = {}
+    stations = max((loop.stop for loop in routine.statements() if isinstance(loop, Loop)), default=0)
 
     def record(required: Require, length: int | None) -> list[Assign | Require]:
         role = Role.LOCAL if length is None else Role.WORK
@@ -120,7 +122,7 @@ def _watched(routine: Routine) -> tuple[Routine, dict[str, Variable]]:
         if isinstance(statement, Loop):
             body: list[Assign | Require] = []
             for inner in statement.body:
-                body += record(inner, statement.stop) if isinstance(inner, Require) else [inner]
+                body += record(inner, stations) if isinstance(inner, Require) else [inner]
             return [Loop(statement.order, statement.start, statement.stop, tuple(body))]
         return [statement]
 

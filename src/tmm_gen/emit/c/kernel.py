@@ -23,6 +23,7 @@ from tmm_gen.emit.c.pair_outputs import rounded_last
 from tmm_gen.emit.c.structs import COUNTER, Struct, described, dimension, structs_of
 from tmm_gen.emit.header import header_lines
 from tmm_gen.emit.runs import Run, runs
+from tmm_gen.program.passes.dependence import written_elements
 from tmm_gen.program.statements import Assign, Loop, Mark, Program, Require, Routine
 from tmm_gen.program.variables import Variable
 from tmm_gen.scene import Scene
@@ -267,19 +268,24 @@ class Kernel:
         """Return statements that leave prepare unless the sum of the model is finite."""
         failure = f"{macros(self.program.name)}_NON_FINITE_MODEL"
         sums = "(model->{0}.high + model->{0}.low)" if self.real.pair else "model->{0}"
-        by_length: dict[str, list[str]] = {}
+        single: list[str] = []
+        by_stations: dict[tuple[int, str], list[str]] = {}
         checked = (self.program.step, *self.program.parameters)
         for variable in (v for v in self.program.model if v not in checked):
-            by_length.setdefault(dimension(variable, self.program), []).append(variable.name)
-        single = [sums.format(name) for name in by_length.pop("", [])]
+            if variable.length is None:
+                single.append(sums.format(variable.name))
+            for start, stop in written_elements(self.program.prepare, variable):
+                whole = dimension(variable, self.program)[1:-1]
+                stations = (start, whole if stop == variable.length else str(stop))
+                by_stations.setdefault(stations, []).append(variable.name)
         lines: list[str] = []
-        if by_length:
+        if by_stations:
             lines.append(
                 f"{INDENT}real {TOTAL} = {self.real.literal(0)}; /* of the model: is all of it finite? */"
             )
             single.append(TOTAL)
-        for length, names in by_length.items():
-            lines.append(f"{INDENT}for (int j = 0; j < {length[1:-1]}; ++j) {{")
+        for (start, end), names in by_stations.items():
+            lines.append(f"{INDENT}for (int j = {start}; j < {end}; ++j) {{")
             lines += statement(f"{TOTAL} += {' + '.join(sums.format(f'{name}[j]') for name in names)};", 2)
             lines.append(f"{INDENT}}}")
         return "\n".join([*lines, *(check([" + ".join(single)], failure, 1) if single else ())])

@@ -55,6 +55,20 @@ def accesses(statement: Statement) -> tuple[Access, ...]:
     return tuple(_of(statement, 0, 0))
 
 
+def written_elements(routine: Routine, array: Variable) -> list[tuple[int, int]]:
+    """Return the elements of an array that a routine writes, as first and one past the last of each run of them."""
+    touched = {
+        element
+        for line in routine.statements()
+        for a in accesses(line)
+        if a.writes and a.variable == array and array.length is not None
+        for element in range(a.first, a.last + 1)
+    }
+    begins = sorted(element for element in touched if element - 1 not in touched)
+    ends = sorted(element + 1 for element in touched if element + 1 not in touched)
+    return list(zip(begins, ends, strict=True))
+
+
 @dataclass(frozen=True, eq=False)
 class Footprint:
     """What a statement reads and writes, gathered once for the many comparisons of a pass.

@@ -23,12 +23,21 @@ def floating_base(document: PartsDocument) -> Iterator[Finding]:
             )
     base = document.expansion.base
     if isinstance(base, FloatingBase) and base.inertia == 0.0:
-        yield Finding(
-            ("base", "kind"),
-            "lets the base float, and nothing on it has the inertia to turn",
-            'Add [[body]] with `name = "hub"`, `on = "base"`, `mass = 1.0`, `inertia = 0.01`.',
-            "free",
-        )
+        first = next((i for i, b in enumerate(document.body) if b.name in document.expansion.on_base), None)
+        if first is not None:
+            yield Finding(
+                ("body", first, "inertia"),
+                "is 0 or missing, and nothing else gives the base that floats the inertia to turn",
+                "Write `inertia = 0.01`.",
+                document.body[first].inertia,
+            )
+        else:
+            yield Finding(
+                ("base", "kind"),
+                "lets the base float, and nothing on it has the inertia to turn",
+                'Add [[body]] with `name = "hub"`, `on = "base"`, `mass = 1.0`, `inertia = 0.01`.',
+                "free",
+            )
     if document.emit.sensitivities:
         yield Finding(
             ("emit", "sensitivities"),

@@ -54,7 +54,9 @@ def _on_base(document: PartsDocument, index: int) -> Iterator[Finding]:
         yield Finding(
             ("input", index, "acts"),
             f'cannot be "angle" with base.kind = "{kind}"',
-            'Set base.kind = "prescribed", or remove the input.',
+            'Write `acts = "torque"`, or remove the input.'
+            if kind == "free"
+            else 'Set base.kind = "prescribed", or remove the input.',
             item.acts,
         )
     elif item.acts == "torque" and kind not in ("motor", "free"):

@@ -168,7 +168,12 @@ def _carried(document: PartsDocument, entry: Entry, host: Entry | None) -> Itera
         yield Finding(
             path,
             f"hangs on {host.words if host else 'the base'}: a body sits on a beam's or a link's outer end",
-            "Name a [[beam]] or a [[link]].",
+            "Name a [[beam]] or a [[link]]"
+            + (
+                "."
+                if host
+                else ', or write `kind = "free"` alone in [base], so that bodies are a base that floats.'
+            ),
             entry.part.on,
         )
     if entry.table == "link" and host is None:
