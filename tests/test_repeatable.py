@@ -34,7 +34,11 @@ def test_draws_do_not_hang_on_what_is_loaded(repository: Path, tmp_path: Path) -
         found.append(
             subprocess.run(
                 [sys.executable, script],
-                env={**os.environ, "PYTHONPATH": str(repository / "tests"), "HYPOTHESIS_PROFILE": "repeatable"},
+                env={
+                    **os.environ,
+                    "PYTHONPATH": str(repository / "tests"),
+                    "HYPOTHESIS_PROFILE": "repeatable",
+                },
                 capture_output=True,
                 text=True,
                 check=True,
