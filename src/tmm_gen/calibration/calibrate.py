@@ -130,8 +130,8 @@ def calibrate(
         Inputs and, as tables, at least one output by name; inputs without a record are zero. All tables have one
         clock, in seconds.
     keys : sequence of str, optional
-        Dotted keys of positive numbers in the scene, or ``stiffness`` and ``damping`` for factors of all joints; see
-        :func:`default_keys`.
+        Dotted keys of positive numbers in the scene, parts by name, or ``stiffness`` and ``damping`` for factors of all
+        springs and dampers; see :func:`default_keys`.
     start : float, optional
         When, on that clock, the arm was in the scene's initial state; see :func:`tmm_gen.inputs.clock.starts_of`.
     loss : {"linear", "huber"}
@@ -177,7 +177,7 @@ def calibrate(
     if (far := np.abs(logarithms) > 0.99 * _FARTHEST).any():
         raise CheckFailed(
             f"{scene.source.origin}: '{chosen[int(np.argmax(far))]}' leaves all bounds: the record asks for a value "
-            "ten thousand times larger or smaller than the scene's. Correct the scene first, or fit the other keys only."
+            "ten thousand times larger or smaller than the scene's. Correct the scene first, or fit other keys only."
         )
     spread, correlation = deviations(jacobian, left, fit.instants, reach)
     values = given * np.exp(logarithms)

@@ -16,8 +16,8 @@ from tmm_gen.native import NativeKernel, compile_kernel
 from tmm_gen.native.series import Series
 from tmm_gen.program.build import build_program
 from tmm_gen.scene import Scene
-from tmm_gen.scene.problem import SceneError
 from tmm_gen.scene.columns import output_columns
+from tmm_gen.scene.problem import SceneError
 from tmm_gen.simulate.prescribed import kernel_signals
 
 Array = NDArray[np.float64]

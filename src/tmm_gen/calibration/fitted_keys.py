@@ -14,7 +14,7 @@ from tmm_gen.scene.locate import nearest_line
 from tmm_gen.scene.parts.document import PARTS
 from tmm_gen.scene.problem import Path, show_path, show_value
 from tmm_gen.scene.scene import scene_of
-from tmm_gen.scene.table import is_finite_number
+from tmm_gen.scene.table import closest, is_finite_number
 
 STIFFNESS, DAMPING = "stiffness", "damping"
 """Stand for all springs, or all dampers, of a scene: a common factor."""
@@ -64,15 +64,15 @@ def number_of(scene: Scene, key: str) -> float:
     where = f"{scene.source.origin}:{nearest_line(scene.source.lines, path)}"
     value = _at(scene, path)
     if value is None:
-        raise UserError(f"{where}: has no number '{key}' to fit. {_others(scene, path, absent=True)}")
-    if not _positive(value):
-        raise UserError(
-            f"{where}: '{key}' is {show_value(value)}; only a positive number can be fitted. {_others(scene, path)}"
-        )
+        raise UserError(f"{where}: has no number '{key}' to fit. {_others(scene, key, path, absent=True)}")
     if path[-1] in _built_in(scene):
         raise UserError(
             f"{where}: '{key}' is {show_value(value)}, a count or a ratio that the generated code has built in. "
-            f"{_others(scene, path)}"
+            f"{_others(scene, key, path)}"
+        )
+    if not _positive(value):
+        raise UserError(
+            f"{where}: '{key}' is {show_value(value)}; only a positive number can be fitted. {_others(scene, key, path)}"
         )
     return float(value)
 
@@ -162,13 +162,13 @@ def _positive(value: object) -> bool:
     return is_finite_number(value) and value > 0
 
 
-def _others(scene: Scene, path: Path, *, absent: bool = False) -> str:
+def _others(scene: Scene, key: str, path: Path, *, absent: bool = False) -> str:
     """Return what can be fitted in place of a key: numbers of the same part, or of the whole arm."""
     known = _numbers(scene.source.data, "", _built_in(scene))
-    beside = [key for key in known if path_of(scene.source.data, key)[:-1] == path[:-1]]
-    start = (
-        "Write it there with a number to start from, if it has one, or fit" if absent and beside else "Fit"
-    )
+    beside = [each for each in known if path_of(scene.source.data, each)[:-1] == path[:-1]]
+    if absent and not beside:
+        return closest(key, known)
+    start = "Write it there with a number to start from, if it has one, or fit" if absent else "Fit"
     return f"{start} one of {', '.join(beside or known)}."
 
 

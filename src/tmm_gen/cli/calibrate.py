@@ -29,8 +29,8 @@ if TYPE_CHECKING:
     "keys",
     metavar="KEY",
     multiple=True,
-    help="Number of the scene to fit, such as tip.mass; `stiffness` and `damping` mean all joints. Repeatable; "
-    "by default stiffness and damping.",
+    help="Number of the scene to fit, such as tip.mass or beam.upper.bending_stiffness; `stiffness` and `damping` mean "
+    "all springs and all dampers. Repeatable; by default stiffness and damping, of each part by itself.",
 )
 @click.option(
     "--input",
