@@ -72,7 +72,8 @@ def number_of(scene: Scene, key: str) -> float:
         )
     if not _positive(value):
         raise UserError(
-            f"{where}: '{key}' is {show_value(value)}; only a positive number can be fitted. {_others(scene, key, path)}"
+            f"{where}: '{key}' is {show_value(value)}; only a positive number can be fitted. "
+            f"{_others(scene, key, path)}"
         )
     return float(value)
 
