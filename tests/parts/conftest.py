@@ -128,6 +128,7 @@ def drawn_arm(
     integrator: str = "newmark",
     step: float = 1e-3,
     branching: bool = False,
+    floating: bool = False,
     **model: Any,
 ) -> Scene:
     """Return a random arm of so many parts, in shuffled order, with every input and output."""
@@ -136,6 +137,7 @@ def drawn_arm(
     turning, solid = [], []
     on = "base"
     kind = str(random.choice(["clamp", "motor", "prescribed"], p=[0.6, 0.2, 0.2]))
+    kind = "free" if floating else kind
     for number in range(count):
         name = f"part{number}"
         if number % 2 == 0:
@@ -154,13 +156,17 @@ def drawn_arm(
         if random.uniform() < 0.4:
             mass, inertia = random.uniform(0.05, 0.4), random.uniform(0.0, 1e-3)
             hung.append(("[body]", {"name": f"body_{name}", "on": name, "mass": mass, "inertia": inertia}))
+    if floating:
+        hub = {"mass": random.choice([0.0, random.uniform(0.1, 2.0)]), "inertia": random.uniform(1e-3, 0.02)}
+        hung.append(("[body]", {"name": "hub", "on": "base", **hub}))
     random.shuffle(hung)  # type: ignore[arg-type]
     base: dict[str, Any] = {"kind": kind} | ({"inertia": 0.05, "damping": 0.1} if kind == "motor" else {})
     inputs = [(f"torque_{name}", name, "torque") for name in turning]
     inputs += [("push", solid[0], "force_x"), ("twist", solid[-1], "torque"), ("lift", solid[-1], "force_y")]
-    inputs += [("hub", "base", "torque")] * (kind == "motor") + [("hub", "base", "angle")] * (
-        kind == "prescribed"
-    )
+    inputs += [("hub_push", "base", "force_x"), ("hub_lift", "base", "force_y")] * floating
+    inputs += [("hub_turn", "base", "torque")] * (kind in ("motor", "free")) + [
+        ("hub_angle", "base", "angle")
+    ] * (kind == "prescribed")
     outputs = [
         (f"{of}_in_{name}", name, of) for name in turning for of in ("angle", "rate", "torque", "force")
     ]
@@ -170,7 +176,8 @@ def drawn_arm(
         (f"{what}_energy", "arm", f"{what}_energy") for what in ("kinetic", "elastic", "gravitational")
     ]
     outputs += [("heat", "arm", "dissipated_energy")]
-    outputs += [(f"{of}_at_base", "base", of) for of in ("torque", "force") if branching and kind != "motor"]
+    of_base = motions if floating else ("torque", "force") if branching and kind != "motor" else ()
+    outputs += [(f"{of}_at_base", "base", of) for of in of_base]
     start = {key: random.uniform(-0.4, 0.4, len(solid)).round(3).tolist() for key in ("angles", "rates")}
     tables = [
         ("model", {"kind": "planar", "gravity": 9.81, **model}),

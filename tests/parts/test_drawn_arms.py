@@ -32,9 +32,12 @@ FEW = settings(max_examples=8, deadline=None, derandomize=True, suppress_health_
 
 
 @FEW
-@given(seed=st.integers(0, 10_000), count=st.integers(2, 12), branching=st.booleans())
-def test_backends_agree(seed: int, count: int, branching: bool, drawn: Callable[..., Scene]) -> None:
-    scene = drawn(seed, count, branching=branching)
+@example(seed=3, count=7, branching=True, floating=True)
+@given(seed=st.integers(0, 10_000), count=st.integers(2, 12), branching=st.booleans(), floating=st.booleans())
+def test_backends_agree(
+    seed: int, count: int, branching: bool, floating: bool, drawn: Callable[..., Scene]
+) -> None:
+    scene = drawn(seed, count, branching=branching, floating=floating)
     program = build_program(scene)
     module = numpy_module(scene, program)
     ours = numpy_step(module, program)
@@ -45,19 +48,21 @@ def test_backends_agree(seed: int, count: int, branching: bool, drawn: Callable[
 
 
 @FEW
-@example(seed=15, count=6, order=4, branching=True)  # a motor with an elastic gear begins a second branch
+@example(seed=15, count=6, order=4, branching=True, floating=False)  # an elastic gear begins a branch
 @given(
     seed=st.integers(0, 10_000),
     count=st.integers(2, 12),
     order=st.sampled_from([2, 4]),
     branching=st.booleans(),
+    floating=st.booleans(),
 )
 def test_steps_are_those_of_lagranges_equations(
-    seed: int, count: int, order: int, branching: bool, drawn: Callable[..., Scene]
+    seed: int, count: int, order: int, branching: bool, floating: bool, drawn: Callable[..., Scene]
 ) -> None:
     """Within ten times the step's own error, which halving the step shows."""
     name, step, sweeps = {2: ("newmark", 2.5e-4, 2), 4: ("sdirk4", 1e-3, 1)}[order]
-    scene = drawn(seed, count, integrator=name, step=step, branching=branching, iterations=sweeps)
+    arm = {"branching": branching, "floating": floating}
+    scene = drawn(seed, count, integrator=name, step=step, iterations=sweeps, **arm)
     signals = {
         item.name: Sine(0.02, 3.0 + k, np.pi / 2.0 if item.acts == "angle" else 0.3)
         for k, item in enumerate(scene.inputs)

@@ -8,6 +8,7 @@ from typing import Any
 
 from tmm_gen.scene import Input, Output, Scene, station_of
 from tmm_gen.scene.beam import Tip
+from tmm_gen.scene.model import Base
 from tmm_gen.scene.signal import Acts, Of
 
 Change = Callable[[Scene], Scene]
@@ -177,8 +178,9 @@ def _base(scene: Scene) -> list[Term]:
     hub = "a hub that turns"
     if not scene.base.moves:
         return [Term(hub, False, 'base.kind = "clamp"', lambda s: _with_base(s, kind="motor", inertia=1.0))]
+    hub = "a base that floats" if scene.floats else hub
     found = [Term(hub, True, f'base.kind = "{scene.base.kind}"', _clamped)]
-    if scene.hub:
+    if scene.hub and not scene.floats:
         c = scene.base.damping
         why = f"base.damping = {c:g}" if c else "no base.damping"
         found.append(
@@ -191,7 +193,8 @@ def _clamped(scene: Scene) -> Scene:
     """Return the scene on a clamp, without what acts on the hub or is read off it."""
     inputs = tuple(i for i in scene.inputs if i.at != "base")
     outputs = tuple(o for o in scene.outputs if o.at != "base" or scene.quantity(o).in_joint)
-    return _with_base(replace(scene, inputs=inputs, outputs=outputs), kind="clamp", inertia=0.0, damping=0.0)
+    clamp = Base.model_construct(kind="clamp", inertia=0.0, damping=0.0)
+    return replace(scene, inputs=inputs, outputs=outputs, base=clamp)
 
 
 def _tip(scene: Scene) -> list[Term]:

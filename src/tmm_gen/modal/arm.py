@@ -16,6 +16,7 @@ from tmm_gen.derive.transfer import laplace_matrix
 from tmm_gen.modal.blocks import ElementFunctions, element_functions
 from tmm_gen.modal.rest import Rest, rest_at, straight
 from tmm_gen.scene import Scene, station_of
+from tmm_gen.scene.model import FloatingBase
 
 Array = NDArray[np.float64]
 _Loads = tuple[tuple[int, tuple[float, ...]], ...]
@@ -147,7 +148,11 @@ def _planar(scene: Scene, rest: Rest) -> LinearArm:
     def add(name: str, station: int, *values: float, loads: _Loads = ()) -> None:
         placed.append(Placed(name, at_rest[name], station, values, loads))
 
-    if scene.hub:
+    if isinstance(scene.base, FloatingBase):
+        placed.append(
+            Placed("hub", at_rest["tip"], 0, (scene.base.mass, scene.base.inertia, *still), loads[0])
+        )
+    elif scene.hub:
         add("hub", 0, scene.base.inertia, scene.base.damping, *still, loads=loads[0])
     for i, (joint, link) in enumerate(zip(scene.joints, scene.links, strict=True)):
         if joint.stiffness > 0.0 and not joint.rotor_inertia and not drives[i]:
@@ -160,7 +165,7 @@ def _planar(scene: Scene, rest: Rest) -> LinearArm:
         add("link", i + 1, *own, *state, loads=loads[i + 1])
     if scene.tip and (scene.tip.mass or scene.tip.inertia):
         add("tip", scene.stations, scene.tip.mass, scene.tip.inertia, *still)
-    free = (False, False, bool(scene.hub))
+    free = (scene.floats, scene.floats, bool(scene.hub))
     return LinearArm(scene, 3, tuple(placed), free, _prescribed(scene), -1.0, rest)
 
 

@@ -37,6 +37,9 @@ class Parts:
         What gravity, loads and bearings add to each free angle alone.
     hub_inertia : float
         kg m^2.
+    floating_mass : float
+        Of the whole arm where its base floats, kg; else infinite. What moves it as a whole takes no coordinate: the
+        base moves so that the centre of mass stays.
     reach : array, (n, p)
         How a link's outer end moves as it turns; ``p`` is 0 in a chain, 2 in the plane.
     inertia : array, (n, p + 1, p + 1)
@@ -56,6 +59,7 @@ class Parts:
     ground_stiffness: Array
     ground_damping: Array
     hub_inertia: float
+    floating_mass: float
     reach: Array
     inertia: Array
     tip: Array
@@ -75,7 +79,22 @@ class Parts:
         found[-1] += self.tip[-1, -1]
         on_base, *on_links = self.limbs.carried(self.rotor)
         found = found + self.rotor + on_links
-        return np.append(self.hub_inertia + on_base, found) if self.hub else found
+        whole = np.append(self.hub_inertia + on_base, found) if self.hub else found
+        diagonal: Array = whole - np.sum(self._moments**2, axis=1) / self.floating_mass
+        return diagonal
+
+    def base_moved(self, angles: Array) -> Array:
+        """Return how a base that floats moves with free angles, (p,); zero where it is held."""
+        return -(self._moments.T @ angles) / self.floating_mass
+
+    @cached_property
+    def _moments(self) -> Array:
+        """Forces on a base held in its place, (d, p), per unit of each angle's acceleration: first moments of mass."""
+        place = self.reach.shape[1]
+        pulled = self._at_outer_ends(self.inertia[:, :place, :place], self.tip[:place, :place])
+        found = self.inertia[:, place, :place] + np.einsum("ni,nij->nj", self.reach, pulled)
+        found[-1] += self.tip[place, :place]
+        return np.concatenate([np.zeros((1, place)), found]) if self.hub else found
 
     @cached_property
     def free(self) -> Limbs:
@@ -105,6 +124,7 @@ class Parts:
         pulled = self._at_outer_ends(force[:, :-1], at_tip[:-1])
         torque = force[:, -1] + np.sum(self.reach[:, :, None] * pulled, axis=1)
         moved = np.concatenate([self.hub_inertia * angles[:1], torque]) if self.hub else torque
+        moved = moved - self._moments @ (self._moments.T @ angles) / self.floating_mass
         return moved + self._between(self.rotor, np.zeros(self.size), angles) if self.rotor.any() else moved
 
     def held(self, angles: Array) -> Array:
@@ -169,6 +189,9 @@ def parts_of(arm: LinearArm) -> Parts:
         ground_stiffness=ground[0],
         ground_damping=ground[1],
         hub_inertia=float(bodies[0][2, -1, -1]),
+        floating_mass=float(links[2, :, 0, 0].sum() + bodies[0][2, 0, 0] + bodies[n][2, 0, 0])
+        if arm.free[0] and width > 1
+        else np.inf,
         reach=reach,
         inertia=0.5 * (links[2] + links[2].transpose(0, 2, 1)),  # symmetric but for rounding
         tip=bodies[n][2],

@@ -12,6 +12,7 @@ from tmm_gen.modal.arm import LinearArm
 from tmm_gen.modal.beam import BeamArm, beam_shape
 from tmm_gen.modal.limbs import limbs_of
 from tmm_gen.modal.modes import Mode
+from tmm_gen.modal.parts import parts_of
 from tmm_gen.style import FAINT, PALETTE, figure, picture, style, subtitle
 
 if TYPE_CHECKING:
@@ -99,7 +100,7 @@ def _nodes(arm: LinearArm, shape: Array) -> tuple[Array, Array]:
     across = np.array([-lengths * np.sin(angles) * turned, lengths * np.cos(angles) * turned])
     zero = np.zeros((2, 1))
     place, moved = (np.concatenate([zero, limbs.outward(each.T).T], axis=1) for each in (along, across))
-    return place, moved
+    return place, moved + parts_of(arm).base_moved(shape)[:, None]
 
 
 def _strokes(arm: LinearArm) -> list[list[int]]:

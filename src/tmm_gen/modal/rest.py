@@ -84,6 +84,8 @@ def rest_at(
     prescribed = sum(given.get(item.name, 0.0) for item in scene.inputs if item.acts == "angle")
     hub = float(free_angles[0]) if turning else prescribed
     falling = (scene.model.gravity or 0.0) if gravity is None else gravity
+    if scene.floats:  # it falls freely, and no joint feels it
+        falling = 0.0
     loads = _loads(scene, given)
     link_balance, tip_balance = _balance("link"), _balance("tip")
     carried = np.zeros((n + 1, 3))  # at the base and each link's outer end

@@ -9,8 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.inputs.signals import Signal
+from tmm_gen.reference.floating import base_place
 from tmm_gen.reference.planar_arm import Arm
 from tmm_gen.scene import Scene
+from tmm_gen.scene.model import FloatingBase
 
 Array = NDArray[np.float64]
 
@@ -85,6 +87,10 @@ def energy(scene: Scene, signals: Mapping[str, Signal], time: Array, angle: Arra
     torque, force_x, force_y = arm.loads(time)
     beyond_x, beyond_y = arm.beyond(force_x), arm.beyond(force_y)
     supply = np.sum(rate * (torque + arm.lengths * (c * beyond_y - s * beyond_x)), axis=1)
+    still = np.zeros_like(rate)  # accelerations: neither places nor velocities depend on them
+    if scene.floats:
+        base_x, base_y = base_place(arm, 1, time, angle, rate, still)
+        supply += base_x * force_x.sum(axis=1) + base_y * force_y.sum(axis=1)
     if scene.prescribed:
         base_angle, base_rate = arm.base_motion(time)
         for place in np.flatnonzero(arm.inner < 0):
@@ -96,18 +102,21 @@ def energy(scene: Scene, signals: Mapping[str, Signal], time: Array, angle: Arra
             supply += base_rate * spring - moved * (joint.stiffness * base_angle + joint.damping * base_rate)
     return Energy(
         time,
-        kinetic_energy(arm, angle, rate),
+        kinetic_energy(arm, angle, rate, base_place(arm, 1, time, angle, rate, still)),
         elastic_energy(arm, time, angle),
-        gravitational_energy(arm, angle),
+        gravitational_energy(arm, angle, base_place(arm, 0, time, angle, rate, still)),
         dissipation(arm, time, rate),
         supply,
     )
 
 
-def kinetic_energy(arm: Arm, angle: Array, rate: Array) -> Array:
-    """Return the kinetic energy of hub, links, tip and rotors, (k,), J."""
-    along_x, along_y = arm.walked(np.sin(angle) * rate), arm.walked(np.cos(angle) * rate)
+def kinetic_energy(arm: Arm, angle: Array, rate: Array, base: tuple[Array, Array]) -> Array:
+    """Return the kinetic energy of base, links, tip and rotors, (k,), J; the base's velocity is given along x and y."""
+    along_x = base[0][:, None] - arm.walked(np.sin(angle) * rate)
+    along_y = base[1][:, None] + arm.walked(np.cos(angle) * rate)
     found: Array = 0.5 * (along_x**2 + along_y**2) @ arm.masses + 0.5 * rate**2 @ arm.inertias
+    if isinstance(arm.scene.base, FloatingBase):
+        found += 0.5 * arm.scene.base.mass * (base[0] ** 2 + base[1] ** 2)
     if arm.rotors.any():
         found += 0.5 * arm.bent(rate) ** 2 @ arm.rotors
     return found
@@ -119,9 +128,11 @@ def elastic_energy(arm: Arm, time: Array, angle: Array) -> Array:
     return found
 
 
-def gravitational_energy(arm: Arm, angle: Array) -> Array:
-    """Return the energy of height above the base, (k,), J."""
+def gravitational_energy(arm: Arm, angle: Array, base: tuple[Array, Array]) -> Array:
+    """Return the energy of height above where the base started, (k,), J."""
     found: Array = arm.gravity * (np.sin(angle) @ arm.moments)
+    if arm.scene.floats:
+        found += arm.gravity * arm.whole * base[1]
     return found
 
 

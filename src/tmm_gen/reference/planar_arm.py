@@ -8,10 +8,15 @@ The coordinates are the absolute angles of hub and links; with the place of each
 
 with ``B_jk`` the masses times the lever arms they have in ``j`` and in ``k``, and ``b_j`` the first moments. A rotor
 between two links has the kinetic energy ``1/2 J_a (q_j' - q_i')^2``. No forces between links occur.
+
+Where the base floats, the centre of mass moves as all forces together push it, and the arm turns about it:
+``B_jk - b_j b_k / M`` stands in place of ``B_jk``, ``M`` the whole mass, and gravity turns nothing
+(:mod:`tmm_gen.reference.floating` says where the base is).
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -22,6 +27,7 @@ from numpy.typing import NDArray
 from tmm_gen.inputs.signals import Constant, Signal
 from tmm_gen.reference.collocation import Trajectory, integrate
 from tmm_gen.scene import Scene, station_of
+from tmm_gen.scene.model import FloatingBase
 
 Array = NDArray[np.float64]
 
@@ -63,6 +69,12 @@ class Arm:
         return self.gathered(self.masses)
 
     @cached_property
+    def whole(self) -> float:
+        """Mass of the arm and its base where that floats, kg; infinite where something holds it."""
+        base = self.scene.base
+        return float(self.masses.sum()) + base.mass if isinstance(base, FloatingBase) else math.inf
+
+    @cached_property
     def inertias(self) -> Array:
         """Inertias about the own centres, (n,), kg m^2; the tip's turns with the last link."""
         tip = self.scene.tip
@@ -74,6 +86,11 @@ class Arm:
     def gravity(self) -> float:
         """Along -y, m/s^2."""
         return self.scene.model.gravity or 0.0
+
+    @property
+    def weight(self) -> float:
+        """What of it the joints feel, m/s^2: nothing where the arm falls freely."""
+        return 0.0 if self.scene.floats else self.gravity
 
     # -- what hangs on what ------------------------------------------------------------------------------------
 
@@ -182,7 +199,8 @@ class Arm:
     @cached_property
     def coupling(self) -> Array:
         """``B``, (n, n), kg m^2."""
-        return (self.levers.T * self.masses) @ self.levers
+        about_base = (self.levers.T * self.masses) @ self.levers
+        return about_base - np.outer(self.moments, self.moments) / self.whole
 
     @cached_property
     def springs(self) -> tuple[Array, Array]:
@@ -244,18 +262,28 @@ class Arm:
         torque, force_x, force_y = self.loads(times)
         s, c = np.sin(q), np.cos(q)
         # cos(qj - qk) ak + sin(qj - qk) vk^2, summed over k with B, from the accelerations of the bodies
-        along = self.gathered(self.masses * self.walked(c * a - s * v**2))
-        across = self.gathered(self.masses * self.walked(s * a + c * v**2))
+        along = self._carried(c * a - s * v**2)
+        across = self._carried(s * a + c * v**2)
         inertial = c * along + s * across + self.inertias * a
-        weight = self.gravity * self.moments * c
-        beyond_x, beyond_y = self.beyond(force_x), self.beyond(force_y)
-        pushed = self.lengths * (c * beyond_y - s * beyond_x)
+        weight = self.weight * self.moments * c
+        moment_x, moment_y = self._moment(force_x), self._moment(force_y)
+        pushed = c * moment_y - s * moment_x
         joints = self.spring_torques(q) + self.damper_torques(v)
         if self.rotors.any():
             joints = joints + self.rotor_torques(a)
         if self.slack.any():
             joints = joints - self._pulled(self.joints[0] * self.slack)
         return inertial + weight + joints - torque - pushed
+
+    def _carried(self, x: Array) -> Array:
+        """Return ``B`` times values, (k, n)."""
+        found = self.gathered(self.masses * self.walked(x))
+        return found - np.outer(x @ self.moments, self.moments) / self.whole
+
+    def _moment(self, force: Array) -> Array:
+        """Return lever arms times the forces beyond each link, (k, n); of an arm that floats about its centre."""
+        found = self.lengths * self.beyond(force)
+        return found - np.outer(force.sum(axis=1), self.moments) / self.whole
 
     def slopes(self, times: Array, q: Array, v: Array, a: Array) -> tuple[Array, Array, Array]:
         """Return the derivatives of the residual by angles, rates and accelerations, (k, n, n) each."""
@@ -267,9 +295,9 @@ class Arm:
         diagonal = np.arange(len(self.lengths))
         by_q = pull + stiffness
         by_q[:, diagonal, diagonal] -= pull.sum(axis=2)
-        by_q[:, diagonal, diagonal] -= self.gravity * self.moments * np.sin(q)
-        beyond_x, beyond_y = self.beyond(force_x), self.beyond(force_y)
-        by_q[:, diagonal, diagonal] += self.lengths * (np.sin(q) * beyond_y + np.cos(q) * beyond_x)
+        by_q[:, diagonal, diagonal] -= self.weight * self.moments * np.sin(q)
+        moment_x, moment_y = self._moment(force_x), self._moment(force_y)
+        by_q[:, diagonal, diagonal] += np.sin(q) * moment_y + np.cos(q) * moment_x
         by_v = 2.0 * sine * v[:, None, :] + damping
         by_a = cosine + self.own_inertias
         return by_q, by_v, by_a

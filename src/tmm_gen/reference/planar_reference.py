@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from tmm_gen.inputs.signals import Signal
 from tmm_gen.reference.collocation import Trajectory
 from tmm_gen.reference.energy import dissipation, elastic_energy, gravitational_energy, kinetic_energy
+from tmm_gen.reference.floating import base_place
 from tmm_gen.reference.planar_arm import Arm
 from tmm_gen.scene import Output, Scene, station_of
 
@@ -78,7 +79,7 @@ def read(arm: Arm, output: Output, times: Array, q: Array, v: Array, a: Array) -
         joints = arm.scene.joints_of(output)
         values = [np.sum([_through(arm, k, times, q, v, a) for k in joints], axis=0)]
     elif quantity.read == "energy":
-        values = [_energy(arm, quantity.energy, times, q, v)]
+        values = [_energy(arm, quantity.energy, times, q, v, a)]
     elif quantity.read == "own":
         values = [_torque(arm, output, times, q, v, a)]
     elif quantity.read == "force":
@@ -87,7 +88,12 @@ def read(arm: Arm, output: Output, times: Array, q: Array, v: Array, a: Array) -
     else:
         on_the_way = arm.paths[station - 1 + arm.first] if station else 0.0
         lever = arm.lengths * on_the_way
-        values = list(arm.point(quantity.order, lever, q, v, a))
+        moving = zip(
+            arm.point(quantity.order, lever, q, v, a),
+            base_place(arm, quantity.order, times, q, v, a),
+            strict=True,
+        )
+        values = [of_point + of_base for of_point, of_base in moving]
     return dict(zip(quantity.columns(output.name), values, strict=True))
 
 
@@ -98,11 +104,13 @@ def _ground(arm: Arm, number: int, times: Array) -> tuple[Array, Array]:
     return on_base * angle, on_base * rate
 
 
-def _energy(arm: Arm, which: str, times: Array, q: Array, v: Array) -> Array:
+def _energy(arm: Arm, which: str, times: Array, q: Array, v: Array, a: Array) -> Array:
     """Return an energy that depends on the present state alone, (k,), J."""
     if which == "kinetic":
-        return kinetic_energy(arm, q, v)
-    return elastic_energy(arm, times, q) if which == "elastic" else gravitational_energy(arm, q)
+        return kinetic_energy(arm, q, v, base_place(arm, 1, times, q, v, a))
+    if which == "elastic":
+        return elastic_energy(arm, times, q)
+    return gravitational_energy(arm, q, base_place(arm, 0, times, q, v, a))
 
 
 def _torque(arm: Arm, output: Output, times: Array, q: Array, v: Array, a: Array) -> Array:
@@ -150,9 +158,10 @@ def _force(arm: Arm, joint: int, times: Array, q: Array, v: Array, a: Array) -> 
     bodies = np.append(beyond[arm.first :], beyond[-1])
     if joint > arm.scene.stations:
         bodies[:-1] = False
+    base_x, base_y = base_place(arm, 2, times, q, v, a)
     for body in np.flatnonzero(bodies):
         ax, ay = arm.point(2, arm.levers[body], q, v, a)
-        x, y = x + arm.masses[body] * ax, y + arm.masses[body] * (ay + arm.gravity)
+        x, y = x + arm.masses[body] * (ax + base_x), y + arm.masses[body] * (ay + base_y + arm.gravity)
     return x - load_x[:, beyond].sum(axis=1), y - load_y[:, beyond].sum(axis=1)
 
 

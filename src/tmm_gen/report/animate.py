@@ -8,6 +8,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from tmm_gen.inputs.signals import Table
+from tmm_gen.reference.floating import base_place
+from tmm_gen.reference.planar_arm import Arm
 from tmm_gen.scene import Scene
 from tmm_gen.scratch import scratch_folder
 from tmm_gen.simulate.places import ends, node_places, outline
@@ -42,6 +45,18 @@ def link_angles(simulation: Simulation) -> Array:
     return simulation.trace.angle[:, -simulation.scene.stations :]
 
 
+def _places(simulation: Simulation) -> tuple[Array, Array]:
+    """Return where base and outer ends are, (k + 1, n + 1) along x and y."""
+    scene, trace = simulation.scene, simulation.trace
+    x, y = node_places(scene, link_angles(simulation))
+    if scene.floats and trace is not None:
+        signals = {name: Table(simulation.time, values) for name, values in simulation.inputs.items()}
+        still = np.zeros_like(trace.angle)
+        base = base_place(Arm(scene, signals), 0, simulation.time, trace.angle, still, still)
+        x, y = (places + along[:, None] for places, along in zip((x, y), base, strict=True))
+    return x, y
+
+
 def frame_instants(simulation: Simulation) -> tuple[Array, float]:
     """Return which instants are shown, (frames,), and how many times faster than they pass."""
     duration = float(simulation.time[-1])
@@ -65,7 +80,7 @@ def animation(simulation: Simulation, form: str) -> bytes:
 
     scene = simulation.scene
     shown, speed = frame_instants(simulation)
-    x, y = node_places(scene, link_angles(simulation))
+    x, y = _places(simulation)
     lines, tips = [outline(scene, places) for places in (x, y)], list(ends(scene))
     with style():
         made, axes = figure(5.6, 5.2)
@@ -82,6 +97,7 @@ def animation(simulation: Simulation, form: str) -> bytes:
             marker="o",
             markersize=_dots(scene),
         )
+        (hub,) = axes.plot([], [], "s", color=INK, markersize=9.0)
         (tip,) = axes.plot([], [], "o", color=PALETTE[1], markersize=9.0 if scene.tip else 5.0, zorder=4)
         faster = "" if abs(speed - 1.0) < 0.05 else f", shown {speed:.2g} times as fast"
         clock = axes.text(0.02, 0.98, "", transform=axes.transAxes, va="top", color=INK)
@@ -90,10 +106,12 @@ def animation(simulation: Simulation, form: str) -> bytes:
             k = shown[index]
             arm.set_data(lines[0][k], lines[1][k])
             tip.set_data(x[k, tips], y[k, tips])
+            if scene.floats:
+                hub.set_data(x[k, :1], y[k, :1])
             for path, number in zip(paths, tips, strict=True):
                 path.set_data(x[: k + 1, number], y[: k + 1, number])
             clock.set_text(f"{simulation.time[k]:.2f} s{faster}")
-            return arm, tip, *paths, clock
+            return arm, hub, tip, *paths, clock
 
         moving = FuncAnimation(made, draw, frames=len(shown), blit=False)
         with scratch_folder() as folder:
@@ -110,7 +128,7 @@ def draw_shapes(axes: Axes, simulation: Simulation) -> None:
     import matplotlib as mpl
 
     scene = simulation.scene
-    x, y = node_places(scene, link_angles(simulation))
+    x, y = _places(simulation)
     shown = np.unique(np.round(np.linspace(0, simulation.steps, SHAPES)).astype(int))
     _ground(axes, scene, x, y)
     colours = mpl.colormaps["Blues"](np.linspace(0.25, 1.0, len(shown)))
@@ -119,6 +137,8 @@ def draw_shapes(axes: Axes, simulation: Simulation) -> None:
     for k, colour in zip(shown, colours, strict=True):
         axes.plot(line[0][k], line[1][k], color=colour, linewidth=2.0)
         axes.plot(x[k, tips], y[k, tips], "o", color=colour, markersize=6.0 if scene.tip else 3.5)
+        if scene.floats:
+            axes.plot(x[k, 0], y[k, 0], "s", color=colour, markersize=7.0)
     for k, colour in ((shown[0], colours[0]), (shown[-1], colours[-1])):
         axes.annotate(
             f"{simulation.time[k]:.3g} s",
@@ -144,7 +164,7 @@ def _ground(axes: Axes, scene: Scene, x: Array, y: Array) -> None:
         # a wall across the first link, so that an arm which stands upright can be seen before it
         across = 0.07 * reach * np.array([-np.sin(scene.initial.angles[0]), np.cos(scene.initial.angles[0])])
         axes.plot([-across[0], across[0]], [-across[1], across[1]], color=INK, linewidth=5.0, zorder=3)
-    else:
+    elif not scene.floats:
         axes.plot(
             0.0, 0.0, "o", color="white", markeredgecolor=INK, markeredgewidth=2.0, markersize=13, zorder=3
         )

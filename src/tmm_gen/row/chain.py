@@ -83,6 +83,7 @@ def chain_row(scene: Scene, integrator: str) -> Row:
         tail=tail,
         detail=detail,
         detail_tail=tail,
+        detail_base=base,
         parameters=tuple(p for p in found if p is not None),
         combinations=(turn,) if geared else (),
         inputs=signals_of(scene),

@@ -21,6 +21,7 @@ from tmm_gen.row.words import (
     symbol,
 )
 from tmm_gen.scene import Joint, Scene, station_of
+from tmm_gen.scene.model import FloatingBase
 from tmm_gen.scene.quantity import INPUT_UNITS
 
 ALONG_X = Coordinate("x", "force_x", False, "m/s^2", "N")
@@ -51,12 +52,13 @@ def planar_row(scene: Scene, integrator: str) -> Row:
     hub = _body(named["hub_inertia"])
     if named["hub_damping"] is not None:
         hub += (element.BEARING.with_values({element.FRICTION: symbol(named["hub_damping"])}),)
+    floating, base_mass = _floating(scene, symbol(named["hub_mass"]), (1 - center) * mass)
+    hub_mass = (_mass(symbol(named["hub_mass"])),) if named["hub_mass"] is not None else ()
     inner, outer = _mass(mass * (1 - center)), _mass(mass * center)
     on_link, at_tip = _load(loads["station"]), _load(loads["tail"])
     tip_mass, tip_body = symbol(named["tip_mass"]), _body(named["tip_inertia"])
     detail = (inner, _rod(length, left_over), outer, *on_link)
     combinations: tuple[Combination, ...] = ()
-    shaft: Elements = ()
     if scene.model.linearisation == "newton":
         rest = Combination(
             "rod_inertia", "inertia of a link that masses at its ends leave over", "kg m^2", left_over
@@ -82,8 +84,7 @@ def planar_row(scene: Scene, integrator: str) -> Row:
             )
             combinations, node_mass, beyond = (joined, rest), sp.Symbol(joined.name), sp.Integer(0)
         rod_inertia = sp.Symbol(rest.name)
-        shaft = (_mass(node_mass),)
-        station: Elements = (_rod(length, rod_inertia), *shaft, *on_link)
+        station: Elements = (_rod(length, rod_inertia), _mass(node_mass), *on_link)
         tail: Elements = (*((_mass(beyond),) if beyond != 0 else ()), *tip_body, *at_tip)
     else:
         combinations = (
@@ -117,14 +118,15 @@ def planar_row(scene: Scene, integrator: str) -> Row:
         coordinates=(ALONG_X, ALONG_Y, ANGLE),
         about="prediction",
         sign=1,
-        base=(*hub, *_load(loads["base"])),
+        base=(*floating, *hub, *_load(loads["base"])),
         boundary=boundary_of(scene),
-        stations=_behind(scene, pins, station, shaft),
+        stations=_behind(scene, pins, station),
         tail=tail,
         detail=_behind(scene, pins_in_detail, detail),
         detail_tail=(*((_mass(tip_mass),) if tip_mass != 0 else ()), *tip_body, *at_tip),
+        detail_base=(*hub_mass, *hub, *_load(loads["base"])),
         parameters=tuple(p for p in named.values() if p is not None),
-        combinations=(*combinations, *_armature(scene)),
+        combinations=(*combinations, *base_mass, *_armature(scene)),
         inputs=signals_of(scene),
         loads=(*(load for group in loads.values() for load in group.values()), *drives),
         prescribed=prescribed_of(scene),
@@ -138,7 +140,17 @@ def planar_row(scene: Scene, integrator: str) -> Row:
         angles=tuple(scene.initial.angles),
         rates=tuple(scene.initial.rates),
         hosts=tuple(host - 1 for host in scene.hosts),
+        floats=scene.floats,
     )
+
+
+def _floating(scene: Scene, own: sp.Expr, of_link: sp.Expr) -> tuple[Elements, tuple[Combination, ...]]:
+    """Return what moves with a base that floats: its own mass, and the shares of links that hang there."""
+    if not scene.floats:
+        return (), ()
+    doc = "mass at the base, its own and the shares of the links there"
+    joined = Combination("base_mass", doc, "kg", own, of_link, at_base=True)
+    return (_mass(sp.Symbol(joined.name)),), (joined,)
 
 
 def _parameters(scene: Scene) -> dict[str, Parameter | None]:
@@ -171,6 +183,9 @@ def _parameters(scene: Scene) -> dict[str, Parameter | None]:
         else None,
         optional("gravity", "gravity along -y", "m/s^2", scene.model.gravity),
         optional("hub_inertia", "hub inertia", "kg m^2", base.inertia if moved else None),
+        optional("hub_mass", "mass of the bodies at the base", "kg", scene.base.mass)
+        if isinstance(scene.base, FloatingBase)
+        else None,
         optional(
             "hub_damping",
             "viscous damping of the hub to ground",
@@ -182,7 +197,7 @@ def _parameters(scene: Scene) -> dict[str, Parameter | None]:
     )
     names = (
         *("length", "mass", "inertia", "center", "stiffness", "damping", "rest", "rotor_inertia", "gear"),
-        *("gravity", "hub_inertia", "hub_damping", "tip_mass", "tip_inertia"),
+        *("gravity", "hub_inertia", "hub_mass", "hub_damping", "tip_mass", "tip_inertia"),
     )
     return dict(zip(names, found, strict=True))
 
@@ -244,10 +259,10 @@ def _pin(
     return element.DRIVEN_PIN.with_values(values)
 
 
-def _behind(scene: Scene, pins: Elements, station: Elements, shaft: Elements = ()) -> tuple[Elements, ...]:
+def _behind(scene: Scene, pins: Elements, station: Elements) -> tuple[Elements, ...]:
     """Return each pin with what stands behind it; a shaft has neither length nor mass of its own."""
     return tuple(
-        (pin, *(shaft if link.massless else station)) for pin, link in zip(pins, scene.links, strict=True)
+        (pin, *(() if link.massless else station)) for pin, link in zip(pins, scene.links, strict=True)
     )
 
 

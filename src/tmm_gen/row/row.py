@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Literal
 
 import sympy as sp
 
 from tmm_gen.derive.elements.declaration import Element
+from tmm_gen.derive.station.frame import of_shaft
+from tmm_gen.derive.station.law import passes_on
 from tmm_gen.derive.station.lets import Coordinate
 from tmm_gen.scene.quantity import Read
 
@@ -50,6 +53,8 @@ class Combination:
         What those of the next station contribute.
     last : sympy.Expr
         What stands in its place at the last one.
+    at_base : bool
+        Whether it is one value at the base: its own, and what the stations that hang there contribute.
     """
 
     name: str
@@ -58,6 +63,7 @@ class Combination:
     own: sp.Expr
     beyond: sp.Expr = sp.S.Zero
     last: sp.Expr = sp.S.Zero
+    at_base: bool = False
 
 
 @dataclass(frozen=True)
@@ -148,7 +154,7 @@ class Row:
         Each begins with the element that gives way.
     tail : tuple of Element
         Beyond the last station.
-    detail, detail_tail : tuple of tuple of Element, tuple of Element
+    detail, detail_tail, detail_base : tuple of tuple of Element, tuple of Element, tuple of Element
         The same with nothing merged: what forces and energies are read off.
     parameters : tuple of Parameter
     combinations : tuple of Combination
@@ -167,6 +173,8 @@ class Row:
         For headers.
     angles, rates : tuple of float
         To start from.
+    floats : bool
+        Whether the base moves freely in the coordinates that are not integrated too.
     hosts : tuple of int
         Index of the station on whose outer end each one hangs, -1 for the base; each branch stands to its end before
         the next. Empty where each station carries the next.
@@ -183,6 +191,7 @@ class Row:
     tail: Elements
     detail: tuple[Elements, ...]
     detail_tail: Elements
+    detail_base: Elements
     parameters: tuple[Parameter, ...]
     combinations: tuple[Combination, ...]
     inputs: tuple[Signal, ...]
@@ -196,6 +205,7 @@ class Row:
     angles: tuple[float, ...] = ()
     rates: tuple[float, ...] = ()
     hosts: tuple[int, ...] = ()
+    floats: bool = False
 
     def host(self, station: int) -> int:
         """Return the index of the station on whose outer end one hangs, -1 for the base."""
@@ -206,6 +216,30 @@ class Row:
         if not self.hosts:
             return (station + 1,) if station + 1 < len(self.stations) else ()
         return tuple(index for index, host in enumerate(self.hosts) if host == station)
+
+    @cached_property
+    def shafts(self) -> frozenset[int]:
+        """Indices of the stations of one element with one station on them: nothing between the two has inertia."""
+        if self.about == "known":
+            return frozenset()
+        return frozenset(
+            k
+            for k, elements in enumerate(self.stations[:-1])
+            if len(elements) == 1 < len(self.stations[k + 1])
+            and self.carried(k) == (k + 1,)
+            and passes_on(elements[0])
+            and passes_on(self.stations[k + 1][0])
+        )
+
+    def swept(self) -> tuple[Elements, ...]:
+        """Return the stations as sweeps cross them: what turns a shaft stands in the station that the shaft turns."""
+        found = list(self.stations)
+        for k in self.shafts:
+            (element,) = self.stations[k]
+            symbols = (*element.parameters, *element.inputs)
+            found[k] = ()
+            found[k + 1] = (element.with_values({s: of_shaft(s) for s in symbols}), *self.stations[k + 1])
+        return tuple(found)
 
     def beyond(self, station: int) -> int:
         """Return where what a station carries ends: the index behind the last one."""

@@ -83,7 +83,8 @@ class Emit(Table):
         Bounds on the cost of the C code.
     box : dict from str to (low, high), optional
         Bounds within which the C code must be proved free of faults: ``angles`` (rad), ``rates`` (rad/s),
-        ``accelerations`` (rad/s^2) of all stations, ``step`` (s), and each input by its name.
+        ``accelerations`` (rad/s^2) of all stations, ``step`` (s), ``base_places``, ``base_velocities`` and
+        ``base_accelerations`` (m, m/s, m/s^2) of a base that floats, and each input by its name.
     """
 
     backends: Annotated[tuple[Backend, ...], AfterValidator(_distinct)] = Field(

@@ -131,3 +131,15 @@ class Base(Table):
     def turns(self) -> bool:
         """Whether it turns freely, so that its angle is one more coordinate."""
         return self.kind in ("motor", "free")
+
+
+class FloatingBase(Base):
+    """The base of a planar arm that nothing holds: the bodies on it, which turn and move freely.
+
+    Parameters
+    ----------
+    mass : float
+        kg, not negative.
+    """
+
+    mass: NonNegative = 0.0

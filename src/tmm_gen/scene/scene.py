@@ -13,7 +13,7 @@ from tmm_gen.scene.document import Document
 from tmm_gen.scene.emit import Emit
 from tmm_gen.scene.initial import Initial, broadcast
 from tmm_gen.scene.integrator import Integrator, underscored
-from tmm_gen.scene.model import Base, Model
+from tmm_gen.scene.model import Base, FloatingBase, Model
 from tmm_gen.scene.parts.document import PartsDocument
 from tmm_gen.scene.parts.expansion import PlacedPart
 from tmm_gen.scene.quantity import Quantity, quantities
@@ -96,6 +96,11 @@ class Scene:
     def hub(self) -> int:
         """Coordinates before that of link 1: 1 of a hub that turns freely, 0 where the base is held or prescribed."""
         return int(self.base.turns)
+
+    @property
+    def floats(self) -> bool:
+        """Whether nothing holds a planar arm, so that its base moves along x and y too."""
+        return isinstance(self.base, FloatingBase)
 
     @property
     def drivetrain(self) -> bool:

@@ -22,6 +22,7 @@ from tmm_gen.derive.integrators.registry import integrator
 from tmm_gen.derive.integrators.relations import UNKNOWN, affine_motion
 from tmm_gen.inputs.signals import Signal
 from tmm_gen.reference.energy import elastic_energy, gravitational_energy, kinetic_energy
+from tmm_gen.reference.floating import about_center
 from tmm_gen.reference.planar_arm import Arm
 from tmm_gen.scene import Scene
 from tmm_gen.simulate.step_error import step_error
@@ -97,10 +98,12 @@ class Unsolved:
         start = np.array([[0.0] * arm.first + list(self.scene.initial.angles)])
         q = np.concatenate([start, motion["q"]])
         times = np.concatenate([[0.0], times])
+        still = np.zeros_like(q)
+        base = about_center(arm, 1, motion["q"], motion["v"], motion["a"])
         moved = float(
-            np.max(kinetic_energy(arm, motion["q"], motion["v"]))
+            np.max(kinetic_energy(arm, motion["q"], motion["v"], base))
             + np.ptp(elastic_energy(arm, times, q))
-            + np.ptp(gravitational_energy(arm, q))
+            + np.ptp(gravitational_energy(arm, q, about_center(arm, 0, q, still, still)))
         )
         return max(0.0, float(work) - floor) / moved if moved > 0.0 else 0.0
 
@@ -136,7 +139,7 @@ class Unsolved:
         stiffness = np.zeros(q.shape[1])
         stiffness[arm.first :] += 2.0 * arm.joints[0]
         inertial = arm.gathered(arm.masses * arm.walked(a + v**2)) + arm.inertias * a
-        terms = stiffness * largest + inertial + arm.gravity * arm.moments
+        terms = stiffness * largest + inertial + arm.weight * arm.moments
         return np.asarray(_EPSILON[self.real] * np.sum(v * terms, axis=1))
 
 

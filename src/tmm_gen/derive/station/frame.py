@@ -16,9 +16,16 @@ SQUARE = sp.Symbol("square", real=True)
 INNER = {kind: sp.Symbol(f"inner_{kind}", real=True) for kind in KINDS}
 OUTER = {kind: sp.Symbol(f"outer_{kind}", real=True) for kind in KINDS}
 """Motion of the integrated coordinate at both sides of a station, at the point about which it is linearised."""
+MOUNT = {kind: sp.Symbol(f"mount_{kind}", real=True) for kind in KINDS}
+"""Motion of what a station's shaft is mounted on; the shaft's own is what is at the inner side."""
 GAINS = {kind: sp.Symbol(f"P_{kind}", real=True) for kind in KINDS}
 """Change of that motion per unknown."""
 UNKNOWN = sp.Symbol("unknown", real=True)
+
+
+def of_shaft(symbol: sp.Symbol) -> sp.Symbol:
+    """Return what stands for a shaft's own parameter or load in the station that it turns."""
+    return sp.Symbol(f"shaft_{symbol.name}")
 
 
 def node(coordinate: Coordinate) -> sp.Symbol:
@@ -119,7 +126,9 @@ class Frame:
 
     def settled(self, value: sp.Expr) -> sp.Expr:
         """Put zero where nothing is known to move."""
-        return value.xreplace({symbols[kind]: sp.S.Zero for kind in self.still for symbols in (INNER, OUTER)})
+        return value.xreplace(
+            {symbols[kind]: sp.S.Zero for kind in self.still for symbols in (MOUNT, INNER, OUTER)}
+        )
 
 
 def primitive(value: sp.Expr) -> sp.Expr:

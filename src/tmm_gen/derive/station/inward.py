@@ -11,10 +11,11 @@ from collections.abc import Callable, Mapping
 
 import sympy as sp
 
-from tmm_gen.derive.station.frame import INNER, OUTER, Frame, change, force, impedance, predicted_force
+from tmm_gen.derive.station.frame import Frame, change, force, impedance, predicted_force
 from tmm_gen.derive.station.law import KINDS
 from tmm_gen.derive.station.lets import Let, Line, Pivot, Update
 from tmm_gen.derive.station.motion import Outward, Passed
+from tmm_gen.derive.station.shaft import TORQUES, Shaft
 
 ZERO, ONE = sp.Integer(0), sp.Integer(1)
 
@@ -43,10 +44,13 @@ class Inward:
         self.arriving = zero
         """What was known to be zero at the outer side."""
         self.lines: list[Line] = []
+        self.ahead: list[Line] = []
+        """What known forces need besides motion: of parameters and gains alone."""
         self.known: list[Let] = []
         """Forces of elements that give way, at the point of linearisation."""
         self.answers: list[tuple[Passed, dict[str, sp.Expr]]] = []
         self._out = out
+        self.shaft: Shaft | None = None
         c = self.frame.coordinates
         self._s = {
             (i, k): ZERO if impedance(a, b) in zero else impedance(a, b)
@@ -59,7 +63,7 @@ class Inward:
             answers: dict[str, sp.Expr] = {}
             if passed.law.free is None:
                 self._carry(passed)
-            else:
+            elif passed is not out.turning:
                 answers = self._give_way(passed)
             self.answers.append((passed, answers))
         self.answers.reverse()
@@ -165,14 +169,20 @@ class Inward:
         ratio, besides = law.ratio, law.inner[own]
         of_inner, of_outer = self._gain(law.own, inside), self._gain(law.own, outside)
         more_inner, more_outer = self._gain(besides, inside), self._gain(besides, outside)
-        known = self._known(passed, law.own, TORQUE, "torque of each joint at the point of linearisation")
+        turning, doc = self._out.turning, "torque of each joint at the point of linearisation"
+        known = self._known(passed, law.own, TORQUES[1] if turning else TORQUE, doc)
         more = self._known(
             passed, besides, sp.Symbol("inner_torque", real=True), "what acts on its inner side besides"
         )
         load, bias = self._s[own, own], self._e[own]
         stiffness = -sign * of_outer
+        if turning is not None:
+            self.shaft = self._on_shaft(turning, stiffness, known)
+            self.ahead += self.shaft.ahead
+            self.known += self.shaft.known(TORQUE, doc)
+            stiffness, known = self.shaft.impedance, TORQUE
         if stiffness != 0:
-            self.lines.append(
+            (self.lines if self.shaft is None else self.ahead).append(
                 Let(
                     STIFFNESS, stiffness, "torque of a joint per difference of unknowns", frame.impedance_unit
                 )
@@ -254,6 +264,13 @@ class Inward:
         self._predict([ratio * known + more if i == own else self._p[i] for i in range(len(names))])
         return answers
 
+    def _on_shaft(self, turning: Passed, gear: sp.Expr, known: sp.Expr) -> Shaft:
+        """Eliminate the shaft between what turns it and its gear."""
+        law, outside = turning.law.own, turning.element.outboard.motions[self.frame.own]
+        torque = self._known(turning, law, TORQUES[0], "torque on each shaft at the point of linearisation")
+        turned = -self.frame.sign * self._gain(law, outside)
+        return Shaft((turned, gear), (torque, known), self.frame.sign, self.frame.impedance_unit)
+
     def _shares(
         self, known: sp.Expr, bias: sp.Expr, load: sp.Expr, stiffness: sp.Expr, ratio: sp.Expr
     ) -> sp.Expr:
@@ -281,7 +298,9 @@ class Inward:
         at_point = self.frame.settled(passed.at_point(value))
         if at_point == 0:
             return ZERO
-        differences = {kind: (INNER[kind], OUTER[kind]) for kind in KINDS}
+        own, element = self.frame.own, passed.element
+        inner, outer = (port.motions[own] for port in (element.inboard, element.outboard))
+        differences = {k: (passed.point[getattr(inner, k)], passed.point[getattr(outer, k)]) for k in KINDS}
         if not at_point.is_Atom or self.frame.about == "prediction":
             self.known.append(Let(symbol, grouped(at_point, differences), doc, "N m"))
             return symbol
@@ -361,7 +380,7 @@ def operations(e: sp.Expr) -> int:
 def back(inward: Inward) -> list[Line]:
     """Return the way out with the answers: the station's unknown, and the changes of its outer node."""
     frame = inward.frame
-    unknown = sp.Symbol("unknown", real=True)
+    unknown, before = sp.symbols("unknown inner_unknown", real=True)
     lines: list[Line] = []
     for passed, answers in inward.answers:
         if answers:
@@ -369,7 +388,11 @@ def back(inward: Inward) -> list[Line]:
             for c in frame.coordinates:
                 if c.name in answers:
                     value -= answers[c.name] * change(c)
-            lines.append(Update({unknown: value}))
+            if inward.shaft is None:
+                lines.append(Update({unknown: value}))
+            else:
+                lines.append(Let(before, unknown, "unknown of what a shaft is mounted on"))
+                lines += [Update({unknown: value}), inward.shaft.answer(before, unknown)]
         for i, swing in passed.swings.items():
             moved = change(frame.coordinates[i])
             lines.append(Update({moved: moved + swing * unknown}))

@@ -109,6 +109,17 @@ def by_time(expression: sp.Expr, *ports: Port) -> sp.Expr:
     return sp.Add(*(sp.diff(expression, s) * rate for s, rate in rates.items()))
 
 
+@cache
+def passes_on(element: Element) -> bool:
+    """Return whether an element gives way by differences of motion alone, with one force at both sides."""
+    law = law_of(element)
+    if law.free is None or law.ratio != 1 or law.inner[law.free] != 0:
+        return False
+    inner, outer = (port.motions[law.free] for port in (element.inboard, element.outboard))
+    pairs = [(getattr(inner, kind), getattr(outer, kind)) for kind in KINDS]
+    return all(sp.expand(sp.diff(law.own, a) + sp.diff(law.own, b)) == 0 for a, b in pairs)
+
+
 def impedance_law(element: Element) -> sp.Expr:
     """Return the force of an element that gives way per unknown of its outer side, by the symbols for gains."""
     law = law_of(element)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import sympy as sp
 
 from tmm_gen.derive.elements.declaration import Element
-from tmm_gen.derive.station.frame import COSINE, INNER, OUTER, SINE, SQUARE, Frame, node, primitive
+from tmm_gen.derive.station.frame import COSINE, INNER, MOUNT, OUTER, SINE, SQUARE, Frame, node, primitive
 from tmm_gen.derive.station.law import KINDS, Law, law_of
 from tmm_gen.derive.station.lets import Let
 from tmm_gen.derive.station.values import Values
@@ -55,7 +55,8 @@ class Outward:
     frame : Frame
         What it is derived for.
     moved : bool
-        Whether the first element to give way has been passed: a station's own begins with it, a base has none.
+        Whether the first element to give way has been passed: a station's own begins with it, a base has none. Where
+        two give way the station has a shaft, which turns between them and has no inertia.
     """
 
     def __init__(self, elements: tuple[Element, ...], frame: Frame, *, moved: bool = False) -> None:
@@ -63,13 +64,23 @@ class Outward:
         self.values = Values({SINE: COSINE})
         self.lets: list[Let] = []
         self.passed: list[Passed] = []
-        self._at: list[dict[str, sp.Expr]] = [
-            dict(OUTER if moved else INNER) if c.integrated else {"a": node(c)} for c in frame.coordinates
-        ]
         laws = [law_of(element) for element in elements]
+        giving = 0 if moved else sum(law.free is not None for law in laws)
+        self._sides = [OUTER, INNER, MOUNT][: giving + 1]
+        """Motion between the elements that give way, from the outer side inward."""
+        at = self._sides.pop()
+        self._at: list[dict[str, sp.Expr]] = [
+            dict(at) if c.integrated else {"a": node(c)} for c in frame.coordinates
+        ]
         self._name_levers(elements, laws)
         for element, law in zip(elements, laws, strict=True):
             self._pass(element, law)
+
+    @property
+    def turning(self) -> Passed | None:
+        """What turns the shaft, where there is one: the first of two elements that give way."""
+        giving = [passed for passed in self.passed if passed.law.free is not None]
+        return giving[0] if len(giving) > 1 else None
 
     @property
     def nodes(self) -> dict[str, sp.Expr]:
@@ -107,8 +118,9 @@ class Outward:
             point |= {getattr(motion, kind): value for kind, value in at.items()}
         swings: dict[int, sp.Expr] = {}
         if law.free is not None:
-            point |= {getattr(element.outboard.motions[law.free], k): OUTER[k] for k in KINDS}
-            self._at[law.free] = dict(OUTER)
+            side = self._sides.pop()
+            point |= {getattr(element.outboard.motions[law.free], k): side[k] for k in KINDS}
+            self._at[law.free] = dict(side)
         else:
             swings = self._move(element, law, point)
         self.passed.append(Passed(element, law, point, swings))

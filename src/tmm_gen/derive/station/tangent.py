@@ -15,7 +15,7 @@ from collections.abc import Mapping
 import sympy as sp
 
 from tmm_gen.derive.station.frame import OUTER, Frame, force, node, predicted_force
-from tmm_gen.derive.station.inward import ADMITTANCE, OWN, STIFFNESS, Inward, cheapest
+from tmm_gen.derive.station.inward import ADMITTANCE, OWN, STIFFNESS, TORQUE, Inward, cheapest
 from tmm_gen.derive.station.law import KINDS
 from tmm_gen.derive.station.lets import Coordinate, Let, Line, Update
 from tmm_gen.derive.station.motion import Outward, Passed
@@ -72,7 +72,7 @@ class Tangent:
         for passed in reversed(out.passed):
             if passed.law.free is None:
                 self._through(passed)
-            else:
+            elif passed is not out.turning:
                 self._give_way(passed)
 
     # -- the way out ---------------------------------------------------------------------------------------
@@ -216,13 +216,14 @@ class Tangent:
         """Cross an element that gives way with the factors of the step; its law is linear."""
         frame, own = self.frame, self.frame.own
         c = frame.coordinates
-        known = next((let.symbol for let in self._inward.known), sp.Integer(0))
+        known = next((let.symbol for let in self._inward.known if let.symbol == TORQUE), sp.Integer(0))
         if passed.law.ratio != 1 or passed.law.inner[own] != 0:
             raise UserError(
                 f"element '{passed.element.name}': its inner force is not its outer one, and derivatives of a step "
                 "with such an element are not derived yet. Set emit.sensitivities = false."
             )
-        stiff = any(isinstance(line, Let) and line.symbol == STIFFNESS for line in self._inward.lines)
+        lines = (*self._inward.ahead, *self._inward.lines)
+        stiff = any(isinstance(line, Let) and line.symbol == STIFFNESS for line in lines)
         bias = force(c[own])
         self.inward.append(
             Let(OWN, ADMITTANCE * (known - bias if frame.sign > 0 else bias - known), "change of the unknown")

@@ -13,6 +13,9 @@ from tmm_gen.scene import Scene
 STATES = {"rad": "angles", "rad/s": "rates", "rad/s^2": "accelerations"}
 """Keys of the box for state variables, by unit."""
 
+BASE_STATES = {"m": "base_places", "m/s": "base_velocities", "m/s^2": "base_accelerations"}
+"""The same for the place of a base that floats."""
+
 
 @dataclass(frozen=True)
 class Box:
@@ -34,7 +37,8 @@ class Box:
         if variable.role is Role.INPUT:
             return variable.name
         held = [name for name in self.inputs if variable.name == f"held_{name}"]
-        return held[0] if held else STATES.get(variable.unit)
+        of_base = variable.name.startswith("base_")
+        return held[0] if held else (BASE_STATES if of_base else STATES).get(variable.unit)
 
     def of(self, variable: Variable) -> tuple[float, float]:
         """Return the bounds of a state variable or an input."""

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from xml.etree import ElementTree as Xml
 
 from tmm_gen.scene import Scene
+from tmm_gen.scene.model import FloatingBase
 
 _RADIUS = 0.02
 """Of what is drawn, over the length of the arm; nothing collides, nothing drawn has mass."""
@@ -27,6 +28,8 @@ class Bodies:
     ----------
     ground : Element
         Body fixed to the world on which everything stands.
+    base : Element
+        The hub's, or the ground where there is none.
     links : tuple of Element, length n
         Body of each link.
     tip : Element
@@ -36,6 +39,7 @@ class Bodies:
     """
 
     ground: Xml.Element
+    base: Xml.Element
     links: tuple[Xml.Element, ...]
     tip: Xml.Element
     joints: tuple[str, ...]
@@ -50,10 +54,14 @@ def add_bodies(world: Xml.Element, scene: Scene) -> Bodies:
     joints = []
     if scene.hub:
         parent = Xml.SubElement(parent, "body", name="hub")
+        for name, axis in (("hub_x", "1 0 0"), ("hub_y", "0 1 0")) if scene.floats else ():
+            Xml.SubElement(parent, "joint", name=name, type="slide", axis=axis)
         Xml.SubElement(
             parent, "joint", name="hub", type="hinge", axis="0 0 1", damping=text_of(scene.base.damping)
         )
-        _inertial(parent, _LIGHT, 0.0, scene.base.inertia)  # about a fixed point its mass does nothing
+        # about a fixed point its mass does nothing
+        mass = scene.base.mass if isinstance(scene.base, FloatingBase) else 0.0
+        _inertial(parent, mass or _LIGHT, 0.0, scene.base.inertia)
         _disc(parent, 2.0 * size)
         joints.append("hub")
     inmost = parent
@@ -96,7 +104,7 @@ def add_bodies(world: Xml.Element, scene: Scene) -> Bodies:
         if scene.tip is not None and (scene.tip.mass or scene.tip.inertia):
             _inertial(tip, scene.tip.mass, 0.0, scene.tip.inertia)
             Xml.SubElement(tip, "geom", type="sphere", size=_drawn(2.0 * size))
-    return Bodies(ground, tuple(links), tip, tuple(joints))
+    return Bodies(ground, inmost, tuple(links), tip, tuple(joints))
 
 
 def link_names(scene: Scene) -> tuple[str, ...]:
@@ -123,7 +131,7 @@ def joint_names(scene: Scene) -> tuple[str, ...]:
     """Return what the joints are called: as in the scene, or by their number where it does not name them."""
     named = {part.joint: part.name for part in scene.parts if part.joint}
     named |= {p.gear: f"{p.name}_gear" for p in scene.parts if p.gear > p.joint}
-    taken = {"hub", *named.values()}
+    taken = {"hub", "hub_x", "hub_y", *named.values()}
     found = []
     for number in range(1, scene.stations + 1):
         name = named.get(number, f"joint{number}")

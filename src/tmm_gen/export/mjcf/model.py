@@ -93,10 +93,10 @@ def _add_start(root: Xml.Element, scene: Scene) -> None:
 
 
 def _relative(scene: Scene, values: Sequence[float]) -> list[float]:
-    """Return what each joint turns by of absolute angles or rates of links, a hub, which starts at rest, first."""
+    """Return what each joint turns by of absolute angles or rates of links; what the base does, from rest, first."""
     absolute = [0.0, *values]
     turned = [absolute[number] - absolute[scene.host(number)] for number in range(1, len(absolute))]
-    return [0.0] * scene.hub + turned
+    return [0.0] * (3 if scene.floats else scene.hub) + turned
 
 
 def _document(root: Xml.Element, scene: Scene, signals: Signals) -> str:

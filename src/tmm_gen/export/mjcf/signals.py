@@ -183,6 +183,8 @@ class Signals:
     def _end(self, station: int) -> str:
         """Return a site at the outer end of a link."""
         if station == 0:
+            if self.scene.floats:
+                return self._site("hub", self.bodies.base, 0.0)
             return self._site("ground", self.bodies.ground, 0.0)
         if station == self.scene.stations:
             return self._site("tip", self.bodies.tip, 0.0)

@@ -106,6 +106,9 @@ class Assembly:
                 unknown=self.choices.unknown,
                 sources=history_values(layout.state, lambda v: v.at()),
                 hub_sources=history_values(layout.hub, lambda v: v.ref),
+                base_sources={
+                    axis: history_values(kept, lambda v: v.ref) for axis, kept in layout.floating.items()
+                },
                 iterations=self.choices.iterations,
                 split=self.early.split,
                 walks=self.choices.walks,
@@ -205,25 +208,32 @@ class Assembly:
         layout = self.layout
         combined = Combinations(layout, Role.WORK)
         angle, rate = layout.given
+        still = {past(kind): sp.Integer(0) for kind in KINDS}
         builder = StepBuilder(
             layout=replace(
                 layout,
                 state={p: v for p, v in layout.state.items() if p.lag == 0},
                 hub={p: v for p, v in layout.hub.items() if p.lag == 0},
+                floating={
+                    axis: {p: v for p, v in kept.items() if p.lag == 0}
+                    for axis, kept in layout.floating.items()
+                },
             ),
             prepared=combined.variables,
             scheme=CONSISTENT_START,
             unknown="acceleration",
             sources={past("q"): angle.at(), past("v"): rate.at(), past("a"): sp.Integer(0)},
-            hub_sources={past(kind): sp.Integer(0) for kind in KINDS},
+            hub_sources=still,
+            base_sources=dict.fromkeys(layout.floating, still),
         )
-        older = tuple(Assign(v.ref, sp.Integer(0)) for p, v in layout.hub.items() if p.lag)
+        of_base = (layout.hub, *layout.floating.values())
+        older = tuple(Assign(v.ref, sp.Integer(0)) for kept in of_base for p, v in kept.items() if p.lag)
         cold = (Assign(layout.dissipated.ref, sp.Integer(0)),) if layout.dissipated else ()
         sections = (
             combined.section,
             *lifted(list(builder.sections()), ask=self.row.about == "prediction"),
             *((start_places(layout),) if layout.places else ()),
-            Section("older history of the hub", older),
+            Section("older history of the base", older),
             *hold(layout, 1),
             Section("nothing has turned to heat yet", cold),
         )

@@ -46,6 +46,11 @@ class AtState:
             return layout.state[Past(kind, 0)].entry(station - 1)
         return layout.hub[Past(kind, 0)].ref if layout.hub else sp.Integer(0)
 
+    def place_of_base(self, name: str, kind: Kind) -> sp.Expr:
+        """Return the motion of the base in a coordinate that is not integrated."""
+        found = self.layout.floating.get(name)
+        return found[Past(kind, 0)].ref if found else sp.Integer(0)
+
     def at_station(self, index: int | None, **more: sp.Expr) -> Binding:
         """Return what symbols stand for at station j of a loop, or at one with an index from 0 (-1: the base)."""
         layout = self.layout
@@ -74,21 +79,22 @@ class AtState:
         """Return the statements that add up an energy of the whole row."""
         del loops_only
         row = self.layout.row
-        every: tuple[Element, ...] = (*row.base, *(e for s in row.detail for e in s), *row.detail_tail)
+        every: tuple[Element, ...] = (*row.detail_base, *(e for s in row.detail for e in s), *row.detail_tail)
         kinds = kinds_of(every, energy) & frozenset(KINDS)
         carried = [c for c in row.coordinates if not c.integrated]
         if not carried:
             kinds = frozenset()
         total = {TOTAL.name: target}
-        zero = sp.Integer(0)
-        found: list[Statement] = [Assign(target, zero)]
-        places = [self.scratch.ref(place(c, kind).name) for c in carried for kind in sorted(kinds)]
-        found += [Assign(ref, zero) for ref in places]
-        at_base = walk(row.base, row.coordinates, kinds, energy, moved=True)
+        found: list[Statement] = [Assign(target, sp.Integer(0))]
+        moves = [(c, kind) for c in carried for kind in KINDS if kind in kinds]
+        places = [self.scratch.ref(place(c, kind).name) for c, kind in moves]
+        begun = [self.place_of_base(c.name, kind) for c, kind in moves]
+        found += [Assign(ref, value) for ref, value in zip(places, begun, strict=True)]
+        at_base = walk(row.detail_base, row.coordinates, kinds, energy, moved=True)
         found += self.at_station(-1, **total).lines(at_base)
         for start, stop, elements in row.runs(row.detail):
             lines = walk(elements, row.coordinates, kinds, energy)
-            found += resumed(row, start, from_fork(places))
+            found += resumed(row, start, from_fork(places, begun))
             found += self.loop(lines, start, stop, **total)
             found += kept_at_fork(row, stop, places)
         at_tip = walk(row.detail_tail, row.coordinates, kinds, energy, moved=True)

@@ -15,7 +15,7 @@ from tmm_gen.derive.integrators.relations import AffineMotion
 from tmm_gen.program.arm.motion import Moving, StartingPoint
 from tmm_gen.program.arm.step import StepBuilder
 from tmm_gen.program.arm.walks import BASE, Walks, hub_unknown, solved_variable
-from tmm_gen.program.statements import Assign, Loop, Order, Repeat, Section, Until
+from tmm_gen.program.statements import Assign, Loop, Order, Repeat, Section, Statement, Until
 from tmm_gen.program.variables import Role, Variable, local
 
 MOST_SWEEPS = 12
@@ -69,6 +69,9 @@ class AutoStep(StepBuilder):
                 Until(_TURNED - LEAST_TURN.ref**2),
             ),
         )
+
+    def _found_of_base(self) -> list[Statement]:
+        return []
 
     def _solved_motion(
         self, motion: AffineMotion, moving: dict[Kind, Moving], point: StartingPoint

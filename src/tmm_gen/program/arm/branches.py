@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -31,33 +31,40 @@ def resumed(row: Row, start: int, kept: Mapping[Ref, Callable[[int], sp.Expr]]) 
 def kept_at_fork(row: Row, stop: int, carried: Iterable[Ref]) -> list[Assign]:
     """Return what keeps the scalars of a walk outward at a node, counted from the base, on which several parts hang."""
     several = any(row.host(k) == stop - 1 != k - 1 for k in range(stop, len(row.stations)))
-    places = {ref: _at_fork(ref, stop) for ref in carried} if several else {}
+    places = {ref: _at_fork(ref, sp.S.Zero, stop) for ref in carried} if several else {}
     return [Assign(place, ref) for ref, place in places.items() if isinstance(place, Ref)]
 
 
-def from_fork(carried: Iterable[Ref]) -> dict[Ref, Callable[[int], sp.Expr]]:
-    """Return what scalars were at a node where they were kept; at the base they are zero."""
-    return {ref: partial(_at_fork, ref) for ref in carried}
+def from_fork(carried: Sequence[Ref], at_base: Sequence[sp.Expr]) -> dict[Ref, Callable[[int], sp.Expr]]:
+    """Return what scalars were at a node where they were kept.
+
+    Parameters
+    ----------
+    at_base : sequence of sympy.Expr
+        What they were at the base.
+    """
+    return {ref: partial(_at_fork, ref, value) for ref, value in zip(carried, at_base, strict=True)}
 
 
-def _at_fork(ref: Ref, node: int) -> sp.Expr:
+def _at_fork(ref: Ref, at_base: sp.Expr, node: int) -> sp.Expr:
     doc = f"{ref.variable.doc}, kept for branches"
-    return local(f"{ref.name}_at_fork_{node}", doc, ref.variable.unit) if node else sp.S.Zero
+    return local(f"{ref.name}_at_fork_{node}", doc, ref.variable.unit) if node else at_base
 
 
 def rooted(row: Row, loop: Loop) -> Loop:
-    """Return a loop over a run of stations with its inner node where the first one hangs.
+    """Return a loop over a run of stations with its inner node where the first one hangs, or its shaft is mounted.
 
     Arrays over nodes have one element more than there are stations, base first.
     """
-    host = row.host(loop.start)
-    if host == loop.start - 1:
+    hosts = {-back: row.host(loop.start - back) for back in (0, 1) if loop.start >= back}
+    away: dict[int | None, int] = {k: host for k, host in hosts.items() if host != loop.start + k - 1}
+    if not away:
         return loop
     nodes = len(row.stations) + 1
 
     def value(e: sp.Expr) -> sp.Expr:
-        inner = {r for r in refs_in(e) if r.variable.length == nodes and r.offset == 0}
-        return e.xreplace({r: r.variable.entry(host + 1) for r in inner})
+        inner = {r for r in refs_in(e) if r.variable.length == nodes and r.offset in away}
+        return e.xreplace({r: r.variable.entry(away[r.offset] + 1) for r in inner})
 
     body: tuple[Assign | Require, ...] = tuple(replace(s, value=value(s.value)) for s in loop.body)
     return replace(loop, body=body)

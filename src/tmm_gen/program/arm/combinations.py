@@ -37,6 +37,14 @@ class Combinations:
 
     def _add(self, found: Combination, role: Role) -> None:
         n = self._layout.stations
+        if found.at_base:
+            variable = Variable(
+                found.name, role if role is not Role.WORK else Role.LOCAL, None, found.doc, found.unit
+            )
+            self.variables[found.name] = variable
+            shares = (self._entry(found.beyond, k) for k in self._meeting(-1))
+            self._statements.append(Assign(variable.ref, sp.Add(self._entry(found.own, 0), *shares)))
+            return
         own, beyond = self._at(found.own, 0), self._at(found.beyond, 1)
         alike = beyond == 0 and found.last == 0 and not any(r.offset is not None for r in refs_in(own))
         kept = role if role is not Role.WORK or not alike else Role.LOCAL
@@ -52,7 +60,7 @@ class Combinations:
             self._statements.append(Loop(Order.OUTWARD, 0, n - 1, (Assign(variable.at(), own + beyond),)))
         for index in self._otherwise():
             value = self._entry(found.own, index)
-            value += sp.Add(*(self._entry(found.beyond, k) for k in self._layout.row.carried(index)))
+            value += sp.Add(*(self._entry(found.beyond, k) for k in self._meeting(index)))
             value += self._entry(found.last, index) if index == n - 1 else 0
             self._statements.append(Assign(variable.entry(index), value))
 
@@ -60,7 +68,13 @@ class Combinations:
         """Return the stations that do not carry the next one alone, the last above all."""
         row, n = self._layout.row, self._layout.stations
         rooted = [k for k, host in enumerate(row.hosts) if host != k - 1]
-        return sorted({n - 1, *(k - 1 for k in rooted), *(row.hosts[k] for k in rooted)} - {-1})
+        others = {*(k - 1 for k in rooted), *(row.hosts[k] for k in rooted), *map(row.host, row.shafts)}
+        return sorted({n - 1, *others} - {-1})
+
+    def _meeting(self, index: int) -> list[int]:
+        """Return the stations that begin where one ends: beyond a shaft, which has no length, the one it turns."""
+        row = self._layout.row
+        return [k + 1 if k in row.shafts else k for k in row.carried(index)]
 
     def _at(self, value: sp.Expr, offset: int) -> sp.Expr:
         return _bound(value, {s: v.at(offset) for s, v in self._symbols().items()})

@@ -25,6 +25,8 @@ class Layout:
         History of the stations' motion and of the base's, newest first.
     places : dict from str to dict from Past to Variable
         History of the nodes' places by coordinate, only where a linearisation integrates them.
+    floating : dict from str to dict from Past to Variable
+        History of the base's place by coordinate, only where it floats.
     held : dict from str to Variable
         Inputs as they last acted, kept where a reading needs them.
     dissipated : Variable or None
@@ -37,6 +39,7 @@ class Layout:
     state: dict[Past, Variable]
     hub: dict[Past, Variable]
     places: dict[str, dict[Past, Variable]]
+    floating: dict[str, dict[Past, Variable]]
     held: dict[str, Variable]
     dissipated: Variable | None
     inputs: tuple[Variable, ...]
@@ -51,7 +54,7 @@ class Layout:
     @property
     def all_state(self) -> tuple[Variable, ...]:
         """State variables, hub first."""
-        places = (v for kept in self.places.values() for v in kept.values())
+        places = (v for kept in (*self.floating.values(), *self.places.values()) for v in kept.values())
         counted = (self.dissipated,) if self.dissipated else ()
         return (*self.hub.values(), *self.state.values(), *places, *self.held.values(), *counted)
 
@@ -67,9 +70,7 @@ def layout_of(row: Row, integrator: Integrator, step: float, unknown: Unknown, *
         Whether the nodes' places are integrated too.
     """
     n = len(row.stations)
-    # the newest motion predicts the next; what nothing reads is dropped later
-    kept = set(history(integrator, unknown)) | {Past(kind, 0) for kind in KINDS}
-    ordered = sorted(kept, key=lambda p: (p.lag, KINDS.index(p.kind)))
+    ordered = _ordered(integrator, unknown)
     instants = max((input_instants(row, scheme) for scheme in integrator.schemes), key=len)
     stages = len(instants)
     also = ", at each stage of the step" if stages > 1 else ""
@@ -85,6 +86,7 @@ def layout_of(row: Row, integrator: Integrator, step: float, unknown: Unknown, *
         if row.boundary != "held"
         else {},
         places={axis: {p: _place(axis, p, n) for p in ordered} for axis in carried} if places else {},
+        floating={axis: _floating(axis, integrator) for axis in carried} if row.floats else {},
         held={name: Variable(s.name, Role.STATE, doc=s.doc, unit=s.unit) for name, s in row.held.items()},
         dissipated=Variable("dissipated", Role.STATE, doc="energy turned to heat since the start", unit="J")
         if row.counts_heat
@@ -110,6 +112,25 @@ def _parameter(found: Parameter) -> Variable:
         return Variable(found.name, Role.PARAMETER, None, doc, found.unit, found.values[0])
     doc = found.doc + ", base to tip"
     return Variable(found.name, Role.PARAMETER, len(found.values), doc, found.unit, found.values)
+
+
+def _floating(axis: str, integrator: Integrator) -> dict[Past, Variable]:
+    """Return the history that an integrator needs of a base's place, by its acceleration."""
+    found: dict[Past, Variable] = {}
+    words = {"q": ("place", "m"), "v": ("velocity", "m/s"), "a": ("acceleration", "m/s^2")}
+    for p in _ordered(integrator, "acceleration"):
+        word, unit = words[p.kind]
+        age = f"_{p.lag}_ago" if p.lag else ""
+        doc = f"{word} of the base along {axis}{age.replace('_', ' ')}"
+        found[p] = Variable(f"base_{word}_{axis}{age}", Role.STATE, None, doc, unit)
+    return found
+
+
+def _ordered(integrator: Integrator, unknown: Unknown) -> list[Past]:
+    """Return the history to keep, newest first."""
+    # the newest motion predicts the next; what nothing reads is dropped later
+    kept = set(history(integrator, unknown)) | {Past(kind, 0) for kind in KINDS}
+    return sorted(kept, key=lambda p: (p.lag, KINDS.index(p.kind)))
 
 
 def _place(axis: str, past: Past, length: int) -> Variable:

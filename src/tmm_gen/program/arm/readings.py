@@ -102,7 +102,8 @@ class Readings:
         row = self._row
         carried = [c for c in row.coordinates if not c.integrated]
         names = {place(c, reading.kind).name: t for c, t in zip(carried, targets, strict=True)}
-        found: list[Statement] = [Assign(t, ZERO) for t in targets]
+        begun = [self._at.place_of_base(c.name, reading.kind) for c in carried]  # type: ignore[arg-type]
+        found: list[Statement] = [Assign(t, value) for t, value in zip(targets, begun, strict=True)]
         within = self._inward_of(reading.station)
         for start, stop, elements in row.runs():
             if start in within:
@@ -135,6 +136,7 @@ class Readings:
         moving = {c.name: self._at.scratch.ref(place(c, "a").name) for c in carried}
         falls = dict.fromkeys(nodes, ZERO)
         falls[carried[-1].name] = self._at.at_station(-1).value(row.fall)
+        falls = {name: value + self._at.place_of_base(name, "a") for name, value in falls.items()}
         found: list[Statement] = [Assign(moving[name], value) for name, value in falls.items()]
         found += [Assign(v.entry(0), moving[name]) for name, v in nodes.items()]
         for start, stop, elements in row.runs(row.detail):

@@ -10,6 +10,7 @@ import sympy as sp
 from tmm_gen.derive.integrators.declaration import KINDS, STEP, Kind, Scheme, stage
 from tmm_gen.derive.integrators.relations import AffineMotion, Unknown, affine_motion
 from tmm_gen.derive.station.frame import GAINS, Frame
+from tmm_gen.program.arm.floating import Floating
 from tmm_gen.program.arm.layout import Layout
 from tmm_gen.program.arm.loads import Loads
 from tmm_gen.program.arm.motion import (
@@ -45,6 +46,8 @@ class StepBuilder:
         What the sweep solves for.
     sources, hub_sources : mapping from sympy.Symbol to sympy.Expr
         Where history is read from.
+    base_sources : mapping from str to mapping from sympy.Symbol to sympy.Expr
+        The same of the place of a base that floats, by coordinate.
     iterations : int
         Sweeps per stage.
     split : callable
@@ -59,6 +62,7 @@ class StepBuilder:
     unknown: Unknown
     sources: Mapping[sp.Symbol, sp.Expr]
     hub_sources: Mapping[sp.Symbol, sp.Expr]
+    base_sources: Mapping[str, Mapping[sp.Symbol, sp.Expr]]
     iterations: int = 1
     split: Callable[[list[Section]], list[Section]] = list
     walks: MakeWalks = Walks
@@ -145,7 +149,8 @@ class StepBuilder:
             elif not self._held:
                 moved = self._prescribed(index, motion, point, kind)
             base.append(Assign(variable.entry(BASE), moved))
-        return [*base, Loop(Order.OUTWARD, 0, n, tuple(body))] if body else []
+        begun = self._floating.begin(index)
+        return [*begun, *base, Loop(Order.OUTWARD, 0, n, tuple(body))] if body else begun
 
     def _prescribed(self, index: int, motion: AffineMotion, point: StartingPoint, kind: Kind) -> sp.Expr:
         """Return what a prescribed base's unknown leaves of its motion."""
@@ -155,6 +160,10 @@ class StepBuilder:
     @property
     def _held(self) -> bool:
         return self.layout.row.boundary == "held"
+
+    @property
+    def _floating(self) -> Floating:
+        return Floating(self.layout, self.scheme, self.base_sources)
 
     @property
     def _free(self) -> bool:
@@ -169,7 +178,7 @@ class StepBuilder:
             ref, entry = self._motion(kind).at(1), self._motion(kind).entry(BASE)
             body.append(Assign(ref, ref + gain * solved.at()))
             base.append(Assign(entry, entry + gain * hub))
-        moved = base if self._free else []
+        moved = [*self._floating.improve(), *base] if self._free else []
         return [*moved, Loop(Order.OUTWARD, 0, n, tuple(a for a in body if a.value != a.target))]
 
     def _values(self, prefix: str, length: int | None) -> dict[sp.Symbol, sp.Expr]:
@@ -192,8 +201,9 @@ class StepBuilder:
     ) -> Section:
         n = self.layout.stations
         links, hub = self._solved_motion(motion, self._moving(index, point), point)
-        statements: list[Statement] = []
+        statements: list[Statement] = self._found_of_base()
         if not last:
+            statements += self._floating.keep(index)
             mine = sorted((k, i) for k, i in kept if i == index)
             if self._free:
                 statements += [Assign(stage_variable(k, i, "hub_", None).ref, hub[k]) for k, i in mine]
@@ -207,12 +217,17 @@ class StepBuilder:
         elif not self._held:
             end = Loads(self.layout, len(input_instants(self.layout.row, self.scheme)) - 1).prescribed
             statements += [Assign(v.ref, end[p.kind]) for p, v in self.layout.hub.items()]
+        statements += self._floating.finish()
         new = self._new_values(index, links, self._values("", n))
         statements.append(
             Loop(Order.OUTWARD, 0, n, tuple(update_assignments(self.layout.state, new, lambda v: v.at(), "")))
         )
         places = walks.after_update()
         return Section(title + "motion at the end of the step", (*places, *statements))
+
+    def _found_of_base(self) -> list[Statement]:
+        """Take up what the last sweep has found of a base that floats."""
+        return self._floating.improve()
 
     def _solved_motion(
         self, motion: AffineMotion, moving: dict[Kind, Moving], point: StartingPoint

@@ -13,6 +13,7 @@ from tmm_gen.derive.integrators.relations import AffineMotion
 from tmm_gen.derive.station.frame import (
     COSINE,
     INNER,
+    MOUNT,
     OUTER,
     SINE,
     Frame,
@@ -20,12 +21,15 @@ from tmm_gen.derive.station.frame import (
     force,
     impedance,
     node,
+    of_shaft,
     predicted_force,
 )
 from tmm_gen.derive.station.inward import Inward, back
 from tmm_gen.derive.station.law import KINDS
-from tmm_gen.derive.station.lets import Let, Line, Pivot, Update, composed
+from tmm_gen.derive.station.lets import Coordinate, Let, Line, composed
+from tmm_gen.derive.station.shaft import UNKNOWN as UNKNOWN_OF_SHAFT
 from tmm_gen.derive.station.station import ceasing, everything, inward, outward, recurring
+from tmm_gen.program.arm.base import base_acceleration, base_change, floating_base, turning_base
 from tmm_gen.program.arm.binding import Binding, Scratch
 from tmm_gen.program.arm.branches import Gathered, from_fork, kept_at_fork, resumed, rooted
 from tmm_gen.program.arm.layout import Layout
@@ -36,7 +40,6 @@ from tmm_gen.program.variables import Ref, Role, Variable, local, refs_in
 
 BASE = 0
 """Index of the base among nodes; station j lies between nodes j and j + 1."""
-UNKNOWN = sp.Symbol("unknown", real=True)
 
 
 @dataclass(frozen=True)
@@ -108,12 +111,13 @@ class Walks:
             if not c.integrated
         }
         self.solved = solved_variable(layout.stations)
-        self.runs = layout.row.runs()
+        self.runs = layout.row.runs(layout.row.swept())
         self._inwards = self._derive()
 
     def sections(self) -> list[Section]:
         """Return the whole sweep."""
-        return spread([s for s in self.plain() if s.statements], self.scratch, self.layout.stations)
+        found = [replace(s, statements=tuple(x for x in s.statements if not _empty(x))) for s in self.plain()]
+        return spread([s for s in found if s.statements], self.scratch, self.layout.stations)
 
     def plain(self) -> list[Section]:
         """Return the whole sweep, with scratch of stations as scalars."""
@@ -139,7 +143,16 @@ class Walks:
         for name, variable in self.nodes.items():
             values[sp.Symbol(f"node_{name}", real=True)] = variable.at(0)
             values[sp.Symbol(f"node_{name}_outer", real=True)] = variable.at(1)
-        return Binding(self.scratch, values)
+        return Binding(self.scratch, values | self._of_shaft(values))
+
+    def _of_shaft(self, values: Mapping[sp.Symbol, sp.Expr]) -> dict[sp.Symbol, sp.Expr]:
+        """Return what symbols of its shaft stand for at station j: what the station before it has."""
+        if not self.layout.row.shafts:
+            return {}
+        own = {of_shaft(s): values[s] for s in (*self._parameters, *self.loads.values)}
+        own |= {MOUNT[k]: values[INNER[k]] for k in KINDS if INNER[k] in values}
+        own |= {UNKNOWN_OF_SHAFT: self.solved.at()}
+        return {s: _one_inward(value) for s, value in own.items()}
 
     def at_node(self, index: int) -> Binding:
         """Return what symbols stand for at a node, counted from the base."""
@@ -195,6 +208,8 @@ class Walks:
         falls = dict.fromkeys(self.nodes, sp.Integer(0))
         if self.nodes:
             falls[list(self.nodes)[-1]] = self.at_node(BASE).value(self.layout.row.fall)
+        if self.layout.row.floats:
+            falls = {c.name: falls[c.name] + base_acceleration(c) for c in self._carried_along}
         begin = [Assign(self.scratch.ref(f"node_{name}"), value) for name, value in falls.items()]
         kept = [Assign(v.entry(BASE), self.scratch.ref(f"node_{name}")) for name, v in self.nodes.items()]
         return [*begin, *kept]
@@ -205,13 +220,15 @@ class Walks:
         found: list[Statement] = self.loads.filled(self._driven)
         for (start, stop, _), derived in zip(self.runs, self._inwards, strict=True):
             if derived.known:
-                found.append(self.over(Order.OUTWARD, start, stop, here.lines(derived.known)))
+                lines = [*derived.ahead, *derived.known]
+                found.append(self.over(Order.OUTWARD, start, stop, here.lines(lines)))
         return found
 
     @property
     def _driven(self) -> set[sp.Symbol]:
         """What stands in the laws of elements that give way."""
-        return {s for derived in self._inwards for let in derived.known for s in let.value.free_symbols}
+        found = {s for derived in self._inwards for let in derived.known for s in let.value.free_symbols}
+        return found | {s for s in self.loads.values if of_shaft(s) in found}
 
     def inward_forces(self) -> list[Statement]:
         """Walk in with the force beyond each place as an affine function of the motion there."""
@@ -259,10 +276,18 @@ class Walks:
     def base(self) -> list[Statement]:
         """Solve for the unknown of the base."""
         here, unknown = self.at_node(BASE), self.scratch.ref("unknown")
-        boundary = self.layout.row.boundary
-        if boundary != "free":
+        row = self.layout.row
+        if row.boundary != "free":
             return [Assign(unknown, self._unknown_of_base())]
+        if row.floats:
+            lines = floating_base(row.base, self.frame, self._at_base)
+            changed = [Assign(base_change(c), self.scratch.ref(change(c).name)) for c in self._carried_along]
+            return [*here.lines(lines), *changed, Assign(hub_unknown(), unknown)]
         return [*here.lines(self._free_base()), Assign(hub_unknown(), unknown)]
+
+    @property
+    def _carried_along(self) -> list[Coordinate]:
+        return [c for c in self.frame.coordinates if not c.integrated]
 
     def _unknown_of_base(self) -> sp.Expr:
         boundary = self.layout.row.boundary
@@ -271,40 +296,21 @@ class Walks:
         return hub_unknown() if boundary == "free" else prescribed_unknown(self.frame.still, self.loads)
 
     def _free_base(self) -> list[Line]:
-        frame = self.frame
-        own = frame.coordinates[frame.own]
-        derived = inward(self.layout.row.base, frame, self._at_base, moved=True)
-        left = composed(derived.lines)
-        stiffness, bias = left.get(impedance(own, own), impedance(own, own)), left.get(force(own), force(own))
-        if impedance(own, own) in self._at_base:
-            stiffness = stiffness.subs(impedance(own, own), 0)
-        sign = sp.Integer(frame.sign)
-        constant = sp.expand(sign * (stiffness - stiffness.coeff(impedance(own, own)) * impedance(own, own)))
-        lines: list[Line] = []
-        if not constant.is_Atom:
-            named = sp.Symbol("hub_impedance", real=True)
-            lines.append(Let(named, constant, "torque of the hub per unknown", frame.impedance_unit))
-            constant = named
-        pivot = sp.Symbol("hub_pivot", real=True)
-        carried = sign * impedance(own, own) if stiffness.has(impedance(own, own)) else sp.Integer(0)
-        lines += [Let(pivot, carried + constant, "pivot of the hub"), Pivot(pivot)]
-        known = sp.expand(-sign * bias)
-        if frame.about == "known":
-            admittance = sp.Symbol("hub_admittance", real=True)
-            lines.append(Let(admittance, 1 / pivot, "inverse pivot of the hub"))
-            return [*lines, Update({UNKNOWN: admittance * known})]
-        return [*lines, Update({UNKNOWN: known / pivot})]
+        return turning_base(self.layout.row.base, self.frame, self._at_base)
 
     def answers(self) -> list[Statement]:
         """Walk out with the unknowns."""
         here, unknown = self.at_station(), self.scratch.ref("unknown")
         row, zero = self.layout.row, sp.Integer(0)
-        moved = [self.scratch.ref(change(c).name) for c in self.frame.coordinates if not c.integrated]
-        found: list[Statement] = [Assign(ref, zero) for ref in moved]
-        for (start, stop, _), derived in zip(self.runs, self._inwards, strict=True):
-            found += resumed(row, start, from_fork(moved) | {unknown: self._solved_at})
-            body = [*here.lines(back(derived)), Assign(self.solved.at(), unknown), *self.after_answer()]
-            found.append(self.over(Order.OUTWARD, start, stop, body))
+        moved = [self.scratch.ref(change(c).name) for c in self._carried_along]
+        at_base = [base_change(c) if row.floats else zero for c in self._carried_along]
+        found: list[Statement] = [Assign(ref, value) for ref, value in zip(moved, at_base, strict=True)]
+        forks = from_fork(moved, at_base)
+        for (start, stop, elements), derived in zip(self.runs, self._inwards, strict=True):
+            found += resumed(row, start, forks | {unknown: self._solved_at})
+            if elements:
+                body = [*here.lines(back(derived)), Assign(self.solved.at(), unknown), *self.after_answer()]
+                found.append(self.over(Order.OUTWARD, start, stop, body))
             found += kept_at_fork(row, stop, moved)
         return found
 
@@ -339,6 +345,16 @@ class Walks:
             found.insert(0, derived)
         self._at_base = frozenset.intersection(*(begun[station] for station in row.carried(BASE - 1)))
         return found
+
+
+def _one_inward(value: sp.Expr) -> sp.Expr:
+    return (
+        value.variable.at(value.offset - 1) if isinstance(value, Ref) and value.offset is not None else value
+    )
+
+
+def _empty(statement: Statement) -> bool:
+    return isinstance(statement, Loop) and not statement.body
 
 
 def solved_variable(stations: int) -> Variable:

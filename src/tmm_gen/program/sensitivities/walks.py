@@ -9,7 +9,16 @@ from typing import Any
 
 import sympy as sp
 
-from tmm_gen.derive.station.frame import INNER, OUTER, Frame, node, predicted_force
+from tmm_gen.derive.station.frame import (
+    INNER,
+    MOUNT,
+    OUTER,
+    UNKNOWN,
+    Frame,
+    node,
+    of_shaft,
+    predicted_force,
+)
 from tmm_gen.derive.station.inward import Inward, back
 from tmm_gen.derive.station.lets import Let, Line, Pivot, Update, composed
 from tmm_gen.derive.station.motion import Outward
@@ -18,7 +27,7 @@ from tmm_gen.derive.station.tangent import SOLVED, Tangent, beyond, solved_force
 from tmm_gen.program.arm.binding import Binding
 from tmm_gen.program.arm.branches import Gathered, resumed
 from tmm_gen.program.arm.layout import Layout
-from tmm_gen.program.arm.walks import BASE, UNKNOWN, Walks, hub_unknown
+from tmm_gen.program.arm.walks import BASE, Walks, hub_unknown
 from tmm_gen.program.sensitivities.point import Point
 from tmm_gen.program.statements import Assign, Loop, Order, Require, Section, Statement
 from tmm_gen.program.variables import Role, Variable, refs_in
@@ -106,7 +115,7 @@ class LinearisedWalks(TangentableWalks):
             found += resumed(
                 row, start, {ref: partial(_moved, solved[c], self.nodes[c]) for c, ref in moved.items()}
             )
-            found.append(self.over(Order.OUTWARD, start, stop, body))
+            found.append(self.over(Order.OUTWARD, start, stop, body if out.passed else ()))
         tip_values = dict(self.at_node(n).values) | {solved_node(c): solved[c.name].entry(n) for c in carried}
         last = self.solved.entry(n - 1)
         at_tip = Binding(self.scratch, tip_values | {SOLVED: last})
@@ -148,12 +157,14 @@ class TangentWalks(TangentableWalks):
     def joint_forces(self) -> list[Statement]:
         """Return the changes of the joints' forces: what is constant in their laws does not change."""
         here = self.at_station()
-        changing = {*INNER.values(), *OUTER.values(), *(load.symbol for load in self.layout.row.loads)}
+        loads = {load.symbol for load in self.layout.row.loads}
+        changing = {*MOUNT.values(), *INNER.values(), *OUTER.values(), *loads, *map(of_shaft, loads)}
         found: list[Statement] = self.loads.filled(self._driven)
         for start, stop, derived, _, _ in self._tangents:
-            lets = [replace(let, value=_varying(let.value, changing)) for let in derived.known]
+            each = changing | {let.symbol for let in derived.known}
+            lets = [replace(let, value=_varying(let.value, each)) for let in derived.known]
             if lets:
-                found.append(self.over(Order.OUTWARD, start, stop, here.lines(lets)))
+                found.append(self.over(Order.OUTWARD, start, stop, here.lines([*derived.ahead, *lets])))
         return found
 
     def _nodes(self) -> list[Statement]:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, cast
 from tmm_gen.scene.beam import Beam, Tip, beam_joints, beam_links
 from tmm_gen.scene.exact import exact, nearest
 from tmm_gen.scene.initial import Initial, InitialTable, Values, in_order
-from tmm_gen.scene.model import Base
+from tmm_gen.scene.model import Base, FloatingBase
 from tmm_gen.scene.parts.order import BASE, Entry, Hanging, hanging
 from tmm_gen.scene.parts.tables import BeamPart, BodyPart, JointPart, LinkPart, MotorPart
 from tmm_gen.scene.signal import FileInput, FileOutput, Input, Output, Place
@@ -37,7 +37,8 @@ class PlacedPart:
     joint : int
         Number of the joint that it is, from 1; 0 where it is none.
     first, last : int
-        Numbers of its links, from 1; for a body that of the link it sits on. 0 where it is a joint.
+        Numbers of its links, from 1; for a body that of the link it sits on. 0 where it is a joint, and of a body that
+        is the base.
     fixed : str
         Name of the part that is rigidly fixed to its outer end, so that it has no frame of its own; in a chain, of the
         first link that turns as one with it; else empty.
@@ -85,6 +86,12 @@ class Expansion:
         return {part.name: part for part in self.parts}
 
     @property
+    def on_base(self) -> frozenset[str]:
+        """Names of the base, and of the bodies that are the base."""
+        bodies = (part.name for part in self.parts if not part.joint and not part.last)
+        return frozenset((BASE, *bodies))
+
+    @property
     def solid(self) -> tuple[PlacedPart, ...]:
         """Beams and links, base to tip."""
         return tuple(part for part in self.parts if part.kind in ("beam", "link"))
@@ -116,7 +123,8 @@ def expanded(document: PartsDocument) -> Expansion:
     joints: list[Joint] = []
     links: list[Link] = []
     hosts: list[int] = []
-    parts: list[PlacedPart] = []
+    floating = hung.bodies(BASE)
+    parts = [PlacedPart(entry.name, entry.table) for entry in floating]
     outer = {BASE: 0}
     pending: Joint | None = None
     for entry in row:
@@ -157,7 +165,8 @@ def expanded(document: PartsDocument) -> Expansion:
         placed = PlacedPart(entry.name, entry.table, first=first, last=len(links), fixed=_fixed(hung, entry))
         parts += [placed, *(_placed_body(body, placed) for body in bodies)]
     tip = None if branched else _tip(hung.bodies(row[-1].name))
-    return Expansion(tuple(joints), tuple(links), tip, tuple(parts), tuple(hosts))
+    base = _floating(floating) if document.base.kind == "free" else None
+    return Expansion(tuple(joints), tuple(links), tip, tuple(parts), tuple(hosts), base)
 
 
 def joined(inner: Link, outer: Link) -> Link:
@@ -240,13 +249,22 @@ def _placed_body(entry: Entry, on: PlacedPart) -> PlacedPart:
 
 
 def _tip(bodies: Sequence[Entry]) -> Tip | None:
+    mass, inertia = _summed(bodies)
+    return Tip.model_construct(mass=mass, inertia=inertia) if bodies else None
+
+
+def _floating(bodies: Sequence[Entry]) -> FloatingBase:
+    mass, inertia = _summed(bodies)
+    return FloatingBase.model_construct(kind="free", damping=0.0, mass=mass, inertia=inertia)
+
+
+def _summed(bodies: Sequence[Entry]) -> tuple[float, float]:
+    """Return mass and inertia of bodies at one place."""
     weights = [_weight(body) for body in bodies]
-    if not weights:
-        return None
     mass, inertia = (
-        sum((exact(getattr(w, key)) for w in weights), Fraction(0)) for key in ("mass", "inertia")
+        nearest(sum((exact(getattr(w, key)) for w in weights), Fraction(0))) for key in ("mass", "inertia")
     )
-    return Tip.model_construct(mass=nearest(mass), inertia=nearest(inertia))
+    return mass, inertia
 
 
 def place_of(name: str, parts: dict[str, PlacedPart], stations: int) -> Place:
@@ -254,7 +272,7 @@ def place_of(name: str, parts: dict[str, PlacedPart], stations: int) -> Place:
     part = parts.get(name)
     if part is None:
         return cast(Place, name)
-    return "tip" if part.last == stations else part.last or part.joint
+    return "tip" if part.last == stations else part.last or part.joint or "base"
 
 
 def _input(item: FileInput, parts: dict[str, PlacedPart], stations: int) -> Input:

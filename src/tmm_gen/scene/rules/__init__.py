@@ -26,6 +26,7 @@ from tmm_gen.scene.rules.emission import (
     compensated_suits,
     real_is_used,
 )
+from tmm_gen.scene.rules.floating import floating_base
 from tmm_gen.scene.rules.inputs import inputs_possible, prescribed_motion
 from tmm_gen.scene.rules.integration import (
     explicit_needs_acceleration,
@@ -94,7 +95,7 @@ PART_RULES: tuple[tuple[PartRule, ...], ...] = (
     (part_names, parts_suit, beams_given),
     (one_tree,),
     (carriers,),
-    (newton_keys, held, base_hub, beams_in_range, part_initial, part_inputs, part_outputs, *_ALL),
+    (newton_keys, floating_base, base_hub, beams_in_range, part_initial, part_inputs, part_outputs, *_ALL),
 )
 """Rules of arms by parts; each group takes those before it for granted."""
 

@@ -10,7 +10,15 @@ from tmm_gen.scene.problem import Finding
 from tmm_gen.scene.signal import kernel_names
 from tmm_gen.scene.table import closest
 
-BOX_STATES = ("angles", "rates", "accelerations", "step")
+BOX_STATES = (
+    "angles",
+    "rates",
+    "accelerations",
+    "step",
+    "base_places",
+    "base_velocities",
+    "base_accelerations",
+)
 
 
 def real_is_used(document: Document) -> Iterator[Finding]:

@@ -111,7 +111,7 @@ def held(document: Document) -> Iterator[Finding]:
     if document.base.kind == "free":
         yield Finding(
             ("base", "kind"),
-            "leaves the arm without anything that holds it, which chains of parts by name alone can do",
+            "leaves the arm without anything that holds it, which arms of parts by name alone can do",
             'Write "clamp", "motor" or "prescribed".',
             "free",
         )

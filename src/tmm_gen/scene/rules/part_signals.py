@@ -15,19 +15,20 @@ BASE_OUTPUTS = {
     "clamp": ("torque", "force"),
     "prescribed": ("angle", "rate", "torque", "force"),
     "motor": ("angle", "rate"),
+    "free": ("position", "velocity", "acceleration", "angle", "rate"),
 }
 """What is measured at a base; torque and force are those it exerts on all that stands on it."""
 
 
 def part_inputs(document: PartsDocument) -> Iterator[Finding]:
     """Find inputs that act nowhere, or not so."""
-    parts = document.expansion.by_name
+    parts, on_base = document.expansion.by_name, document.expansion.on_base
     for index, item in enumerate(document.input):
         at, path = str(item.at), ("input", index)
         part = parts.get(at)
         if part is None and at not in (BASE, "tip"):
             yield unknown_place((*path, "at"), at, [BASE, *parts])
-        elif at == BASE:
+        elif at in on_base:
             yield from _on_base(document, index)
         elif item.acts == "angle":
             yield Finding(
@@ -56,14 +57,14 @@ def _on_base(document: PartsDocument, index: int) -> Iterator[Finding]:
             'Set base.kind = "prescribed", or remove the input.',
             item.acts,
         )
-    elif item.acts == "torque" and kind != "motor":
+    elif item.acts == "torque" and kind not in ("motor", "free"):
         yield Finding(
             ("input", index, "at"),
             f'cannot be "base" for a torque: base.kind = "{kind}" does not yield to it',
             "Let it act at a motor: write the motor's name.",
             item.at,
         )
-    elif item.acts.startswith("force"):
+    elif item.acts.startswith("force") and kind != "free":
         yield Finding(
             ("input", index, "at"),
             'cannot be "base" for a force: the base point never moves',
@@ -74,7 +75,7 @@ def _on_base(document: PartsDocument, index: int) -> Iterator[Finding]:
 
 def part_outputs(document: PartsDocument) -> Iterator[Finding]:
     """Find a scene without outputs, and outputs of what does not exist or never changes."""
-    parts = document.expansion.by_name
+    parts, on_base = document.expansion.by_name, document.expansion.on_base
     if not document.output:
         last = document.expansion.parts[-1].name
         yield Finding(
@@ -102,14 +103,18 @@ def part_outputs(document: PartsDocument) -> Iterator[Finding]:
                 "Choose one of them, or measure at a beam, a link or a body.",
                 item.of,
             )
-        elif at not in ("arm", BASE) and (part is None or not part.joint) and item.of in ("torque", "force"):
+        elif (
+            at not in on_base | {"arm"}
+            and (part is None or not part.joint)
+            and item.of in ("torque", "force")
+        ):
             yield Finding(
                 (*path, "of"),
                 f"cannot be {item.of} here: it is joints that pass on a {item.of}",
                 "Write the name of a motor or a joint.",
                 item.of,
             )
-        elif at == BASE and item.of not in BASE_OUTPUTS[document.base.kind]:
+        elif at in on_base and item.of not in BASE_OUTPUTS[document.base.kind]:
             yield Finding(
                 (*path, "of"),
                 f'cannot be {item.of} at the base with base.kind = "{document.base.kind}"',

@@ -163,7 +163,8 @@ def _carried(document: PartsDocument, entry: Entry, host: Entry | None) -> Itera
             "Write `stiffness` too, or remove the key: `damping` and `motor_damping` damp a rigid gear.",
             entry.part.damping_time,
         )
-    if isinstance(entry.part, BodyPart) and (host is None or host.turns):
+    free = document.base.kind == "free"
+    if isinstance(entry.part, BodyPart) and (host.turns if host else not free):
         yield Finding(
             path,
             f"hangs on {host.words if host else 'the base'}: a body sits on a beam's or a link's outer end",
@@ -173,7 +174,8 @@ def _carried(document: PartsDocument, entry: Entry, host: Entry | None) -> Itera
     if entry.table == "link" and host is None:
         yield Finding(
             path,
-            f"fixes '{entry.name}' to the base, where it could not move",
+            f"fixes '{entry.name}' to the base, "
+            + ("which is one with no [[link]] yet" if free else "where it could not move"),
             'Put a [[motor]] or a [[joint]] between, and write its name: `on = "..."`.',
             entry.part.on,
         )
@@ -232,12 +234,14 @@ def beams_in_range(document: PartsDocument) -> Iterator[Finding]:
     hung = hanging(document.parts_by_table())
     for placed in made.parts:
         entry = hung.by_name[placed.name]
-        if placed.first == 0:
+        if placed.joint:
             rotor = made.joints[placed.joint - 1].armature
             if isinstance(entry.part, MotorPart) and not math.isfinite(rotor):
                 yield _out_of_range(
                     (*entry.path, "gear"), "rotor inertia at the joint", rotor, entry.part.gear
                 )
+            continue
+        if placed.name in made.on_base:
             continue
         part = entry.part
         key = part.key_of("mass_per_length") if isinstance(part, BeamPart) else "mass"
