@@ -194,6 +194,7 @@ def parameters_of(scene: Scene) -> dict[str, Any]:
         "gravity": scene.model.gravity or 0.0,
         "hub_inertia": scene.base.inertia,
         "hub_damping": scene.base.damping,
+        "hub_mass": scene.base.mass,
     }
     if scene.tip is not None:
         found |= {"tip_mass": scene.tip.mass, "tip_inertia": scene.tip.inertia}
