@@ -17,6 +17,7 @@ from tmm_gen.native.series import Series
 from tmm_gen.program.build import build_program
 from tmm_gen.scene import Scene
 from tmm_gen.scene.columns import output_columns
+from tmm_gen.scene.model import FloatingBase
 from tmm_gen.scene.problem import SceneError
 from tmm_gen.simulate.prescribed import kernel_signals
 
@@ -194,8 +195,9 @@ def parameters_of(scene: Scene) -> dict[str, Any]:
         "gravity": scene.model.gravity or 0.0,
         "hub_inertia": scene.base.inertia,
         "hub_damping": scene.base.damping,
-        "hub_mass": scene.base.mass,
     }
+    if isinstance(scene.base, FloatingBase):
+        found["hub_mass"] = scene.base.mass
     if scene.tip is not None:
         found |= {"tip_mass": scene.tip.mass, "tip_inertia": scene.tip.inertia}
     return found
