@@ -128,7 +128,9 @@ def need_tool() -> Callable[..., str]:
 
 LONG = (
     "control/emitted/test_faults.py",
+    "control/test_calibration_parts.py",
     "control/test_closed_loop.py",
+    "control/test_mpc_command.py",
     "control/test_tuning.py",
     "docs/test_mpc_page.py",
     "docs/test_stability_page.py",
