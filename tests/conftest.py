@@ -128,7 +128,9 @@ def need_tool() -> Callable[..., str]:
 
 LONG = (
     "control/emitted/test_faults.py",
+    "control/test_calibration_parts.py",
     "control/test_closed_loop.py",
+    "control/test_mpc_command.py",
     "control/test_tuning.py",
     "docs/test_mpc_page.py",
     "docs/test_stability_page.py",
@@ -147,7 +149,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption(
         "--first-and-last",
         action="store_true",
-        help="of each parametrised test only the first and the last case",
+        help="of each file only the first and the last test, and those that want an optional tool",
     )
 
 
@@ -161,10 +163,11 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
             item.add_marker(pytest.mark.tools)
     items.sort(key=lambda item: item.get_closest_marker("long") is not None)
     if config.getoption("--first-and-last"):
-        cases: dict[str, list[pytest.Item]] = {}
+        files: dict[Path, list[pytest.Item]] = {}
         for item in items:
-            cases.setdefault(item.nodeid.partition("[")[0], []).append(item)
-        ends = {id(item) for same in cases.values() for item in (same[0], same[-1])}
+            files.setdefault(item.path, []).append(item)
+        ends = {id(item) for same in files.values() for item in (same[0], same[-1])}
+        ends |= {id(item) for item in items if item.get_closest_marker("tools")}
         config.hook.pytest_deselected(items=[item for item in items if id(item) not in ends])
         items[:] = [item for item in items if id(item) in ends]
 

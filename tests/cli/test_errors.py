@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from pathlib import Path
 
 import pytest
@@ -103,3 +104,19 @@ def test_the_scene_itself_is_good(
     monkeypatch.chdir(tmp_path)
     assert main(["run", "arm.toml", "--until", "0.1"]) == 0
     assert capsys.readouterr().err == ""
+
+
+@pytest.mark.parametrize("command", ["modes", "stability"])
+@pytest.mark.parametrize("damping", [1e300, 3e306])
+def test_numbers_beyond_all_bounds_end_in_one_line(
+    command: str, damping: float, capsys: pytest.CaptureFixture[str], repository: Path, tmp_path: Path
+) -> None:
+    """What NumPy and SciPy refuse in words of their own is no defect."""
+    scene = tmp_path / "thesis2.toml"
+    text = (repository / "scenes" / "thesis2.toml").read_text()
+    scene.write_text(text.replace("damping = 5.0", f"damping = {damping}", 1))
+    assert scene.read_text() != text
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        assert main([command, str(scene)]) == 2
+    assert "leave the range of floating point" in capsys.readouterr().err

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import re
 import shlex
+import shutil
 from pathlib import Path
 
 import pytest
 
 from tmm_gen.cli import main
 from tmm_gen.program.build import build_program
-from tmm_gen.scene import parse_scene
+from tmm_gen.scene import load_scene, parse_scene
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = (ROOT / "docs" / "arms.md").read_text()
@@ -18,11 +19,11 @@ COMMANDS = [
     line.removeprefix("$ tmm-gen ")
     for block in re.findall(r"```console\n(.*?)```", PAGE, re.DOTALL)
     for line in block.splitlines()
-    if line.startswith("$ tmm-gen run")
 ]
+PICTURES = [command for command in COMMANDS if "--plot" in command]
 
 
-@pytest.mark.parametrize("command", COMMANDS)
+@pytest.mark.parametrize("command", PICTURES)
 def test_commands(
     command: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -35,8 +36,26 @@ def test_commands(
     assert "accurate to about" in capsys.readouterr().out
 
 
+@pytest.mark.compiler
+def test_calibration(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """What made the record is found, and what is written can be read."""
+    (tmp_path / "scenes").mkdir()
+    shutil.copy(ROOT / "scenes" / "elbow.toml", tmp_path / "scenes")
+    monkeypatch.chdir(tmp_path)
+    commands = [command for command in COMMANDS if "made.csv" in command]
+    assert len(commands) == 3
+    for command in commands:
+        assert main(shlex.split(command)) == 0, command
+    assert "body.payload.mass" in capsys.readouterr().out
+    assert load_scene(tmp_path / "scenes" / "fitted.toml").joints[1].stiffness == pytest.approx(
+        9.0 / 0.1, rel=1e-4
+    )
+
+
 def test_there_are_commands_and_figures() -> None:
-    assert len(COMMANDS) >= 2
+    assert len(PICTURES) >= 2
     for figure in re.findall(r"\]\((figures/\S+)\)", PAGE):
         assert (ROOT / "docs" / figure).is_file()
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import subprocess
 from collections.abc import Callable
 from pathlib import Path
@@ -10,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from tmm_gen.explain.terms import terms_of
 from tmm_gen.export.mjcf.model import mujoco_model
 from tmm_gen.inputs.signals import Constant
 from tmm_gen.reference.planar_reference import planar_response
@@ -54,13 +54,12 @@ def test_sensitivities_are_refused(drifter_text: str, tmp_path: Path, tmm_gen: R
     assert "not derived for a base that floats" in " ".join(ended.stderr.split())
 
 
-def test_explain_names_the_base(drifter_text: str, tmp_path: Path, tmm_gen: Run) -> None:
-    path = tmp_path / "drifter.toml"
-    path.write_text(drifter_text)
-    told = json.loads(tmm_gen("explain", path, "--json").stdout)
-    terms = {t["term"]: t for key in told if isinstance(told[key], list) for t in told[key] if "term" in t}
-    assert terms["a base that floats"]["operations_per_step"] > 0
-    assert "friction of the hub" not in terms
+def test_explain_names_the_base(drifter: Callable[..., Scene]) -> None:
+    scene = drifter()
+    (term,) = [each for each in terms_of(scene) if each.name == "a base that floats"]
+    assert term.modelled
+    assert not term.other(scene).floats
+    assert all(each.name != "friction of the hub" for each in terms_of(scene))
 
 
 @pytest.mark.compiler

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from tmm_gen.inputs.signals import Constant, Sine
-from tmm_gen.native import compile_kernel
+from tmm_gen.native import NativeKernel, compile_kernel
 from tmm_gen.program.build import build_program
 from tmm_gen.reference.planar_reference import planar_response
 from tmm_gen.scene import Scene
@@ -103,9 +103,8 @@ def test_the_reference_is_right(gravity: float, drifter: Callable[..., Scene]) -
         assert found[name][-1] == pytest.approx(value, rel=1e-9, abs=1e-9), name
 
 
-def ended(scene: Scene, step: float) -> dict[str, float]:
+def ended(kernel: NativeKernel, step: float) -> dict[str, float]:
     """Return the outputs of the compiled kernel at the end."""
-    kernel = compile_kernel(build_program(scene), scene, flags=("-O1",))
     kernel.prepare(step=step)
     kernel.initialise({name: float(signal.at(np.array(0.0))) for name, signal in SIGNALS.items()})
     (instants,) = kernel.program.stage_instants
@@ -125,7 +124,8 @@ def test_orders(integrator: str, order: int, gravity: float, drifter: Callable[.
     """Places of the base come with the order that angles have."""
     right, scene = exact(gravity), drifter(integrator, gravity)
     steps = [4e-3, 2e-3, 1e-3] if order > 2 else [1e-3, 5e-4, 2.5e-4]
-    each = [ended(scene, step) for step in steps]
+    kernel = compile_kernel(build_program(scene), scene, flags=("-O1",))
+    each = [ended(kernel, step) for step in steps]
     for names in (("hub_x", "hub_y"), ("end_x", "end_y"), ("attitude",)):
         errors = [np.linalg.norm([found[n] - right[n] for n in names]) for found in each]
         slope = np.polyfit(np.log(steps), np.log(errors), 1)[0]

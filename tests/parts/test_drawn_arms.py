@@ -28,7 +28,7 @@ pytestmark = [pytest.mark.compiler, pytest.mark.long]
 
 AGREE = 1e-12
 UNTIL = 0.05
-FEW = settings(max_examples=8, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck))
+FEW = settings(max_examples=5, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck))
 
 
 @FEW

@@ -10,7 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.calibration.fit import MAD, Fit, sorted_out
-from tmm_gen.calibration.fitted_keys import changes, default_keys, number_of, replaced
+from tmm_gen.calibration.fitted_keys import (
+    changes,
+    default_keys,
+    number_of,
+    refuse_overlaps,
+    replaced,
+)
 from tmm_gen.calibration.uncertainty import SURE, deviations
 from tmm_gen.errors import CheckFailed, UserError
 from tmm_gen.inputs.clock import starts_of
@@ -25,7 +31,7 @@ MOST_MISFIT = 0.5
 """What may be left, as a share of the record's standard deviation: more, and the model does not follow it."""
 
 _SCAN = np.geomspace(0.25, 4.0, 25)
-"""Factors of the first parameter tried before the fit: the response is not convex in a frequency."""
+"""Factors of a parameter tried before the fit: the response is not convex in a frequency."""
 
 _FARTHEST = float(np.log(1e4))
 """Of a fitted number from the given one, in logarithms."""
@@ -124,8 +130,8 @@ def calibrate(
         Inputs and, as tables, at least one output by name; inputs without a record are zero. All tables have one
         clock, in seconds.
     keys : sequence of str, optional
-        Dotted keys of positive numbers in the scene, or ``stiffness`` and ``damping`` for factors of all joints; see
-        :func:`default_keys`.
+        Dotted keys of positive numbers in the scene, parts by name, or ``stiffness`` and ``damping`` for factors of all
+        springs and dampers; see :func:`default_keys`.
     start : float, optional
         When, on that clock, the arm was in the scene's initial state; see :func:`tmm_gen.inputs.clock.starts_of`.
     loss : {"linear", "huber"}
@@ -143,10 +149,11 @@ def calibrate(
     """
     chosen = tuple(keys or default_keys(scene))
     given = np.array([number_of(scene, key) for key in chosen])
+    refuse_overlaps(scene, chosen)
     inputs, outputs = sorted_out(scene, record)
     starts = starts_of(outputs, inputs) if start is None else (start,)
     fits = [Fit(scene, record, chosen, given, each, robust=loss == "huber") for each in starts]
-    tried = [(fit, *_solved(fit, loss)) for fit in fits]
+    tried = [(fit, *_solved(fit, each, loss)) for fit in fits for each in _starts(fit)]
     fit, logarithms, reach = min(tried, key=lambda each: _size(each[0].remains(each[1]), each[2]))
     before = fit.remains(np.zeros(len(chosen)))
     left = fit.remains(logarithms)
@@ -159,10 +166,10 @@ def calibrate(
             f"{scene.source.origin}: nothing that is fitted makes a difference, as inputs without a record are zero: "
             f"the record has no column {' or '.join(absent)}. Say what acted, for example --input {absent[0]}=1."
         )
-    if np.any(diagonal == 0.0) or np.linalg.cond(normal / np.outer(diagonal, diagonal)) > _FLAT:
+    told = _told(normal, diagonal)
+    if len(told) < len(chosen):
         raise UserError(
-            f"{scene.source.origin}: the record does not tell {' and '.join(chosen)} apart. "
-            "Fit fewer keys, or record a livelier motion."
+            f"{scene.source.origin}: the record does not tell {' and '.join(chosen)} apart. {_instead(chosen, told)}"
         )
     misfit = _size(left, reach)
     if not misfit < most_misfit:
@@ -170,7 +177,7 @@ def calibrate(
     if (far := np.abs(logarithms) > 0.99 * _FARTHEST).any():
         raise CheckFailed(
             f"{scene.source.origin}: '{chosen[int(np.argmax(far))]}' leaves all bounds: the record asks for a value "
-            "ten thousand times larger or smaller than the scene's. Correct the scene first."
+            "ten thousand times larger or smaller than the scene's. Correct the scene first, or fit other keys only."
         )
     spread, correlation = deviations(jacobian, left, fit.instants, reach)
     values = given * np.exp(logarithms)
@@ -191,15 +198,25 @@ def calibrate(
     )
 
 
-def _solved(fit: Fit, loss: Loss) -> tuple[Array, float]:
+def _starts(fit: Fit) -> list[Array]:
+    """Return logarithms to start from: the first number scanned, and all of them, each with those before it.
+
+    Neither leads to the right valley always where springs stand in series: the better end of both counts.
+    """
+    at = np.zeros(len(fit.keys))
+    found = []
+    for k in range(len(at)):
+        tried = [at + np.log(factor) * np.eye(len(at))[k] for factor in _SCAN]
+        # what is far off counts no more than what is three deviations off, whatever the loss: this is but a start
+        at = min(tried, key=lambda each: _size(fit.remains(each), 3.0))
+        found.append(at)
+    return found if len(found) < 2 else [found[0], found[-1]]
+
+
+def _solved(fit: Fit, start: Array, loss: Loss) -> tuple[Array, float]:
     """Return the fitted logarithms, and beyond what remains lost weight."""
     from scipy.optimize import least_squares  # slow to import
 
-    start = np.zeros(len(fit.keys))
-    tried = [fit.remains(np.array([np.log(factor), *start[1:]])) for factor in _SCAN]
-    # what is far off counts no more than what is three deviations off, whatever the loss: this is but a start
-    best = int(np.argmin([float(np.mean(np.minimum(np.abs(each), 3.0) ** 2)) for each in tried]))
-    start[0] = float(np.log(_SCAN[best]))
     reach = np.inf
     for _ in range(_ROUNDS if loss == "huber" else 1):
         if loss == "huber":
@@ -231,6 +248,26 @@ def _jacobian(fit: Fit, logarithms: Array) -> Array:
 def _size(remains: Array, reach: float) -> float:
     """Return the root mean square, of what lost weight no more than it counts."""
     return float(np.sqrt(np.mean(np.clip(remains, -reach, reach) ** 2)))
+
+
+def _told(normal: Array, diagonal: Array) -> list[int]:
+    """Return which parameters the record tells apart: all, or those that are left when what blurs them is taken out."""
+    left = [k for k in range(len(diagonal)) if diagonal[k] > 0.0]
+    while left:
+        scaled = (normal / np.outer(diagonal, diagonal).clip(min=1e-300))[np.ix_(left, left)]
+        if np.linalg.cond(scaled) <= _FLAT:
+            break
+        left.pop(int(np.argmax(np.abs(np.linalg.eigh(scaled)[1][:, 0]))))
+    return left
+
+
+def _instead(chosen: Sequence[str], told: Sequence[int]) -> str:
+    """Say what can be fitted in place of keys that are not told apart."""
+    without = " and ".join(key for k, key in enumerate(chosen) if k not in told)
+    livelier = "record a livelier motion"
+    if not told:
+        return f"Nothing recorded depends on them: {livelier}."
+    return f"Leave out {without}: {' '.join(f'--fit {chosen[k]}' for k in told)}; or {livelier}."
 
 
 def _unlike(scene: Scene, fit: Fit, misfit: float, most: float, loss: Loss) -> str:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.calibration.fitted_keys import changes, replaced
+from tmm_gen.calibration.fitted_keys import changes, replaced, tried
 from tmm_gen.errors import UserError
 from tmm_gen.inputs.clock import from_start, refuse_what_is_unknown, spacing
 from tmm_gen.inputs.signals import Signal, Table
@@ -17,6 +17,8 @@ from tmm_gen.native.series import Series
 from tmm_gen.program.build import build_program
 from tmm_gen.scene import Scene
 from tmm_gen.scene.columns import output_columns
+from tmm_gen.scene.model import FloatingBase
+from tmm_gen.scene.problem import SceneError
 from tmm_gen.simulate.prescribed import kernel_signals
 
 Array = NDArray[np.float64]
@@ -65,9 +67,11 @@ class Fit:
         robust: bool,
     ) -> None:
         self.scene, self.keys, self.given = scene, keys, given
-        # links and joints that are alike share a number in the kernel; those to be fitted apart must not
+        # links and joints that are alike share a number in the kernel; those to be fitted apart must not, so each
+        # key is changed by a factor of its own that makes no two numbers of a file alike by chance
         apart = {
-            key: value * (1.01 + 0.01 * k) for k, (key, value) in enumerate(zip(keys, given, strict=True))
+            key: value * float(np.exp(1e-3 * np.sqrt(k + 2)))
+            for k, (key, value) in enumerate(zip(keys, given, strict=True))
         }
         unlike = replaced(scene, changes(scene, apart))
         program = build_program(unlike)
@@ -91,15 +95,14 @@ class Fit:
     def remains(self, logarithms: Array) -> Array:
         """Return what the model is off at the recorded instants, relative to the record's standard deviation."""
         values = dict(zip(self.keys, (self.given * np.exp(logarithms)).tolist(), strict=True))
-        known = parameters_of(replaced(self.scene, changes(self.scene, values)))
-        parameters = {
-            v.name: known[v.name] if v.length or np.ndim(known[v.name]) == 0 else known[v.name][0]
-            for v in self.kernel.program.parameters
-            if v.name in known
-        }
         try:
+            known = parameters_of(tried(self.scene, changes(self.scene, values)))
+            parameters = {
+                v.name: known[v.name] if v.length or np.ndim(known[v.name]) == 0 else known[v.name][0]
+                for v in self.kernel.program.parameters
+            }
             found = self.series.run(parameters)
-        except ArithmeticError:
+        except (ArithmeticError, SceneError):
             return np.full(len(self.instants), _DIVERGED)
         return np.concatenate(
             [
@@ -181,6 +184,10 @@ def parameters_of(scene: Scene) -> dict[str, Any]:
     found: dict[str, Any] = {
         "stiffness": [joint.stiffness for joint in joints],
         "damping": [joint.damping for joint in joints],
+        "rest": [joint.rest for joint in joints],
+        "rotor_inertia": [joint.rotor_inertia for joint in joints],
+        "gear": [joint.gear for joint in joints],
+        "ratio": [joint.ratio for joint in joints],
         "inertia": [link.inertia for link in links],
         "mass": [link.mass for link in links],
         "length": [link.length for link in links],
@@ -189,6 +196,8 @@ def parameters_of(scene: Scene) -> dict[str, Any]:
         "hub_inertia": scene.base.inertia,
         "hub_damping": scene.base.damping,
     }
+    if isinstance(scene.base, FloatingBase):
+        found["hub_mass"] = scene.base.mass
     if scene.tip is not None:
         found |= {"tip_mass": scene.tip.mass, "tip_inertia": scene.tip.inertia}
     return found

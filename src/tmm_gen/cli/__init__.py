@@ -28,6 +28,9 @@ _PROGRAM = "tmm-gen"
 _OF_OUTPUT = (errno.EBADF, errno.EFBIG, errno.EIO, errno.ENOSPC, errno.EDQUOT)
 """What goes wrong with standard output, to which errors give no name."""
 
+_OF_LIBRARIES = ("infs or NaNs", "invalid numeric entries")
+"""In what words NumPy and SciPy refuse numbers that are none."""
+
 COMMANDS = {
     "new": LazyCommand("tmm_gen.cli.new:new", "Write a commented scene to start from."),
     "keys": LazyCommand("tmm_gen.cli.keys:keys", "List every key a scene may have."),
@@ -196,6 +199,8 @@ def _scene_in(words: list[str]) -> str | None:
 def _of_numbers(error: Exception) -> bool:
     """Whether an error is what numbers do that leave the range of floating point."""
     named = {kind.__name__ for kind in type(error).__mro__}
+    if isinstance(error, ValueError) and any(words in str(error) for words in _OF_LIBRARIES):
+        return True
     return bool(named & {"ArithmeticError", "LinAlgError"})
 
 

@@ -29,8 +29,8 @@ if TYPE_CHECKING:
     "keys",
     metavar="KEY",
     multiple=True,
-    help="Number of the scene to fit, such as tip.mass; `stiffness` and `damping` mean all joints. Repeatable; "
-    "by default stiffness and damping.",
+    help="Number of the scene to fit, such as tip.mass or beam.upper.bending_stiffness; `stiffness` and `damping` mean "
+    "all springs and all dampers. Repeatable; by default stiffness and damping, of each part by itself.",
 )
 @click.option(
     "--input",
@@ -95,12 +95,6 @@ def calibrate(
 
     require_new(out, force)
     loaded = load_scene(scene)
-    if loaded.parts:
-        raise UserError(
-            f"{scene}: `tmm-gen calibrate` fits no arms of parts by name yet, and this one has "
-            f"[[{loaded.parts[0].kind}]] '{loaded.parts[0].name}'. It fits arms of [beam], or of [[joint]] and "
-            "[[link]] in turn."
-        )
     with progress(f"fitting {loaded.name}"):
         from tmm_gen.calibration.calibrate import calibrate as fit
         from tmm_gen.inputs.clock import UNITS, from_start

@@ -74,7 +74,7 @@ def _slowest(scene: Scene, _document: Document) -> Measured:
         return
     # numbers beyond floating point: others tell
     with contextlib.suppress(ArithmeticError, ValueError), np.errstate(all="ignore"):
-        if (found := slowest_vibration(scene)) is not None:
+        if (found := slowest_vibration(scene)) is not None and found > 0.0:
             yield ("joint",) if "joint" in scene.source.data else ("beam",), found / (2.0 * math.pi)
 
 

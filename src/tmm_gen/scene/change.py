@@ -29,7 +29,7 @@ def changed(source: Source, changes: Mapping[str, object]) -> Source:
     if isinstance(name, str) and underscored(name) != underscored(before["name"]):
         data["integrator"] = {"name": name, "step": before["step"]}
     for key, value in changes.items():
-        path = _numbered(data, _path(key))
+        path = path_of(data, key)
         fault = _assign(data, path, _plain(value))
         if fault:
             line = source.lines.get(path[:1], 1)
@@ -38,17 +38,15 @@ def changed(source: Source, changes: Mapping[str, object]) -> Source:
     return replace(source, origin=origin, data=data)
 
 
-def _path(key: str) -> Path:
-    """Split ``link.2.inertia`` into ``("link", 1, "inertia")``; ``link[2].inertia``, as errors have it, too."""
-    parts = re.sub(r"\[(\d+)\]", r".\1", key).split(".")
-    return tuple(int(part) - 1 if part.isdecimal() else part for part in parts)
+def path_of(data: Any, key: str) -> Path:
+    """Return where a key stands in a document, be it there or not: ``link.2.inertia`` is ``("link", 1, "inertia")``.
 
-
-def _numbered(data: Any, path: Path) -> Path:
-    """Return a path with the numbers of tables that it calls by name: ``motor.elbow.gear``."""
+    Tables are counted from 1, or called by name: ``motor.elbow.gear``. ``link[2].inertia``, as errors have it, will do.
+    """
     found: list[str | int] = []
     place = data
-    for part in path:
+    for word in re.sub(r"\[(\d+)\]", r".\1", key).split("."):
+        part: str | int = int(word) - 1 if word.isdecimal() else word
         if isinstance(place, list) and isinstance(part, str):
             names = [entry.get("name") for entry in place if isinstance(entry, dict)]
             part = names.index(part) if part in names else part

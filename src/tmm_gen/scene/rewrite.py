@@ -25,7 +25,8 @@ def rewritten(text: str, origin: str, scene: Scene, changes: Mapping[Path, float
     scene : Scene
         What the new text must say.
     changes : mapping from path to float or sequence of float
-        New values, numbers or lists of them; each key must stand with its value on a line of its own in the file.
+        New values, numbers or lists of them; each key must stand with its value on one line, no other key of
+        its name beside it.
 
     Raises
     ------
@@ -37,15 +38,18 @@ def rewritten(text: str, origin: str, scene: Scene, changes: Mapping[Path, float
     for path, value in changes.items():
         line = lines.get(path)
         old = _LIST if isinstance(value, Sequence) else _NUMBER
-        pattern = re.compile(rf"^(\s*{re.escape(str(path[-1]))}\s*=\s*){old}(?=\s|$|#)")
-        match = pattern.match(rows[line - 1]) if line else None
-        if line is None or match is None:
+        # at the start of a line, dotted or not, or in a table within it: material = { young = 70e9 }
+        key = rf"((?:^\s*(?:[\w-]+\s*\.\s*)*|[{{,]\s*){re.escape(str(path[-1]))}\s*=\s*)"
+        matches = list(re.finditer(rf"{key}{old}(?=[\s#,}}]|$)", rows[line - 1])) if line else []
+        if line is None or len(matches) != 1:
             remedy = "Write the key and its number on a line of their own."
             raise SceneError(
                 [Problem(origin, line or 1, show_path(path), None, "cannot be rewritten", remedy)]
             )
         new = repr(list(value)) if isinstance(value, Sequence) else repr(value)
-        rows[line - 1] = _aligned(match[1] + new, match.end(), rows[line - 1])
+        (match,) = matches
+        start = rows[line - 1][: match.start()] + match[1] + new
+        rows[line - 1] = _aligned(start, match.end(), rows[line - 1])
     whole = "\n".join(rows)
     if parse_scene(whole, origin) != scene:
         problem = Problem(origin, 1, "", None, "cannot be rewritten", "Change the numbers by hand.")

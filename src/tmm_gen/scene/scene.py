@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, fields, replace
+from functools import cached_property
 
 from tmm_gen.scene.beam import Beam, BeamEntry, Tip
 from tmm_gen.scene.change import changed
@@ -78,14 +79,13 @@ class Scene:
     source: Source = field(repr=False)
     parts: tuple[PlacedPart, ...] = ()
     hosts: tuple[int, ...] = ()
-    digest: str = field(init=False, repr=False)
 
-    def __post_init__(self) -> None:
-        """Fingerprint the content, which is all fields but the source."""
-        names = [item.name for item in fields(self) if item.name not in ("source", "digest")]
-        told = [name for name in names if name not in ("parts", "hosts") or getattr(self, name)]
-        content = {name: getattr(self, name) for name in told}
-        object.__setattr__(self, "digest", content_digest(content))
+    @cached_property
+    def digest(self) -> str:
+        """Fingerprint of the content, which is all fields but the source."""
+        told = [item.name for item in fields(self) if item.name != "source"]
+        told = [name for name in told if name not in ("parts", "hosts") or getattr(self, name)]
+        return content_digest({name: getattr(self, name) for name in told})
 
     @property
     def stations(self) -> int:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 import sympy as sp
 
@@ -35,8 +34,9 @@ from tmm_gen.program.arm.branches import Gathered, from_fork, kept_at_fork, resu
 from tmm_gen.program.arm.layout import Layout
 from tmm_gen.program.arm.loads import Loads
 from tmm_gen.program.arm.motion import Held, Moving
+from tmm_gen.program.arm.spread import spread
 from tmm_gen.program.statements import Assign, Loop, Order, Require, Section, Statement
-from tmm_gen.program.variables import Ref, Role, Variable, local, refs_in
+from tmm_gen.program.variables import Ref, Role, Variable, local
 
 BASE = 0
 """Index of the base among nodes; station j lies between nodes j and j + 1."""
@@ -370,47 +370,6 @@ def prescribed_unknown(still: frozenset[str], loads: Loads) -> sp.Expr:
 def hub_unknown() -> Ref:
     """Return what a sweep has found of the base."""
     return local("hub_unknown", "unknown of the hub")
-
-
-def spread(sections: list[Section], scratch: Scratch, n: int) -> list[Section]:
-    """Keep in arrays what one loop sets at each station and another reads."""
-    names: set[Variable] = set()
-    for section in sections:
-        for statement in section.statements:
-            written: set[Variable] = set()
-            for inner in statement.body if isinstance(statement, Loop) else (statement,):
-                for ref in refs_in(inner.value):
-                    kept = ref.variable.name in scratch.lets and ref.variable.role is Role.LOCAL
-                    if kept and ref.variable not in written:
-                        names.add(ref.variable)
-                if isinstance(inner, Assign):
-                    written.add(inner.target.variable)
-    set_in_loops = {
-        inner.target.variable
-        for section in sections
-        for statement in section.statements
-        if isinstance(statement, Loop)
-        for inner in statement.body
-        if isinstance(inner, Assign)
-    }
-    arrays = {v.ref: replace(v, role=Role.WORK, length=n).at() for v in names & set_in_loops}
-
-    def changed(statement: Any) -> Any:
-        value = statement.value.xreplace(arrays)
-        if not isinstance(statement, Assign):
-            return replace(statement, value=value)
-        return Assign(arrays.get(statement.target, statement.target), value)
-
-    return [
-        replace(
-            section,
-            statements=tuple(
-                replace(s, body=tuple(changed(x) for x in s.body)) if isinstance(s, Loop) else changed(s)
-                for s in section.statements
-            ),
-        )
-        for section in sections
-    ]
 
 
 def _depending(lets: list[Let], on: set[sp.Symbol]) -> list[Let]:

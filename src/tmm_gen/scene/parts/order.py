@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 from tmm_gen.scene.parts.tables import BodyPart, JointPart, MotorPart, Part
 
@@ -64,7 +65,7 @@ class Hanging:
 
     entries: tuple[Entry, ...]
 
-    @property
+    @cached_property
     def by_name(self) -> dict[str, Entry]:
         """All parts by name."""
         return {entry.name: entry for entry in self.entries}
