@@ -56,6 +56,13 @@ LOADS: dict[str, tuple[str, Loads]] = {
             "elbow_torque": lambda t: 0.01 * np.sin(13.0 * t),
         },
     ),
+    "cube": (
+        "turned and pushed back and forth at 0.5 and 0.3 Hz",
+        {
+            "wheel": lambda t: 0.5 * np.cos(np.pi * t),
+            "thruster": lambda t: 2.0 * np.cos(0.6 * np.pi * t),
+        },
+    ),
     "geartrain": (
         "turning back and forth at 1 Hz",
         {

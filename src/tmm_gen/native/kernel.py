@@ -85,6 +85,8 @@ class NativeKernel:
         self._params, self._model, self._state, self._inputs, self._outputs = (
             kind() for kind in library.types.values()
         )
+        for unwritten in (self._model, self._state, self._outputs):  # whose zeros a caller's memory has not
+            ctypes.memset(ctypes.byref(unwritten), 0xFF, ctypes.sizeof(unwritten))
         self._step = self._default_step
         library.call("default_params", self._params)
 

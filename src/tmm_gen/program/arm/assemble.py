@@ -233,7 +233,7 @@ class Assembly:
             combined.section,
             *lifted(list(builder.sections()), ask=self.row.about == "prediction"),
             *((start_places(layout),) if layout.places else ()),
-            Section("older history of the base", older),
+            Section(f"older history of the {'base' if self.row.floats else 'hub'}", older),
             *hold(layout, 1),
             Section("nothing has turned to heat yet", cold),
         )
