@@ -1,8 +1,8 @@
 # cube: Satellite with two flexible panels
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 712db4c4d8d0b4ee97fa8a8caadfc624f45341647d11ba12beb3061fbeafd1b3
-# sha256 of the rest of this file: 16a02b3131e5825171cab5a3b26ed4ceb0fd7b27b78c583df487d755392436d6
+# scene digest: f046f23ff154c77eb0de6f429bf04f6275910b87af75eea62b4aa0e7be8a3583
+# sha256 of the rest of this file: 3d946c1d574c1ee30529e9ccd51dc304620c19edb01a119c15203d41018b5e48
 """cube: Satellite with two flexible panels."""
 
 from .kernel import (

@@ -1,8 +1,8 @@
 # cube: Satellite with two flexible panels
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 712db4c4d8d0b4ee97fa8a8caadfc624f45341647d11ba12beb3061fbeafd1b3
-# sha256 of the rest of this file: c1e6066bf970443580b49a1cafa2eabc308e39ccc1e74cfc8075c50ad5561009
+# scene digest: f046f23ff154c77eb0de6f429bf04f6275910b87af75eea62b4aa0e7be8a3583
+# sha256 of the rest of this file: de0a79ae8c2fbad4d472f3c77560772cb8ff7f926e4c5d09e50bee74ca63fccf
 #
 # model: planar arm, large rotations
 # stations: 12
@@ -92,25 +92,25 @@ class Params:
         Mass of the bodies at the base (kg).
     """
 
-    length: ArrayLike = (0.15, 0.18, 0.18, 0.18, 0.18, 0.18, 0.15, 0.18, 0.18, 0.18, 0.18, 0.18)
-    mass: ArrayLike = (0.12, 0.252, 0.252, 0.252, 0.252, 0.252, 0.12, 0.252, 0.252, 0.252, 0.252, 0.252)
+    length: ArrayLike = (0.15, 0.2, 0.2, 0.2, 0.2, 0.1, 0.15, 0.2, 0.2, 0.2, 0.2, 0.1)
+    mass: ArrayLike = (0.12, 0.28, 0.28, 0.28, 0.28, 0.14, 0.12, 0.28, 0.28, 0.28, 0.28, 0.14)
     inertia: ArrayLike = (
         0.000225,
-        0.0006804,
-        0.0006804,
-        0.0006804,
-        0.0006804,
-        0.0006804,
+        0.0009333333333333333,
+        0.0009333333333333333,
+        0.0009333333333333333,
+        0.0009333333333333333,
+        0.00011666666666666667,
         0.000225,
-        0.0006804,
-        0.0006804,
-        0.0006804,
-        0.0006804,
-        0.0006804,
+        0.0009333333333333333,
+        0.0009333333333333333,
+        0.0009333333333333333,
+        0.0009333333333333333,
+        0.00011666666666666667,
     )
     center: ArrayLike = 0.5
-    stiffness: ArrayLike = (60.0, 100.0, 50.0, 50.0, 50.0, 50.0, 60.0, 100.0, 50.0, 50.0, 50.0, 50.0)
-    damping: ArrayLike = (0.02, 0.1, 0.05, 0.05, 0.05, 0.05, 0.02, 0.1, 0.05, 0.05, 0.05, 0.05)
+    stiffness: ArrayLike = (60.0, 90.0, 45.0, 45.0, 45.0, 45.0, 60.0, 90.0, 45.0, 45.0, 45.0, 45.0)
+    damping: ArrayLike = (0.02, 0.09, 0.045, 0.045, 0.045, 0.045, 0.02, 0.09, 0.045, 0.045, 0.045, 0.045)
     rest: ArrayLike = (3.141592653589793, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     hub_inertia: ArrayLike = 0.12
     hub_mass: ArrayLike = 14.0

@@ -2,8 +2,8 @@
  * cube: Satellite with two flexible panels
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 712db4c4d8d0b4ee97fa8a8caadfc624f45341647d11ba12beb3061fbeafd1b3
- * sha256 of the rest of this file: fde6b570b22b26acb6cfe02830cd21fb91bba175a36df41dc9cb08bdb0f8c068
+ * scene digest: f046f23ff154c77eb0de6f429bf04f6275910b87af75eea62b4aa0e7be8a3583
+ * sha256 of the rest of this file: 4a03ce12823a21e3518d10fd98af474c6744c5787639f3e21fc7ac667ea54149
  *
  * model: planar arm, large rotations
  * stations: 12
@@ -54,20 +54,21 @@ static int inputs_are_finite(const cube_inputs *inputs)
 void cube_default_params(cube_params *params)
 {
     static const real length[] = {
-        0.15, 0.18, 0.18, 0.18, 0.18, 0.18, 0.15, 0.18, 0.18, 0.18, 0.18, 0.18
+        0.15, 0.2, 0.2, 0.2, 0.2, 0.1, 0.15, 0.2, 0.2, 0.2, 0.2, 0.1
     };
     static const real mass[] = {
-        0.12, 0.252, 0.252, 0.252, 0.252, 0.252, 0.12, 0.252, 0.252, 0.252, 0.252, 0.252
+        0.12, 0.28, 0.28, 0.28, 0.28, 0.14, 0.12, 0.28, 0.28, 0.28, 0.28, 0.14
     };
     static const real inertia[] = {
-        0.000225, 0.0006804, 0.0006804, 0.0006804, 0.0006804, 0.0006804, 0.000225, 0.0006804, 0.0006804,
-        0.0006804, 0.0006804, 0.0006804
+        0.000225, 0.0009333333333333333, 0.0009333333333333333, 0.0009333333333333333, 0.0009333333333333333,
+        0.00011666666666666667, 0.000225, 0.0009333333333333333, 0.0009333333333333333, 0.0009333333333333333,
+        0.0009333333333333333, 0.00011666666666666667
     };
     static const real stiffness[] = {
-        60.0, 100.0, 50.0, 50.0, 50.0, 50.0, 60.0, 100.0, 50.0, 50.0, 50.0, 50.0
+        60.0, 90.0, 45.0, 45.0, 45.0, 45.0, 60.0, 90.0, 45.0, 45.0, 45.0, 45.0
     };
     static const real damping[] = {
-        0.02, 0.1, 0.05, 0.05, 0.05, 0.05, 0.02, 0.1, 0.05, 0.05, 0.05, 0.05
+        0.02, 0.09, 0.045, 0.045, 0.045, 0.045, 0.02, 0.09, 0.045, 0.045, 0.045, 0.045
     };
     static const real rest[] = {
         3.141592653589793, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0

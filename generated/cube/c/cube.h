@@ -2,8 +2,8 @@
  * cube: Satellite with two flexible panels
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 712db4c4d8d0b4ee97fa8a8caadfc624f45341647d11ba12beb3061fbeafd1b3
- * sha256 of the rest of this file: 558989863d222b8c8720b9b883a1b42ccab3a7d6731b4585ad830d8dcfdd8a5c
+ * scene digest: f046f23ff154c77eb0de6f429bf04f6275910b87af75eea62b4aa0e7be8a3583
+ * sha256 of the rest of this file: 3902426743ea36e651177353e0b99007b61f60782e13537380936425b11ce3d9
  *
  * model: planar arm, large rotations
  * stations: 12

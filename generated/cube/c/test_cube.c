@@ -2,8 +2,8 @@
  * cube: Satellite with two flexible panels
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 712db4c4d8d0b4ee97fa8a8caadfc624f45341647d11ba12beb3061fbeafd1b3
- * sha256 of the rest of this file: d26c51ffa3bf3d983e8881a1f9244e1d050c50ba4b46bf14e3f6183846527f14
+ * scene digest: f046f23ff154c77eb0de6f429bf04f6275910b87af75eea62b4aa0e7be8a3583
+ * sha256 of the rest of this file: e516346bafc5bf817eb4c1e7c71d8cf34d000fabda3f6c650fb00aa5a0437168
  *
  * model: planar arm, large rotations
  * stations: 12
@@ -106,12 +106,12 @@ static void test_motion(tally *count)
     status = cube_step(&model, &state, &inputs);
     expect_code(count, "step 1", status, CUBE_OK);
     cube_output(&model, &state, &outputs);
-    expect(count, "attitude", outputs.attitude, -0.0030727376171505055, 1.1e-16);
-    expect(count, "hub_x", outputs.hub_x, 0.000150310825933421, 7.9e-17);
-    expect(count, "hub_y", outputs.hub_y, -0.00017106385824437075, 1.5e-17);
-    expect(count, "right_end_x", outputs.right_end_x, 1.0481104669824304, 4.5e-15);
-    expect(count, "right_end_y", outputs.right_end_y, -0.026314363167912552, 3.4e-16);
-    expect(count, "latch_torque", outputs.latch_torque, -3.636830501986884, 6.9e-14);
+    expect(count, "attitude", outputs.attitude, -0.0030745674449535326, 1.5e-16);
+    expect(count, "hub_x", outputs.hub_x, 0.00013958997158731128, 3.6e-17);
+    expect(count, "hub_y", outputs.hub_y, -0.00017178210364818144, 1.3e-17);
+    expect(count, "right_end_x", outputs.right_end_x, 1.048576089888524, 3.2e-15);
+    expect(count, "right_end_y", outputs.right_end_y, -0.01715426117205965, 6e-16);
+    expect(count, "latch_torque", outputs.latch_torque, -3.8133190997880986, 6.2e-14);
 
     /* Step 2. */
     inputs.wheel = -0.25;
@@ -119,12 +119,12 @@ static void test_motion(tally *count)
     status = cube_step(&model, &state, &inputs);
     expect_code(count, "step 2", status, CUBE_OK);
     cube_output(&model, &state, &outputs);
-    expect(count, "attitude", outputs.attitude, -0.012095640013290858, 1.1e-16);
-    expect(count, "hub_x", outputs.hub_x, 0.0009147153869815053, 7.9e-17);
-    expect(count, "hub_y", outputs.hub_y, -0.0005968376913420443, 1.5e-17);
-    expect(count, "right_end_x", outputs.right_end_x, 1.0500447224471228, 4.5e-15);
-    expect(count, "right_end_y", outputs.right_end_y, -0.023372548439391162, 3.4e-16);
-    expect(count, "latch_torque", outputs.latch_torque, -2.211589879315846, 6.9e-14);
+    expect(count, "attitude", outputs.attitude, -0.012106800522394753, 1.5e-16);
+    expect(count, "hub_x", outputs.hub_x, 0.000882502411481677, 3.6e-17);
+    expect(count, "hub_y", outputs.hub_y, -0.0006025024876685401, 1.3e-17);
+    expect(count, "right_end_x", outputs.right_end_x, 1.0504423208066678, 3.2e-15);
+    expect(count, "right_end_y", outputs.right_end_y, -0.013063832354481487, 6e-16);
+    expect(count, "latch_torque", outputs.latch_torque, -2.4394183893309496, 6.2e-14);
 
     /* Step 3. */
     inputs.wheel = 0.375;
@@ -132,53 +132,53 @@ static void test_motion(tally *count)
     status = cube_step(&model, &state, &inputs);
     expect_code(count, "step 3", status, CUBE_OK);
     cube_output(&model, &state, &outputs);
-    expect(count, "attitude", outputs.attitude, -0.02661231991693661, 1.1e-16);
-    expect(count, "hub_x", outputs.hub_x, 0.002243439946173189, 7.9e-17);
-    expect(count, "hub_y", outputs.hub_y, -0.0011563646932851615, 1.5e-17);
-    expect(count, "right_end_x", outputs.right_end_x, 1.0511616940378847, 4.5e-15);
-    expect(count, "right_end_y", outputs.right_end_y, -0.0207090789929851, 3.4e-16);
-    expect(count, "latch_torque", outputs.latch_torque, -1.9851497647385912, 6.9e-14);
+    expect(count, "attitude", outputs.attitude, -0.026651364788664655, 1.5e-16);
+    expect(count, "hub_x", outputs.hub_x, 0.0022530025018137755, 3.6e-17);
+    expect(count, "hub_y", outputs.hub_y, -0.00116530467899589, 1.3e-17);
+    expect(count, "right_end_x", outputs.right_end_x, 1.0515848381340664, 3.2e-15);
+    expect(count, "right_end_y", outputs.right_end_y, -0.011789300072389137, 6e-16);
+    expect(count, "latch_torque", outputs.latch_torque, -1.8050700247935108, 6.2e-14);
 
     /* State after the last step. */
-    expect(count, "hub_angle", state.hub_angle, -0.02661231991693661, 1.1e-16);
-    expect(count, "hub_rate", state.hub_rate, -8.566515124655904, 4e-14);
-    expect(count, "hub_acceleration", state.hub_acceleration, -1237.739474182325, 6.8e-12);
-    expect(count, "angle[0]", state.angle[0], 0.5556163780218133, 9.3e-15);
-    expect(count, "angle[1]", state.angle[1], -0.5425581163632228, 9.3e-15);
-    expect(count, "angle[2]", state.angle[2], 0.019023760990123536, 9.3e-15);
-    expect(count, "angle[4]", state.angle[4], -0.030482371410560562, 9.3e-15);
-    expect(count, "angle[5]", state.angle[5], 0.10770769090547257, 9.3e-15);
-    expect(count, "angle[6]", state.angle[6], 0.005547088881810803, 9.3e-15);
-    expect(count, "angle[7]", state.angle[7], 0.05416901351081929, 9.3e-15);
-    expect(count, "angle[9]", state.angle[9], -0.010088197371522426, 9.3e-15);
-    expect(count, "angle[10]", state.angle[10], -0.07411423090238715, 9.3e-15);
-    expect(count, "angle[11]", state.angle[11], -0.041065060434540786, 9.3e-15);
-    expect(count, "rate[0]", state.rate[0], 125.0810184975943, 2.1e-12);
-    expect(count, "rate[1]", state.rate[1], -73.36753974093739, 2.1e-12);
-    expect(count, "rate[2]", state.rate[2], -8.179252857159431, 2.1e-12);
-    expect(count, "rate[4]", state.rate[4], -34.75206423853816, 2.1e-12);
-    expect(count, "rate[5]", state.rate[5], 28.813365215033958, 2.1e-12);
-    expect(count, "rate[6]", state.rate[6], -5.787253283968586, 2.1e-12);
-    expect(count, "rate[7]", state.rate[7], 8.97933064618623, 2.1e-12);
-    expect(count, "rate[9]", state.rate[9], 6.1872214842127065, 2.1e-12);
-    expect(count, "rate[10]", state.rate[10], -10.426016306393564, 2.1e-12);
-    expect(count, "rate[11]", state.rate[11], 11.78313380458956, 2.1e-12);
-    expect(count, "acceleration[0]", state.acceleration[0], 471.0440987867639, 8e-10);
-    expect(count, "acceleration[1]", state.acceleration[1], 35997.82676743842, 8e-10);
-    expect(count, "acceleration[2]", state.acceleration[2], -38011.11732131344, 8e-10);
-    expect(count, "acceleration[4]", state.acceleration[4], 6114.235684842687, 8e-10);
-    expect(count, "acceleration[5]", state.acceleration[5], -10280.121685856793, 8e-10);
-    expect(count, "acceleration[6]", state.acceleration[6], 7510.550735709704, 8e-10);
-    expect(count, "acceleration[7]", state.acceleration[7], -11932.179886907123, 8e-10);
-    expect(count, "acceleration[9]", state.acceleration[9], -9291.118322968243, 8e-10);
-    expect(count, "acceleration[10]", state.acceleration[10], 7752.365356985524, 8e-10);
-    expect(count, "acceleration[11]", state.acceleration[11], -6178.253680436614, 8e-10);
-    expect(count, "base_place_x", state.base_place_x, 0.002243439946173189, 7.9e-17);
-    expect(count, "base_velocity_x", state.base_velocity_x, 0.7146308240770204, 2.3e-14);
-    expect(count, "base_acceleration_x", state.base_acceleration_x, -53.062903081306956, 1.1e-11);
-    expect(count, "base_place_y", state.base_place_y, -0.0011563646932851615, 1.5e-17);
-    expect(count, "base_velocity_y", state.base_velocity_y, -0.30481702708981445, 5.9e-15);
-    expect(count, "base_acceleration_y", state.base_acceleration_y, -43.07043424384361, 2.9e-12);
+    expect(count, "hub_angle", state.hub_angle, -0.026651364788664655, 1.5e-16);
+    expect(count, "hub_rate", state.hub_rate, -8.586898633782214, 3.6e-14);
+    expect(count, "hub_acceleration", state.hub_acceleration, -1246.7809319190067, 1.2e-11);
+    expect(count, "angle[0]", state.angle[0], 0.5411990289822058, 5.5e-15);
+    expect(count, "angle[1]", state.angle[1], -0.482382794671739, 5.5e-15);
+    expect(count, "angle[2]", state.angle[2], 0.009615939357240361, 5.5e-15);
+    expect(count, "angle[4]", state.angle[4], 0.0101021204536081, 5.5e-15);
+    expect(count, "angle[5]", state.angle[5], 0.1737704595436577, 5.5e-15);
+    expect(count, "angle[6]", state.angle[6], 0.004129448580234857, 5.5e-15);
+    expect(count, "angle[7]", state.angle[7], 0.04320930294666788, 5.5e-15);
+    expect(count, "angle[9]", state.angle[9], -0.025736270636093194, 5.5e-15);
+    expect(count, "angle[10]", state.angle[10], -0.05301180446643123, 5.5e-15);
+    expect(count, "angle[11]", state.angle[11], 0.023524181277558103, 5.5e-15);
+    expect(count, "rate[0]", state.rate[0], 122.95078806927027, 1.9e-12);
+    expect(count, "rate[1]", state.rate[1], -71.43021128837492, 1.9e-12);
+    expect(count, "rate[2]", state.rate[2], -1.6075680023971823, 1.9e-12);
+    expect(count, "rate[4]", state.rate[4], -18.896525799336025, 1.9e-12);
+    expect(count, "rate[5]", state.rate[5], 6.764764485469358, 1.9e-12);
+    expect(count, "rate[6]", state.rate[6], -10.67583750080521, 1.9e-12);
+    expect(count, "rate[7]", state.rate[7], 15.23484599249351, 1.9e-12);
+    expect(count, "rate[9]", state.rate[9], 8.010191206288885, 1.9e-12);
+    expect(count, "rate[10]", state.rate[10], -4.099253310754681, 1.9e-12);
+    expect(count, "rate[11]", state.rate[11], -3.0506670876673723, 1.9e-12);
+    expect(count, "acceleration[0]", state.acceleration[0], -3349.607449624063, 9.4e-10);
+    expect(count, "acceleration[1]", state.acceleration[1], 30157.098319000175, 9.4e-10);
+    expect(count, "acceleration[2]", state.acceleration[2], -28963.68778921849, 9.4e-10);
+    expect(count, "acceleration[4]", state.acceleration[4], 6692.7894128436765, 9.4e-10);
+    expect(count, "acceleration[5]", state.acceleration[5], -34528.78074254761, 9.4e-10);
+    expect(count, "acceleration[6]", state.acceleration[6], 6004.32756604663, 9.4e-10);
+    expect(count, "acceleration[7]", state.acceleration[7], -8198.9164166524, 9.4e-10);
+    expect(count, "acceleration[9]", state.acceleration[9], -5597.393071628067, 9.4e-10);
+    expect(count, "acceleration[10]", state.acceleration[10], 6828.478856705886, 9.4e-10);
+    expect(count, "acceleration[11]", state.acceleration[11], -19536.340867002127, 9.4e-10);
+    expect(count, "base_place_x", state.base_place_x, 0.0022530025018137755, 3.6e-17);
+    expect(count, "base_velocity_x", state.base_velocity_x, 0.7671776220250439, 1.7e-14);
+    expect(count, "base_acceleration_x", state.base_acceleration_x, -18.429948705879266, 5.5e-12);
+    expect(count, "base_place_y", state.base_place_y, -0.00116530467899589, 1.3e-17);
+    expect(count, "base_velocity_y", state.base_velocity_y, -0.3038639109551728, 4.6e-15);
+    expect(count, "base_acceleration_y", state.base_acceleration_y, -35.62998843068546, 1.5e-12);
 
     /* Bad input is refused and leaves the state alone. */
     cube_state before;

@@ -92,7 +92,7 @@ def _show(
         columns.append(Column(f"{name} torque", "torque (N m)", _six, "right"))
     table([_flat(scene, row) for row in rows], columns, title=title)
     if names:
-        motors = any(part.kind == "motor" for part in scene.parts) or scene.hub
+        motors = any(part.kind == "motor" for part in scene.parts) or (scene.hub and not scene.floats)
         turning = f"{', '.join(names.values())} turn{'s' * (len(names) == 1)} freely"
         click.echo(f"{turning}: motors hold no torque but that of --input" if motors else turning)
     click.echo(f"looked for from {held.starts} start{'s' * (held.starts > 1)}: there may be more")
@@ -110,7 +110,7 @@ def _six(value: float) -> str:
 def _joint_name(scene: Scene, number: int) -> str:
     """Return what to call a joint, counted from 1, or the hub, 0."""
     if number == 0:
-        return "hub"
+        return "the base, which floats," if scene.floats else "hub"
     named = (part.name for part in scene.parts if number in (part.joint, part.gear))
     return next(named, f"joint {number}")
 

@@ -151,9 +151,12 @@ def expanded(document: PartsDocument) -> Expansion:
                 hosts.append(host)
         else:
             assert isinstance(part, BeamPart)
-            more = beam_joints(_beam(part)), beam_links(_beam(part))
             if pending is not None:
                 more = (pending, *_springs(part)), _pieces(part)
+            elif part.springs in (None, "clamped-segment"):
+                more = _clamped(part)
+            else:
+                more = beam_joints(_beam(part)), beam_links(_beam(part))
             joints += more[0]
             links += more[1]
             hosts += (host, *range(first, len(links)))
@@ -216,14 +219,14 @@ def _weight(entry: Entry) -> Link:
     return Link.model_construct(inertia=entry.part.inertia, mass=entry.part.mass, length=0.0, center=0.0)
 
 
-def _beam(part: BeamPart, springs: str = "half-clamp") -> Beam:
+def _beam(part: BeamPart, springs: str | None = None) -> Beam:
     stiffness, mass = part.stiffness_and_mass()
     return Beam.model_construct(
         length=part.length,
         bending_stiffness=stiffness,
         mass_per_length=mass,
         links=part.links,
-        springs=part.springs if part.springs not in (None, "finite-segment") else springs,
+        springs=springs or part.springs,
         damping_time=part.damping_time,
     )
 
@@ -238,6 +241,19 @@ def _pieces(part: BeamPart) -> tuple[Link, ...]:
     whole = beam_links(_beam(part))
     half = beam_links(_beam(part.model_copy(update={"links": 2 * part.links})))[0]
     return (half, *whole[1:], half)
+
+
+def _clamped(part: BeamPart) -> tuple[tuple[Joint, ...], tuple[Link, ...]]:
+    """Return finite segments behind a clamp: springs at the pieces' inner ends, half a piece at the outer end.
+
+    To a beam, a clamp is a plane of symmetry: the spring there stands for half a piece. Each of the others stands for
+    half a piece on either side.
+    """
+    fine = part.model_copy(update={"links": 2 * part.links - 1})
+    root, half = beam_joints(_beam(fine, "uniform"))[0], beam_links(_beam(fine))[0]
+    spring = Joint.model_construct(stiffness=root.stiffness / 2, damping=root.damping / 2)
+    others = part.links - 1
+    return (root, *(spring,) * others), (*(joined(half, half),) * others, half)
 
 
 def _fixed(hung: Hanging, entry: Entry) -> str:

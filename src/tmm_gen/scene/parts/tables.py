@@ -12,7 +12,7 @@ from tmm_gen.scene.section import Uniform
 from tmm_gen.scene.signal import FileInput, FileOutput
 from tmm_gen.scene.table import STATION_LIMIT, Finite, Fraction, NonNegative, Positive, Table, fault
 
-PartSprings = Literal[Springs, "finite-segment"]
+PartSprings = Literal[Springs, "finite-segment", "clamped-segment"]
 
 ENDS = ("base", "arm")
 """Words for places that no part may be called by."""
@@ -137,7 +137,7 @@ class BeamPart(Uniform, Part):
         default=None,
         description="rule of the springs",
         examples=['"finite-segment"'],
-        json_schema_extra={"absent": "finite-segment on a motor or joint, half-clamp elsewhere"},
+        json_schema_extra={"absent": "finite-segment on a motor or joint, clamped-segment elsewhere"},
     )
     damping_time: NonNegative = Field(
         default=0.0, description="damping of a spring over its stiffness in s", examples=["0.002"]

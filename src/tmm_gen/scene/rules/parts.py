@@ -191,7 +191,7 @@ def _carried(document: PartsDocument, entry: Entry, host: Entry | None) -> Itera
             yield Finding(
                 at,
                 f"needs a motor or a joint at the beam's inner end, and '{entry.name}' is clamped there",
-                'Write `springs = "half-clamp"`, or remove the key.',
+                'Write `springs = "clamped-segment"`, or remove the key.',
                 springs,
             )
         elif springs is not None and springs != "finite-segment" and turned:
