@@ -201,11 +201,6 @@ def test_the_step_is_stable_for_the_stiffest_mode(
     assert not np.max(np.abs(data.qvel)) < 10.0
 
 
-def test_a_drivetrain_is_refused(scene_named: Any) -> None:
-    with pytest.raises(UserError, match=r"gears are not exported\. Use --to fmu"):
-        mujoco_model(scene_named("geartrain"))
-
-
 def test_a_prescribed_base_is_refused(scene_named: Any) -> None:
     with pytest.raises(UserError, match=r"prescribed.*--to fmu"):
         mujoco_model(scene_named("arm50"))

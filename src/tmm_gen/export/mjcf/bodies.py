@@ -61,8 +61,8 @@ def add_bodies(world: Xml.Element, scene: Scene) -> Bodies:
         )
         # about a fixed point its mass does nothing
         mass = scene.base.mass if isinstance(scene.base, FloatingBase) else 0.0
-        _inertial(parent, mass or _LIGHT, 0.0, scene.base.inertia)
-        _disc(parent, 2.0 * size)
+        add_inertial(parent, mass or _LIGHT, 0.0, scene.base.inertia)
+        add_disc(parent, 2.0 * size)
         joints.append("hub")
     inmost = parent
     links: list[Xml.Element] = []
@@ -89,20 +89,20 @@ def add_bodies(world: Xml.Element, scene: Scene) -> Bodies:
         links.append(parent)
         if planar:
             if link.massless:  # a motor's shaft: MuJoCo wants some mass of everything that moves
-                _inertial(parent, _LIGHT, 0.0, _LIGHT)
+                add_inertial(parent, _LIGHT, 0.0, _LIGHT)
                 continue
-            _inertial(parent, link.mass, link.center * link.length, link.inertia)
+            add_inertial(parent, link.mass, link.center * link.length, link.inertia)
             Xml.SubElement(
                 parent, "geom", type="capsule", size=_drawn(size), fromto=text_of(0, 0, 0, link.length, 0, 0)
             )
         else:
-            _inertial(parent, 1.0, 0.0, link.inertia)
-            _disc(parent, 10.0 * size / scene.stations)
+            add_inertial(parent, 1.0, 0.0, link.inertia)
+            add_disc(parent, 10.0 * size / scene.stations)
     tip = parent
     if planar:
         tip = Xml.SubElement(parent, "body", name=called[-1], pos=text_of(scene.links[-1].length, 0.0, 0.0))
         if scene.tip is not None and (scene.tip.mass or scene.tip.inertia):
-            _inertial(tip, scene.tip.mass, 0.0, scene.tip.inertia)
+            add_inertial(tip, scene.tip.mass, 0.0, scene.tip.inertia)
             Xml.SubElement(tip, "geom", type="sphere", size=_drawn(2.0 * size))
     return Bodies(ground, inmost, tuple(links), tip, tuple(joints))
 
@@ -141,7 +141,8 @@ def joint_names(scene: Scene) -> tuple[str, ...]:
     return tuple(found)
 
 
-def _inertial(parent: Xml.Element, mass: float, along: float, inertia: float) -> None:
+def add_inertial(parent: Xml.Element, mass: float, along: float, inertia: float) -> None:
+    """Give a body its mass, kg, its place along the body, m, and its moment of inertia about the hinges, kg m^2."""
     # the other two moments are out of play; alike, they are always those of a possible body
     Xml.SubElement(
         parent,
@@ -152,7 +153,8 @@ def _inertial(parent: Xml.Element, mass: float, along: float, inertia: float) ->
     )
 
 
-def _disc(parent: Xml.Element, radius: float) -> None:
+def add_disc(parent: Xml.Element, radius: float) -> None:
+    """Draw a disc about the hinge, of some radius, m."""
     Xml.SubElement(parent, "geom", type="cylinder", size=_drawn(radius, 0.1 * radius))
 
 

@@ -9,6 +9,7 @@ from xml.etree import ElementTree as Xml
 from tmm_gen.errors import UserError
 from tmm_gen.export.mjcf.bodies import add_bodies, text_of
 from tmm_gen.export.mjcf.readings import Reading
+from tmm_gen.export.mjcf.shafts import add_shafts
 from tmm_gen.export.mjcf.signals import Signals
 from tmm_gen.export.mjcf.timestep import stable_timestep
 from tmm_gen.scene import Scene
@@ -54,18 +55,12 @@ def mujoco_model(scene: Scene) -> MujocoModel:
     Raises
     ------
     UserError
-        If the base's angle is prescribed: MuJoCo has forces and springs, but no motion that is given exactly. If it is
-        a drivetrain.
+        If the base's angle is prescribed: MuJoCo has forces and springs, but no motion that is given exactly.
     """
     if scene.prescribed:
         raise UserError(
             f"scene '{scene.name}': base.kind = \"prescribed\" cannot be a MuJoCo model, in which nothing moves "
             'as prescribed. Use base.kind = "motor" with a torque input, or --to fmu.'
-        )
-    if scene.drivetrain:
-        raise UserError(
-            f"scene '{scene.name}': a drivetrain of parts cannot be a MuJoCo model yet, in which a body turns with the "
-            "one it hangs on: gears are not exported. Use --to fmu."
         )
     root = Xml.Element("mujoco", model=scene.name)
     Xml.SubElement(root, "compiler", angle="radian", inertiafromgeom="false", autolimits="true")
@@ -77,7 +72,7 @@ def mujoco_model(scene: Scene) -> MujocoModel:
     Xml.SubElement(default, "geom", contype="0", conaffinity="0", rgba="0.35 0.45 0.6 1")
     world = Xml.SubElement(root, "worldbody")
     Xml.SubElement(world, "light", pos="0 0 3", dir="0 0 -1")
-    bodies = add_bodies(world, scene)
+    bodies = add_shafts(root, world, scene) if scene.drivetrain else add_bodies(world, scene)
     signals = Signals(root, scene, bodies)
     signals.add()
     _add_start(root, scene)
@@ -94,6 +89,8 @@ def _add_start(root: Xml.Element, scene: Scene) -> None:
 
 def _relative(scene: Scene, values: Sequence[float]) -> list[float]:
     """Return what each joint turns by of absolute angles or rates of links; what the base does, from rest, first."""
+    if scene.drivetrain:
+        return [0.0] * scene.hub + list(values)
     absolute = [0.0, *values]
     turned = [absolute[number] - absolute[scene.host(number)] for number in range(1, len(absolute))]
     return [0.0] * (3 if scene.floats else scene.hub) + turned

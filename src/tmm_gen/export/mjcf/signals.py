@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from xml.etree import ElementTree as Xml
 
-from tmm_gen.export.mjcf.bodies import Bodies, text_of
+from tmm_gen.export.mjcf.bodies import Bodies, joint_names, text_of
 from tmm_gen.export.mjcf.readings import Reading
 from tmm_gen.scene import Input, Output, Scene, station_of
 
@@ -55,7 +55,8 @@ class Signals:
             return
         if item.acts == "torque":
             # on a body, against ground: it turns with the sum of the hinges up to there
-            Xml.SubElement(actuators, "motor", name=item.name, tendon=self._angle(station), gear="1")
+            turning = {"tendon": self._angle(station), "gear": f"{item.factor:.17g}"}
+            Xml.SubElement(actuators, "motor", turning, name=item.name)
             return
         x, y = _AXES[item.acts]
         Xml.SubElement(
@@ -89,11 +90,11 @@ class Signals:
         elif quantity.read == "motion" and quantity.order < 2:
             kind = ("tendonpos", "tendonvel")[quantity.order]
             Xml.SubElement(self._sensors, kind, name=name, tendon=self._angle(station))
-            self._read(name, (name, 0, 1.0))
+            self._read(name, (name, 0, output.factor))
         elif quantity.read == "motion":
             end = self._end(station)
             Xml.SubElement(self._sensors, "frameangacc", name=name, objtype="site", objname=end)
-            self._read(name, (name, 2, 1.0))
+            self._read(name, (name, 2, output.factor))
         elif quantity.read == "place":
             kind = ("framepos", "framelinvel", "framelinacc")[quantity.order]
             Xml.SubElement(self._sensors, kind, name=name, objtype="site", objname=self._end(station))
@@ -102,7 +103,7 @@ class Signals:
             self._read(f"{name}_x", (name, 0, 1.0))
             self._read(f"{name}_y", (name, 1, 1.0), constant=falling)
         elif quantity.read == "own" and not beyond:
-            self._joint_torque(name, max(station, 1))
+            self._joint_torque(name, max(station, 1), output.factor)
         elif quantity.read == "force" and output.at == "base" and not self._pushed:
             # what link 1 and all beyond it do to the ground, in the axes of the ground
             site = self._site("ground", self.bodies.ground, 0.0)
@@ -117,16 +118,15 @@ class Signals:
         """Whether forces act: MuJoCo's joints then seem to carry them, as if actuators stood on the arm."""
         return any(item.acts in _AXES for item in self.scene.inputs)
 
-    def _joint_torque(self, name: str, station: int) -> None:
-        joint = self.scene.joints[station - 1]
+    def _joint_torque(self, name: str, station: int, factor: float) -> None:
+        joint, shafts = self.scene.joints[station - 1], self.scene.drivetrain
+        over = {"tendon": joint_names(self.scene)[station - 1]} if shafts else {"joint": self._joint(station)}
         terms = []
-        for part, kind, value in (
-            ("spring", "jointpos", joint.stiffness),
-            ("damper", "jointvel", joint.damping),
-        ):
+        for part, kind, value in (("spring", "pos", joint.stiffness), ("damper", "vel", joint.damping)):
             if value:
-                Xml.SubElement(self._sensors, kind, name=f"{name}_{part}", joint=self._joint(station))
-                terms.append((f"{name}_{part}", 0, value))
+                kind = ("tendon" if shafts else "joint") + kind
+                Xml.SubElement(self._sensors, kind, over, name=f"{name}_{part}")
+                terms.append((f"{name}_{part}", 0, factor * value))
         self._read(name, *terms)
 
     def _through(self, name: str, joints: tuple[int, ...]) -> None:
@@ -158,7 +158,9 @@ class Signals:
         self._read(name, *terms, constant=slack)
 
     def _way_to(self, station: int) -> list[int]:
-        """Return the numbers of the joints from a link inward; the hub's is 0."""
+        """Return the numbers of the joints whose angles add up to a link's, inward; the hub's is 0."""
+        if self.scene.drivetrain:
+            return [station]
         found = []
         while station > 0:
             found.append(station)
