@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: f046f23ff154c77eb0de6f429bf04f6275910b87af75eea62b4aa0e7be8a3583
-# sha256 of the rest of this file: 12b3401e5875b23b5cd523b6f2dfaad8ec70fbf50e9fcc733d27dc05d3e7989c
+# sha256 of the rest of this file: b903ac2a31731ec09c4afef66f19bd2f756ed58fe4d1ed81d80e8f71f7bdb1e6
 #
 # model: planar arm, large rotations
 # stations: 12
@@ -544,11 +544,11 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
     # the base
     whole_impedance_xx = impedance_xx + start_base_mass
     whole_impedance_yy = impedance_yy + start_base_mass
+    share_yx = impedance_yx / whole_impedance_xx
+    impedance_yy_freed_x = whole_impedance_yy - impedance_xy * share_yx
     whole_force_x = force_x + acceleration_x[0] * start_base_mass
     whole_force_y = force_y - thruster + acceleration_y[0] * start_base_mass
     whole_torque = torque - wheel + hub_inertia * predicted_acceleration[0]
-    share_yx = impedance_yx / whole_impedance_xx
-    impedance_yy_freed_x = whole_impedance_yy - impedance_xy * share_yx
     force_y_freed_x = whole_force_y - share_yx * whole_force_x
     unknown = -whole_torque / hub_inertia
     change_y = -force_y_freed_x / impedance_yy_freed_x
@@ -957,19 +957,19 @@ def _step(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     whole_impedance_xx = base_mass + impedance_xx
     whole_impedance_yy = base_mass + impedance_yy
     whole_impedance_uu = hub_inertia + impedance_uu
-    whole_force_x = force_x + acceleration_x[0] * base_mass
-    whole_force_y = force_y - thruster + acceleration_y[0] * base_mass
-    whole_torque = torque - wheel + hub_acceleration * hub_inertia
     share_yx = impedance_yx / whole_impedance_xx
     impedance_yy_freed_x = whole_impedance_yy - impedance_xy * share_yx
     impedance_yu_freed_x = impedance_yu - impedance_xu * share_yx
-    force_y_freed_x = whole_force_y - share_yx * whole_force_x
     share_ux = impedance_ux / whole_impedance_xx
     impedance_uy_freed_x = impedance_uy - impedance_xy * share_ux
     impedance_uu_freed_x = whole_impedance_uu - impedance_xu * share_ux
-    torque_freed_x = whole_torque - share_ux * whole_force_x
     share_uy = impedance_uy_freed_x / impedance_yy_freed_x
     impedance_uu_freed_y = impedance_uu_freed_x - impedance_yu_freed_x * share_uy
+    whole_force_x = force_x + acceleration_x[0] * base_mass
+    whole_force_y = force_y - thruster + acceleration_y[0] * base_mass
+    whole_torque = torque - wheel + hub_acceleration * hub_inertia
+    force_y_freed_x = whole_force_y - share_yx * whole_force_x
+    torque_freed_x = whole_torque - share_ux * whole_force_x
     torque_freed_y = torque_freed_x - force_y_freed_x * share_uy
     unknown = -torque_freed_y / impedance_uu_freed_y
     change_y = (-force_y_freed_x - impedance_yu_freed_x * unknown) / impedance_yy_freed_x

@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: f046f23ff154c77eb0de6f429bf04f6275910b87af75eea62b4aa0e7be8a3583
-# sha256 of the rest of this file: de0a79ae8c2fbad4d472f3c77560772cb8ff7f926e4c5d09e50bee74ca63fccf
+# sha256 of the rest of this file: 99c61651c65c0e0149d8e282efc16a3f23886ef210bd97ff608d1d073b8e184f
 #
 # model: planar arm, large rotations
 # stations: 12
@@ -577,14 +577,14 @@ def initialise(
     # the base
     whole_impedance_xx = impedance_xx + start_base_mass
     whole_impedance_yy = impedance_yy + start_base_mass
-    whole_force_x = force_x + acceleration_x[0] * start_base_mass
-    whole_force_y = force_y - thruster + acceleration_y[0] * start_base_mass
-    whole_torque = torque - wheel + hub_inertia * predicted_acceleration[0]
     good = _positive_pivot(good, whole_impedance_xx, "whole_impedance_xx", None)
     share_yx = impedance_yx / whole_impedance_xx
     impedance_yy_freed_x = whole_impedance_yy - impedance_xy * share_yx
-    force_y_freed_x = whole_force_y - share_yx * whole_force_x
     good = _positive_pivot(good, impedance_yy_freed_x, "impedance_yy_freed_x", None)
+    whole_force_x = force_x + acceleration_x[0] * start_base_mass
+    whole_force_y = force_y - thruster + acceleration_y[0] * start_base_mass
+    whole_torque = torque - wheel + hub_inertia * predicted_acceleration[0]
+    force_y_freed_x = whole_force_y - share_yx * whole_force_x
     unknown = -whole_torque / hub_inertia
     change_y = -force_y_freed_x / impedance_yy_freed_x
     change_x = (-whole_force_x - change_y * impedance_xy) / whole_impedance_xx
@@ -951,23 +951,23 @@ def step(model: Model, state: State, input: Input = Input()) -> State:
     whole_impedance_xx = base_mass + impedance_xx
     whole_impedance_yy = base_mass + impedance_yy
     whole_impedance_uu = hub_inertia + impedance_uu
-    whole_force_x = force_x + acceleration_x[0] * base_mass
-    whole_force_y = force_y - thruster + acceleration_y[0] * base_mass
-    whole_torque = torque - wheel + hub_acceleration * hub_inertia
     good = _positive_pivot(good, whole_impedance_xx, "whole_impedance_xx", None)
     share_yx = impedance_yx / whole_impedance_xx
     impedance_yy_freed_x = whole_impedance_yy - impedance_xy * share_yx
     impedance_yu_freed_x = impedance_yu - impedance_xu * share_yx
-    force_y_freed_x = whole_force_y - share_yx * whole_force_x
     share_ux = impedance_ux / whole_impedance_xx
     impedance_uy_freed_x = impedance_uy - impedance_xy * share_ux
     impedance_uu_freed_x = whole_impedance_uu - impedance_xu * share_ux
-    torque_freed_x = whole_torque - share_ux * whole_force_x
     good = _positive_pivot(good, impedance_yy_freed_x, "impedance_yy_freed_x", None)
     share_uy = impedance_uy_freed_x / impedance_yy_freed_x
     impedance_uu_freed_y = impedance_uu_freed_x - impedance_yu_freed_x * share_uy
-    torque_freed_y = torque_freed_x - force_y_freed_x * share_uy
     good = _positive_pivot(good, impedance_uu_freed_y, "impedance_uu_freed_y", None)
+    whole_force_x = force_x + acceleration_x[0] * base_mass
+    whole_force_y = force_y - thruster + acceleration_y[0] * base_mass
+    whole_torque = torque - wheel + hub_acceleration * hub_inertia
+    force_y_freed_x = whole_force_y - share_yx * whole_force_x
+    torque_freed_x = whole_torque - share_ux * whole_force_x
+    torque_freed_y = torque_freed_x - force_y_freed_x * share_uy
     unknown = -torque_freed_y / impedance_uu_freed_y
     change_y = (-force_y_freed_x - impedance_yu_freed_x * unknown) / impedance_yy_freed_x
     change_x = (-whole_force_x - change_y * impedance_xy - impedance_xu * unknown) / whole_impedance_xx

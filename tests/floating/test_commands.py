@@ -46,14 +46,6 @@ def test_refusals(old: str, new: str, told: str, drifter_text: str, tmp_path: Pa
     assert "drifter.toml:" in ended.stderr
 
 
-def test_sensitivities_are_refused(drifter_text: str, tmp_path: Path, tmm_gen: Run) -> None:
-    path = tmp_path / "drifter.toml"
-    path.write_text(drifter_text + "[emit]\nsensitivities = true\n")
-    ended = tmm_gen("build", path)
-    assert ended.returncode == 2
-    assert "not derived for a base that floats" in " ".join(ended.stderr.split())
-
-
 def test_explain_names_the_base(drifter: Callable[..., Scene]) -> None:
     scene = drifter()
     (term,) = [each for each in terms_of(scene) if each.name == "a base that floats"]

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: f046f23ff154c77eb0de6f429bf04f6275910b87af75eea62b4aa0e7be8a3583
- * sha256 of the rest of this file: 4a03ce12823a21e3518d10fd98af474c6744c5787639f3e21fc7ac667ea54149
+ * sha256 of the rest of this file: 9713ed4fc9f1d923c3abf292c4e08c16561767cee6c7793d35d00379585a2c66
  *
  * model: planar arm, large rotations
  * stations: 12
@@ -430,18 +430,18 @@ cube_status cube_initialise(
     /* The base. */
     const real whole_impedance_xx = impedance_xx + start_base_mass;
     const real whole_impedance_yy = impedance_yy + start_base_mass;
-    const real whole_force_x = force_x + acceleration_x[0] * start_base_mass;
-    const real whole_force_y = force_y - inputs->thruster + acceleration_y[0] * start_base_mass;
-    const real whole_torque = torque - inputs->wheel + params->hub_inertia * predicted_acceleration[0];
     if (!(whole_impedance_xx > 0.0) || !(whole_impedance_xx <= DBL_MAX)) {
         return CUBE_VANISHING_PIVOT;
     }
     const real share_yx = impedance_yx / whole_impedance_xx;
     const real impedance_yy_freed_x = whole_impedance_yy - impedance_xy * share_yx;
-    const real force_y_freed_x = whole_force_y - share_yx * whole_force_x;
     if (!(impedance_yy_freed_x > 0.0) || !(impedance_yy_freed_x <= DBL_MAX)) {
         return CUBE_VANISHING_PIVOT;
     }
+    const real whole_force_x = force_x + acceleration_x[0] * start_base_mass;
+    const real whole_force_y = force_y - inputs->thruster + acceleration_y[0] * start_base_mass;
+    const real whole_torque = torque - inputs->wheel + params->hub_inertia * predicted_acceleration[0];
+    const real force_y_freed_x = whole_force_y - share_yx * whole_force_x;
     real unknown = -whole_torque / params->hub_inertia;
     real change_y = -force_y_freed_x / impedance_yy_freed_x;
     real change_x = (-whole_force_x - change_y * impedance_xy) / whole_impedance_xx;
@@ -785,29 +785,29 @@ cube_status cube_step(
     const real whole_impedance_xx = model->base_mass + impedance_xx;
     const real whole_impedance_yy = model->base_mass + impedance_yy;
     const real whole_impedance_uu = model->hub_inertia + impedance_uu;
-    const real whole_force_x = force_x + acceleration_x[0] * model->base_mass;
-    const real whole_force_y = force_y - inputs->thruster + acceleration_y[0] * model->base_mass;
-    const real whole_torque = torque - inputs->wheel + state->hub_acceleration * model->hub_inertia;
     if (!(whole_impedance_xx > 0.0) || !(whole_impedance_xx <= DBL_MAX)) {
         return CUBE_VANISHING_PIVOT;
     }
     const real share_yx = impedance_yx / whole_impedance_xx;
     const real impedance_yy_freed_x = whole_impedance_yy - impedance_xy * share_yx;
     const real impedance_yu_freed_x = impedance_yu - impedance_xu * share_yx;
-    const real force_y_freed_x = whole_force_y - share_yx * whole_force_x;
     const real share_ux = impedance_ux / whole_impedance_xx;
     const real impedance_uy_freed_x = impedance_uy - impedance_xy * share_ux;
     const real impedance_uu_freed_x = whole_impedance_uu - impedance_xu * share_ux;
-    const real torque_freed_x = whole_torque - share_ux * whole_force_x;
     if (!(impedance_yy_freed_x > 0.0) || !(impedance_yy_freed_x <= DBL_MAX)) {
         return CUBE_VANISHING_PIVOT;
     }
     const real share_uy = impedance_uy_freed_x / impedance_yy_freed_x;
     const real impedance_uu_freed_y = impedance_uu_freed_x - impedance_yu_freed_x * share_uy;
-    const real torque_freed_y = torque_freed_x - force_y_freed_x * share_uy;
     if (!(impedance_uu_freed_y > 0.0) || !(impedance_uu_freed_y <= DBL_MAX)) {
         return CUBE_VANISHING_PIVOT;
     }
+    const real whole_force_x = force_x + acceleration_x[0] * model->base_mass;
+    const real whole_force_y = force_y - inputs->thruster + acceleration_y[0] * model->base_mass;
+    const real whole_torque = torque - inputs->wheel + state->hub_acceleration * model->hub_inertia;
+    const real force_y_freed_x = whole_force_y - share_yx * whole_force_x;
+    const real torque_freed_x = whole_torque - share_ux * whole_force_x;
+    const real torque_freed_y = torque_freed_x - force_y_freed_x * share_uy;
     real unknown = -torque_freed_y / impedance_uu_freed_y;
     real change_y = (-force_y_freed_x - impedance_yu_freed_x * unknown) / impedance_yy_freed_x;
     real change_x = (-whole_force_x - change_y * impedance_xy - impedance_xu * unknown) / whole_impedance_xx;

@@ -231,6 +231,16 @@ def tree(base: str) -> Scene:
     return parse_scene(text + BRANCHES)
 
 
+def floating() -> Scene:
+    """Return the tree on a base that floats, pushed and turned; its places are read, so that no state is dropped."""
+    text = PARTS.format(base="free", base_input=_HUB.format("torque"), first="motor")
+    text = text.replace('name = "shoulder"\n', 'name = "shoulder"\non = "base"\n')
+    hub = '[[body]]\nname = "hub"\non = "base"\nmass = 0.7\ninertia = 0.05\n'
+    push = '[[input]]\nname = "thruster"\nat = "hub"\nacts = "force_x"\n'
+    place = '[[output]]\nname = "where"\nat = "hub"\nof = "position"\n'
+    return parse_scene(text + BRANCHES + hub + push + place)
+
+
 @dataclass(frozen=True, eq=False)
 class Case:
     """A scene, a point, and CasADi's derivatives there.
@@ -285,6 +295,9 @@ SCENES: dict[str, Callable[[], Scene]] = {
     "parts on a moving base": lambda: parts("prescribed").replace(**{"integrator.name": "sdirk4"}),
     "tree": lambda: tree("clamp"),
     "tree on a hub": lambda: tree("motor").replace(**{"model.iterations": 2}),
+    "floating": lambda: floating(),
+    "floating, sdirk4": lambda: floating().replace(**{"integrator.name": "sdirk4"}),
+    "floating, two iterations": lambda: floating().replace(**{"model.iterations": 2}),
     "sdirk4": lambda: unlike("motor").replace(**{"integrator.name": "sdirk4"}),
     "generalized_alpha": lambda: unlike("motor").replace(**{"integrator.name": "generalized_alpha"}),
     "two iterations": lambda: unlike("motor").replace(**{"model.iterations": 2}),

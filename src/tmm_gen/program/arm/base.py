@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import sympy as sp
 
 from tmm_gen.derive.station.frame import UNKNOWN, Frame, change, force, impedance
@@ -44,52 +46,89 @@ def turning_base(base: Elements, frame: Frame, at_base: frozenset[sp.Symbol]) ->
     return [*lines, Update({UNKNOWN: known / pivot})]
 
 
-def floating_base(base: Elements, frame: Frame, at_base: frozenset[sp.Symbol]) -> list[Line]:
-    """Solve for the unknown of a base that floats, and for the changes of its acceleration.
+@dataclass(frozen=True)
+class Balance:
+    """What nothing holds: ``S k + e = 0`` by elimination, what it is pushed along first; its pivots are masses there.
 
-    Nothing holds it: ``S k + e = 0``, by elimination, what it is pushed along first. Its pivots are masses there.
+    Parameters
+    ----------
+    factors : tuple of Line
+        Of ``S``, and its pivots.
+    forces : tuple of Line
+        ``e``, eliminated with them.
+    answers : tuple of Line
+        The unknown of the base, and the changes of its acceleration.
+    """
+
+    factors: tuple[Line, ...]
+    forces: tuple[Line, ...]
+    answers: tuple[Line, ...]
+
+    @property
+    def lines(self) -> tuple[Line, ...]:
+        """All of them."""
+        return (*self.factors, *self.forces, *self.answers)
+
+    @property
+    def kept(self) -> dict[str, tuple[str, str]]:
+        """Factors by name that forces and answers read, with words and unit."""
+        read = {s for line in self.forces if isinstance(line, Let) for s in line.value.free_symbols}
+        for line in self.answers:
+            assert isinstance(line, Update)
+            read |= {s for value in line.values.values() for s in value.free_symbols}
+        lets = [line for line in self.factors if isinstance(line, Let)]
+        return {let.symbol.name: (let.doc, let.unit) for let in lets if let.symbol in read}
+
+
+def floating_base(
+    base: Elements, frame: Frame, at_base: frozenset[sp.Symbol], *, named: bool = False
+) -> Balance:
+    """Balance a base that floats.
 
     Parameters
     ----------
     base : tuple of Element
     at_base : frozenset of sympy.Symbol
         What is known to be zero of what arrives there.
+    named : bool
+        Whether factors have names of their own though they are what has arrived.
     """
     c = sorted(frame.coordinates, key=lambda coordinate: coordinate.integrated)
     left = composed(inward(base, frame, at_base, moved=True).lines)
     nothing = dict.fromkeys(at_base, sp.Integer(0))
-    lines: list[Line] = []
+    factors: list[Line] = []
+    forces: list[Line] = []
 
-    def named(symbol: sp.Symbol, value: sp.Expr, doc: str) -> sp.Expr:
-        if value.is_Atom:
+    def let(into: list[Line], name: str, value: sp.Expr, doc: str) -> sp.Expr:
+        if value.is_number or (value.is_Atom and not named):
             return value
-        lines.append(Let(symbol, value, doc))
+        symbol = sp.Symbol(name, real=True)
+        into.append(Let(symbol, value, doc))
         return symbol
 
-    def entry(symbol: sp.Symbol) -> sp.Expr:
+    def entry(into: list[Line], symbol: sp.Symbol) -> sp.Expr:
         value = left.get(symbol, symbol).subs(nothing)
-        return named(sp.Symbol(f"whole_{symbol.name}", real=True), value, "of the arm with its base")
+        return let(into, f"whole_{symbol.name}", value, "of the arm with its base")
 
-    s = {(a, b): entry(impedance(a, b)) for a in c for b in c}
-    e = {a: entry(force(a)) for a in c}
+    s = {(a, b): entry(factors, impedance(a, b)) for a in c for b in c}
+    e = {a: entry(forces, force(a)) for a in c}
     for index, a in enumerate(c):
-        lines.append(Pivot(s[a, a]))
+        factors.append(Pivot(s[a, a]))
+        freed = f"where nothing holds it along {a.name}"
         for b in c[index + 1 :]:
-            share = sp.Symbol(f"share_{b.name}{a.name}", real=True)
-            share = named(share, s[b, a] / s[a, a], f"of the balance of {a.force} in that of {b.force}")
+            doc = f"of the balance of {a.force} in that of {b.force}"
+            share = let(factors, f"share_{b.name}{a.name}", s[b, a] / s[a, a], doc)
             for k in c[index + 1 :]:
-                value = s[b, k] - share * s[a, k]
-                rest = sp.Symbol(f"impedance_{b.name}{k.name}_freed_{a.name}", real=True)
-                s[b, k] = named(rest, value, f"where nothing holds it along {a.name}")
-            rest = sp.Symbol(f"{b.force}_freed_{a.name}", real=True)
-            e[b] = named(rest, e[b] - share * e[a], f"where nothing holds it along {a.name}")
+                name = f"impedance_{b.name}{k.name}_freed_{a.name}"
+                s[b, k] = let(factors, name, s[b, k] - share * s[a, k], freed)
+            e[b] = let(forces, f"{b.force}_freed_{a.name}", e[b] - share * e[a], freed)
+    answers: list[Line] = []
     solved: dict[Coordinate, sp.Expr] = {}
     for index, a in reversed(list(enumerate(c))):
         others = sp.Add(*(s[a, b] * solved[b] for b in c[index + 1 :]))
-        target = UNKNOWN if a.integrated else change(a)
-        lines.append(Update({target: -(e[a] + others) / s[a, a]}))
-        solved[a] = target
-    return lines
+        solved[a] = UNKNOWN if a.integrated else change(a)
+        answers.append(Update({solved[a]: -(e[a] + others) / s[a, a]}))
+    return Balance(tuple(factors), tuple(forces), tuple(answers))
 
 
 def base_acceleration(coordinate: Coordinate) -> Ref:

@@ -28,7 +28,7 @@ from tmm_gen.derive.station.law import KINDS
 from tmm_gen.derive.station.lets import Coordinate, Let, Line, composed
 from tmm_gen.derive.station.shaft import UNKNOWN as UNKNOWN_OF_SHAFT
 from tmm_gen.derive.station.station import ceasing, everything, inward, outward, recurring
-from tmm_gen.program.arm.base import base_acceleration, base_change, floating_base, turning_base
+from tmm_gen.program.arm.base import Balance, base_acceleration, base_change, floating_base, turning_base
 from tmm_gen.program.arm.binding import Binding, Scratch
 from tmm_gen.program.arm.branches import Gathered, from_fork, kept_at_fork, resumed, rooted
 from tmm_gen.program.arm.layout import Layout
@@ -280,10 +280,16 @@ class Walks:
         if row.boundary != "free":
             return [Assign(unknown, self._unknown_of_base())]
         if row.floats:
-            lines = floating_base(row.base, self.frame, self._at_base)
-            changed = [Assign(base_change(c), self.scratch.ref(change(c).name)) for c in self._carried_along]
-            return [*here.lines(lines), *changed, Assign(hub_unknown(), unknown)]
+            return [*here.lines(self._balance().lines), *self._found_of_base()]
         return [*here.lines(self._free_base()), Assign(hub_unknown(), unknown)]
+
+    def _balance(self) -> Balance:
+        return floating_base(self.layout.row.base, self.frame, self._at_base)
+
+    def _found_of_base(self) -> list[Statement]:
+        """Keep what has been found of a base that floats: the way out changes the same scalars."""
+        changed = [Assign(base_change(c), self.scratch.ref(change(c).name)) for c in self._carried_along]
+        return [*changed, Assign(hub_unknown(), self.scratch.ref("unknown"))]
 
     @property
     def _carried_along(self) -> list[Coordinate]:

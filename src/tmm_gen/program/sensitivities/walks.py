@@ -24,6 +24,7 @@ from tmm_gen.derive.station.lets import Let, Line, Pivot, Update, composed
 from tmm_gen.derive.station.motion import Outward
 from tmm_gen.derive.station.station import outward
 from tmm_gen.derive.station.tangent import SOLVED, Tangent, beyond, solved_force, solved_node
+from tmm_gen.program.arm.base import Balance, base_acceleration, base_change, floating_base
 from tmm_gen.program.arm.binding import Binding
 from tmm_gen.program.arm.branches import Gathered, resumed
 from tmm_gen.program.arm.layout import Layout
@@ -54,6 +55,10 @@ class TangentableWalks(Walks):
             found.append((start, stop, derived, out, Tangent(derived, out)))
         return found
 
+    def _named_balance(self) -> Balance:
+        """Return how a base that floats is solved for, with names for all that tangents need of it."""
+        return floating_base(self.layout.row.base, self.frame, self._at_base, named=True)
+
     def _walk_in(
         self, at_tip: Mapping[sp.Symbol, sp.Expr], bodies: Sequence[Sequence[Assign | Require]]
     ) -> list[Statement]:
@@ -82,12 +87,16 @@ class LinearisedWalks(TangentableWalks):
         """Return the sweep, and what is kept of it."""
         point, self.points = self.points[0], self.points[1:]
         kept = _kept_symbols(self.tangents())
+        of_base = self._balance().kept if self.layout.row.floats else {}
         title = "what tangents need: motion and forces as solved, slopes, factors"
         sections = [*super().plain(), Section(title, tuple(self._keep()))]
         return [
-            replace(s, statements=tuple(y for x in s.statements for y in _keeping(x, kept, point)))
+            replace(s, statements=tuple(y for x in s.statements for y in _keeping(x, kept, of_base, point)))
             for s in sections
         ]
+
+    def _balance(self) -> Balance:
+        return self._named_balance()
 
     def _keep(self) -> list[Statement]:
         """Walk out and in with motion and forces as solved."""
@@ -101,8 +110,12 @@ class LinearisedWalks(TangentableWalks):
         values[SOLVED] = self.solved.at()
         keep = Binding(self.scratch, values)
         moved = {c.name: self.scratch.ref(f"solved_change_{c.name}") for c in carried}
-        found: list[Statement] = [Assign(ref, ZERO) for ref in moved.values()]
-        found += [Assign(solved[c.name].entry(BASE), self.nodes[c.name].entry(BASE)) for c in carried]
+        at_base = {c.name: base_change(c) if row.floats else ZERO for c in carried}
+        found: list[Statement] = [Assign(ref, at_base[name]) for name, ref in moved.items()]
+        found += [
+            Assign(solved[c.name].entry(BASE), self.nodes[c.name].entry(BASE) + at_base[c.name])
+            for c in carried
+        ]
         tangents = self.tangents()
         for start, stop, _, out, _ in tangents:
             body: list[Assign] = []
@@ -140,7 +153,9 @@ class TangentWalks(TangentableWalks):
         """Return the sweep on changes."""
         point, self.points = self.points[0], self.points[1:]
         self._tangents = self.tangents()
-        kept = _kept_symbols(self._tangents)
+        kept = {**_kept_symbols(self._tangents)}
+        if self.layout.row.floats:
+            kept |= self._named_balance().kept
         found = [
             Section(
                 "accelerations of the nodes, as predicted and as solved but for the unknowns' own changes",
@@ -177,8 +192,9 @@ class TangentWalks(TangentableWalks):
         }
         names = {s: self.scratch.ref(s.name) for s in arrays}
         along = Binding(self.scratch, {**here.values, **names, **{beyond(s): r for s, r in names.items()}})
-        found: list[Statement] = [Assign(names[s], ZERO) for s in arrays]
-        found += [Assign(v.entry(BASE), ZERO) for v in arrays.values()]
+        falls = [base_acceleration(c) if self.layout.row.floats else ZERO for c in carried for _ in range(2)]
+        found: list[Statement] = [Assign(names[s], value) for s, value in zip(arrays, falls, strict=True)]
+        found += [Assign(v.entry(BASE), value) for v, value in zip(arrays.values(), falls, strict=True)]
         for start, stop, _, _, tangent in self._tangents:
             body = along.lines(tangent.outward)
             body += [Assign(v.at(1), names[s]) for s, v in arrays.items()]
@@ -210,6 +226,9 @@ class TangentWalks(TangentableWalks):
         if self.layout.row.boundary != "free":
             return self.base()
         here = self.at_node(BASE)
+        if self.layout.row.floats:
+            balance = self._named_balance()
+            return [*here.lines([*balance.forces, *balance.answers]), *self._found_of_base()]
         lines = self._free_base()
         solved = lines[-1]
         assert isinstance(solved, Update)
@@ -275,8 +294,13 @@ def _kept_symbols(tangents: list[tuple[int, int, Inward, Outward, Tangent]]) -> 
     return every
 
 
-def _keeping(statement: Statement, kept: Mapping[str, tuple[str, str]], point: Point) -> list[Any]:
-    """Return a statement followed by the keeping of what it sets."""
+def _keeping(
+    statement: Statement,
+    kept: Mapping[str, tuple[str, str]],
+    of_base: Mapping[str, tuple[str, str]],
+    point: Point,
+) -> list[Any]:
+    """Return a statement followed by the keeping of what it sets, at each station or once."""
 
     def followed(inner: Any) -> list[Any]:
         if not isinstance(inner, Assign):
@@ -287,6 +311,8 @@ def _keeping(statement: Statement, kept: Mapping[str, tuple[str, str]], point: P
                 inner,
                 Assign(point.scalar("hub_inverse_pivot", *kept["hub_inverse_pivot"]), 1 / inner.target),
             ]
+        if name in of_base:
+            return [inner, Assign(point.scalar(name, *of_base[name]), inner.target)]
         if name not in kept:
             return [inner]
         return [inner, Assign(point.at_station(name, *kept[name]), inner.target)]

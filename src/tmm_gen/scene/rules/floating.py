@@ -38,10 +38,3 @@ def floating_base(document: PartsDocument) -> Iterator[Finding]:
                 'Add [[body]] with `name = "hub"`, `on = "base"`, `mass = 1.0`, `inertia = 0.01`.',
                 "free",
             )
-    if document.emit.sensitivities:
-        yield Finding(
-            ("emit", "sensitivities"),
-            "are not derived for a base that floats yet",
-            "Remove the key; CasADi differentiates the step it is given, more slowly.",
-            document.emit.sensitivities,
-        )
