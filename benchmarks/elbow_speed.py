@@ -109,7 +109,7 @@ def contenders(scene: Scene, arm: Arm, pinocchio: Path | None, folder: Path) -> 
     jointed = joint_arm(scene)
     found = {
         "tmm-gen": ours(scene),
-        'tmm-gen, trigonometry = "own"': ours(scene.replace(**{"emit.trigonometry": "own"})),
+        "tmm-gen, sines of the C library": ours(scene.replace(**{"emit.trigonometry": "libm"})),
         "CasADi": theirs(Articulated(jointed, torques), arm),
     }
     if pinocchio is not None:
@@ -138,7 +138,7 @@ def measure(everyone: dict[str, Contender], true: Array, rounds: int) -> list[di
             "step": name,
             "ns": statistics.median(times[name]),
             "tmm_gen_over_it": ratio(first, name),
-            "with_own_trigonometry": ratio(second, name),
+            "with_sines_of_the_c_library": ratio(second, name),
             "tip_error": float(np.linalg.norm(each.tip - true)),
         }
         for name, each in everyone.items()
@@ -165,7 +165,7 @@ def main() -> None:
         "step",
         Column("ns", "ns", ".0f"),
         Column("tmm_gen_over_it", "tmm-gen over it", ".3f"),
-        Column("with_own_trigonometry", 'with trigonometry = "own"', ".3f"),
+        Column("with_sines_of_the_c_library", "with the C library's sines", ".3f"),
         Column("tip_error", f"tip error after {UNTIL:g} s (m)", ".1e"),
     ]
     table(rows, columns, title=f"elbow, 2 x {LINKS} links: one step, medians of {given.rounds} rounds")

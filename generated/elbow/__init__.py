@@ -1,8 +1,8 @@
 # elbow: Flexible arm with motors at shoulder and elbow
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 2cf3828155010d9c4885fc2a677583998b6bf00b0d62ade41f995022bcf74f11
-# sha256 of the rest of this file: 3bf36e86d981101f32a19d7547aba3f8f4b6863f679a7e9d8f130420dcf1fc8d
+# scene digest: a37910a69b52f238259a20213fd8db76ea0063d6b7948a86cd4625c4f988d405
+# sha256 of the rest of this file: b34cf54593df2be91f129822bbacc979f9cc488e4504550ca8c3f3f7e9ff2dc3
 """elbow: Flexible arm with motors at shoulder and elbow."""
 
 from .kernel import (

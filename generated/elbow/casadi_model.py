@@ -1,8 +1,8 @@
 # elbow: Flexible arm with motors at shoulder and elbow
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 2cf3828155010d9c4885fc2a677583998b6bf00b0d62ade41f995022bcf74f11
-# sha256 of the rest of this file: 28fbc393531415800465764696cf6cc5ba86f7ecdd2d02fe585db9504534d0e7
+# scene digest: a37910a69b52f238259a20213fd8db76ea0063d6b7948a86cd4625c4f988d405
+# sha256 of the rest of this file: 2abc83baef79228c91598c964199cf724db213a46ace9e3bb5f0c6f4a4d9a328
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 12

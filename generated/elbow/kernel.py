@@ -1,8 +1,8 @@
 # elbow: Flexible arm with motors at shoulder and elbow
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: 2cf3828155010d9c4885fc2a677583998b6bf00b0d62ade41f995022bcf74f11
-# sha256 of the rest of this file: 601dad6410394a10b539ff189544daeb15fe3448673a24aeb79dada396b912ce
+# scene digest: a37910a69b52f238259a20213fd8db76ea0063d6b7948a86cd4625c4f988d405
+# sha256 of the rest of this file: cac950b79e51f53e8d83ec4b6f9df872afa2f2f70efc178032a4ed8c579f9682
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 12

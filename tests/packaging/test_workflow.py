@@ -40,7 +40,8 @@ def test_ci_tests_then_shows_then_looks_for_changes(repository: Path) -> None:
     assert "set -euo pipefail" in lines
     assert script.stat().st_mode & 0o111
     order = [
-        lines.index("make lint"),
+        next(k for k, line in enumerate(lines) if line.startswith("make lint")),
+        next(k for k, line in enumerate(lines) if line.startswith('wait "$lint" || {')),
         next(k for k, line in enumerate(lines) if 'PATH="$hidden" make test' in line),
         lines.index("make test"),
         lines.index("make demo"),

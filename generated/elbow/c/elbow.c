@@ -2,8 +2,8 @@
  * elbow: Flexible arm with motors at shoulder and elbow
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 2cf3828155010d9c4885fc2a677583998b6bf00b0d62ade41f995022bcf74f11
- * sha256 of the rest of this file: b19869e0896e420c7ff0c51a1aa56d782126c8ca8eeb1847f1e8552c34b824de
+ * scene digest: a37910a69b52f238259a20213fd8db76ea0063d6b7948a86cd4625c4f988d405
+ * sha256 of the rest of this file: a3265f03b7346e51bc10d6c0560187512a250a70ed6462a4f91c93eb7f9332b8
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 12
@@ -28,6 +28,7 @@
 #include <float.h>
 #include <math.h>
 #include <stddef.h>
+#include <stdint.h>
 
 /* Members of the header below: no macro of a header above may have their names. */
 #undef shoulder_torque
@@ -40,6 +41,60 @@
 #include "elbow.h"
 
 typedef elbow_real real;
+
+/* Sine and cosine of an angle. */
+typedef struct {
+    real sine;
+    real cosine;
+} circle;
+
+/*
+ * Sine and cosine, right within 2.5e-16 for angles up to 1647099 rad. Additions and multiplications alone, and
+ * the same ones for every angle: the same bits on every machine, in the same time.
+ */
+static circle circle_of(real angle)
+{
+    /* Sines of no, one, two, three and four quarters of a turn. */
+    static const real sine_of_quarters[5] = {
+        0.0, 1.0, 0.0, -1.0, 0.0
+    };
+    circle result;
+
+    /* So large a number that it has no digits behind the point: its last ones count quarters of a turn. */
+    const union {
+        real number;
+        uint64_t digits;
+    } counted = {angle * 0.6366197723675814 + 6755399441055744.0};
+    const uint64_t quarters = counted.digits & 3u;
+
+    /* The angle without these quarters, in three parts. One expression, so that an analyser sees how small it is. */
+    const real rest = angle
+        - ((angle * 0.6366197723675814 + 6755399441055744.0) - 6755399441055744.0) * 1.5707963267341256
+        - ((angle * 0.6366197723675814 + 6755399441055744.0) - 6755399441055744.0) * 6.077100506303966e-11
+        - ((angle * 0.6366197723675814 + 6755399441055744.0) - 6755399441055744.0) * 2.0222662487959506e-21;
+
+    /* Polynomials, of an eighth of a turn at most. */
+    const real z = rest * rest;
+    real sine = 1.5917030971117794e-10;
+    sine = -2.5051116540593934e-08 + z * sine;
+    sine = 2.7557316028832514e-06 + z * sine;
+    sine = -0.00019841269836615895 + z * sine;
+    sine = 0.008333333333330854 + z * sine;
+    sine = -0.16666666666666666 + z * sine;
+    sine = rest + rest * z * sine;
+    real cosine = -1.1381945321240986e-11;
+    cosine = 2.0876136694130206e-09 + z * cosine;
+    cosine = -2.7557317225611814e-07 + z * cosine;
+    cosine = 2.4801587298676432e-05 + z * cosine;
+    cosine = -0.001388888888888734 + z * cosine;
+    cosine = 0.041666666666666664 + z * cosine;
+    cosine = (1.0 - 0.5 * z) + z * z * cosine;
+
+    /* Theorem of addition. */
+    result.sine = sine * sine_of_quarters[quarters + 1u] + cosine * sine_of_quarters[quarters];
+    result.cosine = cosine * sine_of_quarters[quarters + 1u] - sine * sine_of_quarters[quarters];
+    return result;
+}
 
 static int inputs_are_finite(const elbow_inputs *inputs)
 {
@@ -274,8 +329,12 @@ elbow_status elbow_initialise(
 
     /* Accelerations of the nodes, seen from a falling frame: gravity is the base's own. */
     for (int j = 0; j < ELBOW_STATIONS; ++j) {
-        lever_cosine[j] = params->length[j] * cos(predicted_angle[j + 1]);
-        lever_sine[j] = params->length[j] * sin(predicted_angle[j + 1]);
+        if (!(fabs(predicted_angle[j + 1]) <= ELBOW_LARGEST_ANGLE)) {
+            return ELBOW_OUT_OF_RANGE;
+        }
+        const circle turn_1 = circle_of(predicted_angle[j + 1]);
+        lever_cosine[j] = params->length[j] * turn_1.cosine;
+        lever_sine[j] = params->length[j] * turn_1.sine;
         const real square = predicted_rate[j + 1] * predicted_rate[j + 1];
         relative_x[j] = -lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1];
         relative_y[j] = lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square;
@@ -546,8 +605,12 @@ elbow_status elbow_step(
 
     /* Accelerations of the nodes, seen from a falling frame: gravity is the base's own. */
     for (int j = 0; j < ELBOW_STATIONS; ++j) {
-        lever_cosine[j] = model->length[j] * cos(predicted_angle[j + 1]);
-        lever_sine[j] = model->length[j] * sin(predicted_angle[j + 1]);
+        if (!(fabs(predicted_angle[j + 1]) <= ELBOW_LARGEST_ANGLE)) {
+            return ELBOW_OUT_OF_RANGE;
+        }
+        const circle turn_1 = circle_of(predicted_angle[j + 1]);
+        lever_cosine[j] = model->length[j] * turn_1.cosine;
+        lever_sine[j] = model->length[j] * turn_1.sine;
         const real square = predicted_rate[j + 1] * predicted_rate[j + 1];
         relative_x[j] = -lever_cosine[j] * square - lever_sine[j] * predicted_acceleration[j + 1];
         relative_y[j] = lever_cosine[j] * predicted_acceleration[j + 1] - lever_sine[j] * square;
@@ -778,8 +841,9 @@ void elbow_output(
     outputs->payload_x = 0.0;
     outputs->payload_y = 0.0;
     for (int j = 0; j < ELBOW_STATIONS; ++j) {
-        outputs->payload_x = outputs->payload_x + model->length[j] * cos(state->angle[j]);
-        outputs->payload_y = outputs->payload_y + model->length[j] * sin(state->angle[j]);
+        const circle turn_1 = circle_of(state->angle[j]);
+        outputs->payload_x = outputs->payload_x + model->length[j] * turn_1.cosine;
+        outputs->payload_y = outputs->payload_y + model->length[j] * turn_1.sine;
     }
 
     /* Shoulder: joint angle. */

@@ -2,8 +2,8 @@
  * elbow: Flexible arm with motors at shoulder and elbow
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 2cf3828155010d9c4885fc2a677583998b6bf00b0d62ade41f995022bcf74f11
- * sha256 of the rest of this file: 349f18f41b9401272bdae270af2ee432d532fd3cbd6cee7ac32d95f6ec497cd0
+ * scene digest: a37910a69b52f238259a20213fd8db76ea0063d6b7948a86cd4625c4f988d405
+ * sha256 of the rest of this file: 87a1486a30e1df04abecc751cc7dce26748d47e1d4e9c7f18a95d05947d3a6eb
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 12
@@ -37,6 +37,9 @@ extern "C" {
 /** The scene's time step [s]. */
 #define ELBOW_STEP 0.001
 
+/** Largest angle, either way, of which a step takes sine and cosine [rad]. */
+#define ELBOW_LARGEST_ANGLE 1647099.0
+
 /** Type of all numbers. */
 typedef double elbow_real;
 
@@ -52,6 +55,8 @@ typedef enum {
     ELBOW_VANISHING_PIVOT,
     /** The motion has outgrown the number type; initialise anew. */
     ELBOW_NON_FINITE_STATE,
+    /** An angle is beyond ELBOW_LARGEST_ANGLE; nothing was changed. */
+    ELBOW_OUT_OF_RANGE,
     /** A pointer that is needed is NULL; nothing was changed. */
     ELBOW_NULL_POINTER = 6,
     /** Parameters or time step are too large or too small for the number type; the model is of no use. */
@@ -191,7 +196,7 @@ elbow_status elbow_prepare(
  * @param[in]  initial_angle  angles to start from [rad]; NULL for the scene's own
  * @param[in]  initial_rate  rates to start from [rad/s]; NULL for the scene's own
  * @param[in]  inputs  what acts at the initial instant
- * @return OK, NON_FINITE_INPUT, NULL_POINTER, VANISHING_PIVOT or NON_FINITE_STATE
+ * @return OK, NON_FINITE_INPUT, NULL_POINTER, VANISHING_PIVOT, NON_FINITE_STATE or OUT_OF_RANGE
  */
 elbow_status elbow_initialise(
     elbow_state *state,
@@ -206,7 +211,7 @@ elbow_status elbow_initialise(
  * @param[in]     model   from elbow_prepare()
  * @param[in,out] state   motion before the step, and after it
  * @param[in]     inputs  what acts, at the end of the step
- * @return OK, NON_FINITE_INPUT, NULL_POINTER, VANISHING_PIVOT or NON_FINITE_STATE
+ * @return OK, NON_FINITE_INPUT, NULL_POINTER, VANISHING_PIVOT, NON_FINITE_STATE or OUT_OF_RANGE
  */
 elbow_status elbow_step(
     const elbow_model *model,

@@ -2,8 +2,8 @@
  * elbow: Flexible arm with motors at shoulder and elbow
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: 2cf3828155010d9c4885fc2a677583998b6bf00b0d62ade41f995022bcf74f11
- * sha256 of the rest of this file: 4810abb7b8db15b03ccebcf134ba0333ca979c7017b11bcf7a273f14072b8ad3
+ * scene digest: a37910a69b52f238259a20213fd8db76ea0063d6b7948a86cd4625c4f988d405
+ * sha256 of the rest of this file: 8226641f91788d4aac317640b6e96d9e20c5d11c4b078d3a7c767ee76c12b6a0
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 12
