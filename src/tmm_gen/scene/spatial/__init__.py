@@ -1,0 +1,1 @@
+"""Arms in space: what a scene's parts make of them."""
