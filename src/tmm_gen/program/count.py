@@ -68,7 +68,7 @@ def count_routine(routine: Routine) -> Operations:
     for statement in routine.statements():
         if isinstance(statement, Loop):
             body = sum((count_expression(s.value) for s in statement.body), Operations())
-            total += body * (statement.stop - statement.start)
+            total += body * len(statement.visits)
         else:
             total += count_expression(statement.value)
     return total

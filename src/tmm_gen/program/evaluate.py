@@ -96,8 +96,7 @@ def execute(
             if left > 0 and compute(statement.value, None) > 0:
                 place = begin
         elif isinstance(statement, Loop):
-            stations = range(statement.start, statement.stop)
-            for j in reversed(stations) if statement.order is Order.INWARD else stations:
+            for j in reversed(statement.visits) if statement.order is Order.INWARD else statement.visits:
                 for inner in statement.body:
                     run(inner, j)
         else:

@@ -57,16 +57,33 @@ class Order(Enum):
 
 @dataclass(frozen=True)
 class Loop:
-    """A loop over stations ``j`` in ``range(start, stop)``, from base to tip or from tip to base."""
+    """A loop over stations ``j`` in ``range(start, stop, stride)``, from base to tip or from tip to base.
+
+    With a stride, the body does so many stations at a time: ``j``, ``j + 1`` and so on, which may be unlike each other
+    where they come again and again in one order.
+    """
 
     order: Order
     start: int
     stop: int
     body: tuple[Assign | Require, ...]
+    stride: int = 1
+
+    @property
+    def last(self) -> int:
+        """The largest ``j``."""
+        return self.stop - self.stride
+
+    @property
+    def visits(self) -> range:
+        """Every ``j``, base to tip."""
+        return range(self.start, self.stop, self.stride)
 
     @property
     def parallel(self) -> bool:
         """Whether iterations are independent, so that a backend may do all stations at once."""
+        if self.stride > 1:
+            return False
         written = {s.target.variable: s.target.offset for s in self.body if isinstance(s, Assign)}
         assigned: set[sp.Symbol] = set()
         for statement in self.body:

@@ -111,7 +111,7 @@ def _python(routine: Routine, real: Real) -> str:
         if isinstance(statement, Mark):
             raise NotImplementedError("prepare repeats nothing")
         if isinstance(statement, Loop):
-            stations = f"range({statement.start}, {statement.stop})"
+            stations = f"range({statement.start}, {statement.stop}, {statement.stride})"
             order = f"reversed({stations})" if statement.order is Order.INWARD else stations
             lines += [f"for j in {order}:", *(f"    {line(inner)}" for inner in statement.body)]
         else:

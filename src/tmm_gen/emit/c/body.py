@@ -275,9 +275,10 @@ class Body:
         stop = (
             f"{macros(self.program.name)}_STATIONS" if loop.stop == self.program.stations else str(loop.stop)
         )
+        by = f" += {loop.stride}" if loop.stride > 1 else ""
         if loop.order is Order.OUTWARD:
-            return f"for (int j = {loop.start}; j < {stop}; ++j)"
-        return f"for (int j = {stop} - 1; j >= {loop.start}; --j)"
+            return f"for (int j = {loop.start}; j < {stop}; {f'j{by}' if by else '++j'})"
+        return f"for (int j = {stop} - {loop.stride}; j >= {loop.start}; {f'j -= {loop.stride}' if by else '--j'})"
 
     # -- leaving the function -----------------------------------------------------------------------
 

@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 import random
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from tmm_gen.emit.c.box import Box
 from tmm_gen.program.evaluate import Values, VanishingPivotError, allocate, execute, key
@@ -123,7 +123,7 @@ def _watched(routine: Routine) -> tuple[Routine, dict[str, Variable]]:
             body: list[Assign | Require] = []
             for inner in statement.body:
                 body += record(inner, stations) if isinstance(inner, Require) else [inner]
-            return [Loop(statement.order, statement.start, statement.stop, tuple(body))]
+            return [replace(statement, body=tuple(body))]
         return [statement]
 
     sections = tuple(

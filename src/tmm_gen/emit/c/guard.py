@@ -52,7 +52,7 @@ def sums_of(routine: Routine) -> Sums:
             if not isinstance(top, Loop):
                 behind.insert(0, inner)
             elif _tells_of_those_before(inner, top):
-                last = top.start if top.order is Order.INWARD else top.stop - 1
+                last = top.start if top.order is Order.INWARD else top.last
                 ends.insert(0, (inner.target.variable, last + (inner.target.offset or 0)))
             else:
                 inside[top] = (inner, *inside.get(top, ()))

@@ -57,7 +57,7 @@ def _put(sections: list[Section], place: int, position: int, new: Iterable[State
 def _fits(first: Loop, second: Loop, between: list[Statement]) -> bool:
     if (first.order, second.order) != (Order.OUTWARD, Order.INWARD):
         return False
-    if (first.start, first.stop) != (second.start, second.stop) or first.stop - first.start < FEWEST:
+    if first.visits != second.visits or first.stride > 1 or len(first.visits) < FEWEST:
         return False
     if not all(isinstance(s, Assign) for s in (*first.body, *second.body, *between)):
         return False

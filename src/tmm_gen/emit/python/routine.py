@@ -29,6 +29,8 @@ class PythonRoutine:
     def _range(self, loop: Loop) -> str:
         stop = self.count(loop.stop)
         stations = f"range({stop})" if loop.start == 0 else f"range({loop.start}, {stop})"
+        if loop.stride > 1:
+            stations = f"range({loop.start}, {stop}, {loop.stride})"
         return f"reversed({stations})" if loop.order is Order.INWARD else stations
 
     def count(self, number: int) -> str:

@@ -22,14 +22,15 @@ class Access:
         Scalar, fixed entry, or element relative to the loop's index.
     writes : bool
         Whether it is assigned.
-    first, last : int
-        Elements touched (0, 0 for a scalar).
+    first, last, every : int
+        Elements touched (0, 0 for a scalar): every so manieth.
     """
 
     ref: Ref
     writes: bool
     first: int
     last: int
+    every: int = 1
 
     @property
     def variable(self) -> Variable:
@@ -50,9 +51,8 @@ class Access:
 def accesses(statement: Statement) -> tuple[Access, ...]:
     """Return every use of a variable by a statement, in the order of execution."""
     if isinstance(statement, Loop):
-        stations = (statement.start, statement.stop - 1)
-        return tuple(a for inner in statement.body for a in _of(inner, *stations))
-    return tuple(_of(statement, 0, 0))
+        return tuple(a for inner in statement.body for a in _of(inner, statement.visits))
+    return tuple(_of(statement, range(1)))
 
 
 def written_elements(routine: Routine, array: Variable) -> list[tuple[int, int]]:
@@ -62,7 +62,7 @@ def written_elements(routine: Routine, array: Variable) -> list[tuple[int, int]]
         for line in routine.statements()
         for a in accesses(line)
         if a.writes and a.variable == array and array.length is not None
-        for element in range(a.first, a.last + 1)
+        for element in range(a.first, a.last + 1, a.every)
     }
     begins = sorted(element for element in touched if element - 1 not in touched)
     ends = sorted(element + 1 for element in touched if element + 1 not in touched)
@@ -165,7 +165,7 @@ def order_keeping_dependences(first: Loop, second: Loop, later: tuple[Statement,
     later : tuple of Statement
         What follows them: scalars it reads keep their value.
     """
-    if (first.start, first.stop) != (second.start, second.stop) or not _scalars_apart(first, second):
+    if first.visits != second.visits or first.stride != second.stride or not _scalars_apart(first, second):
         return None
     orders: tuple[Order, ...] = (second.order, *Order)
     for order in dict.fromkeys(orders):
@@ -175,19 +175,19 @@ def order_keeping_dependences(first: Loop, second: Loop, later: tuple[Statement,
     return None
 
 
-def _of(statement: Assign | Require | Mark, low: int, high: int) -> list[Access]:
-    found = [_access(ref, False, low, high) for ref in sorted(refs_in(statement.value), key=lambda r: r.name)]
+def _of(statement: Assign | Require | Mark, visits: range) -> list[Access]:
+    found = [_access(ref, False, visits) for ref in sorted(refs_in(statement.value), key=lambda r: r.name)]
     if isinstance(statement, Assign):
-        found.append(_access(statement.target, True, low, high))
+        found.append(_access(statement.target, True, visits))
     return found
 
 
-def _access(ref: Ref, writes: bool, low: int, high: int) -> Access:
+def _access(ref: Ref, writes: bool, visits: range) -> Access:
     if ref.variable.length is None:
         return Access(ref, writes, 0, 0)
     if ref.offset is None:
         return Access(ref, writes, ref.entry or 0, ref.entry or 0)
-    return Access(ref, writes, low + ref.offset, high + ref.offset)
+    return Access(ref, writes, visits[0] + ref.offset, visits[-1] + ref.offset, visits.step)
 
 
 def _set_before_use(loop: Loop, scalar: Variable) -> bool:

@@ -189,7 +189,7 @@ def _divided(sections: list[Section], early: set[Variable]) -> tuple[list[list[S
             late = tuple(s for s in inside if s not in soon)
             for part, into in ((soon, mine), (late, kept)):
                 if part and isinstance(statement, Loop):
-                    into.append(Loop(statement.order, statement.start, statement.stop, part))  # type: ignore[arg-type]
+                    into.append(replace(statement, body=part))  # type: ignore[arg-type]
                 else:
                     into += part
         taken.append(mine)

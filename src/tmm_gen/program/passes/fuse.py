@@ -56,7 +56,7 @@ def _fuse_into(items: list[_Item], last: int) -> tuple[list[_Item], int] | None:
         return None
     for first in range(last - 1, -1, -1):
         one = items[first].statement
-        if not isinstance(one, Loop) or (one.start, one.stop) != (second.start, second.stop):
+        if not isinstance(one, Loop) or one.visits != second.visits or one.stride != second.stride:
             continue
         if (fused := _fuse_pair(items, first, last)) is not None:
             return fused

@@ -25,7 +25,7 @@ def _joined(section: Section) -> Section:
 def _both(first: Statement, second: Statement) -> Loop | None:
     if not (isinstance(first, Loop) and isinstance(second, Loop)):
         return None
-    if (first.order, first.body) != (second.order, second.body):
+    if (first.order, first.body, first.stride) != (second.order, second.body, second.stride):
         return None
     inner, outer = (first, second) if first.order is Order.OUTWARD else (second, first)
     return replace(first, start=inner.start, stop=outer.stop) if inner.stop == outer.start else None
