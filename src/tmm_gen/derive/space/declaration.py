@@ -1,0 +1,123 @@
+"""What an element in space is: how velocity passes it, or the kinetic energy it holds. The rest is derived.
+
+A section of an arm has a frame. Its motion is said in that frame's own axes: the velocity of its origin, the angular
+velocity, the angular acceleration, and the *proper* acceleration of the origin, which is the true one less gravity. In
+such axes a position or an orientation occurs nowhere.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import sympy as sp
+
+AXES = "xyz"
+
+
+def vector(name: str) -> sp.Matrix:
+    """Return a vector of symbols."""
+    return sp.Matrix([sp.Symbol(f"{name}_{axis}", real=True) for axis in AXES])
+
+
+VELOCITY = vector("velocity")
+OMEGA = vector("omega")
+"""Angular velocity."""
+ALPHA = vector("alpha")
+"""Angular acceleration."""
+ACCEL = vector("accel")
+"""Proper acceleration of the frame's origin."""
+BASE_ACCEL = vector("base_accel")
+"""The same of a base at rest: gravity with its sign turned."""
+
+ANGLE, RATE, ACCELERATION = sp.symbols("hinge_angle hinge_rate hinge_acceleration", real=True)
+"""Of the hinge's own coordinate."""
+
+OFFSET = vector("offset")
+MASS = sp.Symbol("mass", real=True)
+FIRST_MOMENT = vector("first_moment")
+"""Mass times the centre of mass."""
+PAIRS = ("xx", "yy", "zz", "xy", "xz", "yz")
+_PLACES = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
+INERTIA = tuple(sp.Symbol(f"inertia_{pair}", real=True) for pair in PAIRS)
+"""Of the inertia matrix about the frame's origin."""
+TURN = sp.Matrix(3, 3, lambda i, j: sp.Symbol(f"turn_{AXES[i]}{AXES[j]}", real=True))
+"""Axes of the outer side by columns, seen from the inner side."""
+
+
+def symmetric(entries: tuple[sp.Expr, ...]) -> sp.Matrix:
+    """Return a symmetric matrix from its entries xx, yy, zz, xy, xz, yz."""
+    matrix = sp.zeros(3, 3)
+    for (i, j), entry in zip(_PLACES, entries, strict=True):
+        matrix[i, j] = matrix[j, i] = entry
+    return matrix
+
+
+@dataclass(frozen=True)
+class Passage:
+    """A massless element between two sections.
+
+    Parameters
+    ----------
+    name : str
+        Identifier.
+    velocity, omega : sympy.Matrix
+        Velocity and angular velocity at the outer side, in its axes, by those at the inner side and the hinge's motion.
+    """
+
+    name: str
+    velocity: sp.Matrix
+    omega: sp.Matrix
+
+
+@dataclass(frozen=True)
+class Body:
+    """A rigid body fixed to a section.
+
+    Parameters
+    ----------
+    kinetic_energy : sympy.Expr
+        By the section's velocity and angular velocity, J.
+    """
+
+    name: str
+    kinetic_energy: sp.Expr
+
+
+def hinge(axis: int) -> Passage:
+    """Return a joint that turns about one of its frame's axes."""
+    s, c = sp.sin(ANGLE), sp.cos(ANGLE)
+    i, j = (axis + 1) % 3, (axis + 2) % 3
+    matrix = sp.eye(3)
+    matrix[i, i] = matrix[j, j] = c
+    matrix[i, j], matrix[j, i] = s, -s
+    spin = sp.zeros(3, 1)
+    spin[axis] = RATE
+    return Passage("hinge", matrix * VELOCITY, matrix * OMEGA + spin)
+
+
+def offset(arm: sp.Matrix = OFFSET) -> Passage:
+    """Return a rigid way from a frame's origin to another point, axes kept."""
+    return Passage("offset", VELOCITY + OMEGA.cross(arm), OMEGA)
+
+
+def turned(matrix: sp.Matrix = TURN) -> Passage:
+    """Return a constant change of axes."""
+    return Passage("turned", matrix.T * VELOCITY, matrix.T * OMEGA)
+
+
+def rigid_body(
+    mass: sp.Expr = MASS, first_moment: sp.Matrix = FIRST_MOMENT, inertia: tuple[sp.Expr, ...] = INERTIA
+) -> Body:
+    """Return a body by its mass, first moment and inertia about the frame's origin."""
+    energy = (
+        mass * VELOCITY.dot(VELOCITY) / 2
+        + VELOCITY.dot(OMEGA.cross(first_moment))
+        + (OMEGA.T * symmetric(inertia) * OMEGA)[0] / 2
+    )
+    return Body("body", energy)
+
+
+def about_center(mass: sp.Expr, center: sp.Matrix, inertia: sp.Matrix) -> sp.Expr:
+    """Return the kinetic energy of a body whose inertia is said about its centre of mass."""
+    there = VELOCITY + OMEGA.cross(center)
+    return mass * there.dot(there) / 2 + (OMEGA.T * inertia * OMEGA)[0] / 2

@@ -1,0 +1,119 @@
+"""Exact equations of elements in space, from their velocities and energies.
+
+Axes turn with the section, so that the derivative of a vector is that of its components plus ``omega x`` it, and the
+proper acceleration is ``accel = d velocity / dt + omega x velocity`` in a frame that falls with gravity. Velocities
+themselves cancel. Forces follow from the power of what has no mass, and from Kirchhoff's equations for what has.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import sympy as sp
+
+from tmm_gen.derive.space.declaration import (
+    ACCEL,
+    ACCELERATION,
+    ALPHA,
+    ANGLE,
+    OMEGA,
+    RATE,
+    VELOCITY,
+    Body,
+    Passage,
+)
+
+
+@dataclass(frozen=True)
+class PassageEquations:
+    """Motion at the outer side, and what carries forces to the inner one.
+
+    Parameters
+    ----------
+    omega : sympy.Matrix
+        Angular velocity.
+    carried, swung, pushed : sympy.Matrix
+        What angular acceleration, rate and acceleration of the hinge make of the angular acceleration, which is
+        ``carried + swung * rate + pushed * acceleration``.
+    turn : sympy.Matrix
+        Components at the outer side by those at the inner one.
+    relative : sympy.Matrix
+        Velocity of the outer origin against the inner one, in the outer axes; the proper acceleration is
+        ``turn * accel + d relative / dt + omega x relative``.
+    forces : sympy.Matrix, shape (6, 6)
+        Force and moment at the inner side by those at the outer one.
+    """
+
+    omega: sp.Matrix
+    carried: sp.Matrix
+    swung: sp.Matrix
+    pushed: sp.Matrix
+    turn: sp.Matrix
+    relative: sp.Matrix
+    forces: sp.Matrix
+
+
+@dataclass(frozen=True)
+class BodyEquations:
+    """Force and moment that a body's motion takes.
+
+    Parameters
+    ----------
+    momentum, spin : sympy.Matrix
+        Momentum and angular momentum about the origin, of a body whose origin rests.
+    force, moment : sympy.Matrix
+        ``force = mass * accel + d momentum / dt + omega x momentum``, and likewise the moment with the spin; here what
+        is linear in accelerations, without the cross products.
+    """
+
+    momentum: sp.Matrix
+    spin: sp.Matrix
+    force: sp.Matrix
+    moment: sp.Matrix
+
+
+def time_derivative(value: sp.Matrix) -> sp.Matrix:
+    """Return the derivative of components by time, where motion goes on by the section's accelerations."""
+    rates = {
+        ANGLE: RATE,
+        RATE: ACCELERATION,
+        **dict(zip(OMEGA, ALPHA, strict=True)),
+        **dict(zip(VELOCITY, ACCEL - OMEGA.cross(VELOCITY), strict=True)),
+    }
+    return sum((value.diff(symbol) * rate for symbol, rate in rates.items()), sp.zeros(*value.shape))
+
+
+def passage_equations(passage: Passage) -> PassageEquations:
+    """Derive the equations of a massless element."""
+    turn = passage.velocity.jacobian(VELOCITY)
+    relative = (passage.velocity - turn * VELOCITY).applyfunc(sp.expand)
+    power = sp.Matrix.vstack(passage.velocity, passage.omega).jacobian([*VELOCITY, *OMEGA])
+    return PassageEquations(
+        omega=passage.omega,
+        carried=passage.omega.jacobian(OMEGA) * ALPHA,
+        swung=passage.omega.diff(ANGLE),
+        pushed=passage.omega.diff(RATE),
+        turn=turn,
+        relative=relative,
+        forces=power.T,
+    )
+
+
+def body_equations(body: Body) -> BodyEquations:
+    """Derive the equations of a rigid body."""
+    momentum, spin = (
+        sp.Matrix([sp.diff(body.kinetic_energy, s) for s in symbols]) for symbols in (VELOCITY, OMEGA)
+    )
+    still = dict.fromkeys(VELOCITY, 0)
+    falling = dict(zip(VELOCITY, ACCEL, strict=True))
+    turning = dict(zip(OMEGA, ALPHA, strict=True))
+
+    def by_accelerations(value: sp.Matrix) -> sp.Matrix:
+        return value.xreplace({**falling, **turning}).applyfunc(sp.expand)
+
+    return BodyEquations(
+        momentum=momentum.xreplace(still).applyfunc(sp.expand),
+        spin=spin.xreplace(still).applyfunc(sp.expand),
+        force=by_accelerations(momentum),
+        moment=by_accelerations(spin),
+    )

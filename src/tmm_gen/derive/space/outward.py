@@ -1,0 +1,169 @@
+"""The way out: exact motion of a section by that of the one before, and the force that its body takes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import sympy as sp
+
+from tmm_gen.derive.space.declaration import (
+    ACCEL,
+    ACCELERATION,
+    ALPHA,
+    ANGLE,
+    OMEGA,
+    RATE,
+    Body,
+    hinge,
+    offset,
+    rigid_body,
+    turned,
+)
+from tmm_gen.derive.space.equations import PassageEquations, body_equations, passage_equations
+from tmm_gen.derive.space.pattern import Pattern
+from tmm_gen.derive.space.sheet import Sheet
+from tmm_gen.derive.station.lets import Let, Line, Update
+
+SINE, COSINE = sp.symbols("sine cosine", real=True)
+"""Of the hinge's angle."""
+_CIRCLE = {sp.sin(ANGLE): SINE, sp.cos(ANGLE): COSINE}
+OWN_FORCE = sp.Matrix(sp.symbols("own_force_x own_force_y own_force_z", real=True))
+OWN_MOMENT = sp.Matrix(sp.symbols("own_moment_x own_moment_y own_moment_z", real=True))
+"""What the body itself takes."""
+
+
+@dataclass(frozen=True)
+class Crossing:
+    """A massless element at one place of the way out.
+
+    Parameters
+    ----------
+    equations : PassageEquations
+        Written by the place's own offset and turn, and by sine and cosine.
+    omega, alpha, accel : sympy.Matrix
+        Motion at its inner side.
+    """
+
+    equations: PassageEquations
+    omega: sp.Matrix
+    alpha: sp.Matrix
+    accel: sp.Matrix
+
+
+class Outward:
+    """Derives the way out over one station.
+
+    Parameters
+    ----------
+    pattern : Pattern
+        Of the station.
+    still : bool
+        Whether the hinge's acceleration is zero, as it is where a step is predicted without any.
+
+    Attributes
+    ----------
+    lines : tuple of Line
+        Named values, then the update of what is carried.
+    crossings : tuple of Crossing
+        Inner to outer.
+    sheet : Sheet
+        With all names.
+    omega, alpha, accel : sympy.Matrix
+        Motion of the station's own section.
+    """
+
+    def __init__(self, pattern: Pattern, *, still: bool) -> None:
+        self.pattern, self.sheet = pattern, Sheet()
+        self._acceleration = sp.Integer(0) if still else ACCELERATION
+        self.omega, self.alpha, self.accel = pattern.inner_motion
+        circle = [
+            Let(SINE, sp.sin(ANGLE), "sine of the joint's angle"),
+            Let(COSINE, sp.cos(ANGLE), "its cosine"),
+        ]
+        *before, last = passages(pattern)
+        self.crossings = (*(self._cross(e, "mount") for e in before), self._cross(last, "own"))
+        own = self._own()
+        carried = dict(zip((*OMEGA, *ALPHA, *ACCEL), (*self.omega, *self.alpha, *self.accel), strict=True))
+        update = {s: v for s, v in carried.items() if s != v}
+        self.lines: tuple[Line, ...] = (*circle, *self.sheet.lets, *own, Update(update))
+
+    def _cross(self, equations: PassageEquations, where: str) -> Crossing:
+        found = Crossing(equations, self.omega, self.alpha, self.accel)
+        motion = {
+            **dict(zip(OMEGA, self.omega, strict=True)),
+            **dict(zip(ALPHA, self.alpha, strict=True)),
+        }
+        sheet = self.sheet
+
+        def here(value: sp.Matrix) -> sp.Matrix:
+            return value.xreplace(motion).applyfunc(sp.expand)
+
+        relative = sheet.vector("relative", here(equations.relative), "velocity across the link", "m/s")
+        self.omega = sheet.vector(f"{where}_omega", here(equations.omega), "angular velocity", "rad/s")
+        swung = known(sheet, here(equations.swung))
+        alpha = here(equations.carried) + swung * RATE + equations.pushed * self._acceleration
+        speeding = relative_acceleration(equations.relative).xreplace(motion)
+        accel = equations.turn * self.accel + speeding + self.omega.cross(relative)
+        self.alpha = sheet.vector(f"{where}_alpha", alpha, "angular acceleration", "rad/s^2")
+        self.accel = sheet.vector(f"{where}_accel", accel, "proper acceleration", "m/s^2")
+        return found
+
+    def _own(self) -> list[Let]:
+        pattern, sheet = self.pattern, self.sheet
+        if not pattern.massive:
+            return []
+        body = body_equations(body_of(pattern))
+        motion = {
+            **dict(zip(OMEGA, self.omega, strict=True)),
+            **dict(zip(ALPHA, self.alpha, strict=True)),
+            **dict(zip(ACCEL, self.accel, strict=True)),
+        }
+        momentum = sheet.vector("momentum", body.momentum.xreplace(motion), "momentum of turning", "kg m/s")
+        spin = sheet.vector("spin", body.spin.xreplace(motion), "angular momentum", "kg m^2/s")
+        force = body.force.xreplace(motion) + self.omega.cross(momentum)
+        moment = body.moment.xreplace(motion) + self.omega.cross(spin)
+        return [
+            Let(symbol, value, doc, unit)
+            for symbols, values, doc, unit in (
+                (OWN_FORCE, force, "force that the body takes", "N"),
+                (OWN_MOMENT, moment, "moment that the body takes", "N m"),
+            )
+            for symbol, value in zip(symbols, values, strict=True)
+        ]
+
+
+def relative_acceleration(relative: sp.Matrix) -> sp.Matrix:
+    """Return the derivative of a relative velocity by its components' time, where it follows the angular velocity."""
+    return relative.jacobian(OMEGA) * ALPHA
+
+
+def known(sheet: Sheet, values: sp.Matrix) -> sp.Matrix:
+    """Return components by their names where they have one."""
+    return values.applyfunc(lambda value: value if (found := sheet.known(value)) is None else found)
+
+
+def body_of(pattern: Pattern) -> Body:
+    """Return the body of a pattern."""
+    return rigid_body(pattern.mass_symbol, pattern.symbols["first_moment"], pattern.inertia_symbols)
+
+
+_PASSAGES: dict[tuple[object, ...], tuple[PassageEquations, ...]] = {}
+
+
+def passages(pattern: Pattern) -> tuple[PassageEquations, ...]:
+    """Return the massless elements of a station, inner to outer; those that change nothing are left out."""
+    key = (pattern.axis, pattern.offset, pattern.turn)
+    if key not in _PASSAGES:
+        symbols = pattern.symbols
+        found = []
+        if any(pattern.offset):
+            found.append(passage_equations(offset(symbols["offset"])))
+        if symbols["turn"] != sp.eye(3):
+            found.append(passage_equations(turned(symbols["turn"])))
+        found.append(_by_circle(passage_equations(hinge(pattern.axis))))
+        _PASSAGES[key] = tuple(found)
+    return _PASSAGES[key]
+
+
+def _by_circle(equations: PassageEquations) -> PassageEquations:
+    return PassageEquations(**{name: value.xreplace(_CIRCLE) for name, value in vars(equations).items()})

@@ -1,0 +1,1 @@
+"""From an arm in space to its program."""

@@ -1,0 +1,185 @@
+"""From an arm in space and an integrator to the program of a kernel."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import sympy as sp
+
+from tmm_gen.derive.integrators.declaration import CONSISTENT_START, KINDS, Integrator, past
+from tmm_gen.program.arm.auto import LEAST_TURN, SWEEPS
+from tmm_gen.program.fields import gain_names, living_state
+from tmm_gen.program.motion import history_values
+from tmm_gen.program.passes.early import EarlySets, lifted
+from tmm_gen.program.passes.hoist import Hoister
+from tmm_gen.program.passes.prune import prune
+from tmm_gen.program.passes.rewrite import renamed_scratch
+from tmm_gen.program.space.bodies import Bodies
+from tmm_gen.program.space.layout import SpaceLayout, layout_of
+from tmm_gen.program.space.outputs import output_routine
+from tmm_gen.program.space.step import SpaceStep
+from tmm_gen.program.statements import Assign, Program, Routine, Section
+from tmm_gen.program.variables import Role
+from tmm_gen.scene.spatial.arm import SpatialArm
+
+
+@dataclass(frozen=True)
+class SpaceChoices:
+    """How an arm in space is solved.
+
+    Parameters
+    ----------
+    step : float
+        The scene's time step, s.
+    iterations : int
+        One sweep and so many less one corrections per stage.
+    held : bool
+        Whether stages are predicted with the newest acceleration; otherwise with none.
+    auto : bool
+        Whether corrections go on until one changes next to nothing.
+    facts : tuple of (str, str)
+        For headers.
+    """
+
+    step: float
+    iterations: int = 2
+    held: bool = False
+    auto: bool = False
+    facts: tuple[tuple[str, str], ...] = ()
+
+
+def build_in_space(
+    arm: SpatialArm, name: str, title: str, integrator: Integrator, choices: SpaceChoices
+) -> Program:
+    """Build the program of an arm in space.
+
+    Parameters
+    ----------
+    arm : SpatialArm
+        What is modelled.
+    name, title : str
+        Of the scene.
+    integrator : Integrator
+        With its parameters bound to numbers.
+    choices : SpaceChoices
+        How it is solved.
+    """
+    return _Assembly(layout_of(arm, name, title, integrator, choices.step), integrator, choices).program()
+
+
+class _Assembly:
+    """Gathers the routines of the program."""
+
+    def __init__(self, layout: SpaceLayout, integrator: Integrator, choices: SpaceChoices) -> None:
+        self.layout, self.integrator, self.choices = layout, integrator, choices
+        self.bodies = Bodies(layout, Role.COEFFICIENT)
+        self.early = EarlySets()
+        self.hoister = Hoister(names=gain_names(integrator, "acceleration", layout.step))
+
+    def program(self) -> Program:
+        """Build the program."""
+        layout, integrator = self.layout, self.integrator
+        routines: dict[str, Routine] = {}
+        # the main scheme first: its factors get the plain names
+        for position, scheme in sorted(
+            enumerate(integrator.schemes), key=lambda item: item[1] is not integrator.main
+        ):
+            main = scheme is integrator.main
+            step = SpaceStep(
+                layout,
+                self.bodies,
+                scheme,
+                history_values(layout.state, lambda v: v.at()),
+                iterations=self.choices.iterations,
+                held=self.choices.held,
+                auto=self.choices.auto,
+                split=self.early.split,
+            )
+            name = "step" if main else f"step_start{position + 1}"
+            doc = "Advance the state by one step." if main else f"Start-up: take step {position + 1}."
+            sections = (*step.sections(), *self._hold(len(scheme.stages)))
+            routines[name] = self.hoister.hoist(Routine(name, doc, sections))
+        main_routine = routines.pop("step")
+        startup = tuple(routines[f"step_start{k + 1}"] for k in range(len(integrator.startup)))
+        return self._gathered(main_routine, startup)
+
+    def _gathered(self, main: Routine, startup: tuple[Routine, ...]) -> Program:
+        layout = self.layout
+        output = self.hoister.hoist(output_routine(layout))
+        initialise = self._initialise()
+        state = living_state((*layout.state.values(), *layout.held.values()), (*startup, main), output)
+        parameters = tuple(layout.parameters.values())
+        if self.choices.auto:
+            state, parameters = (*state, SWEEPS), (*parameters, LEAST_TURN)
+            none = Section("no sweep has been taken yet", (Assign(SWEEPS.ref, sp.Integer(0)),))
+            initialise = replace(initialise, sections=(*initialise.sections, none))
+        wanted = frozenset(state)
+        startup = tuple(prune(r, wanted) for r in startup)
+        main, initialise = prune(main, wanted), prune(initialise, wanted)
+        used = frozenset().union(*(r.read() for r in (*startup, main, output)))
+        sections = (self.bodies.section, *self.early.sections, self.hoister.section())
+        doc = "Compute what depends on parameters and step alone."
+        prepare = prune(Routine("prepare", doc, sections), used)
+        coefficients = (
+            *self.hoister.coefficients,
+            *self.bodies.variables.values(),
+            *self.early.coefficients,
+        )
+        read = prepare.read() | used | initialise.read()
+        return Program(
+            name=layout.name,
+            title=layout.title,
+            stations=layout.stations,
+            step=layout.step,
+            parameters=tuple(p for p in parameters if p in read),
+            coefficients=tuple(c for c in coefficients if c in used),
+            state=state,
+            inputs=layout.inputs,
+            outputs=layout.outputs,
+            given=layout.given,
+            prepare=prepare,
+            initialise=initialise,
+            startup=startup,
+            main=main,
+            output=output,
+            stage_instants=tuple(
+                tuple(float(stage.instant) for stage in scheme.stages) for scheme in self.integrator.schemes
+            ),
+            facts=dict(self.choices.facts),
+        )
+
+    def _hold(self, stages: int) -> tuple[Section, ...]:
+        """Remember torques for outputs that need them."""
+        assigns = tuple(
+            Assign(variable.ref, self.layout.input(name, stages - 1))
+            for name, variable in self.layout.held.items()
+        )
+        return (Section("torques as they last acted", assigns),) if assigns else ()
+
+    def _initialise(self) -> Routine:
+        """Build the start: given motion, and the acceleration that satisfies the equations of motion."""
+        layout = self.layout
+        bodies = Bodies(layout, Role.WORK)
+        angle, rate = layout.given
+        newest = replace(layout, state={p: v for p, v in layout.state.items() if p.lag == 0})
+        step = SpaceStep(
+            newest,
+            bodies,
+            CONSISTENT_START,
+            {past("q"): angle.at(), past("v"): rate.at(), past("a"): sp.Integer(0)},
+        )
+        sections = (bodies.section, *lifted(list(step.sections()), ask=True), *self._hold(1))
+        routine = Routine(
+            "initialise",
+            "Start from given angles and rates with the acceleration that satisfies the equations of motion.",
+            tuple(s for s in sections if s.statements),
+        )
+        kept = (
+            *self.hoister.coefficients,
+            *self.bodies.variables.values(),
+            *self.early.coefficients,
+        )
+        return renamed_scratch(routine, {v.name: f"start_{v.name}" for v in kept})
+
+
+__all__ = ["KINDS", "SpaceChoices", "build_in_space"]

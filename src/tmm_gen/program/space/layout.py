@@ -1,0 +1,242 @@
+"""Which variables an arm in space needs: only those its joints, its outputs and its integrator ask for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+
+import sympy as sp
+
+from tmm_gen.derive.integrators.declaration import KINDS, Integrator, Past
+from tmm_gen.derive.integrators.history import history
+from tmm_gen.derive.space.declaration import AXES, PAIRS
+from tmm_gen.program.fields import MOTION_NAMES
+from tmm_gen.program.space.runs import Tree
+from tmm_gen.program.variables import Ref, Role, Variable
+from tmm_gen.scene.spatial.arm import ArmInput, Revolute, SpatialArm
+
+_AGO = {1: "one step", 2: "two steps", 3: "three steps"}
+
+
+@dataclass(frozen=True)
+class SpaceLayout:
+    """The variables of an arm in space.
+
+    Parameters
+    ----------
+    tree : Tree
+        The arm's stations.
+    parameters : dict from str to Variable
+        By the names of the symbols that stand for them.
+    state : dict from Past to Variable
+        History of the joints' motion, newest first.
+    held : dict from str to Variable
+        Inputs as they last acted, kept where an output needs them.
+    """
+
+    name: str
+    title: str
+    tree: Tree
+    step: Variable
+    parameters: dict[str, Variable]
+    state: dict[Past, Variable]
+    held: dict[str, Variable]
+    inputs: tuple[Variable, ...]
+    outputs: tuple[Variable, ...]
+    given: tuple[Variable, ...]
+
+    @property
+    def arm(self) -> SpatialArm:
+        """What is modelled."""
+        return self.tree.arm
+
+    @property
+    def stations(self) -> int:
+        """Number of joints."""
+        return self.tree.stations
+
+    def at(self, name: str, index: int | None, offset: int = 0) -> sp.Expr:
+        """Return a parameter at a station of a loop, or at one with an index; zero where the arm has none of it."""
+        variable = self.parameters.get(name)
+        if variable is None:
+            return sp.Integer(0)
+        return variable.at(offset) if index is None else variable.entry(index)
+
+    def input(self, column: str, stage: int) -> Ref:
+        """Return an input at a stage, from 0."""
+        return next(v for v in self.inputs if v.name == column).entry(stage)
+
+
+def layout_of(arm: SpatialArm, name: str, title: str, integrator: Integrator, step: float) -> SpaceLayout:
+    """Choose the variables of an arm in space.
+
+    Parameters
+    ----------
+    name, title : str
+        Of the scene.
+    step : float
+        The scene's, s.
+    """
+    n = len(arm.joints)
+    kept = set(history(integrator, "acceleration")) | {Past(kind, 0) for kind in KINDS}
+    ordered = sorted(kept, key=lambda p: (p.lag, KINDS.index(p.kind)))
+    stages = max(len(scheme.stages) for scheme in integrator.schemes)
+    also = ", at each stage of the step" if stages > 1 else ""
+    torques = {item.joint: item for item in arm.inputs if item.acts == "torque"}
+    read = [torques[o.joint] for o in arm.outputs if o.of == "torque" and o.joint in torques]
+    return SpaceLayout(
+        name=name,
+        title=title,
+        tree=Tree(arm, _marked(arm)),
+        step=Variable("step", Role.STEP, doc="time step", unit="s", default=step),
+        parameters={v.name: v for v in _parameters(arm)},
+        state={p: _state(p, n) for p in ordered},
+        held={
+            item.name: Variable(
+                f"held_{item.name}", Role.STATE, doc=f"{item.name} as it last acted", unit="N m"
+            )
+            for item in dict.fromkeys(read)
+        },
+        inputs=tuple(
+            Variable(column, Role.INPUT, stages if stages > 1 else None, doc + also, unit)
+            for item in arm.inputs
+            for column, doc, unit in _columns(arm, item)
+        ),
+        outputs=tuple(
+            Variable(column, Role.OUTPUT, doc=f"{o.of.replace('_', ' ')}: {column}", unit=UNITS[o.of])
+            for o in arm.outputs
+            for column in o.columns
+        ),
+        given=(
+            Variable(
+                "initial_angle",
+                Role.GIVEN,
+                n,
+                "angles to start from",
+                "rad",
+                tuple(j.angle for j in arm.joints),
+            ),
+            Variable(
+                "initial_rate",
+                Role.GIVEN,
+                n,
+                "rates to start from",
+                "rad/s",
+                tuple(j.rate for j in arm.joints),
+            ),
+        ),
+    )
+
+
+UNITS = {
+    "angle": "rad",
+    "rate": "rad/s",
+    "acceleration": "rad/s^2",
+    "torque": "N m",
+    "position": "m",
+    "orientation": "1",
+    "velocity": "m/s",
+    "kinetic_energy": "J",
+    "elastic_energy": "J",
+    "gravitational_energy": "J",
+}
+
+
+def _marked(arm: SpatialArm) -> frozenset[int]:
+    frames = [item.frame for item in (*arm.inputs, *arm.outputs) if item.frame is not None]
+    return frozenset(frame.joint - 1 for frame in frames if frame.joint)
+
+
+def _columns(arm: SpatialArm, item: ArmInput) -> Iterable[tuple[str, str, str]]:
+    if item.acts == "torque":
+        joint = arm.joints[item.joint - 1]
+        geared = f", {joint.gear:g}-fold at the joint" if joint.gear != 1.0 else ""
+        return [(item.name, f"torque in '{joint.name}'{geared}", "N m")]
+    assert item.frame is not None
+    unit = "N" if item.acts == "force" else "N m"
+    axes = "world axes" if item.axes == "world" else "its own axes"
+    return [(column, f"{item.acts} on '{item.frame.name}', in {axes}", unit) for column in item.columns]
+
+
+def _state(past: Past, length: int) -> Variable:
+    name, unit = MOTION_NAMES[past.kind]
+    age = f"_{past.lag}_ago" if past.lag else ""
+    when = f", {_AGO.get(past.lag, f'{past.lag} steps')} ago" if past.lag else ""
+    return Variable(f"{name}{age}", Role.STATE, length, f"{name} of each joint, base to tips{when}", unit)
+
+
+def _parameters(arm: SpatialArm) -> list[Variable]:
+    """Return the parameters that some joint has; what is zero in the scene is left out of the code and stays zero."""
+    table: list[tuple[str, str, str, Callable[[Revolute], float]]] = [
+        *(
+            (
+                f"offset_{axis}",
+                f"place of each joint from the one it stands on, along {axis}",
+                "m",
+                _of_vector("at", k),
+            )
+            for k, axis in enumerate(AXES)
+        ),
+        *(
+            (f"turn_{a}{b}", f"joint's {b} axis along {a} of what it stands on", "1", _of_turn(i, j))
+            for i, a in enumerate(AXES)
+            for j, b in enumerate(AXES)
+        ),
+        ("mass", "mass behind each joint", "kg", lambda joint: joint.body.mass),
+        *(
+            (f"center_{axis}", f"centre of mass from the joint along {axis}", "m", _of_center(k))
+            for k, axis in enumerate(AXES)
+        ),
+        *(
+            (f"center_inertia_{pair}", f"inertia about the centre of mass, {pair}", "kg m^2", _of_inertia(k))
+            for k, pair in enumerate(PAIRS)
+        ),
+        ("stiffness", "stiffness of each joint", "N m/rad", lambda joint: joint.stiffness),
+        ("damping", "damping of each joint", "N m s/rad", lambda joint: joint.damping),
+        ("rest", "angle at which each joint's spring is slack", "rad", lambda joint: joint.rest),
+        ("armature", "inertia of each joint's rotor, at the joint", "kg m^2", lambda joint: joint.armature),
+    ]
+    found = []
+    for name, doc, unit, value in table:
+        values = tuple(value(joint) for joint in arm.joints)
+        general = not name.startswith("turn_") or any(v not in (0.0, 1.0, -1.0) for v in values)
+        if any(values) and general:
+            alike = len(set(values)) == 1
+            zeros = "" if alike or all(values) else "; what is zero here is not in the code"
+            found.append(
+                Variable(
+                    name,
+                    Role.PARAMETER,
+                    None if alike else len(values),
+                    f"{doc}, the same everywhere" if alike and len(values) > 1 else doc + zeros,
+                    unit,
+                    values[0] if alike else values,
+                )
+            )
+    for item in arm.inputs:
+        gear = arm.joints[item.joint - 1].gear if item.acts == "torque" else 1.0
+        if gear != 1.0:
+            doc = f"turns of the motor per turn of '{arm.joints[item.joint - 1].name}'"
+            found.append(Variable(f"{item.name}_gear", Role.PARAMETER, None, doc, "1", gear))
+    for axis, value in zip(AXES, arm.gravity, strict=True):
+        if value:
+            found.append(
+                Variable(f"gravity_{axis}", Role.PARAMETER, None, f"gravity along {axis}", "m/s^2", value)
+            )
+    return found
+
+
+def _of_vector(field: str, k: int) -> Callable[[Revolute], float]:
+    return lambda joint: getattr(joint, field)[k]
+
+
+def _of_turn(i: int, j: int) -> Callable[[Revolute], float]:
+    return lambda joint: joint.turn[i][j]
+
+
+def _of_center(k: int) -> Callable[[Revolute], float]:
+    return lambda joint: joint.body.center[k] if joint.body.mass else 0.0
+
+
+def _of_inertia(k: int) -> Callable[[Revolute], float]:
+    return lambda joint: joint.body.inertia[k]

@@ -1,0 +1,147 @@
+"""Joints that come again and again in one order: where a row repeats, its code is a loop."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from tmm_gen.derive.space.pattern import Pattern
+from tmm_gen.scene.spatial.arm import Revolute, SpatialArm
+
+LONGEST = 6
+"""Joints of a cell and its mirror image, in a beam that bends both ways and twists."""
+
+_PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
+
+
+@dataclass(frozen=True)
+class Run:
+    """Stations of the same patterns in turn.
+
+    Parameters
+    ----------
+    start : int
+        Index of the first, from 0.
+    patterns : tuple of Pattern
+        Of the stations that are repeated.
+    times : int
+        How often.
+    """
+
+    start: int
+    patterns: tuple[Pattern, ...]
+    times: int
+
+    @property
+    def stop(self) -> int:
+        """Index behind the last."""
+        return self.start + self.times * len(self.patterns)
+
+    @property
+    def single(self) -> bool:
+        """Whether it is one station."""
+        return self.stop - self.start == 1
+
+
+@dataclass(frozen=True)
+class Tree:
+    """The stations of an arm and how they hang together.
+
+    Parameters
+    ----------
+    arm : SpatialArm
+    marked : frozenset of int
+        Indices of stations that something is read off, or acts on: they stand in no run.
+    """
+
+    arm: SpatialArm
+    marked: frozenset[int] = frozenset()
+
+    @property
+    def stations(self) -> int:
+        """Number of joints."""
+        return len(self.arm.joints)
+
+    def host(self, index: int) -> int:
+        """Return the index of the station that one stands on, -1 for the base."""
+        return self.arm.joints[index].host - 1
+
+    def carried(self, index: int) -> tuple[int, ...]:
+        """Return the stations that stand on one; -1 is the base."""
+        return tuple(k for k in range(self.stations) if self.host(k) == index)
+
+    def forks(self, index: int) -> bool:
+        """Whether more than one station stands on one."""
+        return len(self.carried(index)) > 1
+
+    def pattern(self, index: int) -> Pattern:
+        """Return what of a station is there."""
+        joint = self.arm.joints[index]
+        gravity = tuple(g != 0.0 for g in self.arm.gravity)
+        return pattern_of(joint, gravity if joint.host == 0 else (), tip=not self.carried(index))
+
+    def runs(self) -> tuple[Run, ...]:
+        """Return all stations as runs, base to tips."""
+        patterns = [self.pattern(k) for k in range(self.stations)]
+        alone = [self._alone(k) for k in range(self.stations)]
+        found: list[Run] = []
+        at = 0
+        while at < self.stations:
+            length, times = (1, 1) if alone[at] else _repeated(patterns, alone, at)
+            found.append(Run(at, tuple(patterns[at : at + length]), times))
+            at = found[-1].stop
+        return tuple(found)
+
+    def _alone(self, index: int) -> bool:
+        """Whether a station begins or ends a branch, or is looked at by itself."""
+        host = self.host(index)
+        return host != index - 1 or host < 0 or len(self.carried(index)) != 1 or index in self.marked
+
+
+def _repeated(patterns: Sequence[Pattern], alone: Sequence[bool], at: int) -> tuple[int, int]:
+    """Return how many stations from one on repeat, and how often; (1, 1) where none does."""
+    best = (1, 1)
+    for length in range(1, LONGEST + 1):
+        block = tuple(patterns[at : at + length])
+        times = 0
+        while (
+            len(block) == length
+            and tuple(patterns[at + times * length : at + (times + 1) * length]) == block
+            and not any(alone[at + times * length : at + (times + 1) * length])
+        ):
+            times += 1
+        if times > 1 and length * times > best[0] * best[1]:
+            best = (length, times)
+    return best
+
+
+def pattern_of(joint: Revolute, falls: tuple[bool, ...], *, tip: bool) -> Pattern:
+    """Return what of a joint and its body is there."""
+    body = joint.body
+    moment = tuple(body.mass * c != 0.0 for c in body.center)
+    return Pattern(
+        axis=joint.axis,
+        offset=tuple(r != 0.0 for r in joint.at),
+        turn=tuple(tuple(_structural(entry) for entry in row) for row in joint.turn),
+        mass=body.mass != 0.0,
+        first_moment=moment,
+        inertia=tuple(
+            _inertia_there(joint, i, j, entry) for (i, j), entry in zip(_PAIRS, body.inertia, strict=True)
+        ),
+        falls=falls,
+        tip=tip,
+    )
+
+
+def _structural(entry: float) -> int | None:
+    return int(entry) if entry in (0.0, 1.0, -1.0) else None
+
+
+def _inertia_there(joint: Revolute, i: int, j: int, about_center: float) -> bool:
+    """Whether an entry of the inertia about the joint's point is there: its own, or the mass's by the centre's place."""
+    center, mass = joint.body.center, joint.body.mass
+    if about_center != 0.0:
+        return True
+    if i == j:
+        return any(mass * center[k] != 0.0 for k in range(3) if k != i)
+    return mass * center[i] * center[j] != 0.0

@@ -1,0 +1,289 @@
+"""One step of an arm in space: per stage a prediction, one articulated sweep, and corrections that carry forces alone."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import sympy as sp
+
+from tmm_gen.derive.integrators.declaration import KINDS, STEP, Kind, Scheme, stage
+from tmm_gen.derive.integrators.relations import AffineMotion, affine_motion
+from tmm_gen.derive.space.inward import IMPEDANCE, OWN, TORQUE
+from tmm_gen.derive.space.outward import OWN_FORCE, OWN_MOMENT
+from tmm_gen.program.arm.auto import LEAST_TURN, MOST_SWEEPS, SWEEPS
+from tmm_gen.program.arm.loads import exactly
+from tmm_gen.program.arm.motion import KNOWN_RATE, StartingPoint, starting_point
+from tmm_gen.program.fields import MOTION_NAMES
+from tmm_gen.program.motion import kept_stage_values, stage_variable, update_assignments
+from tmm_gen.program.space.bodies import Bodies
+from tmm_gen.program.space.layout import SpaceLayout
+from tmm_gen.program.space.walks import MOTION, SpaceWalks
+from tmm_gen.program.statements import Assign, Loop, Order, Repeat, Section, Statement, Until
+from tmm_gen.program.variables import Role, Variable, local
+from tmm_gen.scene.spatial.arm import ArmInput
+
+_TURNED = local("turned", "sum of squares of what this correction changes angles by", "rad^2")
+
+
+@dataclass(frozen=True)
+class SpaceStep:
+    """Builds the sections of one scheme's step.
+
+    Parameters
+    ----------
+    layout : SpaceLayout
+        The arm's variables.
+    bodies : Bodies
+        What is prepared of them.
+    scheme : Scheme
+        What to step with.
+    sources : mapping from sympy.Symbol to sympy.Expr
+        Where history is read from.
+    iterations : int
+        One sweep and so many less one corrections per stage.
+    held : bool
+        Whether a stage is predicted with the newest acceleration; otherwise with none.
+    auto : bool
+        Whether corrections go on until one changes next to nothing.
+    split : callable
+        Takes from a sweep's sections what is bound early.
+    """
+
+    layout: SpaceLayout
+    bodies: Bodies
+    scheme: Scheme
+    sources: Mapping[sp.Symbol, sp.Expr]
+    iterations: int = 1
+    held: bool = False
+    auto: bool = False
+    split: Callable[[list[Section]], list[Section]] = list
+
+    def sections(self) -> tuple[Section, ...]:
+        """Return the whole step."""
+        count = len(self.scheme.stages)
+        motions = [affine_motion(self.scheme, i + 1, "acceleration") for i in range(count)]
+        points = [self._predicted(motion, i) for i, motion in enumerate(motions)]
+        kept = kept_stage_values(
+            self.scheme, {(i, k): p.values[k] for i, p in enumerate(points) for k in KINDS}
+        )
+        sections: list[Section] = []
+        for index, (motion, point) in enumerate(zip(motions, points, strict=True), start=1):
+            title = f"Stage {index} of {count}: " if count > 1 else ""
+            sections += self._swept(title, index, motion, point)
+            sections.append(self._finish(title, index, motion, kept, last=index == count))
+        return tuple(s for s in sections if s.statements)
+
+    def _predicted(self, motion: AffineMotion, index: int) -> StartingPoint:
+        if self.held:
+            return starting_point(motion, index, "prediction")
+        return starting_point(motion, index, "known")
+
+    # -- the sweep -----------------------------------------------------------------------------------------
+
+    def _swept(self, title: str, index: int, motion: AffineMotion, point: StartingPoint) -> list[Section]:
+        walks = SpaceWalks(
+            self.layout,
+            self.bodies,
+            {MOTION[k]: self._motion(k) for k in KINDS},
+            self._gain(motion, "a"),
+            self._absent(motion),
+        )
+        still = "a" in point.still
+        first = [
+            Section("predicted motion", (self._begin(point),)),
+            self._impedances(motion, walks),
+            self._torques(index, walks, point.still),
+            walks.outward(still=still),
+            *self._loaded(index, walks),
+            walks.inward(still=still),
+            walks.back(),
+        ]
+        if self.auto:
+            rounds = f"corrections, until one changes next to nothing, {MOST_SWEEPS} at most"
+            found = [
+                *self._cleared(still),
+                *first,
+                Section(rounds, (Repeat(MOST_SWEEPS),)),
+                *self._correction(index, motion, walks, still=False),
+                self._judged(motion, walks),
+            ]
+        else:
+            found = list(first)
+            for number in range(1, self.iterations):
+                mine = self._correction(index, motion, walks, still=still and number == 1)
+                found += [Section(f"correction {number}: {s.title}", s.statements) for s in mine]
+        # all at once, prediction too: what is bound early shows only where everything that is set is seen
+        return [Section(title + s.title, s.statements) for s in self.split(found)]
+
+    def _correction(
+        self, index: int, motion: AffineMotion, walks: SpaceWalks, *, still: bool
+    ) -> list[Section]:
+        """Return one correction; ``still`` where nothing was predicted of accelerations before it."""
+        return [
+            Section("improved prediction", (self._improve(motion, still=still),)),
+            self._torques(index, walks, frozenset()),
+            walks.outward(still=False),
+            *self._loaded(index, walks),
+            walks.again(),
+            walks.back(),
+        ]
+
+    def _cleared(self, still: bool) -> list[Section]:
+        """Let the acceleration be zero where a round of corrections adds to it."""
+        if not still:
+            return []
+        target = self._motion("a").at()
+        loop = Loop(Order.OUTWARD, 0, self.layout.stations, (Assign(target, sp.Integer(0)),))
+        return [Section("predicted without acceleration", (loop,))]
+
+    def _impedances(self, motion: AffineMotion, walks: SpaceWalks) -> Section:
+        loop = Loop(
+            Order.OUTWARD,
+            0,
+            self.layout.stations,
+            (Assign(walks.array(IMPEDANCE).at(), self._impedance(motion)),),
+        )
+        return Section("impedances of the joints", () if self._impedance(motion) == 0 else (loop,))
+
+    def _impedance(self, motion: AffineMotion) -> sp.Expr:
+        """Return the torque of a joint's spring, damper and rotor per unknown."""
+        return sum(
+            (
+                self._gain(motion, kind) * self.layout.at(name, None)
+                for kind, name in (("q", "stiffness"), ("v", "damping"), ("a", "armature"))
+            ),
+            sp.Integer(0),
+        )
+
+    @property
+    def _driven(self) -> list[ArmInput]:
+        return [item for item in self.layout.arm.inputs if item.acts == "torque"]
+
+    def _absent(self, motion: AffineMotion) -> frozenset[sp.Symbol]:
+        """Return what of the joints' own law is zero everywhere."""
+        impedance = {IMPEDANCE} if self._impedance(motion) == 0 else set()
+        lawless = not {"stiffness", "damping", "armature"} & self.layout.parameters.keys()
+        return frozenset(impedance | ({TORQUE} if lawless and not self._driven else set()))
+
+    def _torques(self, index: int, walks: SpaceWalks, still: frozenset[str]) -> Section:
+        """Return what springs, dampers, rotors and motors ask for."""
+        layout = self.layout
+        angle, rate, acceleration = (sp.Integer(0) if k in still else self._motion(k).at() for k in KINDS)
+        law = (
+            layout.at("stiffness", None) * (angle - layout.at("rest", None))
+            + layout.at("damping", None) * rate
+            + layout.at("armature", None) * acceleration
+        )
+        torque = walks.array(TORQUE)
+        statements: list[Statement] = [Loop(Order.OUTWARD, 0, layout.stations, (Assign(torque.at(), law),))]
+        for item in self._driven:
+            entry = torque.entry(item.joint - 1)
+            geared = layout.parameters.get(f"{item.name}_gear")
+            acting = layout.input(item.name, index - 1) * (geared.ref if geared else 1)
+            statements.append(Assign(entry, entry - acting))
+        return Section("torques of the joints' own", tuple(statements))
+
+    def _loaded(self, index: int, walks: SpaceWalks) -> list[Section]:
+        """Return what forces and moments on frames take off what bodies take."""
+        statements: list[Statement] = []
+        for item in self.layout.arm.inputs:
+            if item.frame is None or item.frame.joint == 0:
+                continue
+            vector = sp.Matrix([self.layout.input(column, index - 1) for column in item.columns])
+            turn = sp.Matrix(3, 3, lambda i, j, rows=item.frame.turn: exactly(rows[i][j]))
+            acting = turn * vector
+            place = sp.Matrix([exactly(r) for r in item.frame.at])
+            force, moment = (
+                (acting, place.cross(acting)) if item.acts == "force" else (sp.zeros(3, 1), acting)
+            )
+            for symbols, values in ((OWN_FORCE, force), (OWN_MOMENT, moment)):
+                for symbol, value in zip(symbols, values, strict=True):
+                    entry = walks.array(symbol).entry(item.frame.joint - 1)
+                    statements += [Assign(entry, entry - value)] if value != 0 else []
+        return [Section("loads on frames", tuple(statements))] if statements else []
+
+    # -- motion ---------------------------------------------------------------------------------------------
+
+    def _gain(self, motion: AffineMotion, kind: Kind) -> sp.Expr:
+        return motion.gain[kind].xreplace({STEP: self.layout.step.ref})
+
+    def _motion(self, kind: Kind) -> Variable:
+        name, unit = MOTION_NAMES[kind]
+        doc = f"{name} of each joint as predicted"
+        return Variable(f"predicted_{name}", Role.WORK, self.layout.stations, doc, unit)
+
+    def _begin(self, point: StartingPoint) -> Loop:
+        at = self._values()
+        body = []
+        for kind in ("v", "q", "a"):  # rates first: displacements may be written by them
+            if kind in point.still:
+                continue
+            known = {**at, KNOWN_RATE: self._motion("v").at()}
+            body.append(Assign(self._motion(kind).at(), point.values[kind].xreplace(known)))
+        return Loop(Order.OUTWARD, 0, self.layout.stations, tuple(body))
+
+    def _improve(self, motion: AffineMotion, *, still: bool) -> Loop:
+        found = Variable(OWN.name, Role.WORK, self.layout.stations, *_OWN_DOC).at()
+        body = []
+        for kind in KINDS:
+            target = self._motion(kind).at()
+            before = sp.Integer(0) if still and kind == "a" else target
+            value = before + self._gain(motion, kind) * found
+            if value != target:
+                body.append(Assign(target, value))
+        return Loop(Order.OUTWARD, 0, self.layout.stations, tuple(body))
+
+    def _judged(self, motion: AffineMotion, walks: SpaceWalks) -> Section:
+        """Add up how far the correction has turned the joints; a changed rate counts as what it turns them by in a step."""
+        turn, rate = self._gain(motion, "q"), self._gain(motion, "v") * self.layout.step.ref
+        weight = sp.expand(turn**2 + rate**2)
+        found = walks.array(OWN).at()
+        return Section(
+            "whether it has changed next to nothing",
+            (
+                Assign(_TURNED, sp.Integer(0)),
+                Loop(Order.OUTWARD, 0, self.layout.stations, (Assign(_TURNED, _TURNED + weight * found**2),)),
+                Assign(SWEEPS.ref, SWEEPS.ref + 1),
+                Until(_TURNED - LEAST_TURN.ref**2),
+            ),
+        )
+
+    def _values(self) -> dict[sp.Symbol, sp.Expr]:
+        n = self.layout.stations
+        earlier = range(1, len(self.scheme.stages))
+        stages = {stage(k, i): stage_variable(k, i, "", n).at() for k in KINDS for i in earlier}
+        return {STEP: self.layout.step.ref, **self.sources, **stages}
+
+    def _finish(
+        self,
+        title: str,
+        index: int,
+        motion: AffineMotion,
+        kept: frozenset[tuple[Kind, int]],
+        *,
+        last: bool,
+    ) -> Section:
+        n = self.layout.stations
+        found = Variable(OWN.name, Role.WORK, n, *_OWN_DOC).at()
+        still = not self.held and self.iterations == 1 and not self.auto
+        point = self._predicted(motion, index - 1)
+        values: dict[Kind, sp.Expr] = {}
+        for kind in KINDS:
+            gone = kind in point.still and (kind != "a" or still)
+            before = sp.Integer(0) if gone else self._motion(kind).at()
+            values[kind] = before + self._gain(motion, kind) * found
+        if not last:
+            mine = sorted((k, i) for k, i in kept if i == index)
+            body = [Assign(stage_variable(k, i, "", n).at(), values[k]) for k, i in mine]
+            return Section(
+                title + "motion at this stage", (Loop(Order.OUTWARD, 0, n, tuple(body)),) if body else ()
+            )
+        own = {stage(k, index): values[k] for k in KINDS}
+        at = self._values()
+        new = {k: sp.expand(sp.sympify(self.scheme.update[k]).xreplace({**own, **at})) for k in KINDS}
+        body = update_assignments(self.layout.state, new, lambda v: v.at(), "")
+        return Section(title + "motion at the end of the step", (Loop(Order.OUTWARD, 0, n, tuple(body)),))
+
+
+_OWN_DOC = ("what the sweep finds each joint to do", "rad/s^2")

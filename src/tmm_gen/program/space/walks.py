@@ -1,0 +1,212 @@
+"""The walks of a sweep over an arm in space: out with the exact motion, in with forces, back with what joints do."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from functools import lru_cache
+
+import sympy as sp
+
+from tmm_gen.derive.space.declaration import ACCEL, ACCELERATION, ALPHA, ANGLE, AXES, BASE_ACCEL, OMEGA, RATE
+from tmm_gen.derive.space.inward import (
+    ADMITTANCE,
+    AXIS_INERTIA,
+    CARRIED,
+    CHANGE,
+    IMBALANCE,
+    IMPEDANCE,
+    OWN,
+    TORQUE,
+    Inertial,
+)
+from tmm_gen.derive.space.outward import COSINE, OWN_FORCE, OWN_MOMENT, SINE, Outward
+from tmm_gen.derive.space.pattern import Pattern
+from tmm_gen.derive.station.lets import Let, Line, Update
+from tmm_gen.program.arm.binding import Binding, Scratch
+from tmm_gen.program.space.bodies import Bodies
+from tmm_gen.program.space.layout import SpaceLayout
+from tmm_gen.program.space.runs import Run
+from tmm_gen.program.statements import Assign, Loop, Order, Require, Section, Statement
+from tmm_gen.program.variables import Ref, Role, Variable, local
+
+_KEPT: dict[sp.Symbol, tuple[str, str]] = {
+    SINE: ("sine of each joint's angle", "1"),
+    COSINE: ("cosine of each joint's angle", "1"),
+    **{s: ("force that each body takes", "N") for s in OWN_FORCE},
+    **{s: ("moment that each body takes", "N m") for s in OWN_MOMENT},
+    **{s: ("moment about each joint's axis per acceleration", "kg m") for s in AXIS_INERTIA[:3, :]},
+    **{s: ("moment about each joint's axis per angular acceleration", "kg m^2") for s in AXIS_INERTIA[3:, :]},
+    ADMITTANCE: ("motion of each joint per torque in it", "1/(kg m^2)"),
+    IMBALANCE: ("torque that each joint lacks", "N m"),
+    IMPEDANCE: ("torque of each joint's spring, damper and rotor per unknown", "kg m^2"),
+    TORQUE: ("torque of each joint's own before the sweep", "N m"),
+    OWN: ("what the sweep finds each joint to do", "rad/s^2"),
+}
+"""What walks hand each other, one value a joint."""
+
+_UNITS = {"accel": "m/s^2", "alpha": "rad/s^2", "omega": "rad/s"}
+
+
+@lru_cache(maxsize=512)
+def outward(pattern: Pattern, still: bool) -> Outward:
+    """Return the way out over stations of a pattern."""
+    return Outward(pattern, still=still)
+
+
+@lru_cache(maxsize=512)
+def inertial(pattern: Pattern, still: bool, gain: sp.Expr) -> Inertial:
+    """Return the way in and back over stations of a pattern."""
+    return Inertial(outward(pattern, still), gain)
+
+
+class SpaceWalks:
+    """Writes the walks of one stage.
+
+    Parameters
+    ----------
+    layout : SpaceLayout
+        The arm's variables.
+    bodies : Bodies
+        What is prepared of them.
+    motion : mapping from sympy.Symbol to Variable
+        Angle, rate and acceleration of the joints at the point of linearisation.
+    gain : sympy.Expr
+        Acceleration per unknown.
+    absent : frozenset of sympy.Symbol
+        What of the joints' own law is zero everywhere.
+    """
+
+    def __init__(
+        self,
+        layout: SpaceLayout,
+        bodies: Bodies,
+        motion: Mapping[sp.Symbol, Variable],
+        gain: sp.Expr,
+        absent: frozenset[sp.Symbol] = frozenset(),
+    ) -> None:
+        self.layout, self._bodies, self._motion, self._gain = layout, bodies, motion, gain
+        self._absent = absent
+        n = layout.stations
+        self._arrays = {
+            symbol: Variable(symbol.name, Role.WORK, n, doc, unit) for symbol, (doc, unit) in _KEPT.items()
+        }
+        self._scratch = Scratch()
+        for symbol in (*OMEGA, *ALPHA, *ACCEL, *CHANGE):
+            kind = symbol.name.removeprefix("change_").split("_")[0]
+            self._scratch.described[symbol.name] = ("", _UNITS[kind])
+
+    def array(self, symbol: sp.Symbol) -> Variable:
+        """Return the array of what walks hand each other."""
+        return self._arrays[symbol]
+
+    def outward(self, *, still: bool) -> Section:
+        """Return the exact motion of all sections and the forces that bodies take."""
+        statements = self._walk(Order.OUTWARD, lambda p: outward(p, still).lines, (*OMEGA, *ALPHA, *ACCEL))
+        return Section(
+            "out: motion of every link in its own axes, and what its body takes", tuple(statements)
+        )
+
+    def inward(self, *, still: bool) -> Section:
+        """Return the articulated sweep."""
+        statements = self._walk(Order.INWARD, lambda p: inertial(p, still, self._gain).inward, CARRIED)
+        return Section("in: articulated inertia, joints eliminated one by one", tuple(statements))
+
+    def again(self) -> Section:
+        """Return the way in of a correction."""
+        statements = self._walk(Order.INWARD, lambda p: inertial(p, False, self._gain).again, CARRIED[-6:])
+        return Section("in: forces alone, with the factors of the sweep", tuple(statements))
+
+    def back(self) -> Section:
+        """Return the way back out to what each joint does."""
+        statements = self._walk(Order.OUTWARD, lambda p: inertial(p, True, self._gain).back, tuple(CHANGE))
+        return Section("back out: what each joint does", tuple(statements))
+
+    # -- one walk ------------------------------------------------------------------------------------------
+
+    def _walk(self, order: Order, lines_of, carried: tuple[sp.Symbol, ...]) -> list[Statement]:  # type: ignore[no-untyped-def]
+        runs = self.layout.tree.runs()
+        found: list[Statement] = []
+        for run in reversed(runs) if order is Order.INWARD else runs:
+            slots = list(enumerate(run.patterns))
+            body: list[Assign | Require] = []
+            for slot, pattern in reversed(slots) if order is Order.INWARD else slots:
+                suffix = f"_{slot + 1}" if len(slots) > 1 else ""
+                body += self._lines(lines_of(pattern), slot, suffix, carried, run)
+            if run.single:
+                body = self._joined(run.start, body, order, carried)
+            if body:
+                found.append(Loop(order, run.start, run.stop, tuple(body), len(slots)))
+        return found
+
+    def _joined(
+        self, index: int, body: list[Assign | Require], order: Order, carried: tuple[sp.Symbol, ...]
+    ) -> list[Assign | Require]:
+        """Add what a station takes over from where its branch begins, or leaves there."""
+        tree, host = self.layout.tree, self.layout.tree.host(index)
+        branch = host >= 0 and host != index - 1
+        if order is Order.OUTWARD:
+            taken = [Assign(self._here(s), self._fork(host, s)) for s in carried] if branch else []
+            left = [Assign(self._fork(index, s), self._here(s)) for s in carried] if tree.forks(index) else []
+            return [*taken, *body, *left]
+        added = (
+            [Assign(self._here(s), self._here(s) + self._fork(index, s)) for s in carried]
+            if tree.forks(index)
+            else []
+        )
+        kept: list[Assign | Require] = []
+        if branch:
+            first = index == max(tree.carried(host))
+            kept = [
+                Assign(self._fork(host, s), self._here(s) if first else self._fork(host, s) + self._here(s))
+                for s in carried
+            ]
+        return [*added, *body, *kept]
+
+    def _here(self, symbol: sp.Symbol) -> Ref:
+        return self._scratch.ref(symbol.name)
+
+    def _fork(self, index: int, symbol: sp.Symbol) -> Ref:
+        return local(f"fork{index + 1}_{symbol.name}")
+
+    def _lines(
+        self, lines: Sequence[Line], slot: int, suffix: str, carried: Iterable[sp.Symbol], run: Run
+    ) -> list[Assign | Require]:
+        values = self._values(slot)
+        pattern = run.patterns[slot]
+        if pattern.rooted:
+            values |= {
+                s: -self.layout.at(f"gravity_{axis}", None)
+                for s, axis, falls in zip(BASE_ACCEL, AXES, pattern.falls, strict=True)
+                if falls
+            }
+        if suffix:
+            named = _names_in(lines) - set(values) - set(carried)
+            for symbol in named:
+                self._scratch.described.setdefault(f"{symbol.name}{suffix}", _described(lines, symbol))
+                values[symbol] = self._scratch.ref(f"{symbol.name}{suffix}")
+        return Binding(self._scratch, values).lines(lines)
+
+    def _values(self, slot: int) -> dict[sp.Symbol, sp.Expr]:
+        """Return what symbols stand for at station ``j + slot``."""
+        names: dict[str, sp.Expr] = {name: v.at(slot) for name, v in self.layout.parameters.items()}
+        names |= self._bodies.at(slot)
+        values: dict[sp.Symbol, sp.Expr] = {
+            sp.Symbol(name, real=True): value for name, value in names.items()
+        }
+        values |= {symbol: array.at(slot) for symbol, array in self._arrays.items()}
+        values |= {symbol: variable.at(slot) for symbol, variable in self._motion.items()}
+        return values | dict.fromkeys(self._absent, sp.Integer(0))
+
+
+def _names_in(lines: Sequence[Line]) -> set[sp.Symbol]:
+    return {line.symbol for line in lines if isinstance(line, Let)}
+
+
+def _described(lines: Sequence[Line], symbol: sp.Symbol) -> tuple[str, str]:
+    return next((line.doc, line.unit) for line in lines if isinstance(line, Let) and line.symbol == symbol)
+
+
+MOTION = {"q": ANGLE, "v": RATE, "a": ACCELERATION}
+"""Symbols of a hinge's motion by its kind."""
+
+__all__ = ["MOTION", "SpaceWalks", "Update"]
