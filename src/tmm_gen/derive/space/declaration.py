@@ -1,4 +1,4 @@
-"""What an element in space is: how velocity passes it, or the kinetic energy it holds. The rest is derived.
+"""What an element in space is: where it puts the next section, or the kinetic energy it holds. The rest is derived.
 
 A section of an arm has a frame. Its motion is said in that frame's own axes: the velocity of its origin, the angular
 velocity, the angular acceleration, and the *proper* acceleration of the origin, which is the true one less gravity. In
@@ -54,19 +54,33 @@ def symmetric(entries: tuple[sp.Expr, ...]) -> sp.Matrix:
 
 @dataclass(frozen=True)
 class Passage:
-    """A massless element between two sections.
+    """A massless element between two sections, by where it puts the outer one.
 
     Parameters
     ----------
     name : str
         Identifier.
-    velocity, omega : sympy.Matrix
-        Velocity and angular velocity at the outer side, in its axes, by those at the inner side and the hinge's motion.
+    turn : sympy.Matrix
+        Components in the outer axes by those in the inner ones; may depend on the hinge's angle.
+    arm : sympy.Matrix
+        Place of the outer origin from the inner one, in the inner axes.
     """
 
     name: str
-    velocity: sp.Matrix
-    omega: sp.Matrix
+    turn: sp.Matrix
+    arm: sp.Matrix
+
+    @property
+    def omega(self) -> sp.Matrix:
+        """Angular velocity at the outer side, in its axes."""
+        turning = (self.turn.diff(ANGLE) * RATE * self.turn.T).applyfunc(sp.trigsimp)
+        spin = sp.Matrix([turning[1, 2], turning[2, 0], turning[0, 1]])
+        return self.turn * OMEGA + spin
+
+    @property
+    def velocity(self) -> sp.Matrix:
+        """Velocity of the outer origin, in its axes."""
+        return self.turn * (VELOCITY + OMEGA.cross(self.arm))
 
 
 @dataclass(frozen=True)
@@ -87,22 +101,20 @@ def hinge(axis: int) -> Passage:
     """Return a joint that turns about one of its frame's axes."""
     s, c = sp.sin(ANGLE), sp.cos(ANGLE)
     i, j = (axis + 1) % 3, (axis + 2) % 3
-    matrix = sp.eye(3)
-    matrix[i, i] = matrix[j, j] = c
-    matrix[i, j], matrix[j, i] = s, -s
-    spin = sp.zeros(3, 1)
-    spin[axis] = RATE
-    return Passage("hinge", matrix * VELOCITY, matrix * OMEGA + spin)
+    turn = sp.eye(3)
+    turn[i, i] = turn[j, j] = c
+    turn[i, j], turn[j, i] = s, -s
+    return Passage("hinge", turn, sp.zeros(3, 1))
 
 
 def offset(arm: sp.Matrix = OFFSET) -> Passage:
     """Return a rigid way from a frame's origin to another point, axes kept."""
-    return Passage("offset", VELOCITY + OMEGA.cross(arm), OMEGA)
+    return Passage("offset", sp.eye(3), arm)
 
 
-def turned(matrix: sp.Matrix = TURN) -> Passage:
-    """Return a constant change of axes."""
-    return Passage("turned", matrix.T * VELOCITY, matrix.T * OMEGA)
+def turned(axes: sp.Matrix = TURN) -> Passage:
+    """Return a constant change of axes; the outer ones by columns, seen from the inner side."""
+    return Passage("turned", axes.T, sp.zeros(3, 1))
 
 
 def rigid_body(

@@ -1,4 +1,4 @@
-"""Exact equations of elements in space, from their velocities and energies.
+"""Exact equations of elements in space, from their places and energies.
 
 Axes turn with the section, so that the derivative of a vector is that of its components plus ``omega x`` it, and the
 proper acceleration is ``accel = d velocity / dt + omega x velocity`` in a frame that falls with gravity. Velocities
@@ -35,8 +35,8 @@ class PassageEquations:
     carried, swung, pushed : sympy.Matrix
         What angular acceleration, rate and acceleration of the hinge make of the angular acceleration, which is
         ``carried + swung * rate + pushed * acceleration``.
-    turn : sympy.Matrix
-        Components at the outer side by those at the inner one.
+    turn, arm : sympy.Matrix
+        As of the element.
     relative : sympy.Matrix
         Velocity of the outer origin against the inner one, in the outer axes; the proper acceleration is
         ``turn * accel + d relative / dt + omega x relative``.
@@ -49,6 +49,7 @@ class PassageEquations:
     swung: sp.Matrix
     pushed: sp.Matrix
     turn: sp.Matrix
+    arm: sp.Matrix
     relative: sp.Matrix
     forces: sp.Matrix
 
@@ -85,15 +86,15 @@ def time_derivative(value: sp.Matrix) -> sp.Matrix:
 
 def passage_equations(passage: Passage) -> PassageEquations:
     """Derive the equations of a massless element."""
-    turn = passage.velocity.jacobian(VELOCITY)
-    relative = (passage.velocity - turn * VELOCITY).applyfunc(sp.expand)
+    relative = (passage.velocity - passage.turn * VELOCITY).applyfunc(sp.expand)
     power = sp.Matrix.vstack(passage.velocity, passage.omega).jacobian([*VELOCITY, *OMEGA])
     return PassageEquations(
         omega=passage.omega,
         carried=passage.omega.jacobian(OMEGA) * ALPHA,
         swung=passage.omega.diff(ANGLE),
         pushed=passage.omega.diff(RATE),
-        turn=turn,
+        turn=passage.turn,
+        arm=passage.arm,
         relative=relative,
         forces=power.T,
     )

@@ -66,6 +66,8 @@ class Binding:
 
     def target(self, symbol: sp.Symbol) -> Ref:
         """Return the variable a symbol is assigned to."""
+        if isinstance(symbol, Ref):
+            return symbol
         found = self.values.get(symbol)
         return found if isinstance(found, Ref) else self._scratch.ref(symbol.name)
 

@@ -284,8 +284,16 @@ def _moved(ref: Ref, names: dict[Ref, Ref]) -> Ref | None:
     if ref in names:
         return names[ref]
     for other, kept in names.items():  # the same array, looked at from another station
-        if other.variable == ref.variable and ref.variable.length is not None and kept.variable.length is not None:
-            return kept.variable.at(ref.offset) if ref.offset is not None else kept.variable.entry(ref.entry or 0)
+        if (
+            other.variable == ref.variable
+            and ref.variable.length is not None
+            and kept.variable.length is not None
+        ):
+            return (
+                kept.variable.at(ref.offset)
+                if ref.offset is not None
+                else kept.variable.entry(ref.entry or 0)
+            )
     scalar = (
         replace(ref.variable, role=Role.LOCAL, length=None).ref if ref.variable.role is Role.WORK else None
     )

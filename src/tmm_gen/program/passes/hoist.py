@@ -57,7 +57,7 @@ class Hoister:
         changing = sorted(
             (r for r in refs_in(value) if not r.variable.role.bound_at_prepare), key=lambda r: r.name
         )
-        if not changing:
+        if not changing or _all_late(value, changing):
             return value
         polynomial = sp.Poly(value, *changing) if value.is_polynomial(*changing) else None
         if polynomial is None or polynomial.total_degree() > 1:
@@ -109,6 +109,11 @@ class Hoister:
         ):
             unique, number = f"{name}_{number}", number + 1
         return unique, doc, unit
+
+
+def _all_late(value: sp.Expr, changing: list[Ref]) -> bool:
+    """Whether nothing in an expression can be hoisted: all of it changes from step to step."""
+    return len(refs_in(value)) == len(changing) and not value.atoms(sp.Number) - {sp.S.One, sp.S.NegativeOne}
 
 
 def _bound_early(expression: sp.Expr) -> bool:

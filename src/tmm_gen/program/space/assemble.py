@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import sympy as sp
 
-from tmm_gen.derive.integrators.declaration import CONSISTENT_START, KINDS, Integrator, past
+from tmm_gen.derive.integrators.declaration import CONSISTENT_START, Integrator, past
 from tmm_gen.program.arm.auto import LEAST_TURN, SWEEPS
 from tmm_gen.program.fields import gain_names, living_state
 from tmm_gen.program.motion import history_values
@@ -105,7 +105,7 @@ class _Assembly:
 
     def _gathered(self, main: Routine, startup: tuple[Routine, ...]) -> Program:
         layout = self.layout
-        output = self.hoister.hoist(output_routine(layout))
+        output = self.hoister.hoist(output_routine(layout, self.bodies))
         initialise = self._initialise()
         state = living_state((*layout.state.values(), *layout.held.values()), (*startup, main), output)
         parameters = tuple(layout.parameters.values())
@@ -180,6 +180,3 @@ class _Assembly:
             *self.early.coefficients,
         )
         return renamed_scratch(routine, {v.name: f"start_{v.name}" for v in kept})
-
-
-__all__ = ["KINDS", "SpaceChoices", "build_in_space"]

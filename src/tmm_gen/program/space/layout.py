@@ -177,11 +177,6 @@ def _parameters(arm: SpatialArm) -> list[Variable]:
             )
             for k, axis in enumerate(AXES)
         ),
-        *(
-            (f"turn_{a}{b}", f"joint's {b} axis along {a} of what it stands on", "1", _of_turn(i, j))
-            for i, a in enumerate(AXES)
-            for j, b in enumerate(AXES)
-        ),
         ("mass", "mass behind each joint", "kg", lambda joint: joint.body.mass),
         *(
             (f"center_{axis}", f"centre of mass from the joint along {axis}", "m", _of_center(k))
@@ -199,8 +194,7 @@ def _parameters(arm: SpatialArm) -> list[Variable]:
     found = []
     for name, doc, unit, value in table:
         values = tuple(value(joint) for joint in arm.joints)
-        general = not name.startswith("turn_") or any(v not in (0.0, 1.0, -1.0) for v in values)
-        if any(values) and general:
+        if any(values):
             alike = len(set(values)) == 1
             zeros = "" if alike or all(values) else "; what is zero here is not in the code"
             found.append(
@@ -228,10 +222,6 @@ def _parameters(arm: SpatialArm) -> list[Variable]:
 
 def _of_vector(field: str, k: int) -> Callable[[Revolute], float]:
     return lambda joint: getattr(joint, field)[k]
-
-
-def _of_turn(i: int, j: int) -> Callable[[Revolute], float]:
-    return lambda joint: joint.turn[i][j]
 
 
 def _of_center(k: int) -> Callable[[Revolute], float]:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from tmm_gen.derive.space.pattern import Pattern
-from tmm_gen.scene.spatial.arm import Revolute, SpatialArm
+from tmm_gen.scene.spatial.arm import Revolute, SpatialArm, Turn
 
 LONGEST = 6
 """Joints of a cell and its mirror image, in a beam that bends both ways and twists."""
@@ -74,6 +74,14 @@ class Tree:
         """Whether more than one station stands on one."""
         return len(self.carried(index)) > 1
 
+    def inward_of(self, index: int) -> frozenset[int]:
+        """Return the stations between the base and one, itself among them."""
+        found = []
+        while index >= 0:
+            found.append(index)
+            index = self.host(index)
+        return frozenset(found)
+
     def pattern(self, index: int) -> Pattern:
         """Return what of a station is there."""
         joint = self.arm.joints[index]
@@ -83,11 +91,12 @@ class Tree:
     def runs(self) -> tuple[Run, ...]:
         """Return all stations as runs, base to tips."""
         patterns = [self.pattern(k) for k in range(self.stations)]
+        keys = [(p, joint.turn) for p, joint in zip(patterns, self.arm.joints, strict=True)]
         alone = [self._alone(k) for k in range(self.stations)]
         found: list[Run] = []
         at = 0
         while at < self.stations:
-            length, times = (1, 1) if alone[at] else _repeated(patterns, alone, at)
+            length, times = (1, 1) if alone[at] else _repeated(keys, alone, at)
             found.append(Run(at, tuple(patterns[at : at + length]), times))
             at = found[-1].stop
         return tuple(found)
@@ -98,15 +107,15 @@ class Tree:
         return host != index - 1 or host < 0 or len(self.carried(index)) != 1 or index in self.marked
 
 
-def _repeated(patterns: Sequence[Pattern], alone: Sequence[bool], at: int) -> tuple[int, int]:
+def _repeated(keys: Sequence[tuple[Pattern, Turn]], alone: Sequence[bool], at: int) -> tuple[int, int]:
     """Return how many stations from one on repeat, and how often; (1, 1) where none does."""
     best = (1, 1)
     for length in range(1, LONGEST + 1):
-        block = tuple(patterns[at : at + length])
+        block = tuple(keys[at : at + length])
         times = 0
         while (
             len(block) == length
-            and tuple(patterns[at + times * length : at + (times + 1) * length]) == block
+            and tuple(keys[at + times * length : at + (times + 1) * length]) == block
             and not any(alone[at + times * length : at + (times + 1) * length])
         ):
             times += 1

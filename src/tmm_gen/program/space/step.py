@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import sympy as sp
@@ -11,6 +11,8 @@ from tmm_gen.derive.integrators.declaration import KINDS, STEP, Kind, Scheme, st
 from tmm_gen.derive.integrators.relations import AffineMotion, affine_motion
 from tmm_gen.derive.space.inward import IMPEDANCE, OWN, TORQUE
 from tmm_gen.derive.space.outward import OWN_FORCE, OWN_MOMENT
+from tmm_gen.derive.space.pose import FACING, pose_lines
+from tmm_gen.derive.station.lets import Line, Update
 from tmm_gen.program.arm.auto import LEAST_TURN, MOST_SWEEPS, SWEEPS
 from tmm_gen.program.arm.loads import exactly
 from tmm_gen.program.arm.motion import KNOWN_RATE, StartingPoint, starting_point
@@ -186,22 +188,33 @@ class SpaceStep:
 
     def _loaded(self, index: int, walks: SpaceWalks) -> list[Section]:
         """Return what forces and moments on frames take off what bodies take."""
-        statements: list[Statement] = []
-        for item in self.layout.arm.inputs:
-            if item.frame is None or item.frame.joint == 0:
-                continue
+        loads = [i for i in self.layout.arm.inputs if i.frame is not None and i.frame.joint]
+        sections = []
+        for item in loads:
+            assert item.frame is not None
             vector = sp.Matrix([self.layout.input(column, index - 1) for column in item.columns])
-            turn = sp.Matrix(3, 3, lambda i, j, rows=item.frame.turn: exactly(rows[i][j]))
-            acting = turn * vector
-            place = sp.Matrix([exactly(r) for r in item.frame.at])
-            force, moment = (
-                (acting, place.cross(acting)) if item.acts == "force" else (sp.zeros(3, 1), acting)
+            station = item.frame.joint - 1
+            title = f"{item.acts} on '{item.frame.name}'"
+            if item.axes == "body":
+                turn = sp.Matrix(3, 3, lambda i, j, rows=item.frame.turn: exactly(rows[i][j]))
+                lines = _taken_off(item, turn * vector)
+                sections.append(Section(title, tuple(walks.at_station(station, lines))))
+                continue
+
+            def read(
+                at: int, station: int = station, item: ArmInput = item, v: sp.Matrix = vector
+            ) -> Sequence[Line]:
+                return _taken_off(item, FACING * v) if at == station else ()
+
+            walked = walks.walk(
+                Order.OUTWARD,
+                lambda pattern: pose_lines(pattern, place=False),
+                tuple(FACING),
+                read,
+                self.layout.tree.inward_of(station),
             )
-            for symbols, values in ((OWN_FORCE, force), (OWN_MOMENT, moment)):
-                for symbol, value in zip(symbols, values, strict=True):
-                    entry = walks.array(symbol).entry(item.frame.joint - 1)
-                    statements += [Assign(entry, entry - value)] if value != 0 else []
-        return [Section("loads on frames", tuple(statements))] if statements else []
+            sections.append(Section(title + ", in world axes", tuple(walked)))
+        return sections
 
     # -- motion ---------------------------------------------------------------------------------------------
 
@@ -284,6 +297,15 @@ class SpaceStep:
         new = {k: sp.expand(sp.sympify(self.scheme.update[k]).xreplace({**own, **at})) for k in KINDS}
         body = update_assignments(self.layout.state, new, lambda v: v.at(), "")
         return Section(title + "motion at the end of the step", (Loop(Order.OUTWARD, 0, n, tuple(body)),))
+
+
+def _taken_off(item: ArmInput, acting: sp.Matrix) -> tuple[Line, ...]:
+    """Return what a load, in the axes of a joint's body, takes off what the body takes."""
+    assert item.frame is not None
+    place = sp.Matrix([exactly(r) for r in item.frame.at])
+    force, moment = (acting, place.cross(acting)) if item.acts == "force" else (sp.zeros(3, 1), acting)
+    pairs = zip((*OWN_FORCE, *OWN_MOMENT), (*force, *moment), strict=True)
+    return (Update({symbol: symbol - value for symbol, value in pairs if value != 0}),)
 
 
 _OWN_DOC = ("what the sweep finds each joint to do", "rad/s^2")

@@ -2,12 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import lru_cache
 
 import sympy as sp
 
-from tmm_gen.derive.space.declaration import ACCEL, ACCELERATION, ALPHA, ANGLE, AXES, BASE_ACCEL, OMEGA, RATE
+from tmm_gen.derive.space.declaration import (
+    ACCEL,
+    ACCELERATION,
+    ALPHA,
+    ANGLE,
+    AXES,
+    BASE_ACCEL,
+    OMEGA,
+    RATE,
+    TURN,
+)
 from tmm_gen.derive.space.inward import (
     ADMITTANCE,
     AXIS_INERTIA,
@@ -21,13 +32,16 @@ from tmm_gen.derive.space.inward import (
 )
 from tmm_gen.derive.space.outward import COSINE, OWN_FORCE, OWN_MOMENT, SINE, Outward
 from tmm_gen.derive.space.pattern import Pattern
-from tmm_gen.derive.station.lets import Let, Line, Update
+from tmm_gen.derive.space.pose import FIXED
+from tmm_gen.derive.station.lets import Let, Line
 from tmm_gen.program.arm.binding import Binding, Scratch
 from tmm_gen.program.space.bodies import Bodies
 from tmm_gen.program.space.layout import SpaceLayout
 from tmm_gen.program.space.runs import Run
 from tmm_gen.program.statements import Assign, Loop, Order, Require, Section, Statement
+from tmm_gen.program.arm.loads import exactly
 from tmm_gen.program.variables import Ref, Role, Variable, local
+from tmm_gen.scene.spatial.arm import Turn
 
 _KEPT: dict[sp.Symbol, tuple[str, str]] = {
     SINE: ("sine of each joint's angle", "1"),
@@ -86,6 +100,7 @@ class SpaceWalks:
     ) -> None:
         self.layout, self._bodies, self._motion, self._gain = layout, bodies, motion, gain
         self._absent = absent
+        self._runs = layout.tree.runs()
         n = layout.stations
         self._arrays = {
             symbol: Variable(symbol.name, Role.WORK, n, doc, unit) for symbol, (doc, unit) in _KEPT.items()
@@ -99,32 +114,62 @@ class SpaceWalks:
         """Return the array of what walks hand each other."""
         return self._arrays[symbol]
 
+    def at_station(self, index: int, lines: Sequence[Line]) -> list[Statement]:
+        """Return lines at one station that stands by itself."""
+        run = next(r for r in self._runs if r.start == index)
+        return [Loop(Order.OUTWARD, index, index + 1, tuple(self._lines(lines, 0, "", (), run)))]
+
+    def scalar(self, symbol: sp.Symbol, doc: str, unit: str) -> Ref:
+        """Return the scratch scalar that stands for a symbol."""
+        self._scratch.described.setdefault(symbol.name, (doc, unit))
+        return self._scratch.ref(symbol.name)
+
     def outward(self, *, still: bool) -> Section:
         """Return the exact motion of all sections and the forces that bodies take."""
-        statements = self._walk(Order.OUTWARD, lambda p: outward(p, still).lines, (*OMEGA, *ALPHA, *ACCEL))
+        statements = self.walk(Order.OUTWARD, lambda p: outward(p, still).lines, (*OMEGA, *ALPHA, *ACCEL))
         return Section(
             "out: motion of every link in its own axes, and what its body takes", tuple(statements)
         )
 
     def inward(self, *, still: bool) -> Section:
         """Return the articulated sweep."""
-        statements = self._walk(Order.INWARD, lambda p: inertial(p, still, self._gain).inward, CARRIED)
+        statements = self.walk(Order.INWARD, lambda p: inertial(p, still, self._gain).inward, CARRIED)
         return Section("in: articulated inertia, joints eliminated one by one", tuple(statements))
 
     def again(self) -> Section:
         """Return the way in of a correction."""
-        statements = self._walk(Order.INWARD, lambda p: inertial(p, False, self._gain).again, CARRIED[-6:])
+        statements = self.walk(Order.INWARD, lambda p: inertial(p, False, self._gain).again, CARRIED[-6:])
         return Section("in: forces alone, with the factors of the sweep", tuple(statements))
 
     def back(self) -> Section:
         """Return the way back out to what each joint does."""
-        statements = self._walk(Order.OUTWARD, lambda p: inertial(p, True, self._gain).back, tuple(CHANGE))
+        statements = self.walk(Order.OUTWARD, lambda p: inertial(p, True, self._gain).back, tuple(CHANGE))
         return Section("back out: what each joint does", tuple(statements))
 
     # -- one walk ------------------------------------------------------------------------------------------
 
-    def _walk(self, order: Order, lines_of, carried: tuple[sp.Symbol, ...]) -> list[Statement]:  # type: ignore[no-untyped-def]
-        runs = self.layout.tree.runs()
+    def walk(
+        self,
+        order: Order,
+        lines_of: Callable[[Pattern], Sequence[Line]],
+        carried: tuple[sp.Symbol, ...],
+        read: Callable[[int], Sequence[Line]] = lambda _: (),
+        within: frozenset[int] | None = None,
+    ) -> list[Statement]:
+        """Return loops over the stations.
+
+        Parameters
+        ----------
+        lines_of : callable
+            Lines of a station by its pattern.
+        carried : tuple of sympy.Symbol
+            What is handed from station to station.
+        read : callable
+            Further lines behind those of stations that stand by themselves, by index.
+        within : frozenset of int, optional
+            Stations to be visited, with all of their run; all if left out.
+        """
+        runs = [r for r in self._runs if within is None or within & set(range(r.start, r.stop))]
         found: list[Statement] = []
         for run in reversed(runs) if order is Order.INWARD else runs:
             slots = list(enumerate(run.patterns))
@@ -133,6 +178,7 @@ class SpaceWalks:
                 suffix = f"_{slot + 1}" if len(slots) > 1 else ""
                 body += self._lines(lines_of(pattern), slot, suffix, carried, run)
             if run.single:
+                body += self._lines(read(run.start), 0, "", carried, run)
                 body = self._joined(run.start, body, order, carried)
             if body:
                 found.append(Loop(order, run.start, run.stop, tuple(body), len(slots)))
@@ -171,8 +217,8 @@ class SpaceWalks:
     def _lines(
         self, lines: Sequence[Line], slot: int, suffix: str, carried: Iterable[sp.Symbol], run: Run
     ) -> list[Assign | Require]:
-        values = self._values(slot)
         pattern = run.patterns[slot]
+        values = self._values(slot) | _fixed(self.layout.arm.joints[run.start + slot].turn)
         if pattern.rooted:
             values |= {
                 s: -self.layout.at(f"gravity_{axis}", None)
@@ -198,6 +244,34 @@ class SpaceWalks:
         return values | dict.fromkeys(self._absent, sp.Integer(0))
 
 
+@lru_cache(maxsize=512)
+def _fixed_values(turn: Turn) -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
+    entries = zip(TURN, (exactly(entry) for row in turn for entry in row), strict=True)
+    return (*entries, *zip(FIXED, map(exactly, quaternion_of(turn)), strict=True))
+
+
+def _fixed(turn: Turn) -> dict[sp.Symbol, sp.Expr]:
+    """Return a constant turn, which stands in the code as numbers: entries changed by themselves would be none."""
+    return dict(_fixed_values(turn))
+
+
+def quaternion_of(turn: Turn) -> tuple[float, float, float, float]:
+    """Return the quaternion of a constant turn, whose first entry is not negative."""
+    (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = turn
+    # four times the products of its entries; the largest square divides best
+    square = (1 + xx + yy + zz, 1 + xx - yy - zz, 1 - xx + yy - zz, 1 - xx - yy + zz)
+    rows = (
+        (square[0], zy - yz, xz - zx, yx - xy),
+        (zy - yz, square[1], xy + yx, xz + zx),
+        (xz - zx, xy + yx, square[2], yz + zy),
+        (yx - xy, xz + zx, yz + zy, square[3]),
+    )
+    row = rows[max(range(4), key=lambda k: square[k])]
+    length = math.copysign(math.hypot(*row), row[0])
+    w, x, y, z = (entry / length for entry in row)
+    return w, x, y, z
+
+
 def _names_in(lines: Sequence[Line]) -> set[sp.Symbol]:
     return {line.symbol for line in lines if isinstance(line, Let)}
 
@@ -208,5 +282,3 @@ def _described(lines: Sequence[Line], symbol: sp.Symbol) -> tuple[str, str]:
 
 MOTION = {"q": ANGLE, "v": RATE, "a": ACCELERATION}
 """Symbols of a hinge's motion by its kind."""
-
-__all__ = ["MOTION", "SpaceWalks", "Update"]
