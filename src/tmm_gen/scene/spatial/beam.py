@@ -155,10 +155,3 @@ def _cells(beam: SpatialBeam, numbers: PerLength, piece: Fraction) -> Iterator[t
             for way in order
             if (k := along[way]) is not None
         )
-
-
-def joint_names(beam: SpatialBeam) -> Iterator[str]:
-    """Yield the names of a beam's joints."""
-    for number in range(1, beam.links + 1):
-        for way in AXIS_OF:
-            yield f"{beam.name}_{number}_{way}"

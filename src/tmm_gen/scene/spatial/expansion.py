@@ -135,7 +135,7 @@ def expanded(tree: Tree) -> SpatialExpansion:
         part = hung.part
         pose = ends[hung.on].then(point(part.at), turned(part.turn))
         ends[hung.name] = end = _placed(made, part, pose)
-        made.frames[hung.name] = Frame(hung.name, end.joint, vector(end.at), floats(settled(end.turn)))
+        made.frames[hung.name] = Frame(hung.name, end.joint, vector(end.at), floats(end.turn))
     return made.done()
 
 
@@ -182,7 +182,7 @@ def _bending(made: _Building, part: SpatialBeam, pose: Pose) -> Pose:
                 joint.name,
                 pose.joint,
                 at=vector(pose.at),
-                turn=floats(settled(pose.turn)),
+                turn=floats(pose.turn),
                 axis=joint.axis,
                 stiffness=joint.stiffness,
                 damping=joint.damping,

@@ -9,7 +9,7 @@ from fractions import Fraction
 from typing import Literal
 
 from tmm_gen.scene.exact import exact, nearest
-from tmm_gen.scene.spatial.arm import Turn, Vector
+from tmm_gen.scene.spatial.arm import UPRIGHT, Turn, Vector
 
 Point = tuple[Fraction, Fraction, Fraction]
 Matrix = tuple[Point, Point, Point]
@@ -66,7 +66,10 @@ def vector(values: Point) -> Vector:
 
 def floats(matrix: Matrix) -> Turn:
     """Return a turn in floats, without what rounding leaves of zeros and ones."""
-    return vector(matrix[0]), vector(matrix[1]), vector(matrix[2])
+    turn = settled(matrix)
+    if turn is LEVEL:
+        return UPRIGHT
+    return vector(turn[0]), vector(turn[1]), vector(turn[2])
 
 
 def plus(a: Point, b: Point) -> Point:
@@ -86,17 +89,23 @@ def dot(a: Point, b: Point) -> Fraction:
 
 def applied(turn: Matrix, a: Point) -> Point:
     """Return a matrix times a vector."""
+    if turn is LEVEL:
+        return a
     return dot(turn[0], a), dot(turn[1], a), dot(turn[2], a)
 
 
 def transposed(turn: Matrix) -> Matrix:
     """Return the transpose, which is the turn back."""
+    if turn is LEVEL:
+        return turn
     x, y, z = zip(*turn, strict=True)
     return x, y, z
 
 
 def product(a: Matrix, b: Matrix) -> Matrix:
     """Return a matrix product."""
+    if a is LEVEL or b is LEVEL:
+        return b if a is LEVEL else a
     columns = transposed(b)
     x, y, z = (applied(columns, row) for row in a)
     return x, y, z
@@ -104,6 +113,8 @@ def product(a: Matrix, b: Matrix) -> Matrix:
 
 def settled(turn: Matrix) -> Matrix:
     """Return a turn rounded to floats, whose zeros and ones are such again."""
+    if turn is LEVEL:
+        return turn
     x, y, z = ((_settled(row[0]), _settled(row[1]), _settled(row[2])) for row in turn)
     return x, y, z
 
@@ -128,7 +139,8 @@ def turned(angles: Sequence[float]) -> Matrix:
     """
     found = LEVEL
     for axis, angle in zip((0, 1, 2), angles, strict=True):
-        found = product(_about(axis, *cosine_and_sine(angle)), found)
+        if angle:
+            found = product(_about(axis, *cosine_and_sine(angle)), found)
     return settled(found)
 
 

@@ -54,6 +54,8 @@ class Weight:
 
     def at(self, pose: Pose) -> Weight:
         """Return the same body seen from the frame in which its own has a pose."""
+        if self == Weight():
+            return self
         turned = product(product(pose.turn, self.inertia), transposed(pose.turn))
         moment = applied(pose.turn, self.moment)
         moved = _moved(turned, self.mass, moment, pose.at)

@@ -9,7 +9,7 @@ from pydantic import Field
 from tmm_gen.scene.parts.tables import Part
 from tmm_gen.scene.section import Uniform
 from tmm_gen.scene.spatial.arm import ZERO, Vector
-from tmm_gen.scene.spatial.values import AxisVector, BothStiffnesses, Inertia, Limits, Place, SixInertia
+from tmm_gen.scene.spatial.values import AxisVector, BothStiffnesses, Limits, Place, SixInertia
 from tmm_gen.scene.table import STATION_LIMIT, Finite, NonNegative, Positive
 
 
@@ -190,11 +190,6 @@ class RigidPart(SpatialPart):
         """Its centre of mass in its own frame, m."""
         x, y, z = self.outer
         return self.center if self.center is not None else (x / 2, y / 2, z / 2)
-
-    @property
-    def moments(self) -> Inertia:
-        """About its centre of mass, kg m^2."""
-        return self.inertia
 
 
 class SpatialLink(RigidPart):
