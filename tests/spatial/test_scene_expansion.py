@@ -98,7 +98,9 @@ def test_mass_centre_and_inertia_of_the_whole_arm(path: Path) -> None:
     """Second moments of mass about the base, from the joints' bodies and by integration over the parts."""
     made = arm_of(load_scene(path))
     total = np.zeros((4, 4))
-    for joint, frame in zip(made.joints, apart.joint_frames(made, np.zeros(len(made.joints)))[1:], strict=True):
+    for joint, frame in zip(
+        made.joints, apart.joint_frames(made, np.zeros(len(made.joints)))[1:], strict=True
+    ):
         total += frame @ apart.body_pseudo_inertia(joint.body) @ frame.T
     expected = apart.weighed(apart.parts_of(numbered(path.read_text())))
     assert expected[3, 3] > 0
@@ -170,22 +172,26 @@ def test_rectangles_bend_about_their_thin_side_and_twist_as_saint_venant_has_it(
     assert joints["b_1_bend_y"].stiffness == pytest.approx(70e9 * thin / 0.6)
     assert joints["b_1_bend_z"].stiffness == pytest.approx(70e9 * wide / 0.6)
     assert joints["b_1_twist"].body.inertia[0] == pytest.approx(2700 * (thin + wide) * 0.3)
-    assert joints["b_1_twist"].stiffness == pytest.approx(26e9 * torsion_by_differences(0.03, 0.004) / 0.6, rel=2e-3)
+    assert joints["b_1_twist"].stiffness == pytest.approx(
+        26e9 * torsion_by_differences(0.03, 0.004) / 0.6, rel=2e-3
+    )
     untwisted = text.replace(", shear = 26e9", "")
     assert [joint.axis for joint in arm(HEAD + untwisted + TIP.format("b")).joints] == [1, 2]
 
 
 def torsion_by_differences(width: float, thickness: float, points: int = 40) -> float:
-    """Return the torsion constant by Prandtl's membrane: twice the volume under ``laplace(phi) = -2``, by differences."""
-    from scipy.sparse import identity, kron
+    """Return the torsion constant by Prandtl's membrane: twice the volume under what solves ``laplace(phi) = -2``."""
     from scipy.sparse import diags_array as diags
+    from scipy.sparse import identity, kron
     from scipy.sparse.linalg import spsolve
 
     n, m = points, 4 * points
     hy, hx = thickness / n, width / m
 
     def second(k: int, h: float) -> object:
-        return diags([np.full(k - 2, 1.0), np.full(k - 1, -2.0), np.full(k - 2, 1.0)], offsets=[-1, 0, 1]) / h**2
+        return (
+            diags([np.full(k - 2, 1.0), np.full(k - 1, -2.0), np.full(k - 2, 1.0)], offsets=[-1, 0, 1]) / h**2
+        )
 
     laplace = kron(second(n, hy), identity(m - 1)) + kron(identity(n - 1), second(m, hx))
     return float(2 * spsolve(laplace.tocsc(), np.full((n - 1) * (m - 1), -2.0)).sum() * hx * hy)
@@ -233,7 +239,15 @@ rates = { m = -0.5 }
     made = arm(HEAD + text + TIP.format("t"))
     assert made.joints == (
         Revolute(
-            "m", 0, (0.1, 0.2, 0.3), axis=1, armature=0.05, gear=50.0, damping=0.3, rate=-0.5, limits=(-1.0, 2.0)
+            "m",
+            0,
+            (0.1, 0.2, 0.3),
+            axis=1,
+            armature=0.05,
+            gear=50.0,
+            damping=0.3,
+            rate=-0.5,
+            limits=(-1.0, 2.0),
         ),
         Revolute(
             "j",

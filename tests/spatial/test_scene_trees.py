@@ -23,9 +23,10 @@ from tmm_gen.scene.spatial.geometry import applied, floats, joint_frame, turned,
 
 QUARTER = 1.5707963267948966
 ANGLES = st.one_of(
-    st.sampled_from([0.0, QUARTER, -QUARTER, 2 * QUARTER, 3 * QUARTER]), st.floats(-3.0, 3.0, allow_nan=False)
+    st.sampled_from([0.0, QUARTER, -QUARTER, 2 * QUARTER, 3 * QUARTER]),
+    st.floats(-3.0, 3.0).map(lambda x: round(x, 3)),  # none that is all but a quarter turn
 )
-LENGTHS = st.floats(-1.0, 1.0, allow_nan=False).map(lambda x: round(x, 3))
+LENGTHS = st.floats(-1.0, 1.0).map(lambda x: round(x, 3))
 VECTORS = st.tuples(LENGTHS, LENGTHS, LENGTHS).map(list)
 AXES = st.one_of(st.sampled_from(["x", "y", "z"]), VECTORS.filter(lambda v: float(np.abs(v).max()) > 0.05))
 MASSES = st.floats(0.0, 5.0).map(lambda x: round(x, 3))
@@ -85,7 +86,10 @@ def test_places_and_second_moments_are_those_of_the_parts(text: str, seed: int) 
             own[:3, :3], own[:3, 3] = frame.turn, frame.at
             assert frames[frame.joint] @ own == pytest.approx(ends[frame.name][1], abs=1e-11)
         total = sum(
-            (f @ apart.body_pseudo_inertia(j.body) @ f.T for j, f in zip(made.joints, frames[1:], strict=True)),
+            (
+                f @ apart.body_pseudo_inertia(j.body) @ f.T
+                for j, f in zip(made.joints, frames[1:], strict=True)
+            ),
             np.zeros((4, 4)),
         )
         expected = apart.weighed(parts, given_angles)
@@ -188,7 +192,12 @@ def test_one_general_axis_is_enough_for_joints_that_are_parallel() -> None:
 
 
 def test_angles_written_with_twelve_digits_are_quarter_turns_and_those_with_five_are_not() -> None:
-    for written, exact in (("1.57079632679", False), ("1.570796326795", True), ("1.5708", False), ("3.14159265359", True)):
+    for written, exact in (
+        ("1.57079632679", False),
+        ("1.570796326795", True),
+        ("1.5708", False),
+        ("3.14159265359", True),
+    ):
         values = {abs(value) for row in floats(turned((float(written), 0, 0))) for value in row}
         assert (values == {0.0, 1.0}) == exact
 
@@ -203,11 +212,8 @@ def test_a_joint_with_nothing_to_turn_is_refused_where_the_mass_matrix_is_singul
     matrix = apart.mass_matrix(document.arm, np.zeros(document.stations))
     scale = np.sqrt(np.maximum(np.diag(matrix), 1e-30))
     singular = bool(np.linalg.eigvalsh(matrix / np.outer(scale, scale)).min() < 1e-11)
-    try:
+    if not singular:
         parse_scene(light)
-        assert not singular
-    except SceneError as error:
-        assert {problem.message.split(" of ")[0] for problem in error.problems} == {
-            "carries nothing that has inertia about the axis"
-        }
-        assert singular
+        return
+    with pytest.raises(SceneError, match="carries nothing that has inertia about the axis of"):
+        parse_scene(light)

@@ -25,10 +25,9 @@ Rule = Callable[[SpatialDocument], Iterator[Finding]]
 RULES: tuple[tuple[Rule, ...], ...] = (
     (clamped, own_tables, emitted, part_names, beams_given, not_too_many),
     (one_tree, twists, ends, rigid_gears, inertias),
-    (in_range,),
+    (in_range, initial_by_name),
     (
         something_to_turn,
-        initial_by_name,
         inputs_possible,
         outputs_possible,
         distinct_names,
