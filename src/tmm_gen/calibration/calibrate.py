@@ -22,6 +22,7 @@ from tmm_gen.errors import CheckFailed, UserError
 from tmm_gen.inputs.clock import starts_of
 from tmm_gen.inputs.signals import Signal
 from tmm_gen.scene import Scene
+from tmm_gen.scene.flat import require_flat
 from tmm_gen.scene.problem import Path
 
 Array = NDArray[np.float64]
@@ -147,6 +148,7 @@ def calibrate(
         If nothing recorded is an output, the clocks do not fit, a key is no positive number, or the record does not
         tell keys apart.
     """
+    require_flat(scene, "calibrations do not")
     chosen = tuple(keys or default_keys(scene))
     given = np.array([number_of(scene, key) for key in chosen])
     refuse_overlaps(scene, chosen)

@@ -14,6 +14,7 @@ import click
 
 from tmm_gen.cli.console import Column, progress, table
 from tmm_gen.cli.hints import hinted
+from tmm_gen.cli.kinds import served_scene
 from tmm_gen.errors import CheckFailed, UserError
 
 if TYPE_CHECKING:
@@ -141,11 +142,9 @@ def _scene_file(word: str, known: dict[str, Path]) -> Path:
 
 def _load(paths: Sequence[Path]) -> list[Scene]:
     """Read all scenes before anything is written; no two may be one package."""
-    from tmm_gen.scene import load_scene
-
     loaded: dict[str, Scene] = {}
     for path in paths:
-        scene = load_scene(path)
+        scene = served_scene("build", path)
         if (other := loaded.get(scene.name)) is not None and other.source.origin != scene.source.origin:
             raise UserError(
                 f"{path}: has the name '{scene.name}', as {other.source.origin} has. Change one of the two, "

@@ -10,6 +10,7 @@ import click
 
 from tmm_gen.cli.console import Column, progress, table
 from tmm_gen.cli.given import finite, positive
+from tmm_gen.cli.kinds import served_scene
 from tmm_gen.cli.outputs import OutputFile, force_option, require_new, write_outputs
 from tmm_gen.errors import UserError
 from tmm_gen.reading import open_table, read_file
@@ -91,10 +92,8 @@ def calibrate(
     is missing. The arm starts from the scene's initial state where the clock starts, be that at zero or not; other
     files have the same clock. Each number is given with the uncertainty the record leaves.
     """
-    from tmm_gen.scene import load_scene
-
     require_new(out, force)
-    loaded = load_scene(scene)
+    loaded = served_scene("calibrate", scene)
     with progress(f"fitting {loaded.name}"):
         from tmm_gen.calibration.calibrate import calibrate as fit
         from tmm_gen.inputs.clock import UNITS, from_start

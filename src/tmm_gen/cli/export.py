@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from tmm_gen.cli.console import print_json, progress
+from tmm_gen.cli.kinds import served_scene
 from tmm_gen.cli.outputs import OutputFile, claim, write_outputs
 from tmm_gen.errors import UserError
 
@@ -34,12 +35,10 @@ def export(scene: Path, to: str, out: Path | None, fmi: str | None, cc: str, jso
     `--to fmu`: a functional mock-up unit for co-simulation, FMI 2.0 or 3.0, with sources and a binary for this
     machine, validated by FMPy. `--to mjcf`: a model for MuJoCo.
     """
-    from tmm_gen.scene import load_scene
-
     claim((out,), (scene,))
     if fmi is not None and to != "fmu":
         raise UserError(f"--fmi {fmi}: is for --to fmu only. Leave it out.")
-    chosen = load_scene(scene)
+    chosen = served_scene(f"export --to {to}", scene)
     target = out or Path(f"{chosen.name}{_SUFFIX[to]}")
     if target.suffix.lower() != _SUFFIX[to]:
         raise UserError(f"--out {target}: must end in {_SUFFIX[to]}, or the other tool will not know it.")

@@ -11,6 +11,7 @@ import click
 
 from tmm_gen.cli.console import Column, progress, table
 from tmm_gen.cli.given import constant_inputs, picture_file, plot_option, positive
+from tmm_gen.cli.kinds import served_scene
 from tmm_gen.cli.links import show_links
 from tmm_gen.cli.outputs import OutputFile, claim, write_outputs
 from tmm_gen.errors import UserError
@@ -80,13 +81,11 @@ def frequency(
 
     With --links-for ERROR --band HZ: how few links does this scene require?
     """
-    from tmm_gen.scene import load_scene
-
     if (error is None) != (band is None):
         raise click.UsageError("--links-for ERROR and --band HZ belong together.")
     if low is not None and high is not None and low >= high:
         raise click.UsageError(f"--low {low:g} must be less than --high {high:g}.")
-    loaded = load_scene(scene)
+    loaded = served_scene("frequency", scene)
     if error is not None and band is not None:
         show_links(loaded, error, band, json_mode)
         return

@@ -11,6 +11,7 @@ import click
 
 from tmm_gen.cli.console import Column, progress, table
 from tmm_gen.cli.given import constant_inputs, picture_file, plot_option
+from tmm_gen.cli.kinds import served_scene
 from tmm_gen.cli.outputs import claim, write_outputs
 
 if TYPE_CHECKING:
@@ -42,9 +43,7 @@ def modes(scene: Path, count: int, given: tuple[str, ...], picture: Path | None,
     A planar arm swings about its static equilibrium. An arm made from a [beam] is shown beside the exact
     continuous beam, straight and weightless.
     """
-    from tmm_gen.scene import load_scene
-
-    loaded = load_scene(scene)
+    loaded = served_scene("modes", scene)
     inputs = constant_inputs(loaded, given)
     claim((picture,), (scene,))
     with progress(f"finding modes of {loaded.name}"):

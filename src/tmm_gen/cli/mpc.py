@@ -9,6 +9,7 @@ import click
 
 from tmm_gen.cli.console import progress
 from tmm_gen.cli.given import plot_option, positive
+from tmm_gen.cli.kinds import served_scene
 from tmm_gen.cli.mpc_tune import EVERYTHING, chosen, tuned
 from tmm_gen.cli.outputs import OutputFile, claim, force_option, require_new
 from tmm_gen.cli.study_options import one_thread
@@ -141,10 +142,9 @@ def mpc(
     gravity and delay.
     """
     from tmm_gen.cli.mpc_report import emit, list_all, show, write_files
-    from tmm_gen.scene import load_scene
 
     one_thread()
-    loaded = load_scene(scene)
+    loaded = served_scene("mpc", scene)
     claim((picture, animated), (scene,))
     require_new(out, force)
     from tmm_gen.control.condition import CONDITIONS

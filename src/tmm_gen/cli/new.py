@@ -20,10 +20,10 @@ if TYPE_CHECKING:
 @click.argument("name")
 @click.option(
     "--kind",
-    type=click.Choice(["chain", "planar"]),
+    type=click.Choice(["chain", "planar", "spatial"]),
     default="chain",
     show_default=True,
-    help="Torsional chain, or arm in a plane.",
+    help="Torsional chain, or arm in a plane or in space.",
 )
 @click.option(
     "--out",
@@ -49,9 +49,17 @@ def new(name: str, kind: Kind, out: Path, control: bool, motors: int | None, for
         raise UserError(f"NAME: {fault[0]} (got {show_value(name)}). {fault[1]}")
     # nothing is loaded yet: the kind is the word that was typed
     if control and kind != "planar":
-        raise UserError(f"--control: a {kind} has no motor to be controlled. Add --kind planar.")
+        raise UserError(
+            f"--control: a {kind} has no motor to be controlled. Add --kind planar."
+            if kind == "chain"
+            else "--control: arms in space are not controlled yet. Add --kind planar."
+        )
     if motors and kind != "planar":  # the same word
-        raise UserError(f"--motors: a {kind} has no motors at its joints. Add --kind planar.")
+        raise UserError(
+            f"--motors: a {kind} has no motors at its joints. Add --kind planar."
+            if kind == "chain"
+            else "--motors: an arm in space starts with two. Leave it out, or add --kind planar."
+        )
     if motors and control:
         raise UserError(
             "--motors and --control exclude each other: `tmm-gen mpc` turns a hub. Remove one of the two."

@@ -10,6 +10,7 @@ import click
 from tmm_gen.cli.changes import changed_scene, set_option
 from tmm_gen.cli.console import Column, print_json, progress, table
 from tmm_gen.cli.given import constant_inputs, picture_file, plot_option
+from tmm_gen.cli.kinds import require_served
 from tmm_gen.cli.outputs import claim, write_outputs
 from tmm_gen.errors import UserError
 
@@ -44,7 +45,7 @@ def rest(
     that turns freely, as motors without a torque do. Angles of joints are those of the outer side against the inner
     one, torques what the inner side exerts on the outer one.
     """
-    loaded = changed_scene(scene, changes)
+    loaded = require_served("rest", changed_scene(scene, changes))
     if not loaded.model.in_plane:
         raise UserError(
             f"{scene}: a chain has no weight and rests straight, or as its inputs twist it: `tmm-gen run` shows that. "

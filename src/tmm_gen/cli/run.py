@@ -13,6 +13,7 @@ from tmm_gen.cli.changes import changed_scene, set_option
 from tmm_gen.cli.console import Column, progress, table
 from tmm_gen.cli.given import picture_file, plot_option
 from tmm_gen.cli.hints import hinted
+from tmm_gen.cli.kinds import require_served
 from tmm_gen.cli.outputs import OutputFile, claim, write_outputs
 from tmm_gen.errors import UserError
 
@@ -120,7 +121,7 @@ def run(
     from tmm_gen.reference.duration import default_duration
     from tmm_gen.simulate.run import number_of_steps, simulate
 
-    chosen = changed_scene(scene, changes, step)
+    chosen = require_served("run", changed_scene(scene, changes, step))
     if iterations is not None:
         chosen = chosen.replace(**{"model.iterations": iterations})
     read = (scene, *table_files(given))

@@ -12,6 +12,7 @@ import click
 from tmm_gen.cli.changes import changed_scene, set_option
 from tmm_gen.cli.console import Column, progress, table
 from tmm_gen.cli.given import picture_file, plot_option
+from tmm_gen.cli.kinds import require_served
 from tmm_gen.cli.outputs import claim, write_outputs
 
 if TYPE_CHECKING:
@@ -56,7 +57,7 @@ def stability(
     """
     from tmm_gen.scene.integrator import INTEGRATOR_NAMES
 
-    loaded = changed_scene(scene, changes)
+    loaded = require_served("stability", changed_scene(scene, changes))
     chosen = _known(mapped or (loaded.integrator.name,))
     claim((picture,), (scene,))
     if picture is not None and cells == 0:

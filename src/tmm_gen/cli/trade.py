@@ -10,6 +10,7 @@ import click
 
 from tmm_gen.cli.console import Column, progress, table
 from tmm_gen.cli.given import picture_file, plot_option, positive
+from tmm_gen.cli.kinds import served_scene
 from tmm_gen.cli.outputs import OutputFile, claim, write_outputs
 from tmm_gen.cli.study_options import axes_of, numbers, one_of, one_thread, whole_numbers, words
 from tmm_gen.errors import CheckFailed
@@ -148,12 +149,11 @@ def trade(
 def run(path: Path, options: dict[str, Any]) -> Study:
     """Read a scene and study it."""
     from tmm_gen.inputs.given import input_names, read_inputs
-    from tmm_gen.scene import load_scene
     from tmm_gen.study.excitation import excitation
     from tmm_gen.study.grid import configurations
     from tmm_gen.study.study import run_study
 
-    scene = load_scene(path)
+    scene = served_scene("trade", path)
     computes = executor(options)
     given = read_inputs(options["given"], *input_names(scene))
     went = excitation(scene, given, options["until"], options["output"])

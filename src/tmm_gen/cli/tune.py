@@ -9,6 +9,7 @@ import click
 
 from tmm_gen.cli.console import Column, progress, table
 from tmm_gen.cli.given import positive
+from tmm_gen.cli.kinds import served_scene
 from tmm_gen.cli.outputs import OutputFile, force_option, require_new, write_outputs
 from tmm_gen.cli.study_options import axes_of, one_of, one_thread, whole_numbers, words
 from tmm_gen.errors import UserError
@@ -105,7 +106,6 @@ def _search(
     path: Path, max_error: str, max_time: str, options: dict[str, Any]
 ) -> tuple[Tuning, Allowance | None]:
     from tmm_gen.inputs.given import input_names, read_inputs
-    from tmm_gen.scene import load_scene
     from tmm_gen.study.bounds import read_error, read_time
     from tmm_gen.study.budgets import allowance
     from tmm_gen.study.excitation import excitation
@@ -113,7 +113,7 @@ def _search(
     from tmm_gen.study.tune import tune as search
 
     bounds = read_error(max_error), read_time(max_time)
-    scene = load_scene(path)
+    scene = served_scene("tune", path)
     auto = options["links"] == "auto"
     links = () if auto or options["links"] is None else _links(options["links"])
     axes = axes_of(scene, {**options, "links": links, "steps": (), "backends": ("c",)})

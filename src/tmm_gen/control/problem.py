@@ -66,6 +66,7 @@ from tmm_gen.errors import UserError
 from tmm_gen.resources import scenes_dir
 from tmm_gen.scene import Scene
 from tmm_gen.scene.control import Control, Estimator, Sensors, Weights
+from tmm_gen.scene.flat import require_flat
 
 
 @dataclass(frozen=True)
@@ -152,6 +153,7 @@ def control_problem(scene: Scene) -> ControlProblem:
     UserError
         If the scene has no ``[control]``, or is of a kind that cannot have it.
     """
+    require_flat(scene, "controllers do not")
     control = scene.control
     if control is None and scene.parts:
         raise UserError(

@@ -14,6 +14,7 @@ from tmm_gen.program.build import build_program
 from tmm_gen.program.statements import Program
 from tmm_gen.program.variables import Variable
 from tmm_gen.scene import Scene
+from tmm_gen.scene.flat import require_flat
 
 NOTHING = Footprint(0, 0, 0, 0, 0)
 
@@ -73,6 +74,7 @@ def explain(scene: Scene, advance: Callable[[str], None] = lambda term: None) ->
     advance : callable, optional
         Called with the name of each term as it is counted.
     """
+    require_flat(scene, "explanations do not")
     program = build_program(scene)
     own = footprint_of(program, real_of(scene.emit))
     advance("the scene")

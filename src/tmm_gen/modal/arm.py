@@ -16,6 +16,7 @@ from tmm_gen.derive.transfer import laplace_matrix
 from tmm_gen.modal.blocks import ElementFunctions, element_functions
 from tmm_gen.modal.rest import Rest, rest_at, straight
 from tmm_gen.scene import Scene, station_of
+from tmm_gen.scene.flat import require_flat
 from tmm_gen.scene.model import FloatingBase
 
 Array = NDArray[np.float64]
@@ -116,6 +117,7 @@ def linear_arm(scene: Scene, rest: Rest | None = None) -> LinearArm:
     rest : Rest, optional
         About which a planar arm moves; by default straight along x and weightless.
     """
+    require_flat(scene, "modes and frequency responses do not")
     if scene.model.linear:
         return _chain(scene)
     return _planar(scene, rest if rest is not None else rest_at(scene, straight(scene), gravity=0.0))

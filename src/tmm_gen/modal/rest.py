@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from tmm_gen.modal.limbs import limbs_of
 from tmm_gen.scene import Scene, station_of
+from tmm_gen.scene.flat import require_flat
 
 Array = NDArray[np.float64]
 
@@ -77,6 +78,7 @@ def rest_at(
     inputs : mapping from str to float, optional
         Constant inputs by name; those not given are zero.
     """
+    require_flat(scene, "states of rest do not")
     given = inputs or {}
     turning = scene.hub
     n = scene.stations

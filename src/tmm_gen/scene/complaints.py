@@ -13,7 +13,7 @@ from pydantic_core import ErrorDetails
 from tmm_gen.scene.document import Document
 from tmm_gen.scene.nonlinear import nonlinear
 from tmm_gen.scene.problem import Finding, Path, show_path
-from tmm_gen.scene.table import Table, closest, hidden
+from tmm_gen.scene.table import Table, closest, file_keys, hidden
 
 _COMPARISONS = {
     "greater_than": ("gt", "greater than"),
@@ -82,7 +82,7 @@ def _declared(path: Path, document: type[Document]) -> tuple[type[Table], FieldI
             continue
         if field is not None:
             owner = next(_tables_in(field.annotation), owner)
-        field = owner.model_fields.get(part)
+        field = file_keys(owner).get(part)
         if field is None:
             break
     return owner, field
@@ -133,7 +133,7 @@ def _missing_remedy(path: Path, field: FieldInfo | None) -> str:
 
 def _unknown_key(path: Path, owner: type[Table], value: object, document: type[Document]) -> tuple[str, str]:
     """Return message and remedy for a key which its table does not know."""
-    key, known = str(path[-1]), [name for name, field in owner.model_fields.items() if not hidden(field)]
+    key, known = str(path[-1]), [name for name, field in file_keys(owner).items() if not hidden(field)]
     where = _header(path[:-1])
     message = f"is not a key of {where}"
     if path[0] in ("joint", "gear", "motor") and (told := nonlinear(key)) is not None:
@@ -166,7 +166,7 @@ def _tables_with(key: str, nested: bool, document: type[Document]) -> str:
     headers = []
     for name, field in document.model_fields.items():
         table = next(_tables_in(field.annotation), None)
-        if table is not None and key in table.model_fields:
+        if table is not None and key in file_keys(table):
             headers.append(f"[[{name}]]" if _is_array_of_tables(field) else f"[{name}]")
     return f"in {' or '.join(headers)}" if 0 < len(headers) <= 3 else ""
 

@@ -12,7 +12,7 @@ from tmm_gen.scene.emit import Emit
 from tmm_gen.scene.identifier import SceneName, Title
 from tmm_gen.scene.initial import InitialTable
 from tmm_gen.scene.integrator import IntegratorTable
-from tmm_gen.scene.model import Base, Model
+from tmm_gen.scene.model import Base, FlatModel
 from tmm_gen.scene.problem import Path
 from tmm_gen.scene.section import Uniform
 from tmm_gen.scene.signal import FileInput, FileOutput
@@ -25,7 +25,7 @@ class Document(Table):
 
     name: SceneName = Field(description="identifier, names the generated package", examples=['"arm10"'])
     title: Title = Field("", description="one line of text", examples=['"Ten-link arm"'])
-    model: Model = Field(description="what is modelled", examples=['kind = "chain"'])
+    model: FlatModel = Field(description="what is modelled", examples=['kind = "chain"'])
     integrator: IntegratorTable = Field(
         description="time integration", examples=['name = "newmark"` and `step = 0.001']
     )

@@ -8,13 +8,13 @@ from pydantic import BeforeValidator, Field
 
 from tmm_gen.scene.table import Count, NonNegative, Positive, Table, fault
 
-Kind = Literal["chain", "planar"]
-Linearisation = Literal["newton", "taylor", "frozen"]
+Kind = Literal["chain", "planar", "spatial"]
+Linearisation = Literal["newton", "taylor", "frozen", "inertial"]
 Sweep = Literal["riccati", "product"]
 Unknown = Literal["acceleration", "increment", "displacement"]
 
 
-def _sweeps(value: object) -> object:
+def sweeps_or_auto(value: object) -> object:
     """Reject what is neither a number of sweeps nor "auto", in one sentence for both."""
     number = isinstance(value, int) and not isinstance(value, bool) and value >= 1
     if number or value == "auto":
@@ -27,14 +27,15 @@ class Model(Table):
 
     Parameters
     ----------
-    kind : {"chain", "planar"}
-        Torsional chain, linear; or arm in a plane with large rotations.
+    kind : {"chain", "planar", "spatial"}
+        Torsional chain, linear; or arm with large rotations, in a plane or in space.
     gravity : float, optional
-        m/s^2 along -y, not negative; planar only.
-    linearisation : {"newton", "taylor", "frozen"}
-        Planar only.
+        m/s^2 along -y, not negative; planar only. In space it is a vector, of the arm.
+    linearisation : {"newton", "taylor", "frozen", "inertial"}
+        Of arms; "taylor" and "frozen" are for the plane, "inertial" is for space.
     iterations : int or "auto"
-        Sweeps per stage; with ``newton`` only. "auto": a simulation sweeps as often as it takes, kernels once.
+        Sweeps per stage, or a sweep and its corrections; with ``newton`` and ``inertial`` only. "auto": a simulation
+        sweeps as often as it takes, kernels once.
     unsolved : float, optional
         Most work of what sweeps leave unsolved, as a share of the energy that moves; absent, what the step leaves by
         itself (:mod:`tmm_gen.simulate.tolerance`). With ``newton`` only.
@@ -51,7 +52,7 @@ class Model(Table):
         default=None, description="gravity along -y in m/s^2", examples=["9.81"]
     )
     linearisation: Linearisation = Field(default="newton", description="linearisation", examples=['"newton"'])
-    iterations: Annotated[Count | Literal["auto"], BeforeValidator(_sweeps)] = Field(
+    iterations: Annotated[Count | Literal["auto"], BeforeValidator(sweeps_or_auto)] = Field(
         default="auto",
         description='sweeps per stage; with "auto", `run` takes as many as it needs and kernels take one',
         examples=['"auto"', "2"],
@@ -85,8 +86,8 @@ class Model(Table):
 
     @property
     def iterates(self) -> bool:
-        """Whether a stage's equations are solved by Newton's iteration."""
-        return not self.linear and self.linearisation == "newton"
+        """Whether a stage's equations are solved by iteration."""
+        return not self.linear and self.linearisation in ("newton", "inertial")
 
     @property
     def sweeps(self) -> int:
@@ -97,6 +98,14 @@ class Model(Table):
     def auto(self) -> bool:
         """Whether a simulation sweeps as often as it takes."""
         return self.iterates and self.iterations == "auto"
+
+
+class FlatModel(Model):
+    """``[model]`` of what moves in a plane or twists."""
+
+    linearisation: Literal["newton", "taylor", "frozen"] = Field(
+        default="newton", description="linearisation", examples=['"newton"']
+    )
 
 
 class Base(Table):

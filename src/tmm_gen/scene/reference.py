@@ -13,7 +13,9 @@ from pydantic_core import PydanticUndefined
 from tmm_gen.scene.document import Document
 from tmm_gen.scene.integrator import INTEGRATOR_NAMES, METHODS
 from tmm_gen.scene.parts.document import PARTS, ChainDocument, PartsDocument
-from tmm_gen.scene.table import Table, hidden
+from tmm_gen.scene.spatial.document import SPATIAL_PARTS, SpatialDocument
+from tmm_gen.scene.spatial.settings import SpatialModel
+from tmm_gen.scene.table import Table, file_keys, hidden
 
 
 @dataclass(frozen=True)
@@ -55,11 +57,16 @@ def keys() -> Iterator[Key]:
         table = _table_in(ChainDocument.model_fields[name].annotation)
         assert table is not None
         yield from _table_keys(table, f"[[{name}]] by name in a chain")
+    yield from _table_keys(SpatialModel, "[model] in space")
+    for name in (*SPATIAL_PARTS, "input", "output"):
+        table = _table_in(SpatialDocument.model_fields[name].annotation)
+        assert table is not None
+        yield from _table_keys(table, f"[[{name}]] in space")
 
 
 def _table_keys(model: type[Table], header: str) -> Iterator[Key]:
     """Yield the keys of one table that are not tables themselves."""
-    for name, field in model.model_fields.items():
+    for name, field in file_keys(model).items():
         if _table_in(field.annotation) is None and not hidden(field):
             example = str(field.examples[0]) if field.examples else ""
             named = header == "[integrator]" and name == "name"

@@ -19,6 +19,9 @@ from tmm_gen.scene.parts.expansion import PlacedPart
 from tmm_gen.scene.quantity import Quantity, quantities
 from tmm_gen.scene.signal import Input, Output, station_of
 from tmm_gen.scene.source import Source
+from tmm_gen.scene.spatial.arm import SpatialArm
+from tmm_gen.scene.spatial.document import CLAMP, SpatialDocument
+from tmm_gen.scene.spatial.reach import longest_way
 from tmm_gen.scene.station import Joint, Link
 
 
@@ -60,6 +63,8 @@ class Scene:
         The parts by name that joints and links came from, base to tip; none where the file writes no parts.
     hosts : tuple of int
         Number of the link on whose outer end each joint stands, 0 for the base; empty where each link carries the next.
+    spatial : SpatialArm or None
+        The arm of a scene in space, which has joints, links, inputs, outputs and initial motion of its own; else None.
     """
 
     name: str
@@ -79,18 +84,19 @@ class Scene:
     source: Source = field(repr=False)
     parts: tuple[PlacedPart, ...] = ()
     hosts: tuple[int, ...] = ()
+    spatial: SpatialArm | None = None
 
     @cached_property
     def digest(self) -> str:
         """Fingerprint of the content, which is all fields but the source."""
         told = [item.name for item in fields(self) if item.name != "source"]
-        told = [name for name in told if name not in ("parts", "hosts") or getattr(self, name)]
+        told = [name for name in told if name not in ("parts", "hosts", "spatial") or getattr(self, name)]
         return content_digest({name: getattr(self, name) for name in told})
 
     @property
     def stations(self) -> int:
-        """Number of links, n."""
-        return len(self.links)
+        """Number of links, n; in space that of joints."""
+        return len(self.spatial.joints if self.spatial else self.links)
 
     @property
     def hub(self) -> int:
@@ -133,7 +139,9 @@ class Scene:
 
     @property
     def reach(self) -> float:
-        """The longest way from the base to the outer end of a link, m."""
+        """The longest way from the base to the outer end of a link, m; in space to that of a part."""
+        if self.spatial:
+            return longest_way(self.spatial)
         ways = [0.0]
         for joint, link in enumerate(self.links, start=1):
             ways.append(ways[self.host(joint)] + link.length)
@@ -195,6 +203,8 @@ def scene_of(document: Document, source: Source) -> Scene:
     Scene
         The scene.
     """
+    if isinstance(document, SpatialDocument):
+        return _spatial_scene(document, source)
     if isinstance(document, PartsDocument):
         made = document.expansion
         return replace(
@@ -215,6 +225,12 @@ def scene_of(document: Document, source: Source) -> Scene:
     given, n = document.initial, document.stations
     initial = Initial(broadcast(given.angles, n), broadcast(given.rates, n))
     return _scene_of(document, source, inputs, outputs, initial)
+
+
+def _spatial_scene(document: SpatialDocument, source: Source) -> Scene:
+    made = _scene_of(document, source, (), (), Initial((), ()))
+    model = document.model.settled(made.integrator.name)
+    return replace(made, model=model, base=CLAMP, spatial=document.arm)
 
 
 def _scene_of(

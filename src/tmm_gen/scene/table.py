@@ -33,6 +33,11 @@ def hidden(field: FieldInfo) -> bool:
     return isinstance(field.json_schema_extra, dict) and bool(field.json_schema_extra.get("hidden"))
 
 
+def file_keys(table: type[BaseModel]) -> dict[str, FieldInfo]:
+    """Return the fields of a table by the keys that a file has for them; those may be words that Python keeps."""
+    return {field.alias or name: field for name, field in table.model_fields.items()}
+
+
 def is_finite_number(value: object) -> TypeGuard[int | float]:
     """Return whether a value is a number (true and false are not) that a float can hold."""
     if not isinstance(value, int | float) or isinstance(value, bool):

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from tmm_gen.scene.model import Kind
+from tmm_gen.scene.spatial import template as spatial
 
 _HEAD = """\
-# A scene: what `tmm-gen` builds kernels for. SI units and radians; angles are absolute.
+# A scene: what `tmm-gen` builds kernels for. SI units and radians; angles are @angles@.
 # What you leave out is not modelled and costs nothing in the generated code.
 
 name = "@name@"{pad}# also the name of the generated Python package and C files
@@ -240,7 +241,7 @@ def template(name: str, kind: Kind = "chain", control: bool = False, motors: int
     ----------
     name : str
         A valid name of a scene, see :func:`tmm_gen.scene.identifier.scene_name_fault`.
-    kind : {"chain", "planar"}
+    kind : {"chain", "planar", "spatial"}
         Family of models.
     control : bool
         Whether a planar arm, then in a horizontal plane, gets a ``[control]``.
@@ -252,9 +253,13 @@ def template(name: str, kind: Kind = "chain", control: bool = False, motors: int
     str
         TOML, valid as it stands.
     """
+    if kind == "spatial":
+        title = "Arm in space with two motors, a flexible boom and a payload"
+        head = _HEAD.format(pad=_pad(name), title=title, model=spatial.MODEL, step="1e-3")
+        return _named(head, name, "those of joints") + spatial.ARM + _TAIL
     chain = kind == "chain"
     head = _HEAD.format(
-        pad=" " * max(22 - len(name), 1),
+        pad=_pad(name),
         title="Three torsional stations behind a clamp"
         if chain
         else f"Flexible arm with {motors} motor{'s' * (motors > 1)} and a payload"
@@ -264,7 +269,15 @@ def template(name: str, kind: Kind = "chain", control: bool = False, motors: int
         step="0.01" if chain else "1e-3",
     )
     body = _CHAIN if chain else _by_parts(motors) if motors else _PLANAR
-    return head.replace("@name@", name) + body + (_CONTROL if control and not chain else "") + _TAIL
+    return _named(head, name, "absolute") + body + (_CONTROL if control and not chain else "") + _TAIL
+
+
+def _pad(name: str) -> str:
+    return " " * max(22 - len(name), 1)
+
+
+def _named(head: str, name: str, angles: str) -> str:
+    return head.replace("@name@", name).replace("@angles@", angles)
 
 
 def _by_parts(motors: int) -> str:

@@ -20,6 +20,7 @@ from tmm_gen.inputs.signals import Constant, Signal, Sine, Table
 from tmm_gen.modal.limbs import limbs_of
 from tmm_gen.reference.duration import default_duration
 from tmm_gen.scene import Input, Output, Scene, station_of
+from tmm_gen.scene.flat import require_flat
 from tmm_gen.simulate.prescribed import prescribed
 from tmm_gen.study.rise import Rise
 
@@ -86,6 +87,7 @@ def excitation(
         If there is no such output, nothing moves, the time is absurd, an input has another clock, or a prescribed
         angle jumps.
     """
+    require_flat(scene, "studies do not")
     duration = until or default_duration(scene)
     if not _SHORTEST <= duration <= _LONGEST:
         raise UserError(

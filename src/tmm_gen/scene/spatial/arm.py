@@ -1,4 +1,4 @@
-"""An arm in space as everything behind the scene reads it: joints with rigid bodies on them, frames, what acts and what is read.
+"""An arm in space as everything behind the scene reads it: joints with bodies, frames, what acts and what is read.
 
 Every body has a frame at the point of the joint that carries it; all that is said of a body is said in that frame.
 """
@@ -158,8 +158,8 @@ class ArmOutput:
     Parameters
     ----------
     name : str
-        Columns: itself for a scalar; with ``_x``, ``_y``, ``_z`` for position and velocity of a frame, both in world axes;
-        with ``_w``, ``_x``, ``_y``, ``_z`` for an orientation, a quaternion whose ``w`` is not negative.
+        Columns: itself for a scalar; with ``_x``, ``_y``, ``_z`` for position and velocity of a frame, both in world
+        axes; with ``_w``, ``_x``, ``_y``, ``_z`` for an orientation, a quaternion whose ``w`` is not negative.
     of : str
         angle, rate, acceleration of a joint and the torque it passes on (its spring's, damper's and motor's);
         position, orientation, velocity of a frame; an energy of the whole arm.
@@ -190,7 +190,7 @@ class SpatialArm:
     joints : tuple of Revolute
         Base to tips; a beam's cells follow each other, so that like cells are neighbours.
     frames : tuple of Frame
-        Outer ends of all parts, in the order of the file.
+        Outer ends of all parts, in the order of the joints: each after what it hangs on.
     gravity : tuple of float, length 3
         m/s^2, in world axes, which are those of the base.
     inputs : tuple of ArmInput

@@ -1,0 +1,48 @@
+"""Rules across the tables of an arm in space."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+from tmm_gen.scene.problem import Finding
+from tmm_gen.scene.rules.beams import beams_given
+from tmm_gen.scene.rules.emission import budget_not_empty, real_is_used
+from tmm_gen.scene.rules.integration import explicit_needs_acceleration, integrator_parameters
+from tmm_gen.scene.rules.spatial.hanging import not_too_many, one_tree, part_names
+from tmm_gen.scene.rules.spatial.inertia import something_to_turn
+from tmm_gen.scene.rules.spatial.parts import ends, in_range, inertias, rigid_gears, twists
+from tmm_gen.scene.rules.spatial.settings import clamped, emitted, own_tables
+from tmm_gen.scene.rules.spatial.signals import (
+    distinct_names,
+    initial_by_name,
+    inputs_possible,
+    outputs_possible,
+)
+from tmm_gen.scene.spatial.document import SpatialDocument
+
+Rule = Callable[[SpatialDocument], Iterator[Finding]]
+
+RULES: tuple[tuple[Rule, ...], ...] = (
+    (clamped, own_tables, emitted, part_names, beams_given, not_too_many),
+    (one_tree, twists, ends, rigid_gears, inertias),
+    (in_range, initial_by_name),
+    (
+        something_to_turn,
+        inputs_possible,
+        outputs_possible,
+        distinct_names,
+        integrator_parameters,
+        explicit_needs_acceleration,
+        real_is_used,
+        budget_not_empty,
+    ),
+)
+"""Each group takes those before it for granted."""
+
+
+def broken_spatial_rules(document: SpatialDocument) -> list[Finding]:
+    """Return everything in an arm in space that breaks a rule; how parts hang together comes first."""
+    for group in RULES:
+        if broken := [finding for rule in group for finding in rule(document)]:
+            return broken
+    return []

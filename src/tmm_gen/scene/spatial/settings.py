@@ -1,0 +1,78 @@
+"""``[model]``, ``[base]`` and ``[initial]`` of an arm in space."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import BeforeValidator, Field
+
+from tmm_gen.scene.model import Model, sweeps_or_auto
+from tmm_gen.scene.spatial.arm import ZERO
+from tmm_gen.scene.spatial.values import Gravity
+from tmm_gen.scene.table import Count, Finite, Table
+
+SWEEPS = {"sdirk4": 3}
+"""Sweep and corrections that give a method its order with the inertial linearisation; two for the other methods."""
+
+
+class SpatialModel(Model):
+    """``[model]`` in space.
+
+    Parameters
+    ----------
+    gravity : tuple of float, length 3
+        m/s^2 in the axes of the base.
+    linearisation : {"inertial", "newton"}
+        One symmetric sweep and corrections, or exact sweeps.
+    iterations : int, "auto" or None
+        The sweep and its corrections, or sweeps, per stage; None for as many as suit the integrator.
+    """
+
+    kind: Literal["spatial"] = Field(description="family of models", examples=['"spatial"'])
+    gravity: Gravity = Field(  # type: ignore[assignment]
+        default=ZERO,
+        description="gravity in m/s^2, in the axes of the base",
+        examples=["[0, 0, -9.81]"],
+        json_schema_extra={"absent": "none"},
+    )
+    linearisation: Literal["inertial", "newton"] = Field(
+        default="inertial", description="linearisation", examples=['"inertial"']
+    )
+    iterations: Annotated[Count | Literal["auto"] | None, BeforeValidator(sweeps_or_auto)] = Field(  # type: ignore[assignment]
+        default=None,
+        description='sweep and corrections per stage; with "auto", `run` takes as many as it needs',
+        examples=["2"],
+        json_schema_extra={"absent": "2, with sdirk4 3; with newton 1"},
+    )
+    sweep: Literal["riccati"] = Field(default="riccati", description="sweep", examples=['"riccati"'])
+    unknown: Literal["acceleration"] = Field(
+        default="acceleration", description="unknown of the sweep", examples=['"acceleration"']
+    )
+
+    def settled(self, integrator: str) -> Model:
+        """Return it as scenes have it: gravity is the arm's, and iterations are a number or "auto"."""
+        given = self.iterations
+        usual = SWEEPS.get(integrator, 2) if self.linearisation == "inertial" else 1
+        return Model.model_construct(
+            kind="spatial",
+            linearisation=self.linearisation,
+            iterations=usual if given is None else given,
+            unsolved=self.unsolved,
+            accuracy=self.accuracy,
+        )
+
+
+class SpatialBase(Table):
+    """``[base]`` in space: a clamp.
+
+    Parameters
+    ----------
+    kind : {"clamp"}
+        Others are refused in words of their own.
+    """
+
+    kind: Literal["clamp", "prescribed", "free", "floating", "motor"] = Field(
+        description="kind of base; in space a clamp", examples=['"clamp"']
+    )
+    inertia: Finite | None = Field(default=None, json_schema_extra={"hidden": True})
+    damping: Finite | None = Field(default=None, json_schema_extra={"hidden": True})
