@@ -12,11 +12,13 @@ from tmm_gen.program.arm.assemble import Choices, build
 from tmm_gen.program.arm.product import ProductWalks
 from tmm_gen.program.arm.thesis import TaylorWalks, ThesisWalks
 from tmm_gen.program.arm.walks import Walks
+from tmm_gen.program.space.assemble import SpaceChoices, build_in_space
 from tmm_gen.program.sensitivities.walks import TangentableWalks
 from tmm_gen.program.statements import Program
 from tmm_gen.row.row import Row
 from tmm_gen.row.scene import row_of
 from tmm_gen.scene import Scene
+from tmm_gen.scene.spatial.arm import SpatialArm
 
 
 def build_program(scene: Scene, *, auto: bool = False) -> Program:
@@ -39,6 +41,8 @@ def build_program(scene: Scene, *, auto: bool = False) -> Program:
     """
     chosen = integrator(scene.integrator.name, **scene.integrator.parameters)
     try:
+        if scene.spatial is not None:
+            return _in_space(scene, scene.spatial, chosen, auto=auto)
         if scene.model.linear:
             require_safe_product(scene, chosen)
             require_digits(scene, chosen)
@@ -50,6 +54,28 @@ def build_program(scene: Scene, *, auto: bool = False) -> Program:
             f"scene '{scene.name}': model.unknown = '{scene.model.unknown}' with model.sweep = "
             f"'{scene.model.sweep}' and integrator '{scene.integrator.name}': {error}"
         ) from error
+
+
+def _in_space(scene: Scene, arm: SpatialArm, chosen: Integrator, *, auto: bool) -> Program:
+    """Build the program of an arm in space."""
+    auto = auto and scene.model.auto
+    corrections = "as many corrections as it takes" if auto else f"{scene.model.sweeps - 1} corrections"
+    parameters = "".join(f", {k} = {float(v):g}" for k, v in chosen.parameters.items())
+    facts = {
+        "model": "arm in space" + (", gravity" if any(arm.gravity) else ""),
+        "integrator": chosen.title + parameters,
+        "linearisation": f"inertial, {corrections}",
+    }
+    stages = len(chosen.main.stages)
+    choices = SpaceChoices(
+        step=scene.integrator.step,
+        iterations=scene.model.sweeps,
+        # of one stage, a prediction without acceleration forgives long steps and costs nothing
+        held=stages > 1,
+        auto=auto,
+        facts=tuple(facts.items()),
+    )
+    return build_in_space(arm, scene.name, scene.title, chosen, choices)
 
 
 def build_unchecked(scene: Scene, chosen: Integrator, *, auto: bool = False) -> Program:

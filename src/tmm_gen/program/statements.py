@@ -69,6 +69,14 @@ class Loop:
     body: tuple[Assign | Require, ...]
     stride: int = 1
 
+    def __hash__(self) -> int:
+        """Hash once: passes ask again and again, and bodies are long."""
+        return self._hash
+
+    @cached_property
+    def _hash(self) -> int:
+        return hash((self.order, self.start, self.stop, self.body, self.stride))
+
     @property
     def last(self) -> int:
         """The largest ``j``."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from tmm_gen.program.passes.dependence import accesses, carried_scalars
+from tmm_gen.program.passes.dependence import accesses, carried_scalars, written_scalars
 from tmm_gen.program.statements import Assign, Loop, Mark, Routine, Statement
 from tmm_gen.program.variables import Role, Variable
 
@@ -33,14 +33,16 @@ def place_scalars(routine: Routine) -> Placement:
     repeats = any(isinstance(s, Mark) for s in statements)  # what is declared in there is not known behind
     at_top: list[Variable] = []
     constant: dict[int, bool] = {}
+    users_of: dict[Variable, list[int]] = {}
+    for place, statement in enumerate(statements):
+        for used in dict.fromkeys(a.variable for a in accesses(statement)):
+            users_of.setdefault(used, []).append(place)
+    set_at: dict[tuple[int, Variable], list[int]] = {}
+    for at, place, target in settings:
+        set_at.setdefault((place, target), []).append(at)
     for variable in routine.variables(Role.LOCAL):
-        users = [
-            place for place, s in enumerate(statements) if any(a.variable == variable for a in accesses(s))
-        ]
-        by_user = {
-            user: [at for at, place, target in settings if place == user and target == variable]
-            for user in users
-        }
+        users = users_of.get(variable, [])
+        by_user = {user: set_at.get((user, variable), []) for user in users}
         if all(_private(statements[user], variable) for user in users):
             constant |= {found[0]: len(found) == 1 for found in by_user.values()}
         elif isinstance(statements[users[0]], Assign) and not repeats:
@@ -65,4 +67,4 @@ def _private(statement: Statement, variable: Variable) -> bool:
     """Whether a statement is a loop that sets a scalar at every station before it reads it."""
     if not isinstance(statement, Loop) or variable in carried_scalars(statement):
         return False
-    return any(a.writes for a in accesses(statement) if a.variable == variable)
+    return variable in written_scalars(statement)

@@ -116,9 +116,19 @@ def _overlap(
     )
 
 
+@lru_cache(maxsize=1 << 12)
 def carried_scalars(loop: Loop) -> frozenset[Variable]:
     """Return scalars a loop assigns whose value one station hands to the next."""
     return frozenset(v for v in written_scalars(loop) if not _set_before_use(loop, v))
+
+
+@lru_cache(maxsize=1 << 12)
+def _first_uses(statement: Statement) -> dict[Variable, bool]:
+    """Return whether the first use of each variable writes it."""
+    found: dict[Variable, bool] = {}
+    for access in accesses(statement):
+        found.setdefault(access.variable, access.writes)
+    return found
 
 
 def written_scalars(loop: Loop) -> frozenset[Variable]:
@@ -146,9 +156,9 @@ def dead_after(variable: Variable, later: tuple[Statement, ...]) -> bool:
     for statement in later:
         if isinstance(statement, Mark):  # what comes next is not only what stands next
             return False
-        for access in accesses(statement):
-            if access.variable == variable:
-                return access.writes
+        uses = _first_uses(statement)
+        if variable in uses:
+            return uses[variable]
     return variable.role in SCRATCH
 
 
@@ -191,8 +201,7 @@ def _access(ref: Ref, writes: bool, visits: range) -> Access:
 
 
 def _set_before_use(loop: Loop, scalar: Variable) -> bool:
-    first = next((a for a in accesses(loop) if a.variable == scalar), None)
-    return first is not None and first.writes
+    return _first_uses(loop).get(scalar, False)
 
 
 def _scalars_apart(first: Loop, second: Loop) -> bool:
