@@ -39,7 +39,7 @@ def _rotor(scene: Scene, document: Document) -> Measured:
     """Return what each rotor's inertia is at its joint, over that of the arm with all its mass at the end."""
     arm = scene.spatial
     assert arm is not None
-    whole = sum(joint.body.mass for joint in arm.joints) * scene.reach**2
+    whole = sum(joint.body.mass for joint in arm.joints) * scene.reach * scene.reach  # a power would raise
     for number, motor in enumerate(document.motor if isinstance(document, SpatialDocument) else ()):
         if whole > 0.0:
             yield ("motor", number, "rotor_inertia"), motor.gear * motor.gear * motor.rotor_inertia / whole
