@@ -65,10 +65,10 @@ def test_junk(name: str) -> None:
     told = set()
     for number, path in enumerate(places(data)):
         for k, value in enumerate((None, *JUNK)):
-            if (number + k) % 3 == 0:  # a third of all, each path and each value among them
+            if (number + k) % 5 == 0:  # a fifth of all, each path and each value among them
                 for problem in read(put(data, path, value)):
                     told.add(str(problem))
                     assert problem.key
                     assert problem.message
                     assert problem.remedy.endswith((".", "?"))
-    assert len(told) > 100
+    assert len(told) > 60
