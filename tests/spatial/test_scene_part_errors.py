@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 from support.faults_in_space import ARM, MOTOR, Case, try_fault
 
-from tmm_gen.scene import parse_scene
+from tmm_gen.scene import SceneError, parse_scene
 
 CASES = {
     "axis": Case(
@@ -288,3 +290,29 @@ def test_heavy_loads_on_thin_beams_are_not_taken_for_nothing_to_turn() -> None:
         "= 1e-4\nlinks = 3", "= 1e-12\nlinks = 50"
     )
     assert parse_scene(text).stations == 152
+
+
+@pytest.mark.parametrize(
+    "joints",
+    [
+        '[[motor]]\nname = "a"\non = "tool"\naxis = "x"\n',
+        '[[joint]]\nname = "a"\non = "tool"\naxis = [1, 2, 3]\n'
+        '[[joint]]\nname = "b"\non = "a"\naxis = [1, 2, 3]\nstiffness = 2.0\n'
+        '[[body]]\nname = "c"\non = "b"\nmass = 0.5\ninertia = [1e-3, 1e-3, 1e-3]\n',
+        # a point mass on the axis of the second joint
+        '[[joint]]\nname = "a"\non = "tool"\naxis = "y"\nstiffness = 1.0\n'
+        '[[joint]]\nname = "b"\non = "a"\naxis = "x"\nstiffness = 1.0\n'
+        '[[body]]\nname = "c"\non = "b"\nmass = 0.5\ncenter = [0.2, 0, 0]\n',
+    ],
+)
+def test_the_body_that_the_remedy_names_will_do(joints: str) -> None:
+    text = ARM.replace("[[input]]", joints + "\n[[input]]", 1)
+    with pytest.raises(SceneError) as caught:
+        parse_scene(text)
+    for number, problem in enumerate(caught.value.problems):
+        found = re.match(r"Add \[\[body\]\] with `(on = \"\w+\")`, `(inertia = \[.*?\])`", problem.remedy)
+        assert found is not None
+        body = f'[[body]]\nname = "more_{number}"\n{found[1]}\n{found[2]}\n\n'
+        text = text.replace("[[input]]", body + "[[input]]", 1)
+    assert caught.value.problems
+    parse_scene(text)
