@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from tmm_gen.cli import main
+from tmm_gen.explain.hints import hints
 from tmm_gen.program.build import build_program
 from tmm_gen.scene import load_scene, parse_scene
 
@@ -20,6 +21,7 @@ COMMANDS = [
     for block in re.findall(r"```console\n(.*?)```", PAGE, re.DOTALL)
     for line in block.splitlines()
 ]
+EXAMPLES = re.findall(r"```toml\n(name = .*?)```", PAGE, re.DOTALL)
 PICTURES = [command for command in COMMANDS if "--plot" in command]
 
 
@@ -61,6 +63,32 @@ def test_there_are_commands_and_figures() -> None:
 
 
 def test_the_examples_build() -> None:
-    arm, drivetrain = re.findall(r"```toml\n(name = .*?)```", PAGE, re.DOTALL)
-    for text in (arm, drivetrain):
-        assert build_program(parse_scene(text)).stations > 1
+    for text in EXAMPLES:
+        if 'kind = "spatial"' not in text:
+            assert build_program(parse_scene(text)).stations > 1
+    assert len(EXAMPLES) == 3
+
+
+def test_the_arm_in_space_is_what_the_page_says() -> None:
+    (text,) = (text for text in EXAMPLES if 'kind = "spatial"' in text)
+    crane = parse_scene(text).spatial
+    assert crane is not None
+    joints = {joint.name: joint for joint in crane.joints}
+    assert [joints[name].host for name in ("yaw", "bearing", "jib_1_bend_y", "counter_jib_1_bend_y")] == [
+        0,
+        1,
+        2,
+        2,
+    ]
+    assert len(joints) == 2 + 3 * 4 + 3 * 2
+    # the counter-jib points the other way
+    assert joints["counter_jib_1_bend_y"].at[0] < 0 < joints["jib_1_bend_y"].at[0]
+    assert [joints[f"jib_2_{way}"].axis for way in ("twist", "bend_z", "bend_y")] == [0, 2, 1]
+    columns = [column for item in (*crane.inputs, *crane.outputs) for column in item.columns]
+    assert columns == [
+        *("yaw_torque", "wind_x", "wind_y", "wind_z"),
+        *("load_x", "load_y", "load_z", "facing_w", "facing_x", "facing_y", "facing_z"),
+    ]
+    for column in columns[1:]:
+        assert column in PAGE
+    assert hints(parse_scene(text)) == []

@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-import parts_in_space as apart
 import pytest
+from support import parts_in_space as apart
 
 from tmm_gen.scene import Scene, load_scene, parse_scene
 from tmm_gen.scene.section import Section

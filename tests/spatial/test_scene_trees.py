@@ -7,10 +7,10 @@ import tomllib
 from typing import Any
 
 import numpy as np
-import parts_in_space as apart
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from support import parts_in_space as apart
 
 from tmm_gen.scene import Scene, SceneError, parse_scene
 from tmm_gen.scene.check import check_data, document_of

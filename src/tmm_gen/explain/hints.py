@@ -4,42 +4,17 @@ from __future__ import annotations
 
 import contextlib
 import math
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 
+from tmm_gen.explain.hint import Hint, Measured
+from tmm_gen.explain.space_hints import SPACE_HINTS
 from tmm_gen.scene import Scene
 from tmm_gen.scene.check import document_of
 from tmm_gen.scene.document import Document
 from tmm_gen.scene.locate import nearest_line
 from tmm_gen.scene.problem import Path, show_path
 
-Measured = Iterator[tuple[Path, float]]
-
 _MOST_LINKS = 200
 """Links up to which frequencies are found in no time."""
-
-
-@dataclass(frozen=True)
-class Hint:
-    """A quantity, and between which bounds it lies for all arms that anybody builds.
-
-    Parameters
-    ----------
-    measured : callable
-        Gives the quantity wherever the scene has it, with its place in the file.
-    low, high : float
-        Bounds; nothing is said of what lies between them.
-    said : str
-        What is said of a value that does not, with ``{value}``.
-    look : str
-        What to look at.
-    """
-
-    measured: Callable[[Scene, Document], Measured]
-    low: float
-    high: float
-    said: str
-    look: str
 
 
 def hints(scene: Scene) -> list[str]:
@@ -50,7 +25,7 @@ def hints(scene: Scene) -> list[str]:
     return [
         f"{source.origin}:{nearest_line(source.lines, path)}: {show_path(path)}: "
         f"{hint.said.format(value=value)}. {hint.look}"
-        for hint in HINTS
+        for hint in (HINTS if scene.spatial is None else (*OF_BEAMS, *SPACE_HINTS))
         for path, value in hint.measured(scene, document)
         if not hint.low <= value <= hint.high
     ]
@@ -152,16 +127,7 @@ def _turns(scene: Scene, document: Document) -> Measured:
         yield ("joint", number, "rest"), abs(getattr(joint, "rest", 0.0)) / (2.0 * math.pi)
 
 
-HINTS = (
-    Hint(_length, 1e-3, 100.0, "the arm is {value:.3g} m long", "Lengths are in m: 500 mm are 0.5."),
-    Hint(_gravity, 0.0, 100.0, "gravity is {value:.3g} m/s^2", "On earth it is 9.81."),
-    Hint(
-        _slowest,
-        1e-2,
-        1e5,
-        "the slowest vibration has {value:.3g} Hz",
-        "Stiffness is in N m/rad, EI in N m^2, mass in kg, length in m, inertia in kg m^2.",
-    ),
+OF_BEAMS = (
     Hint(
         _young,
         1e6,
@@ -183,6 +149,20 @@ HINTS = (
         "the section is {value:.3g} times as high as the beam is long",
         "Sections are in m, as lengths are: 2 mm are 0.002.",
     ),
+)
+"""Hints about what beams are made of, in a plane and in space."""
+
+HINTS = (
+    Hint(_length, 1e-3, 100.0, "the arm is {value:.3g} m long", "Lengths are in m: 500 mm are 0.5."),
+    Hint(_gravity, 0.0, 100.0, "gravity is {value:.3g} m/s^2", "On earth it is 9.81."),
+    Hint(
+        _slowest,
+        1e-2,
+        1e5,
+        "the slowest vibration has {value:.3g} Hz",
+        "Stiffness is in N m/rad, EI in N m^2, mass in kg, length in m, inertia in kg m^2.",
+    ),
+    *OF_BEAMS,
     Hint(
         _stiff_for_weight,
         1e-3,

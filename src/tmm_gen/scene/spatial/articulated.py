@@ -106,17 +106,18 @@ def pivots(joints: Sequence[Revolute], nearest_only: bool = False) -> tuple[Pivo
     free = [Articulated()] * (len(joints) + 1)
     locked = list(free)
     found: list[Pivot] = []
+    # bodies that count alone: what is behind them is left out
+    alone = [True, *(nearest_only and max(joint.body.inertia[:3]) > 0.0 for joint in joints)]
     for number in range(len(joints), 0, -1):
         joint = joints[number - 1]
         own = body_inertia(joint.body)
-        if nearest_only and any(own.about(axis) > 0.0 for axis in range(3)):
-            free[number] = locked[number] = own
-        else:
-            free[number] += own
-            locked[number] += own
+        free[number] += own
+        locked[number] += own
         axis = joint.axis
         pivot = Pivot(free[number].about(axis) + joint.armature, locked[number].about(axis) + joint.armature)
         found.append(pivot)
+        if alone[joint.host]:
+            continue
         turn = _product(joint.turn, _turned(axis, joint.angle))
         left = free[number] if pivot.vanishes else free[number].free(axis, pivot.free)
         free[joint.host] += left.moved(turn, joint.at)

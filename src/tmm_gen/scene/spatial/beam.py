@@ -123,14 +123,15 @@ class Cells:
     ----------
     joints : tuple of tuple of CellJoint
         Of each cell, inner to outer, all at one point.
-    half : Weight
-        Half a piece, from its inner end.
+    half, whole : Weight
+        Half a piece and a whole one, from their inner ends.
     piece : Fraction
         Length of a whole piece, m.
     """
 
     joints: tuple[tuple[CellJoint, ...], ...]
     half: Weight
+    whole: Weight
     piece: Fraction
 
 
@@ -138,8 +139,8 @@ def cells(beam: SpatialBeam) -> Cells:
     """Cut a beam into cells."""
     numbers, n = per_length(beam), beam.links
     piece = exact(beam.length) / n
-    half = rod(numbers.mass * piece / 2, piece / 2, numbers.polar * piece / 2)
-    return Cells(tuple(_cells(beam, numbers, piece)), half, piece)
+    half, whole = (rod(numbers.mass * at, at, numbers.polar * at) for at in (piece / 2, piece))
+    return Cells(tuple(_cells(beam, numbers, piece)), half, whole, piece)
 
 
 def _cells(beam: SpatialBeam, numbers: PerLength, piece: Fraction) -> Iterator[tuple[CellJoint, ...]]:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from fractions import Fraction
 
 from tmm_gen.scene.exact import exact, nearest
 from tmm_gen.scene.initial import Values
 from tmm_gen.scene.parts.order import BASE
-from tmm_gen.scene.spatial.arm import ArmInput, ArmOutput, Frame, Revolute
+from tmm_gen.scene.spatial.arm import ArmInput, ArmOutput, Frame, Revolute, RigidBody
 from tmm_gen.scene.spatial.beam import cells
 from tmm_gen.scene.spatial.geometry import (
     NOWHERE,
@@ -24,7 +25,7 @@ from tmm_gen.scene.spatial.geometry import (
     unit,
     vector,
 )
-from tmm_gen.scene.spatial.mass import Weight, weight
+from tmm_gen.scene.spatial.mass import NOTHING, Weight, weight
 from tmm_gen.scene.spatial.signals import OF_JOINTS, SpatialInput, SpatialOutput
 from tmm_gen.scene.spatial.tables import (
     RigidPart,
@@ -101,7 +102,7 @@ class _Building:
     """An arm that grows from the base outward."""
 
     joints: list[Revolute] = field(default_factory=list)
-    weights: list[Weight] = field(default_factory=lambda: [Weight()])
+    weights: list[Weight] = field(default_factory=lambda: [NOTHING])
     frames: dict[str, Frame] = field(default_factory=dict)
     numbers: dict[str, int] = field(default_factory=dict)
     inner: list[str] = field(default_factory=list)
@@ -109,7 +110,7 @@ class _Building:
     def joint(self, joint: Revolute, part: str) -> int:
         """Add a joint without a body, and return its number."""
         self.joints.append(joint)
-        self.weights.append(Weight())
+        self.weights.append(NOTHING)
         self.inner.append(part)
         return len(self.joints)
 
@@ -120,8 +121,12 @@ class _Building:
 
     def done(self) -> SpatialExpansion:
         """Return what has grown."""
+        bodies: dict[int, RigidBody] = {}
+        for body in self.weights:  # pieces of a beam are one and the same
+            if id(body) not in bodies:
+                bodies[id(body)] = body.body()
         joints = tuple(
-            replace(joint, body=body.body())
+            replace(joint, body=bodies[id(body)])
             for joint, body in zip(self.joints, self.weights[1:], strict=True)
         )
         return SpatialExpansion(joints, self.frames, self.numbers, tuple(self.inner))
@@ -173,10 +178,10 @@ def _turning(made: _Building, part: TurningPart, pose: Pose) -> Pose:
 
 def _bending(made: _Building, part: SpatialBeam, pose: Pose) -> Pose:
     cut = cells(part)
-    middle: Point = (cut.piece / 2, NOWHERE[1], NOWHERE[2])
-    for joints in cut.joints:
-        made.put(pose, cut.half)
-        pose = pose.then(middle)
+    half, whole = (_ahead(cut.piece / 2), _ahead(cut.piece))
+    made.put(pose, cut.half)
+    pose = pose.then(half)
+    for number, joints in enumerate(cut.joints, start=1):
         for joint in joints:
             revolute = Revolute(
                 joint.name,
@@ -188,6 +193,11 @@ def _bending(made: _Building, part: SpatialBeam, pose: Pose) -> Pose:
                 damping=joint.damping,
             )
             pose = Pose(made.joint(revolute, part.name))
-        made.put(pose, cut.half)
-        pose = pose.then(middle)
+        last = number == part.links
+        made.put(pose, cut.half if last else cut.whole)
+        pose = pose.then(half if last else whole)
     return pose
+
+
+def _ahead(length: Fraction) -> Point:
+    return length, NOWHERE[1], NOWHERE[2]

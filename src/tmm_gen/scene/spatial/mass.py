@@ -9,6 +9,7 @@ from fractions import Fraction
 from tmm_gen.scene.exact import exact, nearest
 from tmm_gen.scene.spatial.arm import RigidBody
 from tmm_gen.scene.spatial.geometry import (
+    LEVEL,
     NOWHERE,
     Matrix,
     Point,
@@ -49,12 +50,14 @@ class Weight:
 
     def __add__(self, other: Weight) -> Weight:
         """Return both as one body."""
+        if self is NOTHING:
+            return other
         x, y, z = (plus(a, b) for a, b in zip(self.inertia, other.inertia, strict=True))
         return Weight(self.mass + other.mass, plus(self.moment, other.moment), (x, y, z))
 
     def at(self, pose: Pose) -> Weight:
         """Return the same body seen from the frame in which its own has a pose."""
-        if self == Weight():
+        if self is NOTHING or (pose.at is NOWHERE and pose.turn is LEVEL):
             return self
         turned = product(product(pose.turn, self.inertia), transposed(pose.turn))
         moment = applied(pose.turn, self.moment)
@@ -68,6 +71,9 @@ class Weight:
         center = times(1 / self.mass, self.moment)
         about = _less(self.inertia, _steiner(self.mass, center))
         return RigidBody(nearest(self.mass), vector(center), _six(about))
+
+
+NOTHING = Weight()
 
 
 def weight(mass: float, center: Sequence[float], inertia: Sequence[float]) -> Weight:
