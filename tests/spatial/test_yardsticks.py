@@ -1,4 +1,4 @@
-"""The model of beams in space, cells with three springs, against continuous beams: right in the limit, with order two."""
+"""The model of beams in space, cells with three springs, against continuous beams: right in the limit, of order two."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def nearest(arm: SpatialArm, exact: float) -> float:
 @pytest.mark.parametrize("number", [0, 1])
 def test_cantilever(motion: str, number: int) -> None:
     exact = cantilever_frequencies()[motion][number]
-    assert exact == pytest.approx((KNOWN[motion] + (exact,))[number], abs=1e-6)
+    assert exact == pytest.approx((*KNOWN[motion], exact)[number], abs=1e-6)
     errors = [nearest(cantilever(cells), exact) / exact - 1.0 for cells in CELLS]
     assert np.all(np.abs(slopes(errors) - 2.0) < 0.1), errors
     assert abs(errors[-1]) < 3e-3

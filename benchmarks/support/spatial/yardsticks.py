@@ -99,7 +99,7 @@ def _out_of_plane(omega: float) -> float:
 
 
 def _in_plane(omega: float) -> float:
-    """Return the determinant of the frame's conditions: neither side gets longer, so the second one rides on the first."""
+    """Return the determinant of the frame's conditions: neither side gets longer, so the second rides on the first."""
     b = SIDE
     end, start = _bent(omega, b.length), _bent(omega, 0.0)
     first = np.array([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]])
@@ -143,7 +143,8 @@ def strip_force(load: float, degrees: float) -> dict[str, float]:
 def strip_tip(load: float, degrees: float) -> Array:
     """Return where the tip comes to lie, (3,), m: a Kirchhoff rod, by shooting from the clamp.
 
-    ``r' = d_1``, ``R' = R [kappa]x``, ``kappa = diag(GJ, EI_y, EI_z)^-1 R^T m`` and ``m' = -d_1 x F``, no moment on the tip.
+    ``r' = d_1``, ``R' = R [kappa]x`` with ``kappa = diag(GJ, EI_y, EI_z)^-1 R^T m``, and
+    ``m' = -d_1 x F``, zero on the tip.
     """
     stiffness = np.array([STRIP.torsion, *STRIP.bending])
     force = np.array(list(strip_force(load, degrees).values()))

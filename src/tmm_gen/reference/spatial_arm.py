@@ -111,10 +111,12 @@ class WorldArm:
 
     def mass_matrix(self, q: Values) -> Values:
         """Return the mass matrix, (..., n, n), kg m^2."""
-        places = self.tree.places(q)
+        return self._mass(self.tree.places(q))
+
+    def _mass(self, places: Places) -> Values:
         moving, turning = self.jacobians(places)
-        n = q.shape[-1]
-        flat = (*q.shape[:-1], 3 * n, n)
+        n = moving.shape[-1]
+        flat = (*moving.shape[:-3], 3 * n, n)
         weighted = (self.masses[:, None, None] * moving).reshape(flat)
         turned = (self.inertias(places) @ turning).reshape(flat)
         found: Values = (
@@ -134,7 +136,9 @@ class WorldArm:
         inputs : mapping from str to array_like
             Values by column, scalar or ``(...)``; those not given are zero.
         """
-        places = self.tree.places(q)
+        return self._lacking(self.tree.places(q), q, v, a, inputs)
+
+    def _lacking(self, places: Places, q: Values, v: Values, a: Values, inputs: Inputs) -> Values:
         motions = self.tree.motions(places, v, a)
         center, way = self.centers(places)
         pull = motions.carried(way)[1]
@@ -162,8 +166,9 @@ class WorldArm:
 
     def forward_dynamics(self, q: Array, v: Array, inputs: Inputs) -> Array:
         """Return the accelerations, (..., n), rad/s^2."""
-        lacking = self.inverse_dynamics(q, v, np.zeros_like(q), inputs)
-        found: Array = np.linalg.solve(self.mass_matrix(q), -lacking[..., None])[..., 0]
+        places = self.tree.places(q)
+        lacking = self._lacking(places, q, v, np.zeros_like(q), inputs)
+        found: Array = np.linalg.solve(self._mass(places), -lacking[..., None])[..., 0]
         return found
 
     def tangents(self, q: Array, v: Array, a: Array, inputs: Inputs) -> tuple[Array, Array]:

@@ -1,7 +1,7 @@
 """The motion of an arm in space over time, to about ten digits.
 
-By SciPy's explicit method of order 8 where the arm's fastest vibration allows that, and by collocation, whose steps no
-stiff joint limits, where it does not.
+By collocation, whose steps no stiff joint limits; for long motions of soft arms too it is quicker than explicit methods
+are at as many digits.
 """
 
 from __future__ import annotations
@@ -12,15 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.inputs.signals import Signal
-from tmm_gen.reference.collocation import ReferenceError, integrate
+from tmm_gen.reference.collocation import integrate
 from tmm_gen.reference.spatial_arm import WorldArm
 from tmm_gen.scene.spatial.arm import SpatialArm
 
 Array = NDArray[np.float64]
 Signals = Mapping[str, Signal]
-
-_EXPLICIT = 3000.0
-"""Radians of the fastest vibration, or decays, up to which the explicit method is the quicker one."""
 
 
 def motion(
@@ -36,20 +33,24 @@ def motion(
     times : array, (k,)
         Instants, s, increasing, from 0 on; at least one.
     tolerance : float
-        Of the explicit method relative and in rad; of collocation as
-        :func:`tmm_gen.reference.collocation.integrate` has it.
+        See :func:`tmm_gen.reference.collocation.integrate`.
 
     Raises
     ------
     ReferenceError
         If the equations cannot be integrated.
     """
-    times = np.asarray(times, float)
-    if pace(arm) * float(times[-1]) <= _EXPLICIT:
-        q, v = explicit(arm, signals, times, tolerance)
-    else:
-        q, v = implicit(arm, signals, times, tolerance)
-    return q, v, WorldArm(arm).forward_dynamics(q, v, given(signals, times))
+    world, times = WorldArm(arm), np.asarray(times, float)
+
+    def residual(at: Array, q: Array, v: Array, a: Array) -> Array:
+        return np.asarray(world.inverse_dynamics(q, v, a, given(signals, at)), np.float64)
+
+    until = max(float(times[-1]), 1e-9)
+    knots = np.unique(np.concatenate([[0.0, until], *(signal.knots for signal in signals.values())]))
+    breaks = knots[(knots >= 0.0) & (knots <= until)]
+    slopes = _Slopes(world, signals)
+    q, v, _ = integrate(residual, slopes, *_start(arm), breaks, tolerance).at(times)
+    return q, v, world.forward_dynamics(q, v, given(signals, times))
 
 
 def given(signals: Signals, times: Array) -> dict[str, Array]:
@@ -68,63 +69,26 @@ def pace(arm: SpatialArm) -> float:
     return float(np.max(np.abs(np.linalg.eigvals(slope))))
 
 
-def explicit(
-    arm: SpatialArm, signals: Signals, times: Array, tolerance: float = 1e-11
-) -> tuple[Array, Array]:
-    """Return angles and rates at some instants by SciPy's explicit method of order 8; arguments as of `motion`."""
-    from scipy.integrate import solve_ivp  # slow to import
+class _Slopes:
+    """Derivatives of the equations for collocation: those by angles and rates of one instant hold over a step.
 
-    world = WorldArm(arm)
-    n = len(arm.joints)
+    Newton's method so takes a few iterations more, and each is far cheaper; what it converges to is the same.
+    """
 
-    def slope(time: float, state: Array) -> Array:
-        at = {name: float(signal.at(time)) for name, signal in signals.items()}
-        with np.errstate(all="ignore"):
-            return np.concatenate([state[n:], world.forward_dynamics(state[:n], state[n:], at)])
+    def __init__(self, world: WorldArm, signals: Signals) -> None:
+        self._world, self._signals = world, signals
+        self._of, self._held = (np.inf, np.inf), (np.empty(0), np.empty(0))
 
-    state = np.concatenate(_start(arm))
-    found = np.empty((len(times), 2 * n))
-    breaks = _breaks(signals, times)
-    found[times <= 0.0] = state
-    for begin, end in zip(breaks[:-1].tolist(), breaks[1:].tolist(), strict=True):
-        inside = (times > begin) & (times <= end)
-        wanted = np.append(times[inside & (times < end)], end)
-        solved = solve_ivp(
-            slope, (begin, end), state, method="DOP853", rtol=tolerance, atol=tolerance, t_eval=wanted
-        )
-        if not solved.success:
-            raise ReferenceError(
-                f"the reference cannot pass t = {solved.t[-1] if len(solved.t) else begin:g} s"
-            )
-        state = solved.y[:, -1]
-        found[inside] = solved.y.T[: np.count_nonzero(inside)]
-    return found[:, :n], found[:, n:]
-
-
-def implicit(
-    arm: SpatialArm, signals: Signals, times: Array, tolerance: float = 1e-11
-) -> tuple[Array, Array]:
-    """Return angles and rates at some instants by collocation; arguments as of `motion`."""
-    world = WorldArm(arm)
-
-    def residual(at: Array, q: Array, v: Array, a: Array) -> Array:
-        return np.asarray(world.inverse_dynamics(q, v, a, given(signals, at)), np.float64)
-
-    def slopes(at: Array, q: Array, v: Array, a: Array) -> tuple[Array, Array, Array]:
-        return *world.tangents(q, v, a, given(signals, at)), world.mass_matrix(q)
-
-    trajectory = integrate(residual, slopes, *_start(arm), _breaks(signals, times), tolerance)
-    q, v, _ = trajectory.at(times)
-    return q, v
+    def __call__(self, at: Array, q: Array, v: Array, a: Array) -> tuple[Array, Array, Array]:
+        of = (float(at[0]), float(at[-1]))
+        if of != self._of:
+            middle = len(at) // 2
+            inputs = given(self._signals, at[middle])
+            self._of, self._held = of, self._world.tangents(q[middle], v[middle], a[middle], inputs)
+        by_q, by_v = (np.broadcast_to(tangent, (len(at), *tangent.shape)) for tangent in self._held)
+        return by_q, by_v, self._world.mass_matrix(q)
 
 
 def _start(arm: SpatialArm) -> tuple[Array, Array]:
     """Return the angles and rates at the start, (n,) each."""
     return np.array([joint.angle for joint in arm.joints]), np.array([joint.rate for joint in arm.joints])
-
-
-def _breaks(signals: Signals, times: Array) -> Array:
-    """Return the start, the instants at which a piece of some input begins, and the end."""
-    until = max(float(times[-1]), 1e-9)
-    knots = np.unique(np.concatenate([[0.0, until], *(signal.knots for signal in signals.values())]))
-    return knots[(knots >= 0.0) & (knots <= until)]
