@@ -85,3 +85,20 @@ def frequencies(arm: SpatialArm, q: Array | None = None) -> Array:
     squares = eigh(0.5 * (tangent + tangent.T), world.mass_matrix(at), eigvals_only=True)
     found: Array = np.sign(squares) * np.sqrt(np.abs(squares))
     return found
+
+
+def vibrations(arm: SpatialArm) -> tuple[Array, Array]:
+    """Return how springs give way where an arm starts, without weight: frequencies and damping ratios, (n,) each.
+
+    Frequencies rise, rad/s; those of free joints are zero but for rounding. Damping ratios are ``phi C phi / (2 w)``
+    with mode shapes of unit mass, zero where ``w`` is.
+    """
+    from scipy.linalg import eigh  # slow to import
+
+    world = WorldArm(arm)
+    mass = world.mass_matrix(np.array([joint.angle for joint in arm.joints]))
+    squares, shapes = eigh(np.diag(world.stiffness), mass)
+    found: Array = np.sqrt(np.maximum(squares, 0.0))
+    damped = world.damping @ shapes**2
+    ratios: Array = np.where(found > 0.0, damped / np.where(found > 0.0, 2.0 * found, 1.0), 0.0)
+    return found, ratios
