@@ -8,10 +8,13 @@ import numpy as np
 
 from tmm_gen.reference.assembly import twists
 from tmm_gen.reference.planar_linear import vibration
+from tmm_gen.reference.spatial_linear import vibrations
 from tmm_gen.scene import Scene
 
 _PERIODS = 5
 STANDARD_GRAVITY = 9.81
+_STILL = 1e-6
+"""Of frequencies of an arm in space, as a share of the highest: what is below is a free joint's, and no vibration."""
 _NICE = (1.0, 1.5, 2.0, 3.0, 5.0, 7.0, 10.0)
 
 
@@ -23,10 +26,13 @@ def default_duration(scene: Scene) -> float:
 def slowest_vibration(scene: Scene) -> float | None:
     """Return the lowest frequency at which springs give way, rad/s; None of an arm without a spring.
 
-    A planar arm is taken as straight and without weight.
+    A planar arm is taken as straight and without weight, one in space as it starts, without weight.
     """
     if scene.model.linear:
         return slowest_swing(scene)
+    if scene.spatial is not None:
+        found, _ = vibrations(scene.spatial)
+        return next((float(w) for w in found if w > _STILL * found[-1]), None)
     frequencies = vibration(scene).frequencies
     return next((float(w) for w in frequencies if w > 0.0), None)
 
@@ -36,10 +42,11 @@ def _slowest(scene: Scene) -> float:
     bends = slowest_vibration(scene)
     found = [] if bends is None else [bends]
     length = scene.reach
-    if length > 0.0 and any(joint.stiffness == 0.0 for joint in scene.joints):
-        gravity = scene.model.gravity or 0.0
+    joints = scene.spatial.joints if scene.spatial else scene.joints
+    if not found or (length > 0.0 and any(joint.stiffness == 0.0 for joint in joints)):
+        gravity = math.hypot(*scene.spatial.gravity) if scene.spatial else scene.model.gravity
         # without gravity nothing sets a time: as if there were some
-        found.append(math.sqrt((gravity or STANDARD_GRAVITY) / length))
+        found.append(math.sqrt((gravity or STANDARD_GRAVITY) / (length or 1.0)))
     return min(found)
 
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from tmm_gen.reference.assembly import assemble
 from tmm_gen.reference.planar_linear import vibration
+from tmm_gen.reference.spatial_linear import vibrations
 from tmm_gen.scene import Scene
 
 
@@ -30,10 +31,13 @@ class FastestMode:
 def fastest_mode(scene: Scene) -> FastestMode:
     """Return the mode of the highest natural frequency, from the assembled matrices.
 
-    A planar arm is taken as straight and without weight.
+    A planar arm is taken as straight and without weight, one in space as it starts, without weight.
     """
     from scipy.linalg import eigh, eigh_tridiagonal  # slow to import
 
+    if scene.spatial is not None:
+        frequencies, ratios = vibrations(scene.spatial)
+        return FastestMode(float(frequencies[-1]), float(ratios[-1]))
     if not scene.model.linear:
         found = vibration(scene)
         return FastestMode(float(found.frequencies[-1]), float(found.damping_ratios[-1]))

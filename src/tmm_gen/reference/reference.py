@@ -17,6 +17,7 @@ from tmm_gen.inputs.signals import Constant, Harmonic, Signal
 from tmm_gen.reference.assembly import Assembly, assemble
 from tmm_gen.reference.collocation import integrate
 from tmm_gen.reference.planar_reference import planar_response
+from tmm_gen.reference.spatial_reference import spatial_response
 from tmm_gen.scene import Scene
 
 Array = NDArray[np.float64]
@@ -26,28 +27,30 @@ _SAME_STEP = 1e-9
 
 
 def exact_response(scene: Scene, signals: Mapping[str, Signal], times: Array) -> dict[str, Array]:
-    """Return the exact outputs of a scene; those of a planar arm to about ten digits, by Lagrange's equations.
+    """Return the exact outputs of a scene; those of arms to about ten digits.
 
     Parameters
     ----------
     scene : Scene
-        Of either kind.
+        Of any kind.
     signals : mapping from str to Signal
-        Inputs by name; those not given are zero. Where a prescribed angle is a table, straight in between, its rate
-        jumps at the knots and its acceleration is reported as zero.
+        Inputs by name, in space by column; those not given are zero. Where a prescribed angle is a table, straight in
+        between, its rate jumps at the knots and its acceleration is reported as zero.
     times : array, (k,)
         Instants, s, increasing, from 0 on; at least one.
 
     Returns
     -------
     dict from str to array, (k,)
-        Outputs by name, vectors as ``NAME_x`` and ``NAME_y``.
+        Outputs by name, vectors as ``NAME_x`` and ``NAME_y``, in space by column.
 
     Raises
     ------
     ReferenceError
-        If the equations of a planar arm cannot be integrated.
+        If the equations of an arm cannot be integrated.
     """
+    if scene.spatial is not None:
+        return spatial_response(scene.spatial, signals, times)
     if not scene.model.linear:
         return planar_response(scene, signals, times)
     assembly = assemble(scene)

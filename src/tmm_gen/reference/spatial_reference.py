@@ -1,0 +1,105 @@
+"""The outputs of an arm in space, by the equations of :mod:`tmm_gen.reference.spatial_arm`."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.reference.spatial_arm import Inputs, WorldArm
+from tmm_gen.reference.spatial_motion import Signals, given, motion
+from tmm_gen.reference.spatial_places import cross
+from tmm_gen.scene.spatial.arm import ArmOutput, Frame, SpatialArm
+
+Array = NDArray[np.float64]
+
+
+def spatial_response(
+    arm: SpatialArm, signals: Signals, times: Array, tolerance: float = 1e-11
+) -> dict[str, Array]:
+    """Return the outputs of an arm in space, to about ten digits.
+
+    Parameters
+    ----------
+    arm : SpatialArm
+    signals : mapping from str to Signal
+        Inputs by column; those not given are zero.
+    times : array, (k,)
+        Instants, s, increasing, from 0 on; at least one.
+    tolerance : float
+        See :func:`tmm_gen.reference.spatial_motion.motion`.
+
+    Returns
+    -------
+    dict from str to array, (k,)
+        Outputs by column.
+
+    Raises
+    ------
+    ReferenceError
+        If the equations cannot be integrated.
+    """
+    times = np.asarray(times, float)
+    return outputs(arm, *motion(arm, signals, times, tolerance), given(signals, times))
+
+
+def outputs(arm: SpatialArm, q: Array, v: Array, a: Array, inputs: Inputs) -> dict[str, Array]:
+    """Return the outputs by column from the motion at some instants, (k, n) each; inputs by column, (k,)."""
+    world = WorldArm(arm)
+    found: dict[str, Array] = {}
+    for output in arm.outputs:
+        values = _values(world, output, q, v, a, inputs)
+        columns = np.moveaxis(values, -1, 0) if len(output.columns) > 1 else [values]
+        found |= dict(zip(output.columns, columns, strict=True))
+    return found
+
+
+def _values(world: WorldArm, output: ArmOutput, q: Array, v: Array, a: Array, inputs: Inputs) -> Array:
+    """Return an output, (k,) or (k, components)."""
+    if output.of in ("angle", "rate", "acceleration"):
+        moving: Array = {"angle": q, "rate": v, "acceleration": a}[output.of][:, output.joint - 1]
+        return moving
+    if output.of == "torque":
+        return np.asarray(world.torque(q, v, inputs)[:, output.joint - 1])
+    if output.of == "kinetic_energy":
+        return kinetic_energy(world, q, v)
+    if output.of == "elastic_energy":
+        return np.asarray(0.5 * ((q - world.rest) ** 2 @ world.stiffness))
+    if output.of == "gravitational_energy":
+        return gravitational_energy(world, q)
+    assert output.frame is not None
+    places = world.tree.places(q)
+    axes, point = places.frame(output.frame)
+    if output.of == "orientation":
+        return quaternions(axes)
+    return np.asarray(point) if output.of == "position" else _velocity(world, output.frame, q, v)
+
+
+def _velocity(world: WorldArm, frame: Frame, q: Array, v: Array) -> Array:
+    """Return the velocity of a frame's point, (k, 3), m/s."""
+    if not frame.joint:
+        return np.zeros((len(q), 3))
+    places = world.tree.places(q)
+    motions = world.tree.motions(places, v, np.zeros_like(v))
+    body = frame.joint - 1
+    lever = places.frame(frame)[1] - places.point[:, body]
+    return np.asarray(motions.speed[:, body] + cross(motions.spin[:, body], lever))
+
+
+def kinetic_energy(world: WorldArm, q: Array, v: Array) -> Array:
+    """Return the kinetic energy of bodies and rotors, (k,), J."""
+    return np.asarray(0.5 * np.einsum("ki,kij,kj->k", v, world.mass_matrix(q), v))
+
+
+def gravitational_energy(world: WorldArm, q: Array) -> Array:
+    """Return the energy of weight, (k,), J: zero where all mass is at the height of the base."""
+    center, _ = world.centers(world.tree.places(q))
+    return np.asarray(-(world.masses @ (center @ world.gravity)[..., None])[..., 0])
+
+
+def quaternions(axes: Array) -> Array:
+    """Return the rotations with given columns, (k, 3, 3), as quaternions w, x, y, z with w not negative, (k, 4)."""
+    from scipy.spatial.transform import Rotation  # slow to import
+
+    last = Rotation.from_matrix(axes).as_quat(canonical=False)
+    found: Array = last[:, [3, 0, 1, 2]]
+    return np.where(found[:, :1] < 0.0, -found, found)

@@ -1,0 +1,175 @@
+"""The order of convergence of an arm in space, on a softened copy of it that starts as the scene does.
+
+As in the plane, springs and dampers are scaled down alike until every vibration is slow, so that the same code makes a
+motion whose order shows. All inputs act, as sines whose size is set by what they move.
+"""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Mapping
+from dataclasses import replace
+from types import ModuleType
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.inputs.signals import Signal, Sine
+from tmm_gen.reference.spatial_arm import WorldArm
+from tmm_gen.reference.spatial_motion import motion
+from tmm_gen.scene import Scene
+from tmm_gen.scene.spatial.arm import SpatialArm
+from tmm_gen.simulate.metrics import convergence_slope
+from tmm_gen.verify.check_row import CheckRow
+
+Array = NDArray[np.float64]
+
+_RATE = 1.0
+"""rad/s that all joints together turn at first, beside what the scene says."""
+_PULL = 3.0
+"""rad/s^2 that each input alone gives the joint it moves most."""
+_SWING = 8.0
+"""rad/s of the inputs."""
+_FASTEST = 40.0
+"""rad/s of the fastest vibration of the softened arm, and of its fastest decay."""
+_COARSEST = 0.008
+"""s."""
+_STEPS = (32, 64, 128, 256)
+_SMALL = 0.01
+"""rad; of errors larger than this the order says nothing yet: finer steps are fitted."""
+_HALVINGS = 4
+SLOPE = 0.1
+"""How far the fitted order may be from the derived one."""
+
+
+def spatial_slope(scene: Scene, module: ModuleType, facts: dict[str, object]) -> CheckRow:
+    """Compare the fitted order of the angles of all joints with the derived one.
+
+    Where the scene takes fewer sweeps than the integrator's order asks for, what they promise stands for that; it may
+    be surpassed.
+
+    Parameters
+    ----------
+    scene : Scene
+        Of kind "spatial".
+    module : module
+        Its generated NumPy package.
+    facts : dict
+        Receives ``fitted_order`` and ``derived_order``.
+    """
+    from tmm_gen.derive.integrators.order import order
+    from tmm_gen.derive.integrators.registry import integrator
+
+    assert scene.spatial is not None
+    whole = order(integrator(scene.integrator.name, **scene.integrator.parameters))
+    derived = promised(scene, whole)
+    fitted, counts = fitted_order(scene.spatial, module)
+    facts |= {"derived_order": derived, "fitted_order": fitted}
+    return CheckRow(
+        "order_against_derived",
+        abs(fitted - derived) if derived == whole else max(0.0, derived - fitted),
+        SLOPE,
+        f"error goes with step^{fitted:.3f}, fitted on {len(counts)} steps from "
+        f"{_COARSEST * _STEPS[0] / counts[0]:g} s down on the arm "
+        f"with softened joints; derived: step^{derived}",
+    )
+
+
+def promised(scene: Scene, whole: int) -> int:
+    """Return the order that a scene's sweeps leave of an integrator's.
+
+    Each inertial one is worth one, and so is a prediction with the newest acceleration.
+    """
+    return whole if scene.model.linearisation == "newton" else min(whole, scene.model.sweeps + 1)
+
+
+def fitted_order(arm: SpatialArm, module: ModuleType) -> tuple[float, list[int]]:
+    """Return the order of a kernel's angles, and over how many steps each the same time was gone through for it."""
+    moving = started(softened(arm))
+    loads = swings(moving)
+    times: Array = _COARSEST * np.arange(1, _STEPS[0] + 1, dtype=float)
+    exact = motion(moving, loads, times)[0]
+
+    def error(steps: int) -> float:
+        stride = steps // _STEPS[0]
+        found = _angles(module, moving, loads, _COARSEST / stride, steps)
+        return float(np.max(np.abs(found[stride - 1 :: stride] - exact)))
+
+    counts = list(_STEPS)
+    errors = [error(steps) for steps in counts]
+    for _ in range(_HALVINGS):
+        if errors[0] > _SMALL:
+            counts = [*counts[1:], 2 * counts[-1]]
+            errors = [*errors[1:], error(counts[-1])]
+    return convergence_slope([1.0 / steps for steps in counts], errors).order, counts
+
+
+def softened(arm: SpatialArm) -> SpatialArm:
+    """Return an arm with all springs and dampers scaled down until vibrations and decays are slow."""
+    from scipy.linalg import eigh  # slow to import
+
+    world = WorldArm(arm)
+    mass = world.mass_matrix(np.array([joint.angle for joint in arm.joints]))
+    square, decay = (
+        float(eigh(np.diag(values), mass, eigvals_only=True)[-1])
+        for values in (world.stiffness, world.damping)
+    )
+    share = 1.0 / max(1.0, square / _FASTEST**2, decay / _FASTEST)
+    joints = tuple(
+        replace(joint, stiffness=share * joint.stiffness, damping=share * joint.damping)
+        for joint in arm.joints
+    )
+    return replace(arm, joints=joints)
+
+
+def started(arm: SpatialArm) -> SpatialArm:
+    """Return an arm whose joints all turn at first."""
+    more = _RATE / len(arm.joints)
+    return replace(arm, joints=tuple(replace(joint, rate=joint.rate + more) for joint in arm.joints))
+
+
+def swings(arm: SpatialArm) -> dict[str, Signal]:
+    """Return a sine for each column of the inputs, as large as the arm is heavy."""
+    world = WorldArm(arm)
+    q = np.array([joint.angle for joint in arm.joints])
+    free = world.forward_dynamics(q, 0.0 * q, {})
+    found: dict[str, Signal] = {}
+    for column in (column for item in arm.inputs for column in item.columns):
+        moved = float(np.max(np.abs(world.forward_dynamics(q, 0.0 * q, {column: 1.0}) - free)))
+        found[column] = Sine(_PULL / moved if moved > 0.0 else 1.0, _SWING, 0.3 * len(found))
+    return found
+
+
+def _angles(
+    module: ModuleType, arm: SpatialArm, loads: Mapping[str, Signal], step: float, steps: int
+) -> Array:
+    """Return the angles after each step, (steps, n)."""
+    params = module.Params()
+    joints = {"stiffness": [j.stiffness for j in arm.joints], "damping": [j.damping for j in arm.joints]}
+    params = replace(
+        params,
+        **{
+            # one number where all joints are alike
+            name: np.array(values) if np.ndim(getattr(params, name)) else values[0]
+            for name, values in joints.items()
+            if hasattr(params, name)
+        },
+    )
+
+    def given(time: float) -> object:
+        return module.Input(**{name: float(signal.at(time)) for name, signal in loads.items()})
+
+    start: dict[str, object] = {
+        "initial_angle": np.array([j.angle for j in arm.joints]),
+        "initial_rate": np.array([j.rate for j in arm.joints]),
+    }
+    if "step" in inspect.signature(module.initialise).parameters:
+        start["step"] = step
+    model, state = module.prepare(params, step=step), module.initialise(params, given(0.0), **start)
+    found = np.empty((steps, len(arm.joints)))
+    for index in range(steps):
+        instants = module.STAGE_INSTANTS[min(index, len(module.STAGE_INSTANTS) - 1)]
+        stages = [given((index + at) * step) for at in instants]
+        state = module.step(model, state, stages if len(stages) > 1 else stages[0])
+        found[index] = state.angle
+    return found
