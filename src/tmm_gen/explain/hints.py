@@ -20,8 +20,6 @@ _MOST_LINKS = 200
 def hints(scene: Scene) -> list[str]:
     """Return what is probably mistaken in a scene, one line each: file, line, key, what is odd and what to look at."""
     document, source = document_of(scene.source), scene.source
-    if scene.spatial is not None:
-        return []
     return [
         f"{source.origin}:{nearest_line(source.lines, path)}: {show_path(path)}: "
         f"{hint.said.format(value=value)}. {hint.look}"

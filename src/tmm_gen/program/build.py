@@ -12,8 +12,8 @@ from tmm_gen.program.arm.assemble import Choices, build
 from tmm_gen.program.arm.product import ProductWalks
 from tmm_gen.program.arm.thesis import TaylorWalks, ThesisWalks
 from tmm_gen.program.arm.walks import Walks
-from tmm_gen.program.space.assemble import SpaceChoices, build_in_space
 from tmm_gen.program.sensitivities.walks import TangentableWalks
+from tmm_gen.program.space.assemble import SpaceChoices, build_in_space
 from tmm_gen.program.statements import Program
 from tmm_gen.row.row import Row
 from tmm_gen.row.scene import row_of

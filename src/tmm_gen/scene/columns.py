@@ -45,7 +45,7 @@ def columns_of(scene: Scene, output: Output) -> tuple[OutputColumn, ...]:
         f"{output.of.replace('_', ' ')} {'of' if quantity.of_arm else 'at'} {place(output.at, output.part)}"
     )
     names = quantity.columns(output.name)
-    ends = (f", {axis}" for axis in "xy") if quantity.vector else ("",)
+    ends = [f", {part}" for part in quantity.components] or [""]
     return tuple(OutputColumn(name, quantity, what + end) for name, end in zip(names, ends, strict=True))
 
 

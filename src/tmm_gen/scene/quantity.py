@@ -31,6 +31,8 @@ class Quantity:
         Which energy.
     accumulates : bool
         Whether it depends on the way to the present state too.
+    parts : str
+        Letters of its components where they are not x and y.
     """
 
     unit: str
@@ -39,11 +41,17 @@ class Quantity:
     order: int = 0
     energy: str = ""
     accumulates: bool = False
+    parts: str = ""
 
     @property
     def vector(self) -> bool:
-        """Whether it has an x and a y component."""
+        """Whether it has components."""
         return self.read in ("place", "force")
+
+    @property
+    def components(self) -> str:
+        """Letters of its components, in order; none of a scalar."""
+        return self.parts or ("xy" if self.vector else "")
 
     @property
     def of_arm(self) -> bool:
@@ -56,8 +64,8 @@ class Quantity:
         return self.read in ("own", "force")
 
     def columns(self, name: str) -> tuple[str, ...]:
-        """Return the columns of an output: its name, with ``_x`` and ``_y`` for a vector."""
-        return (f"{name}_x", f"{name}_y") if self.vector else (name,)
+        """Return the columns of an output: its name, with ``_x``, ``_y`` and so on for a vector."""
+        return tuple(f"{name}_{part}" for part in self.components) or (name,)
 
 
 _TORQUE = Quantity("N m", "torque", "own")
@@ -90,10 +98,33 @@ PLANAR = {
 joints have between their sides is asked for by their names."""
 
 
+SPATIAL = {
+    "angle": Quantity("rad", "angle", "bend"),
+    "rate": Quantity("rad/s", "rate", "bend", 1),
+    "acceleration": Quantity("rad/s^2", "acceleration", "bend", 2),
+    "torque": Quantity("N m", "torque", "through"),
+    "position": Quantity("m", "position", "place", parts="xyz"),
+    "velocity": Quantity("m/s", "velocity", "place", 1, parts="xyz"),
+    "orientation": Quantity("1", "orientation", "place", parts="wxyz"),
+    "kinetic_energy": Quantity("J", "energy", "energy", energy="kinetic"),
+    "elastic_energy": Quantity("J", "energy", "energy", energy="elastic"),
+    "gravitational_energy": Quantity("J", "energy", "energy", energy="gravitational"),
+}
+"""Quantities of an arm in space: those of joints between their two sides, those of frames in world axes."""
+
+_KINDS = {"chain": CHAIN, "planar": PLANAR, "spatial": SPATIAL}
+
+
 def quantities(kind: str) -> dict[str, Quantity]:
     """Return the quantities of a kind of model, by the word a scene uses."""
-    return CHAIN if kind == "chain" else PLANAR
+    return _KINDS[kind]
 
 
-INPUT_UNITS = {"torque": "N m", "drive": "N m", "force_x": "N", "force_y": "N", "angle": "rad"}
+INPUT_UNITS = {
+    "torque": "N m",
+    "drive": "N m",
+    **dict.fromkeys(("force_x", "force_y", "force_z"), "N"),
+    **dict.fromkeys(("moment_x", "moment_y", "moment_z"), "N m"),
+    "angle": "rad",
+}
 """Units of inputs, by what they act as."""

@@ -22,6 +22,7 @@ from tmm_gen.scene.source import Source
 from tmm_gen.scene.spatial.arm import SpatialArm
 from tmm_gen.scene.spatial.document import CLAMP, SpatialDocument
 from tmm_gen.scene.spatial.reach import longest_way
+from tmm_gen.scene.spatial.scalars import arm_inputs, arm_outputs
 from tmm_gen.scene.station import Joint, Link
 
 
@@ -64,7 +65,7 @@ class Scene:
     hosts : tuple of int
         Number of the link on whose outer end each joint stands, 0 for the base; empty where each link carries the next.
     spatial : SpatialArm or None
-        The arm of a scene in space, which has joints, links, inputs, outputs and initial motion of its own; else None.
+        The arm of a scene in space, which has joints and frames instead of links; else None.
     """
 
     name: str
@@ -228,9 +229,11 @@ def scene_of(document: Document, source: Source) -> Scene:
 
 
 def _spatial_scene(document: SpatialDocument, source: Source) -> Scene:
-    made = _scene_of(document, source, (), (), Initial((), ()))
+    arm = document.arm
+    initial = Initial(tuple(j.angle for j in arm.joints), tuple(j.rate for j in arm.joints))
+    made = _scene_of(document, source, arm_inputs(arm), arm_outputs(arm), initial)
     model = document.model.settled(made.integrator.name)
-    return replace(made, model=model, base=CLAMP, spatial=document.arm)
+    return replace(made, model=model, base=CLAMP, spatial=arm)
 
 
 def _scene_of(

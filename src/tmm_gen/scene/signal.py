@@ -10,8 +10,9 @@ from tmm_gen.scene.identifier import Name
 from tmm_gen.scene.table import Table, fault
 
 FileActs = Literal["torque", "force_x", "force_y", "angle"]
-Acts = Literal[FileActs, "drive"]
-"""What inputs are; "drive", the torque of a motor or in a joint, acts between both sides (arms by parts alone)."""
+Acts = Literal[FileActs, "drive", "force_z", "moment_x", "moment_y", "moment_z"]
+"""What inputs are; "drive", the torque of a motor or in a joint, acts between both sides (arms by parts alone); the
+last ones are components in space."""
 Of = Literal[
     "position",
     "angle",
@@ -24,6 +25,7 @@ Of = Literal[
     "elastic_energy",
     "gravitational_energy",
     "dissipated_energy",
+    "orientation",
 ]
 Read = Literal[Of, "joint_angle", "joint_rate", "joint_torque"]
 """What outputs are; those of a joint between its two sides are asked for by its name (arms by parts alone)."""

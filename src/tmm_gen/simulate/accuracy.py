@@ -21,6 +21,7 @@ from tmm_gen.reference.chain_motion import exact_angles
 from tmm_gen.scene import Scene
 from tmm_gen.simulate.places import node_places
 from tmm_gen.simulate.planar_divergence import free_watch
+from tmm_gen.simulate.points import body_points
 from tmm_gen.simulate.step_error import error_per_radian
 from tmm_gen.simulate.stepping import Course, Stepper
 from tmm_gen.simulate.trace import Trace
@@ -53,6 +54,9 @@ _SHORTEST = 4
 
 _STILL = 1e-7
 """Motion below this share of the arm's length is none: it may be rounding."""
+
+_SPREAD = 0.1
+"""How far from each joint points of a body in space are looked at, as a share of the arm's reach: turns show there."""
 
 _DISTURBED = {"float64": 1e-9, "float32": 1e-4, "compensated": 1e-8}
 """rad; well above rounding, well below what bends an arm."""
@@ -127,10 +131,10 @@ def _leapt(scene: Scene, trace: Trace) -> float:
     if trace.every > 1 or len(trace.angle) <= _SHORTEST:
         return 0.0
     places = _places(scene, trace.angle)
-    way = float(np.max(np.hypot(*(places - places[:, :1]))))
+    way = float(np.max(_far(places - places[:, :1])))
     if way <= _STILL * scene.reach:
         return 0.0
-    return float(np.max(np.hypot(*np.diff(places, axis=1)))) / way
+    return float(np.max(_far(np.diff(places, axis=1)))) / way
 
 
 def _repeated(course: Course, stepper: Stepper) -> Accuracy:
@@ -210,9 +214,9 @@ class _Repetition:
         half = _FIRST // 2
         drift = (np.mean(apart[:, half:], axis=1) - np.mean(apart[:, :half], axis=1)) / half
         places = _places(self.scene, self.trace.angle)
-        way = float(np.max(np.hypot(*(places - places[:, :1]))))
+        way = float(np.max(_far(places - places[:, :1])))
         least = _STILL * self.scene.reach
-        return float(np.max(np.hypot(*drift))) * self.course.steps / max(way, least)
+        return float(np.max(_far(drift))) * self.course.steps / max(way, least)
 
     def judged(self, other: Trace, factor: float, share: float, growth: float | None) -> Accuracy:
         """Return what the difference from another motion says, of which so large a share counts."""
@@ -223,8 +227,8 @@ class _Repetition:
         )
         # of a sensitive motion what steps change does not fall with their order
         weight = 1.0 if growth is not None and growth > SENSITIVE else share
-        off = weight * np.max(np.hypot(*(mine - others)), axis=1)
-        way = np.max(np.hypot(*(others - others[:, :1])), axis=1)
+        off = weight * np.max(_far(mine - others), axis=1)
+        way = np.max(_far(others - others[:, :1]), axis=1)
         times = self.scene.integrator.step * self.trace.every * stride * np.arange(count, dtype=float)
         return _judged(off, way, times, _STILL * self.scene.reach, growth)
 
@@ -256,9 +260,17 @@ def _judged(off: Array, way: Array, times: Array, least: float, growth: float | 
 
 
 def _places(scene: Scene, angle: Array) -> Array:
-    """Return the places of the links' outer ends, (2, k, n), m."""
+    """Return the places of the links' outer ends, (2, k, n), or of points on bodies in space, (3, k, 3 n); m."""
+    if scene.spatial is not None:
+        return body_points(scene.spatial, angle, _SPREAD * scene.reach)
     x, y = node_places(scene, angle[:, angle.shape[1] - scene.stations :])
     return np.stack([x[:, 1:], y[:, 1:]])
+
+
+def _far(along: Array) -> Array:
+    """Return lengths from their components along each axis, which come first."""
+    found: Array = np.sqrt(np.sum(along**2, axis=0))
+    return found
 
 
 def _order(scene: Scene) -> float:

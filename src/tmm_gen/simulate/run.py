@@ -298,7 +298,8 @@ def _imbalance(scene: Scene, signals: Mapping[str, Signal], time: Array, trace: 
     """Return how well a planar arm's energies balance; None where a load is too abrupt to know its work."""
     step, until = scene.integrator.step, float(time[-1])
     abrupt = any(_abrupt(signals[item.name], item.acts, step, until) for item in scene.inputs)
-    if scene.model.linear or trace is None or len(time) < 3 or abrupt:
+    flat = scene.model.in_plane
+    if not flat or trace is None or len(time) < 3 or abrupt:
         return None
     return energy(scene, signals, time, trace.angle, trace.rate).imbalance
 
@@ -313,7 +314,7 @@ def _abrupt(signal: Signal, acts: str, step: float, until: float) -> bool:
 
 def _unsolved(scene: Scene, signals: Mapping[str, Signal], steps: int, backend: Backend) -> Unsolved | None:
     """Return who looks at what sweeps leave unsolved; None where nothing is solved by iteration."""
-    if not scene.model.iterates:
+    if not scene.model.iterates or scene.spatial is not None:
         return None
     from tmm_gen.simulate.unsolved import Unsolved  # SymPy comes with it
 
@@ -338,6 +339,8 @@ def _rest(scene: Scene, signals: Mapping[str, Signal], until: float) -> dict[str
     if any(signal.ends > until for signal in signals.values()):
         return None
     last = {name: float(signal.at(until)) for name, signal in signals.items()}
+    if scene.spatial is not None:
+        return None  # its equilibria are not looked for yet
     if not scene.model.linear:
         return _planar_rest(scene, last)
     assembly = assemble(scene)

@@ -118,14 +118,13 @@ class Inertial:
         freed = sp.zeros(6, 6)
         for i in range(6):
             for j in range(i, 6):
-                if axis in (i, j):
-                    value = share * about[i + j - axis]
-                else:
-                    value = inertia[i, j] - given[i] * about[j]
+                # the joint's own law says what moment it passes on: no small difference of large numbers
+                own_law = axis in (i, j)
+                value = share * about[i + j - axis] if own_law else inertia[i, j] - given[i] * about[j]
                 freed[i, j] = freed[j, i] = sheet.named(_names("freed", i, j), value)
         for crossing in reversed(self._out.crossings):
             through = through_accelerations(crossing.equations)
-            if through.T != crossing.equations.forces:
+            if crossing.equations.forces != through.T:
                 raise AssertionError("forces do not pass as power does")
             freed = _congruent(sheet, freed, through)
         lines += sheet.lets

@@ -32,8 +32,13 @@ HALF_SINE, HALF_COSINE = sp.symbols("half_sine half_cosine", real=True)
 _CIRCLE = {sp.sin(ANGLE): SINE, sp.cos(ANGLE): COSINE}
 
 
-def pose_lines(pattern: Pattern, *, place: bool = True) -> tuple[Line, ...]:
-    """Return the walk over a station that carries its axes, and its place if asked for."""
+def pose_lines(pattern: Pattern) -> tuple[Line, ...]:
+    """Return the walk over a station that carries its place and its axes."""
+    return (*_circle(), *facing_lines(pattern, place=True))
+
+
+def facing_lines(pattern: Pattern, *, place: bool = False) -> tuple[Line, ...]:
+    """Return the walk over a station that carries its axes, and its place if asked for; sines are there already."""
     sheet = Sheet()
     at, facing = (sp.zeros(3, 1), sp.eye(3)) if pattern.rooted else (PLACE, FACING)
     for passage in _passages(pattern):
@@ -46,7 +51,7 @@ def pose_lines(pattern: Pattern, *, place: bool = True) -> tuple[Line, ...]:
     update = {s: v for s, v in zip(FACING, facing, strict=True) if s != v}
     if place:
         update |= {s: v for s, v in zip(PLACE, at, strict=True) if s != v}
-    return (*_circle(), *sheet.lets, Update(update))
+    return (*sheet.lets, Update(update))
 
 
 def velocity_lines(pattern: Pattern) -> tuple[Line, ...]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import sympy as sp
@@ -68,3 +68,26 @@ def composed(lines: Iterable[Line]) -> dict[sp.Symbol, sp.Expr]:
         elif isinstance(line, Update):
             found |= {s: sp.sympify(v).subs(found, simultaneous=True) for s, v in line.values.items()}
     return found
+
+
+def needed(lines: Sequence[Line], wanted: frozenset[sp.Symbol]) -> tuple[Line, ...]:
+    """Return lines without the named values that neither they nor anybody else reads.
+
+    Parameters
+    ----------
+    wanted : frozenset of sympy.Symbol
+        What is read afterwards.
+    """
+    read = set(wanted)
+    found: list[Line] = []
+    for line in reversed(lines):
+        if isinstance(line, Let):
+            if line.symbol not in read:
+                continue
+            read |= line.value.free_symbols
+        elif isinstance(line, Update):
+            read |= {s for value in line.values.values() for s in sp.sympify(value).free_symbols}
+        else:
+            read |= line.value.free_symbols
+        found.insert(0, line)
+    return tuple(found)

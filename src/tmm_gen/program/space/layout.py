@@ -143,8 +143,8 @@ UNITS = {
 
 
 def _marked(arm: SpatialArm) -> frozenset[int]:
-    frames = [item.frame for item in (*arm.inputs, *arm.outputs) if item.frame is not None]
-    return frozenset(frame.joint - 1 for frame in frames if frame.joint)
+    frames = [item.frame for item in arm.inputs] + [item.frame for item in arm.outputs]
+    return frozenset(frame.joint - 1 for frame in frames if frame is not None and frame.joint)
 
 
 def _columns(arm: SpatialArm, item: ArmInput) -> Iterable[tuple[str, str, str]]:
@@ -212,11 +212,10 @@ def _parameters(arm: SpatialArm) -> list[Variable]:
         if gear != 1.0:
             doc = f"turns of the motor per turn of '{arm.joints[item.joint - 1].name}'"
             found.append(Variable(f"{item.name}_gear", Role.PARAMETER, None, doc, "1", gear))
-    for axis, value in zip(AXES, arm.gravity, strict=True):
-        if value:
-            found.append(
-                Variable(f"gravity_{axis}", Role.PARAMETER, None, f"gravity along {axis}", "m/s^2", value)
-            )
+    for axis, gravity in zip(AXES, arm.gravity, strict=True):
+        if gravity:
+            doc = f"gravity along {axis}"
+            found.append(Variable(f"gravity_{axis}", Role.PARAMETER, None, doc, "m/s^2", gravity))
     return found
 
 

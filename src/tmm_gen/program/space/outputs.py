@@ -13,6 +13,7 @@ from tmm_gen.derive.space.pose import (
     FACING,
     PLACE,
     QUATERNION,
+    facing_lines,
     kinetic_energy,
     pose_lines,
     quaternion_lines,
@@ -113,7 +114,7 @@ class _Readings:
         at = sp.Matrix([exactly(r) for r in frame.at])
 
         def lines(pattern: Pattern) -> Sequence[Line]:
-            return (*velocity_lines(pattern), *pose_lines(pattern, place=False)[2:])
+            return (*velocity_lines(pattern), *facing_lines(pattern))
 
         carried = (*VELOCITY, *OMEGA, *FACING)
         return self._read(frame, lines, carried, FACING.T * (VELOCITY + OMEGA.cross(at)), targets)

@@ -147,7 +147,7 @@ def _structural(entry: float) -> int | None:
 
 
 def _inertia_there(joint: Revolute, i: int, j: int, about_center: float) -> bool:
-    """Whether an entry of the inertia about the joint's point is there: its own, or the mass's by the centre's place."""
+    """Whether an entry of the inertia about the joint's point is there: its own, or that of a mass off the point."""
     center, mass = joint.body.center, joint.body.mass
     if about_center != 0.0:
         return True

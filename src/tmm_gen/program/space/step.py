@@ -1,4 +1,4 @@
-"""One step of an arm in space: per stage a prediction, one articulated sweep, and corrections that carry forces alone."""
+"""One step of an arm in space: per stage a prediction, an articulated sweep, and corrections that carry forces."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from tmm_gen.derive.integrators.declaration import KINDS, STEP, Kind, Scheme, st
 from tmm_gen.derive.integrators.relations import AffineMotion, affine_motion
 from tmm_gen.derive.space.inward import IMPEDANCE, OWN, TORQUE
 from tmm_gen.derive.space.outward import OWN_FORCE, OWN_MOMENT
-from tmm_gen.derive.space.pose import FACING, pose_lines
+from tmm_gen.derive.space.pose import FACING, facing_lines
 from tmm_gen.derive.station.lets import Line, Update
 from tmm_gen.program.arm.auto import LEAST_TURN, MOST_SWEEPS, SWEEPS
 from tmm_gen.program.arm.loads import exactly
@@ -150,13 +150,12 @@ class SpaceStep:
 
     def _impedance(self, motion: AffineMotion) -> sp.Expr:
         """Return the torque of a joint's spring, damper and rotor per unknown."""
-        return sum(
-            (
-                self._gain(motion, kind) * self.layout.at(name, None)
-                for kind, name in (("q", "stiffness"), ("v", "damping"), ("a", "armature"))
-            ),
-            sp.Integer(0),
+        names = ("stiffness", "damping", "armature")
+        terms = (
+            self._gain(motion, kind) * self.layout.at(name, None)
+            for kind, name in zip(KINDS, names, strict=True)
         )
+        return sp.Add(*terms)
 
     @property
     def _driven(self) -> list[ArmInput]:
@@ -208,7 +207,7 @@ class SpaceStep:
 
             walked = walks.walk(
                 Order.OUTWARD,
-                lambda pattern: pose_lines(pattern, place=False),
+                facing_lines,
                 tuple(FACING),
                 read,
                 self.layout.tree.inward_of(station),
@@ -248,7 +247,7 @@ class SpaceStep:
         return Loop(Order.OUTWARD, 0, self.layout.stations, tuple(body))
 
     def _judged(self, motion: AffineMotion, walks: SpaceWalks) -> Section:
-        """Add up how far the correction has turned the joints; a changed rate counts as what it turns them by in a step."""
+        """Add up how far the correction has turned the joints; a changed rate counts by what it turns in a step."""
         turn, rate = self._gain(motion, "q"), self._gain(motion, "v") * self.layout.step.ref
         weight = sp.expand(turn**2 + rate**2)
         found = walks.array(OWN).at()

@@ -33,23 +33,25 @@ from tmm_gen.derive.space.inward import (
 from tmm_gen.derive.space.outward import COSINE, OWN_FORCE, OWN_MOMENT, SINE, Outward
 from tmm_gen.derive.space.pattern import Pattern
 from tmm_gen.derive.space.pose import FIXED
-from tmm_gen.derive.station.lets import Let, Line
+from tmm_gen.derive.station.lets import Let, Line, needed
 from tmm_gen.program.arm.binding import Binding, Scratch
+from tmm_gen.program.arm.loads import exactly
 from tmm_gen.program.space.bodies import Bodies
 from tmm_gen.program.space.layout import SpaceLayout
 from tmm_gen.program.space.runs import Run
 from tmm_gen.program.statements import Assign, Loop, Order, Require, Section, Statement
-from tmm_gen.program.arm.loads import exactly
 from tmm_gen.program.variables import Ref, Role, Variable, local
 from tmm_gen.scene.spatial.arm import Turn
 
 _KEPT: dict[sp.Symbol, tuple[str, str]] = {
     SINE: ("sine of each joint's angle", "1"),
     COSINE: ("cosine of each joint's angle", "1"),
-    **{s: ("force that each body takes", "N") for s in OWN_FORCE},
-    **{s: ("moment that each body takes", "N m") for s in OWN_MOMENT},
-    **{s: ("moment about each joint's axis per acceleration", "kg m") for s in AXIS_INERTIA[:3, :]},
-    **{s: ("moment about each joint's axis per angular acceleration", "kg m^2") for s in AXIS_INERTIA[3:, :]},
+    **dict.fromkeys(OWN_FORCE, ("force that each body takes", "N")),
+    **dict.fromkeys(OWN_MOMENT, ("moment that each body takes", "N m")),
+    **dict.fromkeys(AXIS_INERTIA[:3, :], ("moment about each joint's axis per acceleration", "kg m")),
+    **dict.fromkeys(
+        AXIS_INERTIA[3:, :], ("moment about each joint's axis per angular acceleration", "kg m^2")
+    ),
     ADMITTANCE: ("motion of each joint per torque in it", "1/(kg m^2)"),
     IMBALANCE: ("torque that each joint lacks", "N m"),
     IMPEDANCE: ("torque of each joint's spring, damper and rotor per unknown", "kg m^2"),
@@ -101,6 +103,7 @@ class SpaceWalks:
         self.layout, self._bodies, self._motion, self._gain = layout, bodies, motion, gain
         self._absent = absent
         self._runs = layout.tree.runs()
+        self._totals: set[sp.Symbol] = set()
         n = layout.stations
         self._arrays = {
             symbol: Variable(symbol.name, Role.WORK, n, doc, unit) for symbol, (doc, unit) in _KEPT.items()
@@ -122,6 +125,7 @@ class SpaceWalks:
     def scalar(self, symbol: sp.Symbol, doc: str, unit: str) -> Ref:
         """Return the scratch scalar that stands for a symbol."""
         self._scratch.described.setdefault(symbol.name, (doc, unit))
+        self._totals.add(symbol)
         return self._scratch.ref(symbol.name)
 
     def outward(self, *, still: bool) -> Section:
@@ -230,7 +234,8 @@ class SpaceWalks:
             for symbol in named:
                 self._scratch.described.setdefault(f"{symbol.name}{suffix}", _described(lines, symbol))
                 values[symbol] = self._scratch.ref(f"{symbol.name}{suffix}")
-        return Binding(self._scratch, values).lines(lines)
+        kept = needed(lines, frozenset(values) | frozenset(carried) | frozenset(self._totals))
+        return Binding(self._scratch, values).lines(kept)
 
     def _values(self, slot: int) -> dict[sp.Symbol, sp.Expr]:
         """Return what symbols stand for at station ``j + slot``."""
