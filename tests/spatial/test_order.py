@@ -17,8 +17,8 @@ from tmm_gen.native.python_module import import_package
 from tmm_gen.program.space.assemble import SpaceChoices, build_in_space
 from tmm_gen.reference.spatial_arm import WorldArm
 from tmm_gen.scene import load_scene
-from tmm_gen.scene.spatial.arm import SpatialArm
-from tmm_gen.verify.spatial_order import SLOPE, fitted_order, softened, swings
+from tmm_gen.scene.spatial.arm import ArmOutput, Frame, Revolute, SpatialArm
+from tmm_gen.verify.spatial_order import SLOPE, fitted_order, softened, swings, turned_alike
 
 HEADED = load_scene(Path(__file__).resolve().parents[2] / "scenes" / "arm10.toml")
 """Any scene: headers are written of one."""
@@ -96,3 +96,15 @@ def test_steady_top_stays_steady() -> None:
     assert state.angle == pytest.approx(
         [200 * step * top.rates[0], top.tilt, 200 * step * top.rates[2]], abs=1e-12
     )
+
+
+def test_orientations_are_compared_as_turns() -> None:
+    frame = Frame("tip", 1)
+    arm = SpatialArm(
+        (Revolute("hinge", 0),), (frame,), outputs=(ArmOutput("facing", "orientation", frame=frame),)
+    )
+    turn = {f"facing_{part}": np.array([0.5, -0.5]) for part in "wxyz"}
+    other = {**{name: -values for name, values in turn.items()}, "facing_w": np.array([-0.6, 0.6])}
+    found = turned_alike(arm, turn, other)
+    assert all(np.array_equal(found[name], -values) for name, values in turn.items())
+    assert all(np.array_equal(turned_alike(arm, turn, turn)[name], values) for name, values in turn.items())

@@ -75,9 +75,9 @@ def random_vectors(program: Any, count: int = VECTORS, seed: int = 0) -> Iterato
 
 
 def reached_vectors(
-    module: ModuleType, program: Any, count: int = VECTORS, seed: int = 0
+    module: ModuleType, program: Any, count: int = VECTORS, seed: int = 0, *, relative: bool = False
 ) -> Iterator[Vector]:
-    """Yield states that a planar arm reaches within some steps from random, gently bent and moving starts.
+    """Yield states that an arm reaches within some steps from random, gently bent and moving starts.
 
     A state at random is none of an arm: stiff joints bent at will ask for forces under which no step can be solved.
 
@@ -91,8 +91,11 @@ def reached_vectors(
         Vectors for each routine.
     seed : int
         Of the random numbers.
+    relative : bool
+        Whether angles are those of joints, which start about where the scene has them, and not of links.
     """
     random = np.random.default_rng(seed)
+    rest = np.array(next(v.default for v in program.given if v.name == "initial_angle")) if relative else 0.0
     model, n = module.prepare(), program.stations
     takes_step = "step" in inspect.signature(module.initialise).parameters
     for taken in range(len(program.steps)):
@@ -106,7 +109,11 @@ def reached_vectors(
                 for v in program.inputs
             }
             bend, turn = random.normal(size=(2, n)) * _BEND / n
-            start = {"initial_angle": points + np.cumsum(bend), "initial_rate": np.cumsum(turn)}
+            start = (
+                {"initial_angle": rest + bend, "initial_rate": turn}
+                if relative
+                else {"initial_angle": points + np.cumsum(bend), "initial_rate": np.cumsum(turn)}
+            )
             if takes_step:
                 start["step"] = program.step.default
             given = module.Input(**inputs)

@@ -40,6 +40,7 @@ from tmm_gen.verify.check_row import CheckRow
 from tmm_gen.verify.host_test import run_host_test
 from tmm_gen.verify.lasting import broken_off, remedy, too_coarse
 from tmm_gen.verify.planar_order import planar_slope
+from tmm_gen.verify.spatial_order import spatial_slope, swings, turned_alike
 
 Array = NDArray[np.float64]
 
@@ -113,7 +114,7 @@ def check_scene(
     Parameters
     ----------
     scene : Scene
-        Of either kind.
+        Of any kind.
     advance : callable
         Called with the share of the work that is done and what comes next.
     loads : mapping from str to Signal, optional
@@ -137,7 +138,12 @@ def check_scene(
     module = numpy_module(scene, program)
     reference = numpy_step(module, program)
     allowed = ONE_STEP if linear else PLANAR_STEP
-    vectors = _Vectors(lambda: list(random_vectors(program) if linear else reached_vectors(module, program)))
+    relative = scene.spatial is not None
+    vectors = _Vectors(
+        lambda: list(
+            random_vectors(program) if linear else reached_vectors(module, program, relative=relative)
+        )
+    )
 
     def one_step(name: str, other: Step, bound: float) -> CheckRow:
         check = f"numpy_against_{name}"
@@ -163,7 +169,7 @@ def check_scene(
     run = _Run.of(scene, module, kernel, loads or {})
     rows += run.rows()
     advance(0.3, "refining the step")
-    slope = _slope if linear else planar_slope
+    slope = spatial_slope if scene.spatial is not None else _slope if linear else planar_slope
     rows.append(_unless_broken(scene, "order_against_derived", SLOPE, lambda: slope(scene, module, facts)))
     advance(0.2, "done")
     causes = [row.why for row in sorted(rows, key=lambda row: row.check != _OF_RUN) if row.why]
@@ -224,7 +230,12 @@ def _one_step(check: str, one: Step, other: Step, vectors: list[Vector], bound: 
 
 
 def unit_inputs(scene: Scene) -> dict[str, Signal]:
-    """Return a constant 1 for every input, of motors at the joint; a prescribed base swings from there."""
+    """Return a constant 1 for every input, of motors at the joint; a prescribed base swings from there.
+
+    What an arm in space can bear differs by decades from joint to joint: there, inputs are as large as it is heavy.
+    """
+    if scene.spatial is not None:
+        return swings(scene.spatial)
     swing = Sine(1.0, _SWING, math.pi / 2.0)
     return {i.name: swing if i.acts == "angle" else Constant(_unit(scene, i)) for i in scene.inputs}
 
@@ -267,7 +278,9 @@ class _Run:
 
     @property
     def _told(self) -> str:
-        return "unit inputs" if self.loads == unit_inputs(self.scene) else "the inputs given"
+        if self.loads != unit_inputs(self.scene):
+            return "the inputs given"
+        return "sines as large as the arm is heavy" if self.scene.spatial is not None else "unit inputs"
 
     def rows(self) -> list[CheckRow]:
         """Return both comparisons; the first alone where there is nothing to compare C with."""
@@ -320,6 +333,8 @@ class _Run:
         """Return a run, the exact outputs at its instants, and the peaks of these."""
         found = simulate(scene, loads, self.duration, kernel=self.module, judge=False)
         exact = exact_response(scene, loads, found.time)
+        if scene.spatial is not None:
+            exact = turned_alike(scene.spatial, exact, found.outputs)
         return found, exact, {name: float(np.max(np.abs(values))) or 1.0 for name, values in exact.items()}
 
     def _native(self, check: str, bound: float, found: Simulation, scale: Mapping[str, float]) -> CheckRow:

@@ -62,7 +62,7 @@ def spatial_slope(scene: Scene, module: ModuleType, facts: dict[str, object]) ->
 
     assert scene.spatial is not None
     whole = order(integrator(scene.integrator.name, **scene.integrator.parameters))
-    derived = promised(scene, whole)
+    derived = promised(scene, whole, len(module.STAGE_INSTANTS[-1]))
     fitted, counts = fitted_order(scene.spatial, module)
     facts |= {"derived_order": derived, "fitted_order": fitted}
     return CheckRow(
@@ -75,12 +75,14 @@ def spatial_slope(scene: Scene, module: ModuleType, facts: dict[str, object]) ->
     )
 
 
-def promised(scene: Scene, whole: int) -> int:
+def promised(scene: Scene, whole: int, stages: int) -> int:
     """Return the order that a scene's sweeps leave of an integrator's.
 
-    Each inertial one is worth one, and so is a prediction with the newest acceleration.
+    Each inertial one is worth one, and so is a prediction with the newest acceleration, which steps of several stages
+    make.
     """
-    return whole if scene.model.linearisation == "newton" else min(whole, scene.model.sweeps + 1)
+    sweeps = scene.model.sweeps + (stages > 1)
+    return whole if scene.model.linearisation == "newton" else min(whole, sweeps)
 
 
 def fitted_order(arm: SpatialArm, module: ModuleType) -> tuple[float, list[int]]:
@@ -137,6 +139,18 @@ def swings(arm: SpatialArm) -> dict[str, Signal]:
     for column in (column for item in arm.inputs for column in item.columns):
         moved = float(np.max(np.abs(world.forward_dynamics(q, 0.0 * q, {column: 1.0}) - free)))
         found[column] = Sine(_PULL / moved if moved > 0.0 else 1.0, _SWING, 0.3 * len(found))
+    return found
+
+
+def turned_alike(
+    arm: SpatialArm, outputs: Mapping[str, Array], others: Mapping[str, Array]
+) -> dict[str, Array]:
+    """Return outputs whose orientations have the signs of others': a quaternion and its negative are the same turn."""
+    found = dict(outputs)
+    for columns in (output.columns for output in arm.outputs if output.of == "orientation"):
+        along = sum((outputs[column] * others[column] for column in columns), np.zeros(()))
+        sign = np.where(along < 0.0, -1.0, 1.0)
+        found |= {column: sign * outputs[column] for column in columns}
     return found
 
 
