@@ -70,8 +70,9 @@ def _in_space(scene: Scene, arm: SpatialArm, chosen: Integrator, *, auto: bool) 
     choices = SpaceChoices(
         step=scene.integrator.step,
         iterations=scene.model.sweeps,
-        # of one stage, a prediction without acceleration forgives long steps and costs nothing
-        held=stages > 1,
+        # a prediction without acceleration forgives long steps, and a correction makes up for it; more stages, or a
+        # sweep alone, would lose orders
+        held=stages > 1 or not (auto or scene.model.sweeps > 1),
         auto=auto,
         facts=tuple(facts.items()),
     )

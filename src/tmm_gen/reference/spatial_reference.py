@@ -70,7 +70,9 @@ def _values(world: WorldArm, output: ArmOutput, q: Array, v: Array, a: Array, in
     places = world.tree.places(q)
     axes, point = places.frame(output.frame)
     if output.of == "orientation":
-        return quaternions(axes)
+        found = quaternions(axes)
+        sign = np.sign(np.sum(found * _followed(world.arm, output.frame, q), axis=-1, keepdims=True))
+        return np.asarray(np.where(sign < 0.0, -found, found))
     return np.asarray(point) if output.of == "position" else _velocity(world, output.frame, q, v)
 
 
@@ -103,3 +105,26 @@ def quaternions(axes: Array) -> Array:
     last = Rotation.from_matrix(axes).as_quat(canonical=False)
     found: Array = last[:, [3, 0, 1, 2]]
     return np.where(found[:, :1] < 0.0, -found, found)
+
+
+def _followed(arm: SpatialArm, frame: Frame, q: Array) -> Array:
+    """Return the quaternion, (k, 4), that half of each joint's angle makes on the way to a frame: it never jumps."""
+    way = []
+    number = frame.joint
+    while number:
+        way.append(number)
+        number = arm.joints[number - 1].host
+    found = np.tile([1.0, 0.0, 0.0, 0.0], (len(q), 1))
+    for number in reversed(way):
+        joint, half = arm.joints[number - 1], 0.5 * q[:, number - 1]
+        turn = np.zeros((len(q), 4))
+        turn[:, 0], turn[:, 1 + joint.axis] = np.cos(half), np.sin(half)
+        found = _product(_product(found, quaternions(np.array([joint.turn]))), turn)
+    return _product(found, quaternions(np.array([frame.turn])))
+
+
+def _product(one: Array, other: Array) -> Array:
+    """Return the product of quaternions, (k, 4)."""
+    (w, v), (x, u) = ((q[:, :1], q[:, 1:]) for q in (one, other))
+    scalar = w * x - np.sum(v * u, axis=-1, keepdims=True)
+    return np.concatenate([scalar, w * u + x * v + np.cross(v, u)], axis=-1)

@@ -159,7 +159,8 @@ class ArmOutput:
     ----------
     name : str
         Columns: itself for a scalar; with ``_x``, ``_y``, ``_z`` for position and velocity of a frame, both in world
-        axes; with ``_w``, ``_x``, ``_y``, ``_z`` for an orientation, a quaternion whose ``w`` is not negative.
+        axes; with ``_w``, ``_x``, ``_y``, ``_z`` for an orientation: the quaternion
+        that half of each joint's angle makes on the way, which never jumps, so that ``w`` may be negative.
     of : str
         angle, rate, acceleration of a joint and the torque it passes on (its spring's, damper's and motor's);
         position, orientation, velocity of a frame; an energy of the whole arm.
