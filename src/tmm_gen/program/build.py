@@ -59,12 +59,15 @@ def build_program(scene: Scene, *, auto: bool = False) -> Program:
 def _in_space(scene: Scene, arm: SpatialArm, chosen: Integrator, *, auto: bool) -> Program:
     """Build the program of an arm in space."""
     auto = auto and scene.model.auto
-    corrections = "as many corrections as it takes" if auto else f"{scene.model.sweeps - 1} corrections"
+    exact = scene.model.linearisation == "newton"
+    more = "sweep" if exact else "correction"
+    count = scene.model.sweeps - (not exact)
+    rounds = f"as many {more}s as it takes" if auto else f"{count} {more}{'s' if count != 1 else ''}"
     parameters = "".join(f", {k} = {float(v):g}" for k, v in chosen.parameters.items())
     facts = {
         "model": "arm in space" + (", gravity" if any(arm.gravity) else ""),
         "integrator": chosen.title + parameters,
-        "linearisation": f"inertial, {corrections}",
+        "linearisation": f"{scene.model.linearisation}, {rounds}",
     }
     stages = len(chosen.main.stages)
     choices = SpaceChoices(
@@ -74,6 +77,7 @@ def _in_space(scene: Scene, arm: SpatialArm, chosen: Integrator, *, auto: bool) 
         # sweep alone, would lose orders
         held=stages > 1 or not (auto or scene.model.sweeps > 1),
         auto=auto,
+        exact=exact,
         facts=tuple(facts.items()),
     )
     return build_in_space(arm, scene.name, scene.title, chosen, choices)

@@ -18,6 +18,7 @@ from tmm_gen.derive.space.declaration import (
     offset,
     rigid_body,
     turned,
+    vector,
 )
 from tmm_gen.derive.space.equations import PassageEquations, body_equations, passage_equations
 from tmm_gen.derive.space.pattern import Pattern
@@ -26,6 +27,8 @@ from tmm_gen.derive.station.lets import Let, Line, Update
 
 SINE, COSINE = sp.symbols("sine cosine", real=True)
 """Of the hinge's angle."""
+HOST_OMEGA, HOST_ALPHA, HOST_ACCEL = (vector(f"host_{what}") for what in ("omega", "alpha", "accel"))
+"""Motion of what a joint stands on, kept where slopes are taken."""
 _CIRCLE = {sp.sin(ANGLE): SINE, sp.cos(ANGLE): COSINE}
 OWN_FORCE = sp.Matrix(sp.symbols("own_force_x own_force_y own_force_z", real=True))
 OWN_MOMENT = sp.Matrix(sp.symbols("own_moment_x own_moment_y own_moment_z", real=True))
@@ -59,6 +62,8 @@ class Outward:
         Of the station.
     still : bool
         Whether the hinge's acceleration is zero, as it is where a step is predicted without any.
+    sloped : bool
+        Whether slopes are taken there too: the motion at the inner side gets names, so that it can be kept.
 
     Attributes
     ----------
@@ -66,16 +71,27 @@ class Outward:
         Named values, then the update of what is carried.
     crossings : tuple of Crossing
         Inner to outer.
+    named : tuple of Let
+        The named values among them that stand for motion.
     sheet : Sheet
         With all names.
     omega, alpha, accel : sympy.Matrix
         Motion of the station's own section.
     """
 
-    def __init__(self, pattern: Pattern, *, still: bool) -> None:
-        self.pattern, self.sheet = pattern, Sheet()
+    def __init__(self, pattern: Pattern, *, still: bool, sloped: bool = False) -> None:
+        self.pattern, self.sheet, self._sloped = pattern, Sheet(), sloped
         self._acceleration = sp.Integer(0) if still else ACCELERATION
         self.omega, self.alpha, self.accel = pattern.inner_motion
+        copies: list[Let] = []
+        if sloped and not pattern.rooted:
+            copies = [
+                Let(symbol, value, "of what the joint stands on")
+                for symbol, value in zip(
+                    (*HOST_OMEGA, *HOST_ALPHA, *HOST_ACCEL), (*OMEGA, *ALPHA, *ACCEL), strict=True
+                )
+            ]
+            self.omega, self.alpha, self.accel = HOST_OMEGA, HOST_ALPHA, HOST_ACCEL
         circle = [
             Let(SINE, sp.sin(ANGLE), "sine of the joint's angle"),
             Let(COSINE, sp.cos(ANGLE), "its cosine"),
@@ -85,7 +101,8 @@ class Outward:
         own = self._own()
         carried = dict(zip((*OMEGA, *ALPHA, *ACCEL), (*self.omega, *self.alpha, *self.accel), strict=True))
         update = {s: v for s, v in carried.items() if s != v}
-        self.lines: tuple[Line, ...] = (*circle, *self.sheet.lets, *own, Update(update))
+        self.named = (*circle, *copies, *self.sheet.lets)
+        self.lines: tuple[Line, ...] = (*self.named, *own, Update(update))
 
     def _cross(self, equations: PassageEquations, where: str) -> Crossing:
         found = Crossing(equations, self.omega, self.alpha, self.accel)
@@ -101,12 +118,21 @@ class Outward:
         relative = sheet.vector("relative", here(equations.relative), "velocity across the link", "m/s")
         self.omega = sheet.vector(f"{where}_omega", here(equations.omega), "angular velocity", "rad/s")
         swung = known(sheet, here(equations.swung))
-        alpha = here(equations.carried) + swung * RATE + equations.pushed * self._acceleration
+        carried = here(equations.carried)
+        if self._sloped and where == "own":
+            carried = sheet.vector(
+                "turned_alpha", carried, "angular acceleration before the joint's own", "rad/s^2"
+            )
+        alpha = carried + swung * RATE + equations.pushed * self._acceleration
         speeding = relative_acceleration(equations.relative).xreplace(motion)
         accel = equations.turn * self.accel + speeding + self.omega.cross(relative)
         self.alpha = sheet.vector(f"{where}_alpha", alpha, "angular acceleration", "rad/s^2")
         self.accel = sheet.vector(f"{where}_accel", accel, "proper acceleration", "m/s^2")
         return found
+
+    def known(self, value: sp.Expr) -> sp.Expr:
+        """Return a value by its name if it has one."""
+        return value if (found := self.sheet.known(value)) is None else found
 
     def _own(self) -> list[Let]:
         pattern, sheet = self.pattern, self.sheet

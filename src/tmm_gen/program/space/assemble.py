@@ -37,6 +37,8 @@ class SpaceChoices:
         Whether stages are predicted with the newest acceleration; otherwise with none.
     auto : bool
         Whether corrections go on until one changes next to nothing.
+    exact : bool
+        Whether all sweeps are Newton's own.
     facts : tuple of (str, str)
         For headers.
     """
@@ -45,6 +47,7 @@ class SpaceChoices:
     iterations: int = 2
     held: bool = False
     auto: bool = False
+    exact: bool = False
     facts: tuple[tuple[str, str], ...] = ()
 
 
@@ -93,6 +96,7 @@ class _Assembly:
                 iterations=self.choices.iterations,
                 held=self.choices.held,
                 auto=self.choices.auto,
+                exact=self.choices.exact,
                 split=self.early.split,
             )
             name = "step" if main else f"step_start{position + 1}"

@@ -69,7 +69,7 @@ class _Readings:
 
     def _walks(self) -> SpaceWalks:
         motion = {MOTION[k]: self._state(k) for k in KINDS}
-        return SpaceWalks(self._layout, self._bodies, motion, sp.Integer(1))
+        return SpaceWalks(self._layout, self._bodies, motion, (sp.S.Zero, sp.S.Zero, sp.S.One))
 
     # -- joints ------------------------------------------------------------------------------------------------
 

@@ -48,6 +48,8 @@ class SpaceStep:
         Whether a stage is predicted with the newest acceleration; otherwise with none.
     auto : bool
         Whether corrections go on until one changes next to nothing.
+    exact : bool
+        Whether all sweeps are Newton's own; then there are no corrections but further sweeps.
     split : callable
         Takes from a sweep's sections what is bound early.
     """
@@ -59,6 +61,7 @@ class SpaceStep:
     iterations: int = 1
     held: bool = False
     auto: bool = False
+    exact: bool = False
     split: Callable[[list[Section]], list[Section]] = list
 
     def sections(self) -> tuple[Section, ...]:
@@ -88,8 +91,9 @@ class SpaceStep:
             self.layout,
             self.bodies,
             {MOTION[k]: self._motion(k) for k in KINDS},
-            self._gain(motion, "a"),
+            tuple(self._gain(motion, k) for k in KINDS),
             self._absent(motion),
+            exact=self.exact,
         )
         still = "a" in point.still
         first = [
@@ -99,7 +103,7 @@ class SpaceStep:
             walks.outward(still=still),
             *self._loaded(index, walks),
             walks.inward(still=still),
-            walks.back(),
+            walks.back(still=still),
         ]
         if self.auto:
             rounds = f"corrections, until one changes next to nothing, {MOST_SWEEPS} at most"
@@ -114,7 +118,8 @@ class SpaceStep:
             found = list(first)
             for number in range(1, self.iterations):
                 mine = self._correction(index, motion, walks, still=still and number == 1)
-                found += [Section(f"correction {number}: {s.title}", s.statements) for s in mine]
+                word = f"sweep {number + 1}" if self.exact else f"correction {number}"
+                found += [Section(f"{word}: {s.title}", s.statements) for s in mine]
         # all at once, prediction too: what is bound early shows only where everything that is set is seen
         return [Section(title + s.title, s.statements) for s in self.split(found)]
 
@@ -127,8 +132,8 @@ class SpaceStep:
             self._torques(index, walks, frozenset()),
             walks.outward(still=False),
             *self._loaded(index, walks),
-            walks.again(),
-            walks.back(),
+            walks.inward(still=False) if self.exact else walks.again(),
+            walks.back(still=False),
         ]
 
     def _cleared(self, still: bool) -> list[Section]:

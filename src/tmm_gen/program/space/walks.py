@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import sympy as sp
 
@@ -30,6 +30,9 @@ from tmm_gen.derive.space.inward import (
     TORQUE,
     Inertial,
 )
+from tmm_gen.derive.space.newton import ABOUT_AXIS, PUSH, Newton
+from tmm_gen.derive.space.newton import CARRIED as SLOPES_CARRIED
+from tmm_gen.derive.space.newton import CHANGE as ALL_CHANGES
 from tmm_gen.derive.space.outward import COSINE, OWN_FORCE, OWN_MOMENT, SINE, Outward
 from tmm_gen.derive.space.pattern import Pattern
 from tmm_gen.derive.space.pose import FIXED
@@ -57,6 +60,8 @@ _KEPT: dict[sp.Symbol, tuple[str, str]] = {
     IMPEDANCE: ("torque of each joint's spring, damper and rotor per unknown", "kg m^2"),
     TORQUE: ("torque of each joint's own before the sweep", "N m"),
     OWN: ("what the sweep finds each joint to do", "rad/s^2"),
+    **{s: ("moment about each joint's axis per change of its section's motion", "1") for s in ABOUT_AXIS},
+    **{s: ("change of each section's motion per unknown of its joint", "1") for s in PUSH},
 }
 """What walks hand each other, one value a joint."""
 
@@ -64,9 +69,15 @@ _UNITS = {"accel": "m/s^2", "alpha": "rad/s^2", "omega": "rad/s"}
 
 
 @lru_cache(maxsize=512)
-def outward(pattern: Pattern, still: bool) -> Outward:
+def outward(pattern: Pattern, still: bool, sloped: bool = False) -> Outward:
     """Return the way out over stations of a pattern."""
-    return Outward(pattern, still=still)
+    return Outward(pattern, still=still, sloped=sloped)
+
+
+@lru_cache(maxsize=256)
+def newton(pattern: Pattern, still: bool, gains: tuple[sp.Expr, ...]) -> Newton:
+    """Return the exact way in and back over stations of a pattern."""
+    return Newton(outward(pattern, still, True), gains)
 
 
 @lru_cache(maxsize=512)
@@ -86,10 +97,12 @@ class SpaceWalks:
         What is prepared of them.
     motion : mapping from sympy.Symbol to Variable
         Angle, rate and acceleration of the joints at the point of linearisation.
-    gain : sympy.Expr
-        Acceleration per unknown.
+    gains : tuple of 3 sympy.Expr
+        Angle, rate and acceleration per unknown.
     absent : frozenset of sympy.Symbol
         What of the joints' own law is zero everywhere.
+    exact : bool
+        Whether sweeps are Newton's own.
     """
 
     def __init__(
@@ -97,11 +110,13 @@ class SpaceWalks:
         layout: SpaceLayout,
         bodies: Bodies,
         motion: Mapping[sp.Symbol, Variable],
-        gain: sp.Expr,
+        gains: tuple[sp.Expr, ...],
         absent: frozenset[sp.Symbol] = frozenset(),
+        *,
+        exact: bool = False,
     ) -> None:
-        self.layout, self._bodies, self._motion, self._gain = layout, bodies, motion, gain
-        self._absent = absent
+        self.layout, self._bodies, self._motion, self._gains = layout, bodies, motion, gains
+        self._gain, self._absent, self._exact = gains[-1], absent, exact
         self._runs = layout.tree.runs()
         self._totals: set[sp.Symbol] = set()
         n = layout.stations
@@ -109,12 +124,28 @@ class SpaceWalks:
             symbol: Variable(symbol.name, Role.WORK, n, doc, unit) for symbol, (doc, unit) in _KEPT.items()
         }
         self._scratch = Scratch()
-        for symbol in (*OMEGA, *ALPHA, *ACCEL, *CHANGE):
+        for symbol in (*OMEGA, *ALPHA, *ACCEL, *ALL_CHANGES):
             kind = symbol.name.removeprefix("change_").split("_")[0]
             self._scratch.described[symbol.name] = ("", _UNITS[kind])
 
     def array(self, symbol: sp.Symbol) -> Variable:
         """Return the array of what walks hand each other."""
+        return self._arrays[symbol]
+
+    @cached_property
+    def _all_kept(self) -> frozenset[sp.Symbol]:
+        """What of the way out is read later at any station: one array, or one scalar, has one name."""
+        patterns = {p for run in self._runs for p in run.patterns}
+        return frozenset().union(*(newton(p, False, self._gains).kept for p in patterns))
+
+    def _kept(self, symbol: sp.Symbol) -> Variable:
+        """Return the array of what of the way out slopes are taken at."""
+        if symbol not in self._arrays:
+            kind = symbol.name.split("_")[1]
+            doc, unit = f"{symbol.name[:-2].replace('_', ' ')} of each joint", _UNITS.get(kind, "1")
+            # a name of its own: where nothing is kept, a scalar has the plain one
+            name = f"kept_{symbol.name}"
+            self._arrays[symbol] = Variable(name, Role.WORK, self.layout.stations, doc, unit)
         return self._arrays[symbol]
 
     def at_station(self, index: int, lines: Sequence[Line]) -> list[Statement]:
@@ -130,13 +161,17 @@ class SpaceWalks:
 
     def outward(self, *, still: bool) -> Section:
         """Return the exact motion of all sections and the forces that bodies take."""
-        statements = self.walk(Order.OUTWARD, lambda p: outward(p, still).lines, (*OMEGA, *ALPHA, *ACCEL))
+        carried = (*OMEGA, *ALPHA, *ACCEL)
+        statements = self.walk(Order.OUTWARD, lambda p: outward(p, still, self._exact).lines, carried)
         return Section(
             "out: motion of every link in its own axes, and what its body takes", tuple(statements)
         )
 
     def inward(self, *, still: bool) -> Section:
         """Return the articulated sweep."""
+        if self._exact:
+            lines = self.walk(Order.INWARD, lambda p: newton(p, still, self._gains).inward, SLOPES_CARRIED)
+            return Section("in: slopes of all forces, joints eliminated one by one", tuple(lines))
         statements = self.walk(Order.INWARD, lambda p: inertial(p, still, self._gain).inward, CARRIED)
         return Section("in: articulated inertia, joints eliminated one by one", tuple(statements))
 
@@ -145,8 +180,11 @@ class SpaceWalks:
         statements = self.walk(Order.INWARD, lambda p: inertial(p, False, self._gain).again, CARRIED[-6:])
         return Section("in: forces alone, with the factors of the sweep", tuple(statements))
 
-    def back(self) -> Section:
+    def back(self, *, still: bool = True) -> Section:
         """Return the way back out to what each joint does."""
+        if self._exact:
+            lines = self.walk(Order.OUTWARD, lambda p: newton(p, still, self._gains).back, tuple(ALL_CHANGES))
+            return Section("back out: what each joint does", tuple(lines))
         statements = self.walk(Order.OUTWARD, lambda p: inertial(p, True, self._gain).back, tuple(CHANGE))
         return Section("back out: what each joint does", tuple(statements))
 
@@ -222,7 +260,11 @@ class SpaceWalks:
         self, lines: Sequence[Line], slot: int, suffix: str, carried: Iterable[sp.Symbol], run: Run
     ) -> list[Assign | Require]:
         pattern = run.patterns[slot]
-        values = self._values(slot) | _fixed(self.layout.arm.joints[run.start + slot].turn)
+        values: dict[sp.Symbol, sp.Expr] = self._values(slot) | _fixed(
+            self.layout.arm.joints[run.start + slot].turn
+        )
+        if self._exact:
+            values |= {s: self._kept(s).at(slot) for s in self._all_kept}
         if pattern.rooted:
             values |= {
                 s: -self.layout.at(f"gravity_{axis}", None)
@@ -244,7 +286,7 @@ class SpaceWalks:
         values: dict[sp.Symbol, sp.Expr] = {
             sp.Symbol(name, real=True): value for name, value in names.items()
         }
-        values |= {symbol: array.at(slot) for symbol, array in self._arrays.items()}
+        values |= {symbol: self._arrays[symbol].at(slot) for symbol in _KEPT}
         values |= {symbol: variable.at(slot) for symbol, variable in self._motion.items()}
         return values | dict.fromkeys(self._absent, sp.Integer(0))
 
