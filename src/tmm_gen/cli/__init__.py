@@ -33,6 +33,9 @@ _OF_LIBRARIES = ("infs or NaNs", "invalid numeric entries")
 
 COMMANDS = {
     "new": LazyCommand("tmm_gen.cli.new:new", "Write a commented scene to start from."),
+    "import": LazyCommand(
+        "tmm_gen.cli.import_urdf:import_urdf", "Write the scene that a robot's URDF file makes."
+    ),
     "keys": LazyCommand("tmm_gen.cli.keys:keys", "List every key a scene may have."),
     "build": LazyCommand("tmm_gen.cli.build:build", "Generate the kernels of scenes; --check only compares."),
     "check": LazyCommand("tmm_gen.cli.check:check", "Compile and compare every backend of a scene."),
