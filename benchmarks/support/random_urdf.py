@@ -50,7 +50,7 @@ class _Drawing:
             place = _origin(self.rng.normal(scale=0.1, size=3), self.turn())
             inner = (
                 f'<inertial>{place}<mass value="{float(masses.sum())!r}"/><inertia {numbers}/></inertial>'
-                "<visual/><collision/>"
+                '<visual><geometry><sphere radius="0.1"/></geometry></visual>'
             )
         self.links.append(f"<link name={quoteattr(name)}>{inner}</link>")
 

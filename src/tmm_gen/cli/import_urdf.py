@@ -41,7 +41,7 @@ def import_urdf(urdf: Path, flex: Path | None, out: Path | None, force: bool, js
             {
                 "scene": scene.name,
                 "file": target,
-                "motors": scene.motors,
+                "motors": [{"joint": joint, "name": name} for joint, name in scene.motors.items()],
                 "gears": scene.gears,
                 "bodies": scene.bodies,
                 "beams": scene.beams,

@@ -49,7 +49,7 @@ class Names:
 
 def identifier(name: str) -> str:
     """Return a name, changed as little as makes an identifier of it."""
-    found = re.sub(r"[^A-Za-z0-9_]+", "_", name).strip("_") or "part"
+    found = re.sub(r"_*[^A-Za-z0-9_]+_*", "_", name).strip("_") or "part"
     if not found[0].isalpha():
         found = f"part_{found}"
     found = found[: LONGEST - _ROOM].rstrip("_")

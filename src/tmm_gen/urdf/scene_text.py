@@ -29,8 +29,10 @@ class ImportedScene:
         Of the scene.
     text : str
         TOML.
-    motors, gears, bodies, beams : tuple of str
-        Names of its parts; gears are those that give way.
+    motors : dict of str to str
+        Names of its motors by those of the URDF's joints.
+    gears, bodies, beams : tuple of str
+        Names of its other parts; gears are those that give way.
     inputs, outputs : tuple of str
         Names of its signals.
     decisions : tuple of str
@@ -39,7 +41,7 @@ class ImportedScene:
 
     name: str
     text: str
-    motors: tuple[str, ...]
+    motors: dict[str, str]
     gears: tuple[str, ...]
     bodies: tuple[str, ...]
     beams: tuple[str, ...]
@@ -95,7 +97,7 @@ def imported_scene(urdf: Path, sidecar: Path | None = None) -> ImportedScene:
     return ImportedScene(
         name,
         text,
-        tuple(motor for _, motor in parts.turning),
+        {joint.name: motor for joint, motor in parts.turning},
         tuple(parts.gears),
         _named(parts.entries, "[[body]]"),
         _named(parts.entries, "[[beam]]"),
