@@ -112,5 +112,4 @@ _REMEDIES = {
     expat.errors.codes[
         expat.errors.XML_ERROR_UNDEFINED_ENTITY
     ]: "Write the character itself; only &amp; &lt; &gt; &quot; &apos; and &#...; are known.",
-    expat.errors.codes[expat.errors.XML_ERROR_UNKNOWN_ENCODING]: "Save the file as UTF-8.",
 }

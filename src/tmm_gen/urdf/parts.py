@@ -32,7 +32,7 @@ class Standing:
     place : Place
         Of the link's frame in the frame of that end.
     merged : tuple of str
-        What was decided on the way there, in words.
+        What was decided about the fixed joint it stands on, in words.
     """
 
     on: str
@@ -118,9 +118,8 @@ class Parts:
                 hung = (f"joint '{joint.name}' stands on the {where} of beam '{end}', rigidly",)
             if joint.kind == "fixed":
                 fixed = self.tree.locked.get(joint.name, f"fixed joint '{joint.name}'")
-                merged = here.merged if on == here.on else ()
                 words = f"{fixed} merged into '{on}'"
-                standing[joint.child] = Standing(on, place, (*merged, *hung, words))
+                standing[joint.child] = Standing(on, place, (*hung, words))
             else:
                 last = self._joint(joint, on, place, hung)
                 standing[joint.child] = Standing(last, Place.of())
