@@ -119,7 +119,7 @@ def test_what_all_others_are_made_of_is_good(tmp_path: Path) -> None:
         ),
         (with_joint('<orign xyz="0 0 1"/>'), "3: joint 'j' <orign>: is no element of URDF. Did you mean <origin>?"),
         (with_joint('<dynamics damping="-1"/>'), "<dynamics damping>: must not be less than 0 (got \"-1\")."),
-        (with_joint('<dynamics stiffness="1"/>'), "<dynamics stiffness>: is no attribute of URDF (got \"1\")."),
+        (with_joint('<dynamics dampng="1"/>'), "is no attribute of URDF (got \"1\"). Did you mean damping?"),
         (
             with_joint('<limit lower="1" upper="-1"/>', "revolute"),
             "3: joint 'j' <limit>: has lower 1 above upper -1. Exchange them.",
@@ -148,6 +148,13 @@ def test_a_fault_is_told_where_it_is(
     lines = told(text, tmp_path, capsys)
     assert any(said in line for line in lines), lines
     assert all(line.startswith("robot.urdf:") for line in lines)
+
+
+def test_attributes_that_exporters_add_are_left_out_in_words(tmp_path: Path) -> None:
+    (tmp_path / "robot.urdf").write_text(with_joint('<dynamics D="1" K="7000" damping="2"/>'))
+    scene = imported_scene(tmp_path / "robot.urdf")
+    assert "joint 'j': left out of <dynamics>, being no attributes of URDF: D, K" in scene.decisions
+    assert "damping = 2.0\n" in scene.text
 
 
 def test_all_faults_are_told_by_line(tmp_path: Path) -> None:

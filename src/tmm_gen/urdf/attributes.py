@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from difflib import get_close_matches
 
 from tmm_gen.urdf.faults import Faults
@@ -26,10 +26,13 @@ class Reader:
         Takes what is wrong.
     owner : str
         What is read, for errors, such as ``joint 'elbow'``.
+    notes : list of str
+        Takes what is passed over.
     """
 
     faults: Faults
     owner: str
+    notes: list[str] = field(default_factory=list)
 
     def only(self, parent: Element, tag: str) -> Element | None:
         """Return the child of a tag, None if there is none; several are a fault."""
@@ -92,13 +95,21 @@ class Reader:
         return Place.of(self.vector(element, "xyz", zero), self.vector(element, "rpy", zero))
 
     def known(self, element: Element, names: Sequence[str]) -> None:
-        """Refuse attributes that are not of an element of the mechanics: what they mean would be lost silently."""
+        """Note attributes that URDF does not have, as exporters add them; one that is nearly a known one is a fault."""
+        strange = []
         for name, value in element.attributes.items():
-            if name not in names:
-                near = get_close_matches(name, names, n=1)
-                listed = f"Attributes of <{element.tag}> are {', '.join(names)}; remove it."
-                remedy = f"Did you mean {near[0]}?" if near else listed
-                self._fault(element, f"<{element.tag} {name}>", "is no attribute of URDF", remedy, value)
+            if name in names:
+                continue
+            if near := get_close_matches(name, names, n=1, cutoff=0.65):
+                part, remedy = f"<{element.tag} {name}>", f"Did you mean {near[0]}?"
+                self._fault(element, part, "is no attribute of URDF", remedy, value)
+            else:
+                strange.append(name)
+        if strange:
+            listed = ", ".join(strange)
+            self.notes.append(
+                f"{self.owner}: left out of <{element.tag}>, being no attributes of URDF: {listed}"
+            )
 
     def misspelt(self, parent: Element, known: Collection[str]) -> list[Element]:
         """Return children that are not known; one that is nearly a known one is a fault."""

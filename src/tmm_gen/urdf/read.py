@@ -66,15 +66,16 @@ def read_robot(path: Path) -> Robot:
     Reader(faults, f"robot '{name}'").misspelt(root, _OF_ROBOTS)
     links: dict[str, RobotLink] = {}
     joints: dict[str, RobotJoint] = {}
+    notes: list[str] = []
     for element in root.children:
         if element.tag == "link":
-            _keep(links, _link(element, faults), "link", faults)
+            _keep(links, _link(element, faults, notes), "link", faults)
         elif element.tag == "joint":
-            _keep(joints, _joint(element, faults), "joint", faults)
+            _keep(joints, _joint(element, faults, notes), "joint", faults)
     if not links and not faults.found:
         faults.add(root.line, f"robot '{name}'", "has no <link>", "Name a file that holds the links.")
     faults.settle()
-    return Robot(name, origin, links, joints, _passed_over(root))
+    return Robot(name, origin, links, joints, (*_passed_over(root), *notes))
 
 
 def _keep(found: dict[str, _Named], item: _Named, what: str, faults: Faults) -> None:
@@ -101,9 +102,9 @@ def _refuse_xacro(root: Element, faults: Faults) -> None:
             faults.settle()
 
 
-def _link(element: Element, faults: Faults) -> RobotLink:
+def _link(element: Element, faults: Faults, notes: list[str]) -> RobotLink:
     name = Reader(faults, "<link>").text(element, "name", "forearm")
-    reader = Reader(faults, f"link '{name}'")
+    reader = Reader(faults, f"link '{name}'", notes)
     reader.misspelt(element, _OF_LINKS)
     inertial = reader.only(element, "inertial")
     return RobotLink(name, element.line, None if inertial is None else _inertial(inertial, reader))
@@ -153,9 +154,9 @@ def _possible(
         )
 
 
-def _joint(element: Element, faults: Faults) -> RobotJoint:
+def _joint(element: Element, faults: Faults, notes: list[str]) -> RobotJoint:
     name = Reader(faults, "<joint>").text(element, "name", "elbow")
-    reader = Reader(faults, f"joint '{name}'")
+    reader = Reader(faults, f"joint '{name}'", notes)
     reader.misspelt(element, _OF_JOINTS)
     kind = reader.text(element, "type", "revolute")
     if kind and kind not in KINDS:

@@ -134,12 +134,13 @@ def _locked(joint: RobotJoint, at: float) -> RobotJoint:
 def _refuse_kind(joint: RobotJoint, faults: Faults) -> None:
     """Refuse a joint that can move otherwise than about one axis by itself."""
     lock = f"lock it: `[joint.{_bare(joint.name)}]` with `lock = 0.0` in a file given by --flex"
+    free = "; to let it move by itself, remove <mimic>" if joint.kind in TURNING else ""
     if joint.mimic is not None and joint.kind != "fixed":
         faults.add(
             joint.line,
             f"joint '{joint.name}' <mimic>",
             "ties it to another joint, and every joint here moves by itself",
-            f"To keep it in place, {lock}; to let it move by itself, remove <mimic>.",
+            f"To keep it in place, {lock}{free}.",
             joint.mimic,
         )
     elif joint.kind == "prismatic":
