@@ -56,7 +56,7 @@ COMMANDS = {
     "explain": LazyCommand(
         "tmm_gen.cli.explain:explain", "Show what a scene models, what it leaves out, and what that saves."
     ),
-    "export": LazyCommand("tmm_gen.cli.export:export", "Write a scene for FMI or MuJoCo."),
+    "export": LazyCommand("tmm_gen.cli.export:export", "Write a scene for FMI, MuJoCo or URDF."),
     "errata": LazyCommand("tmm_gen.cli.errata:errata", "Compare the thesis's coefficients with the derived."),
     "calibrate": LazyCommand("tmm_gen.cli.calibrate:calibrate", "Fit a scene to a recorded response."),
     "mpc": LazyCommand("tmm_gen.cli.mpc:mpc", "Control the arm on a finer plant, and compare controllers."),
