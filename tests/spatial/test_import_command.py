@@ -48,6 +48,22 @@ def test_what_is_read_is_not_written(place: Path, capsys: pytest.CaptureFixture[
     assert (place / "picker.toml").read_text() == Path(FLEX).read_text()
 
 
+def test_what_only_the_whole_can_tell_is_told_of_the_scene(
+    place: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    # two joints about one axis and no mass between them: one of them could turn without end
+    joint = '<joint name="{}" type="continuous"><parent link="{}"/><child link="{}"/></joint><link name="{}">{}</link>'
+    mass = '<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1"/></inertial>'
+    first, second = joint.format("j", "a", "b", "b", ""), joint.format("k", "b", "c", "c", mass)
+    (place / "r.urdf").write_text(f'<robot name="r"><link name="a"/>{first}{second}</robot>')
+    assert main(["import", "r.urdf"]) == 2
+    said = capsys.readouterr().err
+    assert said.startswith("error: r.toml:")
+    assert "motor[1]: carries nothing that has inertia about the axis of 'j'" in said
+    (place / "flex.toml").write_text("[joint.j]\nrotor_inertia = 1e-3\n")
+    assert main(["import", "r.urdf", "--flex", "flex.toml", "--force"]) == 0
+
+
 def test_json(place: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["import", URDF, "--flex", FLEX, "--out", "a/b.toml", "--json"]) == 0
     said = json.loads(capsys.readouterr().out)

@@ -29,6 +29,7 @@ def import_urdf(urdf: Path, flex: Path | None, out: Path | None, force: bool, js
     `[joint.NAME]` gives a joint a gear (stiffness, damping, rotor_inertia, gear) or locks it (lock), and `[link.NAME]`
     makes a beam of a link (links, E, G and section, or bending_stiffness and torsional_stiffness).
     """
+    from tmm_gen.scene import load_scene
     from tmm_gen.urdf.scene_text import imported_scene
 
     claim((out,), (urdf, flex))
@@ -36,6 +37,7 @@ def import_urdf(urdf: Path, flex: Path | None, out: Path | None, force: bool, js
     scene = imported_scene(urdf, flex)
     target = out or Path(f"{scene.name}.toml")
     write_outputs({target: scene.text}, (urdf, *((flex,) if flex else ())), force=force)
+    load_scene(target)  # what only the whole can tell is told of the scene, which is there to be mended
     if json_mode:
         print_json(
             {
