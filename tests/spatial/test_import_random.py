@@ -121,4 +121,4 @@ def test_the_truth_is_what_mujoco_reads(seed: int) -> None:
     names = [model.joint(k).name for k in range(model.njnt)]
     order = [truth.turning.index(name) for name in names]
     wanted = truth.mass_matrix(dict(zip(names, data.qpos, strict=True)))[np.ix_(order, order)]
-    np.testing.assert_allclose(full, wanted, rtol=0, atol=1e-6 * np.abs(wanted).max())
+    np.testing.assert_allclose(full, wanted, rtol=0, atol=1e-12 * np.abs(wanted).max())

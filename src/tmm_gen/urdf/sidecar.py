@@ -16,8 +16,8 @@ from tmm_gen.urdf.flexibility import Flexibility, JointGives, LinkGives
 from tmm_gen.urdf.keys import Keys
 from tmm_gen.urdf.robot import Robot
 
-_OF_JOINTS = ("stiffness", "damping", "rotor_inertia", "gear", "lock")
-_OF_LINKS = (
+OF_JOINTS = ("stiffness", "damping", "rotor_inertia", "gear", "lock")
+OF_LINKS = (
     "links",
     "E",
     "G",
@@ -29,6 +29,7 @@ _OF_LINKS = (
     "to",
     "end",
 )
+"""Keys of the tables of joints and of links."""
 
 
 def read_sidecar(path: Path, robot: Robot) -> Flexibility:
@@ -72,7 +73,7 @@ def read_sidecar(path: Path, robot: Robot) -> Flexibility:
 
 
 def _joint(keys: Keys, robot: Robot) -> JointGives:
-    keys.only(_OF_JOINTS)
+    keys.only(OF_JOINTS)
     stiffness = keys.number("stiffness", above=0.0)
     rotor, gear = keys.number("rotor_inertia", least=0.0), keys.number("gear", above=0.0)
     lock = keys.number("lock")
@@ -100,7 +101,7 @@ def _joint(keys: Keys, robot: Robot) -> JointGives:
 
 
 def _link(keys: Keys, robot: Robot) -> LinkGives | None:
-    keys.only(_OF_LINKS)
+    keys.only(OF_LINKS)
     links = keys.values.get("links")
     if isinstance(links, bool) or not isinstance(links, int) or not 1 <= links <= STATION_LIMIT:
         keys.fault("links", "must be a whole number from 1: the cells of the beam", "Write `links = 5`.")
