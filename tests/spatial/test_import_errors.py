@@ -57,7 +57,7 @@ def test_what_all_others_are_made_of_is_good(tmp_path: Path) -> None:
         ("\n<!DOCTYPE robot [<!ENTITY a 'b'>]>\n<robot name='&a;'/>", "robot.urdf:2: <!DOCTYPE>: is not allowed"),
         ('<!DOCTYPE robot SYSTEM "file:///etc/passwd">\n<robot name="x"/>', "robot.urdf:1: <!DOCTYPE>: is not"),
         ("<sdf/>", "robot.urdf:1: <sdf>: is no <robot>. Name a URDF file"),
-        ("<robot/>", "robot.urdf:1: <robot> <robot>: has no attribute name. Add it, for example name=\"arm\"."),
+        ("<robot/>", "robot.urdf:1: <robot>: has no attribute name. Add it, for example name=\"arm\"."),
         ("<robot name='x'/>", "robot.urdf:1: robot 'x': has no <link>."),
         (
             "<robot name='x' xmlns:xacro='http://www.ros.org/wiki/xacro'>\n<xacro:arm/></robot>",
@@ -66,7 +66,7 @@ def test_what_all_others_are_made_of_is_good(tmp_path: Path) -> None:
         # names
         (GOOD.replace("</robot>", '<link name="b"/></robot>'), "5: link 'b': is there twice, first on line 4."),
         (with_joint("", tail=JOINT.format("")), "5: joint 'j': is there twice, first on line 3."),
-        (GOOD.replace('<link name="a"/>', "<link/>"), "2: <link> <link>: has no attribute name."),
+        (GOOD.replace('<link name="a"/>', "<link/>"), "2: <link>: has no attribute name."),
         (
             GOOD.replace('<link name="a"/>', '<Link name="a"/>'),
             "2: robot 'arm' <Link>: is no element of URDF. Did you mean <link>?",
@@ -155,6 +155,27 @@ def test_attributes_that_exporters_add_are_left_out_in_words(tmp_path: Path) -> 
     scene = imported_scene(tmp_path / "robot.urdf")
     assert "joint 'j': left out of <dynamics>, being no attributes of URDF: D, K" in scene.decisions
     assert "damping = 2.0\n" in scene.text
+
+
+@pytest.mark.parametrize(
+    ("limit", "limits"),
+    [
+        ('lower="-2" upper="3"', "limits = [-2.0, 3.0]"),
+        ('upper="3"', "limits = [0, 3.0]"),
+        ('lower="-inf" upper="Infinity"', None),
+        ('lower="-1" upper="inf"', None),
+        ("", None),
+    ],
+)
+def test_limits_that_are_none(limit: str, limits: str | None, tmp_path: Path) -> None:
+    (tmp_path / "robot.urdf").write_text(
+        with_joint(f'<limit {limit} effort="INF" velocity="2"/>', "revolute")
+    )
+    scene = imported_scene(tmp_path / "robot.urdf")
+    assert "limits of velocity 2 rad/s are not simulated" in scene.decisions
+    assert ("limits = " in scene.text) == (limits is not None)
+    assert (limits or "") in scene.text
+    assert any(words.startswith("no limits") for words in scene.decisions) == (limits is None)
 
 
 def test_all_faults_are_told_by_line(tmp_path: Path) -> None:

@@ -169,6 +169,20 @@ def test_a_branch_says_to_which_joint_its_beam_reaches(tmp_path: Path) -> None:
     assert '\non = "elbow"\nat = [0.1, 0, 0]\n' in scene.text
 
 
+def test_a_last_link_bends_to_the_end_that_is_given(tmp_path: Path) -> None:
+    urdf = tmp_path / "robot.urdf"
+    text = (EXAMPLE / "picker.urdf").read_text()
+    urdf.write_text(text[: text.index('  <joint name="tool"')] + "</robot>\n")
+    flex = GOOD["link"].replace("forearm", "gripper") + "end = [0.0, 0.0, 0.2]\n"
+    scene, arm = imported(urdf, flex, tmp_path)
+    assert scene.beams == ("gripper",)
+    assert "link 'gripper' bends: a beam from its joint to the end given" in scene.decisions
+    # along z of the gripper, which is x of the wrist: 0.06 m of bolts and 0.2 m of beam beyond it
+    reach = ends(arm, {})["gripper"]
+    elbow = np.array([0.5, 0.0, 0.52])
+    np.testing.assert_allclose(reach, elbow + 0.66 * np.array([np.cos(0.5), 0.0, -np.sin(0.5)]), atol=1e-14)
+
+
 def test_what_stands_on_the_base_may_bend(tmp_path: Path) -> None:
     _, arm = imported(EXAMPLE / "picker.urdf", GOOD["link"].replace("forearm", "pedestal"), tmp_path)
     assert [joint.name for joint in arm.joints[:4]] == [

@@ -25,7 +25,7 @@ class Reader:
     faults : Faults
         Takes what is wrong.
     owner : str
-        What is read, for errors, such as ``joint 'elbow'``.
+        What is read, for errors, such as ``joint 'elbow'``; empty while its name is not known.
     notes : list of str
         Takes what is passed over.
     """
@@ -77,6 +77,11 @@ class Reader:
             )
             return fallback
         return found[0]
+
+    def limit(self, element: Element, name: str, least: float = -math.inf) -> float | None:
+        """Return a finite number, None where there is none or where it is infinite: no limit."""
+        endless = element.attributes.get(name, "inf").strip().lower().lstrip("+-") in ("inf", "infinity")
+        return None if endless else self.number(element, name, least=least)
 
     def vector(self, element: Element | None, name: str, default: Vector) -> Vector:
         """Return three finite numbers; the default where element or attribute is absent, or at fault."""
@@ -136,4 +141,4 @@ class Reader:
         return None
 
     def _fault(self, element: Element, part: str, message: str, remedy: str, value: object = None) -> None:
-        self.faults.add(element.line, f"{self.owner} {part}", message, remedy, value)
+        self.faults.add(element.line, f"{self.owner} {part}".strip(), message, remedy, value)

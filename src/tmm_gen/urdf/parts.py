@@ -203,7 +203,7 @@ class Parts:
         if joint.limits is not None and joint.limits[0] < joint.limits[1]:
             motor.put("limits", joint.limits)
         elif joint.kind == "revolute":
-            motor.decisions.append("no limits: the URDF has none, or both are the same")
+            motor.decisions.append("no limits: the URDF has none, one is infinite, or both are the same")
         self.entries.append(motor)
         self.turning.append((joint, name))
         if gives.stiffness is None:

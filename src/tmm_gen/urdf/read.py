@@ -61,7 +61,7 @@ def read_robot(path: Path) -> Robot:
         remedy = "Name a URDF file: its outermost element is <robot name=...>."
         faults.add(root.line, f"<{root.tag}>", "is no <robot>", remedy)
         faults.settle()
-    name = Reader(faults, "<robot>").text(root, "name", "arm")
+    name = Reader(faults, "").text(root, "name", "arm")
     _refuse_xacro(root, faults)
     Reader(faults, f"robot '{name}'").misspelt(root, _OF_ROBOTS)
     links: dict[str, RobotLink] = {}
@@ -103,7 +103,7 @@ def _refuse_xacro(root: Element, faults: Faults) -> None:
 
 
 def _link(element: Element, faults: Faults, notes: list[str]) -> RobotLink:
-    name = Reader(faults, "<link>").text(element, "name", "forearm")
+    name = Reader(faults, "").text(element, "name", "forearm")
     reader = Reader(faults, f"link '{name}'", notes)
     reader.misspelt(element, _OF_LINKS)
     inertial = reader.only(element, "inertial")
@@ -155,7 +155,7 @@ def _possible(
 
 
 def _joint(element: Element, faults: Faults, notes: list[str]) -> RobotJoint:
-    name = Reader(faults, "<joint>").text(element, "name", "elbow")
+    name = Reader(faults, "").text(element, "name", "elbow")
     reader = Reader(faults, f"joint '{name}'", notes)
     reader.misspelt(element, _OF_JOINTS)
     kind = reader.text(element, "type", "revolute")
@@ -228,11 +228,13 @@ def _limits(
     found = reader.only(element, "limit")
     if found is None:
         return None, None, None
-    effort, velocity = (
-        reader.number(found, key, least=0.0) if key in found.attributes else None
-        for key in ("effort", "velocity")
+    effort, velocity = (reader.limit(found, key, least=0.0) for key in ("effort", "velocity"))
+    # as URDF has it, what is not written is 0
+    lower, upper = (
+        reader.limit(found, key) if key in found.attributes else 0.0 for key in ("lower", "upper")
     )
-    lower, upper = (reader.number(found, key, 0.0) for key in ("lower", "upper"))
+    if lower is None or upper is None:
+        return None, effort, velocity
     if lower > upper:
         reader.faults.add(
             found.line,
