@@ -47,7 +47,7 @@ def test_what_all_others_are_made_of_is_good(tmp_path: Path) -> None:
     [
         # the file
         ("", "robot.urdf:1: is no XML: no element found. Name a file that holds a <robot>."),
-        ("<robot name='x'>\n<link>\n</robot>", "robot.urdf:3: is no XML: mismatched tag. Close every element"),
+        ("<robot name='x'>\n<link>\n</robot>", "3: is no XML: mismatched tag, and <link> of line 2 is open."),
         ("<robot name='x' name='y'/>", "robot.urdf:1: is no XML: duplicate attribute. Write each attribute once."),
         ("<robot name='&who;'/>", "robot.urdf:1: is no XML: undefined entity. Write the character itself"),
         (

@@ -93,7 +93,12 @@ def read_markup(content: bytes, origin: str) -> Element:
         )
     except expat.ExpatError as error:
         remedy = _REMEDIES.get(error.code, "Mend the line, or export the file again.")
-        faults.add(error.lineno, "", f"is no XML: {expat.ErrorString(error.code)}", remedy)
+        still = (
+            f", and <{open_elements[-1].tag}> of line {open_elements[-1].line} is open"
+            if open_elements
+            else ""
+        )
+        faults.add(error.lineno, "", f"is no XML: {expat.ErrorString(error.code)}{still}", remedy)
     except (
         LookupError,
         ValueError,

@@ -147,7 +147,7 @@ def _add_inertial(link: Xml.Element, body: RigidBody) -> None:
 
 def _left_out(arm: SpatialArm) -> list[str]:
     """Say what URDF cannot hold; rotors and gears as a file for `tmm-gen import --flex` has them."""
-    said = [f"gravity: {_text(*arm.gravity)} m/s^2 in the axes of base_link"]
+    said = [f"gravity: {_text(*arm.gravity)} m/s^2 in the axes of base_link"] if any(arm.gravity) else []
     if arm.inputs:
         said.append(f"inputs: {', '.join(item.name for item in arm.inputs)}")
     for joint in arm.joints:
