@@ -18,7 +18,7 @@ from tmm_gen.export.mjcf import KEYFRAME, mujoco_model
 from tmm_gen.export.urdf import urdf_model
 from tmm_gen.reference.spatial_arm import WorldArm
 from tmm_gen.scene import Scene, load_scene, parse_scene
-from tmm_gen.scene.spatial.arm import SpatialArm
+from tmm_gen.scene.spatial.arm import ArmOutput, Frame, SpatialArm
 from tmm_gen.urdf.scene_text import imported_scene
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -154,14 +154,35 @@ def assert_accelerates(scene: Scene, seed: int, turned: float, tolerance: float)
 
 
 def test_mujoco_accelerates_as_the_reference(everything: Scene) -> None:
-    # MuJoCo is given a little of the inertia that bodies between a cell's joints have not: the tolerance is for that;
-    # cells that bend by a right angle would turn about an axis without inertia
-    assert_accelerates(everything, 1, 0.8, 1e-9)
+    # MuJoCo is given a little of the inertia that rods have not about their axes: the tolerance is for that; cells that
+    # bend by a right angle would turn about it
+    assert_accelerates(everything, 1, 0.8, 1e-10)
 
 
 @pytest.mark.parametrize("seed", range(8))
 def test_random_arms_accelerate_as_the_reference(seed: int, everything: Scene) -> None:
-    assert_accelerates(replace(everything, spatial=random_arm(seed)), seed, 2.0, 1e-11)
+    assert_accelerates(replace(everything, spatial=random_arm(seed)), seed, 2.0, 1e-12)
+
+
+def test_no_mass_is_made_up_between_joints(everything: Scene) -> None:
+    model, _ = loaded(everything)
+    assert model.nv == len(arm_of(everything).joints) == 1 + 3 * 3 + 1 + 2 * 2
+    # one body each: the first motor's, three and two cells', the elbow's; and the world and the ground without any
+    assert model.nbody == 2 + 1 + 3 + 2 + 1
+    assert min(model.body_mass[2:]) > 1e-3
+
+
+def test_a_frame_without_mass_that_is_asked_for_keeps_its_body(everything: Scene) -> None:
+    arm = random_arm(3)
+    bare = [k for k, joint in enumerate(arm.joints, start=1) if not joint.body.mass]
+    assert bare
+    asked = ArmOutput("seen", "position", frame=Frame("seen", bare[0], (0.1, 0.2, 0.3)))
+    scene = replace(everything, spatial=replace(arm, outputs=(asked,)))
+    model, data = loaded(scene)
+    data.qpos = np.linspace(-1, 1, model.nq)
+    mujoco.mj_forward(model, data)
+    _, point = WorldArm(arm).tree.places(data.qpos.copy()).frame(asked.frame)
+    np.testing.assert_allclose(data.sensor("seen").data, point, atol=1e-13)
 
 
 def test_every_output_is_read_as_told(everything: Scene) -> None:

@@ -1,4 +1,4 @@
-"""Arms in space in MJCF: a body and a hinge for every joint, beam cells among them, with springs, dampers, rotors."""
+"""Arms in space in MJCF: a hinge for every joint, beam cells among them, with springs, dampers and rotors."""
 
 from __future__ import annotations
 
@@ -10,11 +10,14 @@ from scipy.spatial.transform import Rotation
 
 from tmm_gen.errors import UserError
 from tmm_gen.export.mjcf.bodies import text_of
+from tmm_gen.export.mjcf.space_hinges import Hinge, placed_bodies
 from tmm_gen.scene import Scene
-from tmm_gen.scene.spatial.arm import UPRIGHT, Revolute, RigidBody, SpatialArm, Turn
+from tmm_gen.scene.spatial.arm import Revolute, RigidBody, SpatialArm, Turn
 
 _LIGHT = 2e-15
-"""kg and kg m^2 of bodies that have none: MuJoCo wants more than 1e-15 of everything that moves."""
+"""kg and kg m^2 of bodies that have none: MuJoCo wants more than 1e-15 of everything that moves.
+
+Rods of beams that do not twist have none about their own axis."""
 
 _LEAST = 2e-14
 """kg m^2; smaller principal moments are refused where there are products of inertia."""
@@ -26,7 +29,7 @@ _DRAWN = 0.02
 """Radius of what is drawn, over the reach of the arm."""
 
 
-def add_arm(world: Xml.Element, scene: Scene, arm: SpatialArm) -> list[Xml.Element]:
+def add_arm(world: Xml.Element, scene: Scene, arm: SpatialArm) -> dict[int, Xml.Element]:
     """Add the bodies of an arm.
 
     Parameters
@@ -40,32 +43,34 @@ def add_arm(world: Xml.Element, scene: Scene, arm: SpatialArm) -> list[Xml.Eleme
 
     Returns
     -------
-    list of Element
-        The base, and the body of each joint by its number.
+    dict of int to Element
+        The base by 0, and bodies by the numbers of the joints that carry them.
 
     Raises
     ------
     UserError
         If a body's inertia is one that MuJoCo refuses.
     """
-    bodies = [Xml.SubElement(world, "body", name="ground")]
+    bodies = {0: Xml.SubElement(world, "body", name="ground")}
     size = _DRAWN * max(scene.reach, 1e-3)
-    for joint in arm.joints:
-        body = Xml.SubElement(bodies[joint.host], "body", name=_body_name(joint), pos=text_of(*joint.at))
-        if joint.turn != UPRIGHT:
-            body.set("quat", quaternion_text(joint.turn))
-        _add_hinge(body, joint)
+    for number, placed in placed_bodies(arm).items():
+        joint, host = arm.joints[number - 1], bodies[placed.host]
+        body = Xml.SubElement(host, "body", name=_body_name(joint), pos=text_of(*placed.at))
+        if not np.array_equal(placed.turn, np.eye(3)):
+            body.set("quat", quaternion_text(placed.turn))
+        for hinge in placed.hinges:
+            _add_hinge(body, hinge)
         _add_inertial(body, joint, scene)
-        if any(joint.at):
-            way = {"type": "capsule", "size": f"{size / 2:.4g}", "fromto": text_of(0, 0, 0, *joint.at)}
-            Xml.SubElement(bodies[joint.host], "geom", way)
+        if placed.at.any():
+            way = {"type": "capsule", "size": f"{size / 2:.4g}", "fromto": text_of(0, 0, 0, *placed.at)}
+            Xml.SubElement(host, "geom", way)
         if joint.body.mass:
             Xml.SubElement(body, "geom", type="sphere", size=f"{size:.4g}", pos=text_of(*joint.body.center))
-        bodies.append(body)
+        bodies[number] = body
     return bodies
 
 
-def quaternion_text(turn: Turn) -> str:
+def quaternion_text(turn: Turn | NDArray[np.float64]) -> str:
     """Return a turn as MuJoCo has it: w, x, y, z."""
     x, y, z, w = Rotation.from_matrix(np.array(turn)).as_quat()
     return text_of(w, x, y, z)
@@ -75,20 +80,23 @@ def _body_name(joint: Revolute) -> str:
     return f"{joint.name}_body" if joint.name in ("world", "ground") else joint.name
 
 
-def _add_hinge(body: Xml.Element, joint: Revolute) -> None:
-    hinge = Xml.SubElement(
+def _add_hinge(body: Xml.Element, hinge: Hinge) -> None:
+    joint = hinge.joint
+    element = Xml.SubElement(
         body,
         "joint",
         name=joint.name,
         type="hinge",
-        axis=text_of(*np.eye(3)[joint.axis]),
+        axis=text_of(*hinge.axis),
         stiffness=text_of(joint.stiffness),
         damping=text_of(joint.damping),
     )
+    if hinge.at.any():
+        element.set("pos", text_of(*hinge.at))
     if joint.armature:
-        hinge.set("armature", text_of(joint.armature))
+        element.set("armature", text_of(joint.armature))
     if joint.rest:
-        hinge.set("springref", text_of(joint.rest))
+        element.set("springref", text_of(joint.rest))
 
 
 def _add_inertial(body: Xml.Element, joint: Revolute, scene: Scene) -> None:

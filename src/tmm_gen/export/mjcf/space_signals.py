@@ -24,13 +24,13 @@ class SpaceSignals:
         The model.
     arm : SpatialArm
         What is exported.
-    bodies : list of Element
-        The base, and the body of each joint by its number.
+    bodies : dict of int to Element
+        The base by 0, and bodies by the numbers of the joints that carry them.
     """
 
     root: Xml.Element
     arm: SpatialArm
-    bodies: list[Xml.Element]
+    bodies: dict[int, Xml.Element]
     readings: list[Reading] = field(default_factory=list)
     left_out: list[str] = field(default_factory=list)
     _sites: dict[Frame, str] = field(default_factory=dict)
