@@ -57,7 +57,6 @@ def test_the_way_there_and_back(imported: Path) -> None:
 
 
 @pytest.mark.compiler
-@pytest.mark.xfail(strict=True, reason="no kernels are generated of arms in space yet")
 def test_the_kernel(imported: Path) -> None:
     command = next(command for command in COMMANDS if command.startswith("build"))
     assert main(shlex.split(command)) == 0
