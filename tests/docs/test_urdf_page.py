@@ -2,16 +2,23 @@
 
 from __future__ import annotations
 
+import os
 import re
 import shlex
 import shutil
+import subprocess
+import sys
 import tomllib
 from pathlib import Path
 
 import mujoco
+import numpy as np
 import pytest
 
 from tmm_gen.cli import main
+from tmm_gen.inputs.signals import Constant
+from tmm_gen.reference.spatial_motion import motion
+from tmm_gen.reference.spatial_reference import outputs
 from tmm_gen.scene import load_scene
 from tmm_gen.urdf import sidecar
 from tmm_gen.urdf.cross_section import MEASURES
@@ -23,7 +30,15 @@ COMMANDS = [
     for block in re.findall(r"```console\n(.*?)```", PAGE, re.DOTALL)
     for line in block.splitlines()
 ]
+SNIPPETS = re.findall(r"```python\n(.*?)```", PAGE, re.DOTALL)
 BLOCKS = re.findall(r"```toml\n(.*?)```", PAGE, re.DOTALL)
+
+
+def run(text: str) -> str:
+    """Return what a script prints, in a process of its own, as the package it imports is another each time."""
+    where = {**os.environ, "PYTHONPATH": os.pathsep.join([".", *sys.path])}
+    script = [sys.executable, "-c", text]
+    return subprocess.run(script, env=where, capture_output=True, text=True, check=True).stdout
 
 
 @pytest.fixture
@@ -61,7 +76,16 @@ def test_the_kernel(imported: Path) -> None:
     command = next(command for command in COMMANDS if command.startswith("build"))
     assert main(shlex.split(command)) == 0
     assert list((imported.parent / "generated" / "picker" / "c").glob("*.c"))
-    assert (imported.parent / "generated" / "picker" / "casadi_model.py").is_file()
+    arm = load_scene(imported).spatial
+    assert arm is not None
+    signals = {"shoulder_torque": Constant(0.02)}
+    q, v, a = motion(arm, signals, np.array([0.1]))
+    exact = outputs(arm, q, v, a, {"shoulder_torque": np.array([0.02])})["tool0_z"][0]
+    still = outputs(arm, 0 * q, 0 * v, 0 * a, {})["tool0_z"][0]
+    shown = [float(run(text)) for text in SNIPPETS]
+    assert len(shown) == 2
+    assert shown[0] == pytest.approx(shown[1], abs=1e-12)
+    assert shown[0] == pytest.approx(exact, abs=1e-3 * abs(exact - still))
 
 
 def test_what_is_shown_is_in_the_files(imported: Path) -> None:
