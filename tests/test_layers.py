@@ -16,7 +16,7 @@ LAYERS = (
     {"extras", "reading", "scratch"},
     {"files"},
     {"scene"},
-    {"inputs"},
+    {"inputs", "urdf"},
     {"reference", "derive"},
     {"row", "thesis"},
     {"digits"},

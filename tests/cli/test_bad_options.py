@@ -13,7 +13,14 @@ from tmm_gen.cli import COMMANDS, main
 SCENES = Path(__file__).resolve().parents[2] / "scenes"
 ARGUMENTS = {"calibrate": ["record.csv"], "new": [], "build": [], "export": ["--to", "fmu"], "tune": []}
 ANY_SIGN = {"--start"}
-WITHOUT_SCENE = {"new": ["arm"], "keys": [], "integrators": [], "errata": [], "demo": []}
+WITHOUT_SCENE = {
+    "new": ["arm"],
+    "keys": [],
+    "integrators": [],
+    "errata": [],
+    "demo": [],
+    "import": ["robot.urdf"],
+}
 
 
 def _cases() -> Iterator[tuple[str, str, str]]:

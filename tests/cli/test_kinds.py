@@ -21,8 +21,8 @@ from tmm_gen.scene import Scene, parse_scene
 from tmm_gen.scene.template import template
 from tmm_gen.study.excitation import excitation
 
-WITHOUT_A_SCENE = {"new", "keys", "integrators", "errata", "demo"}
-"""Commands that take none; `demo` brings its own."""
+WITHOUT_A_SCENE = {"new", "import", "keys", "integrators", "errata", "demo"}
+"""Commands that take none; `demo` brings its own, `import` makes one."""
 
 MORE = {
     "calibrate": ["record.csv"],

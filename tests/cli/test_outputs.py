@@ -17,6 +17,7 @@ from tmm_gen.errors import UserError
 
 SCENES = Path(__file__).resolve().parents[2] / "scenes"
 PLANAR, CHAIN = str(SCENES / "swing.toml"), str(SCENES / "thesis2.toml")
+URDF = str(SCENES.parent / "examples" / "urdf" / "picker.urdf")
 
 FILES: dict[tuple[str, str], tuple[list[str], str]] = {
     ("run", "--csv"): ([CHAIN], ".csv"),
@@ -32,6 +33,7 @@ FILES: dict[tuple[str, str], tuple[list[str], str]] = {
     ("trade", "--report"): ([CHAIN], ".html"),
     ("tune", "--out"): ([CHAIN, "--max-error", "1e-2", "--max-time", "1ms"], ".toml"),
     ("export", "--out"): ([CHAIN, "--to", "fmu"], ".fmu"),
+    ("import", "--out"): ([URDF], ".toml"),
     ("calibrate", "--out"): ([CHAIN, "record.csv"], ".toml"),
     ("mpc", "--plot"): ([PLANAR], ".png"),
     ("mpc", "--animate"): ([PLANAR], ".html"),
@@ -44,8 +46,8 @@ FOLDERS: dict[tuple[str, str], list[str]] = {
     ("demo", "--out"): [],
     ("mpc", "--emit"): [PLANAR],
 }
-READ = {("trade", "--store")}
-"""A data base, which is opened, not replaced."""
+READ = {("trade", "--store"), ("import", "--flex")}
+"""A data base, which is opened, not replaced; a file that is only read."""
 
 
 @pytest.fixture

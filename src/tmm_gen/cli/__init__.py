@@ -33,6 +33,9 @@ _OF_LIBRARIES = ("infs or NaNs", "invalid numeric entries")
 
 COMMANDS = {
     "new": LazyCommand("tmm_gen.cli.new:new", "Write a commented scene to start from."),
+    "import": LazyCommand(
+        "tmm_gen.cli.import_urdf:import_urdf", "Write the scene that a robot's URDF file makes."
+    ),
     "keys": LazyCommand("tmm_gen.cli.keys:keys", "List every key a scene may have."),
     "build": LazyCommand("tmm_gen.cli.build:build", "Generate the kernels of scenes; --check only compares."),
     "check": LazyCommand("tmm_gen.cli.check:check", "Compile and compare every backend of a scene."),
@@ -53,7 +56,7 @@ COMMANDS = {
     "explain": LazyCommand(
         "tmm_gen.cli.explain:explain", "Show what a scene models, what it leaves out, and what that saves."
     ),
-    "export": LazyCommand("tmm_gen.cli.export:export", "Write a scene for FMI or MuJoCo."),
+    "export": LazyCommand("tmm_gen.cli.export:export", "Write a scene for FMI, MuJoCo or URDF."),
     "errata": LazyCommand("tmm_gen.cli.errata:errata", "Compare the thesis's coefficients with the derived."),
     "calibrate": LazyCommand("tmm_gen.cli.calibrate:calibrate", "Fit a scene to a recorded response."),
     "mpc": LazyCommand("tmm_gen.cli.mpc:mpc", "Control the arm on a finer plant, and compare controllers."),

@@ -17,15 +17,18 @@ if TYPE_CHECKING:
 
 # SymPy, FMPy and the rest are imported inside: `tmm-gen --help` has no use for them.
 
-_SUFFIX = {"fmu": ".fmu", "mjcf": ".xml"}
+_SUFFIX = {"fmu": ".fmu", "mjcf": ".xml", "urdf": ".urdf"}
 
 
 @click.command("export")
 @click.argument("scene", metavar="SCENE", type=click.Path(path_type=Path))
 @click.option(
-    "--to", type=click.Choice(sorted(_SUFFIX)), required=True, help="Functional mock-up unit or MuJoCo."
+    "--to",
+    type=click.Choice(sorted(_SUFFIX)),
+    required=True,
+    help="Functional mock-up unit, MuJoCo, or URDF of arms in space.",
 )
-@click.option("--out", type=OutputFile(), help="File to write; by default NAME.fmu or NAME.xml.")
+@click.option("--out", type=OutputFile(), help="File to write; by default NAME with the ending of its kind.")
 @click.option("--fmi", type=click.Choice(["2", "3"]), help="Version of FMI; by default 2.")
 @click.option("--cc", default="gcc", show_default=True, help="Compiler of the unit's binary.")
 @click.option("--json", "json_mode", is_flag=True, help="One JSON object instead of a report.")
@@ -33,7 +36,8 @@ def export(scene: Path, to: str, out: Path | None, fmi: str | None, cc: str, jso
     """Write SCENE for another tool.
 
     `--to fmu`: a functional mock-up unit for co-simulation, FMI 2.0 or 3.0, with sources and a binary for this
-    machine, validated by FMPy. `--to mjcf`: a model for MuJoCo.
+    machine, validated by FMPy. `--to mjcf`: a model for MuJoCo. `--to urdf`: of an arm in space what URDF can hold;
+    the rest is told.
     """
     claim((out,), (scene,))
     if fmi is not None and to != "fmu":
@@ -43,7 +47,10 @@ def export(scene: Path, to: str, out: Path | None, fmi: str | None, cc: str, jso
     if target.suffix.lower() != _SUFFIX[to]:
         raise UserError(f"--out {target}: must end in {_SUFFIX[to]}, or the other tool will not know it.")
     with progress(f"exporting {chosen.name}"):
-        facts, report = _fmu(chosen, target, fmi or "2", cc) if to == "fmu" else _mjcf(chosen, target)
+        if to == "fmu":
+            facts, report = _fmu(chosen, target, fmi or "2", cc)
+        else:
+            facts, report = (_mjcf if to == "mjcf" else _urdf)(chosen, target)
     if json_mode:
         print_json({"scene": chosen.name, "to": to, "file": target, **facts})
         return
@@ -100,3 +107,14 @@ def _mjcf(scene: Scene, target: Path) -> tuple[dict[str, object], list[str]]:
         *model.left_out,
     ]
     return facts, report
+
+
+def _urdf(scene: Scene, target: Path) -> tuple[dict[str, object], list[str]]:
+    """Write a robot; return what JSON and what a person is told."""
+    from tmm_gen.export.urdf import urdf_model
+
+    model = urdf_model(scene)
+    write_outputs({target: model.text})
+    facts: dict[str, object] = {"joints": model.joints, "links": model.links, "left_out": model.left_out}
+    left = [f"left out: {reason}" for reason in model.left_out]
+    return facts, [f"a URDF robot of {model.links} links and {model.joints} joints", *left]

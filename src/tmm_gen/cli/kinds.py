@@ -11,7 +11,9 @@ from tmm_gen.errors import UserError
 if TYPE_CHECKING:
     from tmm_gen.scene import Scene
 
-SERVED: Mapping[str, tuple[str, ...]] = {"spatial": ("build", "run", "check")}
+SERVED: Mapping[str, tuple[str, ...]] = {
+    "spatial": ("build", "run", "check", "export --to mjcf", "export --to urdf")
+}
 """Commands by the kinds that not all serve yet; where an option decides, it is part of the name: "export --to fmu"."""
 
 

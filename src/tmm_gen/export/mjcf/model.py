@@ -11,6 +11,8 @@ from tmm_gen.export.mjcf.bodies import add_bodies, text_of
 from tmm_gen.export.mjcf.readings import Reading
 from tmm_gen.export.mjcf.shafts import add_shafts
 from tmm_gen.export.mjcf.signals import Signals
+from tmm_gen.export.mjcf.space import add_arm
+from tmm_gen.export.mjcf.space_signals import SpaceSignals
 from tmm_gen.export.mjcf.timestep import stable_timestep
 from tmm_gen.scene import Scene
 from tmm_gen.version import __version__
@@ -42,10 +44,10 @@ class MujocoModel:
 
 
 def mujoco_model(scene: Scene) -> MujocoModel:
-    """Return a scene as a MuJoCo model: an arm in the x-y plane or a chain along z, all hinges about z.
+    """Return a scene as a MuJoCo model: an arm in space, one in the x-y plane, or a chain along z.
 
     Inputs become actuators of the same name, outputs sensors; the keyframe ``initial`` is the start. MuJoCo's
-    coordinates are angles of each link relative to the one before.
+    coordinates are angles of each link relative to the one before, and of each joint of an arm in space.
 
     Parameters
     ----------
@@ -55,7 +57,8 @@ def mujoco_model(scene: Scene) -> MujocoModel:
     Raises
     ------
     UserError
-        If the base's angle is prescribed: MuJoCo has forces and springs, but no motion that is given exactly.
+        If the base's angle is prescribed: MuJoCo has forces and springs, but no motion that is given exactly; or a
+        body in space has an inertia that MuJoCo refuses.
     """
     if scene.prescribed:
         raise UserError(
@@ -65,15 +68,20 @@ def mujoco_model(scene: Scene) -> MujocoModel:
     root = Xml.Element("mujoco", model=scene.name)
     Xml.SubElement(root, "compiler", angle="radian", inertiafromgeom="false", autolimits="true")
     timestep = stable_timestep(scene)
-    gravity = text_of(0.0, -(scene.model.gravity or 0.0), 0.0)
+    arm = scene.spatial
+    gravity = text_of(*arm.gravity) if arm else text_of(0.0, -(scene.model.gravity or 0.0), 0.0)
     option = Xml.SubElement(root, "option", timestep=text_of(timestep), gravity=gravity, integrator="RK4")
     Xml.SubElement(option, "flag", contact="disable", constraint="disable")
     default = Xml.SubElement(root, "default")
     Xml.SubElement(default, "geom", contype="0", conaffinity="0", rgba="0.35 0.45 0.6 1")
     world = Xml.SubElement(root, "worldbody")
     Xml.SubElement(world, "light", pos="0 0 3", dir="0 0 -1")
-    bodies = add_shafts(root, world, scene) if scene.drivetrain else add_bodies(world, scene)
-    signals = Signals(root, scene, bodies)
+    signals: Signals | SpaceSignals
+    if arm:
+        signals = SpaceSignals(root, arm, add_arm(world, scene, arm))
+    else:
+        bodies = add_shafts(root, world, scene) if scene.drivetrain else add_bodies(world, scene)
+        signals = Signals(root, scene, bodies)
     signals.add()
     _add_start(root, scene)
     return MujocoModel(
@@ -82,7 +90,10 @@ def mujoco_model(scene: Scene) -> MujocoModel:
 
 
 def _add_start(root: Xml.Element, scene: Scene) -> None:
-    angles, rates = (_relative(scene, values) for values in (scene.initial.angles, scene.initial.rates))
+    if arm := scene.spatial:
+        angles, rates = [joint.angle for joint in arm.joints], [joint.rate for joint in arm.joints]
+    else:
+        angles, rates = (_relative(scene, values) for values in (scene.initial.angles, scene.initial.rates))
     frames = Xml.SubElement(root, "keyframe")
     Xml.SubElement(frames, "key", name=KEYFRAME, qpos=text_of(*angles), qvel=text_of(*rates))
 
@@ -96,7 +107,7 @@ def _relative(scene: Scene, values: Sequence[float]) -> list[float]:
     return [0.0] * (3 if scene.floats else scene.hub) + turned
 
 
-def _document(root: Xml.Element, scene: Scene, signals: Signals) -> str:
+def _document(root: Xml.Element, scene: Scene, signals: Signals | SpaceSignals) -> str:
     """Return the file, with what a reader has to know at its head."""
     lines = [
         f"{scene.name}: {scene.title}",

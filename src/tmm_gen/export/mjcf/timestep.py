@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from tmm_gen.modal.arm import linear_arm
 from tmm_gen.modal.matrices import matrices
+from tmm_gen.reference.spatial_arm import WorldArm
 from tmm_gen.scene import Scene
+
+Matrix = NDArray[np.float64]
 
 _LARGEST = 1.0
 """Of the largest eigenvalue times the step: RK4 is stable up to 2.78 on the negative real axis (2.83 on the
@@ -19,20 +23,20 @@ def stable_timestep(scene: Scene) -> float:
     Parameters
     ----------
     scene : Scene
-        A chain, or a planar arm, linearised where it starts.
+        Linearised where it starts.
 
     Returns
     -------
     float
         s.
     """
-    linear = matrices(linear_arm(scene))
-    count = len(linear.mass)
-    inverse = np.linalg.inv(linear.mass)
+    mass, stiffness, damping = _linear(scene)
+    count = len(mass)
+    inverse = np.linalg.inv(mass)
     system = np.block(
         [
             [np.zeros((count, count)), np.eye(count)],
-            [-inverse @ linear.stiffness, -inverse @ linear.damping],
+            [-inverse @ stiffness, -inverse @ damping],
         ]
     )
     fastest = float(np.max(np.abs(np.linalg.eigvals(system))))
@@ -43,3 +47,14 @@ def stable_timestep(scene: Scene) -> float:
             if parts >= needed:
                 return scene.integrator.step / parts
         power *= 10
+
+
+def _linear(scene: Scene) -> tuple[Matrix, Matrix, Matrix]:
+    """Return mass, stiffness and damping matrices about the start; in space, of the arm held there."""
+    if scene.spatial is None:
+        found = matrices(linear_arm(scene))
+        return found.mass, found.stiffness, found.damping
+    arm = WorldArm(scene.spatial)
+    angles, rates = (np.array([getattr(j, key) for j in scene.spatial.joints]) for key in ("angle", "rate"))
+    stiffness, damping = arm.tangents(angles, rates, np.zeros_like(angles), {})
+    return arm.mass_matrix(angles), stiffness, damping

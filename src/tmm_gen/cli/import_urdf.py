@@ -1,0 +1,61 @@
+"""`tmm-gen import`: a scene from a URDF file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from tmm_gen.cli.console import print_json
+from tmm_gen.cli.outputs import OutputFile, claim, force_option, require_new, write_outputs
+
+# Readers are imported inside: `tmm-gen --help` has no use for them.
+
+
+@click.command("import")
+@click.argument("urdf", metavar="ROBOT.urdf", type=click.Path(path_type=Path))
+@click.option(
+    "--flex",
+    type=click.Path(path_type=Path),
+    help="TOML file that says which joints and links give way, and which joints stay where they are.",
+)
+@click.option("--out", type=OutputFile(".toml"), help="Scene to write; by default NAME.toml.")
+@force_option
+@click.option("--json", "json_mode", is_flag=True, help="One JSON object instead of a report.")
+def import_urdf(urdf: Path, flex: Path | None, out: Path | None, force: bool, json_mode: bool) -> None:
+    """Write the scene that a URDF file makes, with every decision in a comment.
+
+    Revolute and continuous joints become motors, links become bodies, fixed joints are merged. With --flex,
+    `[joint.NAME]` gives a joint a gear (stiffness, damping, rotor_inertia, gear) or locks it (lock), and `[link.NAME]`
+    makes a beam of a link (links, E, G and section, or bending_stiffness and torsional_stiffness).
+    """
+    from tmm_gen.scene import load_scene
+    from tmm_gen.urdf.scene_text import imported_scene
+
+    claim((out,), (urdf, flex))
+    require_new(out, force)
+    scene = imported_scene(urdf, flex)
+    target = out or Path(f"{scene.name}.toml")
+    write_outputs({target: scene.text}, (urdf, *((flex,) if flex else ())), force=force)
+    load_scene(target)  # what only the whole can tell is told of the scene, which is there to be mended
+    if json_mode:
+        print_json(
+            {
+                "scene": scene.name,
+                "file": target,
+                "motors": [{"joint": joint, "name": name} for joint, name in scene.motors.items()],
+                "gears": scene.gears,
+                "bodies": scene.bodies,
+                "beams": scene.beams,
+                "inputs": scene.inputs,
+                "outputs": scene.outputs,
+                "decisions": scene.decisions,
+            }
+        )
+        return
+    click.echo(
+        f"wrote {target}: {len(scene.motors)} motors, {len(scene.gears)} gears that give way, "
+        f"{len(scene.bodies)} bodies, {len(scene.beams)} beams"
+    )
+    click.echo(f"{len(scene.decisions)} decisions stand in its comments")
+    click.echo(f"next: read them, then `tmm-gen build {target}` and `tmm-gen run {target}`")

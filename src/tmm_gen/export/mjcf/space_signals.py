@@ -1,0 +1,114 @@
+"""Inputs of an arm in space as actuators, its outputs as sensors."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from xml.etree import ElementTree as Xml
+
+from tmm_gen.export.mjcf.bodies import text_of
+from tmm_gen.export.mjcf.readings import Reading
+from tmm_gen.export.mjcf.space import quaternion_text
+from tmm_gen.scene.spatial.arm import UPRIGHT, ArmInput, ArmOutput, Frame, SpatialArm
+
+_GROUND = Frame("ground", 0)
+_SENSORS = {"position": "framepos", "orientation": "framequat", "velocity": "framelinvel"}
+
+
+@dataclass
+class SpaceSignals:
+    """Adds what an arm's inputs and outputs need to a model, each helper once.
+
+    Parameters
+    ----------
+    root : Element
+        The model.
+    arm : SpatialArm
+        What is exported.
+    bodies : dict of int to Element
+        The base by 0, and bodies by the numbers of the joints that carry them.
+    """
+
+    root: Xml.Element
+    arm: SpatialArm
+    bodies: dict[int, Xml.Element]
+    readings: list[Reading] = field(default_factory=list)
+    left_out: list[str] = field(default_factory=list)
+    _sites: dict[Frame, str] = field(default_factory=dict)
+
+    def add(self) -> None:
+        """Add actuators and sensors, and the sites they work on."""
+        actuators, sensors = Xml.Element("actuator"), Xml.Element("sensor")
+        for item in self.arm.inputs:
+            self._act(actuators, item)
+        for output in self.arm.outputs:
+            self._measure(sensors, output)
+        self.root.extend(each for each in (actuators, sensors) if len(each))
+
+    def _act(self, actuators: Xml.Element, item: ArmInput) -> None:
+        if item.frame is None:
+            joint = self.arm.joints[item.joint - 1]
+            Xml.SubElement(actuators, "motor", name=item.name, joint=joint.name, gear=text_of(joint.gear))
+            return
+        if not item.frame.joint:
+            self.left_out.append(f"{item.name}: acts on the base, which does not move")
+            return
+        for number, name in enumerate(item.columns):
+            wrench = [0.0] * 6
+            wrench[number + 3 * (item.acts == "moment")] = 1.0
+            general = Xml.SubElement(
+                actuators, "general", name=name, site=self._site(item.frame), gear=text_of(*wrench)
+            )
+            if item.axes == "world":
+                general.set("refsite", self._site(_GROUND))
+
+    def _measure(self, sensors: Xml.Element, output: ArmOutput) -> None:
+        name = output.name
+        if output.of == "kinetic_energy":
+            Xml.SubElement(sensors, "e_kinetic", name=name)
+            self.readings.append(Reading(name, ((name, 0, 1.0),)))
+        elif output.of in ("elastic_energy", "gravitational_energy"):
+            self.left_out.append(f"{name}: MuJoCo knows the sum of elastic and gravitational energy only")
+        elif output.of == "acceleration":
+            joint = self.arm.joints[output.joint - 1].name
+            self.left_out.append(f"{name}: no sensor measures it; it is qacc of joint '{joint}'")
+        elif output.of in ("angle", "rate"):
+            kind = "jointpos" if output.of == "angle" else "jointvel"
+            Xml.SubElement(sensors, kind, name=name, joint=self.arm.joints[output.joint - 1].name)
+            self.readings.append(Reading(name, ((name, 0, 1.0),)))
+        elif output.of == "torque":
+            self._torque(sensors, output)
+        elif output.frame is not None:
+            site = self._site(output.frame)
+            Xml.SubElement(sensors, _SENSORS[output.of], name=name, objtype="site", objname=site)
+            self.readings += [
+                Reading(column, ((name, number, 1.0),)) for number, column in enumerate(output.columns)
+            ]
+            if output.of == "orientation":
+                self.left_out.append(
+                    f"{name}: all four numbers may have the other sign, the same orientation"
+                )
+
+    def _torque(self, sensors: Xml.Element, output: ArmOutput) -> None:
+        """Read what a joint passes on: its motor's torque, less its spring's and its damper's."""
+        joint, name = self.arm.joints[output.joint - 1], output.name
+        terms: list[tuple[str, int, float]] = []
+        for item in self.arm.inputs:
+            if item.joint == output.joint:
+                Xml.SubElement(sensors, "actuatorfrc", name=f"{name}_{item.name}", actuator=item.name)
+                terms.append((f"{name}_{item.name}", 0, joint.gear))
+        for part, kind, factor in (
+            ("spring", "jointpos", joint.stiffness),
+            ("damper", "jointvel", joint.damping),
+        ):
+            if factor:
+                Xml.SubElement(sensors, kind, name=f"{name}_{part}", joint=joint.name)
+                terms.append((f"{name}_{part}", 0, -factor))
+        self.readings.append(Reading(name, tuple(terms), joint.stiffness * joint.rest))
+
+    def _site(self, frame: Frame) -> str:
+        if frame not in self._sites:
+            site = Xml.SubElement(self.bodies[frame.joint], "site", name=frame.name, pos=text_of(*frame.at))
+            if frame.turn != UPRIGHT:
+                site.set("quat", quaternion_text(frame.turn))
+            self._sites[frame] = frame.name
+        return self._sites[frame]

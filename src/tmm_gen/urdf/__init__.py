@@ -1,0 +1,1 @@
+"""Reading URDF, and writing the scene that it says."""
