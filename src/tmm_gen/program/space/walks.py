@@ -60,8 +60,8 @@ _KEPT: dict[sp.Symbol, tuple[str, str]] = {
     IMPEDANCE: ("torque of each joint's spring, damper and rotor per unknown", "kg m^2"),
     TORQUE: ("torque of each joint's own before the sweep", "N m"),
     OWN: ("what the sweep finds each joint to do", "rad/s^2"),
-    **{s: ("moment about each joint's axis per change of its section's motion", "1") for s in ABOUT_AXIS},
-    **{s: ("change of each section's motion per unknown of its joint", "1") for s in PUSH},
+    **dict.fromkeys(ABOUT_AXIS, ("moment about each joint's axis per change of its section's motion", "1")),
+    **dict.fromkeys(PUSH, ("change of each section's motion per unknown of its joint", "1")),
 }
 """What walks hand each other, one value a joint."""
 

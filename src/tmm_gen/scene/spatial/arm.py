@@ -10,8 +10,7 @@ from typing import Literal
 
 Vector = tuple[float, float, float]
 Turn = tuple[Vector, Vector, Vector]
-"""A rotation by rows: what it is multiplied to from the left goes from outer to inner axes, so that its columns are the
-outer axes seen from the inner ones."""
+"""A rotation by rows; its columns are the turned axes, seen from those before the turn."""
 
 UPRIGHT: Turn = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 ZERO: Vector = (0.0, 0.0, 0.0)
