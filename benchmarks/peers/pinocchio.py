@@ -17,7 +17,7 @@ SOURCE = Path(__file__).with_name("pinocchio_loop.cpp")
 HOW_TO_GET = "pip install --target out/pin pin cmeel-eigen, then --pinocchio out/pin/cmeel.prefix"
 
 # Pinocchio's joints are more than Boost's lists hold by themselves
-_LISTS = (
+LISTS = (
     "-DBOOST_MPL_CFG_NO_PREPROCESSED_HEADERS",
     "-DBOOST_MPL_LIMIT_LIST_SIZE=30",
     "-DBOOST_MPL_LIMIT_VECTOR_SIZE=30",
@@ -89,7 +89,7 @@ def compiled(place: Path, folder: Path) -> Path:
     library = folder / "pinocchio_loop.so"
     if library.exists() and library.stat().st_mtime > SOURCE.stat().st_mtime:
         return library
-    command = ["g++", "-std=c++17", "-DNDEBUG", *FLAGS, *_LISTS, "-fPIC", "-shared"]
+    command = ["g++", "-std=c++17", "-DNDEBUG", *FLAGS, *LISTS, "-fPIC", "-shared"]
     command += [f"-isystem{include}", f"-isystem{include / 'eigen3'}", str(SOURCE), "-o", str(library)]
     subprocess.run(command, check=True)
     return library
