@@ -8,7 +8,8 @@ once the sweep alone; the peers' has one pass of their recursion about the motio
 springs and dampers implicit as armatures. CasADi's code has the arm's numbers in it and checks nothing; tmm-gen's reads
 them from its model and checks inputs, pivots and the new state. Everyone: one thread, gcc -O3 -march=native, thread
 time, by turns; ratios within a round, then their median. Before that each peer's accelerations at the start must be
-those of the reference. `--update` writes the table into docs/space.md. Without Pinocchio, or g++, its rows are left out.
+those of the reference. Without Pinocchio, or g++, its rows are left out. `--update` writes the table into
+docs/space.md.
 """
 
 from __future__ import annotations
@@ -168,8 +169,8 @@ def measure(
 def told(rows: list[dict[str, object]], rounds: int) -> str:
     """Return the table in Markdown."""
     lines = [
-        f"One step of Newmark, medians of {rounds} rounds on one core; ratios are of times, below 1 where tmm-gen is faster. "
-        f"Errors are the largest of any joint's angle after {UNTIL:g} s, at the scene's step.",
+        f"One step of Newmark, medians of {rounds} rounds on one core; ratios are of times, below 1 where tmm-gen is "
+        f"faster. Errors are the largest of any joint's angle after {UNTIL:g} s, at the scene's step.",
         "",
         "| arm | step | ns per joint | tmm-gen over it | its sweep alone over it | error (rad) |",
         "| --- | --- | ---: | ---: | ---: | ---: |",
