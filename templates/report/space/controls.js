@@ -91,7 +91,7 @@ const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowD
 
 document.addEventListener("keydown", (event) => {
   if (event.ctrlKey || event.altKey || event.metaKey) return;
-  const control = event.target.closest("button, input, select, summary");
+  const control = event.target.closest?.("button, input, select, summary");
   if (control && (event.key !== " " || control !== slider)) {
     // controls keep the keys that are theirs
     if (event.key === " " || event.key === "Home" || event.key in ARROWS) return;

@@ -105,9 +105,12 @@ function pieces(points) {
       const depth = (depths[a] + depths[b]) / 2;
       for (const spot of [a, b]) nearest[spot] = Math.min(nearest[spot], depth);
       add(depth, (width) => {
-        // an edge in the colour of the paper tells what passes before what
+        // an edge in the colour of the paper tells what passes before what; it spares the neighbours
+        const long = Math.max(1, scale(depth) * Math.hypot(...points[a].map((x, k) => x - points[b][k])));
+        const part = Math.min(0.5, width / long);
+        const inner = [[a, b], [b, a]].map(([m, n]) => points[m].map((x, k) => x + part * (points[n][k] - x)));
         pen.lineCap = "butt";
-        stroke(colours.paper, width + 3, () => along([points[a], points[b]]));
+        stroke(colours.paper, width + 3, () => along(inner));
         pen.lineCap = "round";
         stroke(colours.arm, width, () => along([points[a], points[b]]));
       });
