@@ -43,6 +43,13 @@ class SpaceMotion:
         """The longest way along it, m; 1 where it has no length."""
         return longest_way(self.arm) or 1.0
 
+    @property
+    def upward(self) -> tuple[int, int]:
+        """The world axis nearest to upward, against gravity, and its sign; z where nothing falls."""
+        gravity = self.arm.gravity
+        axis = max(range(3), key=lambda axis: (abs(gravity[axis]), axis))
+        return axis, 1 if gravity[axis] <= 0.0 else -1
+
     def thinned(self, most: int) -> SpaceMotion:
         """Return it at so many instants at most, the first and the last among them."""
         shown = np.unique(np.round(np.linspace(0, len(self.time) - 1, most)).astype(int))

@@ -1,7 +1,7 @@
 """An arm in space in motion: one page of HTML that needs nothing else and that the reader turns.
 
-What the page moves is data, not pictures: the points of the arm at some hundred instants, as whole multiples of a length
-that no eye can see.
+What the page moves is data, not pictures: the points of the arm at some hundred instants, as whole multiples of a
+length that no eye can see.
 """
 
 from __future__ import annotations
@@ -11,14 +11,10 @@ import math
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from tmm_gen.emit.templates import render
 from tmm_gen.report.space_motion import SpaceMotion, space_motion
-from tmm_gen.scene.spatial.arm import Vector
 from tmm_gen.simulate.simulation import Simulation
-
-Array = NDArray[np.float64]
 
 MOST_INSTANTS = 600
 MOST_NUMBERS = 120_000
@@ -92,17 +88,15 @@ def page_data(motion: SpaceMotion) -> dict[str, Any]:
         "lines": skeleton.lines,
         "pins": [(skeleton.of_joints[joint], spots + k) for k, joint in enumerate(skeleton.pins)],
         "tips": [{"spot": tip.spot, "name": tip.name} for tip in skeleton.tips],
-        "axes": _view_axes(skeleton.arm.gravity),
+        "axes": _view_axes(*motion.upward),
         "reach": float(f"{reach:.6g}"),
     }
 
 
-def _view_axes(gravity: Vector) -> list[list[float]]:
-    """Return right-handed axes by rows, the third the world axis nearest to upward: z where nothing falls."""
-    up = max(range(3), key=lambda axis: (abs(gravity[axis]), axis))
-    sign = 1.0 if gravity[up] <= 0.0 else -1.0
-    first, second = ((up + 1) % 3, (up + 2) % 3) if sign > 0.0 else ((up + 2) % 3, (up + 1) % 3)
-    axes = [[0.0] * 3 for _ in range(3)]
-    axes[0][first] = axes[1][second] = 1.0
+def _view_axes(up: int, sign: int) -> list[list[int]]:
+    """Return right-handed axes by rows, the third upward."""
+    first, second = ((up + 1) % 3, (up + 2) % 3)[::sign]
+    axes = [[0] * 3 for _ in range(3)]
+    axes[0][first] = axes[1][second] = 1
     axes[2][up] = sign
     return axes

@@ -153,7 +153,7 @@ matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
   redraw();
 });
 
-document.getElementById("grid").textContent = `grid: ${Number(cell.toPrecision(1))} m`;
+document.getElementById("grid").textContent = `; grid: ${Number(cell.toPrecision(1))} m`;
 readColours();
 turnTo("free");
 if (still || duration <= 0) show();

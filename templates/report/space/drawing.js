@@ -139,7 +139,7 @@ function drawAxes() {
   pen.textBaseline = "middle";
   const foot = placed(seen([0, 0, 0]));
   ["x", "y", "z"].forEach((name, axis) => {
-    const end = turned([0, 1, 2].map((k) => (k === axis ? 0.18 * reach : 0)));
+    const end = axes[axis];
     const depth = seen(end)[2];
     if (!view.parallel && depth < near()) return;
     stroke(colours.ink, 1.5, () => along([[0, 0, 0], end]));

@@ -83,6 +83,7 @@ function placed([x, y, depth]) {
   return [size.width / 2 + s * x, size.height / 2 - s * y];
 }
 
+const axes = [0, 1, 2].map((axis) => turned([0, 1, 2].map((k) => (k === axis ? 0.18 * reach : 0))));
 const corners = [0, 1, 2, 3].map((k) => [field[0][k & 1] * cell, field[1][k >> 1] * cell, ground]);
 
 function fit() {
@@ -103,7 +104,7 @@ function fit() {
       bounds.low = Math.min(bounds.low, y * shrunk);
       bounds.high = Math.max(bounds.high, y * shrunk);
     };
-    hold([0, 0, 0], 0.44);
+    for (const p of axes) hold(p, 0.44);
     for (const points of instants) for (const p of points) hold(p, 0.44);
     for (const p of corners) hold(p, 0.49);
     view.distance = view.fitted = distance;
