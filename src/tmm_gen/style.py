@@ -112,7 +112,7 @@ def panelled(
     made = Figure(figsize=(width, height), layout="constrained")
     if in_space:
         # room for the labels of the upward axis, of which the layout knows nothing
-        made.get_layout_engine().set(wspace=0.12)  # type: ignore[union-attr, unused-ignore]
+        made.set_layout_engine("constrained", wspace=0.12)
     grid = made.add_gridspec(len(ratios), 1 + beside, height_ratios=ratios)
     field = made.add_subplot(grid[:, 0], projection="3d" if in_space else None) if beside else None
     if in_space and field is not None:

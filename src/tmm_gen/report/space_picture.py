@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from textwrap import fill
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,13 +15,13 @@ from tmm_gen.scratch import scratch_folder
 from tmm_gen.simulate.simulation import Simulation
 from tmm_gen.style import FAINT, INK, PALETTE, figure, style
 
-if TYPE_CHECKING:
-    from mpl_toolkits.mplot3d import Axes3D
-
 Array = NDArray[np.float64]
 
 _TRACED = 2000
 """Instants along the way of a tip."""
+
+_LINE = 56
+"""Letters that fit above a GIF."""
 
 _SHADOW = "#d6d9df"
 
@@ -28,7 +29,7 @@ _ELEVATION, _AZIMUTH = 24.0, -58.0
 """Of the eye, degrees: from above, and neither along x nor along y."""
 
 
-def draw_arm(axes: Axes3D, motion: SpaceMotion) -> None:
+def draw_arm(axes: Any, motion: SpaceMotion) -> None:
     """Draw the arm at instants spread over the motion, the later the darker, its shadow, and the way of its tips.
 
     Parameters
@@ -91,7 +92,7 @@ def space_gif(simulation: Simulation) -> bytes:
         made, axes = figure(5.6, 5.2, subplot_kw={"projection": "3d"})
         FigureCanvasAgg(made)
         ground = _set_out(axes, motion, way)
-        axes.set_title(simulation.scene.title, loc="left")
+        axes.set_title(fill(simulation.scene.title, _LINE), loc="left")
         below = [_on_ground(axes, motion, points[0, list(line)], ground) for line in skeleton.lines]
         ways = [axes.plot([], [], [], color=PALETTE[5], linewidth=1.2)[0] for _ in skeleton.tips]
         limbs = [
@@ -119,7 +120,7 @@ def space_gif(simulation: Simulation) -> bytes:
             return target.read_bytes()
 
 
-def _set_out(axes: Axes3D, motion: SpaceMotion, points: Array) -> float:
+def _set_out(axes: Any, motion: SpaceMotion, points: Array) -> float:
     """Set out a field in true proportion with the base in it; return where the ground is along the upward axis."""
     margin, least = 0.05 * motion.reach, 0.3 * motion.reach
     low, high = points.min(axis=(0, 1)) - margin, points.max(axis=(0, 1)) + margin
@@ -152,8 +153,6 @@ def _lowered(motion: SpaceMotion, points: Array, ground: float) -> Array:
     return lowered
 
 
-def _on_ground(
-    axes: Axes3D, motion: SpaceMotion, points: Array, ground: float, linewidth: float = 2.0
-) -> Any:
+def _on_ground(axes: Any, motion: SpaceMotion, points: Array, ground: float, linewidth: float = 2.0) -> Any:
     """Draw the shadow of a line."""
     return axes.plot(*_lowered(motion, points, ground).T, color=_SHADOW, linewidth=linewidth)[0]

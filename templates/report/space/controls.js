@@ -140,14 +140,15 @@ canvas.addEventListener("wheel", (event) => {
 }, { passive: false });
 
 new ResizeObserver(() => {
-  const dense = devicePixelRatio || 1;
-  [size.width, size.height] = [canvas.clientWidth, canvas.clientHeight];
+  const [dense, room] = [devicePixelRatio || 1, canvas.parentElement];
+  [size.width, size.height] = [Math.max(1, room.clientWidth), Math.max(1, room.clientHeight)];
   [canvas.width, canvas.height] = [size.width * dense, size.height * dense];
+  [canvas.style.width, canvas.style.height] = [`${size.width}px`, `${size.height}px`];
   pen.setTransform(dense, 0, 0, dense, 0, 0);
   size.focal = 1.6 * Math.min(size.width, size.height);
   if (!view.own) fit();
   show();
-}).observe(canvas);
+}).observe(canvas.parentElement);
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
   readColours();
   redraw();
@@ -155,6 +156,5 @@ matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
 
 document.getElementById("grid").textContent = `; grid: ${Number(cell.toPrecision(1))} m`;
 readColours();
-turnTo("free");
-if (still || duration <= 0) show();
-else setPlaying(true);
+[view.azimuth, view.elevation] = SIDES.free;
+setPlaying(!still && duration > 0);
