@@ -131,8 +131,8 @@ def _set_out(axes: Any, motion: SpaceMotion, points: Array) -> float:
     ground = sign * (lowest - margin if lowest < 0.0 else 0.0)
     (low if sign > 0 else high)[upward] = ground
     axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]))
-    axes.set_box_aspect(high - low)
-    axes.view_init(elev=sign * _ELEVATION, azim=_AZIMUTH, vertical_axis="xyz"[upward])
+    axes.view_init(sign * _ELEVATION, _AZIMUTH, 0.0 if sign > 0 else 180.0, "xyz"[upward])
+    axes.set_box_aspect(high - low)  # in the order that the view has made known
     longest = float(np.max(high - low))
     for name, axis, span in zip("xyz", (axes.xaxis, axes.yaxis, axes.zaxis), high - low, strict=True):
         axis.set_label_text(f"{name} (m)")
