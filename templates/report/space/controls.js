@@ -16,7 +16,7 @@ function redraw() {
     state.asked = false;
     if (state.playing) {
       // a page that was hidden goes on where it was
-      const passed = Math.min(0.1, (now - state.last) / 1000) * Number(pace.value);
+      const passed = Math.min(0.1, Math.max(0, now - state.last) / 1000) * Number(pace.value);
       state.time = state.time + passed > duration ? 0 : state.time + passed;
       state.last = now;
       slider.value = String(Math.round((1000 * state.time) / (duration || 1)));
@@ -154,7 +154,7 @@ matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
   redraw();
 });
 
-document.getElementById("grid").textContent = `; grid: ${Number(cell.toPrecision(1))} m`;
+document.getElementById("grid").textContent = `grid: ${Number(cell.toPrecision(1))} m`;
 readColours();
 [view.azimuth, view.elevation] = SIDES.free;
 setPlaying(!still && duration > 0);
