@@ -112,14 +112,18 @@ def test_views_stand_upright_and_are_no_mirror(seed: int) -> None:
 
 def probed(page: str, script: str, folder: Path, browse: Callable[..., str]) -> Any:
     """Return what a script in a page finds, once the page stands."""
-    probe = (
-        "<script>addEventListener('load', () => setTimeout(async () => { const at = (id) => "
-        "document.getElementById(id); const drawn = () => new Promise((go) => setTimeout(go, 30)); const key = (key, where = document.body) => where.dispatchEvent("
-        "new KeyboardEvent('keydown', { key, bubbles: true, cancelable: true }));"
-        f"const found = {{}}; {script} "
-        "const told = document.createElement('pre'); told.id = 'found';"
-        "told.textContent = JSON.stringify(found); document.body.append(told); }, 50));</script></body>"
-    )
+    probe = """<script>addEventListener("load", () => setTimeout(async () => {
+      const found = {};
+      const at = (id) => document.getElementById(id);
+      const drawn = () => new Promise((go) => setTimeout(go, 30));
+      const key = (key, where = document.body) =>
+        where.dispatchEvent(new KeyboardEvent("keydown", { key, bubbles: true, cancelable: true }));
+      SCRIPT
+      const told = document.createElement("pre");
+      told.id = "found";
+      told.textContent = JSON.stringify(found);
+      document.body.append(told);
+    }, 50));</script></body>""".replace("SCRIPT", script)
     # a browser that only tells what stands in a page draws no frames
     frames = (
         "<script>window.requestAnimationFrame = (go) => setTimeout(() => go(performance.now()), 10)</script>"

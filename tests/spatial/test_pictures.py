@@ -15,10 +15,13 @@ import pytest
 from PIL import Image
 from support.spatial.random_arms import random_arm
 
-from tmm_gen.report.space_motion import SpaceMotion
-from tmm_gen.report.space_picture import draw_arm
+from tmm_gen.inputs.signals import Constant
+from tmm_gen.report.space_motion import SpaceMotion, space_motion
+from tmm_gen.report.space_page import space_page
+from tmm_gen.report.space_picture import draw_arm, space_gif
 from tmm_gen.scene import load_scene, parse_scene
 from tmm_gen.scene.spatial.arm import Frame, Revolute, SpatialArm
+from tmm_gen.simulate.run import simulate
 from tmm_gen.simulate.skeleton import Skeleton
 from tmm_gen.style import figure, picture, style
 
@@ -233,25 +236,17 @@ def test_a_still_shows_all_in_true_proportion(gravity: tuple[float, float, float
 
 def test_the_command_draws_and_animates(tmm_gen: Callable[..., Any], tmp_path: Path) -> None:
     (tmp_path / "door.toml").write_text(DOOR)
-    words = ("run", "door.toml", "--until", "0.5", "--input", "push=1", "--plot", "a.png", "--animate")
-    done = tmm_gen(*words, "a.gif", "--csv", "a.csv")
+    words = ("run", "door.toml", "--until", "0.3", "--input", "push=1", "--plot", "a.png")
+    done = tmm_gen(*words, "--animate", "a.html")
     assert done.returncode == 0, done.stderr
-    with Image.open(tmp_path / "a.png") as still, Image.open(tmp_path / "a.gif") as moving:
-        assert still.size[0] > 1000
-        assert moving.n_frames == 12
-        frames = []
-        for k in (0, 11):
-            moving.seek(k)
-            frames.append(np.array(moving.convert("RGB")))
-        assert np.any(frames[0] != frames[1])
+    with Image.open(tmp_path / "a.png") as still:
+        assert still.size[0] > 1500, "the arm is beside its outputs"
+    page = (tmp_path / "a.html").read_text()
+    assert "<h1>Door with a &lt;knob&gt; &amp; $latch$</h1>" in page
+    assert '"name":"knob"' in page
 
 
 def test_a_traced_run_is_where_its_outputs_say() -> None:
-    from tmm_gen.inputs.signals import Constant
-    from tmm_gen.report.plots import response_picture
-    from tmm_gen.report.space_motion import space_motion
-    from tmm_gen.simulate.run import simulate
-
     scene = parse_scene(DOOR)
     run = simulate(scene, {"push": Constant(2.0)}, 0.4, trace=True, judge=False)
     motion = space_motion(run)
@@ -260,8 +255,15 @@ def test_a_traced_run_is_where_its_outputs_say() -> None:
     for axis, name in enumerate("xyz"):
         assert tip[:, axis] == pytest.approx(run.outputs[f"knob_{name}"], abs=1e-12)
     assert np.ptp(tip[:, 1]) > 0.01
-    with Image.open(BytesIO(response_picture(run))) as drawn:
-        assert drawn.size[0] > 1500, "the arm is beside its outputs"
+    page = space_page(run).decode()
+    assert f'"time":[0.0,{run.time[1]:g},' in page, "so few instants are all shown"
+    with Image.open(BytesIO(space_gif(run))) as moving:
+        assert moving.n_frames == 10
+        frames = []
+        for k in (0, 9):
+            moving.seek(k)
+            frames.append(np.array(moving.convert("RGB")))
+        assert np.any(frames[0] != frames[1])
     bare = simulate(scene, {}, 0.02, judge=False)
     with pytest.raises(ValueError, match="not traced"):
         space_motion(bare)
