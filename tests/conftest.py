@@ -124,6 +124,40 @@ def need_tool() -> Callable[..., str]:
     return find
 
 
+@pytest.fixture(scope="session")
+def browse(need_tool: Callable[..., str], tmp_path_factory: pytest.TempPathFactory) -> Callable[..., str]:
+    """Call a headless browser on a page, with nothing of the network."""
+    program = need_tool("chromium")
+
+    def call(page: Path, *options: str) -> str:
+        profile = tmp_path_factory.mktemp("profile")
+        quiet = (
+            "--no-first-run",
+            "--disable-background-networking",
+            "--disable-component-update",
+            "--disable-sync",
+        )
+        offline = "--proxy-server=127.0.0.1:9"
+        always = (
+            "--headless",
+            "--no-sandbox",
+            "--disable-gpu",
+            f"--user-data-dir={profile}",
+            *quiet,
+            offline,
+        )
+        done = subprocess.run(
+            [program, *always, *options, page.as_uri()],
+            capture_output=True,
+            text=True,
+            check=True,
+            timeout=120,
+        )
+        return done.stdout
+
+    return call
+
+
 # -- what takes long, last ------------------------------------------------------------------------
 
 LONG = (

@@ -87,7 +87,7 @@ def figure(width: float, height: float, **layout: Any) -> tuple[Figure, Any]:
 
 
 def panelled(
-    width: float, height: float, ratios: list[float], *, beside: bool = False
+    width: float, height: float, ratios: list[float], *, beside: bool = False, in_space: bool = False
 ) -> tuple[Figure, Any, Any]:
     """Return a figure of panels below each other with one axis of time, and a field beside them if wanted.
 
@@ -99,6 +99,8 @@ def panelled(
         Heights of the panels.
     beside : bool
         Whether to leave half of the width to a field.
+    in_space : bool
+        Whether that field has three axes.
 
     Returns
     -------
@@ -108,8 +110,13 @@ def panelled(
     from matplotlib.figure import Figure
 
     made = Figure(figsize=(width, height), layout="constrained")
+    if in_space:
+        # room for the labels of the upward axis, of which the layout knows nothing
+        made.set_layout_engine("constrained", wspace=0.12)
     grid = made.add_gridspec(len(ratios), 1 + beside, height_ratios=ratios)
-    field = made.add_subplot(grid[:, 0]) if beside else None
+    field = made.add_subplot(grid[:, 0], projection="3d" if in_space else None) if beside else None
+    if in_space and field is not None:
+        field.set_anchor("N")
     panels: list[Any] = []
     for row in range(len(ratios)):
         panels.append(made.add_subplot(grid[row, int(beside)], sharex=panels[0] if panels else None))
@@ -179,7 +186,7 @@ def subtitle(axes: Axes, title: str, below: str) -> None:
     """Put a title over axes, and a fainter line between both; a legend of several names there stays below them."""
     legend = axes.get_legend()
     above = 20.0 if legend is not None and len(legend.get_texts()) > 2 else 0.0
-    axes.set_title(title, pad=22 + above)
+    axes.set_title(title, loc="left", pad=22 + above)
     axes.annotate(
         below,
         (0.0, 1.0),

@@ -6,7 +6,6 @@ import base64
 import csv
 import io
 import re
-import subprocess
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -15,52 +14,14 @@ import matplotlib.colors
 import matplotlib.image
 import numpy as np
 import pytest
+from support.browser import PHONE, excess_on_a_phone
 
 from tmm_gen.study.figures import step_picture, trade_picture
 from tmm_gen.study.report import report
 from tmm_gen.study.study import Study
 from tmm_gen.style import PALETTE
 
-PHONE = 390
-"""Pixels: the width of a common phone's screen."""
-
 REPORTS = sorted((Path(__file__).resolve().parents[2] / "docs" / "reports").glob("*.html"))
-
-
-@pytest.fixture(scope="module")
-def browse(
-    need_tool: Callable[[str, str], str], tmp_path_factory: pytest.TempPathFactory
-) -> Callable[..., str]:
-    """Call a headless browser on a page, with nothing of the network."""
-    program = need_tool("chromium", "chromium")
-
-    def call(page: Path, *options: str) -> str:
-        profile = tmp_path_factory.mktemp("profile")
-        quiet = (
-            "--no-first-run",
-            "--disable-background-networking",
-            "--disable-component-update",
-            "--disable-sync",
-        )
-        offline = "--proxy-server=127.0.0.1:9"
-        always = (
-            "--headless",
-            "--no-sandbox",
-            "--disable-gpu",
-            f"--user-data-dir={profile}",
-            *quiet,
-            offline,
-        )
-        done = subprocess.run(
-            [program, *always, *options, page.as_uri()],
-            capture_output=True,
-            text=True,
-            check=True,
-            timeout=120,
-        )
-        return done.stdout
-
-    return call
 
 
 @pytest.fixture(scope="module")
@@ -71,23 +32,6 @@ def chain_page(chain_study: Study) -> str:
 @pytest.fixture(scope="module")
 def arm_page(arm_study: Study) -> str:
     return report(arm_study)
-
-
-def excess_on_a_phone(page: str, folder: Path, browse: Callable[..., str]) -> int:
-    """Return how many pixels a page is wider than a frame as wide as a phone."""
-    (folder / "page.html").write_text(page)
-    frame = (
-        f'<iframe id="f" src="page.html" style="width:{PHONE}px;height:2000px;border:0"></iframe>'
-        "<script>addEventListener('load', () => { const e = f.contentDocument.documentElement;"
-        " document.title = 'excess=' + (e.scrollWidth - e.clientWidth) })</script>"
-    )
-    (folder / "frame.html").write_text(f"<!doctype html><title>-</title>{frame}")
-    dom = browse(
-        folder / "frame.html", "--allow-file-access-from-files", "--dump-dom", "--window-size=800,2000"
-    )
-    found = re.search(r"<title>excess=(\d+)</title>", dom)
-    assert found, dom[:300]
-    return int(found[1])
 
 
 def needs_nothing(page: str) -> None:

@@ -92,7 +92,7 @@ def _sweeps(_context: click.Context, parameter: click.Parameter, value: str | No
     "animated",
     metavar="FILE.gif|FILE.html",
     type=OutputFile(*_MOVING),
-    help="Show a planar arm in motion.",
+    help="Show an arm in motion; in space, a page lets it be turned.",
 )
 @click.option("--json", "json_mode", is_flag=True, help="One JSON object instead of a table.")
 def run(
@@ -126,7 +126,7 @@ def run(
         chosen = chosen.replace(**{"model.iterations": iterations})
     read = (scene, *table_files(given))
     signals = read_inputs(given, *input_names(chosen))
-    shaped = chosen.model.in_plane
+    shaped = not chosen.model.linear
     if animated is not None and not shaped:
         raise UserError(f"--animate {animated}: a chain has no shape to show. Use --plot.")
     claim((csv_file, picture, animated), read)
@@ -165,10 +165,23 @@ def _write(
         target = picture_file(picture, simulation.scene.name)
         files[target] = response_picture(simulation, target.suffix[1:].lower())
     if animated is not None:
+        files[animated] = _moving(simulation, animated.suffix[1:].lower())
+    return write_outputs(files, read)
+
+
+def _moving(simulation: Simulation, form: str) -> bytes:
+    """Return an arm in motion, as "gif" or "html"."""
+    if simulation.scene.spatial is None:
         from tmm_gen.report.animate import animation
 
-        files[animated] = animation(simulation, animated.suffix[1:].lower())
-    return write_outputs(files, read)
+        return animation(simulation, form)
+    if form == "gif":
+        from tmm_gen.report.space_picture import space_gif
+
+        return space_gif(simulation)
+    from tmm_gen.report.space_page import space_page
+
+    return space_page(simulation)
 
 
 def _show(simulation: Simulation, written: list[Path], hints: list[str], json_mode: bool) -> None:

@@ -1,4 +1,4 @@
-"""A simulation as a picture: the arm if it lies in a plane, a panel for each unit of the outputs, the inputs below."""
+"""A simulation as a picture: the arm if it has a shape, a panel for each unit of the outputs, the inputs below."""
 
 from __future__ import annotations
 
@@ -9,6 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.report.animate import draw_shapes
+from tmm_gen.report.space_motion import space_motion
+from tmm_gen.report.space_picture import draw_arm
 from tmm_gen.scene.columns import output_columns
 from tmm_gen.scene.quantity import INPUT_UNITS
 from tmm_gen.simulate.simulation import Simulation
@@ -43,11 +45,14 @@ def _drawn(simulation: Simulation) -> Figure:
     units = list(dict.fromkeys(column.unit for column in columns))
     acting = [item for item in scene.inputs if np.any(simulation.inputs[item.name])]
     ratios = [3.0] * len(units) + [1.2] * bool(acting)
-    shaped = simulation.trace is not None and scene.model.in_plane
+    shaped, in_space = simulation.trace is not None and not scene.model.linear, scene.spatial is not None
     size = (12.0, max(5.0, 1.1 + 0.78 * sum(ratios))) if shaped else (8.0, 1.1 + 0.78 * sum(ratios))
-    made, panels, arm = panelled(*size, ratios, beside=shaped)
+    made, panels, arm = panelled(*size, ratios, beside=shaped, in_space=in_space)
     if shaped:
-        draw_shapes(arm, simulation)
+        if in_space:
+            draw_arm(arm, space_motion(simulation))
+        else:
+            draw_shapes(arm, simulation)
         subtitle(arm, "the arm over time", "the later the darker")
     for panel, unit in zip(panels, units, strict=False):
         shown = [column for column in columns if column.unit == unit]

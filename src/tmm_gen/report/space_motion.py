@@ -1,0 +1,75 @@
+"""Where the joints of an arm in space are over time: what its pictures are drawn from."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.scene.spatial.arm import SpatialArm
+from tmm_gen.scene.spatial.reach import longest_way
+from tmm_gen.simulate.simulation import Simulation
+from tmm_gen.simulate.skeleton import Skeleton
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class SpaceMotion:
+    """An arm in space at some instants.
+
+    Parameters
+    ----------
+    arm : SpatialArm
+    time : array, (k,)
+        s, from 0 on.
+    angles : array, (k, n)
+        Of its joints, rad.
+    """
+
+    arm: SpatialArm
+    time: Array
+    angles: Array
+
+    @cached_property
+    def skeleton(self) -> Skeleton:
+        """Its points and lines."""
+        return Skeleton(self.arm)
+
+    @property
+    def reach(self) -> float:
+        """The longest way along it, m; 1 where it has no length."""
+        return longest_way(self.arm) or 1.0
+
+    @property
+    def upward(self) -> tuple[int, int]:
+        """The world axis nearest to upward, against gravity, and its sign; z where nothing falls."""
+        gravity = self.arm.gravity
+        axis = max(range(3), key=lambda axis: (abs(gravity[axis]), axis))
+        return axis, 1 if gravity[axis] <= 0.0 else -1
+
+    def thinned(self, most: int) -> SpaceMotion:
+        """Return it at so many instants at most, the first and the last among them."""
+        shown = np.unique(np.round(np.linspace(0, len(self.time) - 1, most)).astype(int))
+        return SpaceMotion(self.arm, self.time[shown], self.angles[shown])
+
+
+def space_motion(simulation: Simulation) -> SpaceMotion:
+    """Return the motion of a simulation.
+
+    Parameters
+    ----------
+    simulation : Simulation
+        Of an arm in space, traced.
+
+    Raises
+    ------
+    ValueError
+        If it is of no arm in space, or was not traced.
+    """
+    arm, trace = simulation.scene.spatial, simulation.trace
+    if arm is None or trace is None:
+        raise ValueError("the motion was not traced" if arm else "this is no arm in space")
+    return SpaceMotion(arm, simulation.time[trace.indices.astype(int)], trace.angle)
