@@ -90,6 +90,8 @@ class Inertial:
                 value = own[i, j] + (0 if self._out.pattern.tip else ARTICULATED[i, j])
                 inertia[i, j] = inertia[j, i] = sheet.named(names[6 * i + j], value)
         about_axis = inertia[axis, :]
+        if self._out.pattern.rooted:  # what it stands on rests
+            about_axis = sp.Matrix([[v if k == axis else 0 for k, v in enumerate(about_axis)]])
         lines: list[Line] = [
             *sheet.lets,
             *(

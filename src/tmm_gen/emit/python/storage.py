@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from tmm_gen.program.statements import Assign, Loop, Mark, Require, Routine, Statement
-from tmm_gen.program.variables import Ref, Variable, refs_in
+from tmm_gen.program.variables import Ref, Role, Variable, refs_in
 
 
 def vectorised(routine: Routine) -> frozenset[int]:
@@ -19,6 +19,7 @@ def vectorised(routine: Routine) -> frozenset[int]:
         for place, statement in enumerate(statements)
         if isinstance(statement, Loop)
         and statement.parallel
+        and not any(_outlives(inner) for inner in statement.body)
         and not any(_reads_first(scalar, statements[place + 1 :]) for scalar in _scalars_written(statement))
     )
 
@@ -60,6 +61,14 @@ def _scalars_written(loop: Loop) -> list[Variable]:
     return [
         s.target.variable for s in loop.body if isinstance(s, Assign) and s.target.variable.length is None
     ]
+
+
+def _outlives(statement: Assign | Require) -> bool:
+    """Whether a statement sets a scalar that is no scratch: a loop over all stations would make an array of it."""
+    if not isinstance(statement, Assign):
+        return False
+    variable = statement.target.variable
+    return variable.length is None and variable.role not in (Role.LOCAL, Role.COEFFICIENT)
 
 
 def _reads_first(scalar: Variable, statements: Sequence[Statement]) -> bool:

@@ -143,8 +143,24 @@ def _early(sections: list[Section]) -> set[Variable]:
                         if ref.variable in early and ref.variable not in one_value:
                             late.add(ref.variable)
         if not late:
-            return {v for v in early if any(not _trivial(a) for a in assigns if a.target.variable == v)}
+            return _worth_it(early, assigns)
         early -= late
+
+
+def _worth_it(early: set[Variable], assigns: list[Assign]) -> set[Variable]:
+    """Return early variables without those that say nothing, unless others of them read these."""
+    found = {a.target.variable for a in assigns if a.target.variable in early and not _trivial(a)}
+    while True:
+        read = {
+            ref.variable
+            for a in assigns
+            if a.target.variable in found
+            for ref in refs_in(a.value)
+            if ref.variable in early
+        }
+        if read <= found:
+            return found
+        found |= read
 
 
 def _of_one_value(assigns: list[Assign]) -> set[Variable]:
