@@ -435,3 +435,26 @@ def test_initial_angles_by_name_are_for_chains_by_parts_too() -> None:
     assert parse_scene(f"{head}{links}{output}angles = {{ b = 0.2, a = 0.1 }}\n").initial.angles == (0.1, 0.2)
     with pytest.raises(SceneError, match=r"initial\.rates: leaves out a"):
         parse_scene(f"{head}{links}{output}rates = {{ b = 0.2 }}\n")
+
+
+@pytest.mark.parametrize("length", [5e-324, 1e-320, 1e-310])
+def test_lengths_that_vanish_when_cut(length: float) -> None:
+    """A piece's length is rounded to nothing: told as a fault of the scene, by whatever rule finds it."""
+    text = f"""
+name = "speck"
+[model]
+kind = "planar"
+[integrator]
+name = "newmark"
+step = 1e-3
+[base]
+kind = "clamp"
+[[beam]]
+name = "speck"
+length = {length}
+bending_stiffness = 1.0
+mass_per_length = 1.0
+links = 4
+"""
+    with pytest.raises(SceneError):
+        parse_scene(text)

@@ -17,6 +17,8 @@ from tmm_gen.derive.integrators.amplification import LAMBDA, OMEGA, ZETA, Amplif
 from tmm_gen.derive.integrators.parameters import Number, exact
 
 _DIGITS = 50
+_FEWER = 5
+"""Digits of a damping ratio that limits in print can tell of."""
 _ON_CIRCLE = mpmath.mpf(10) ** -30
 """Eigenvalues that exceed 1 by less are on the circle: rounding is at 1e-50, a true excess far above."""
 
@@ -29,7 +31,13 @@ def stability_limit(linear: Amplification, zeta: Number = 0) -> sp.Expr:
     sympy.Expr
         Exact; infinity if there is no limit, zero if motion grows however small the step.
     """
-    polynomial = at_damping(linear, zeta)
+    try:
+        return _limit(at_damping(linear, zeta))
+    except ValueError:  # SymPy's table of prime factors refuses what it has left of some very large integers
+        return _limit(at_damping(linear, float(f"{float(zeta):.{_FEWER}g}")))
+
+
+def _limit(polynomial: sp.Poly) -> sp.Expr:
     boundaries = sorted(set(_boundaries(polynomial)), key=lambda root: root.evalf(_DIGITS))
     previous = sp.Integer(0)
     for boundary in [*boundaries, sp.oo]:

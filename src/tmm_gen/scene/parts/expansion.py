@@ -178,12 +178,15 @@ def joined(inner: Link, outer: Link) -> Link:
     here, length = exact(inner.center) * exact(inner.length), exact(inner.length)
     there = length + exact(outer.center) * exact(outer.length)
     whole, end = m + more, length + exact(outer.length)
+    if not whole:  # rounded away
+        m = more = whole = exact(1.0)
     inertia = exact(inner.inertia) + exact(outer.inertia) + m * more / whole * (there - here) ** 2
     return Link.model_construct(
         inertia=nearest(inertia),
         mass=nearest(whole),
         length=nearest(end),
-        center=nearest((m * here + more * there) / whole / end),
+        # lengths of next to nothing may be rounded to it
+        center=nearest((m * here + more * there) / whole / end) if end else 0.5,
     )
 
 
