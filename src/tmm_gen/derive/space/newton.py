@@ -150,10 +150,11 @@ class Newton:
             ]
         )
         for crossing in reversed(out.crossings):
-            half = freed * self._through(crossing)
-            half = sp.Matrix(
-                6, 9, lambda i, j, m=half: sheet.named(f"half_{ROWS[i]}_by_{COLUMNS[j]}", m[i, j])
-            )
+            half = freed
+            for part in self._through(sheet, crossing):
+                half = sp.Matrix(
+                    6, 9, lambda i, j, m=half * part: sheet.named(f"half_{ROWS[i]}_by_{COLUMNS[j]}", m[i, j])
+                )
             freed = crossing.equations.forces * half
             freed = sp.Matrix(
                 6, 9, lambda i, j, m=freed: sheet.named(f"passed_{ROWS[i]}_by_{COLUMNS[j]}", m[i, j])
@@ -176,22 +177,32 @@ class Newton:
         own = dict(zip(OMEGA, out.omega, strict=True))
         return slopes.applyfunc(lambda value: sp.factor_terms(sp.expand(value.xreplace(own))))
 
-    def _through(self, crossing: Crossing) -> sp.Matrix:
-        """Return the change of a section's motion at the outer side of an element per change at its inner one."""
+    def _through(self, sheet: Sheet, crossing: Crossing) -> tuple[sp.Matrix, ...]:
+        """Return the change of a section's motion at the outer side of an element per change at its inner one.
+
+        As factors, outer first: a hinge's rate acts on what its turn has turned already. Entries that take arithmetic
+        are named, since they are used row by row.
+        """
         equations = crossing.equations
         relative = equations.relative
         alpha = equations.carried + equations.swung * RATE
         accel = equations.turn * ACCEL + relative.jacobian(OMEGA) * ALPHA + equations.omega.cross(relative)
         whole = sp.Matrix.vstack(accel, alpha, equations.omega).jacobian([*ACCEL, *ALPHA, *OMEGA])
         here = _at(crossing)
-        return whole.applyfunc(lambda value: sp.factor_terms(sp.expand(value).xreplace(here)))
+        whole = whole.applyfunc(lambda value: sp.factor_terms(sp.expand(value).xreplace(here)))
+        if equations.swung.is_zero_matrix:
+            return (_named(sheet, whole),)
+        turned = sp.diag(*[equations.turn] * 3)
+        # the inverse of a turn is its transpose
+        return (whole * turned.T).applyfunc(_on_circle), turned
 
     def _back(self) -> tuple[Line, ...]:
         pattern, sheet = self._out.pattern, Sheet()
         change = sp.zeros(9, 1) if pattern.rooted else CHANGE
         for crossing in self._out.crossings:
-            moved = self._through(crossing) * change
-            change = sp.Matrix([sheet.named(f"moved_{COLUMNS[j]}", moved[j]) for j in range(9)])
+            for part in reversed(self._through(sheet, crossing)):
+                moved = part * change
+                change = sp.Matrix([sheet.named(f"moved_{COLUMNS[j]}", moved[j]) for j in range(9)])
         lacking = IMBALANCE + (self._about * change)[0]
         found = Let(OWN, -ADMITTANCE * lacking, "what the joint does")
         change = change + self._kept_push * OWN
@@ -206,6 +217,16 @@ def _at(crossing: Crossing) -> dict[sp.Symbol, sp.Expr]:
         **dict(zip(ALPHA, crossing.alpha, strict=True)),
         **dict(zip(ACCEL, crossing.accel, strict=True)),
     }
+
+
+def _named(sheet: Sheet, through: sp.Matrix) -> sp.Matrix:
+    return sp.Matrix(
+        9, 9, lambda i, j: sheet.named(f"{COLUMNS[i]}_by_{COLUMNS[j]}", through[i, j], "across the link")
+    )
+
+
+def _on_circle(value: sp.Expr) -> sp.Expr:
+    return sp.expand(sp.expand(value).subs(SINE**2, 1 - COSINE**2))
 
 
 def _by_circle(value: sp.Expr) -> sp.Expr:
