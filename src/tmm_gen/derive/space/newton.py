@@ -15,6 +15,7 @@ from tmm_gen.derive.space.declaration import ACCEL, ALPHA, ANGLE, AXES, OMEGA, R
 from tmm_gen.derive.space.equations import body_equations, passage_equations
 from tmm_gen.derive.space.inward import ADMITTANCE, BIAS, IMBALANCE, IMPEDANCE, OWN, TORQUE
 from tmm_gen.derive.space.outward import COSINE, OWN_FORCE, OWN_MOMENT, SINE, Crossing, Outward, body_of
+from tmm_gen.derive.space.shared import with_shared
 from tmm_gen.derive.space.sheet import Sheet
 from tmm_gen.derive.station.lets import Let, Line, Pivot, Update
 
@@ -80,7 +81,7 @@ class Newton:
 
     def _inward(self) -> tuple[Line, ...]:
         sheet, axis, out = Sheet(), self._axis, self._out
-        own = self._own()
+        own = with_shared(sheet, self._own())
         slopes = sp.Matrix(
             6,
             9,
@@ -175,7 +176,8 @@ class Newton:
         moment = body.moment + OMEGA.cross(body.spin)
         slopes = sp.Matrix.vstack(force, moment).jacobian([*ACCEL, *ALPHA, *OMEGA])
         own = dict(zip(OMEGA, out.omega, strict=True))
-        return slopes.applyfunc(lambda value: sp.factor_terms(sp.expand(value.xreplace(own))))
+        rates = sorted(out.omega.free_symbols, key=lambda s: s.name)
+        return slopes.applyfunc(lambda value: sp.collect(sp.expand(value.xreplace(own)), rates))
 
     def _through(self, sheet: Sheet, crossing: Crossing) -> tuple[sp.Matrix, ...]:
         """Return the change of a section's motion at the outer side of an element per change at its inner one.
@@ -191,7 +193,7 @@ class Newton:
         here = _at(crossing)
         whole = whole.applyfunc(lambda value: sp.factor_terms(sp.expand(value).xreplace(here)))
         if equations.swung.is_zero_matrix:
-            return (_named(sheet, whole),)
+            return (_named(sheet, with_shared(sheet, whole)),)
         turned = sp.diag(*[equations.turn] * 3)
         # the inverse of a turn is its transpose
         return (whole * turned.T).applyfunc(_on_circle), turned
