@@ -17,6 +17,7 @@ from tmm_gen.derive.space.inward import ADMITTANCE, BIAS, IMBALANCE, IMPEDANCE, 
 from tmm_gen.derive.space.outward import COSINE, OWN_FORCE, OWN_MOMENT, SINE, Crossing, Outward, body_of
 from tmm_gen.derive.space.shared import with_shared
 from tmm_gen.derive.space.sheet import Sheet
+from tmm_gen.derive.space.turning import HingeTurn
 from tmm_gen.derive.station.lets import Let, Line, Pivot, Update
 
 _MOTIONS = ("accel", "alpha", "omega")
@@ -151,15 +152,17 @@ class Newton:
             ]
         )
         for crossing in reversed(out.crossings):
-            half = freed
-            for part in self._through(sheet, crossing):
-                half = sp.Matrix(
-                    6, 9, lambda i, j, m=half * part: sheet.named(f"half_{ROWS[i]}_by_{COLUMNS[j]}", m[i, j])
-                )
-            freed = crossing.equations.forces * half
-            freed = sp.Matrix(
-                6, 9, lambda i, j, m=freed: sheet.named(f"passed_{ROWS[i]}_by_{COLUMNS[j]}", m[i, j])
+            part, *turned = self._through(sheet, crossing)
+            half = sp.Matrix(
+                6, 9, lambda i, j, m=freed * part: sheet.named(f"half_{ROWS[i]}_by_{COLUMNS[j]}", m[i, j])
             )
+            if turned:
+                freed = _turned(HingeTurn(sheet, out.pattern.axis), half)
+            else:
+                freed = crossing.equations.forces * half
+                freed = sp.Matrix(
+                    6, 9, lambda i, j, m=freed: sheet.named(f"passed_{ROWS[i]}_by_{COLUMNS[j]}", m[i, j])
+                )
             left = crossing.equations.forces * left
             left = sp.Matrix([sheet.named(f"passed_{ROWS[i]}", left[i]) for i in range(6)])
         lines += sheet.lets
@@ -219,6 +222,20 @@ def _at(crossing: Crossing) -> dict[sp.Symbol, sp.Expr]:
         **dict(zip(ALPHA, crossing.alpha, strict=True)),
         **dict(zip(ACCEL, crossing.accel, strict=True)),
     }
+
+
+def _turned(turn: HingeTurn, slopes: sp.Matrix) -> sp.Matrix:
+    return sp.Matrix.vstack(
+        *(
+            sp.Matrix.hstack(
+                *(
+                    turn.block(f"{force}_by_{motion}", slopes[3 * r : 3 * r + 3, 3 * c : 3 * c + 3])
+                    for c, motion in enumerate(_MOTIONS)
+                )
+            )
+            for r, force in enumerate(_FORCES)
+        )
+    )
 
 
 def _named(sheet: Sheet, through: sp.Matrix) -> sp.Matrix:
