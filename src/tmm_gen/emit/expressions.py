@@ -9,6 +9,8 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from functools import lru_cache
 
 import sympy as sp
 
@@ -119,7 +121,7 @@ class ExpressionPrinter(ABC):
         )
         return self._quotient(text or self.literal(1.0), below), _PRODUCT
 
-    def _quotient(self, above: str, below: list[sp.Expr]) -> str:
+    def _quotient(self, above: str, below: Sequence[sp.Expr]) -> str:
         if not below:
             return above
         under = self.times.join(self._factor_text(f, _ATOM) for f in below)
@@ -142,15 +144,17 @@ class ExpressionPrinter(ABC):
         return text if own >= level and not (level == _ATOM and text.startswith("-")) else f"({text})"
 
 
-def ordered_terms(e: sp.Expr) -> list[sp.Expr]:
+@lru_cache(maxsize=1 << 16)  # every language asks again
+def ordered_terms(e: sp.Expr) -> tuple[sp.Expr, ...]:
     """Return the terms of a sum in printing order: a positive one first if there is one."""
     terms = list(sp.Add.make_args(e))
     terms.sort(key=lambda t: sp.default_sort_key(t))
     first = next((i for i, t in enumerate(terms) if not is_negative(t)), 0)
-    return [terms[first], *terms[:first], *terms[first + 1 :]]
+    return (terms[first], *terms[:first], *terms[first + 1 :])
 
 
-def numerator_and_denominator(e: sp.Expr) -> tuple[list[sp.Expr], list[sp.Expr]]:
+@lru_cache(maxsize=1 << 16)
+def numerator_and_denominator(e: sp.Expr) -> tuple[tuple[sp.Expr, ...], tuple[sp.Expr, ...]]:
     """Split a product into factors above and below the line, numbers first."""
     above: list[sp.Expr] = []
     below: list[sp.Expr] = []
@@ -160,13 +164,14 @@ def numerator_and_denominator(e: sp.Expr) -> tuple[list[sp.Expr], list[sp.Expr]]
             below.append(base**-exponent)
         elif factor != 1:
             above.append(factor)
-    return sorted(above, key=_numbers_first), sorted(below, key=_numbers_first)
+    return tuple(sorted(above, key=_numbers_first)), tuple(sorted(below, key=_numbers_first))
 
 
 def _numbers_first(factor: sp.Expr) -> tuple[bool, tuple[object, ...]]:
     return not factor.is_Number, sp.default_sort_key(factor)
 
 
+@lru_cache(maxsize=1 << 16)
 def opposite(term: sp.Expr) -> sp.Expr:
     """Change the sign of a term without multiplying its number into a sum."""
     if not term.is_Mul:
@@ -178,6 +183,7 @@ def opposite(term: sp.Expr) -> sp.Expr:
     return sp.Mul(*rest, evaluate=False) if len(rest) > 1 else sp.Mul(*rest)
 
 
+@lru_cache(maxsize=1 << 16)
 def is_negative(term: sp.Expr) -> bool:
     """Whether a term is written with a minus sign in front."""
     numbers = [f for f in sp.Mul.make_args(term) if f.is_Number]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import sympy as sp
 
@@ -48,6 +49,7 @@ class Operations:
         )
 
 
+@lru_cache(maxsize=1 << 16)  # every backend asks again for its header
 def count_expression(e: sp.Expr) -> Operations:
     """Count the operations of one expression as printed."""
     e = sp.sympify(e)

@@ -70,14 +70,14 @@ def execute(
             values[key(variable)] = (
                 number(0.0) if variable.length is None else [number(0.0)] * variable.length
             )
-    compiled = {value: _function(value, modules) for value in routine.values()}
+    compiled = _compiled(routine, modules)
 
-    def compute(value: sp.Expr, j: int | None) -> Any:
-        refs, function = compiled[value]
+    def compute(statement: Assign | Require | Until, j: int | None) -> Any:
+        refs, function = compiled[id(statement)]
         return function(*[_read(values, name, ref, j) for name, ref in refs])
 
     def run(statement: Assign | Require, j: int | None) -> None:
-        result = compute(statement.value, j)
+        result = compute(statement, j)
         if isinstance(statement, Require):
             if not result > 0:
                 raise VanishingPivotError(f"{statement.value} = {result} at station {j}")
@@ -93,7 +93,7 @@ def execute(
             begin, left = place, statement.most
         elif isinstance(statement, Until):
             left -= 1
-            if left > 0 and compute(statement.value, None) > 0:
+            if left > 0 and compute(statement, None) > 0:
                 place = begin
         elif isinstance(statement, Loop):
             for j in reversed(statement.visits) if statement.order is Order.INWARD else statement.visits:
@@ -103,10 +103,22 @@ def execute(
             run(statement, None)
 
 
-_FUNCTIONS: dict[tuple[sp.Expr, int | str], tuple[list[tuple[str, Ref]], Callable[..., Any]]] = {}
+_Function = tuple[list[tuple[str, Ref]], Callable[..., Any]]
+_FUNCTIONS: dict[tuple[sp.Expr, int | str], _Function] = {}
+_ROUTINES: dict[tuple[int, int | str], tuple[Routine, dict[int, _Function]]] = {}
+_SHAPES: dict[tuple[sp.Expr, int, int | str], Callable[..., Any]] = {}
 
 
-def _function(value: sp.Expr, modules: Any) -> tuple[list[tuple[str, Ref]], Callable[..., Any]]:
+def _compiled(routine: Routine, modules: Any) -> dict[int, _Function]:
+    """Compile a routine's statements once for all runs; by their identity, since equal ones take long to compare."""
+    kept = (id(routine), modules if isinstance(modules, str) else id(modules))
+    if kept not in _ROUTINES or _ROUTINES[kept][0] is not routine:
+        inside = (i for s in routine.statements() for i in (s.body if isinstance(s, Loop) else (s,)))
+        _ROUTINES[kept] = routine, {id(s): _function(s.value, modules) for s in inside}
+    return _ROUTINES[kept][1]
+
+
+def _function(value: sp.Expr, modules: Any) -> _Function:
     """Compile an expression once for all runs; returns its references with their keys, and a function of them."""
     expression = (value, modules if isinstance(modules, str) else id(modules))
     if expression not in _FUNCTIONS:
@@ -115,8 +127,11 @@ def _function(value: sp.Expr, modules: Any) -> tuple[list[tuple[str, Ref]], Call
         names = [sp.Symbol(f"x{k:03d}") for k in reversed(range(len(refs)))]
         plain = value.xreplace(dict(zip(refs, names, strict=True)))
         handed = modules if isinstance(modules, str) else list(modules)
-        function = sp.lambdify(names, plain, modules=handed)
-        _FUNCTIONS[expression] = [(key(ref.variable), ref) for ref in refs], function
+        # statements of unlike stations often differ in names alone
+        shape = (plain, len(names), expression[1])
+        if shape not in _SHAPES:
+            _SHAPES[shape] = sp.lambdify(names, plain, modules=handed)
+        _FUNCTIONS[expression] = [(key(ref.variable), ref) for ref in refs], _SHAPES[shape]
     return _FUNCTIONS[expression]
 
 

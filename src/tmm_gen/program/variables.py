@@ -73,8 +73,8 @@ class Variable:
     default: float | tuple[float, ...] | None = None
 
     def __hash__(self) -> int:
-        """Hash by name and length: long defaults would cost more than collisions."""
-        return hash((self.name, self.length))
+        """Hash by name, whose hash is known: long defaults would cost more than collisions."""
+        return hash(self.name)
 
     def at(self, offset: int = 0) -> Ref:
         """Return the element ``j + offset`` of the enclosing loop (the scalar itself if there is no length)."""

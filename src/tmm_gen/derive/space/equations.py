@@ -86,13 +86,14 @@ def time_derivative(value: sp.Matrix) -> sp.Matrix:
 
 def passage_equations(passage: Passage) -> PassageEquations:
     """Derive the equations of a massless element."""
-    relative = (passage.velocity - passage.turn * VELOCITY).applyfunc(sp.expand)
-    power = sp.Matrix.vstack(passage.velocity, passage.omega).jacobian([*VELOCITY, *OMEGA])
+    velocity, omega = passage.velocity, passage.omega
+    relative = (velocity - passage.turn * VELOCITY).applyfunc(sp.expand)
+    power = sp.Matrix.vstack(velocity, omega).jacobian([*VELOCITY, *OMEGA])
     return PassageEquations(
-        omega=passage.omega,
-        carried=passage.omega.jacobian(OMEGA) * ALPHA,
-        swung=passage.omega.diff(ANGLE),
-        pushed=passage.omega.diff(RATE),
+        omega=omega,
+        carried=omega.jacobian(OMEGA) * ALPHA,
+        swung=omega.diff(ANGLE),
+        pushed=omega.diff(RATE),
         turn=passage.turn,
         arm=passage.arm,
         relative=relative,

@@ -15,7 +15,9 @@ from tmm_gen.derive.space.declaration import ACCEL, ALPHA, ANGLE, AXES, OMEGA, R
 from tmm_gen.derive.space.equations import body_equations, passage_equations
 from tmm_gen.derive.space.inward import ADMITTANCE, BIAS, IMBALANCE, IMPEDANCE, OWN, TORQUE
 from tmm_gen.derive.space.outward import COSINE, OWN_FORCE, OWN_MOMENT, SINE, Crossing, Outward, body_of
+from tmm_gen.derive.space.shared import with_shared
 from tmm_gen.derive.space.sheet import Sheet
+from tmm_gen.derive.space.turning import HingeTurn
 from tmm_gen.derive.station.lets import Let, Line, Pivot, Update
 
 _MOTIONS = ("accel", "alpha", "omega")
@@ -80,7 +82,7 @@ class Newton:
 
     def _inward(self) -> tuple[Line, ...]:
         sheet, axis, out = Sheet(), self._axis, self._out
-        own = self._own()
+        own = with_shared(sheet, self._own())
         slopes = sp.Matrix(
             6,
             9,
@@ -150,14 +152,17 @@ class Newton:
             ]
         )
         for crossing in reversed(out.crossings):
-            half = freed * self._through(crossing)
+            part, *turned = self._through(sheet, crossing)
             half = sp.Matrix(
-                6, 9, lambda i, j, m=half: sheet.named(f"half_{ROWS[i]}_by_{COLUMNS[j]}", m[i, j])
+                6, 9, lambda i, j, m=freed * part: sheet.named(f"half_{ROWS[i]}_by_{COLUMNS[j]}", m[i, j])
             )
-            freed = crossing.equations.forces * half
-            freed = sp.Matrix(
-                6, 9, lambda i, j, m=freed: sheet.named(f"passed_{ROWS[i]}_by_{COLUMNS[j]}", m[i, j])
-            )
+            if turned:
+                freed = _turned(HingeTurn(sheet, out.pattern.axis), half)
+            else:
+                freed = crossing.equations.forces * half
+                freed = sp.Matrix(
+                    6, 9, lambda i, j, m=freed: sheet.named(f"passed_{ROWS[i]}_by_{COLUMNS[j]}", m[i, j])
+                )
             left = crossing.equations.forces * left
             left = sp.Matrix([sheet.named(f"passed_{ROWS[i]}", left[i]) for i in range(6)])
         lines += sheet.lets
@@ -174,24 +179,35 @@ class Newton:
         moment = body.moment + OMEGA.cross(body.spin)
         slopes = sp.Matrix.vstack(force, moment).jacobian([*ACCEL, *ALPHA, *OMEGA])
         own = dict(zip(OMEGA, out.omega, strict=True))
-        return slopes.applyfunc(lambda value: sp.factor_terms(sp.expand(value.xreplace(own))))
+        rates = sorted(out.omega.free_symbols, key=lambda s: s.name)
+        return slopes.applyfunc(lambda value: sp.collect(sp.expand(value.xreplace(own)), rates))
 
-    def _through(self, crossing: Crossing) -> sp.Matrix:
-        """Return the change of a section's motion at the outer side of an element per change at its inner one."""
+    def _through(self, sheet: Sheet, crossing: Crossing) -> tuple[sp.Matrix, ...]:
+        """Return the change of a section's motion at the outer side of an element per change at its inner one.
+
+        As factors, outer first: a hinge's rate acts on what its turn has turned already. Entries that take arithmetic
+        are named, since they are used row by row.
+        """
         equations = crossing.equations
         relative = equations.relative
         alpha = equations.carried + equations.swung * RATE
         accel = equations.turn * ACCEL + relative.jacobian(OMEGA) * ALPHA + equations.omega.cross(relative)
         whole = sp.Matrix.vstack(accel, alpha, equations.omega).jacobian([*ACCEL, *ALPHA, *OMEGA])
         here = _at(crossing)
-        return whole.applyfunc(lambda value: sp.factor_terms(sp.expand(value).xreplace(here)))
+        whole = whole.applyfunc(lambda value: sp.factor_terms(sp.expand(value).xreplace(here)))
+        if equations.swung.is_zero_matrix:
+            return (_named(sheet, with_shared(sheet, whole)),)
+        turned = sp.diag(*[equations.turn] * 3)
+        # the inverse of a turn is its transpose
+        return (whole * turned.T).applyfunc(_on_circle), turned
 
     def _back(self) -> tuple[Line, ...]:
         pattern, sheet = self._out.pattern, Sheet()
         change = sp.zeros(9, 1) if pattern.rooted else CHANGE
         for crossing in self._out.crossings:
-            moved = self._through(crossing) * change
-            change = sp.Matrix([sheet.named(f"moved_{COLUMNS[j]}", moved[j]) for j in range(9)])
+            for part in reversed(self._through(sheet, crossing)):
+                moved = part * change
+                change = sp.Matrix([sheet.named(f"moved_{COLUMNS[j]}", moved[j]) for j in range(9)])
         lacking = IMBALANCE + (self._about * change)[0]
         found = Let(OWN, -ADMITTANCE * lacking, "what the joint does")
         change = change + self._kept_push * OWN
@@ -206,6 +222,30 @@ def _at(crossing: Crossing) -> dict[sp.Symbol, sp.Expr]:
         **dict(zip(ALPHA, crossing.alpha, strict=True)),
         **dict(zip(ACCEL, crossing.accel, strict=True)),
     }
+
+
+def _turned(turn: HingeTurn, slopes: sp.Matrix) -> sp.Matrix:
+    return sp.Matrix.vstack(
+        *(
+            sp.Matrix.hstack(
+                *(
+                    turn.block(f"{force}_by_{motion}", slopes[3 * r : 3 * r + 3, 3 * c : 3 * c + 3])
+                    for c, motion in enumerate(_MOTIONS)
+                )
+            )
+            for r, force in enumerate(_FORCES)
+        )
+    )
+
+
+def _named(sheet: Sheet, through: sp.Matrix) -> sp.Matrix:
+    return sp.Matrix(
+        9, 9, lambda i, j: sheet.named(f"{COLUMNS[i]}_by_{COLUMNS[j]}", through[i, j], "across the link")
+    )
+
+
+def _on_circle(value: sp.Expr) -> sp.Expr:
+    return sp.expand(sp.expand(value).subs(SINE**2, 1 - COSINE**2))
 
 
 def _by_circle(value: sp.Expr) -> sp.Expr:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
 
 import sympy as sp
 
@@ -186,9 +187,14 @@ def passages(pattern: Pattern) -> tuple[PassageEquations, ...]:
             found.append(passage_equations(offset(symbols["offset"])))
         if symbols["turn"] != sp.eye(3):
             found.append(passage_equations(turned(symbols["turn"])))
-        found.append(_by_circle(passage_equations(hinge(pattern.axis))))
+        found.append(_hinge(pattern.axis))
         _PASSAGES[key] = tuple(found)
     return _PASSAGES[key]
+
+
+@cache
+def _hinge(axis: int) -> PassageEquations:
+    return _by_circle(passage_equations(hinge(axis)))
 
 
 def _by_circle(equations: PassageEquations) -> PassageEquations:

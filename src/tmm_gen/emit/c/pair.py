@@ -10,7 +10,7 @@ are written in these functions, and the functions themselves in Python, with the
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -129,7 +129,7 @@ class PairPrinter(CPrinter):
         above, below = numerator_and_denominator(sp.Mul(*(f for f in e.args if not f.is_number)))
         return self._quotient_of([sp.Mul(*numbers), *above], below)
 
-    def _quotient_of(self, above: list[sp.Expr], below: list[sp.Expr]) -> str:
+    def _quotient_of(self, above: Sequence[sp.Expr], below: Sequence[sp.Expr]) -> str:
         upper = self._factors(above) if above else self._constant(1.0)
         return f"over({upper}, {self._factors(below)})" if below else upper
 

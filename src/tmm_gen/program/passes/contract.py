@@ -124,8 +124,11 @@ def _loop_without_dead_copies(loop: Loop, later: tuple[Statement, ...]) -> Loop:
     """Do the same inside a loop, whose end leads to its beginning and to what comes later."""
     body: list[Assign | Require] = []
     for place, inner in enumerate(loop.body):
+        if not _copies_into_scratch(inner):
+            body.append(inner)
+            continue
         ways = [(*loop.body[place + 1 :], *after) for after in (loop.body, later)]
-        if not (_copies_into_scratch(inner) and all(dead_after(inner.target.variable, way) for way in ways)):  # type: ignore[union-attr]
+        if not all(dead_after(inner.target.variable, way) for way in ways):  # type: ignore[union-attr]
             body.append(inner)
     return replace(loop, body=tuple(body))
 

@@ -55,6 +55,15 @@ def accesses(statement: Statement) -> tuple[Access, ...]:
     return tuple(_of(statement, range(1)))
 
 
+@lru_cache(maxsize=1 << 12)
+def _uses(loop: Loop) -> dict[Variable, tuple[Access, ...]]:
+    """Return what a loop does with each variable, in the order of execution."""
+    found: dict[Variable, list[Access]] = {}
+    for access in accesses(loop):
+        found.setdefault(access.variable, []).append(access)
+    return {variable: tuple(used) for variable, used in found.items()}
+
+
 def written_elements(routine: Routine, array: Variable) -> list[tuple[int, int]]:
     """Return the elements of an array that a routine writes, as first and one past the last of each run of them."""
     touched = {
@@ -131,6 +140,7 @@ def _first_uses(statement: Statement) -> dict[Variable, bool]:
     return found
 
 
+@lru_cache(maxsize=1 << 12)
 def written_scalars(loop: Loop) -> frozenset[Variable]:
     """Return the scalars a loop assigns."""
     return frozenset(
@@ -142,12 +152,12 @@ def reversible(loop: Loop) -> bool:
     """Whether a loop gives the same arrays in either order; scalars it leaves behind may differ."""
     if carried_scalars(loop):
         return False
-    used = accesses(loop)
     return all(
         not a.meets(b) or (a.ref.offset is not None and a.ref.offset == b.ref.offset)
+        for variable, used in _uses(loop).items()
+        if variable.length is not None
         for a in used
         for b in used
-        if a.variable.length is not None
     )
 
 
@@ -206,11 +216,11 @@ def _set_before_use(loop: Loop, scalar: Variable) -> bool:
 
 def _scalars_apart(first: Loop, second: Loop) -> bool:
     """Whether scalars that either loop writes are its own, set anew at every station before they are read."""
-    for a in accesses(first):
-        if a.variable.length is not None:
+    for variable, used in _uses(first).items():
+        if variable.length is not None:
             continue
-        if any(a.meets(b) for b in accesses(second)) and not (
-            _set_before_use(first, a.variable) and _set_before_use(second, a.variable)
+        if any(a.meets(b) for a in used for b in _uses(second).get(variable, ())) and not (
+            _set_before_use(first, variable) and _set_before_use(second, variable)
         ):
             return False
     return True
@@ -222,8 +232,10 @@ def _turns(loop: Loop, later: tuple[Statement, ...]) -> bool:
 
 def _elements_in_time(first: Loop, second: Loop, order: Order) -> bool:
     for a in accesses(first):
-        for b in accesses(second):
-            if a.variable.length is None or not a.meets(b):
+        if a.variable.length is None:
+            continue
+        for b in _uses(second).get(a.variable, ()):
+            if not a.meets(b):
                 continue
             if a.ref.offset is None or b.ref.offset is None:
                 return False

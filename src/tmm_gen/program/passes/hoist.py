@@ -59,13 +59,15 @@ class Hoister:
         )
         if not changing or _all_late(value, changing):
             return value
+        if _plainly_nonlinear(value):
+            return self._inside(value)
         polynomial = sp.Poly(value, *changing) if value.is_polynomial(*changing) else None
         if polynomial is None or polynomial.total_degree() > 1:
             return self._inside(value)
         by_factor: dict[sp.Expr, list[sp.Expr]] = {}
         for powers, factor in polynomial.terms():
             monomial = sp.Mul(*(ref**power for ref, power in zip(changing, powers, strict=True)))
-            held, sign = self._factor(sp.factor(factor), monomial if monomial != 1 else None)
+            held, sign = self._factor(_factored(factor), monomial if monomial != 1 else None)
             by_factor.setdefault(held, []).append(sign * monomial)
         terms = [
             sp.Mul(factor, sp.Add(*monomials), evaluate=factor.is_Number or len(monomials) == 1)
@@ -83,7 +85,7 @@ class Hoister:
             return value.func(*(self._inside(a) for a in value.args))
         early = [a for a in value.args if _bound_early(a)]
         late = [self._inside(a) for a in value.args if not _bound_early(a)]
-        held, sign = self._factor(sp.factor(value.func(*early))) if early else (value.func(), 1)
+        held, sign = self._factor(_factored(value.func(*early))) if early else (value.func(), 1)
         return value.func(sign * held, *late)
 
     def _factor(self, factor: sp.Expr, of: sp.Expr | None = None) -> tuple[sp.Expr, int]:
@@ -114,6 +116,21 @@ class Hoister:
 def _all_late(value: sp.Expr, changing: list[Ref]) -> bool:
     """Whether nothing in an expression can be hoisted: all of it changes from step to step."""
     return len(refs_in(value)) == len(changing) and not value.atoms(sp.Number) - {sp.S.One, sp.S.NegativeOne}
+
+
+def _plainly_nonlinear(value: sp.Expr) -> bool:
+    """Whether an expanded sum has products of two changing things: seen without the algebra of polynomials."""
+    nonlinear = False
+    for term in sp.Add.make_args(value):
+        powers = [factor.as_base_exp() for factor in sp.Mul.make_args(term)]
+        if not all(base.is_Atom and exponent.is_Integer and exponent > 0 for base, exponent in powers):
+            return False
+        nonlinear = nonlinear or sum(int(n) for base, n in powers if not _bound_early(base)) > 1
+    return nonlinear
+
+
+def _factored(value: sp.Expr) -> sp.Expr:
+    return value if value.is_Atom else sp.factor(value)
 
 
 def _bound_early(expression: sp.Expr) -> bool:
