@@ -6,7 +6,7 @@ and its pivots; what later statements read of it is kept in the model, one value
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -26,9 +26,18 @@ class EarlySets:
     _sections: list[Section] = field(default_factory=list)
     _coefficients: list[Variable] = field(default_factory=list)
 
-    def split(self, sections: list[Section]) -> list[Section]:
-        """Return the sections of a sweep without what is bound early."""
-        early = _early(sections)
+    def split(self, sections: list[Section], then: Section | None = None) -> list[Section]:
+        """Return the sections of a sweep without what is bound early.
+
+        Parameters
+        ----------
+        sections : list of Section
+            The sweep.
+        then : Section, optional
+            Follows it and stays as it is: what it reads does not leave the sweep, even where nothing changes it.
+        """
+        read = {r.variable.name for s in then.statements for r in _read(s)} if then is not None else set()
+        early = _early(sections, read)
         taken, left = _divided(sections, early)
         if not any(taken):
             return sections
@@ -115,11 +124,12 @@ def lifted(sections: list[Section], *, ask: bool) -> list[Section]:
     ]
 
 
-def _early(sections: list[Section]) -> set[Variable]:
-    """Return the scratch that depends on what is bound early alone."""
+def _early(sections: list[Section], late_names: Collection[str] = ()) -> set[Variable]:
+    """Return the scratch that depends on what is bound early alone, without what is called late."""
     statements = [s for section in sections for s in section.statements]
     assigns = list(_assigns(statements))
     early = {a.target.variable for a in assigns if a.target.variable.role in SCRATCH}
+    early = {v for v in early if v.name not in late_names}
     one_value = _of_one_value(assigns)
     while True:
         late = {

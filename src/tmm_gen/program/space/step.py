@@ -62,7 +62,7 @@ class SpaceStep:
     held: bool = False
     auto: bool = False
     exact: bool = False
-    split: Callable[[list[Section]], list[Section]] = list
+    split: Callable[[list[Section], Section], list[Section]] = lambda sections, _: sections
 
     def sections(self) -> tuple[Section, ...]:
         """Return the whole step."""
@@ -75,8 +75,8 @@ class SpaceStep:
         sections: list[Section] = []
         for index, (motion, point) in enumerate(zip(motions, points, strict=True), start=1):
             title = f"Stage {index} of {count}: " if count > 1 else ""
-            sections += self._swept(title, index, motion, point)
-            sections.append(self._finish(title, index, motion, kept, last=index == count))
+            finish = self._finish(title, index, motion, kept, last=index == count)
+            sections += [*self._swept(title, index, motion, point, finish), finish]
         return tuple(s for s in sections if s.statements)
 
     def _predicted(self, motion: AffineMotion, index: int) -> StartingPoint:
@@ -86,7 +86,9 @@ class SpaceStep:
 
     # -- the sweep -----------------------------------------------------------------------------------------
 
-    def _swept(self, title: str, index: int, motion: AffineMotion, point: StartingPoint) -> list[Section]:
+    def _swept(
+        self, title: str, index: int, motion: AffineMotion, point: StartingPoint, finish: Section
+    ) -> list[Section]:
         walks = SpaceWalks(
             self.layout,
             self.bodies,
@@ -121,7 +123,7 @@ class SpaceStep:
                 word = f"sweep {number + 1}" if self.exact else f"correction {number}"
                 found += [Section(f"{word}: {s.title}", s.statements) for s in mine]
         # all at once, prediction too: what is bound early shows only where everything that is set is seen
-        return [Section(title + s.title, s.statements) for s in self.split(found)]
+        return [Section(title + s.title, s.statements) for s in self.split(found, finish)]
 
     def _correction(
         self, index: int, motion: AffineMotion, walks: SpaceWalks, *, still: bool
