@@ -132,7 +132,7 @@ def _leapt(scene: Scene, trace: Trace) -> float:
         return 0.0
     places = _places(scene, trace.angle)
     way = float(np.max(_far(places - places[:, :1])))
-    if way <= _STILL * scene.reach:
+    if way <= _STILL * _extent(scene):
         return 0.0
     return float(np.max(_far(np.diff(places, axis=1)))) / way
 
@@ -215,7 +215,7 @@ class _Repetition:
         drift = (np.mean(apart[:, half:], axis=1) - np.mean(apart[:, :half], axis=1)) / half
         places = _places(self.scene, self.trace.angle)
         way = float(np.max(_far(places - places[:, :1])))
-        least = _STILL * self.scene.reach
+        least = _STILL * _extent(self.scene)
         return float(np.max(_far(drift))) * self.course.steps / max(way, least)
 
     def judged(self, other: Trace, factor: float, share: float, growth: float | None) -> Accuracy:
@@ -230,7 +230,7 @@ class _Repetition:
         off = weight * np.max(_far(mine - others), axis=1)
         way = np.max(_far(others - others[:, :1]), axis=1)
         times = self.scene.integrator.step * self.trace.every * stride * np.arange(count, dtype=float)
-        return _judged(off, way, times, _STILL * self.scene.reach, growth)
+        return _judged(off, way, times, _STILL * _extent(self.scene), growth)
 
     def sensitivity(self, factor: float, undisturbed: Trace) -> float | None:
         """Return how many times larger a small disturbance of the start becomes."""
@@ -259,10 +259,18 @@ def _judged(off: Array, way: Array, times: Array, least: float, growth: float | 
     return Accuracy(error, growth, float(good))
 
 
+def _extent(scene: Scene) -> float:
+    """Return how far an arm reaches, m; 1 where all its parts stand at one point, as those of a gyroscope do.
+
+    There only turns count, and as shares of each other they are the same for any length.
+    """
+    return scene.reach or 1.0
+
+
 def _places(scene: Scene, angle: Array) -> Array:
     """Return the places of the links' outer ends, (2, k, n), or of points on bodies in space, (3, k, 3 n); m."""
     if scene.spatial is not None:
-        return body_points(scene.spatial, angle, _SPREAD * scene.reach)
+        return body_points(scene.spatial, angle, _SPREAD * _extent(scene))
     x, y = node_places(scene, angle[:, angle.shape[1] - scene.stations :])
     return np.stack([x[:, 1:], y[:, 1:]])
 
