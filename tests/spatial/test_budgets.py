@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
+from itertools import pairwise
 
 import pytest
 from support.spatial.beams import Beam, add_beam
@@ -99,7 +100,7 @@ def test_inertial_step(kind: str) -> None:
 def test_each_correction(kind: str) -> None:
     """The second one costs what the first one does."""
     steps = [per_joint(kind, SpaceChoices(1e-3, iterations=sweeps)) for sweeps in (1, 2, 3)]
-    assert [more - less for less, more in zip(steps, steps[1:], strict=False)] == [COSTS[kind].correction] * 2
+    assert [more - less for less, more in pairwise(steps)] == [COSTS[kind].correction] * 2
 
 
 @pytest.mark.parametrize("kind", COSTS)

@@ -19,7 +19,7 @@ from tmm_gen.scene.spatial.arm import SpatialArm
 
 HEADED: Scene = load_scene(Path(__file__).resolve().parents[3] / "scenes" / "arm10.toml")
 """Any scene: headers are written of one."""
-NAME = "arm"
+NAME = HEADED.name
 """Of all these packages."""
 
 
