@@ -1,4 +1,4 @@
-"""Sweeps of the exact linearisation in space are Newton's: one is enough for any order, and each squares what is wrong."""
+"""Sweeps of the exact linearisation in space are Newton's: one is enough for any order, each squares what is wrong."""
 
 from __future__ import annotations
 
