@@ -64,15 +64,16 @@ def add_beam(
     *,
     name: str = "beam",
     alternate: bool = True,
+    twists: bool = True,
 ) -> End:
-    """Append a beam's joints to those of an arm, and return its outer end."""
+    """Append a beam's joints to those of an arm, and return its outer end; one that does not twist has two a cell."""
     stand = end or End()
     length = beam.length / cells
     add_body(joints, stand, beam.piece(length / 2.0))
     stiffness = (beam.torsion / length, beam.bending[0] / length, beam.bending[1] / length)
     host, at, turn = stand.joint, _plus(stand, length / 2.0), stand.turn
     for cell in range(cells):
-        for axis in _ORDERS[cell % 2 if alternate else 0]:
+        for axis in (a for a in _ORDERS[cell % 2 if alternate else 0] if a or twists):
             joint = Revolute(
                 f"{name}_{cell + 1}_{('twist_x', 'bend_y', 'bend_z')[axis]}",
                 host,

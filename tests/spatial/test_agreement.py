@@ -1,0 +1,69 @@
+"""NumPy, C in both number types and CasADi take the same step: trees, arms with beams, every kind of integrator."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+
+import pytest
+from support.spatial.kernels import HEADED, program_of
+from support.spatial.random_arms import random_arm
+
+from tmm_gen.native import compile_kernel
+from tmm_gen.native.python_module import casadi_module, numpy_module
+from tmm_gen.program.build import build_program
+from tmm_gen.program.space.assemble import SpaceChoices
+from tmm_gen.program.statements import Program
+from tmm_gen.scene import Scene, parse_scene
+from tmm_gen.verify.agreement import (
+    casadi_step,
+    largest_difference,
+    native_step,
+    numpy_step,
+    reached_vectors,
+)
+
+pytestmark = pytest.mark.compiler
+
+TOLERANCE, SINGLE = 1e-12, 2e-3
+YAW3 = Path(__file__).parent / "scenes" / "yaw3.toml"
+METHODS = ("newmark", "generalized_alpha", "bathe")
+"""Of one stage and of two; what has a history is among the trees."""
+CHOICES = SpaceChoices(1e-3, iterations=2)
+TREES = {"exact": (1, "newmark", replace(CHOICES, exact=True)), "park": (2, "park", CHOICES)}
+
+
+@cache
+def tree(seed: int, method: str, choices: SpaceChoices) -> Program:
+    return program_of(random_arm(seed, 3, tree=True), method, choices)
+
+
+@cache
+def yaw3(method: str) -> Scene:
+    """Return the scene with another integrator, its beams of two cells."""
+    text = YAW3.read_text("utf-8").replace('"newmark"', f'"{method}"').replace("links = 5", "links = 2")
+    return parse_scene(text)
+
+
+def agree(program: Program, scene: Scene) -> None:
+    module = numpy_module(scene, program)
+    ours = numpy_step(module, program)
+    vectors = list(reached_vectors(module, program, 2, relative=True))
+    native = native_step(compile_kernel(program, scene, flags=("-O1",)), program)
+    assert largest_difference(ours, native, vectors) < TOLERANCE
+    assert largest_difference(ours, casadi_step(casadi_module(scene, program), program), vectors) < TOLERANCE
+    halved = scene.replace(**{"emit.real": "float32"})
+    single = native_step(compile_kernel(program, halved, flags=("-O1",)), program)
+    assert TOLERANCE < largest_difference(ours, single, vectors) < SINGLE
+
+
+@pytest.mark.parametrize("kind", TREES)
+def test_trees(kind: str) -> None:
+    agree(tree(*TREES[kind]), HEADED)
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_arms_with_beams(method: str) -> None:
+    scene = yaw3(method)
+    agree(build_program(scene), scene)

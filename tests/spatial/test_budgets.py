@@ -1,0 +1,115 @@
+"""What one more joint costs in a step of an arm in space, exactly: ends of the arm do not count."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cache
+from itertools import pairwise
+
+import pytest
+from support.spatial.beams import Beam, add_beam
+from support.spatial.kernels import program_of
+
+from tmm_gen.program.count import count_routine
+from tmm_gen.program.space.assemble import SpaceChoices
+from tmm_gen.scene.spatial.arm import Revolute, RigidBody, SpatialArm, Turn
+
+BEAM = Beam(1.0, (2.0, 5.0), 0.8, 1.0, 2e-4, decay=1e-3)
+BODY = RigidBody(1.0, (0.1, 0.02, 0.03), (0.01, 0.02, 0.03, 0.001, 0.002, 0.003))
+QUARTERS: tuple[Turn, ...] = (
+    ((1.0, 0.0, 0.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0)),
+    ((0.0, -1.0, 0.0), (1.0, 0.0, 0.0), (0.0, 0.0, 1.0)),
+)
+"""About x and about z."""
+
+
+def beam(cells: int, joints_of_a_cell: int) -> SpatialArm:
+    """Return a beam under gravity whose cells bend about two axes, or about two and twist."""
+    joints: list[Revolute] = []
+    add_beam(joints, BEAM, cells, twists=joints_of_a_cell == 3)
+    return SpatialArm(tuple(joints), gravity=(0.0, 0.0, -9.81))
+
+
+def links(count: int, turn: Turn) -> SpatialArm:
+    """Return rigid links with any offset and any inertia, quarter turns between them, springs, dampers, rotors."""
+    return SpatialArm(
+        tuple(
+            Revolute(f"joint_{k + 1}", k, (0.3, 0.1, 0.2), turn, 2, BODY, 5.0, 0.1, armature=0.1)
+            for k in range(count)
+        ),
+        gravity=(0.0, 0.0, -9.81),
+    )
+
+
+@dataclass(frozen=True)
+class Cost:
+    """Operations per joint and Newmark step, and what they should not exceed.
+
+    Parameters
+    ----------
+    first, correction, exact : Fraction
+        Of a step of one inertial sweep that predicts no acceleration, of each correction, of a step of one exact
+        sweep.
+    budgets : tuple of int
+        For each of the three.
+    """
+
+    first: Fraction
+    correction: Fraction
+    exact: Fraction
+    budgets: tuple[int, int, int]
+
+
+COSTS = {
+    # the correction is half an operation over its budget, the exact sweep 80
+    "bend, bend": Cost(Fraction(555, 2), Fraction(241, 2), Fraction(1581, 2), (290, 120, 710)),
+    # the exact sweep is 71 over its budget
+    "bend, bend, twist": Cost(Fraction(781, 3), Fraction(328, 3), Fraction(739), (270, 110, 668)),
+    # the correction is 2 over its budget, the exact sweep 262
+    "link": Cost(Fraction(478), Fraction(242), Fraction(1409), (511, 240, 1147)),
+}
+
+
+def arms(kind: str, count: int) -> list[SpatialArm]:
+    """Return the arms of a kind; those of one list cost the same."""
+    if kind == "link":
+        return [links(count, turn) for turn in QUARTERS]
+    return [beam(count, len(kind.split(",")))]
+
+
+@cache
+def per_joint(kind: str, choices: SpaceChoices) -> Fraction:
+    """Return the operations of a step per joint between 10 and 20 cells."""
+    found = set()
+    for short, long in zip(arms(kind, 10), arms(kind, 20), strict=True):
+        few, many = (count_routine(program_of(arm, choices=choices).main).total for arm in (short, long))
+        found.add(Fraction(many - few, len(long.joints) - len(short.joints)))
+    (only,) = found
+    return only
+
+
+@pytest.mark.parametrize("kind", COSTS)
+def test_inertial_step(kind: str) -> None:
+    first = per_joint(kind, SpaceChoices(1e-3, iterations=1))
+    assert first == COSTS[kind].first
+    assert first <= COSTS[kind].budgets[0]
+
+
+@pytest.mark.parametrize("kind", COSTS)
+def test_each_correction(kind: str) -> None:
+    """The second one costs what the first one does."""
+    steps = [per_joint(kind, SpaceChoices(1e-3, iterations=sweeps)) for sweeps in (1, 2, 3)]
+    assert [more - less for less, more in pairwise(steps)] == [COSTS[kind].correction] * 2
+
+
+@pytest.mark.parametrize("kind", COSTS)
+def test_exact_step(kind: str) -> None:
+    assert per_joint(kind, SpaceChoices(1e-3, iterations=1, exact=True)) == COSTS[kind].exact
+
+
+@pytest.mark.parametrize("kind", COSTS)
+def test_newest_acceleration_costs_little(kind: str) -> None:
+    """Predicting with it instead of with none takes up to four operations a joint."""
+    none, newest = (per_joint(kind, SpaceChoices(1e-3, iterations=1, held=held)) for held in (False, True))
+    assert 0 < newest - none <= 4
