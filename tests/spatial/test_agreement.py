@@ -27,7 +27,7 @@ from tmm_gen.verify.agreement import (
 pytestmark = pytest.mark.compiler
 
 TOLERANCE, SINGLE = 1e-12, 2e-3
-YAW3 = Path(__file__).parent / "scenes" / "yaw3.toml"
+YAW3 = Path(__file__).parents[2] / "examples" / "space" / "yaw3.toml"
 METHODS = ("newmark", "generalized_alpha", "bathe")
 """Of one stage and of two; what has a history is among the trees."""
 CHOICES = SpaceChoices(1e-3, iterations=2)

@@ -20,7 +20,7 @@ from tmm_gen.report.space_page import MOST_INSTANTS, motion_page, page_data
 from tmm_gen.scene import load_scene
 from tmm_gen.scene.spatial.arm import Frame, Revolute, SpatialArm
 
-SCENES = Path(__file__).resolve().parent / "scenes"
+SCENES = Path(__file__).resolve().parents[2] / "examples" / "space"
 
 TITLE = "An <b>arm</b> & </script> more"
 

@@ -25,7 +25,7 @@ from tmm_gen.simulate.run import simulate
 from tmm_gen.simulate.skeleton import Skeleton
 from tmm_gen.style import figure, picture, style
 
-SCENES = Path(__file__).resolve().parent / "scenes"
+SCENES = Path(__file__).resolve().parents[2] / "examples" / "space"
 
 DOOR = """
 name = "door"

@@ -12,7 +12,7 @@ from tmm_gen.scene.emit import Emit
 from tmm_gen.scene.spatial.arm import SpatialArm
 from tmm_gen.scene.template import template
 
-YAW3 = Path(__file__).parent / "scenes" / "yaw3.toml"
+YAW3 = Path(__file__).parents[2] / "examples" / "space" / "yaw3.toml"
 
 
 @pytest.fixture(scope="module")

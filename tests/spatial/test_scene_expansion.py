@@ -13,7 +13,7 @@ from tmm_gen.scene.section import Section
 from tmm_gen.scene.spatial.arm import UPRIGHT, Revolute, RigidBody, SpatialArm
 from tmm_gen.scene.spatial.beam import torsion_constant
 
-SCENES = sorted((Path(__file__).parent / "scenes").glob("*.toml"))
+SCENES = sorted((Path(__file__).parents[2] / "examples" / "space").glob("*.toml"))
 
 HEAD = """
 name = "a"

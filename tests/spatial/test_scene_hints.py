@@ -11,7 +11,7 @@ from tmm_gen.explain.space_hints import SPACE_HINTS
 from tmm_gen.scene import load_scene, parse_scene
 from tmm_gen.scene.template import template
 
-SCENES = sorted((Path(__file__).parent / "scenes").glob("*.toml"))
+SCENES = sorted((Path(__file__).parents[2] / "examples" / "space").glob("*.toml"))
 CRANE = template("crane", "spatial")
 
 MISTAKES = {

@@ -17,7 +17,7 @@ from tmm_gen.scene.problem import Problem
 from tmm_gen.scene.source import Source
 from tmm_gen.scene.template import template
 
-FOLDER = Path(__file__).parent / "scenes"
+FOLDER = Path(__file__).parents[2] / "examples" / "space"
 TEXTS = {path.stem: path.read_text() for path in sorted(FOLDER.glob("*.toml"))} | {
     "crane": template("crane", "spatial")
 }

@@ -155,14 +155,13 @@ class Inertial:
     def _passed(self, bias: sp.Matrix) -> tuple[dict[sp.Symbol, sp.Expr], list[Line]]:
         """Return the forces at the station's inner side."""
         sheet, axis = Sheet(), self._axis
-        relief = sheet.named("relief", self._gain * ADMITTANCE * IMBALANCE)
+        relief = sheet.named("relief", ADMITTANCE * IMBALANCE)
+        moved = sheet.named("moved", self._gain * relief)
         freed = sp.Matrix(
             [
                 sheet.named(
                     f"left_{'force' if i < 3 else 'moment'}_{AXES[i % 3]}",
-                    IMPEDANCE * ADMITTANCE * IMBALANCE - TORQUE
-                    if i == axis
-                    else bias[i] - relief * self._about[i],
+                    IMPEDANCE * relief - TORQUE if i == axis else bias[i] - moved * self._about[i],
                 )
                 for i in range(6)
             ]
