@@ -53,7 +53,10 @@ def test_numbering(path: Path) -> None:
     scene = load_scene(path)
     joints = arm_of(scene).joints
     assert scene.stations == len(joints) > 0
-    assert (scene.joints, scene.links, scene.inputs, scene.outputs, scene.parts) == ((), (), (), (), ())
+    assert (scene.joints, scene.links, scene.parts) == ((), (), ())
+    columns = [column for item in arm_of(scene).inputs for column in item.columns]
+    assert [item.name for item in scene.inputs] == columns
+    assert [item.name for item in scene.outputs] == [item.name for item in arm_of(scene).outputs]
     assert all(joint.host < number for number, joint in enumerate(joints, start=1))
     assert len({joint.name for joint in joints}) == len(joints)
 

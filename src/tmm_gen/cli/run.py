@@ -82,7 +82,8 @@ def _sweeps(_context: click.Context, parameter: click.Parameter, value: str | No
     "--iterations",
     metavar="auto|N",
     callback=_sweeps,
-    help="Sweeps per stage, corrections counted, of an arm in a plane or in space; by default the scene's, or else as many as it takes.",
+    help="Sweeps per stage, corrections counted, of an arm in a plane or in space; by default the scene's, or else as "
+    "many as it takes.",
 )
 @click.option("--backend", type=click.Choice(["numpy", "c"]), default="numpy", show_default=True)
 @click.option("--csv", "csv_file", type=OutputFile(), help="Write the outputs over time.")
