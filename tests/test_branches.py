@@ -12,11 +12,11 @@ from pathlib import Path
 
 import pytest
 
-from tmm_gen.scene.quantity import CHAIN, PLANAR
+from tmm_gen.scene.quantity import CHAIN, PLANAR, SPATIAL
 
 PACKAGE = Path(__file__).resolve().parents[1] / "src" / "tmm_gen"
 
-WORDS = {"chain", "planar", "clamp", "motor", "prescribed", *CHAIN, *PLANAR}
+WORDS = {"chain", "planar", "spatial", "clamp", "motor", "prescribed", *CHAIN, *PLANAR, *SPATIAL}
 ASKED = {"kind", "of"}
 
 

@@ -51,13 +51,13 @@ def new(name: str, kind: Kind, out: Path, control: bool, motors: int | None, for
     if control and kind != "planar":
         raise UserError(
             f"--control: a {kind} has no motor to be controlled. Add --kind planar."
-            if kind == "chain"
+            if kind == "chain"  # the same word
             else "--control: arms in space are not controlled yet. Add --kind planar."
         )
     if motors and kind != "planar":  # the same word
         raise UserError(
             f"--motors: a {kind} has no motors at its joints. Add --kind planar."
-            if kind == "chain"
+            if kind == "chain"  # the same word
             else "--motors: an arm in space starts with two. Leave it out, or add --kind planar."
         )
     if motors and control:

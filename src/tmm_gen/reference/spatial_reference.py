@@ -55,25 +55,31 @@ def outputs(arm: SpatialArm, q: Array, v: Array, a: Array, inputs: Inputs) -> di
 
 def _values(world: WorldArm, output: ArmOutput, q: Array, v: Array, a: Array, inputs: Inputs) -> Array:
     """Return an output, (k,) or (k, components)."""
-    if output.of in ("angle", "rate", "acceleration"):
-        moving: Array = {"angle": q, "rate": v, "acceleration": a}[output.of][:, output.joint - 1]
+    quantity = output.quantity
+    if quantity.read == "bend":
+        moving: Array = (q, v, a)[quantity.order][:, output.joint - 1]
         return moving
-    if output.of == "torque":
+    if quantity.read == "through":
         return np.asarray(world.torque(q, v, inputs)[:, output.joint - 1])
-    if output.of == "kinetic_energy":
-        return kinetic_energy(world, q, v)
-    if output.of == "elastic_energy":
-        return np.asarray(0.5 * ((q - world.rest) ** 2 @ world.stiffness))
-    if output.of == "gravitational_energy":
-        return gravitational_energy(world, q)
+    if quantity.read == "energy":
+        return _energy(world, quantity.energy, q, v)
     assert output.frame is not None
-    places = world.tree.places(q)
-    axes, point = places.frame(output.frame)
-    if output.of == "orientation":
-        found = quaternions(axes)
-        sign = np.sign(np.sum(found * _followed(world.arm, output.frame, q), axis=-1, keepdims=True))
-        return np.asarray(np.where(sign < 0.0, -found, found))
-    return np.asarray(point) if output.of == "position" else _velocity(world, output.frame, q, v)
+    if quantity.order:
+        return _velocity(world, output.frame, q, v)
+    axes, point = world.tree.places(q).frame(output.frame)
+    if quantity.components == "xyz":
+        return np.asarray(point)
+    found = quaternions(axes)
+    sign = np.sign(np.sum(found * _followed(world.arm, output.frame, q), axis=-1, keepdims=True))
+    return np.asarray(np.where(sign < 0.0, -found, found))
+
+
+def _energy(world: WorldArm, which: str, q: Array, v: Array) -> Array:
+    if which == "kinetic":
+        return kinetic_energy(world, q, v)
+    if which == "elastic":
+        return np.asarray(0.5 * ((q - world.rest) ** 2 @ world.stiffness))
+    return gravitational_energy(world, q)
 
 
 def _velocity(world: WorldArm, frame: Frame, q: Array, v: Array) -> Array:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from tmm_gen.scene.identifier import title_fault
+from tmm_gen.scene.quantity import SPATIAL
 from tmm_gen.urdf.entries import Entry, comment, document
 from tmm_gen.urdf.flexibility import Flexibility
 from tmm_gen.urdf.identifiers import Names, scene_identifier
@@ -127,7 +128,7 @@ def _signals(parts: Parts) -> tuple[list[Entry], list[str], list[str]]:
     wanted += [(parts.link_names[link.name], part, "position") for link, part in parts.ends]
     for name, at, of in wanted:
         entry = Entry("[[output]]")
-        outputs.append(names.take(name, f"_{of}", "xyz" if of == "position" else ""))
+        outputs.append(names.take(name, f"_{of}", SPATIAL[of].components))  # a word this file writes
         entry.put("name", outputs[-1])
         entry.put("at", at)
         entry.put("of", of)

@@ -147,7 +147,7 @@ def turned_alike(
 ) -> dict[str, Array]:
     """Return outputs whose orientations have the signs of others': a quaternion and its negative are the same turn."""
     found = dict(outputs)
-    for columns in (output.columns for output in arm.outputs if output.of == "orientation"):
+    for columns in (output.columns for output in arm.outputs if output.quantity.parts == "wxyz"):
         along = sum((outputs[column] * others[column] for column in columns), np.zeros(()))
         sign = np.where(along < 0.0, -1.0, 1.0)
         found |= {column: sign * outputs[column] for column in columns}

@@ -11,7 +11,8 @@ from tmm_gen.export.mjcf.space import quaternion_text
 from tmm_gen.scene.spatial.arm import UPRIGHT, ArmInput, ArmOutput, Frame, SpatialArm
 
 _GROUND = Frame("ground", 0)
-_SENSORS = {"position": "framepos", "orientation": "framequat", "velocity": "framelinvel"}
+_SENSORS = {("xyz", 0): "framepos", ("wxyz", 0): "framequat", ("xyz", 1): "framelinvel"}
+"""By the components of a frame's motion, and how often it is differentiated."""
 
 
 @dataclass
@@ -62,31 +63,32 @@ class SpaceSignals:
                 general.set("refsite", self._site(_GROUND))
 
     def _measure(self, sensors: Xml.Element, output: ArmOutput) -> None:
-        name = output.name
-        if output.of == "kinetic_energy":
+        name, quantity = output.name, output.quantity
+        if quantity.energy == "kinetic":
             Xml.SubElement(sensors, "e_kinetic", name=name)
             self.readings.append(Reading(name, ((name, 0, 1.0),)))
-        elif output.of in ("elastic_energy", "gravitational_energy"):
+        elif quantity.of_arm:
             self.left_out.append(f"{name}: MuJoCo knows the sum of elastic and gravitational energy only")
-        elif output.of == "acceleration":
-            joint = self.arm.joints[output.joint - 1].name
-            self.left_out.append(f"{name}: no sensor measures it; it is qacc of joint '{joint}'")
-        elif output.of in ("angle", "rate"):
-            kind = "jointpos" if output.of == "angle" else "jointvel"
-            Xml.SubElement(sensors, kind, name=name, joint=self.arm.joints[output.joint - 1].name)
-            self.readings.append(Reading(name, ((name, 0, 1.0),)))
-        elif output.of == "torque":
+        elif quantity.read == "through":
             self._torque(sensors, output)
         elif output.frame is not None:
             site = self._site(output.frame)
-            Xml.SubElement(sensors, _SENSORS[output.of], name=name, objtype="site", objname=site)
+            kind = _SENSORS[quantity.components, quantity.order]
+            Xml.SubElement(sensors, kind, name=name, objtype="site", objname=site)
             self.readings += [
                 Reading(column, ((name, number, 1.0),)) for number, column in enumerate(output.columns)
             ]
-            if output.of == "orientation":
+            if quantity.components == "wxyz":
                 self.left_out.append(
                     f"{name}: all four numbers may have the other sign, the same orientation"
                 )
+        elif quantity.order > 1:
+            joint = self.arm.joints[output.joint - 1].name
+            self.left_out.append(f"{name}: no sensor measures it; it is qacc of joint '{joint}'")
+        else:
+            kind = ("jointpos", "jointvel")[quantity.order]
+            Xml.SubElement(sensors, kind, name=name, joint=self.arm.joints[output.joint - 1].name)
+            self.readings.append(Reading(name, ((name, 0, 1.0),)))
 
     def _torque(self, sensors: Xml.Element, output: ArmOutput) -> None:
         """Read what a joint passes on: its motor's torque, less its spring's and its damper's."""

@@ -83,7 +83,7 @@ def layout_of(arm: SpatialArm, name: str, title: str, integrator: Integrator, st
     stages = max(len(scheme.stages) for scheme in integrator.schemes)
     also = ", at each stage of the step" if stages > 1 else ""
     torques = {item.joint: item for item in arm.inputs if item.acts == "torque"}
-    read = [torques[o.joint] for o in arm.outputs if o.of == "torque" and o.joint in torques]
+    read = [torques[o.joint] for o in arm.outputs if o.quantity.read == "through" and o.joint in torques]
     return SpaceLayout(
         name=name,
         title=title,
@@ -103,7 +103,7 @@ def layout_of(arm: SpatialArm, name: str, title: str, integrator: Integrator, st
             for column, doc, unit in _columns(arm, item)
         ),
         outputs=tuple(
-            Variable(column, Role.OUTPUT, doc=f"{o.of.replace('_', ' ')}: {column}", unit=UNITS[o.of])
+            Variable(column, Role.OUTPUT, doc=f"{o.of.replace('_', ' ')}: {column}", unit=o.quantity.unit)
             for o in arm.outputs
             for column in o.columns
         ),
@@ -126,20 +126,6 @@ def layout_of(arm: SpatialArm, name: str, title: str, integrator: Integrator, st
             ),
         ),
     )
-
-
-UNITS = {
-    "angle": "rad",
-    "rate": "rad/s",
-    "acceleration": "rad/s^2",
-    "torque": "N m",
-    "position": "m",
-    "orientation": "1",
-    "velocity": "m/s",
-    "kinetic_energy": "J",
-    "elastic_energy": "J",
-    "gravitational_energy": "J",
-}
 
 
 def _marked(arm: SpatialArm) -> frozenset[int]:

@@ -29,7 +29,6 @@ from tmm_gen.program.statements import Assign, Loop, Order, Routine, Section, St
 from tmm_gen.program.variables import Ref, Variable
 from tmm_gen.scene.spatial.arm import ArmOutput, Frame
 
-_KIND: dict[str, Kind] = {"angle": "q", "rate": "v", "acceleration": "a"}
 _TOTAL = sp.Symbol("total", real=True)
 
 
@@ -50,19 +49,15 @@ class _Readings:
         self._layout, self._bodies = layout, bodies
         self._outputs = {v.name: v.ref for v in layout.outputs}
         self._by: dict[str, Callable[[ArmOutput, list[Ref]], list[Statement]]] = {
-            **dict.fromkeys(_KIND, self._motion),
-            "torque": self._torque,
-            "position": self._position,
-            "orientation": self._orientation,
-            "velocity": self._velocity,
-            "kinetic_energy": self._kinetic,
-            "elastic_energy": self._elastic,
-            "gravitational_energy": self._gravitational,
+            "bend": self._motion,
+            "through": self._torque,
+            "place": self._place,
+            "energy": self._energy,
         }
 
     def statements(self, output: ArmOutput) -> list[Statement]:
         """Return the statements of one output."""
-        return self._by[output.of](output, [self._outputs[c] for c in output.columns])
+        return self._by[output.quantity.read](output, [self._outputs[c] for c in output.columns])
 
     def _state(self, kind: Kind) -> Variable:
         return self._layout.state[Past(kind, 0)]
@@ -74,7 +69,7 @@ class _Readings:
     # -- joints ------------------------------------------------------------------------------------------------
 
     def _motion(self, output: ArmOutput, targets: list[Ref]) -> list[Statement]:
-        return [Assign(targets[0], self._state(_KIND[output.of]).entry(output.joint - 1))]
+        return [Assign(targets[0], self._state(KINDS[output.quantity.order]).entry(output.joint - 1))]
 
     def _torque(self, output: ArmOutput, targets: list[Ref]) -> list[Statement]:
         """Return what spring, damper and motor exert on the outer side."""
@@ -91,6 +86,12 @@ class _Readings:
         return [Assign(targets[0], driving - resisting)]
 
     # -- frames ------------------------------------------------------------------------------------------------
+
+    def _place(self, output: ArmOutput, targets: list[Ref]) -> list[Statement]:
+        if output.quantity.order:
+            return self._velocity(output, targets)
+        turns = len(output.quantity.components) == len(QUATERNION)
+        return self._orientation(output, targets) if turns else self._position(output, targets)
 
     def _position(self, output: ArmOutput, targets: list[Ref]) -> list[Statement]:
         frame = _frame(output)
@@ -153,9 +154,12 @@ class _Readings:
         walked = walks.walk(Order.OUTWARD, all_lines, carried)
         return [Assign(total, sp.Integer(0)), *walked, Assign(target, total)]
 
-    def _kinetic(self, output: ArmOutput, targets: list[Ref]) -> list[Statement]:
+    def _energy(self, output: ArmOutput, targets: list[Ref]) -> list[Statement]:
+        by = {"kinetic": self._kinetic, "elastic": self._elastic, "gravitational": self._gravitational}
+        return by[output.quantity.energy](targets)
+
+    def _kinetic(self, targets: list[Ref]) -> list[Statement]:
         """Return the bodies' energy, and the rotors' about their joints."""
-        del output
         found = self._summed(targets[0], velocity_lines, (*VELOCITY, *OMEGA), kinetic_energy)
         armature = self._layout.at("armature", None)
         if armature != 0:
@@ -164,16 +168,14 @@ class _Readings:
             found.append(loop)
         return found
 
-    def _elastic(self, output: ArmOutput, targets: list[Ref]) -> list[Statement]:
-        del output
+    def _elastic(self, targets: list[Ref]) -> list[Statement]:
         layout = self._layout
         share = layout.at("stiffness", None) * (self._state("q").at() - layout.at("rest", None)) ** 2 / 2
         begin = Assign(targets[0], sp.Integer(0))
         loop = Loop(Order.OUTWARD, 0, layout.stations, (Assign(targets[0], targets[0] + share),))
         return [begin, loop] if share != 0 else [begin]
 
-    def _gravitational(self, output: ArmOutput, targets: list[Ref]) -> list[Statement]:
-        del output
+    def _gravitational(self, targets: list[Ref]) -> list[Statement]:
         layout = self._layout
         gravity = sp.Matrix([layout.at(f"gravity_{axis}", None) for axis in AXES])
 

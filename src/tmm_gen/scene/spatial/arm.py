@@ -8,6 +8,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from tmm_gen.scene.quantity import SPATIAL, Quantity
+
 Vector = tuple[float, float, float]
 Turn = tuple[Vector, Vector, Vector]
 """A rotation by rows; its columns are the turned axes, seen from those before the turn."""
@@ -175,10 +177,14 @@ class ArmOutput:
     frame: Frame | None = None
 
     @property
+    def quantity(self) -> Quantity:
+        """What it is."""
+        return SPATIAL[self.of]
+
+    @property
     def columns(self) -> tuple[str, ...]:
         """Names of its scalars."""
-        parts = {"position": "xyz", "velocity": "xyz", "orientation": "wxyz"}.get(self.of)
-        return (self.name,) if parts is None else tuple(f"{self.name}_{part}" for part in parts)
+        return self.quantity.columns(self.name)
 
 
 @dataclass(frozen=True)
