@@ -437,9 +437,9 @@ def test_initial_angles_by_name_are_for_chains_by_parts_too() -> None:
         parse_scene(f"{head}{links}{output}rates = {{ b = 0.2 }}\n")
 
 
-@pytest.mark.parametrize("length", [5e-324, 1e-320, 1e-310])
-def test_lengths_that_vanish_when_cut(length: float) -> None:
-    """A piece's length is rounded to nothing: told as a fault of the scene, by whatever rule finds it."""
+@pytest.mark.parametrize("length", [5e-324, 1e-320, 1e-310, 1e160, 1.7e308])
+def test_lengths_out_of_range_when_cut(length: float) -> None:
+    """A piece's length or inertia is rounded to nothing, or infinite: a fault of the scene, whatever rule finds it."""
     text = f"""
 name = "speck"
 [model]

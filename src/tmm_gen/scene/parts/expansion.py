@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -173,7 +174,15 @@ def expanded(document: PartsDocument) -> Expansion:
 
 
 def joined(inner: Link, outer: Link) -> Link:
-    """Return two rigid links, one fixed straight to the other's outer end, as one."""
+    """Return two rigid links, one fixed straight to the other's outer end, as one.
+
+    What is out of the range of numbers stays so, for the rules to tell.
+    """
+    numbers = [
+        getattr(link, key) for link in (inner, outer) for key in ("mass", "center", "length", "inertia")
+    ]
+    if not all(map(math.isfinite, numbers)):
+        return Link.model_construct(inertia=math.inf, mass=math.inf, length=math.inf, center=0.5)
     m, more = exact(inner.mass), exact(outer.mass)
     here, length = exact(inner.center) * exact(inner.length), exact(inner.length)
     there = length + exact(outer.center) * exact(outer.length)
