@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import sympy as sp
@@ -10,16 +10,13 @@ import sympy as sp
 from tmm_gen.derive.integrators.declaration import KINDS, STEP, Kind, Scheme, stage
 from tmm_gen.derive.integrators.relations import AffineMotion, affine_motion
 from tmm_gen.derive.space.inward import IMPEDANCE, OWN, TORQUE
-from tmm_gen.derive.space.outward import OWN_FORCE, OWN_MOMENT
-from tmm_gen.derive.space.pose import FACING, facing_lines
-from tmm_gen.derive.station.lets import Line, Update
 from tmm_gen.program.arm.auto import LEAST_TURN, MOST_SWEEPS, SWEEPS
-from tmm_gen.program.arm.loads import exactly
 from tmm_gen.program.arm.motion import KNOWN_RATE, StartingPoint, starting_point
 from tmm_gen.program.fields import MOTION_NAMES
 from tmm_gen.program.motion import kept_stage_values, stage_variable, update_assignments
 from tmm_gen.program.space.bodies import Bodies
 from tmm_gen.program.space.layout import SpaceLayout
+from tmm_gen.program.space.loads import loads_on_frames
 from tmm_gen.program.space.walks import MOTION, SpaceWalks
 from tmm_gen.program.statements import Assign, Loop, Order, Repeat, Section, Statement, Until
 from tmm_gen.program.variables import Role, Variable, local
@@ -103,7 +100,7 @@ class SpaceStep:
             self._impedances(motion, walks),
             self._torques(index, walks, point.still),
             walks.outward(still=still),
-            *self._loaded(index, walks),
+            *loads_on_frames(self.layout, walks, index - 1),
             walks.inward(still=still),
             walks.back(still=still),
         ]
@@ -133,7 +130,7 @@ class SpaceStep:
             Section("improved prediction", (self._improve(motion, still=still),)),
             self._torques(index, walks, frozenset()),
             walks.outward(still=False),
-            *self._loaded(index, walks),
+            *loads_on_frames(self.layout, walks, index - 1),
             walks.inward(still=False) if self.exact else walks.again(),
             walks.back(still=False),
         ]
@@ -191,36 +188,6 @@ class SpaceStep:
             acting = layout.input(item.name, index - 1) * (geared.ref if geared else 1)
             statements.append(Assign(entry, entry - acting))
         return Section("torques of the joints' own", tuple(statements))
-
-    def _loaded(self, index: int, walks: SpaceWalks) -> list[Section]:
-        """Return what forces and moments on frames take off what bodies take."""
-        loads = [i for i in self.layout.arm.inputs if i.frame is not None and i.frame.joint]
-        sections = []
-        for item in loads:
-            assert item.frame is not None
-            vector = sp.Matrix([self.layout.input(column, index - 1) for column in item.columns])
-            station = item.frame.joint - 1
-            title = f"{item.acts} on '{item.frame.name}'"
-            if item.axes == "body":
-                turn = sp.Matrix(3, 3, lambda i, j, rows=item.frame.turn: exactly(rows[i][j]))
-                lines = _taken_off(item, turn * vector)
-                sections.append(Section(title, tuple(walks.at_station(station, lines))))
-                continue
-
-            def read(
-                at: int, station: int = station, item: ArmInput = item, v: sp.Matrix = vector
-            ) -> Sequence[Line]:
-                return _taken_off(item, FACING * v) if at == station else ()
-
-            walked = walks.walk(
-                Order.OUTWARD,
-                facing_lines,
-                tuple(FACING),
-                read,
-                self.layout.tree.inward_of(station),
-            )
-            sections.append(Section(title + ", in world axes", tuple(walked)))
-        return sections
 
     # -- motion ---------------------------------------------------------------------------------------------
 
@@ -303,15 +270,6 @@ class SpaceStep:
         new = {k: sp.expand(sp.sympify(self.scheme.update[k]).xreplace({**own, **at})) for k in KINDS}
         body = update_assignments(self.layout.state, new, lambda v: v.at(), "")
         return Section(title + "motion at the end of the step", (Loop(Order.OUTWARD, 0, n, tuple(body)),))
-
-
-def _taken_off(item: ArmInput, acting: sp.Matrix) -> tuple[Line, ...]:
-    """Return what a load, in the axes of a joint's body, takes off what the body takes."""
-    assert item.frame is not None
-    place = sp.Matrix([exactly(r) for r in item.frame.at])
-    force, moment = (acting, place.cross(acting)) if item.acts == "force" else (sp.zeros(3, 1), acting)
-    pairs = zip((*OWN_FORCE, *OWN_MOMENT), (*force, *moment), strict=True)
-    return (Update({symbol: symbol - value for symbol, value in pairs if value != 0}),)
 
 
 _OWN_DOC = ("what the sweep finds each joint to do", "rad/s^2")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cached_property, lru_cache
 
@@ -17,7 +16,6 @@ from tmm_gen.derive.space.declaration import (
     BASE_ACCEL,
     OMEGA,
     RATE,
-    TURN,
 )
 from tmm_gen.derive.space.inward import (
     ADMITTANCE,
@@ -35,16 +33,14 @@ from tmm_gen.derive.space.newton import CARRIED as SLOPES_CARRIED
 from tmm_gen.derive.space.newton import CHANGE as ALL_CHANGES
 from tmm_gen.derive.space.outward import COSINE, OWN_FORCE, OWN_MOMENT, SINE, Outward
 from tmm_gen.derive.space.pattern import Pattern
-from tmm_gen.derive.space.pose import FIXED
 from tmm_gen.derive.station.lets import Let, Line, needed
 from tmm_gen.program.arm.binding import Binding, Scratch
-from tmm_gen.program.arm.loads import exactly
 from tmm_gen.program.space.bodies import Bodies
 from tmm_gen.program.space.layout import SpaceLayout
 from tmm_gen.program.space.runs import Run
+from tmm_gen.program.space.turns import fixed
 from tmm_gen.program.statements import Assign, Loop, Order, Require, Section, Statement
 from tmm_gen.program.variables import Ref, Role, Variable, local
-from tmm_gen.scene.spatial.arm import Turn
 
 _KEPT: dict[sp.Symbol, tuple[str, str]] = {
     SINE: ("sine of each joint's angle", "1"),
@@ -260,7 +256,7 @@ class SpaceWalks:
         self, lines: Sequence[Line], slot: int, suffix: str, carried: Iterable[sp.Symbol], run: Run
     ) -> list[Assign | Require]:
         pattern = run.patterns[slot]
-        values: dict[sp.Symbol, sp.Expr] = self._values(slot) | _fixed(
+        values: dict[sp.Symbol, sp.Expr] = self._values(slot) | fixed(
             self.layout.arm.joints[run.start + slot].turn
         )
         if self._exact:
@@ -289,34 +285,6 @@ class SpaceWalks:
         values |= {symbol: self._arrays[symbol].at(slot) for symbol in _KEPT}
         values |= {symbol: variable.at(slot) for symbol, variable in self._motion.items()}
         return values | dict.fromkeys(self._absent, sp.Integer(0))
-
-
-@lru_cache(maxsize=512)
-def _fixed_values(turn: Turn) -> tuple[tuple[sp.Symbol, sp.Expr], ...]:
-    entries = zip(TURN, (exactly(entry) for row in turn for entry in row), strict=True)
-    return (*entries, *zip(FIXED, map(exactly, quaternion_of(turn)), strict=True))
-
-
-def _fixed(turn: Turn) -> dict[sp.Symbol, sp.Expr]:
-    """Return a constant turn, which stands in the code as numbers: entries changed by themselves would be none."""
-    return dict(_fixed_values(turn))
-
-
-def quaternion_of(turn: Turn) -> tuple[float, float, float, float]:
-    """Return the quaternion of a constant turn, whose first entry is not negative."""
-    (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = turn
-    # four times the products of its entries; the largest square divides best
-    square = (1 + xx + yy + zz, 1 + xx - yy - zz, 1 - xx + yy - zz, 1 - xx - yy + zz)
-    rows = (
-        (square[0], zy - yz, xz - zx, yx - xy),
-        (zy - yz, square[1], xy + yx, xz + zx),
-        (xz - zx, xy + yx, square[2], yz + zy),
-        (yx - xy, xz + zx, yz + zy, square[3]),
-    )
-    row = rows[max(range(4), key=lambda k: square[k])]
-    length = math.copysign(math.hypot(*row), row[0])
-    w, x, y, z = (entry / length for entry in row)
-    return w, x, y, z
 
 
 def _names_in(lines: Sequence[Line]) -> set[sp.Symbol]:

@@ -1,0 +1,66 @@
+"""Forces and moments on frames, in body axes or in those of the world."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import sympy as sp
+
+from tmm_gen.derive.space.outward import OWN_FORCE, OWN_MOMENT
+from tmm_gen.derive.space.pose import FACING, facing_lines
+from tmm_gen.derive.station.lets import Line, Update
+from tmm_gen.program.arm.loads import exactly
+from tmm_gen.program.space.layout import SpaceLayout
+from tmm_gen.program.space.walks import SpaceWalks
+from tmm_gen.program.statements import Order, Section
+from tmm_gen.scene.spatial.arm import ArmInput
+
+
+def loads_on_frames(layout: SpaceLayout, walks: SpaceWalks, stage: int) -> list[Section]:
+    """Return what forces and moments on frames take off what bodies take.
+
+    Parameters
+    ----------
+    layout : SpaceLayout
+        The arm's variables.
+    walks : SpaceWalks
+        Of the sweep, whose way out stands before.
+    stage : int
+        Instant of the step, from 0, at which inputs are read.
+    """
+    loads = [i for i in layout.arm.inputs if i.frame is not None and i.frame.joint]
+    sections = []
+    for item in loads:
+        assert item.frame is not None
+        vector = sp.Matrix([layout.input(column, stage) for column in item.columns])
+        station = item.frame.joint - 1
+        title = f"{item.acts} on '{item.frame.name}'"
+        if item.axes == "body":
+            turn = sp.Matrix(3, 3, lambda i, j, rows=item.frame.turn: exactly(rows[i][j]))
+            lines = _taken_off(item, turn * vector)
+            sections.append(Section(title, tuple(walks.at_station(station, lines))))
+            continue
+
+        def read(
+            at: int, station: int = station, item: ArmInput = item, v: sp.Matrix = vector
+        ) -> Sequence[Line]:
+            return _taken_off(item, FACING * v) if at == station else ()
+
+        walked = walks.walk(
+            Order.OUTWARD,
+            facing_lines,
+            tuple(FACING),
+            read,
+            layout.tree.inward_of(station),
+        )
+        sections.append(Section(title + ", in world axes", tuple(walked)))
+    return sections
+
+
+def _taken_off(item: ArmInput, acting: sp.Matrix) -> tuple[Line, ...]:
+    """Return what a load, in the axes of a joint's body, takes off what the body takes."""
+    assert item.frame is not None
+    place = sp.Matrix([exactly(r) for r in item.frame.at])
+    force, moment = (acting, place.cross(acting)) if item.acts == "force" else (sp.zeros(3, 1), acting)
+    pairs = zip((*OWN_FORCE, *OWN_MOMENT), (*force, *moment), strict=True)
+    return (Update({symbol: symbol - value for symbol, value in pairs if value != 0}),)
