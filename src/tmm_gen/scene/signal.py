@@ -25,10 +25,10 @@ Of = Literal[
     "elastic_energy",
     "gravitational_energy",
     "dissipated_energy",
-    "orientation",
 ]
-Read = Literal[Of, "joint_angle", "joint_rate", "joint_torque"]
-"""What outputs are; those of a joint between its two sides are asked for by its name (arms by parts alone)."""
+Read = Literal[Of, "joint_angle", "joint_rate", "joint_torque", "orientation"]
+"""What outputs are; those of a joint between its two sides are asked for by its name (arms by parts alone), orientations
+in space."""
 
 
 def _place(value: object) -> str | int:
