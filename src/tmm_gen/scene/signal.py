@@ -27,8 +27,8 @@ Of = Literal[
     "dissipated_energy",
 ]
 Read = Literal[Of, "joint_angle", "joint_rate", "joint_torque", "orientation"]
-"""What outputs are; those of a joint between its two sides are asked for by its name (arms by parts alone), orientations
-in space."""
+"""What outputs are; those of a joint between its two sides are asked for by its name (arms by parts alone), and
+orientations in space."""
 
 
 def _place(value: object) -> str | int:
