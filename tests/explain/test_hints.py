@@ -15,7 +15,12 @@ from tmm_gen.scene.check import document_of
 from tmm_gen.scene.template import template
 
 ROOT = Path(__file__).resolve().parents[2]
-SCENES = sorted([*(ROOT / "scenes").glob("*.toml"), *(ROOT / "examples").rglob("*.toml")])
+SCENES = sorted(
+    [
+        *(ROOT / "scenes").glob("*.toml"),
+        *(path for path in (ROOT / "examples").rglob("*.toml") if not path.name.endswith(".flex.toml")),
+    ]
+)
 
 ARM = """\
 name = "arm"

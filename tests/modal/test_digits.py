@@ -124,7 +124,9 @@ def test_few_modes_of_a_long_arm_are_those_of_all(
     monkeypatch.setattr(undamped, "_DENSE", 1000)
     every = find_modes(linear)
     for one, other in zip(few, every, strict=False):
-        np.testing.assert_allclose(one.poles, other.poles, rtol=1e-8)
+        # dense matrices know less: by their own bounds, which are of first order
+        assert other.bound < 2e-8
+        np.testing.assert_allclose(one.poles, other.poles, rtol=2.0 * (one.bound + other.bound))
         np.testing.assert_allclose(np.abs(one.shape), np.abs(other.shape), rtol=0, atol=1e-8)
         assert one.bound < 1e-9
     band = modes_up_to(linear, every[20].frequency * 1.001)
