@@ -28,7 +28,7 @@ def accelerations(arm: SpatialArm, angles: ca.SX, rates: ca.SX, torques: ca.SX, 
         bias.append(_motion_cross(moved) @ own)
         inertia.append(_inertia(joint))
         force.append(-_motion_cross(moved).T @ (inertia[k] @ moved))
-    answers: list[tuple[ca.SX, ca.SX, ca.SX]] = [None] * len(joints)  # type: ignore[list-item]
+    answers: dict[int, tuple[ca.SX, ca.SX, ca.SX]] = {}
     for k in reversed(range(len(joints))):
         joint, axis = joints[k], spatial[k]
         turned = inertia[k] @ axis
@@ -71,9 +71,13 @@ def step_function(arm: SpatialArm, step: float) -> ca.Function:
 
 def numbers(arm: SpatialArm) -> tuple[Array, Array, Array, Array]:
     """Return stiffness, damping, slack angle and rotor of each joint."""
-    columns = ("stiffness", "damping", "rest", "armature")
-    found = (np.array([getattr(joint, column) for joint in arm.joints]) for column in columns)
-    return tuple(found)  # type: ignore[return-value]
+    joints = arm.joints
+    return (
+        np.array([joint.stiffness for joint in joints]),
+        np.array([joint.damping for joint in joints]),
+        np.array([joint.rest for joint in joints]),
+        np.array([joint.armature for joint in joints]),
+    )
 
 
 def _times(factors: Array, values: ca.SX) -> ca.SX:
