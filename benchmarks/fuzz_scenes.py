@@ -4,6 +4,7 @@ All are read; the first so many that are valid are built, and of some of them, i
 and a few steps are asked for too. Results go into a file as they come: an interrupted run goes on where it stopped.
 
     .venv/bin/python benchmarks/fuzz_scenes.py --scenes 20000 --built 2000 --out out/fuzz.jsonl
+    .venv/bin/python benchmarks/fuzz_scenes.py --folder examples/space --scenes 4000 --built 400 --out out/space.jsonl
 
 Exits with 1 if there was a traceback.
 """
@@ -34,7 +35,7 @@ from tmm_gen.scene import Scene, SceneError, parse_scene
 _SMALL = 60
 """Links of arms for which everything is tried."""
 _SECONDS = 60
-"""A trial may take."""
+"""Of processor time that a trial may take."""
 _TOO_LONG = 400
 """Links above which building says nothing new and takes its time."""
 
@@ -42,7 +43,7 @@ _TOO_LONG = 400
 def main() -> int:
     """Fuzz and print what came out."""
     options = _options()
-    documents = [tomllib.loads(path.read_text()) for path in sorted(scenes_dir().glob("*.toml"))]
+    documents = [tomllib.loads(path.read_text()) for path in sorted(options.folder.glob("*.toml"))]
     options.out.parent.mkdir(parents=True, exist_ok=True)
     done = _done(options.out)
     built = sum(1 for entry in done.values() if "build" in entry)
@@ -89,6 +90,9 @@ def _commands(scene: Scene, thorough: bool) -> Iterator[tuple[str, list[str]]]:
         return
     few = repr(3 * scene.integrator.step)
     yield "run", ["run", "scene.toml", "--until", few, "--csv", "out.csv"]
+    if scene.spatial is not None:
+        yield "export", ["export", "scene.toml", "--to", "mjcf", "--out", "arm.xml"]
+        return
     yield "modes", ["modes", "scene.toml"]
     yield "explain", ["explain", "scene.toml"]
     yield "stability", ["stability", "scene.toml", "--cells", "0"]
@@ -150,6 +154,9 @@ def _done(path: Path) -> dict[str, dict[str, dict[str, str]]]:
 
 def _options() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument(
+        "--folder", type=Path, default=scenes_dir(), help="where the scenes are that are changed"
+    )
     parser.add_argument("--scenes", type=int, default=20000, help="how many are read")
     parser.add_argument("--built", type=int, default=2000, help="how many are built")
     parser.add_argument("--every", type=int, default=10, help="one of so many built is tried in all ways")
