@@ -1,7 +1,17 @@
 """The emitted C compiled for this machine and driven from Python."""
 
+from tmm_gen.native.batch import BatchRun, NativeBatch, compile_batch
 from tmm_gen.native.compiler import FLAGS, compile_library
 from tmm_gen.native.kernel import NativeKernel, compile_kernel
 from tmm_gen.native.library import NonFiniteStateError
 
-__all__ = ["FLAGS", "NativeKernel", "NonFiniteStateError", "compile_kernel", "compile_library"]
+__all__ = [
+    "FLAGS",
+    "BatchRun",
+    "NativeBatch",
+    "NativeKernel",
+    "NonFiniteStateError",
+    "compile_batch",
+    "compile_kernel",
+    "compile_library",
+]

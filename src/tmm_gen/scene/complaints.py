@@ -53,7 +53,9 @@ def _finding(details: ErrorDetails, document: type[Document]) -> Finding:
         return Finding(path, *_unknown_key(path, owner, value, document), value)
     if kind == "literal_error":
         choices = [str(choice) for choice in _literals(field)]
-        return Finding(path, "is not one of the choices", closest(value, choices), value)
+        numbers = all(choice.isdecimal() for choice in choices)  # of which none is meant for another
+        remedy = f"Choose one of {', '.join(choices)}." if numbers else closest(value, choices)
+        return Finding(path, "is not one of the choices", remedy, value)
     if kind in _COMPARISONS:
         name, words = _COMPARISONS[kind]
         return Finding(path, f"must be {words} {context[name]:g}", _example(path, field), value)
@@ -97,11 +99,11 @@ def _tables_in(annotation: Any) -> Iterator[type[Table]]:
 
 
 def _literals(field: FieldInfo | None) -> Iterator[object]:
-    """Yield the words an annotation allows, however deep they stand."""
+    """Yield the words and numbers an annotation allows, however deep they stand."""
 
     def walk(annotation: Any) -> Iterator[object]:
         for argument in get_args(annotation):
-            if isinstance(argument, str):
+            if isinstance(argument, str | int):
                 yield argument
             else:
                 yield from walk(argument)

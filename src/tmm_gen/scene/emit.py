@@ -79,6 +79,8 @@ class Emit(Table):
     compensated : bool
         Whether the C code keeps every number as the unevaluated sum of two floats, so that rounding does not add up
         over millions of steps; with ``real = "float32"`` only.
+    batch : {4, 8, 16}, optional
+        How many arms a second kernel in C steps side by side, in the lanes of vector registers.
     budget : Budget, optional
         Bounds on the cost of the C code.
     box : dict from str to (low, high), optional
@@ -106,6 +108,9 @@ class Emit(Table):
     )
     compensated: bool = Field(
         default=False, description="float32 only: keep each number as a sum of two", examples=["true"]
+    )
+    batch: Literal[4, 8, 16] | None = Field(
+        default=None, description="arms side by side in a second kernel in C", examples=["8"]
     )
     budget: Budget | None = Field(default=None, description="bounds on the cost of the C code")
     box: dict[str, Interval] | None = Field(default=None, description="bounds of inputs and state")

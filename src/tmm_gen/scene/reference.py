@@ -139,6 +139,8 @@ def _value(field: FieldInfo, example: str) -> str:
         choices = ", ".join(f'"{word}"' for word in words)
         numbered = any(leaf is int for leaf in _leaves(field.annotation))
         return choices + (", or a number" if numbered else "")
+    if numbers := [n for n in _leaves(field.annotation) if isinstance(n, int) and not isinstance(n, bool)]:
+        return ", ".join(map(str, numbers))
     kinds = [leaf for leaf in _leaves(field.annotation) if isinstance(leaf, type)]
     if bool in kinds:
         return "true, false"

@@ -84,6 +84,7 @@ def sources(scene: Scene) -> dict[str, str]:
         ("arm2", {"emit.real": "float32"}),
         ("arm2", {"emit.trigonometry": "own", "emit.parameters": "bound", "emit.box": None}),
         ("thesis2", {"integrator.name": "sdirk2", "emit.sensitivities": True}),
+        ("arm2", {"emit.trigonometry": "own", "emit.batch": 8, "emit.box": None}),
     ],
     ids=str,
 )

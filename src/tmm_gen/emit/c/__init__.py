@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from tmm_gen.c_language.names import macros
+from tmm_gen.emit.c.batch import emit_batch
 from tmm_gen.emit.c.kernel import Kernel
 from tmm_gen.emit.c.sensitivities import emit_sensitivities
 from tmm_gen.emit.c.vectors import vectors
@@ -11,7 +12,7 @@ from tmm_gen.emit.templates import render
 from tmm_gen.program.statements import Program
 from tmm_gen.scene import Scene
 
-__all__ = ["emit_c", "emit_kernel", "free_scene"]
+__all__ = ["emit_c", "emit_c_batch", "emit_kernel", "free_scene"]
 
 
 def emit_kernel(program: Program, scene: Scene) -> dict[str, str]:
@@ -23,6 +24,22 @@ def emit_kernel(program: Program, scene: Scene) -> dict[str, str]:
         As :func:`emit_c` does.
     """
     return _kernel_files(Kernel.of(program, scene))
+
+
+def emit_c_batch(program: Program, scene: Scene) -> dict[str, str]:
+    """Write header and source of the kernel, and of the one for many arms.
+
+    Raises
+    ------
+    ValueError
+        If the scene asks for no batch.
+    UserError
+        As :func:`emit_c` does.
+    """
+    if scene.emit.batch is None:
+        raise ValueError(f"{scene.name}: emit.batch is not set")
+    kernel = Kernel.of(program, scene)
+    return {**_kernel_files(kernel), **emit_batch(kernel)}
 
 
 def emit_c(program: Program, scene: Scene) -> dict[str, str]:
@@ -39,7 +56,7 @@ def emit_c(program: Program, scene: Scene) -> dict[str, str]:
     -------
     dict of str to str
         Texts by path inside the scene's package: ``c/<name>.h``, ``c/<name>.c``, ``c/test_<name>.c``,
-        ``c/CMakeLists.txt``.
+        ``c/CMakeLists.txt``; ``c/<name>_batch.h`` and ``.c`` where the scene asks for arms side by side.
 
     Raises
     ------
@@ -49,6 +66,7 @@ def emit_c(program: Program, scene: Scene) -> dict[str, str]:
     kernel = Kernel.of(program, scene)
     return {
         **_kernel_files(kernel),
+        **emit_batch(kernel),
         f"c/test_{program.name}.c": _filled(
             "test.c", kernel, vectors=vectors(kernel), without=WITHOUT_MOTION
         ),

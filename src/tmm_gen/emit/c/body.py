@@ -149,7 +149,7 @@ class Body:
             yield from self._declaration(variable)
         sums = self._sums
         if sums is not None and any(sums.inside.values()):
-            yield f"{INDENT}real {TOTAL} = {self.real.literal(0)}; /* of the new motion: is all of it finite? */"
+            yield f"{INDENT}real {TOTAL} = {self._zero}; /* of the new motion: is all of it finite? */"
         positions = iter(range(len(tuple(self.routine.assignments()))))
         names = (f"turn_{number}" for number in count(1))
 
@@ -166,9 +166,7 @@ class Body:
             kind = self._type(variable)
             head = "" if constant is None else f"const {kind} " if constant else f"{kind} "
             target = printer.text(inner.target) if kind == "pair" else printer.reference(inner.target)
-            value = printer.text(inner.value)
-            if self.real.pair and kind == "real":
-                value += ".high"
+            value = self._stored(inner, printer)
             yield from statement(f"{head}{target} = {value};", depth)
             if variable.name in self.fence.largest:
                 yield from self._fenced(target, self.fence.largest[variable.name], depth)
@@ -197,6 +195,15 @@ class Body:
                     yield f"{INDENT * depth}}}"
                 else:
                     yield from simple(top, depth, straight)
+
+    def _stored(self, assign: Assign, printer: CPrinter) -> str:
+        """Return what an assignment sets its target to."""
+        rounded = self.real.pair and self._type(assign.target.variable) == "real"
+        return printer.text(assign.value) + (".high" if rounded else "")
+
+    @property
+    def _zero(self) -> str:
+        return self.real.literal(0)
 
     def _marked(self, mark: Mark, printer: CPrinter) -> Iterator[str]:
         """Yield where something repeated begins or ends."""

@@ -133,10 +133,19 @@ class Kernel:
         fenced = bool(self.fences.get(start.name)) or (self.circle is not None and has_angles(start))
         return _statuses(start, ranged=fenced)
 
-    def members(self, which: str) -> list[str]:
-        """Return the members of a struct, documented beside, or above where that is too wide."""
+    def members(self, which: str, number: str = "") -> list[str]:
+        """Return the members of a struct, documented beside, or above where that is too wide.
+
+        Parameters
+        ----------
+        which : str
+            Name of the struct.
+        number : str, optional
+            Type of its numbers, behind the kernel's name; by default its own.
+        """
         struct = self.structs[which]
-        number = f"{self.program.name}_{'pair' if struct.holds_pairs(self.real) else 'real'}"
+        number = number or ("pair" if struct.holds_pairs(self.real) else "real")
+        number = f"{self.program.name}_{number}"
         chosen = which in ("inputs", "outputs")
         members = [
             (number, signal(f.name, self.program.name) if chosen else f.name, f.dimension, f.doc)
@@ -146,8 +155,9 @@ class Kernel:
             members = [(number, "none", "", "unused: C has no empty structs")]
             chosen = False
         if struct.counter:
+            of_each = f"[{macros(self.program.name)}_BATCH]" if number.endswith("_many") else ""
             members.append(
-                ("int", COUNTER, "", "how many of the integrator's first steps, which differ, are done")
+                ("int", COUNTER, of_each, "how many of the integrator's first steps, which differ, are done")
             )
         widest = max(
             len(f"{INDENT}{kind} {name}{length}; /**< {doc} */") for kind, name, length, doc in members
@@ -309,7 +319,8 @@ class Kernel:
     def sources(self) -> list[str]:
         """The files of C to compile, without the test."""
         name = self.program.name
-        return [f"{name}.c", *([f"{name}_sensitivities.c"] if self.program.sensitivities else [])]
+        more = {"_sensitivities": self.program.sensitivities, "_batch": self.scene.emit.batch}
+        return [f"{name}.c", *(f"{name}{end}.c" for end, asked in more.items() if asked)]
 
     @property
     def copied(self) -> list[tuple[str, str, str]]:

@@ -20,6 +20,7 @@ from tmm_gen.scene.rules.drivetrains import (
     shafts,
 )
 from tmm_gen.scene.rules.emission import (
+    batch_suits,
     bound_without_sensitivities,
     box_names,
     budget_not_empty,
@@ -65,6 +66,7 @@ RULES: tuple[Rule, ...] = (
     bound_without_sensitivities,
     budget_not_empty,
     compensated_suits,
+    batch_suits,
     box_names,
     control_possible,
 )
@@ -87,6 +89,7 @@ _ALL: tuple[Rule, ...] = (
     bound_without_sensitivities,
     budget_not_empty,
     compensated_suits,
+    batch_suits,
     box_names,
 )
 """Rules of all arms by parts."""

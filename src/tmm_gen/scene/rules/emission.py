@@ -34,7 +34,7 @@ def real_is_used(document: Document) -> Iterator[Finding]:
                 'Add "c" to backends, or remove it.',
                 value,
             )
-    for key in ("budget", "box"):
+    for key in ("budget", "box", "batch"):
         if getattr(emit, key) is not None:
             yield Finding(
                 ("emit", key), "is for the C code, which is not emitted", 'Add "c" to backends, or remove it.'
@@ -77,6 +77,36 @@ def compensated_suits(document: Document) -> Iterator[Finding]:
             "needs sines that are as exact, which a C library has not",
             'Write trigonometry = "own" beside it.',
             True,
+        )
+
+
+def batch_suits(document: Document) -> Iterator[Finding]:
+    """Find a kernel for many arms asked for beside what it cannot be, or without what it needs."""
+    emit, key = document.emit, ("emit", "batch")
+    if emit.batch is None or "c" not in emit.backends:
+        return
+    if emit.parameters == "bound":
+        yield Finding(
+            key,
+            "is for arms that may differ, and emit.parameters is bound",
+            'Write parameters = "free", or remove it.',
+            emit.batch,
+        )
+    if emit.compensated:
+        yield Finding(key, "and emit.compensated exclude each other", "Remove one of them.", emit.batch)
+    if emit.batch == 16 and emit.real == "float64":
+        yield Finding(
+            key,
+            "of float64 is wider than any vector register, and slow",
+            'Write batch = 8, or real = "float32" beside it.',
+            emit.batch,
+        )
+    if document.model.kind != "chain" and emit.trigonometry != "own":
+        yield Finding(
+            key,
+            "needs sines for several arms at once, which a C library has not",
+            'Write trigonometry = "own" beside it.',
+            emit.batch,
         )
 
 

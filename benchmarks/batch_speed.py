@@ -1,0 +1,124 @@
+"""Many arms side by side in C beside the same arms one after another, in one run.
+
+    .venv/bin/python benchmarks/batch_speed.py --update
+
+Both from the scene's own C, without reading outputs; the arms differ. One after another: the kernel as emitted, own
+sines too. gcc -O3 -march=native without fused multiply-add, processor time of one thread, by turns; ratios within a
+round, then their median. What a second thread gains is told by the clock on the wall, and wants an idle machine.
+`--update` writes the table into docs/batch.md.
+"""
+
+from __future__ import annotations
+
+import argparse
+import statistics
+import time
+from pathlib import Path
+
+import numpy as np
+from marks import renewed
+
+from tmm_gen.cli.console import Column, progress, table
+from tmm_gen.csv_text import csv_text
+from tmm_gen.files import write_whole
+from tmm_gen.native import FLAGS, compile_kernel
+from tmm_gen.native.batch import compile_batch
+from tmm_gen.native.machine import machine_flags, processors
+from tmm_gen.program.build import build_program
+from tmm_gen.scene import Scene, load_scene
+
+ROOT = Path(__file__).resolve().parents[1]
+PAGE = ROOT / "docs" / "batch.md"
+SCENES = ("scenes/thesis10", "scenes/arm10", "scenes/arm50", "scenes/elbow", "examples/space/yaw3")
+LANES = ((4, "float64"), (8, "float64"), (16, "float32"))
+ARMS = 512
+ROUNDS = 15
+_SECONDS = 0.05
+"""Of processor time, about, that a round of a batch takes."""
+
+
+def measured(scene: Scene, rounds: int) -> dict[str, object]:
+    """Return one row: nanoseconds per arm, link and step, and ratios."""
+    program = build_program(scene)
+    batch = compile_batch(program, scene)
+    kernel = compile_kernel(program, scene, flags=("-O3", *FLAGS[1:], *machine_flags("gcc")))
+    alone = kernel.timer()
+    stiffness = np.asarray(program.parameters[0].default)[..., None] * np.linspace(0.999, 1.001, ARMS)
+    params = {program.parameters[0].name: stiffness}
+    per_link = 1.0 / scene.stations
+
+    def seconds(steps: int, threads: int, clock: object = time.process_time) -> float:
+        assert callable(clock)
+        start = clock()
+        run = batch.simulate(
+            steps * scene.integrator.step, params=params, threads=threads, every=max(1, steps), arms=ARMS
+        )
+        assert not run.status.any()
+        return float(clock() - start)
+
+    steps = max(10, int(20 * _SECONDS / max(seconds(20, 1), 1e-6)))
+    together, ratios, gains = [], [], []
+    for _ in range(rounds):
+        one = alone()
+        many = 1e9 * (seconds(steps, 1) - seconds(0, 1)) / (steps * ARMS)
+        together.append(many * per_link)
+        ratios.append(many / one)
+        if processors() > 1:
+            gains.append(seconds(steps, 1, time.perf_counter) / seconds(steps, 2, time.perf_counter))
+    return {
+        "scene": scene.name,
+        "numbers": f"{scene.emit.batch} x {scene.emit.real}",
+        "ns": statistics.median(together),
+        "ratio": statistics.median(ratios),
+        "threads": statistics.median(gains) if gains else float("nan"),
+    }
+
+
+def told(rows: list[dict[str, object]], rounds: int) -> str:
+    """Return the rows as a table of the page."""
+    lines = [
+        f"Medians of {rounds} rounds of {ARMS} arms; times are of one thread.",
+        "",
+        "| scene | side by side | ns per arm, link and step | over one after another | two threads |",
+        "| --- | --- | ---: | ---: | ---: |",
+    ]
+    lines += [
+        f"| `{row['scene']}` | {row['numbers']} | {row['ns']:.2f} | {row['ratio']:.3f} | {row['threads']:.2f} |"
+        for row in rows
+    ]
+    return "\n".join(lines)
+
+
+def main() -> None:
+    """Measure and print, and write the page."""
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("--out", type=Path, default=Path("out/bench"))
+    parser.add_argument("--rounds", type=int, default=ROUNDS)
+    parser.add_argument("--update", action="store_true", help="write the table into docs/batch.md")
+    given = parser.parse_args()
+    given.out.mkdir(parents=True, exist_ok=True)
+    rows: list[dict[str, object]] = []
+    with progress("arms side by side", len(SCENES) * len(LANES)) as advance:
+        for path in SCENES:
+            for lanes, real in LANES:
+                changes = {"emit.batch": lanes, "emit.real": real, "emit.trigonometry": "own"}
+                scene = load_scene(ROOT / f"{path}.toml").replace(**{"emit.parameters": "free", **changes})
+                rows.append(measured(scene, given.rounds))
+                advance()
+    columns = [
+        "scene",
+        Column("numbers", "side by side"),
+        Column("ns", "ns per arm, link and step", ".2f"),
+        Column("ratio", "over one after another", ".3f"),
+        Column("threads", "two threads", ".2f"),
+    ]
+    table(rows, columns, title=f"{ARMS} arms, medians of {given.rounds} rounds")
+    write_whole(given.out / "batch_speed.csv", csv_text(rows))
+    print(f"wrote {given.out / 'batch_speed.csv'}")
+    if given.update:
+        PAGE.write_text(renewed(PAGE.read_text(), told(rows, given.rounds), "batch_speed.py"))
+        print(f"updated {PAGE}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,129 @@
+"""Numbers of many arms: how arrays that users give are shared among them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from tmm_gen.emit.c.structs import Struct
+from tmm_gen.program.variables import Variable
+
+Numbers = NDArray[np.floating[Any]]
+
+
+def require_known(named: Mapping[str, object], known: Sequence[Variable], what: str) -> None:
+    """Refuse names that are not there.
+
+    Parameters
+    ----------
+    named : mapping from str
+        What a user gives.
+    known : sequence of Variable
+        What there is.
+    what : str
+        In the plural: "inputs".
+
+    Raises
+    ------
+    ValueError
+        If a name is not among them.
+    """
+    names = [v.name for v in known]
+    if unknown := sorted(set(named) - set(names)):
+        there = ", ".join(names) or "none"
+        raise ValueError(f"there are no {what} named {', '.join(unknown)}; there are: {there}")
+
+
+def arm_count(
+    arms: int | None,
+    variables: Sequence[Variable],
+    values: Mapping[str, ArrayLike],
+    series: Mapping[str, Numbers],
+) -> int:
+    """Return how many arms there are.
+
+    Parameters
+    ----------
+    arms : int, optional
+        As told.
+    variables : sequence of Variable
+        Of the values.
+    values : mapping from str to array_like
+        Parameters and starts, the last index counting arms where there is one more than the variable has.
+    series : mapping from str to array
+        Inputs, the last index counting arms.
+
+    Raises
+    ------
+    ValueError
+        If they disagree, or there are none.
+    """
+    found = {name: array.shape[-1] for name, array in series.items() if array.shape[-1] > 1}
+    for variable in variables:
+        shape = np.shape(values.get(variable.name, 0.0))
+        if len(shape) == (1 if variable.length is None else 2) and shape[-1] > 1:
+            found[variable.name] = shape[-1]
+    counts = set(found.values()) | (set() if arms is None else {int(arms)})
+    if len(counts) > 1:
+        told = ", ".join(f"{name} is for {number}" for name, number in found.items())
+        raise ValueError(f"how many arms? {told}{'' if arms is None else f', arms = {arms}'}")
+    wanted = counts.pop() if counts else 1
+    if wanted < 1:
+        raise ValueError(f"arms must be 1 or more, not {wanted}")
+    return wanted
+
+
+def by_arm(variable: Variable, value: ArrayLike, arms: int) -> Numbers:
+    """Return a parameter or a start as rows, one for each arm.
+
+    Parameters
+    ----------
+    variable : Variable
+        What is meant.
+    value : array_like, shape (), (arms,), and of arrays also (length,) or (length, arms)
+        As a user gives it.
+    arms : int
+        How many there are.
+
+    Returns
+    -------
+    array, shape (arms, length)
+        Rows.
+
+    Raises
+    ------
+    ValueError
+        If the shape fits neither the variable nor the arms.
+    """
+    array = np.asarray(value, dtype=float)
+    if variable.length is not None and array.ndim == 1:
+        array = array[:, None]
+    length = variable.length or 1
+    if array.ndim <= (1 if variable.length is None else 2):
+        try:
+            return np.broadcast_to(array, (length, arms)).T
+        except ValueError:
+            pass
+    raise ValueError(
+        f"{variable.name} has the shape {np.shape(value)}, which fits neither {length} values nor {arms} arms"
+    )
+
+
+def columns(struct: Struct) -> Iterator[tuple[Variable, slice]]:
+    """Yield the variables of a struct, and which of its numbers are theirs."""
+    start = 0
+    for variable in struct.variables:
+        stop = start + (variable.length or 1)
+        yield variable, slice(start, stop)
+        start = stop
+
+
+def shares(arms: int, workers: int, grain: int = 64) -> Iterator[tuple[int, int]]:
+    """Yield ranges of arms for threads: several for each, all but the last multiples of any number side by side."""
+    blocks = -(-arms // grain)
+    each = arms if workers == 1 else max(1, blocks // (4 * workers)) * grain
+    for first in range(0, arms, each):
+        yield first, min(first + each, arms)

@@ -1,0 +1,45 @@
+"""The page on many arms at once: what it prints is what comes out."""
+
+from __future__ import annotations
+
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tmm_gen.cli import main
+
+pytestmark = pytest.mark.compiler
+
+ROOT = Path(__file__).resolve().parents[2]
+PAGE = (ROOT / "docs" / "batch.md").read_text()
+SESSION = re.findall(r"^\$ (.*)$\n((?:[^$`].*\n)*)", PAGE, re.MULTILINE)
+
+
+def test_commands(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    shutil.copytree(ROOT / "examples" / "batch", tmp_path / "examples" / "batch")
+    monkeypatch.chdir(tmp_path)
+    (build, _), (compiler, _), (program, printed) = SESSION
+    assert main(shlex.split(build)[1:]) == 0
+    subprocess.run(shlex.split(compiler), check=True)
+    done = subprocess.run([program], capture_output=True, text=True, check=True)
+    assert done.stdout == printed
+
+
+def test_python() -> None:
+    (snippet,) = re.findall(r"```python\n(.*?)```", PAGE, re.DOTALL)
+    done = subprocess.run(
+        [sys.executable, "-c", snippet], cwd=ROOT, capture_output=True, text=True, check=True
+    )
+    first, second = done.stdout.splitlines()
+    assert first == "BatchRun(10000 arms, 7 instants, outputs: tool_x, tool_y)"
+    told = re.search(r"^y (\S+) m, scatter \S+ mm$", PAGE, re.MULTILINE)
+    found = re.fullmatch(r"y (\S+) m, scatter (\S+) mm", second)
+    assert told
+    assert found
+    assert float(found[1]) == pytest.approx(float(told[1]), abs=5e-4)  # other arms, as likely
+    assert 2.0 < float(found[2]) < 4.5

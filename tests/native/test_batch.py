@@ -1,0 +1,183 @@
+"""Many arms side by side: each gets the bits that a kernel of its own would give it, and none harms another."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from tmm_gen.native import NativeKernel, compile_kernel
+from tmm_gen.native.batch import STATUSES, NativeBatch, compile_batch
+from tmm_gen.program.build import build_program
+from tmm_gen.scene import Scene, load_scene
+
+pytestmark = pytest.mark.compiler
+
+ROOT = Path(__file__).resolve().parents[2]
+OWN_SINES = {"emit.trigonometry": "own", "emit.batch": 8}
+CASES: dict[str, tuple[str, dict[str, Any]]] = {
+    "start-up steps, a chain": ("scenes/thesis10", {"integrator": {"name": "houbolt", "step": 0.002}, "emit.batch": 8}),
+    "stages": ("scenes/arm2", {**OWN_SINES, "integrator": {"name": "sdirk4", "step": 0.002}}),
+    "four lanes, branches": ("scenes/gripper", {**OWN_SINES, "emit.batch": 4}),
+    "a free base": ("scenes/cube", OWN_SINES),
+    "floats, no inputs": ("scenes/fall10", {"emit.trigonometry": "own", "emit.batch": 16, "emit.real": "float32"}),
+    "a prescribed base": ("scenes/drivetrain", {"emit.batch": 8}),
+    "space": ("examples/space/arm6", OWN_SINES),
+}  # fmt: skip
+ARMS = 21  # not a multiple of any number side by side
+
+
+@cache
+def compiled(case: str) -> tuple[Scene, NativeBatch, NativeKernel]:
+    name, changes = CASES[case]
+    scene = load_scene(ROOT / f"{name}.toml").replace(**{"emit.parameters": "free", **changes})
+    program = build_program(scene)
+    return scene, compile_batch(program, scene), compile_kernel(program, scene)
+
+
+@pytest.fixture(params=list(CASES))
+def case(request: pytest.FixtureRequest) -> str:
+    name: str = request.param
+    return name
+
+
+def drawn(batch: NativeBatch, seed: int) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Inputs and parameters of many arms: constants of each, the same function for all, functions of each."""
+    draw = np.random.default_rng(seed)
+    inputs: dict[str, Any] = {}
+    amounts = 0.02 * draw.standard_normal(ARMS)
+    for number, variable in enumerate(batch.program.inputs):
+        kinds = [amounts, lambda t: 0.01 * np.sin(3.0 * t), lambda t: amounts * np.cos(5.0 * t)]
+        inputs[variable.name] = kinds[number % 3]
+    params = {
+        v.name: np.asarray(v.default)[..., None] * draw.uniform(0.99, 1.01, ARMS)
+        if v.length
+        else float(v.default or 0.0) * draw.uniform(0.99, 1.01, ARMS)  # type: ignore[arg-type]
+        for v in batch.program.parameters[:5]
+    }
+    return inputs, params
+
+
+def of_arm(values: dict[str, Any], arm: int) -> Iterator[tuple[str, Any]]:
+    for name, value in values.items():
+        if callable(value):
+            yield name, lambda t, value=value: np.broadcast_to(value(t), ARMS)[arm]
+        else:
+            yield name, value[..., arm]
+
+
+def test_every_arm_has_the_bits_of_its_own_kernel(case: str) -> None:
+    scene, batch, kernel = compiled(case)
+    inputs, params = drawn(batch, 3)
+    duration = 40 * scene.integrator.step
+    run = batch.simulate(duration, inputs, params, threads=2, arms=ARMS)
+    assert not run.status.any()
+    assert np.ptp(run.outputs[batch.program.outputs[0].name][-1]) > 0.0
+    for arm in range(ARMS):
+        times, outputs = kernel.simulate(duration, dict(of_arm(inputs, arm)), dict(of_arm(params, arm)))
+        np.testing.assert_array_equal(run.times, times)
+        for name, values in outputs.items():
+            np.testing.assert_array_equal(run.outputs[name][:, arm], values, err_msg=name)
+
+
+def test_a_spoilt_arm_is_refused_alone(case: str) -> None:
+    """Parameters, start and steps may each be refused; what their own kernel says is what the batch says."""
+    scene, batch, kernel = compiled(case)
+    inputs, params = drawn(batch, 4)
+    duration = 40 * scene.integrator.step
+    sound = batch.simulate(duration, inputs, params, arms=ARMS)
+    spoilt = {name: value.copy() for name, value in params.items()}
+    name = next(iter(spoilt))
+    spoilt[name][..., 2], spoilt[name][..., 9] = np.nan, -1e6
+    given = batch.program.given[0]
+    start = np.repeat(np.asarray(given.default or [0.0] * (given.length or 1))[:, None], ARMS, axis=1)
+    start[:, ARMS - 1] = 1e30
+    run = batch.simulate(duration, inputs, spoilt, arms=ARMS, **{given.name: start})
+    hurt = [2, 9, ARMS - 1]
+    for arm in range(ARMS):
+        own = dict(of_arm(inputs, arm)), dict(of_arm(spoilt, arm))
+        if arm not in hurt:
+            assert run.status[arm] == 0
+            for output, values in run.outputs.items():
+                np.testing.assert_array_equal(values[:, arm], sound.outputs[output][:, arm])
+        elif run.status[arm]:
+            with pytest.raises((ArithmeticError, ValueError)):
+                kernel.simulate(duration, *own, **{given.name: start[:, arm]})
+            assert all(np.isnan(values[-1, arm]) for values in run.outputs.values())
+        else:  # a chain takes any angle
+            _, outputs = kernel.simulate(duration, *own, **{given.name: start[:, arm]})
+            for output, values in run.outputs.items():
+                np.testing.assert_array_equal(values[:, arm], outputs[output])
+    assert run.status[2] == STATUSES.index("an argument is not finite")
+
+
+def test_an_arm_that_fails_on_the_way_stops_there_and_the_others_go_on() -> None:
+    scene, batch, _ = compiled("stages")
+    steps = 30
+    torque = np.zeros((steps, ARMS))
+    torque[10:, 3] = np.nan
+    torque[20:, 20] = 1e300
+    run = batch.simulate(steps * scene.integrator.step, {"hub_torque": torque})
+    still = batch.simulate(steps * scene.integrator.step, arms=1)
+    assert np.flatnonzero(run.status).tolist() == [3, 20]
+    assert run.status[3] == STATUSES.index("an argument is not finite")
+    for name, values in run.outputs.items():
+        assert np.isnan(values[11:, 3]).all()
+        assert np.isfinite(values[:11, 3]).all()
+        assert np.isfinite(values[:21, 20]).all()
+        for arm in set(range(ARMS)) - {3, 20}:
+            np.testing.assert_array_equal(values[:, arm], still.outputs[name][:, 0])
+
+
+def test_when_all_arms_fail_none_is_left() -> None:
+    scene, batch, _ = compiled("stages")
+    run = batch.simulate(20 * scene.integrator.step, {"hub_torque": np.full(9, np.inf)})
+    assert (run.status == STATUSES.index("an argument is not finite")).all()
+    assert "9 refused" in repr(run)
+
+
+def test_threads_and_what_is_kept_change_no_bit() -> None:
+    scene, batch, _ = compiled("stages")
+    draw = np.random.default_rng(8)
+    torque = draw.standard_normal((30, 300))
+    runs = [
+        batch.simulate(30 * scene.integrator.step, {"hub_torque": torque}, threads=threads, every=every)
+        for threads, every in ((1, 1), (2, 1), (3, 7))
+    ]
+    for name, values in runs[0].outputs.items():
+        np.testing.assert_array_equal(values, runs[1].outputs[name])
+        np.testing.assert_array_equal(values[::7], runs[2].outputs[name])
+    np.testing.assert_allclose(runs[2].times, runs[0].times[::7], rtol=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        ({"inputs": {"torque": 1.0}}, "no inputs named torque; there are: hub_torque"),
+        ({"params": {"weight": 1.0}}, "no parameters named weight"),
+        ({"initial_places": 0.0}, "no arguments of the start named initial_places"),
+        ({"params": {"gravity": np.ones((2, 3))}}, "gravity has the shape (2, 3)"),
+        ({"params": {"gravity": np.ones(3)}, "arms": 4}, "how many arms? gravity is for 3, arms = 4"),
+        ({"params": {"stiffness": np.ones(5)}}, "fits neither 2 values nor 1 arms"),
+        ({"inputs": {"hub_torque": np.ones((7, 3))}}, "7 rows for 50 steps"),
+        ({"inputs": {"hub_torque": np.ones((7, 3, 1))}}, "3 dimensions"),
+        ({"duration": -1.0}, "duration and step"),
+        ({"every": 0}, "every must be 1 or more"),
+        ({"arms": 0}, "arms must be 1 or more"),
+    ],
+)
+def test_what_does_not_fit_is_said(arguments: dict[str, Any], said: str) -> None:
+    scene, batch, _ = compiled("stages")
+    with pytest.raises(ValueError, match=re.escape(said)):
+        batch.simulate(**{"duration": 50 * scene.integrator.step, **arguments})
+
+
+def test_a_scene_without_a_batch_has_none() -> None:
+    scene = load_scene(ROOT / "scenes" / "arm2.toml")
+    with pytest.raises(ValueError, match=r"emit\.batch is not set"):
+        compile_batch(build_program(scene), scene)
