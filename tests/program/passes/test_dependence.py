@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tmm_gen.program.passes.dependence import Footprint, read_before_written, reversible
+from tmm_gen.program.passes.dependence import Together, Touched, read_before_written, reversible
 from tmm_gen.program.statements import Assign, Loop, Order, Routine, Section
 from tmm_gen.program.variables import Role, Variable
 
@@ -18,7 +18,7 @@ def loop(*body: Assign) -> Loop:
 
 
 def independent(one: Assign | Loop, other: Assign | Loop) -> bool:
-    return Footprint.of(one).independent(Footprint.of(other))
+    return Together(Touched.of(one)).independent(Touched.of(other))
 
 
 def routine(*statements: Assign | Loop) -> Routine:

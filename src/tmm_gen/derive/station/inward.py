@@ -7,7 +7,7 @@ force row follows from the element's own law.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 
 import sympy as sp
 
@@ -354,15 +354,17 @@ def cheapest(value: sp.Expr, levers: list[sp.Symbol]) -> sp.Expr:
     if not gains and len(symbols & set(levers)) < 2:
         return value
     expanded = sp.expand(value)
-    ways: list[Callable[[], sp.Expr]] = [
-        lambda: value,
-        lambda: expanded,
-        lambda: sp.factor_terms(value),
-        lambda: sp.collect(expanded, levers),
-        lambda: sp.collect(expanded, gains),
-        lambda: sp.collect(expanded, [*levers, *gains]),
-    ]
-    return min((way() for way in ways), key=lambda e: (operations(e), len(str(e))))
+    written = (
+        value,
+        expanded,
+        sp.factor_terms(value),
+        sp.collect(expanded, levers),
+        sp.collect(expanded, gains),
+        sp.collect(expanded, [*levers, *gains]),
+    )
+    counts = [operations(e) for e in written]
+    fewest = list(dict.fromkeys(e for e, count in zip(written, counts, strict=True) if count == min(counts)))
+    return fewest[0] if len(fewest) == 1 else min(fewest, key=lambda e: len(str(e)))
 
 
 def operations(e: sp.Expr) -> int:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Set
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -79,7 +80,7 @@ def written_elements(routine: Routine, array: Variable) -> list[tuple[int, int]]
 
 
 @dataclass(frozen=True, eq=False)
-class Footprint:
+class Touched:
     """What a statement reads and writes, gathered once for the many comparisons of a pass.
 
     Parameters
@@ -95,7 +96,7 @@ class Footprint:
     mark: bool = False
 
     @classmethod
-    def of(cls, statement: Statement) -> Footprint:
+    def of(cls, statement: Statement) -> Touched:
         """Gather the accesses of a statement."""
         found: tuple[dict[Variable, set[tuple[int, int]]], dict[Variable, set[tuple[int, int]]]] = ({}, {})
         for access in accesses(statement):
@@ -103,23 +104,44 @@ class Footprint:
         reads, writes = ({v: frozenset(spans) for v, spans in each.items()} for each in found)
         return cls(reads, writes, isinstance(statement, Mark))
 
-    def independent(self, other: Footprint) -> bool:
-        """Whether the two statements may change places."""
+
+class Together:
+    """What several statements read and write together: whoever is independent of it is independent of each."""
+
+    def __init__(self, *statements: Touched) -> None:
+        self._reads: dict[Variable, set[tuple[int, int]]] = {}
+        self._writes: dict[Variable, set[tuple[int, int]]] = {}
+        self._mark = False
+        for touched in statements:
+            self.add(touched)
+
+    def add(self, touched: Touched) -> None:
+        """Take one more statement in."""
+        self._mark = self._mark or touched.mark
+        for mine, its in ((self._reads, touched.reads), (self._writes, touched.writes)):
+            for variable, spans in its.items():
+                mine.setdefault(variable, set()).update(spans)
+
+    def independent(self, touched: Touched) -> bool:
+        """Whether a statement may change places with all of them."""
         return not (
-            self.mark
-            or other.mark
-            or _overlap(self.writes, other.writes)
-            or _overlap(self.writes, other.reads)
-            or _overlap(self.reads, other.writes)
+            self._mark
+            or touched.mark
+            or _overlap(self._writes, touched.writes)
+            or _overlap(self._writes, touched.reads)
+            or _overlap(self._reads, touched.writes)
         )
 
 
 def _overlap(
-    one: dict[Variable, frozenset[tuple[int, int]]], other: dict[Variable, frozenset[tuple[int, int]]]
+    one: Mapping[Variable, Set[tuple[int, int]]], other: Mapping[Variable, Set[tuple[int, int]]]
 ) -> bool:
+    if len(other) < len(one):
+        one, other = other, one
     return any(
         first <= end and start <= last
-        for variable in one.keys() & other.keys()
+        for variable in one
+        if variable in other
         for first, last in one[variable]
         for start, end in other[variable]
     )

@@ -8,9 +8,8 @@ expressions, so operations and rounding stay what they were.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import lru_cache
 
-from tmm_gen.program.passes.dependence import Footprint, order_keeping_dependences
+from tmm_gen.program.passes.dependence import Together, Touched, order_keeping_dependences
 from tmm_gen.program.statements import Loop, Routine, Section, Statement
 
 
@@ -20,16 +19,11 @@ class _Item:
 
     titles: tuple[str, ...]
     statement: Statement
-    footprint: Footprint
+    touched: Touched
 
     @classmethod
     def of(cls, titles: tuple[str, ...], statement: Statement) -> _Item:
-        return cls(titles, statement, Footprint.of(statement))
-
-
-@lru_cache(maxsize=1 << 16)  # each pair is asked about anew for every two loops that may be fused
-def _independent(one: _Item, other: _Item) -> bool:
-    return one.footprint.independent(other.footprint)
+        return cls(titles, statement, Touched.of(statement))
 
 
 def fuse(routine: Routine) -> Routine:
@@ -69,11 +63,15 @@ def _fuse_pair(items: list[_Item], first: int, last: int) -> tuple[list[_Item], 
     assert isinstance(other.statement, Loop)
     before: list[_Item] = []
     behind: list[_Item] = []
+    waited_for, needs = Together(one.touched), Together(other.touched)
     for item in items[first + 1 : last]:
-        waits_for = (one, *behind)
-        (before if all(_independent(item, w) for w in waits_for) else behind).append(item)
-    if not all(_independent(other, item) for item in behind):
-        return None
+        if waited_for.independent(item.touched):
+            before.append(item)
+        elif needs.independent(item.touched):
+            behind.append(item)
+            waited_for.add(item.touched)
+        else:  # it can go neither before the first loop nor behind the second
+            return None
     later = (*behind, *items[last + 1 :])
     order = order_keeping_dependences(one.statement, other.statement, tuple(i.statement for i in later))
     if order is None:
