@@ -192,9 +192,9 @@ LONG = (
 def pytest_addoption(parser: pytest.Parser) -> None:
     """Let a run on yet another machine repeat nothing of one kind."""
     parser.addoption(
-        "--first-and-last",
+        "--one-of-each",
         action="store_true",
-        help="of each file only the first and the last test, and those that want an optional tool",
+        help="of each file only the first test, and those that want an optional tool",
     )
 
 
@@ -207,14 +207,14 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
         if "need_tool" in getattr(item, "fixturenames", ()):
             item.add_marker(pytest.mark.tools)
     items.sort(key=lambda item: item.get_closest_marker("long") is not None)
-    if config.getoption("--first-and-last"):
-        files: dict[Path, list[pytest.Item]] = {}
+    if config.getoption("--one-of-each"):
+        firsts: dict[Path, pytest.Item] = {}
         for item in items:
-            files.setdefault(item.path, []).append(item)
-        ends = {id(item) for same in files.values() for item in (same[0], same[-1])}
-        ends |= {id(item) for item in items if item.get_closest_marker("tools")}
-        config.hook.pytest_deselected(items=[item for item in items if id(item) not in ends])
-        items[:] = [item for item in items if id(item) in ends]
+            firsts.setdefault(item.path, item)
+        chosen = {id(item) for item in firsts.values()}
+        chosen |= {id(item) for item in items if item.get_closest_marker("tools")}
+        config.hook.pytest_deselected(items=[item for item in items if id(item) not in chosen])
+        items[:] = [item for item in items if id(item) in chosen]
 
 
 # -- what was left out, in one line at the very end ---------------------------------------------
