@@ -36,6 +36,7 @@ def arm(links: int) -> Scene:
         bending_stiffness = 12.0
         mass_per_length = 0.4
         links = {links}
+        springs = "half-clamp"
         damping_time = 1e-3
         [tip]
         mass = 0.1

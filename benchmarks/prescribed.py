@@ -50,7 +50,10 @@ name = "torque"
 at = "base"
 of = "torque"
 """
-BEAM = "[beam]\nlength = 1.0\nbending_stiffness = 3.2\nmass_per_length = 0.5\nlinks = 5\ndamping_time = 0.002"
+BEAM = (
+    '[beam]\nlength = 1.0\nbending_stiffness = 3.2\nmass_per_length = 0.5\nlinks = 5\nsprings = "half-clamp"\n'
+    "damping_time = 0.002"
+)
 CHAIN = "[[joint]]\nstiffness = 30.0\ndamping = 0.06\nrepeat = 5\n[[link]]\ninertia = 0.01\nrepeat = 5"
 SCENES = {
     "planar": parse_scene(ARM.format(kind="planar", iterations="iterations = 2", links=BEAM, rate="rate")),

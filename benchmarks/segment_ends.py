@@ -1,10 +1,11 @@
-"""Where a beam is cut: `half-clamp`, `finite-segment` and `clamped-segment` beside the exact beam, on five arms.
+"""Where a beam is cut: `half-clamp`, `finite-segment` and `clamped-segment` beside the exact beam, on nine arms.
 
     python benchmarks/segment_ends.py --update
 
 `half-clamp` cuts at the inner ends of equal links, with a spring of 2 EI/l where the beam is held; `finite-segment` in
 the middle of equal pieces, with springs of EI/l only and half a piece rigid at either end. `clamped-segment` has the
-former's root and the latter's end, and on a joint is the latter. Beams of 1 m, EI = 1 N m^2 and 1 kg/m (the outer one
+former's root and the latter's end, on a clamp as on a hub that turns; on the motor between two beams it is the latter.
+A prescribed base has the frequencies of a clamp. Beams of 1 m, EI = 1 N m^2 and 1 kg/m (the outer one
 half as stiff and heavy), no gravity, 4 to 32 springs each. Frequencies are those of
 Lagrange's equations (`reference/planar_arm.py`); exact ones of the beam's dynamic stiffness. `--update` writes the
 table into docs/modes.md.
@@ -15,6 +16,7 @@ from __future__ import annotations
 import argparse
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import Literal
 
@@ -28,7 +30,7 @@ from tmm_gen.cli.console import Column, table
 from tmm_gen.csv_text import csv_text
 from tmm_gen.files import write_whole
 from tmm_gen.modal.beam import BeamArm, natural_frequencies
-from tmm_gen.modal.beam.arm import Body
+from tmm_gen.modal.beam.arm import BeamBase, Body
 from tmm_gen.modal.beam.member import Member, dynamic_stiffness
 from tmm_gen.reference.planar_arm import Arm
 from tmm_gen.scene import Initial, parse_scene
@@ -46,7 +48,10 @@ LINKS = (4, 8, 16, 32)
 MODES = 3
 INNER = Member(1.0, 1.0, 1.0)
 OUTER = Member(1.0, 0.5, 0.5)
+HEAVY = Tip(mass=0.2)
 TIP = Tip(mass=0.2, inertia=0.05)
+HUB = 0.1
+"""Inertia of a hub, kg m^2."""
 HOUSING, ROTOR = 0.2, 0.1
 """Mass on the elbow, kg; inertia of the motor's rotor at the joint, kg m^2."""
 ROUNDING = 1e-12
@@ -201,6 +206,8 @@ class Case:
         Those of the beam.
     scale : array, (quantities,)
         What errors are relative to.
+    ends : str
+        What sits on the outer ends: "nothing" that turns with them, or "something".
     """
 
     name: str
@@ -208,19 +215,23 @@ class Case:
     found: Callable[[int, Rule], Array]
     exact: Array
     scale: Array
+    ends: str
 
 
 FREQUENCIES = tuple(f"mode {mode + 1}" for mode in range(MODES))
 
 
-def clamped(n: int, rule: Rule) -> Array:
+def clamped(n: int, rule: Rule, tip: Tip | None = None) -> Array:
     """Return the frequencies of a beam on a clamp."""
-    return frequencies(arm_of(cut(INNER, n, rule)))
+    return frequencies(arm_of(cut(INNER, n, rule), tip))
 
 
-def tipped(n: int, rule: Rule) -> Array:
-    """Return the frequencies of a beam on a clamp with a body that has inertia at its tip."""
-    return frequencies(arm_of(cut(INNER, n, rule), TIP))
+def turned(n: int, rule: Rule, tip: Tip | None = None) -> Array:
+    """Return the frequencies of a beam on a hub that turns; a spring at the root makes it a link of its own."""
+    hub = Joint(stiffness=0.0, rotor_inertia=HUB)
+    if rule == "clamped-segment":
+        return frequencies(arm_of([(hub, WEIGHTLESS), *cut(INNER, n, rule)], tip), turning=1)
+    return frequencies(arm_of(cut(INNER, n, rule, hub), tip), turning=1)
 
 
 def cornered(n: int, rule: Rule) -> Array:
@@ -255,24 +266,42 @@ def cases() -> tuple[Case, ...]:
     """Return all arms with their exact values."""
     radius = 1.0 / MOMENT
     circle = np.array([MOMENT, radius * np.sin(MOMENT), radius * (1.0 - np.cos(MOMENT))])
-    bending = {
-        "clamp": (clamped, natural_frequencies(BeamArm((INNER,)), MODES)),
-        "clamp, tip with inertia": (
-            tipped,
-            natural_frequencies(BeamArm((INNER,), bodies=(Body(TIP.mass, TIP.inertia),)), MODES),
+    found = [
+        *(_single(base, tip) for base in ("clamp", "hub") for tip in (None, HEAVY, TIP)),
+        (
+            "two beams at a right angle",
+            "something",
+            cornered,
+            roots(corner, cornered(128, "finite-segment")),
         ),
-        "two beams at a right angle": (cornered, roots(corner, cornered(128, "finite-segment"))),
-        "two beams, motor between": (driven, roots(elbow, driven(128, "finite-segment"))),
-    }
+        ("two beams, motor between", "something", driven, roots(elbow, driven(128, "finite-segment"))),
+    ]
     return (
-        *(Case(name, FREQUENCIES, found, exact, exact) for name, (found, exact) in bending.items()),
+        *(Case(name, FREQUENCIES, of, exact, exact, ends) for name, ends, of, exact in found),
         Case(
             "clamp, rolled up to half a circle by a torque on the tip",
             ("tip angle", "tip place, x", "tip place, y"),
             rolled,
             circle,
             np.array([MOMENT, INNER.length, INNER.length]),
+            "something",
         ),
+    )
+
+
+def _single(base: str, tip: Tip | None) -> tuple[str, str, Callable[[int, Rule], Array], Array]:
+    """Return name, what turns with the end, links' and exact frequencies of one beam."""
+    inertia = tip is not None and tip.inertia > 0.0
+    name = base if tip is None else f"{base}, tip with inertia" if inertia else f"{base}, tip mass"
+    bodies = () if tip is None else (Body(tip.mass, tip.inertia),)
+    hub = base == "hub"
+    arm = BeamArm((INNER,), BeamBase("hub", HUB) if hub else BeamBase(), bodies)
+    exact = natural_frequencies(arm, MODES + hub)[int(hub) :]
+    return (
+        name,
+        "something" if inertia else "nothing",
+        partial(turned if hub else clamped, tip=tip),
+        exact,
     )
 
 
@@ -284,7 +313,7 @@ def rows_of(case: Case) -> list[dict[str, object]]:
     }
     rows: list[dict[str, object]] = []
     for place, quantity in enumerate(case.quantities):
-        row: dict[str, object] = {"arm": case.name, "quantity": quantity}
+        row: dict[str, object] = {"arm": case.name, "quantity": quantity, "ends": case.ends}
         for rule in RULES:
             found = errors[rule][:, place]
             row |= {f"{rule}_{n}": float(error) for n, error in zip(LINKS, found, strict=True)}
@@ -315,18 +344,25 @@ def page(rows: list[dict[str, object]]) -> str:
             cells.append("exact" if max(errors) < ROUNDING else " ".join(f"{error:.1e}" for error in errors))
             cells.append("" if np.isnan(fitted) else f"{fitted:.2f}")
         lines.append(cells)
+    text = "\n".join(f"| {' | '.join(cells)} |" for cells in lines)
+    loaded, of_loaded = _better(rows, "something")
+    plain, of_plain = _better(rows, "nothing")
+    return (
+        f"{text}\n\nOf the {of_loaded} frequencies of arms whose beams carry something that turns with their ends,\n"
+        f"`finite-segment` has a smaller error than `half-clamp` in {loaded[0]}, `clamped-segment` in {loaded[1]}; of\n"
+        f"the {of_plain} others, with a mass or nothing there, in {plain[0]} and {plain[1]}."
+    )
+
+
+def _better(rows: list[dict[str, object]], ends: str) -> tuple[list[int], int]:
+    """Return in how many frequencies each segment rule is better than `half-clamp`, and how many there are."""
     bending = [
         [float(str(row[f"{rule}_{n}"])) for rule in RULES]
         for row in rows
         for n in LINKS
-        if row["quantity"] in FREQUENCIES
+        if row["quantity"] in FREQUENCIES and row["ends"] == ends
     ]
-    better = [sum(each[place] < each[0] for each in bending) for place in (1, 2)]
-    text = "\n".join(f"| {' | '.join(cells)} |" for cells in lines)
-    return (
-        f"{text}\n\n`finite-segment` has a smaller error than `half-clamp` in {better[0]} of these {len(bending)} "
-        f"frequencies, `clamped-segment` in {better[1]}."
-    )
+    return [sum(each[place] < each[0] for each in bending) for place in (1, 2)], len(bending)
 
 
 def main() -> None:

@@ -59,12 +59,13 @@ def test_what_an_arm_expands_to(elbow_text: str) -> None:
     ]
 
 
-def test_a_beam_cut_like_the_beam_of_old_is_the_same() -> None:
+@pytest.mark.parametrize("rule", ["", "clamped-segment", "half-clamp", "uniform", "thesis"])
+def test_a_beam_on_the_base_is_cut_like_the_beam_of_the_short_form(rule: str) -> None:
     text = 'name = "a"\n[model]\nkind = "planar"\n[integrator]\nname = "newmark"\nstep = 1e-3\n[base]\nkind = "clamp"\n'
     beam = "length = 1.0\nbending_stiffness = 3.0\nmass_per_length = 0.5\nlinks = 4\n"
     output = '[[output]]\nname = "tip"\nat = "tip"\nof = "position"\n'
-    old = parse_scene(f"{text}[beam]\n{beam}[tip]\nmass = 0.2\n{output}")
-    cut = 'springs = "half-clamp"\n'
+    cut = f'springs = "{rule}"\n' if rule else ""
+    old = parse_scene(f"{text}[beam]\n{beam}{cut}[tip]\nmass = 0.2\n{output}")
     new = parse_scene(f'{text}[[beam]]\nname = "b"\n{beam}{cut}[[body]]\nname = "t"\nmass = 0.2\n{output}')
     assert (new.joints, new.links, new.tip, new.outputs) == (old.joints, old.links, old.tip, old.outputs)
 

@@ -34,6 +34,7 @@ length = 1.0
 bending_stiffness = {stiffness!r}
 mass_per_length = 0.5
 links = {links}
+springs = "half-clamp"
 damping_time = 0.002
 [[output]]
 name = "tip"

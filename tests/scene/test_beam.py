@@ -15,9 +15,11 @@ from tmm_gen.emit.c import emit_kernel
 from tmm_gen.emit.numpy import emit_numpy
 from tmm_gen.program.build import build_program
 from tmm_gen.scene import parse_scene
-from tmm_gen.scene.beam import Beam, Springs, beam_joints, beam_links, joint_stiffnesses
+from tmm_gen.scene.beam import Beam, Springs, beam_joints, beam_links, finite_segments, joint_stiffnesses
+from tmm_gen.scene.station import Link
 
-RULES: tuple[Springs, ...] = ("half-clamp", "uniform", "thesis")
+RULES: tuple[Springs, ...] = ("clamped-segment", "half-clamp", "uniform", "thesis")
+SECOND_ORDER = ("clamped-segment", "half-clamp")
 
 
 def beam(links: int, springs: Springs = "half-clamp", damping_time: float = 0.0) -> Beam:
@@ -31,28 +33,36 @@ def beam(links: int, springs: Springs = "half-clamp", damping_time: float = 0.0)
     )
 
 
-def tip_deflection(stiffnesses: tuple[float, ...], length: float) -> float:
+def pieces(links: int, springs: Springs) -> Fraction:
+    """How many whole pieces a beam makes."""
+    return links - Fraction(1, 2) if springs == "clamped-segment" else Fraction(links)
+
+
+def tip_deflection(made: Beam) -> float:
     """Static deflection of the tip under a unit force across it, small: each joint bends by moment over k."""
-    n = len(stiffnesses)
-    link = length / n
-    return sum((link * (n - i)) ** 2 / k for i, k in enumerate(stiffnesses))
+    links = beam_links(made)
+    arms = [sum(link.length for link in links[i:]) for i in range(len(links))]
+    return sum(arm**2 / k for arm, k in zip(arms, joint_stiffnesses(made), strict=True))
 
 
 @pytest.mark.parametrize(
     ("springs", "links", "expected"),
     [
-        # In units of EI/l = 3 n/2; Gholampour (2018), eqs. 2-1, 2-2 at n = 10: (480 - 72)/(420 - 71).
+        # In units of EI/l, which is 3 n/2 where n pieces are alike.
+        # Gholampour (2018), eqs. 2-1, 2-2 at n = 10: (480 - 72)/(420 - 71).
         ("thesis", 10, [Fraction(8, 9), Fraction(408, 349), *[1] * 8]),
         ("thesis", 3, [Fraction(8, 9), Fraction(72, 55), 1]),
         ("thesis", 2, [Fraction(8, 9), Fraction(24, 13)]),
         ("thesis", 1, [Fraction(8, 9)]),
+        ("clamped-segment", 4, [2, 1, 1, 1]),
+        ("clamped-segment", 1, [2]),
         ("half-clamp", 4, [2, 1, 1, 1]),
         ("half-clamp", 1, [2]),
         ("uniform", 3, [1, 1, 1]),
     ],
 )
 def test_stiffnesses(springs: Springs, links: int, expected: list[Fraction]) -> None:
-    unit = Fraction(3 * links, 2)
+    unit = Fraction(3, 2) * pieces(links, springs)
     assert joint_stiffnesses(beam(links, springs)) == pytest.approx([float(unit * k) for k in expected])
 
 
@@ -62,31 +72,46 @@ def test_every_rule_gives_positive_springs_that_tend_to_the_continuous_ones(
 ) -> None:
     stiffnesses = joint_stiffnesses(beam(links, springs))
     assert len(stiffnesses) == links
-    unit = 3.0 * links / 2.0
+    unit = float(3 * pieces(links, springs) / 2)
     assert all(0.5 * unit < k <= 2.0 * unit for k in stiffnesses)
 
 
 @pytest.mark.parametrize("springs", RULES)
 def test_static_deflection_converges_to_the_continuous_beam(springs: Springs) -> None:
     exact = 2.0**3 / (3.0 * 3.0)  # F L^3/(3 E I)
-    errors = [
-        abs(tip_deflection(joint_stiffnesses(beam(n, springs)), 2.0) / exact - 1.0) for n in (10, 20, 40, 80)
-    ]
+    errors = [abs(tip_deflection(beam(n, springs)) / exact - 1.0) for n in (10, 20, 40, 80)]
     order = math.log2(errors[-2] / errors[-1])
-    assert order == pytest.approx(2.0 if springs == "half-clamp" else 1.0, abs=0.1)
-    assert errors[-1] < (1e-4 if springs == "half-clamp" else 0.03)
+    assert order == pytest.approx(2.0 if springs in SECOND_ORDER else 1.0, abs=0.1)
+    assert errors[-1] < (1e-4 if springs in SECOND_ORDER else 0.03)
+
+
+@given(links=st.integers(1, 100))
+def test_segments_have_all_of_a_beams_flexibility_under_a_moment(links: int) -> None:
+    """A torque on the tip turns it by M L/(E I), whatever the number of links."""
+    clamped = joint_stiffnesses(beam(links, "clamped-segment"))
+    finite = [joint.stiffness for joint in finite_segments(beam(links))[0]]
+    for stiffnesses in (clamped, finite):
+        assert sum(1.0 / k for k in stiffnesses) == pytest.approx(2.0 / 3.0)
 
 
 @given(links=st.integers(1, 100), springs=st.sampled_from(RULES))
 def test_mass_length_and_rotary_inertia_are_those_of_rods(links: int, springs: Springs) -> None:
-    pieces = beam_links(beam(links, springs))
-    assert len(pieces) == links
-    assert sum(link.mass for link in pieces) == pytest.approx(1.0)
-    assert sum(link.length for link in pieces) == pytest.approx(2.0)
+    made = beam_links(beam(links, springs))
+    assert len(made) == links
+    check_rods(made)
+    joints, segments = finite_segments(beam(links, springs))
+    assert (len(joints), len(segments)) == (links, links + 1)
+    check_rods(segments)
+
+
+def check_rods(links: tuple[Link, ...]) -> None:
+    assert sum(link.mass for link in links) == pytest.approx(1.0)
+    assert sum(link.length for link in links) == pytest.approx(2.0)
     # Moment of inertia about the clamp of the straight arm: m L^2/3, exactly, for any n.
-    about_base = sum(
-        link.inertia + link.mass * ((i + link.center) * link.length) ** 2 for i, link in enumerate(pieces)
-    )
+    about_base = inner = 0.0
+    for link in links:
+        about_base += link.inertia + link.mass * (inner + link.center * link.length) ** 2
+        inner += link.length
     assert about_base == pytest.approx(1.0 * 2.0**2 / 3.0)
 
 
@@ -122,19 +147,26 @@ def test_what_is_printed_is_the_shortest_decimal_of_the_exact_value(
         springs=springs,
         damping_time=float(time),
     )
-    unit = Fraction(ei) * links / Fraction(length)
-    first = {"half-clamp": Fraction(2), "uniform": Fraction(1), "thesis": Fraction(8, 9)}[springs]
+    unit = Fraction(ei) * pieces(links, springs) / Fraction(length)
+    first = (
+        Fraction(2)
+        if springs in SECOND_ORDER
+        else {"uniform": Fraction(1), "thesis": Fraction(8, 9)}[springs]
+    )
     factors = [first, *[Fraction(1)] * (links - 1)]
     if springs == "thesis" and links > 1:
         factors[1] = Fraction(48 * links - 72, 42 * links - 71)
     for joint, factor in zip(beam_joints(made), factors, strict=True):
         assert is_shortest(joint.stiffness, factor * unit)
         assert is_shortest(joint.damping, factor * unit * Fraction(time))
-    link_length = Fraction(length) / links
-    link = beam_links(made)[0]
-    assert is_shortest(link.length, link_length)
-    assert is_shortest(link.mass, Fraction(mass) * link_length)
-    assert is_shortest(link.inertia, Fraction(mass) * link_length**3 / 12)
+    whole = Fraction(length) / pieces(links, springs)
+    lengths = [whole] * links
+    if springs == "clamped-segment":
+        lengths[-1] /= 2
+    for link, exact in zip(beam_links(made), lengths, strict=True):
+        assert is_shortest(link.length, exact)
+        assert is_shortest(link.mass, Fraction(mass) * exact)
+        assert is_shortest(link.inertia, Fraction(mass) * exact**3 / 12)
 
 
 def is_shortest(value: float, exact: Fraction) -> bool:

@@ -82,7 +82,7 @@ def test_none_removes_a_key(chain: str, planar: str) -> None:
 def test_beam_is_expanded_anew(planar: str) -> None:
     changed = parse_scene(planar).replace(**{"beam.links": 20})
     assert changed.stations == 20
-    assert changed.links[0].length == pytest.approx(0.05)
+    assert [link.length for link in changed.links] == pytest.approx([1.0 / 19.5] * 19 + [0.5 / 19.5])
 
 
 def test_numpy_values(chain: str) -> None:

@@ -42,7 +42,7 @@ def test_planar(planar: str) -> None:
     )
     assert scene.beam is not None
     assert scene.tip is not None
-    assert (scene.beam.springs, scene.tip.mass, scene.tip.inertia) == ("half-clamp", 0.1, 0.0)
+    assert (scene.beam.springs, scene.tip.mass, scene.tip.inertia) == ("clamped-segment", 0.1, 0.0)
 
 
 def test_planar_links_written_out(planar: str) -> None:

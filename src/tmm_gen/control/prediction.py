@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.control.stepped_frequency import model_frequency
 from tmm_gen.scene import Scene
+from tmm_gen.scene.beam import beam_links
+from tmm_gen.scene.station import Link
 
 Array = NDArray[np.float64]
 
@@ -42,13 +46,13 @@ def prediction_scene(scene: Scene, calibrate: bool = True) -> Scene:
     changes["emit.compensated"] = False  # derivatives are not
     if calibrate and scene.beam is not None:
         first, others = spring_factors(scene, step)
-        joints, link, more = scene.joints, scene.links[0], scene.stations - 1
+        joints, more = scene.joints, scene.stations - 1
         changes["beam"] = None
         changes["joint"] = [_scaled(joints[0], first)]
         if more:
             changes["joint"] = [_scaled(joints[0], first), *(_scaled(joint, others) for joint in joints[1:])]
         changes["link"] = [
-            {"mass": link.mass, "length": link.length, "inertia": link.inertia, "repeat": scene.stations}
+            {"mass": link.mass, "length": link.length, "inertia": link.inertia} for link in scene.links
         ]
     return scene.replace(**changes)
 
@@ -102,6 +106,12 @@ def fine_scene(scene: Scene, links: int = FINE_LINKS) -> Scene:
     for key in ("angles", "rates"):
         values = getattr(scene.initial, key)
         if any(value != values[0] for value in values):
-            middle = (np.arange(links) + 0.5) / links * scene.stations - 0.5
-            changes[f"initial.{key}"] = np.interp(middle, np.arange(scene.stations), values).tolist()
+            finer = beam_links(scene.beam.model_copy(update={"links": links}))
+            changes[f"initial.{key}"] = np.interp(_middles(finer), _middles(scene.links), values).tolist()
     return scene.replace(**changes)
+
+
+def _middles(links: Sequence[Link]) -> Array:
+    """Return the places of the middles of links along a straight arm, (n,), m."""
+    lengths = np.array([link.length for link in links])
+    return np.cumsum(lengths) - lengths / 2.0

@@ -29,7 +29,7 @@ def with_links(scene: Scene, links: int, springs: Springs | None = None) -> Scen
         With a ``[beam]``.
     links : int
         n, positive.
-    springs : {"half-clamp", "uniform", "thesis"}, optional
+    springs : {"clamped-segment", "half-clamp", "uniform", "thesis"}, optional
         Rule of the springs; by default the scene's.
 
     Raises

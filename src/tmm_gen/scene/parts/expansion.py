@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, cast
 
-from tmm_gen.scene.beam import Beam, Tip, beam_joints, beam_links
+from tmm_gen.scene.beam import CLAMPED, Tip, beam_joints, beam_links, by_numbers, finite_segments
 from tmm_gen.scene.exact import exact, nearest
 from tmm_gen.scene.initial import Initial, InitialTable, Values, in_order
 from tmm_gen.scene.model import Base, FloatingBase
@@ -152,14 +152,9 @@ def expanded(document: PartsDocument) -> Expansion:
                 hosts.append(host)
         else:
             assert isinstance(part, BeamPart)
-            if pending is not None:
-                more = (pending, *_springs(part)), _pieces(part)
-            elif part.springs in (None, "clamped-segment"):
-                more = _clamped(part)
-            else:
-                more = beam_joints(_beam(part)), beam_links(_beam(part))
-            joints += more[0]
-            links += more[1]
+            springs, pieces = _cut(part, turned=pending is not None)
+            joints += springs if pending is None else (pending, *springs)
+            links += pieces
             hosts += (host, *range(first, len(links)))
         pending, outer[entry.name] = None, len(links)
         bodies = hung.bodies(entry.name)
@@ -231,41 +226,13 @@ def _weight(entry: Entry) -> Link:
     return Link.model_construct(inertia=entry.part.inertia, mass=entry.part.mass, length=0.0, center=0.0)
 
 
-def _beam(part: BeamPart, springs: str | None = None) -> Beam:
-    stiffness, mass = part.stiffness_and_mass()
-    return Beam.model_construct(
-        length=part.length,
-        bending_stiffness=stiffness,
-        mass_per_length=mass,
-        links=part.links,
-        springs=springs or part.springs,
-        damping_time=part.damping_time,
-    )
-
-
-def _springs(part: BeamPart) -> tuple[Joint, ...]:
-    """Return the springs between finite segments: each stands for a whole piece."""
-    return beam_joints(_beam(part, "uniform"))
-
-
-def _pieces(part: BeamPart) -> tuple[Link, ...]:
-    """Return finite segments: half a piece at either end, whole ones between, a spring at each cut."""
-    whole = beam_links(_beam(part))
-    half = beam_links(_beam(part.model_copy(update={"links": 2 * part.links})))[0]
-    return (half, *whole[1:], half)
-
-
-def _clamped(part: BeamPart) -> tuple[tuple[Joint, ...], tuple[Link, ...]]:
-    """Return finite segments behind a clamp: springs at the pieces' inner ends, half a piece at the outer end.
-
-    To a beam, a clamp is a plane of symmetry: the spring there stands for half a piece. Each of the others stands for
-    half a piece on either side.
-    """
-    fine = part.model_copy(update={"links": 2 * part.links - 1})
-    root, half = beam_joints(_beam(fine, "uniform"))[0], beam_links(_beam(fine))[0]
-    spring = Joint.model_construct(stiffness=root.stiffness / 2, damping=root.damping / 2)
-    others = part.links - 1
-    return (root, *(spring,) * others), (*(joined(half, half),) * others, half)
+def _cut(part: BeamPart, *, turned: bool) -> tuple[tuple[Joint, ...], tuple[Link, ...]]:
+    """Return springs and pieces of a beam; one on a motor or a joint that turns it has a piece more than springs."""
+    rule = part.springs
+    if rule is None or rule == "finite-segment":  # whose root turns: it has no rule of a held one
+        rule = CLAMPED
+    beam = by_numbers(part, part.links, rule, part.damping_time)
+    return finite_segments(beam) if turned else (beam_joints(beam), beam_links(beam))
 
 
 def _fixed(hung: Hanging, entry: Entry) -> str:

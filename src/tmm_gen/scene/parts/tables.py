@@ -12,7 +12,7 @@ from tmm_gen.scene.section import Uniform
 from tmm_gen.scene.signal import FileInput, FileOutput
 from tmm_gen.scene.table import STATION_LIMIT, Finite, Fraction, NonNegative, Positive, Table, fault
 
-PartSprings = Literal[Springs, "finite-segment", "clamped-segment"]
+PartSprings = Literal["finite-segment", Springs]
 
 ENDS = ("base", "arm")
 """Words for places that no part may be called by."""

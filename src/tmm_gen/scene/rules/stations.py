@@ -62,8 +62,8 @@ def _beam_in_range(document: Document, beam: BeamEntry) -> Iterator[Finding]:
         (beam.key_of("bending_stiffness"), "joint stiffness", min(j.stiffness for j in joints), 0.0),
         (beam.key_of("bending_stiffness"), "joint stiffness", max(j.stiffness for j in joints), 0.0),
         ("damping_time", "joint damping", max(j.damping for j in joints), -1.0),
-        (beam.key_of("mass_per_length"), "link mass", links[0].mass, 0.0),
-        (beam.key_of("mass_per_length"), "link inertia", links[0].inertia, 0.0),
+        (beam.key_of("mass_per_length"), "link mass", min(link.mass for link in links), 0.0),
+        (beam.key_of("mass_per_length"), "link inertia", min(link.inertia for link in links), 0.0),
     ]
     reported = set()
     for key, what, value, above in derived:
