@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,8 +14,6 @@ from tmm_gen.scene.beam import Springs
 
 Array = NDArray[np.float64]
 
-RULES: tuple[Springs, ...] = get_args(Springs)
-
 
 @dataclass(frozen=True, eq=False)
 class Convergence:
@@ -24,7 +21,7 @@ class Convergence:
 
     Parameters
     ----------
-    rule : {"half-clamp", "uniform", "thesis"}
+    rule : {"clamped-segment", "half-clamp", "uniform", "thesis"}
         Rule of the springs.
     links : array, (k,)
         Numbers of links.
@@ -56,7 +53,7 @@ def convergence(scene: Scene, rule: Springs, links: tuple[int, ...], modes: int)
     ----------
     scene : Scene
         With a ``[beam]`` on a clamp.
-    rule : {"half-clamp", "uniform", "thesis"}
+    rule : {"clamped-segment", "half-clamp", "uniform", "thesis"}
         Rule of the springs.
     links : tuple of int
         Numbers of links.
