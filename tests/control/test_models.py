@@ -14,6 +14,7 @@ from tmm_gen.control.bench import Bench
 from tmm_gen.control.condition import CONDITIONS
 from tmm_gen.control.delay import Delay, delay_of
 from tmm_gen.control.modes import modes_model
+from tmm_gen.control.prediction import fine_scene
 from tmm_gen.control.step_model import StepModel
 from tmm_gen.control.stepped_frequency import model_frequency
 from tmm_gen.modal.beam import natural_frequencies
@@ -41,12 +42,35 @@ def test_stepped_frequency_of_the_average_acceleration(swing: Scene) -> None:
         assert model_frequency(swing.integrator, 5e-3, wanted) == pytest.approx(expected, rel=1e-9)
 
 
-def test_links_and_modes_have_the_frequencies_of_the_beam(bench: Bench) -> None:
+@pytest.mark.parametrize("springs", ["half-clamp", "clamped-segment"])
+def test_links_and_modes_have_the_frequencies_of_the_beam(springs: str, bench: Bench) -> None:
+    """However it is cut: equal links, or the last one half as long."""
+    if springs != "half-clamp":
+        bench = Bench.of(bench.scene.replace(**{"beam.springs": springs}))
     beam = continuous(bench.assumed)
     assert beam is not None
     exact = natural_frequencies(beam, 3)[1:]
     assert_allclose(nearest(bench.links.transition, exact), exact, rtol=3e-3)  # damping shifts them
     assert_allclose(nearest(bench.modes.transition, exact), exact, rtol=2e-3)
+
+
+@pytest.mark.parametrize("springs", ["half-clamp", "clamped-segment"])
+def test_a_finer_arm_starts_in_the_same_shape(springs: str, swing: Scene) -> None:
+    """Bent evenly, each middle of a link by as much as its place along the beam."""
+    coarse = swing.replace(**{"beam.springs": springs})
+    bent = coarse.replace(**{"initial.angles": middles(coarse).tolist()})
+    fine = fine_scene(bent)
+    assert fine.stations == 40
+    places = middles(fine)
+    within = (places > middles(bent)[0]) & (places < middles(bent)[-1])
+    assert np.count_nonzero(within) > 30
+    assert_allclose(np.array(fine.initial.angles)[within], places[within], rtol=1e-12)
+
+
+def middles(scene: Scene) -> np.ndarray:
+    """Return where the middles of links are along the beam, m."""
+    ends = np.cumsum([link.length for link in scene.links])
+    return ends - 0.5 * np.array([link.length for link in scene.links])
 
 
 def test_a_beam_of_few_links_is_too_slow_without_calibration(small: Bench) -> None:

@@ -30,6 +30,7 @@ length = 0.5
 bending_stiffness = 4.0
 mass_per_length = 0.6
 links = 2
+springs = "half-clamp"
 damping_time = 0.002
 [[input]]
 name = "angle"

@@ -24,6 +24,7 @@ length = 1.0
 bending_stiffness = 2.0
 mass_per_length = 0.5
 links = 3
+springs = "half-clamp"
 damping_time = 0.001
 {signals}
 [[output]]
