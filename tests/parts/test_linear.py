@@ -7,6 +7,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 from scipy.linalg import eigvals
+from scipy.optimize import brentq
 
 from tmm_gen.modal.arm import linear_arm
 from tmm_gen.modal.matrices import matrices
@@ -14,7 +15,7 @@ from tmm_gen.modal.modes import find_modes
 from tmm_gen.modal.response import frequency_response
 from tmm_gen.modal.rest import rest_at, straight
 from tmm_gen.reference.planar_arm import Arm
-from tmm_gen.scene import Scene
+from tmm_gen.scene import Scene, parse_scene
 
 EXACT = 1e-9
 SEEDS = range(12)
@@ -102,3 +103,36 @@ def test_a_hanging_chain_swings_as_bessel_says(hanging: Callable[[int], Scene]) 
     assert np.log2(errors[0] / errors[1]) == pytest.approx(np.full(3, 2.0), abs=0.25)
     assert np.log2(errors[1] / errors[2]) == pytest.approx(np.full(3, 2.0), abs=0.1)
     assert errors[2].max() < 5e-3
+
+
+PINNED = """
+name = "pinned"
+model.kind = "planar"
+integrator = {{ name = "newmark", step = 1e-3 }}
+base.kind = "clamp"
+{turning} = [{{ name = "pin" }}]
+beam = [{{ name = "rod", on = "pin", length = 1.3, bending_stiffness = 2.0, mass_per_length = 0.4, links = {links} }}]
+output = [{{ name = "tip", at = "rod", of = "position" }}]
+"""
+
+
+@pytest.mark.parametrize("turning", ["joint", "motor"])
+def test_a_pinned_beam_without_a_hub_has_its_textbook_frequencies(turning: str) -> None:
+    """Roots of tan b = tanh b beside turning as a whole: nothing at the pin needs an inertia of its own.
+
+    Segments are of second order; where no end is held, what is left of it cancels.
+    """
+    roots = [brentq(lambda b: np.sin(b) - np.cos(b) * np.tanh(b), k, k + 1.0) for k in (3.5, 6.5, 9.7)]
+    np.testing.assert_allclose(roots, [3.926602, 7.068583, 10.210176], atol=5e-7)
+    exact = np.array(roots) ** 2 * np.sqrt(2.0 / 0.4 / 1.3**4)
+    counts = [10, 20, 40]
+    errors = []
+    for links in counts:
+        modes = find_modes(matrices(linear_arm(parse_scene(PINNED.format(turning=turning, links=links)))))
+        assert modes[0].frequency == 0.0
+        errors.append(
+            [abs(mode.frequency / right - 1.0) for mode, right in zip(modes[1:], exact, strict=False)]
+        )
+    for each in np.array(errors).T:
+        assert -np.polyfit(np.log(counts), np.log(each), 1)[0] == pytest.approx(4.0, abs=0.2)
+    assert np.max(errors[-1]) < 1e-4
