@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from tmm_gen.scene import SceneError, load_scene, parse_scene
+from tmm_gen.scene.template import template
 
 TRAIN = """
 name = "train"
@@ -440,3 +441,17 @@ def test_keys_change_by_the_names_of_parts() -> None:
     scene = parse_scene(TRAIN).replace(**{"gear.first.ratio": 8.0, "gear.second.stiffness": 100.0})
     assert scene.turns == (1.0, 40.0)
     assert scene.joints[1].stiffness == 100.0
+
+
+@pytest.mark.parametrize(
+    "text", [template("a", "planar", motors=1), template("a", "spatial")], ids=["plane", "space"]
+)
+@pytest.mark.parametrize(
+    ("key", "said"), [("backlash", "teeth are always in mesh"), ("coulomb_friction", "damping is viscous")]
+)
+def test_motors_of_arms_are_refused_so_too(key: str, said: str, text: str) -> None:
+    """In the words of drivetrains; without the key, as these say first, it is a scene."""
+    line = next(line for line in text.splitlines() if line.startswith("gear = "))
+    with pytest.raises(SceneError, match=rf"motor.*{key}: .*{said}.*Remove it"):
+        parse_scene(text.replace(line, f"{line}\n{key} = 0.1", 1))
+    parse_scene(text)
