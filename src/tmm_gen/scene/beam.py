@@ -137,10 +137,16 @@ def beam_links(beam: Beam) -> tuple[Link, ...]:
 
     All are alike but the last one of ``clamped-segment``, which is half as long as the others.
     """
-    piece = _rod(beam, _piece(beam))
+    piece = _rod(beam, piece_length(beam))
     if beam.springs == "clamped-segment":
-        return (*(piece,) * (beam.links - 1), _rod(beam, _piece(beam) / 2))
+        return (*(piece,) * (beam.links - 1), _rod(beam, piece_length(beam) / 2))
     return (piece,) * beam.links
+
+
+def piece_length(beam: Beam) -> Fraction:
+    """Return the length of a whole piece, m: errors of a cut beam go by it."""
+    pieces = beam.links - Fraction(1, 2) if beam.springs == "clamped-segment" else beam.links
+    return exact(beam.length) / pieces
 
 
 def finite_segments(beam: Beam) -> tuple[tuple[Joint, ...], tuple[Link, ...]]:
@@ -174,14 +180,8 @@ def _rod(beam: Beam, length: Fraction) -> Link:
     )
 
 
-def _piece(beam: Beam) -> Fraction:
-    """Return the length of a whole piece."""
-    pieces = beam.links - Fraction(1, 2) if beam.springs == "clamped-segment" else beam.links
-    return exact(beam.length) / pieces
-
-
 def _exact_stiffnesses(beam: Beam) -> tuple[Fraction, ...]:
-    n, k = beam.links, exact(beam.bending_stiffness) / _piece(beam)
+    n, k = beam.links, exact(beam.bending_stiffness) / piece_length(beam)
     if beam.springs == "uniform":
         return (k,) * n
     if beam.springs != "thesis":

@@ -1,19 +1,21 @@
 """What it costs in accuracy to cut a beam into few links, apart from how time is stepped.
 
-The motion of a beam of ``n`` links goes to that of the beam like ``n**-p``. Reference motions with three numbers of
-links, each twice the one before, give ``p`` and by Richardson's extrapolation the limit; nothing here knows a kernel.
+The motion of a beam in pieces of length ``l`` goes to that of the beam like ``l**p``. Reference motions with three
+numbers of links, each twice the one before, give ``p`` and by Richardson's extrapolation the limit. Pieces need not be
+half as long then, as the last link may be half a piece. Nothing here knows a kernel.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.scene import Scene, SceneError
+from tmm_gen.scene.beam import piece_length
 from tmm_gen.study.excitation import Excitation
 from tmm_gen.study.truth import Truth
 
@@ -21,6 +23,9 @@ Array = NDArray[np.float64]
 
 _COARSEST = 10
 """Links of the coarsest of the three, or a quarter of those asked for if that is more: references take long."""
+
+_HIGHEST = 64.0
+"""Order beyond which none is told from another: what is left is rounding."""
 
 _INSTANTS = 401
 _CONVERGING = 1.5
@@ -38,7 +43,7 @@ class Modelling:
     error : float
         Largest distance of the output from that of the beam, relative to its travel.
     order : float
-        With which power of the number of links errors fall, as observed.
+        With which power of the pieces' length errors fall, as observed.
     """
 
     links: int
@@ -85,11 +90,38 @@ def modelling_errors(links: Iterable[int], truth: Callable[[int], Truth]) -> dic
     ratio = float(np.linalg.norm(middle - coarse)) / max(float(np.linalg.norm(fine - middle)), 1e-300)
     if ratio < _CONVERGING:
         return {}
-    limit = fine + (fine - middle) / (ratio - 1.0)
+    order, more = _extrapolated(ratio, [_piece(level.scene) for level in levels])
+    limit = fine + (fine - middle) * more
     return {
-        n: Modelling(n, _distance(truth(n).at(times), limit, levels[-1].travel), math.log2(ratio))
+        n: Modelling(n, _distance(truth(n).at(times), limit, levels[-1].travel), order)
         for n in sorted({*wanted, *numbers})
     }
+
+
+def _piece(scene: Scene) -> float:
+    assert scene.beam is not None  # else there is no number of links to choose
+    return float(piece_length(scene.beam))
+
+
+def _extrapolated(ratio: float, lengths: Sequence[float]) -> tuple[float, float]:
+    """Return the order, and what is still missing beyond the third motion, as a share of the last difference.
+
+    Parameters
+    ----------
+    ratio : float
+        First difference of the motions over the last one, above 1.
+    lengths : sequence of float
+        Of the pieces in the three motions, falling.
+    """
+    from scipy.optimize import brentq
+
+    coarse, middle = (length / lengths[2] for length in lengths[:2])
+
+    def off(order: float) -> float:
+        return float((coarse**order - middle**order) / (middle**order - 1.0) - ratio)
+
+    order = float(brentq(off, 1e-3, _HIGHEST)) if off(_HIGHEST) > 0.0 else _HIGHEST
+    return order, 1.0 / (middle**order - 1.0)
 
 
 def _distance(found: Array, limit: Array, travel: float) -> float:
