@@ -60,7 +60,7 @@ def element_functions(element: Element) -> ElementFunctions:
     whole = sp.Matrix.vstack(
         sp.Matrix.hstack(matrix.U11, matrix.U12), sp.Matrix.hstack(matrix.U21, matrix.U22)
     )
-    filled = _filler((LAPLACE, *element.parameters), whole)
+    filled = filler((LAPLACE, *element.parameters), whole)
 
     def blocks(s: Complex, values: Sequence[float]) -> Blocks:
         found = np.empty((len(s), 2 * width, 2 * width), complex)
@@ -72,9 +72,9 @@ def element_functions(element: Element) -> ElementFunctions:
             found[:, width:, width:],
         )
 
-    constants = [_filler(element.parameters, part) for part in (matrix.U11, matrix.U22)]
+    constants = [filler(element.parameters, part) for part in (matrix.U11, matrix.U22)]
     inertia = matrix.U21.applyfunc(sp.expand)
-    by_power = [_filler(element.parameters, inertia.applyfunc(_coefficient(p))) for p in range(3)]
+    by_power = [filler(element.parameters, inertia.applyfunc(_coefficient(p))) for p in range(3)]
 
     def powers(values: Sequence[Array]) -> tuple[Array, Array, Array]:
         count = len(values[0])
@@ -87,7 +87,7 @@ def element_functions(element: Element) -> ElementFunctions:
 
     compliance = matrix.U12[width - 1, width - 1]
     law = sp.zeros(1, 2) if compliance == 0 else _impedance(compliance)
-    of_impedance = _filler(element.parameters, law)
+    of_impedance = filler(element.parameters, law)
 
     def impedance(values: Sequence[Array]) -> Array:
         found = np.empty((len(values[0]), 1, 2))
@@ -106,7 +106,7 @@ def _coefficient(power: int) -> Callable[[Any], Any]:
     return lambda expression: expression.coeff(LAPLACE, power)
 
 
-def _filler(symbols: Sequence[Any], matrix: Any) -> Callable[..., None]:
+def filler(symbols: Sequence[Any], matrix: Any) -> Callable[..., None]:
     """Return a function that writes a matrix of expressions into the last two axes of an array."""
     entries = [
         (row, column, matrix[row, column]) for row in range(matrix.rows) for column in range(matrix.cols)

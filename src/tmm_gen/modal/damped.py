@@ -12,16 +12,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.errors import UserError
-from tmm_gen.modal.matrices import Matrices
-from tmm_gen.modal.springs import Springs, springs_of
+from tmm_gen.modal.linear import Linear, Resistance
 from tmm_gen.modal.undamped import Undamped, undamped_modes
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 Pair = tuple[complex, complex]
 
-_PROPORTIONAL = 1e-12
-"""Ratios of damper to spring that differ by less are the same; either way the poles agree to this."""
+_NOTHING = 1e-12
+"""Share of the largest damping that counts as none; of a direction that is there already, as nothing new."""
 
 _KNOWN = 1e-10
 """Relative error of a pole that is good enough."""
@@ -54,17 +53,17 @@ class Damped:
     bounds: Array
 
 
-def damped_modes(linear: Matrices, count: int | None = None) -> Damped:
+def damped_modes(linear: Linear, count: int | None = None) -> Damped:
     """Return the poles of the lowest modes.
 
     Parameters
     ----------
-    linear : Matrices
+    linear : Linear
         Of an arm in small motion.
     count : int, optional
         How many modes; all by default.
     """
-    time = damping_time(linear)
+    time = linear.damping_time
     if time is not None:
         modes = undamped_modes(linear, count)
         pairs = [quadratic(square, time * square) for square in modes.squares.tolist()]
@@ -73,7 +72,7 @@ def damped_modes(linear: Matrices, count: int | None = None) -> Damped:
     wanted = size if count is None else min(count, size)
     basis = undamped_modes(linear, min(size, 2 * wanted + 20))
     lowest = Undamped(basis.squares[:wanted], basis.shapes[:, :wanted], basis.bounds[:wanted])
-    springs = springs_of(linear.parts)
+    springs = linear.springs
     shapes = basis.shapes
     pairs, bounds, bends = _projected(linear, springs, shapes, wanted)
     for _ in range(_ROUNDS):
@@ -86,23 +85,6 @@ def damped_modes(linear: Matrices, count: int | None = None) -> Damped:
             break
         pairs, bounds = found, errors
     return Damped(pairs, lowest, np.maximum(bounds, lowest.bounds))
-
-
-def damping_time(linear: Matrices) -> float | None:
-    """Return T where damping is T times stiffness, joint by joint, and nothing else damps or holds; else None."""
-    parts = linear.parts
-    if not np.any(parts.damper) and not np.any(parts.ground_damping):
-        return 0.0
-    if np.any(parts.ground_stiffness) or np.any(parts.ground_damping):
-        return None
-    if np.any(parts.damper[parts.spring == 0.0]):
-        return None
-    held = parts.spring > 0.0
-    if not held.any():
-        return 0.0
-    times = parts.damper[held] / parts.spring[held]
-    middle = float(np.median(times))
-    return middle if np.all(np.abs(times - middle) <= _PROPORTIONAL * middle) else None
 
 
 def quadratic(square: float, twice: float) -> Pair:
@@ -118,7 +100,7 @@ def quadratic(square: float, twice: float) -> Pair:
 
 
 def _projected(
-    linear: Matrices, springs: Springs, shapes: Array, wanted: int
+    linear: Linear, springs: Resistance, shapes: Array, wanted: int
 ) -> tuple[list[Pair], Array, Array]:
     """Return the poles in a space, their errors, and the bends that the space does not balance."""
     from scipy.linalg import eigh  # slow to import
@@ -168,11 +150,11 @@ def _still(damping: Array, loose: NDArray[np.intp]) -> int:
     if len(loose) == 0:
         return 0
     braked = np.linalg.eigvalsh(damping[np.ix_(loose, loose)])
-    least = _PROPORTIONAL * float(np.max(np.abs(damping)))
+    least = _NOTHING * float(np.max(np.abs(damping)))
     return 2 * len(loose) - int(np.sum(np.abs(braked) > least))
 
 
-def _left(linear: Matrices, springs: Springs, shape: Complex, pole: complex) -> Complex:
+def _left(linear: Linear, springs: Resistance, shape: Complex, pole: complex) -> Complex:
     """Return what is out of balance in a damped mode, on the scaled bends."""
     both = np.stack([shape.real, shape.imag], axis=1)
     moved, braked = (springs.loads(part) @ [1.0, 1j] for part in _acting(linear, both))
@@ -182,11 +164,11 @@ def _left(linear: Matrices, springs: Springs, shape: Complex, pole: complex) -> 
     return left
 
 
-def _acting(linear: Matrices, shapes: Array) -> tuple[Array, Array]:
+def _acting(linear: Linear, shapes: Array) -> tuple[Array, Array]:
     return linear.parts.weighed(shapes), linear.parts.braked(shapes)
 
 
-def _weight(springs: Springs, shape: Complex, pole: complex) -> float:
+def _weight(springs: Resistance, shape: Complex, pole: complex) -> float:
     """Return what turns a residual into a relative error of the pole: the residual moves it by ``r / (2 s |b|)``."""
     bends = springs.bends(np.stack([shape.real, shape.imag], axis=1))
     bends[springs.loose] = 0.0
@@ -194,7 +176,7 @@ def _weight(springs: Springs, shape: Complex, pole: complex) -> float:
     return 0.5 / size if size > 0.0 else 0.0
 
 
-def _widened(linear: Matrices, shapes: Array, more: Array) -> Array:
+def _widened(linear: Linear, shapes: Array, more: Array) -> Array:
     """Return a basis of unit mass matrix that contains more angles too."""
     for _ in range(2):  # twice is enough against rounding
         more = more - shapes @ (shapes.T @ linear.parts.weighed(more))
@@ -202,7 +184,7 @@ def _widened(linear: Matrices, shapes: Array, more: Array) -> Array:
         more = more[:, lengths > 0.0] / lengths[lengths > 0.0]
     inner = more.T @ linear.parts.weighed(more)
     sizes, turned = np.linalg.eigh(0.5 * (inner + inner.T))
-    kept = sizes > _PROPORTIONAL  # directions that are there already add nothing
+    kept = sizes > _NOTHING  # directions that are there already add nothing
     room = len(shapes) - shapes.shape[1]
     added = (more @ (turned[:, kept] / np.sqrt(sizes[kept])))[:, ::-1][:, :room]
     added = added - shapes @ (shapes.T @ linear.parts.weighed(added))

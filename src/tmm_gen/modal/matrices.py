@@ -9,7 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.modal.arm import LinearArm
+from tmm_gen.modal.linear import common_time
 from tmm_gen.modal.parts import Parts, parts_of
+from tmm_gen.modal.springs import Springs, springs_of
 
 Array = NDArray[np.float64]
 
@@ -41,6 +43,21 @@ class Matrices:
     def stiffness(self) -> Array:
         """``K``, N m/rad, (d, d), symmetric."""
         return self.parts.held(np.eye(self.parts.size))
+
+    @cached_property
+    def springs(self) -> Springs:
+        """``K`` taken apart by a sweep."""
+        return springs_of(self.parts)
+
+    @property
+    def damping_time(self) -> float | None:
+        """T where damping is T times stiffness, joint by joint, and nothing else damps or holds; else None."""
+        parts = self.parts
+        if not np.any(parts.damper) and not np.any(parts.ground_damping):
+            return 0.0
+        if np.any(parts.ground_stiffness) or np.any(parts.ground_damping):
+            return None
+        return common_time(parts.damper, parts.spring)
 
 
 def matrices(arm: LinearArm) -> Matrices:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.modal.damped import damped_modes
-from tmm_gen.modal.matrices import Matrices
+from tmm_gen.modal.linear import Linear
 from tmm_gen.modal.undamped import undamped_modes
 
 Array = NDArray[np.float64]
@@ -53,7 +53,7 @@ class Mode:
         return self.damping_ratio is None and max(pole.real for pole in self.poles) > 0.0
 
 
-def find_modes(linear: Matrices, count: int | None = None) -> tuple[Mode, ...]:
+def find_modes(linear: Linear, count: int | None = None) -> tuple[Mode, ...]:
     """Return the lowest modes.
 
     Where damping does not couple the undamped modes (it is proportional to stiffness), each has its own quadratic
@@ -61,7 +61,7 @@ def find_modes(linear: Matrices, count: int | None = None) -> tuple[Mode, ...]:
 
     Parameters
     ----------
-    linear : Matrices
+    linear : Linear
         Of an arm in small motion.
     count : int, optional
         How many; all by default.
@@ -74,12 +74,12 @@ def find_modes(linear: Matrices, count: int | None = None) -> tuple[Mode, ...]:
     )
 
 
-def modes_up_to(linear: Matrices, limit: float) -> tuple[Mode, ...]:
+def modes_up_to(linear: Linear, limit: float) -> tuple[Mode, ...]:
     """Return the lowest modes, with all that swing no faster than a limit among them.
 
     Parameters
     ----------
-    linear : Matrices
+    linear : Linear
         Of an arm in small motion.
     limit : float
         Angular frequency, rad/s.

@@ -12,8 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.modal.matrices import Matrices
-from tmm_gen.modal.springs import Springs, springs_of
+from tmm_gen.modal.linear import Linear, Resistance
 
 Array = NDArray[np.float64]
 
@@ -49,17 +48,17 @@ class Undamped:
     bounds: Array
 
 
-def undamped_modes(linear: Matrices, count: int | None = None) -> Undamped:
+def undamped_modes(linear: Linear, count: int | None = None) -> Undamped:
     """Return the lowest modes.
 
     Parameters
     ----------
-    linear : Matrices
+    linear : Linear
         Of an arm in small motion.
     count : int, optional
         How many; all by default.
     """
-    springs = springs_of(linear.parts)
+    springs = linear.springs
     size = linear.parts.size
     wanted = size if count is None else min(count, size)
     turning = _turning(linear, springs)
@@ -72,7 +71,7 @@ def undamped_modes(linear: Matrices, count: int | None = None) -> Undamped:
     return found
 
 
-def _sorted(linear: Matrices, springs: Springs, turning: Array, sought: int, few: bool) -> Undamped:
+def _sorted(linear: Linear, springs: Resistance, turning: Array, sought: int, few: bool) -> Undamped:
     """Return the lowest modes, those of the arm as a whole at their place."""
     squares, shapes = np.zeros(0), np.zeros((linear.parts.size, 0))
     if sought > 0:
@@ -85,7 +84,7 @@ def _sorted(linear: Matrices, springs: Springs, turning: Array, sought: int, few
     return Undamped(squares, shapes, _bounds(linear, springs, squares, shapes))
 
 
-def _turning(linear: Matrices, springs: Springs) -> Array:
+def _turning(linear: Linear, springs: Resistance) -> Array:
     """Return the motions without resistance, of unit mass, (d, r): the arm as a whole, or all beyond a free joint."""
     from scipy.linalg import cholesky, solve_triangular  # slow to import
 
@@ -96,7 +95,7 @@ def _turning(linear: Matrices, springs: Springs) -> Array:
     return np.asarray(solve_triangular(root, whole.T, trans="T").T, float)
 
 
-def _lowest(linear: Matrices, springs: Springs, turning: Array, count: int) -> tuple[Array, Array]:
+def _lowest(linear: Linear, springs: Resistance, turning: Array, count: int) -> tuple[Array, Array]:
     """Find a few modes by Lanczos's iteration on the compliance, in time proportional to the stations."""
     from scipy.sparse.linalg import LinearOperator, eigsh  # slow to import
 
@@ -137,7 +136,7 @@ def _lowest(linear: Matrices, springs: Springs, turning: Array, count: int) -> t
             return _all(linear, springs, turning, count)
 
 
-def _all(linear: Matrices, springs: Springs, turning: Array, count: int) -> tuple[Array, Array]:
+def _all(linear: Linear, springs: Resistance, turning: Array, count: int) -> tuple[Array, Array]:
     """Find all modes from dense matrices; those of the arm as a whole left out."""
     from scipy.linalg import cholesky, eigh, svd  # slow to import
     from scipy.linalg.lapack import dgejsv
@@ -171,7 +170,7 @@ def _all(linear: Matrices, springs: Springs, turning: Array, count: int) -> tupl
     return np.where(low, soft, stiff), np.where(low, shapes, others)
 
 
-def _bounds(linear: Matrices, springs: Springs, squares: Array, shapes: Array) -> Array:
+def _bounds(linear: Linear, springs: Resistance, squares: Array, shapes: Array) -> Array:
     """Return how far each frequency may be off, relatively, by the residual of its shape.
 
     For a symmetric matrix an eigenvalue lies no further away than the residual is large (Parlett 1998, *The Symmetric

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from tmm_gen.derive.integrators.declaration import KINDS, STEP, Integrator, Kind, past, stage
 from tmm_gen.derive.integrators.history import history_of
 from tmm_gen.derive.integrators.relations import affine_motion
-from tmm_gen.modal.matrices import Matrices
+from tmm_gen.modal.linear import Linear
 from tmm_gen.modal.undamped import undamped_modes
 
 Array = NDArray[np.float64]
@@ -25,11 +25,11 @@ class CoupledStep:
     ----------
     integrator : Integrator
         With its parameters bound to numbers.
-    linear : Matrices
+    linear : Linear
         Of the arm.
     """
 
-    def __init__(self, integrator: Integrator, linear: Matrices) -> None:
+    def __init__(self, integrator: Integrator, linear: Linear) -> None:
         self._scheme = integrator.main
         self._values = history_of([integrator.main], "acceleration")
         modes = undamped_modes(linear)

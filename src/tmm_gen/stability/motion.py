@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.errors import UserError
-from tmm_gen.modal.damped import damping_time
-from tmm_gen.modal.matrices import Matrices, matrices
+from tmm_gen.modal.linear import Linear
+from tmm_gen.modal.matrices import matrices
 from tmm_gen.modal.modes import Mode, find_modes
 from tmm_gen.modal.situation import resting_arm
 from tmm_gen.scene import Scene
@@ -28,7 +28,7 @@ class SmallMotion:
     ----------
     scene : Scene
         What moves.
-    linear : Matrices
+    linear : Linear
         About rest.
     modes : tuple of Mode
         Increasing in undamped frequency.
@@ -37,7 +37,7 @@ class SmallMotion:
     """
 
     scene: Scene
-    linear: Matrices
+    linear: Linear
     modes: tuple[Mode, ...]
     coupled: bool
 
@@ -78,6 +78,6 @@ def small_motion(scene: Scene) -> SmallMotion:
     return motion_of(scene, matrices(resting_arm(scene)))
 
 
-def motion_of(scene: Scene, linear: Matrices) -> SmallMotion:
+def motion_of(scene: Scene, linear: Linear) -> SmallMotion:
     """Return the modes of some matrices."""
-    return SmallMotion(scene, linear, find_modes(linear), damping_time(linear) is None)
+    return SmallMotion(scene, linear, find_modes(linear), linear.damping_time is None)

@@ -1,0 +1,1 @@
+"""Arms in space about rest: equilibria, modes, frequency responses."""

@@ -1,0 +1,115 @@
+"""Where an arm in space comes to rest, by following its descent to the bottom."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.errors import UserError
+from tmm_gen.modal.space.numbers import ArmNumbers
+from tmm_gen.modal.space.springs import SpaceSprings
+from tmm_gen.modal.space.still import ROUNDING, Still
+
+Array = NDArray[np.float64]
+
+_STEPS = 500
+LARGEST_TURN = 0.5
+TOLERANCE = 1e-12
+_SETTLED = 1e-9
+_HALVINGS = 30
+_OVERSHOOT = 0.9
+_NEAR = 1e-6
+_CONVEX = 1e-12
+"""Least eigenvalue of the stiffness in scaled angles that counts as convex."""
+
+
+def descended(numbers: ArmNumbers, given: Mapping[str, float], start: Array, name: str) -> Still:
+    """Return the equilibrium that an arm reaches from some angles under gravity and constant inputs.
+
+    Newton's iteration on the torque out of balance, turned into a descent of the potential energy: where the stiffness
+    has negative directions it is shifted along the joints' inertia until it has none (Nocedal & Wright 2006, ch. 3.4),
+    and steps end before the energy rises. So it is a stable equilibrium, unless the arm starts on an unstable one.
+
+    Parameters
+    ----------
+    numbers : ArmNumbers
+        Of the arm.
+    given : mapping from str to float
+        Constant inputs by column.
+    start : array, (n,)
+        Angles to start from, rad.
+    name : str
+        Of the scene, for the error.
+
+    Raises
+    ------
+    UserError
+        If there is none: a torque turns a joint forever.
+    """
+    still = Still(numbers, start, given)
+    before = np.inf
+    for _ in range(_STEPS):
+        turn = descent(still)
+        largest = float(np.max(np.abs(turn)))
+        if not np.isfinite(largest):
+            break
+        size = max(1.0, float(np.max(np.abs(still.angles))))
+        # many joints round more: then turns do not become smaller any more
+        if largest <= TOLERANCE * size or (largest <= _SETTLED * size and largest > 0.5 * before):
+            return still
+        before = largest
+        share = min(1.0, LARGEST_TURN / largest)
+        slope = float(still.unbalanced @ turn)  # of the energy, downward
+        for _ in range(_HALVINGS):
+            further = Still(numbers, still.angles + share * turn, given)
+            if float(further.unbalanced @ turn) >= -_OVERSHOOT * slope or largest < _NEAR:
+                break
+            share *= 0.5
+        still = further
+    remedies = ["start nearer by [initial] angles"]
+    if any(given.values()):
+        remedies = ["let no input turn it on and on (smaller values of --input)", *remedies]
+    raise UserError(
+        f"scene '{name}': no static equilibrium found from its initial angles; {', or '.join(remedies)}"
+    )
+
+
+def descent(still: Still) -> Array:
+    """Return the turn to the minimum of the local energy, or of one made convex, (n,), rad."""
+    springs = SpaceSprings(still)
+    torque = still.unbalanced
+    if springs.rigid:
+        if resting(still, springs):
+            return _given_way(springs, torque)
+    elif springs.least > _CONVEX:
+        return _given_way(springs, torque)
+    inertia = np.diag(still.mass)
+    shift = _shift(still, inertia) or float(np.max(np.abs(torque / inertia))) or 1.0
+    springs = SpaceSprings(still, shift * inertia)
+    while springs.least <= 0.0:
+        shift *= 2.0
+        springs = SpaceSprings(still, shift * inertia)
+    return _given_way(springs, torque)
+
+
+def resting(still: Still, springs: SpaceSprings) -> bool:
+    """Return whether nothing pushes along what nothing resists, and all else is convex."""
+    pushed = np.abs(springs.idle.T @ still.unbalanced)
+    sums = np.abs(springs.idle).T @ still.scale
+    return springs.negative == 0 and bool(np.all(pushed <= ROUNDING * still.numbers.size * sums))
+
+
+def _given_way(springs: SpaceSprings, torque: Array) -> Array:
+    found: Array = springs.angles(springs.signs * springs.loads(torque[:, None]))[:, 0]
+    return found
+
+
+def _shift(still: Still, inertia: Array) -> float:
+    """Return how far the stiffness lies below one that is convex, in units of an inertia."""
+    root = np.sqrt(inertia)
+    matrix = 0.5 * (still.geometric + still.geometric.T) + np.diag(still.numbers.stiffness)
+    squares = np.linalg.eigvalsh(matrix / root[:, None] / root)
+    least = _CONVEX * float(np.max(np.abs(squares)))
+    return max(0.0, -2.0 * float(squares[0])) + 2.0 * least

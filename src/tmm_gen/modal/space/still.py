@@ -1,0 +1,229 @@
+"""An arm in space held still: where it is, what acts in it, and how that changes by small turns of its joints."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.modal.space.elements import beside, hinges, turning
+from tmm_gen.modal.space.loads import Load, held_loads
+from tmm_gen.modal.space.numbers import ArmNumbers
+from tmm_gen.scene.spatial.arm import Frame
+
+Array = NDArray[np.float64]
+
+ROUNDING = 64.0 * float(np.finfo(float).eps)
+"""Per joint: what is smaller, relative to the terms it is a sum of, cannot be told from zero."""
+
+
+@dataclass(frozen=True, eq=False)
+class Still:
+    """An arm without motion.
+
+    Parameters
+    ----------
+    numbers : ArmNumbers
+        Of the arm.
+    angles : array, (n,)
+        Of its joints, rad.
+    given : mapping from str to float
+        Constant inputs by column; those not given are zero.
+    """
+
+    numbers: ArmNumbers
+    angles: Array
+    given: Mapping[str, float]
+
+    @cached_property
+    def _hinges(self) -> tuple[Array, Array]:
+        return hinges(self.numbers.axes, self.angles)
+
+    @cached_property
+    def through(self) -> Array:
+        """Accelerations behind each joint by those of the body it stands on, (n, 6, 6); transposed, forces inward."""
+        found: Array = self._hinges[0] @ self.numbers.mounts
+        return found
+
+    @cached_property
+    def turned(self) -> Array:
+        """The derivative of `through` by the joint's angle, (n, 6, 6)."""
+        found: Array = self._hinges[1] @ self.numbers.mounts
+        return found
+
+    @cached_property
+    def facing(self) -> Array:
+        """Components in each body's axes by those in the world's, (n, 3, 3)."""
+        found = np.empty((self.numbers.size, 3, 3))
+        for number, host in enumerate(self.numbers.hosts):
+            own = self.through[number, :3, :3]
+            found[number] = own @ found[host] if host >= 0 else own
+        return found
+
+    @cached_property
+    def weight(self) -> Array:
+        """Proper acceleration of each body's point: gravity with its sign turned, in the body's axes, (n, 3), m/s^2."""
+        found: Array = self.facing @ -np.array(self.numbers.arm.gravity)
+        return found
+
+    @cached_property
+    def loads(self) -> tuple[Load, ...]:
+        """What constant inputs hold on bodies."""
+        return held_loads(self.numbers.arm, self.given)
+
+    @cached_property
+    def driving(self) -> Array:
+        """Torque of motors in each joint, (n,), N m."""
+        found = np.zeros(self.numbers.size)
+        for item in self.numbers.arm.inputs:
+            if item.acts == "torque":
+                gear = self.numbers.arm.joints[item.joint - 1].gear
+                found[item.joint - 1] += gear * self.given.get(item.name, 0.0)
+        return found
+
+    @cached_property
+    def forces(self) -> Array:
+        """Force and moment behind each joint, by the inner side on the outer one, (n, 6), in the body's axes."""
+        found: Array = (self.numbers.bodies[:, :, :3] @ self.weight[:, :, None])[:, :, 0]
+        for load in self.loads:
+            found[load.body] -= load.arm @ load.on_body(self.facing[load.body])
+        for number in reversed(range(self.numbers.size)):
+            host = self.numbers.hosts[number]
+            if host >= 0:
+                found[host] += self.through[number].T @ found[number]
+        return found
+
+    @cached_property
+    def needed(self) -> Array:
+        """Torque that holds what is beyond each joint, (n,), N m."""
+        found: Array = np.sum(self.numbers.pushes * self.forces, axis=1)
+        return found
+
+    @property
+    def passed(self) -> Array:
+        """Torque that each joint passes on, its spring's and its motor's, (n,), N m."""
+        found: Array = self.driving - self.numbers.stiffness * (self.angles - self.numbers.rest)
+        return found
+
+    @property
+    def unbalanced(self) -> Array:
+        """Torque that turns each joint, (n,), N m; zero in equilibrium."""
+        found: Array = self.passed - self.needed
+        return found
+
+    @cached_property
+    def acting(self) -> Array:
+        """The most that weight and loads can do about each joint, (n,), N m."""
+        forces, levers = np.zeros(self.numbers.size), np.zeros(self.numbers.size)
+        found = self.numbers.weighing
+        for load in self.loads:
+            forces, levers = np.zeros(self.numbers.size), np.zeros(self.numbers.size)
+            forces[load.body], levers[load.body] = np.linalg.norm(load.vector), load.reach
+            found = found + self.numbers.stretched(forces, levers)
+        return found
+
+    @cached_property
+    def scale(self) -> Array:
+        """What the torques of each joint are sums of, (n,), N m."""
+        springs = np.abs(self.numbers.stiffness * (self.angles - self.numbers.rest))
+        found: Array = self.acting + springs + np.abs(self.driving)
+        return found
+
+    @cached_property
+    def axes(self) -> Array:
+        """The joints' axes in world axes, (n, 3)."""
+        spins = self.numbers.pushes[:, 3:]
+        found: Array = (np.swapaxes(self.facing, -1, -2) @ spins[:, :, None])[:, :, 0]
+        return found
+
+    @cached_property
+    def turns(self) -> Array:
+        """How each body turns, in its own axes, as each joint does, (n, 3, n)."""
+        found: Array = (self.facing @ self.axes.T) * self.numbers.ways[:, None, :]
+        return found
+
+    @cached_property
+    def moves(self) -> Array:
+        """How each body moves and turns, in its own axes, as each joint turns, (n, 6, n)."""
+        found = np.zeros((self.numbers.size, 6, self.numbers.size))
+        for number, host in enumerate(self.numbers.hosts):
+            if host >= 0:
+                inner = found[host, :, : host + 1]
+                found[number, :, : host + 1] = self.through[number] @ inner
+            found[number, :, number] = self.numbers.pushes[number]
+        return found
+
+    @cached_property
+    def mass(self) -> Array:
+        """The mass matrix, (n, n), kg m^2."""
+        size = self.numbers.size
+        weighed = (self.numbers.bodies @ self.moves).reshape(-1, size)
+        found = self.moves.reshape(-1, size).T @ weighed
+        found = 0.5 * (found + found.T)
+        found[np.diag_indices(size)] += self.numbers.armature
+        return found
+
+    @cached_property
+    def geometric(self) -> Array:
+        """What torques that weight and loads take change by as joints turn, (n, n), N m/rad."""
+        change = self._taken @ self.turns
+        found = np.empty((self.numbers.size, self.numbers.size))
+        for number in reversed(range(self.numbers.size)):
+            found[number] = self.numbers.pushes[number] @ change[number]
+            host = self.numbers.hosts[number]
+            if host >= 0:
+                change[host] += self.through[number].T @ change[number]
+                change[host, :, number] += self.turned[number].T @ self.forces[number]
+        return found
+
+    @cached_property
+    def _taken(self) -> Array:
+        """What a body's weight and loads take by small turns of it, (n, 6, 3): they stand still as it turns."""
+        found: Array = self.numbers.bodies[:, :, :3] @ small_turns(self.weight)
+        for load in self.loads:
+            if load.world:
+                found[load.body] -= load.arm @ small_turns(load.on_body(self.facing[load.body]))
+        return found
+
+    @property
+    def taken(self) -> Array:
+        """What held loads in world axes take by small turns of each body, (n, 6, 3): weight not counted."""
+        return self._taken - self.numbers.bodies[:, :, :3] @ small_turns(self.weight)
+
+    @property
+    def conservative(self) -> bool:
+        """Whether what acts has an energy here: no load that turns with its body does work around a small loop."""
+        skew = np.abs(self.geometric - self.geometric.T)
+        about = np.sqrt(self.acting[:, None] * self.acting[None, :])
+        return bool(np.all(skew <= 1e3 * ROUNDING * self.numbers.size * about))
+
+    def place(self, frame: Frame) -> Array:
+        """Return where a frame is, (3,), m."""
+        return self._points[frame.joint] + self._facing(frame.joint).T @ np.array(frame.at)
+
+    def moved(self, frame: Frame) -> tuple[Array, Array]:
+        """Return how a frame moves, in world axes, and turns, in its own, as each joint turns, (3, n) each."""
+        if not frame.joint:
+            return np.zeros((3, self.numbers.size)), np.zeros((3, self.numbers.size))
+        moved = beside(frame.at) @ self.moves[frame.joint - 1]
+        return self._facing(frame.joint).T @ moved[:3], np.array(frame.turn).T @ moved[3:]
+
+    @cached_property
+    def _points(self) -> Array:
+        """Where the base and the joints are, (n + 1, 3), m."""
+        found = np.zeros((self.numbers.size + 1, 3))
+        for number, joint in enumerate(self.numbers.arm.joints, start=1):
+            found[number] = found[joint.host] + self._facing(joint.host).T @ np.array(joint.at)
+        return found
+
+    def _facing(self, joint: int) -> Array:
+        return self.facing[joint - 1] if joint else np.eye(3)
+
+
+def small_turns(vectors: Array) -> Array:
+    """Return how the components of fixed vectors, (..., 3), change by small turns of their axes, (..., 3, 3)."""
+    found: Array = np.einsum("aij,...j->...ia", turning(), vectors)
+    return found
