@@ -12,7 +12,9 @@ import click
 from tmm_gen.cli.console import Column, progress, table
 from tmm_gen.cli.given import constant_inputs, picture_file, plot_option
 from tmm_gen.cli.kinds import served_scene
+from tmm_gen.cli.modes_table import mode_row, say_unsure
 from tmm_gen.cli.outputs import claim, write_outputs
+from tmm_gen.cli.space_modes import show_space_modes
 
 if TYPE_CHECKING:
     from tmm_gen.modal.arm import LinearArm
@@ -20,9 +22,6 @@ if TYPE_CHECKING:
     from tmm_gen.scene import Scene
 
 # NumPy, SymPy and Matplotlib are imported inside: `tmm-gen --help` has no use for them.
-
-_UNSURE = 1e-6
-"""Relative error that a frequency's residual may leave open without a word: the table shows six digits."""
 
 
 @click.command("modes")
@@ -33,19 +32,22 @@ _UNSURE = 1e-6
     "given",
     metavar="NAME=VALUE",
     multiple=True,
-    help="A constant input that a planar arm rests under. Repeatable; the rest is zero.",
+    help="A constant input that an arm rests under. Repeatable; the rest is zero.",
 )
 @plot_option("the mode shapes", "-modes")
 @click.option("--json", "json_mode", is_flag=True, help="One JSON object instead of a table.")
 def modes(scene: Path, count: int, given: tuple[str, ...], picture: Path | None, json_mode: bool) -> None:
     """Show natural frequencies, damping ratios and mode shapes of SCENE.
 
-    A planar arm swings about its static equilibrium. An arm made from a [beam] is shown beside the exact
+    An arm in a plane or in space swings about its static equilibrium. A planar arm made from a [beam] is shown beside the exact
     continuous beam, straight and weightless.
     """
     loaded = served_scene("modes", scene)
     inputs = constant_inputs(loaded, given)
     claim((picture,), (scene,))
+    if loaded.spatial is not None:
+        show_space_modes(loaded, count, inputs, picture, json_mode)
+        return
     with progress(f"finding modes of {loaded.name}"):
         from tmm_gen.modal.matrices import matrices
         from tmm_gen.modal.modes import find_modes
@@ -54,7 +56,7 @@ def modes(scene: Path, count: int, given: tuple[str, ...], picture: Path | None,
         arm = resting_arm(loaded, inputs)
         found = find_modes(matrices(arm), count)
         beside = _Beside(loaded, arm, len(found))
-        rows = [_row(number, mode) | beside.row(number) for number, mode in enumerate(found)]
+        rows = [mode_row(number, mode) | beside.row(number) for number, mode in enumerate(found)]
         files = _draw(picture, arm, found, beside)
     _show(loaded, arm, rows, beside, files, json_mode)
 
@@ -90,19 +92,6 @@ class _Beside:
             "error": signed,
             "error_percent": None if signed is None else 100.0 * signed,
         }
-
-
-def _row(number: int, mode: Mode) -> dict[str, object]:
-    return {
-        "mode": number + 1,
-        "frequency_hz": mode.hertz,
-        "angular_frequency": mode.frequency,
-        "damping_ratio": mode.damping_ratio,
-        "poles": [{"real": pole.real, "imaginary": pole.imag} for pole in mode.poles],
-        "motion": "falls over" if mode.unstable else ("swings" if mode.frequency else "turns freely"),
-        "shape": mode.shape,
-        "error_bound": mode.bound,
-    }
 
 
 def _draw(picture: Path | None, arm: LinearArm, found: tuple[Mode, ...], beside: _Beside) -> list[Path]:
@@ -164,12 +153,7 @@ def _show(
         return
     if arm.rest is not None and not beside.straight:
         click.echo(f"about the static equilibrium: {_ends_at_rest(scene, arm.rest.angles.tolist())} degrees")
-    unsure = [row["mode"] for row in rows if row["error_bound"] > _UNSURE]
-    if unsure:
-        click.echo(
-            f"rounding may spoil more than {_UNSURE:g} of the frequency of mode {', '.join(map(str, unsure))} "
-            "(error_bound in --json says how much)"
-        )
+    say_unsure(rows)
     for path in files:
         click.echo(f"wrote {path}")
     if not files:

@@ -1,4 +1,4 @@
-"""`tmm-gen rest`: static equilibria of a planar arm."""
+"""`tmm-gen rest`: static equilibria of an arm in a plane or in space."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from tmm_gen.cli.console import Column, print_json, progress, table
 from tmm_gen.cli.given import constant_inputs, picture_file, plot_option
 from tmm_gen.cli.kinds import require_served
 from tmm_gen.cli.outputs import claim, write_outputs
+from tmm_gen.cli.space_rest import show_space_rest
 from tmm_gen.errors import UserError
 
 if TYPE_CHECKING:
@@ -39,20 +40,23 @@ _DECIMALS = 9
 def rest(
     scene: Path, given: tuple[str, ...], changes: tuple[str, ...], picture: Path | None, json_mode: bool
 ) -> None:
-    """Show the static equilibria of SCENE, a planar arm, under gravity and constant inputs.
+    """Show the static equilibria of SCENE, an arm in a plane or in space, under gravity and constant inputs.
 
     Where a descent from the scene's start ends comes first. Others are looked for from every quadrant of each joint
     that turns freely, as motors without a torque do. Angles of joints are those of the outer side against the inner
     one, torques what the inner side exerts on the outer one.
     """
     loaded = require_served("rest", changed_scene(scene, changes))
-    if not loaded.model.in_plane:
+    if loaded.model.linear:
         raise UserError(
             f"{scene}: a chain has no weight and rests straight, or as its inputs twist it: `tmm-gen run` shows that. "
-            "Name a planar scene."
+            "Name a planar scene, or one in space."
         )
     inputs = constant_inputs(loaded, given)
     claim((picture,), (scene,))
+    if loaded.spatial is not None:
+        show_space_rest(loaded, inputs, picture, json_mode)
+        return
     with progress(f"balancing {loaded.name}") as advance:
         from tmm_gen.modal.equilibria import equilibria
 

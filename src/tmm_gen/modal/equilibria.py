@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from tmm_gen.errors import UserError
 from tmm_gen.modal.arm import linear_arm
 from tmm_gen.modal.equilibrium import descent, equilibrium
+from tmm_gen.modal.held import Held
 from tmm_gen.modal.matrices import Matrices, matrices
 from tmm_gen.modal.rest import Rest, rest_at, straight
 from tmm_gen.modal.springs import springs_of
@@ -34,36 +35,17 @@ _FALLS = 16
 """Most unstable equilibria whose fall is followed."""
 
 
-@dataclass(frozen=True, eq=False)
-class Equilibrium:
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Equilibrium(Held):
     """One static equilibrium.
 
     Parameters
     ----------
     rest : Rest
         Angles and forces; at joints that turn freely no angle is more than half a turn.
-    falls : int
-        Directions in which the arm falls over: 0 where it is stable.
-    idle : array, (d, k)
-        Motions of the free angles that nothing resists at all: the arm stays wherever it is put.
-    reached : bool
-        Whether a descent from the scene's initial angles ends there.
     """
 
     rest: Rest
-    falls: int
-    idle: Array
-    reached: bool
-
-    @property
-    def stable(self) -> bool:
-        """Whether the arm comes back from a small push, whatever its direction."""
-        return self.falls == 0 and self.idle.shape[1] == 0
-
-    @property
-    def state(self) -> str:
-        """Which of the three it is, in words."""
-        return "stable" if self.stable else "falls over" if self.falls else "stays anywhere"
 
 
 @dataclass(frozen=True, eq=False)
@@ -202,7 +184,7 @@ def _judged(scene: Scene, inputs: Mapping[str, float] | None, rest: Rest, reache
     settled, linear = _looked(scene, inputs, angles[1 - scene.hub :])
     springs = springs_of(linear.parts)
     idle = springs.turned if springs.rigid else np.zeros((len(springs.pivot), 0))
-    return Equilibrium(settled, springs.negative, idle, reached)
+    return Equilibrium(rest=settled, falls=springs.negative, idle=idle, reached=reached)
 
 
 def _same(one: Equilibrium, other: Equilibrium) -> bool:

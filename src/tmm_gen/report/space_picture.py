@@ -44,14 +44,14 @@ def draw_arm(axes: Any, motion: SpaceMotion) -> None:
 
     skeleton, shown, along = motion.skeleton, motion.thinned(SHAPES), motion.thinned(_TRACED)
     points, way = skeleton.points(shown.angles), skeleton.points(along.angles)
-    ground = _set_out(axes, motion, way)
+    ground = set_out(axes, motion, way)
     colours = mpl.colormaps["Blues"](np.linspace(0.25, 1.0, len(points)))
     tips = [tip.spot for tip in skeleton.tips]
     for spot in tips:
         axes.plot(*way[:, spot].T, color=PALETTE[4], linewidth=1.0)
     for place, colour in zip(points, colours, strict=True):
         for line in skeleton.lines:
-            _on_ground(axes, motion, place[list(line)], ground, linewidth=1.0)
+            on_ground(axes, motion, place[list(line)], ground, linewidth=1.0)
             axes.plot(*place[list(line)].T, color=colour, linewidth=2.0)
         axes.plot(*place[tips].T, "o", color=colour, markersize=4.0)
     if not tips:
@@ -91,9 +91,9 @@ def space_gif(simulation: Simulation) -> bytes:
     with style():
         made, axes = figure(5.6, 5.2, subplot_kw={"projection": "3d"})
         FigureCanvasAgg(made)
-        ground = _set_out(axes, motion, way)
+        ground = set_out(axes, motion, way)
         axes.set_title(fill(simulation.scene.title, _LINE), loc="left")
-        below = [_on_ground(axes, motion, points[0, list(line)], ground) for line in skeleton.lines]
+        below = [on_ground(axes, motion, points[0, list(line)], ground) for line in skeleton.lines]
         ways = [axes.plot([], [], [], color=PALETTE[5], linewidth=1.2)[0] for _ in skeleton.tips]
         limbs = [
             axes.plot([], [], [], color=PALETTE[0], linewidth=3.0, solid_capstyle="round")[0]
@@ -120,9 +120,21 @@ def space_gif(simulation: Simulation) -> bytes:
             return target.read_bytes()
 
 
-def _set_out(axes: Any, motion: SpaceMotion, points: Array) -> float:
-    """Set out a field in true proportion with the base in it; return where the ground is along the upward axis."""
-    margin, least = 0.05 * motion.reach, 0.3 * motion.reach
+def set_out(axes: Any, motion: SpaceMotion, points: Array, narrowest: float = 0.3) -> float:
+    """Set out a field in true proportion with the base in it; return where the ground is along the upward axis.
+
+    Parameters
+    ----------
+    axes : Axes3D
+        Made with ``projection="3d"``.
+    motion : SpaceMotion
+        Of the arm that is drawn.
+    points : array, (k, m, 3)
+        All that is to be seen, m.
+    narrowest : float
+        Least side of the field, as a share of the arm's reach.
+    """
+    margin, least = 0.05 * motion.reach, narrowest * motion.reach
     low, high = points.min(axis=(0, 1)) - margin, points.max(axis=(0, 1)) + margin
     wider = np.maximum(least - (high - low), 0.0) / 2.0  # of what moves in a plane
     low, high = low - wider, high + wider
@@ -153,6 +165,6 @@ def _lowered(motion: SpaceMotion, points: Array, ground: float) -> Array:
     return lowered
 
 
-def _on_ground(axes: Any, motion: SpaceMotion, points: Array, ground: float, linewidth: float = 2.0) -> Any:
+def on_ground(axes: Any, motion: SpaceMotion, points: Array, ground: float, linewidth: float = 2.0) -> Any:
     """Draw the shadow of a line."""
     return axes.plot(*_lowered(motion, points, ground).T, color=_SHADOW, linewidth=linewidth)[0]

@@ -80,28 +80,26 @@ def descent(still: Still) -> Array:
     """Return the turn to the minimum of the local energy, or of one made convex, (n,), rad."""
     springs = SpaceSprings(still)
     torque = still.unbalanced
-    if springs.rigid:
-        if resting(still, springs):
-            return _given_way(springs, torque)
-    elif springs.least > _CONVEX:
-        return _given_way(springs, torque)
+    if not idly_pushed(still, springs) and springs.convex > _CONVEX:
+        return given_way(springs, torque)
     inertia = np.diag(still.mass)
     shift = _shift(still, inertia) or float(np.max(np.abs(torque / inertia))) or 1.0
     springs = SpaceSprings(still, shift * inertia)
-    while springs.least <= 0.0:
+    while springs.convex <= 0.0:
         shift *= 2.0
         springs = SpaceSprings(still, shift * inertia)
-    return _given_way(springs, torque)
+    return given_way(springs, torque)
 
 
-def resting(still: Still, springs: SpaceSprings) -> bool:
-    """Return whether nothing pushes along what nothing resists, and all else is convex."""
+def idly_pushed(still: Still, springs: SpaceSprings) -> bool:
+    """Return whether something pushes along what nothing resists, by more than rounding."""
     pushed = np.abs(springs.idle.T @ still.unbalanced)
     sums = np.abs(springs.idle).T @ still.scale
-    return springs.negative == 0 and bool(np.all(pushed <= ROUNDING * still.numbers.size * sums))
+    return bool(np.any(pushed > ROUNDING * still.numbers.size * sums))
 
 
-def _given_way(springs: SpaceSprings, torque: Array) -> Array:
+def given_way(springs: SpaceSprings, torque: Array) -> Array:
+    """Return the turn that balances a torque, (n,), rad; nothing along what nothing resists."""
     found: Array = springs.angles(springs.signs * springs.loads(torque[:, None]))[:, 0]
     return found
 

@@ -17,6 +17,9 @@ from tmm_gen.modal.space.still import ROUNDING, Still
 Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
+_APART = 1e-9
+"""Share of an idle motion's largest angle that counts as none."""
+
 
 @dataclass(frozen=True, eq=False)
 class SpaceSprings:
@@ -47,9 +50,9 @@ class SpaceSprings:
         unit = np.where(acting > 0.0, 1.0 / np.sqrt(np.where(acting > 0.0, acting, 1.0)), 1.0)
         seen = unit[:, None] * self.still.geometric[:, free] * unit[free]
         _, sizes, rows = np.linalg.svd(seen)
-        sizes = np.append(sizes, np.zeros(len(rows) - len(sizes)))
-        found = np.zeros((numbers.size, int(np.sum(sizes <= ROUNDING * numbers.size))))
-        found[free] = (rows[sizes <= ROUNDING * numbers.size] * unit[free]).T
+        vanishing = rows[sizes <= ROUNDING * numbers.size] * unit[free]
+        found = np.zeros((numbers.size, len(vanishing)))
+        found[free] = _apart(vanishing.T)
         return found
 
     @cached_property
@@ -100,9 +103,9 @@ class SpaceSprings:
         return int(np.sum(self._taken[0] < 0.0))
 
     @property
-    def least(self) -> float:
-        """The least eigenvalue, of terms of the order of one."""
-        return float(np.min(self._taken[0]))
+    def convex(self) -> float:
+        """The least eigenvalue of what resists, of terms of the order of one; infinite where nothing does."""
+        return float(np.min(self._taken[0][len(self.loose) :], initial=np.inf))
 
     @cached_property
     def signs(self) -> Array:
@@ -131,3 +134,12 @@ class SpaceSprings:
         """Return the scaled bends of angles, (n, k)."""
         found: Array = self._sizes * (self._taken[1].T @ (self._root * angles))
         return found
+
+
+def _apart(motions: Array) -> Array:
+    """Return motions that span the same, each with a joint of its own that no other moves, inner ones first."""
+    from scipy.linalg import qr  # slow to import
+
+    own = np.sort(qr(motions.T, mode="r", pivoting=True)[1][: motions.shape[1]])
+    found: Array = motions @ np.linalg.inv(motions[own])
+    return np.where(np.abs(found) > _APART * np.max(np.abs(found), axis=0, initial=0.0), found, 0.0)

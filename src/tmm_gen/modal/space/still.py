@@ -200,6 +200,22 @@ class Still:
         about = np.sqrt(self.acting[:, None] * self.acting[None, :])
         return bool(np.all(skew <= 1e3 * ROUNDING * self.numbers.size * about))
 
+    @property
+    def heights(self) -> Array:
+        """What is left of places by motions that weight and loads do not mind, (k,), m: all along what acts.
+
+        The bodies' centres against gravity, and the points on which loads in world axes act along them.
+        """
+        down = np.array(self.numbers.arm.gravity)
+        centers = np.array([joint.body.center for joint in self.numbers.arm.joints])
+        places = self._points[1:] + np.einsum("nij,ni->nj", self.facing, centers)
+        found = [places @ (down / (np.linalg.norm(down) or 1.0))]
+        for load in self.loads:
+            if load.world:
+                way = load.vector / np.linalg.norm(load.vector)
+                found.append(self._points[[load.body + 1]] @ way)
+        return np.concatenate(found)
+
     def place(self, frame: Frame) -> Array:
         """Return where a frame is, (3,), m."""
         return self._points[frame.joint] + self._facing(frame.joint).T @ np.array(frame.at)

@@ -1,0 +1,97 @@
+"""`tmm-gen modes` of an arm in space."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from tmm_gen.cli.console import Column, progress, table
+from tmm_gen.cli.given import picture_file
+from tmm_gen.cli.modes_table import mode_row, say_unsure
+from tmm_gen.cli.outputs import write_outputs
+from tmm_gen.cli.space_rest import parts_that_turn
+
+if TYPE_CHECKING:
+    from tmm_gen.modal.modes import Mode
+    from tmm_gen.modal.space.situation import RestingArm
+    from tmm_gen.scene import Scene
+
+_TOLD = 3
+"""Parts that a table names for a mode, as far as they have a share worth naming."""
+_LEAST = 0.1
+_STRAIGHT = 1e-9
+"""rad."""
+
+
+def show_space_modes(
+    scene: Scene, count: int, inputs: dict[str, float], picture: Path | None, json_mode: bool
+) -> None:
+    """Find and show the modes of an arm in space."""
+    with progress(f"finding modes of {scene.name}"):
+        from tmm_gen.modal.modes import find_modes
+        from tmm_gen.modal.space.situation import resting_in_space
+
+        resting = resting_in_space(scene, inputs)
+        found = find_modes(resting.linear, count)
+        rows = [_row(resting, number, mode) for number, mode in enumerate(found)]
+        files: list[Path] = []
+        if picture is not None:
+            from tmm_gen.report.space_modes import space_mode_picture
+
+            target = picture_file(picture, scene.name, "-modes")
+            files = write_outputs({target: space_mode_picture(resting, found, target.suffix[1:].lower())})
+    _show(resting, rows, files, json_mode)
+
+
+def _row(resting: RestingArm, number: int, mode: Mode) -> dict[str, Any]:
+    from tmm_gen.modal.space.shares import shares
+
+    parts = shares(resting.still, mode.shape)
+    told = [each for each in parts[:_TOLD] if each.share >= _LEAST]
+    frames = []
+    for frame in resting.arm.frames:
+        moved, turned = resting.still.moved(frame)
+        frames.append({"name": frame.name, "moved": moved @ mode.shape, "turned": turned @ mode.shape})
+    return {
+        **mode_row(number, mode),
+        "mostly": ", ".join(f"{each.what} {100.0 * each.share:.0f} %" for each in told),
+        "shares": [{"what": each.what, "share": each.share} for each in parts],
+        "frames": frames,
+    }
+
+
+def _show(resting: RestingArm, rows: list[dict[str, Any]], files: list[Path], json_mode: bool) -> None:
+    scene, rest = resting.scene, resting.still.angles
+    columns = [
+        Column("mode"),
+        Column("frequency_hz", "frequency (Hz)", ".6g"),
+        Column("damping_ratio", "damping ratio", ".4g"),
+        Column("mostly", "what moves, by energy"),
+    ]
+    if any(row["motion"] != "swings" for row in rows):
+        columns.append(Column("motion"))
+    facts: dict[str, object] = {
+        "scene": scene.name,
+        "kind": scene.model.kind,
+        "stations": scene.stations,
+        "joint_names": [joint.name for joint in resting.arm.joints],
+        "stable": not any(row["motion"] == "falls over" for row in rows),
+        "rest_angles": rest,
+        "files": files,
+    }
+    title = f"{scene.title}: {scene.stations} joint{'s' * (scene.stations > 1)}"
+    table(rows, columns, json_mode, title=title, more=facts)
+    if json_mode:
+        return
+    if float(max(abs(rest))) > _STRAIGHT:
+        turned = [(name, math.degrees(rest[number - 1])) for number, name in parts_that_turn(resting.arm)]
+        told = ", ".join(f"{name} {round(angle, 3):g}" for name, angle in turned if round(angle, 3))
+        click.echo("about the static equilibrium" + (f", in degrees: {told}" if told else ""))
+    say_unsure(rows)
+    for path in files:
+        click.echo(f"wrote {path}")
+    if not files:
+        click.echo("more: --plot draws the mode shapes, --count N shows more or fewer")

@@ -1,0 +1,135 @@
+"""`tmm-gen rest` of an arm in space."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from tmm_gen.cli.console import Column, print_json, progress, table
+from tmm_gen.cli.given import picture_file
+from tmm_gen.cli.outputs import write_outputs
+
+if TYPE_CHECKING:
+    from tmm_gen.modal.space.equilibria import SpaceEquilibria, SpaceEquilibrium
+    from tmm_gen.scene import Scene
+    from tmm_gen.scene.spatial.arm import SpatialArm
+
+_DECIMALS = 9
+"""Of what the table shows; beyond them an arm that hangs straight would have a tip beside its base."""
+
+_ALL = 4
+"""Joints up to which a table shows all angles and torques."""
+
+
+def show_space_rest(scene: Scene, inputs: dict[str, float], picture: Path | None, json_mode: bool) -> None:
+    """Find and show the equilibria of an arm in space."""
+    with progress(f"balancing {scene.name}") as advance:
+        from tmm_gen.modal.space.energy import require_energy
+        from tmm_gen.modal.space.equilibria import equilibria_in_space
+        from tmm_gen.modal.space.situation import arm_numbers
+
+        numbers = arm_numbers(scene)
+        held = equilibria_in_space(numbers, inputs, scene.name, advance)
+        for each in held.found:
+            require_energy(each.rest, scene.name)
+        files: list[Path] = []
+        if picture is not None:
+            from tmm_gen.report.space_rest import space_rest_picture
+
+            target = picture_file(picture, scene.name, "-rest")
+            files = write_outputs({target: space_rest_picture(scene, held, target.suffix[1:].lower())})
+    _show(scene, inputs, held, files, json_mode)
+
+
+def parts_that_turn(arm: SpatialArm) -> list[tuple[int, str]]:
+    """Return the joints that are parts by themselves, not a beam's: number, counted from 1, and name."""
+    parts = {frame.name for frame in arm.frames}
+    return [
+        (number, joint.name) for number, joint in enumerate(arm.joints, start=1) if joint.name in parts
+    ]
+
+
+def _show(
+    scene: Scene, inputs: dict[str, float], held: SpaceEquilibria, files: list[Path], json_mode: bool
+) -> None:
+    from tmm_gen.simulate.skeleton import Skeleton
+
+    arm = scene.spatial
+    assert arm is not None
+    free = [joint.name for joint in arm.joints if joint.stiffness == 0.0]
+    rows = [_row(arm, number, each) for number, each in enumerate(held.found, start=1)]
+    if json_mode:
+        facts = {
+            "scene": scene.name,
+            "inputs": [{"name": name, "value": value} for name, value in inputs.items()],
+            "free_joints": free,
+            "joint_names": [joint.name for joint in arm.joints],
+            "starts": held.starts,
+            "files": files,
+        }
+        print_json({**facts, "rows": rows})
+        return
+    tips = [tip.name for tip in Skeleton(arm).tips]
+    count = len(rows)
+    flat = [_flat(row) for row in rows]
+    columns = [Column("equilibrium"), Column("state")]
+    for name in tips:
+        shown = "tip" if len(tips) == 1 else name
+        columns += [Column(f"{name} {axis}", f"{shown} {axis} (m)", _six, "right") for axis in "xyz"]
+    joints = parts_that_turn(arm)
+    for _, name in joints:
+        for what, heading in (("angle", f"{name} angle (rad)"), ("torque", f"{name} torque (N m)")):
+            key = f"{name} {what}"
+            # what is nought throughout is left out where a table would be too wide
+            if len(joints) <= _ALL or any(_six(row[key]) != "0" for row in flat):
+                columns.append(Column(key, heading, _six, "right"))
+    title = f"{scene.title}: {count} equilibri{'a' if count > 1 else 'um'}"
+    table(flat, columns, title=title)
+    if free:
+        turning = f"{', '.join(free)} turn{'s' * (len(free) == 1)} freely"
+        driven = {arm.joints[item.joint - 1].name for item in arm.inputs if item.acts == "torque"}
+        motors = "motors hold no torque but that of --input"
+        click.echo(f"{turning}: {motors}" if driven & set(free) else turning)
+    click.echo(f"looked for from {held.starts} start{'s' * (held.starts > 1)}: there may be more")
+    for path in files:
+        click.echo(f"wrote {path}")
+    if not files:
+        click.echo("more: --plot draws them, --json has every frame, angle and torque")
+
+
+def _six(value: float) -> str:
+    """Return six digits of what is more than rounding."""
+    return f"{round(value, _DECIMALS) + 0.0:.6g}"
+
+
+def _row(arm: SpatialArm, number: int, each: SpaceEquilibrium) -> dict[str, Any]:
+    rest = each.rest
+    return {
+        "equilibrium": number,
+        "state": each.state + (", reached from the start" if each.reached else ""),
+        "stable": each.stable,
+        "from_start": each.reached,
+        "falls": each.falls,
+        "idle": each.idle.shape[1],
+        "angles": rest.angles,
+        "frames": [
+            {"name": frame.name, **dict(zip("xyz", rest.place(frame).tolist(), strict=True))}
+            for frame in arm.frames
+        ],
+        "joints": [
+            {"name": name, "angle": float(rest.angles[k - 1]), "torque": float(rest.passed[k - 1])}
+            for k, name in parts_that_turn(arm)
+        ],
+    }
+
+
+def _flat(row: dict[str, Any]) -> dict[str, Any]:
+    """Return a row of the table."""
+    flat = {"equilibrium": row["equilibrium"], "state": row["state"]}
+    for frame in row["frames"]:
+        flat |= {f"{frame['name']} {axis}": frame[axis] for axis in "xyz"}
+    for joint in row["joints"]:
+        flat |= {f"{joint['name']} {key}": joint[key] for key in ("angle", "torque")}
+    return flat

@@ -1,0 +1,231 @@
+"""All static equilibria of an arm in space that are found, those on which it would fall over among them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.errors import UserError
+from tmm_gen.modal.held import Held
+from tmm_gen.modal.space.equilibrium import (
+    LARGEST_TURN,
+    TOLERANCE,
+    descended,
+    descent,
+    given_way,
+    idly_pushed,
+)
+from tmm_gen.modal.space.matrices import space_matrices
+from tmm_gen.modal.space.numbers import ArmNumbers
+from tmm_gen.modal.space.springs import SpaceSprings
+from tmm_gen.modal.space.still import ROUNDING, Still
+from tmm_gen.modal.undamped import undamped_modes
+
+Array = NDArray[np.float64]
+
+_WAYS = (0.0, np.pi, -0.5 * np.pi, 0.5 * np.pi)
+"""From where what stands on a joint hangs: so, on its head, and level to both sides."""
+_STARTS = 64
+"""Most starts; each more joint that turns freely would make four times as many."""
+_STEPS = 60
+_SAME = 1e-6
+"""rad, or share of the arm's reach; equilibria no further apart are one."""
+_NUDGE = 0.05
+"""rad that an arm is moved off an equilibrium to see where it falls."""
+_FALLS = 16
+"""Most unstable equilibria whose fall is followed."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class SpaceEquilibrium(Held):
+    """One static equilibrium.
+
+    Parameters
+    ----------
+    rest : Still
+        Angles and forces; at joints that turn freely no angle is more than half a turn.
+    """
+
+    rest: Still
+
+
+@dataclass(frozen=True, eq=False)
+class SpaceEquilibria:
+    """What was found from how many starts.
+
+    Parameters
+    ----------
+    found : tuple of SpaceEquilibrium
+        That which is reached from the scene's start first, then stable ones, then by the ways to fall.
+    starts : int
+        From how many configurations they were looked for.
+    """
+
+    found: tuple[SpaceEquilibrium, ...]
+    starts: int
+
+
+def equilibria_in_space(
+    numbers: ArmNumbers, given: Mapping[str, float], name: str, advance: Callable[[], None] = lambda: None
+) -> SpaceEquilibria:
+    """Return the static equilibria of an arm under gravity and constant inputs.
+
+    Newton's iteration, which unlike a descent stops on saddles too, from where what stands on each free joint hangs,
+    stands on its head or lies level; then descents along the fall of each unstable equilibrium that was found.
+
+    Parameters
+    ----------
+    numbers : ArmNumbers
+        Of the arm.
+    given : mapping from str to float
+        Constant inputs by column.
+    name : str
+        Of the scene, for the error.
+    advance : callable, optional
+        Called at each start.
+
+    Raises
+    ------
+    UserError
+        If there is none, as a torque turns a joint forever.
+    """
+    found: list[SpaceEquilibrium] = []
+
+    def keep(still: Still | None, *, reached: bool = False) -> None:
+        if still is not None:
+            each = _judged(still, reached=reached)
+            if not any(_same(each, other) for other in found):
+                found.append(each)
+
+    failure: UserError | None = None
+    try:
+        keep(descended(numbers, given, numbers.start, name), reached=True)
+    except UserError as error:
+        failure = error
+    count = 0
+    for start in _starts(numbers, given):
+        keep(_stationary(numbers, given, start))
+        count += 1
+        advance()
+    for each in [e for e in found if e.falls][:_FALLS]:
+        for side in _beside(each.rest):
+            try:
+                keep(descended(numbers, given, side, name))
+            except UserError:  # it falls and falls: a torque turns it on and on
+                continue
+    if not found and failure is not None:
+        raise failure
+    return SpaceEquilibria(tuple(sorted(found, key=lambda e: (not e.reached, e.falls))), count)
+
+
+def _starts(numbers: ArmNumbers, given: Mapping[str, float]) -> Iterator[Array]:
+    """Yield configurations in which what stands on each free joint points each way; sprung joints are slack.
+
+    Joints are set from the base outward. All four ways as long as they are few, else hanging and standing; beyond that
+    the rest of the arm hangs. Where weight and loads do not mind how a joint stands, it stays as it starts.
+    """
+    minded = _minded(numbers, given)
+    ways = _WAYS if len(_WAYS) ** len(minded) <= _STARTS else _WAYS[:2]
+    turned = 0
+    while turned < len(minded) and len(ways) ** (turned + 1) <= _STARTS:
+        turned += 1
+    slack = np.where(numbers.stiffness > 0.0, numbers.rest, numbers.start)
+
+    def set_on(angles: Array, number: int) -> Iterator[Array]:
+        if number == len(minded):
+            yield angles
+            return
+        joint = minded[number]
+        hanging, _ = _hanging(numbers, given, angles, joint)
+        for way in ways if number < turned else ways[:1]:
+            further = angles.copy()
+            further[joint] = hanging + way
+            yield from set_on(further, number + 1)
+
+    yield from set_on(slack, 0)
+
+
+def _minded(numbers: ArmNumbers, given: Mapping[str, float]) -> list[int]:
+    """Return the free joints whose angle weight or loads mind, where the arm starts or one of them is turned."""
+    slack = np.where(numbers.stiffness > 0.0, numbers.rest, numbers.start)
+    looks = [slack]
+    for joint in numbers.free.tolist():
+        turned = slack.copy()
+        turned[joint] += 1.0  # no whole share of a turn, so that nothing vanishes by chance
+        looks.append(turned)
+    return [
+        joint
+        for joint in numbers.free.tolist()
+        if any(_hanging(numbers, given, look, joint)[1] for look in looks)
+    ]
+
+
+def _hanging(
+    numbers: ArmNumbers, given: Mapping[str, float], angles: Array, joint: int
+) -> tuple[float, bool]:
+    """Return the angle at which what stands on a joint hangs, the other joints as they are, and whether it minds.
+
+    What weight and dead loads do about the joint is a sine of its angle, so three angles tell all.
+    """
+    needed = []
+    for angle in (0.0, 0.5 * np.pi, np.pi):
+        turned = angles.copy()
+        turned[joint] = angle
+        still = Still(numbers, turned, given)
+        needed.append(float(still.needed[joint]))
+    cosine, sine = 0.5 * (needed[0] - needed[2]), needed[1] - 0.5 * (needed[0] + needed[2])
+    minds = float(np.hypot(cosine, sine)) > ROUNDING * numbers.size * float(still.acting[joint])
+    return (float(np.arctan2(-cosine, sine)) if minds else float(angles[joint])), minds
+
+
+def _stationary(numbers: ArmNumbers, given: Mapping[str, float], angles: Array) -> Still | None:
+    """Return the equilibrium near some angles, of whatever kind; None where there is none."""
+    for _ in range(_STEPS):
+        still = Still(numbers, angles, given)
+        springs = SpaceSprings(still)
+        # level, say: nothing tells how far to turn
+        turn = descent(still) if idly_pushed(still, springs) else given_way(springs, still.unbalanced)
+        largest = float(np.max(np.abs(turn)))
+        if not np.isfinite(largest):
+            return None
+        if largest <= TOLERANCE * max(1.0, float(np.max(np.abs(angles)))):
+            return Still(numbers, angles + turn, given)
+        angles = angles + min(1.0, LARGEST_TURN / largest) * turn
+    return None
+
+
+def _judged(still: Still, *, reached: bool) -> SpaceEquilibrium:
+    """Return an equilibrium with whole turns at free joints taken off, and how it is held."""
+    angles, free = still.angles.copy(), still.numbers.free
+    # half a turn is one to the left
+    angles[free] -= 2.0 * np.pi * np.ceil(angles[free] / (2.0 * np.pi) - 0.5 - _SAME)
+    settled = Still(still.numbers, angles, still.given)
+    springs = SpaceSprings(settled)
+    return SpaceEquilibrium(rest=settled, falls=springs.negative, idle=springs.idle, reached=reached)
+
+
+def _same(one: SpaceEquilibrium, other: SpaceEquilibrium) -> bool:
+    """Return whether two equilibria are one, or differ by a motion that nothing resists.
+
+    Such a motion leaves all heights and all other joints as they are.
+    """
+    if one.idle.shape != other.idle.shape:
+        return False
+    moving = np.any(one.idle != 0.0, axis=1) | np.any(other.idle != 0.0, axis=1)
+    turns = np.where(moving, 0.0, one.rest.angles - other.rest.angles)
+    free = one.rest.numbers.free
+    turns[free] -= 2.0 * np.pi * np.round(turns[free] / (2.0 * np.pi))
+    if np.any(np.abs(turns) >= _SAME):
+        return False
+    reach = float(np.max(one.rest.numbers.along)) or 1.0
+    return bool(np.all(np.abs(one.rest.heights - other.rest.heights) < _SAME * max(reach, 1e-3)))
+
+
+def _beside(still: Still) -> tuple[Array, Array]:
+    """Return an arm on both sides of an unstable equilibrium, along its fastest fall."""
+    shape = undamped_modes(space_matrices(still), 1).shapes[:, 0]
+    nudge = _NUDGE * shape / np.max(np.abs(shape))
+    return still.angles + nudge, still.angles - nudge

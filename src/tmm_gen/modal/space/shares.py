@@ -1,0 +1,58 @@
+"""What of an arm moves in a mode: shares of each joint's own, gathered by part and way."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.modal.space.still import Still
+
+Array = NDArray[np.float64]
+
+_CELL = re.compile(r"(?P<beam>.+)_\d+_(?P<way>bend_y|bend_z|twist)")
+_WORDS = {"bend_y": "bends about y", "bend_z": "bends about z", "twist": "twists"}
+
+
+@dataclass(frozen=True)
+class Share:
+    """A part's share of a mode.
+
+    Parameters
+    ----------
+    what : str
+        "forearm bends about z", "shoulder turns".
+    share : float
+        Of one.
+    """
+
+    what: str
+    share: float
+
+
+def shares(still: Still, shape: Array) -> tuple[Share, ...]:
+    """Return what moves in a mode, the largest share first.
+
+    Each joint counts by the energy of its own angle, as if all others stood still: of what resists it, or of its motion
+    where nothing does.
+
+    Parameters
+    ----------
+    still : Still
+        Where the arm rests.
+    shape : array, (n,)
+        Of the mode.
+    """
+    held = (still.numbers.stiffness + np.abs(np.diag(still.geometric))) * shape**2
+    if not np.any(held > 0.0):
+        held = np.diag(still.mass) * shape**2
+    parts = {frame.name for frame in still.numbers.arm.frames}
+    found: dict[str, float] = {}
+    for joint, energy in zip(still.numbers.arm.joints, held.tolist(), strict=True):
+        cell = None if joint.name in parts else _CELL.fullmatch(joint.name)
+        what = f"{cell['beam']} {_WORDS[cell['way']]}" if cell else f"{joint.name} turns"
+        found[what] = found.get(what, 0.0) + energy / float(held.sum())
+    ordered = sorted(found.items(), key=lambda item: -item[1])
+    return tuple(Share(what, share) for what, share in ordered)

@@ -1,0 +1,94 @@
+"""What `modes`, `frequency` and `stability` look at: an arm in space about its static equilibrium."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from tmm_gen.errors import UserError
+from tmm_gen.modal.space.energy import require_energy
+from tmm_gen.modal.space.equilibrium import descended
+from tmm_gen.modal.space.matrices import SpaceMatrices, space_matrices
+from tmm_gen.modal.space.numbers import ArmNumbers
+from tmm_gen.modal.space.still import Still
+from tmm_gen.scene import Scene
+from tmm_gen.scene.spatial.arm import SpatialArm
+
+MOST_JOINTS = 1500
+"""Of what is done with dense matrices."""
+
+
+@dataclass(frozen=True, eq=False)
+class RestingArm:
+    """A scene's arm in space in small motion.
+
+    Parameters
+    ----------
+    scene : Scene
+        Of kind "spatial".
+    still : Still
+        Where it rests.
+    """
+
+    scene: Scene
+    still: Still
+
+    @property
+    def arm(self) -> SpatialArm:
+        """Its joints and frames."""
+        return self.still.numbers.arm
+
+    @cached_property
+    def linear(self) -> SpaceMatrices:
+        """Its matrices."""
+        return space_matrices(self.still)
+
+
+def arm_numbers(scene: Scene) -> ArmNumbers:
+    """Return a scene's arm in space as arrays.
+
+    Raises
+    ------
+    UserError
+        If it has more than `MOST_JOINTS` joints.
+    """
+    assert scene.spatial is not None
+    found = ArmNumbers(scene.spatial)
+    if found.size > MOST_JOINTS:
+        raise UserError(
+            f"scene '{scene.name}': small motion of {found.size} joints takes dense matrices; at most {MOST_JOINTS} are "
+            "possible here. Frequencies change with the square of a beam's cells: try fewer `links`."
+        )
+    return found
+
+
+def rest_in_space(scene: Scene, inputs: Mapping[str, float] | None = None) -> Still:
+    """Return where an arm in space comes to rest.
+
+    Under gravity or constant inputs that is where no joint is out of balance. Without either its springs are slack, and
+    what turns freely stands as at the scene's start.
+
+    Raises
+    ------
+    UserError
+        If there is no equilibrium.
+    """
+    numbers = arm_numbers(scene)
+    held = {name: value for name, value in (inputs or {}).items() if value != 0.0}
+    if any(numbers.arm.gravity) or held:
+        return descended(numbers, held, numbers.start, scene.name)
+    return Still(numbers, np.where(numbers.stiffness > 0.0, numbers.rest, numbers.start), {})
+
+
+def resting_in_space(scene: Scene, inputs: Mapping[str, float] | None = None) -> RestingArm:
+    """Return a scene's arm in small motion about where it rests.
+
+    Raises
+    ------
+    UserError
+        If there is no equilibrium, or none with an energy: a load that turns with its body holds the arm.
+    """
+    return RestingArm(scene, require_energy(rest_in_space(scene, inputs), scene.name))

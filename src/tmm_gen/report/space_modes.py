@@ -1,0 +1,104 @@
+"""Mode shapes of an arm in space, as a picture."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.modal.modes import Mode
+from tmm_gen.modal.space.situation import RestingArm
+from tmm_gen.reference.spatial_places import Tree
+from tmm_gen.report.space_motion import SpaceMotion
+from tmm_gen.report.space_panels import space_panels
+from tmm_gen.report.space_picture import on_ground
+from tmm_gen.scene.spatial.arm import SpatialArm
+from tmm_gen.style import FAINT, PALETTE
+
+Array = NDArray[np.float64]
+
+_COLUMNS = 3
+_SWING = 0.16
+"""Largest way of a point in a drawn mode, relative to the arm's reach."""
+_TURN = 0.8
+"""Largest turn of a body in it, rad."""
+_RUNG = 0.05
+"""Half the length of a rung across a beam, relative to the reach."""
+
+
+def space_mode_picture(resting: RestingArm, modes: Sequence[Mode], form: str = "png") -> bytes:
+    """Draw mode shapes, one panel each: the arm at rest, and to both sides of it.
+
+    Beams carry rungs across, along their own y axes, so that twisting shows, and cast a shadow.
+
+    Parameters
+    ----------
+    resting : RestingArm
+        What swings.
+    modes : sequence of Mode
+        Its modes.
+    form : {"png", "svg", "pdf"}
+        Format.
+    """
+    arm, rest = resting.arm, resting.still.angles
+    motion = SpaceMotion(arm, np.zeros(1), rest[None])
+    cells = _cells(arm)
+    with space_panels(motion, len(modes), _COLUMNS, resting.scene.title) as panels:
+        for number, (panel, mode) in enumerate(zip(panels.axes, modes, strict=True), start=1):
+            angles = rest + np.outer([0.0, 1.0, -1.0], _swing(resting, motion, mode) * mode.shape)
+            points, rungs = motion.skeleton.points(angles), _rungs(arm, angles, cells, _RUNG * motion.reach)
+            ground = panels.set_out(
+                panel, _title(number, mode), np.concatenate([points, rungs.reshape(3, -1, 3)], axis=1)
+            )
+            looks: list[dict[str, Any]] = [
+                {"color": FAINT, "linewidth": 1.2, "alpha": 1.0},
+                {"color": PALETTE[0], "linewidth": 2.0, "alpha": 1.0},
+                {"color": PALETTE[0], "linewidth": 1.2, "alpha": 0.4},
+            ]
+            for place, across, look in zip(points, rungs, looks, strict=True):
+                for line in motion.skeleton.lines:
+                    if look["alpha"] == 1.0:
+                        on_ground(panel, motion, place[list(line)], ground, linewidth=look["linewidth"])
+                    panel.plot(*place[list(line)].T, **look)
+                for rung in across:
+                    panel.plot(*rung.T, **{**look, "linewidth": 0.8})
+        return panels.picture(form)
+
+
+def _title(number: int, mode: Mode) -> str:
+    text = f"{mode.hertz:.4g} Hz" if mode.frequency else ("falls over" if mode.unstable else "turns freely")
+    return f"{number}:  {text}" + (f", ζ = {mode.damping_ratio:.2g}" if mode.damping_ratio else "")
+
+
+def _swing(resting: RestingArm, motion: SpaceMotion, mode: Mode) -> float:
+    """Return by how much of its shape a mode is drawn: far enough to be seen, not so far that small motion is none."""
+    small = 1e-4
+    before, after = motion.skeleton.points(
+        resting.still.angles + np.outer([0.0, small], mode.shape)
+    )
+    moved = float(np.max(np.linalg.norm(after - before, axis=1))) / small
+    turned = float(np.max(np.linalg.norm(resting.still.turns @ mode.shape, axis=1)))
+    bounds = [limit / size for limit, size in ((_SWING * motion.reach, moved), (_TURN, turned)) if size > 0.0]
+    return min(bounds, default=1.0)
+
+
+def _cells(arm: SpatialArm) -> list[int]:
+    """Return the indices of the last joints of beams' cells, whose frames lie along the beam."""
+    parts = {frame.name for frame in arm.frames}
+    found = []
+    for number, joint in enumerate(arm.joints, start=1):
+        behind = [other for other in arm.joints if other.host == number]
+        same = any(other.at == (0.0, 0.0, 0.0) and other.name not in parts for other in behind)
+        if joint.name not in parts and not same:
+            found.append(number - 1)
+    return found
+
+
+def _rungs(arm: SpatialArm, angles: Array, cells: list[int], half: float) -> Array:
+    """Return both ends of a line across each cell, (k, cells, 2, 3), m."""
+    places = Tree(arm).places(angles)
+    point, across = places.point[:, cells], half * places.turn[..., 1][:, cells]
+    found: Array = np.stack([point - across, point + across], axis=2)
+    return found

@@ -1,0 +1,75 @@
+"""Fields of three axes beside and below each other, all to one scale."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+from numpy.typing import NDArray
+
+from tmm_gen.report.space_motion import SpaceMotion
+from tmm_gen.report.space_picture import set_out
+from tmm_gen.style import figure, picture, style
+
+if TYPE_CHECKING:
+    import numpy as np
+
+_SIDE = 3.0
+"""Inches."""
+_NARROWEST = 0.7
+
+
+class SpacePanels:
+    """Panels of one picture.
+
+    Parameters
+    ----------
+    motion : SpaceMotion
+        Of the arm that is drawn.
+    count : int
+        How many.
+    columns : int
+        How many at most stand beside each other.
+    title : str
+        Above them.
+    """
+
+    def __init__(self, motion: SpaceMotion, count: int, columns: int, title: str) -> None:
+        self._motion = motion
+        beside = min(columns, count)
+        rows = -(-count // beside)
+        self._made, axes = figure(
+            max(_SIDE * beside, 5.0),
+            0.6 + _SIDE * rows,
+            nrows=rows,
+            ncols=beside,
+            squeeze=False,
+            subplot_kw={"projection": "3d"},
+        )
+        self.axes = list(axes.flat)[:count]
+        for panel in axes.flat[count:]:
+            panel.set_visible(False)
+        self._made.suptitle(title, x=0.01, ha="left", fontweight="bold", fontsize=11)
+
+    def set_out(self, panel: Any, title: str, points: NDArray[np.float64]) -> float:
+        """Set out a panel in which all points are seen; return where the ground is along the upward axis."""
+        ground = set_out(panel, self._motion, points, _NARROWEST)
+        panel.set_title(title, fontsize=9.5, fontweight="normal")
+        for name, axis in zip("xyz", (panel.xaxis, panel.yaxis, panel.zaxis), strict=True):
+            axis.set_label_text(name)
+            axis.labelpad = -6.0
+            axis.get_major_locator().set_params(nbins=3)
+            axis.set_tick_params(labelsize=6.5, pad=-2.0)
+        return ground
+
+    def picture(self, form: str) -> bytes:
+        """Return the picture in a format."""
+        return picture(self._made, form)
+
+
+@contextmanager
+def space_panels(motion: SpaceMotion, count: int, columns: int, title: str) -> Iterator[SpacePanels]:
+    """Yield panels to draw in."""
+    with style():
+        yield SpacePanels(motion, count, columns, title)

@@ -1,0 +1,44 @@
+"""An arm in space in each of its static equilibria, as a picture."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tmm_gen.modal.space.equilibria import SpaceEquilibria
+from tmm_gen.report.space_motion import SpaceMotion
+from tmm_gen.report.space_panels import space_panels
+from tmm_gen.report.space_picture import on_ground
+from tmm_gen.scene import Scene
+from tmm_gen.style import PALETTE
+
+_COLUMNS = 4
+
+
+def space_rest_picture(scene: Scene, held: SpaceEquilibria, form: str = "png") -> bytes:
+    """Draw each equilibrium in a panel of its own, all to one scale, with its shadow.
+
+    Parameters
+    ----------
+    scene : Scene
+        Of kind "spatial".
+    held : SpaceEquilibria
+        Of it.
+    form : {"png", "svg", "pdf"}
+        Format.
+    """
+    assert scene.spatial is not None
+    count = len(held.found)
+    motion = SpaceMotion(
+        scene.spatial, np.arange(count, dtype=float), np.array([each.rest.angles for each in held.found])
+    )
+    points = motion.skeleton.points(motion.angles)
+    tips = [tip.spot for tip in motion.skeleton.tips]
+    with space_panels(motion, count, _COLUMNS, scene.title) as panels:
+        for number, (panel, each, place) in enumerate(zip(panels.axes, held.found, points, strict=True)):
+            ground = panels.set_out(panel, f"{number + 1}:  {each.state}", points)
+            colour = PALETTE[0 if each.stable else 1]
+            for line in motion.skeleton.lines:
+                on_ground(panel, motion, place[list(line)], ground)
+                panel.plot(*place[list(line)].T, color=colour, linewidth=2.2)
+            panel.plot(*place[tips].T, "o", color=colour, markersize=4.0)
+        return panels.picture(form)
