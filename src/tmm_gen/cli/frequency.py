@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -20,13 +21,17 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from tmm_gen.modal.arm import LinearArm
+    from tmm_gen.modal.linear import Linear
     from tmm_gen.scene import Input, Output, Scene
 
 # NumPy, SymPy and Matplotlib are imported inside: `tmm-gen --help` has no use for them.
 
 _SHOWN = 8
 """Modes that fit into the band where none is asked for."""
+
+
+_ROUNDING = 1e-12
+"""Share of the largest component below which another is nothing but rounding."""
 
 
 @click.command("frequency")
@@ -47,7 +52,7 @@ _SHOWN = 8
     "given",
     metavar="NAME=VALUE",
     multiple=True,
-    help="A constant input that a planar arm rests under. Repeatable; the rest is zero.",
+    help="A constant input that an arm rests under. Repeatable; the rest is zero.",
 )
 @click.option("--csv", "csv_file", type=OutputFile(), help="Write the response.")
 @plot_option("magnitude and phase", "-frequency")
@@ -119,7 +124,7 @@ def _chosen(scene: Path, items: tuple[Any, ...], name: str | None, option: str, 
 class _Answer:
     """One output for one input."""
 
-    arm: LinearArm
+    scene: Scene
     given: Input
     read: Output
     hertz: NDArray[np.float64]
@@ -132,9 +137,46 @@ class _Answer:
         """Of the magnitude."""
         from tmm_gen.scene.quantity import INPUT_UNITS
 
-        numerator = self.arm.scene.quantity(self.read).unit.replace("^2", "²")
+        numerator = self.scene.quantity(self.read).unit.replace("^2", "²")
         denominator = INPUT_UNITS[self.given.acts]
         return f"{numerator} per {denominator}"
+
+
+@dataclass(frozen=True, eq=False)
+class _Swinging:
+    """An arm in small motion.
+
+    Parameters
+    ----------
+    linear : Linear
+        Its matrices.
+    response : callable
+        From s to outputs by their components, each for a unit of all inputs.
+    straight : bool
+        Whether it is a planar arm that rests straight, as the continuous beam does.
+    """
+
+    linear: Linear
+    response: Callable[[NDArray[np.complex128]], dict[str, NDArray[np.complex128]]]
+    straight: bool = False
+
+
+def _swinging(scene: Scene, inputs: dict[str, float]) -> _Swinging:
+    import numpy as np
+
+    if scene.spatial is not None:
+        from tmm_gen.modal.space.response import space_response
+        from tmm_gen.modal.space.situation import resting_in_space
+
+        resting = resting_in_space(scene, inputs)
+        return _Swinging(resting.linear, lambda s: space_response(resting, s))
+    from tmm_gen.modal.matrices import matrices
+    from tmm_gen.modal.response import frequency_response
+    from tmm_gen.modal.situation import resting_arm
+
+    arm = resting_arm(scene, inputs)
+    straight = arm.rest is not None and float(np.max(np.abs(arm.rest.angles))) < 1e-9
+    return _Swinging(matrices(arm), lambda s: frequency_response(arm, s), straight)
 
 
 def _respond(
@@ -148,30 +190,25 @@ def _respond(
     import numpy as np
 
     from tmm_gen.modal.beam.response import beam_response
-    from tmm_gen.modal.matrices import matrices
     from tmm_gen.modal.modes import find_modes, modes_up_to
-    from tmm_gen.modal.response import component_names, frequency_response
-    from tmm_gen.modal.situation import resting_arm
 
-    arm = resting_arm(scene, inputs)
-    linear = matrices(arm)
-    swinging = [mode.hertz for mode in find_modes(linear, _SHOWN + 1) if mode.frequency > 0.0][:_SHOWN]
+    arm = _swinging(scene, inputs)
+    swinging = [mode.hertz for mode in find_modes(arm.linear, _SHOWN + 1) if mode.frequency > 0.0][:_SHOWN]
     low = limits[0] or (0.1 * swinging[0] if swinging else 0.01)
     high = limits[1] or (2.0 * swinging[-1] if swinging else 100.0 * low)
     if low >= high:
         raise click.UsageError(f"the band from {low:g} to {high:g} Hz is empty; give both --low and --high.")
     hertz = np.geomspace(low, high, points)
     number = [item.name for item in scene.inputs].index(given.name)
-    names = component_names(arm)[read.name]
-    modes = modes_up_to(linear, 2.0 * np.pi * high)
+    names = scene.quantity(read).columns(read.name)
+    modes = modes_up_to(arm.linear, 2.0 * np.pi * high)
     inside = [(k, mode) for k, mode in enumerate(modes) if low <= mode.hertz <= high]
     at_modes = np.array([mode.hertz for _, mode in inside])
     with np.errstate(all="ignore"):  # without damping a resonance has no bound
-        found = frequency_response(arm, 2j * np.pi * np.concatenate([hertz, at_modes]))
+        found = arm.response(2j * np.pi * np.concatenate([hertz, at_modes]))
         parts = {name: found[name][:, number] for name in names}
     beam = None
-    straight = arm.rest is not None and float(np.max(np.abs(arm.rest.angles))) < 1e-9
-    if scene.beam is not None and straight:
+    if scene.beam is not None and arm.straight:
         beam = beam_response(scene, np.asarray(2j * np.pi * hertz, complex), given, read)
     rows: list[dict[str, object]] = []
     for place, (k, mode) in enumerate(inside, start=points):
@@ -187,7 +224,7 @@ def _respond(
             row[f"phase{name.removeprefix(read.name)}_deg"] = float(np.degrees(np.angle(values[place])))
         rows.append(row)
     return _Answer(
-        arm, given, read, hertz, {name: values[:points] for name, values in parts.items()}, beam, rows
+        scene, given, read, hertz, {name: values[:points] for name, values in parts.items()}, beam, rows
     )
 
 
@@ -207,12 +244,21 @@ def _write(scene: Path, answer: _Answer, csv_file: Path | None, picture: Path | 
     if picture is not None:
         from tmm_gen.modal.picture import bode_picture
 
-        target = picture_file(picture, answer.arm.scene.name, "-frequency")
+        target = picture_file(picture, answer.scene.name, "-frequency")
         name = _shown(answer)
-        texts = (answer.arm.scene.title, f"{name} for a unit of {answer.given.name}")
+        texts = (answer.scene.title, f"{name} for a unit of {answer.given.name}")
         drawn = (answer.hertz, answer.parts[name], answer.beam)
-        files[target] = bode_picture(answer.arm, *drawn, texts, answer.unit, target.suffix[1:].lower())
+        files[target] = bode_picture(answer.scene, *drawn, texts, answer.unit, target.suffix[1:].lower())
     return write_outputs(files, (scene,))
+
+
+def _told(answer: _Answer) -> list[str]:
+    """Return the components that are more than rounding beside the largest."""
+    import numpy as np
+
+    peaks = {name: float(np.max(np.abs(values))) for name, values in answer.parts.items()}
+    largest = max(peaks.values())
+    return [name for name, peak in peaks.items() if peak >= _ROUNDING * largest]
 
 
 def _shown(answer: _Answer) -> str:
@@ -230,12 +276,12 @@ def _show(answer: _Answer, written: list[Path], json_mode: bool) -> None:
         Column("frequency_hz", "resonance (Hz)", ".6g"),
         Column("damping_ratio", form=".4g"),
     ]
-    for name in answer.parts:
+    for name in _told(answer):
         suffix = name.removeprefix(answer.read.name)
         text = f" {suffix[1:]}" if suffix else ""
         columns.append(Column(f"magnitude{suffix}", f"magnitude{text} ({answer.unit})", ".5g"))
         columns.append(Column(f"phase{suffix}_deg", f"phase{text} (°)", ".1f"))
-    scene = answer.arm.scene
+    scene = answer.scene
     facts: dict[str, object] = {
         "scene": scene.name,
         "input": answer.given.name,

@@ -33,7 +33,7 @@ def show_links(scene: Scene, error: float, band: float, json_mode: bool) -> None
     UserError
         If the scene has no ``[beam]``, or no number of links is enough.
     """
-    if scene.parts:
+    if scene.parts or scene.spatial:
         raise UserError(
             f"scene '{scene.name}' is an arm by parts, whose beams --links-for does not cut yet. "
             "Change `links` of a [[beam]] and compare what `tmm-gen modes` says, or use a planar scene with [beam]."

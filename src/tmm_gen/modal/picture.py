@@ -13,6 +13,7 @@ from tmm_gen.modal.beam import BeamArm, beam_shape
 from tmm_gen.modal.limbs import limbs_of
 from tmm_gen.modal.modes import Mode
 from tmm_gen.modal.parts import parts_of
+from tmm_gen.scene import Scene
 from tmm_gen.style import FAINT, PALETTE, figure, picture, style, subtitle
 
 if TYPE_CHECKING:
@@ -20,6 +21,9 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
+
+_KINDS = {"chain": "chain", "planar": "{} links", "spatial": "{} joints"}
+"""What a curve is of."""
 
 _COLUMNS = 3
 _SWING = 0.12
@@ -141,7 +145,7 @@ def _draw_bent(panel: Axes, arm: LinearArm, mode: Mode) -> None:
 
 
 def bode_picture(
-    arm: LinearArm,
+    scene: Scene,
     hertz: Array,
     response: Complex,
     beam: Complex | None,
@@ -153,7 +157,7 @@ def bode_picture(
 
     Parameters
     ----------
-    arm : LinearArm
+    scene : Scene
         Whose response it is.
     hertz : array, (f,)
         Hz.
@@ -168,7 +172,7 @@ def bode_picture(
     """
     with style():
         made, axes = figure(8.0, 5.6, nrows=2, sharex=True, gridspec_kw={"height_ratios": [2.0, 1.0]})
-        name = f"{arm.scene.stations} links" if arm.scene.model.in_plane else "chain"
+        name = _KINDS[scene.model.kind].format(scene.stations)
         curves = [(name, response, PALETTE[0], 1.6, 1.0)]
         if beam is not None:
             curves.insert(0, ("continuous beam", beam, PALETTE[1], 3.4, 0.45))

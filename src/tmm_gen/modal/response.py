@@ -47,11 +47,6 @@ def frequency_response(arm: LinearArm, s: ArrayLike) -> dict[str, Complex]:
     return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
 
 
-def component_names(arm: LinearArm) -> dict[str, tuple[str, ...]]:
-    """Return the names of each output's components."""
-    return {item.name: arm.scene.quantity(item).columns(item.name) for item in linear_outputs(arm.scene)}
-
-
 def linear_outputs(scene: Scene) -> tuple[Output, ...]:
     """Return the outputs that answer small motion in proportion: all but energies."""
     return tuple(item for item in scene.outputs if not scene.quantity(item).of_arm)

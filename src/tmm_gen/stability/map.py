@@ -16,6 +16,9 @@ from tmm_gen.modal.arm import linear_arm
 from tmm_gen.modal.matrices import matrices
 from tmm_gen.modal.rest import Rest
 from tmm_gen.modal.situation import rest_of
+from tmm_gen.modal.space.matrices import space_matrices
+from tmm_gen.modal.space.situation import rest_in_space
+from tmm_gen.modal.space.still import Still
 from tmm_gen.scene import Scene
 from tmm_gen.stability.coupled import CoupledStep
 from tmm_gen.stability.growth import Growth
@@ -165,14 +168,20 @@ class Rests:
     def angles(self, factor: float) -> Array:
         """Return the free angles at rest, rad."""
         found = self._rest(factor)
+        if isinstance(found, Still):
+            return found.angles
         return found.free_angles if found else np.zeros(self._scene.stations + self._scene.hub)
 
     def _motion(self, factor: float) -> SmallMotion:
-        changed = with_stiffness(self._scene, factor)
-        return motion_of(changed, matrices(linear_arm(changed, self._rest(factor))))
+        changed, found = with_stiffness(self._scene, factor), self._rest(factor)
+        if isinstance(found, Still):
+            return motion_of(changed, space_matrices(found))
+        return motion_of(changed, matrices(linear_arm(changed, found)))
 
-    def _found(self, factor: float) -> Rest | None:
+    def _found(self, factor: float) -> Rest | Still | None:
         scene = with_stiffness(self._scene, factor)
+        if scene.spatial is not None:
+            return rest_in_space(scene)
         return None if scene.model.linear else rest_of(scene)
 
 

@@ -12,6 +12,7 @@ from tmm_gen.modal.linear import Linear
 from tmm_gen.modal.matrices import matrices
 from tmm_gen.modal.modes import Mode, find_modes
 from tmm_gen.modal.situation import resting_arm
+from tmm_gen.modal.space.situation import resting_in_space
 from tmm_gen.scene import Scene
 
 Array = NDArray[np.float64]
@@ -63,7 +64,7 @@ class SmallMotion:
 
 
 def small_motion(scene: Scene) -> SmallMotion:
-    """Return the modes of a scene: of a chain, or of a planar arm about its static equilibrium.
+    """Return the modes of a scene: of a chain, or of an arm about its static equilibrium.
 
     Raises
     ------
@@ -75,7 +76,20 @@ def small_motion(scene: Scene) -> SmallMotion:
             f"scene '{scene.name}': the modes of {scene.stations} stations take dense matrices; at most "
             f"{MOST_STATIONS} are possible here. The limits do not change much with more: try fewer links."
         )
-    return motion_of(scene, matrices(resting_arm(scene)))
+    return motion_of(scene, linear_about_rest(scene))
+
+
+def linear_about_rest(scene: Scene) -> Linear:
+    """Return the matrices of a scene about its rest.
+
+    Raises
+    ------
+    UserError
+        If there is no equilibrium.
+    """
+    if scene.spatial is not None:
+        return resting_in_space(scene).linear
+    return matrices(resting_arm(scene))
 
 
 def motion_of(scene: Scene, linear: Linear) -> SmallMotion:

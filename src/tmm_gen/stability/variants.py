@@ -23,5 +23,10 @@ def with_integrator(scene: Scene, method: Integrator) -> Scene:
 
 def with_stiffness(scene: Scene, factor: float) -> Scene:
     """Return a scene whose joints are stiffer by a factor; their damping stays."""
+    if scene.spatial is not None:
+        revolutes = tuple(
+            replace(joint, stiffness=joint.stiffness * factor) for joint in scene.spatial.joints
+        )
+        return replace(scene, spatial=replace(scene.spatial, joints=revolutes))
     joints = tuple(joint.model_copy(update={"stiffness": joint.stiffness * factor}) for joint in scene.joints)
     return replace(scene, joints=joints)

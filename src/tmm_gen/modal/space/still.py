@@ -182,16 +182,17 @@ class Still:
     @cached_property
     def _taken(self) -> Array:
         """What a body's weight and loads take by small turns of it, (n, 6, 3): they stand still as it turns."""
-        found: Array = self.numbers.bodies[:, :, :3] @ small_turns(self.weight)
+        found: Array = self.numbers.bodies[:, :, :3] @ small_turns(self.weight) + self.loaded
+        return found
+
+    @cached_property
+    def loaded(self) -> Array:
+        """What held loads in world axes take by small turns of each body, (n, 6, 3)."""
+        found = np.zeros((self.numbers.size, 6, 3))
         for load in self.loads:
             if load.world:
                 found[load.body] -= load.arm @ small_turns(load.on_body(self.facing[load.body]))
         return found
-
-    @property
-    def taken(self) -> Array:
-        """What held loads in world axes take by small turns of each body, (n, 6, 3): weight not counted."""
-        return self._taken - self.numbers.bodies[:, :, :3] @ small_turns(self.weight)
 
     @property
     def conservative(self) -> bool:
