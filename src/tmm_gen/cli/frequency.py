@@ -169,7 +169,7 @@ def _swinging(scene: Scene, inputs: dict[str, float]) -> _Swinging:
         from tmm_gen.modal.space.situation import resting_in_space
 
         resting = resting_in_space(scene, inputs)
-        return _Swinging(resting.linear, lambda s: space_response(resting, s))
+        return _Swinging(resting.linear, lambda s: space_response(resting.still, s))
     from tmm_gen.modal.matrices import matrices
     from tmm_gen.modal.response import frequency_response
     from tmm_gen.modal.situation import resting_arm

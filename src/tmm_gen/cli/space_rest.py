@@ -26,14 +26,11 @@ _ALL = 4
 def show_space_rest(scene: Scene, inputs: dict[str, float], picture: Path | None, json_mode: bool) -> None:
     """Find and show the equilibria of an arm in space."""
     with progress(f"balancing {scene.name}") as advance:
-        from tmm_gen.modal.space.energy import require_energy
         from tmm_gen.modal.space.equilibria import equilibria_in_space
         from tmm_gen.modal.space.situation import arm_numbers
 
         numbers = arm_numbers(scene)
         held = equilibria_in_space(numbers, inputs, scene.name, advance)
-        for each in held.found:
-            require_energy(each.rest, scene.name)
         files: list[Path] = []
         if picture is not None:
             from tmm_gen.report.space_rest import space_rest_picture

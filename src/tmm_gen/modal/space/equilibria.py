@@ -18,6 +18,7 @@ from tmm_gen.modal.space.equilibrium import (
     given_way,
     idly_pushed,
 )
+from tmm_gen.modal.space.judged import require_energy, require_inertia
 from tmm_gen.modal.space.matrices import space_matrices
 from tmm_gen.modal.space.numbers import ArmNumbers
 from tmm_gen.modal.space.springs import SpaceSprings
@@ -90,13 +91,13 @@ def equilibria_in_space(
     Raises
     ------
     UserError
-        If there is none, as a torque turns a joint forever.
+        If there is none, as a torque turns a joint forever; or one that cannot be judged, as what acts has no energy.
     """
     found: list[SpaceEquilibrium] = []
 
     def keep(still: Still | None, *, reached: bool = False) -> None:
         if still is not None:
-            each = _judged(still, reached=reached)
+            each = _judged(require_energy(require_inertia(still, name), name), reached=reached)
             if not any(_same(each, other) for other in found):
                 found.append(each)
 
@@ -210,18 +211,21 @@ def _judged(still: Still, *, reached: bool) -> SpaceEquilibrium:
 def _same(one: SpaceEquilibrium, other: SpaceEquilibrium) -> bool:
     """Return whether two equilibria are one, or differ by a motion that nothing resists.
 
-    Such a motion leaves all heights and all other joints as they are.
+    Such a motion, and another set of angles by which bodies stand alike, leave springs, all heights and the way in which
+    each body sees its weight as they are.
     """
     if one.idle.shape != other.idle.shape:
         return False
-    moving = np.any(one.idle != 0.0, axis=1) | np.any(other.idle != 0.0, axis=1)
-    turns = np.where(moving, 0.0, one.rest.angles - other.rest.angles)
-    free = one.rest.numbers.free
-    turns[free] -= 2.0 * np.pi * np.round(turns[free] / (2.0 * np.pi))
-    if np.any(np.abs(turns) >= _SAME):
-        return False
-    reach = float(np.max(one.rest.numbers.along)) or 1.0
-    return bool(np.all(np.abs(one.rest.heights - other.rest.heights) < _SAME * max(reach, 1e-3)))
+    numbers = one.rest.numbers
+    turns = one.rest.angles - other.rest.angles
+    turns[numbers.free] -= 2.0 * np.pi * np.round(turns[numbers.free] / (2.0 * np.pi))
+    if not one.idle.shape[1]:
+        return bool(np.all(np.abs(turns) < _SAME))
+    turns[numbers.free] = 0.0
+    heights = (one.rest.heights - other.rest.heights) / numbers.reach
+    massive = np.array([joint.body.mass > 0.0 for joint in numbers.arm.joints])
+    seen = (one.rest.weight - other.rest.weight)[massive] / (np.linalg.norm(numbers.arm.gravity) or 1.0)
+    return all(bool(np.all(np.abs(each) < _SAME)) for each in (turns, heights, seen))
 
 
 def _beside(still: Still) -> tuple[Array, Array]:

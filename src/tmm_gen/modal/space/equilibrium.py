@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.errors import UserError
+from tmm_gen.modal.space.judged import require_energy
 from tmm_gen.modal.space.numbers import ArmNumbers
 from tmm_gen.modal.space.springs import SpaceSprings
 from tmm_gen.modal.space.still import ROUNDING, Still
@@ -46,7 +47,7 @@ def descended(numbers: ArmNumbers, given: Mapping[str, float], start: Array, nam
     Raises
     ------
     UserError
-        If there is none: a torque turns a joint forever.
+        If there is none: a torque turns a joint forever, or what acts has no energy.
     """
     still = Still(numbers, start, given)
     before = np.inf
@@ -68,6 +69,7 @@ def descended(numbers: ArmNumbers, given: Mapping[str, float], start: Array, nam
                 break
             share *= 0.5
         still = further
+    require_energy(still, name)
     remedies = ["start nearer by [initial] angles"]
     if any(given.values()):
         remedies = ["let no input turn it on and on (smaller values of --input)", *remedies]

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from tmm_gen.modal.space.elements import bodies, mounts, pushes
 from tmm_gen.scene.spatial.arm import SpatialArm
+from tmm_gen.scene.spatial.reach import longest_way
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -109,6 +110,11 @@ class ArmNumbers:
             before = found[joint.host - 1] if joint.host else 0.0
             found[number] = before + np.linalg.norm(joint.at)
         return found
+
+    @property
+    def reach(self) -> float:
+        """The longest way along the arm, m; 1 where it has no length."""
+        return longest_way(self.arm) or 1.0
 
     @cached_property
     def weighing(self) -> Array:

@@ -12,7 +12,6 @@ from numpy.typing import ArrayLike, NDArray
 from tmm_gen.derive.space.declaration import ANGLE
 from tmm_gen.derive.space.pose import quaternion_product
 from tmm_gen.modal.blocks import filler
-from tmm_gen.modal.space.situation import RestingArm
 from tmm_gen.modal.space.still import Still
 from tmm_gen.modal.space.sweep import Inputs, inputs_of, swept
 from tmm_gen.program.space.turns import quaternion_of
@@ -25,13 +24,13 @@ _AT_ONCE = 4_000_000
 """Numbers a sweep may hold at a time; more frequencies are taken in several."""
 
 
-def space_response(resting: RestingArm, s: ArrayLike) -> dict[str, Complex]:
+def space_response(still: Still, s: ArrayLike) -> dict[str, Complex]:
     """Return all outputs but energies for a unit of each column of the inputs.
 
     Parameters
     ----------
-    resting : RestingArm
-        What swings.
+    still : Still
+        Where the arm rests that swings.
     s : array_like, (f,)
         Laplace variable, 1/s, no pole; ``1j * omega`` for steady vibration.
 
@@ -41,8 +40,8 @@ def space_response(resting: RestingArm, s: ArrayLike) -> dict[str, Complex]:
         By column of the output.
     """
     points = np.atleast_1d(np.asarray(s, complex))
-    still, inputs = resting.still, inputs_of(resting.still)
-    outputs = [item for item in resting.arm.outputs if item.quantity.read != "energy"]
+    inputs = inputs_of(still)
+    outputs = [item for item in still.numbers.arm.outputs if item.quantity.read != "energy"]
     numbers = still.numbers.size * (42 + 14 * max(1, len(inputs.columns)))
     chunk = max(1, _AT_ONCE // numbers)
     parts: list[dict[str, Complex]] = []

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from tmm_gen.errors import UserError
-from tmm_gen.modal.space.energy import require_energy
+from tmm_gen.modal.space.judged import require_energy, require_inertia
 from tmm_gen.modal.space.equilibrium import descended
 from tmm_gen.modal.space.matrices import SpaceMatrices, space_matrices
 from tmm_gen.modal.space.numbers import ArmNumbers
@@ -89,6 +89,7 @@ def resting_in_space(scene: Scene, inputs: Mapping[str, float] | None = None) ->
     Raises
     ------
     UserError
-        If there is no equilibrium, or none with an energy: a load that turns with its body holds the arm.
+        If there is no equilibrium, or none whose small motion can be judged.
     """
-    return RestingArm(scene, require_energy(rest_in_space(scene, inputs), scene.name))
+    still = require_inertia(rest_in_space(scene, inputs), scene.name)
+    return RestingArm(scene, require_energy(still, scene.name))
