@@ -67,7 +67,9 @@ def exact_response(still: Still, s: complex) -> dict[str, np.ndarray]:
             for c in columns
         ]
     ).T
-    dynamic = stiffness(arm, q, still.given) + s * np.diag(still.numbers.damping) + s**2 * world.mass_matrix(q)
+    dynamic = (
+        stiffness(arm, q, still.given) + s * np.diag(still.numbers.damping) + s**2 * world.mass_matrix(q)
+    )
     moved = np.linalg.solve(dynamic, acting)
     small = 1e-4 / np.maximum(1.0, np.max(np.abs(moved), axis=0))  # of each input
     found = {}

@@ -43,7 +43,9 @@ def rested(arm: SpatialArm, given: dict[str, float] | None = None) -> Still:
     return descended(numbers, given or {}, numbers.start, "arm")
 
 
-def modes_of(arm: SpatialArm, given: dict[str, float] | None = None, count: int | None = None) -> tuple[Mode, ...]:
+def modes_of(
+    arm: SpatialArm, given: dict[str, float] | None = None, count: int | None = None
+) -> tuple[Mode, ...]:
     return find_modes(space_matrices(rested(arm, given)), count)
 
 
@@ -312,7 +314,9 @@ def yawing(tilt: float = 0.0, stiffness: float = 0.0) -> SpatialArm:
     """Return a pendulum across a yaw joint, whose axis is tilted from upright; its mass hangs beside the axis."""
     beside = RigidBody(0.7, (0.1, 0.0, -0.4), (0.011, 0.013, 0.005, 0.0, 0.0, 0.0))
     joints = (
-        Revolute("yaw", 0, turn=tilted(tilt), axis=2, stiffness=stiffness, body=RigidBody(0.3, (0.2, 0.0, 0.0))),
+        Revolute(
+            "yaw", 0, turn=tilted(tilt), axis=2, stiffness=stiffness, body=RigidBody(0.3, (0.2, 0.0, 0.0))
+        ),
         Revolute("swing", 1, axis=1, body=beside, angle=0.2),
     )
     return SpatialArm(joints, gravity=(0.0, 0.0, -G))

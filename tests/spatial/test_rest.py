@@ -190,7 +190,12 @@ acts = "torque"
 """
     plane = parse_scene(
         text.format(
-            kind="planar", gravity=G, axis="", bending="9.0", angle="angle", hand="length = 0.3\ncenter = 0.5\ninertia = 1e-3"
+            kind="planar",
+            gravity=G,
+            axis="",
+            bending="9.0",
+            angle="angle",
+            hand="length = 0.3\ncenter = 0.5\ninertia = 1e-3",
         )
     )
     space = parse_scene(

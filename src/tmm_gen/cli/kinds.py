@@ -12,7 +12,17 @@ if TYPE_CHECKING:
     from tmm_gen.scene import Scene
 
 SERVED: Mapping[str, tuple[str, ...]] = {
-    "spatial": ("build", "run", "check", "rest", "modes", "frequency", "stability", "export --to mjcf", "export --to urdf")
+    "spatial": (
+        "build",
+        "run",
+        "check",
+        "rest",
+        "modes",
+        "frequency",
+        "stability",
+        "export --to mjcf",
+        "export --to urdf",
+    )
 }
 """Commands by the kinds that not all serve yet; where an option decides, it is part of the name: "export --to fmu"."""
 

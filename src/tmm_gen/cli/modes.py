@@ -39,8 +39,8 @@ if TYPE_CHECKING:
 def modes(scene: Path, count: int, given: tuple[str, ...], picture: Path | None, json_mode: bool) -> None:
     """Show natural frequencies, damping ratios and mode shapes of SCENE.
 
-    An arm in a plane or in space swings about its static equilibrium. A planar arm made from a [beam] is shown beside the exact
-    continuous beam, straight and weightless.
+    An arm in a plane or in space swings about its static equilibrium. A planar arm made from a [beam] is shown beside
+    the exact continuous beam, straight and weightless.
     """
     loaded = served_scene("modes", scene)
     inputs = constant_inputs(loaded, given)

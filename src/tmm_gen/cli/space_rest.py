@@ -43,9 +43,7 @@ def show_space_rest(scene: Scene, inputs: dict[str, float], picture: Path | None
 def parts_that_turn(arm: SpatialArm) -> list[tuple[int, str]]:
     """Return the joints that are parts by themselves, not a beam's: number, counted from 1, and name."""
     parts = {frame.name for frame in arm.frames}
-    return [
-        (number, joint.name) for number, joint in enumerate(arm.joints, start=1) if joint.name in parts
-    ]
+    return [(number, joint.name) for number, joint in enumerate(arm.joints, start=1) if joint.name in parts]
 
 
 def _show(

@@ -75,9 +75,7 @@ def _title(number: int, mode: Mode) -> str:
 def _swing(resting: RestingArm, motion: SpaceMotion, mode: Mode) -> float:
     """Return by how much of its shape a mode is drawn: far enough to be seen, not so far that small motion is none."""
     small = 1e-4
-    before, after = motion.skeleton.points(
-        resting.still.angles + np.outer([0.0, small], mode.shape)
-    )
+    before, after = motion.skeleton.points(resting.still.angles + np.outer([0.0, small], mode.shape))
     moved = float(np.max(np.linalg.norm(after - before, axis=1))) / small
     turned = float(np.max(np.linalg.norm(resting.still.turns @ mode.shape, axis=1)))
     bounds = [limit / size for limit, size in ((_SWING * motion.reach, moved), (_TURN, turned)) if size > 0.0]

@@ -211,8 +211,8 @@ def _judged(still: Still, *, reached: bool) -> SpaceEquilibrium:
 def _same(one: SpaceEquilibrium, other: SpaceEquilibrium) -> bool:
     """Return whether two equilibria are one, or differ by a motion that nothing resists.
 
-    Such a motion, and another set of angles by which bodies stand alike, leave springs, all heights and the way in which
-    each body sees its weight as they are.
+    Such a motion, and another set of angles by which bodies stand alike, leave springs, all heights and the way in
+    which each body sees its weight as they are.
     """
     if one.idle.shape != other.idle.shape:
         return False

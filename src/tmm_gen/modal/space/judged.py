@@ -27,9 +27,9 @@ def require_energy(still: Still, name: str) -> Still:
         return still
     held = ", ".join(load.column for load in still.loads)
     raise UserError(
-        f"scene '{name}': what --input holds at {held} turns with the arm, or is a moment that has no energy, so that "
-        "neither its rest nor its small motion can be judged by stiffness. Hold the arm by torques of its motors, or by "
-        'forces with in = "world".'
+        f"scene '{name}': what --input holds at {held} turns with the arm, or is a moment that has no energy, so "
+        "that neither its rest nor its small motion can be judged by stiffness. Hold the arm by torques of its motors, "
+        'or by forces with in = "world".'
     )
 
 
@@ -52,7 +52,7 @@ def require_inertia(still: Still, name: str) -> Still:
         np.linalg.cholesky(still.mass)
     except np.linalg.LinAlgError:
         raise UserError(
-            f"scene '{name}': the arm's masses lie too far apart for double precision, so that some joint seems to turn "
-            "nothing. Look for a mass, inertia or rotor that is far too small or large."
+            f"scene '{name}': the arm's masses lie too far apart for double precision, so that some joint seems to "
+            "turn nothing. Look for a mass, inertia or rotor that is far too small or large."
         ) from None
     return still

@@ -65,7 +65,8 @@ class ArmNumbers:
     @cached_property
     def rows(self) -> Indices:
         """Which force or moment is that about each joint's axis, (n,)."""
-        return np.argmax(self.pushes, axis=1)
+        found: Indices = np.argmax(self.pushes, axis=1)
+        return found
 
     @cached_property
     def bodies(self) -> Array:

@@ -9,7 +9,6 @@ import numpy as np
 import sympy as sp
 from numpy.typing import ArrayLike, NDArray
 
-from tmm_gen.derive.space.declaration import ANGLE
 from tmm_gen.derive.space.pose import quaternion_product
 from tmm_gen.modal.blocks import filler
 from tmm_gen.modal.space.still import Still
@@ -65,10 +64,8 @@ def _read(still: Still, inputs: Inputs, s: Complex, angles: Complex, output: Arm
         return {output.name: inputs.torque[joint] - law[:, None] * angles[:, joint]}
     assert output.frame is not None
     moved, turned = still.moved(output.frame)
-    if len(output.columns) == 4:
-        slopes = small_orientation(still, output.frame, turned)
-    else:
-        slopes = moved
+    turns = len(output.columns) == len("wxyz")
+    slopes = small_orientation(still, output.frame, turned) if turns else moved
     values = factor[:, None] * (slopes @ angles)
     return {name: values[:, k] for k, name in enumerate(output.columns)}
 

@@ -9,8 +9,8 @@ from functools import cached_property
 import numpy as np
 
 from tmm_gen.errors import UserError
-from tmm_gen.modal.space.judged import require_energy, require_inertia
 from tmm_gen.modal.space.equilibrium import descended
+from tmm_gen.modal.space.judged import require_energy, require_inertia
 from tmm_gen.modal.space.matrices import SpaceMatrices, space_matrices
 from tmm_gen.modal.space.numbers import ArmNumbers
 from tmm_gen.modal.space.still import Still
@@ -59,8 +59,8 @@ def arm_numbers(scene: Scene) -> ArmNumbers:
     found = ArmNumbers(scene.spatial)
     if found.size > MOST_JOINTS:
         raise UserError(
-            f"scene '{scene.name}': small motion of {found.size} joints takes dense matrices; at most {MOST_JOINTS} are "
-            "possible here. Frequencies change with the square of a beam's cells: try fewer `links`."
+            f"scene '{scene.name}': small motion of {found.size} joints takes dense matrices; at most {MOST_JOINTS} "
+            "are possible here. Frequencies change with the square of a beam's cells: try fewer `links`."
         )
     return found
 

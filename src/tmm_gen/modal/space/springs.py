@@ -1,7 +1,7 @@
 """The stiffness of an arm in space taken apart, and what nothing resists told from what resists a little.
 
-Angles are those of joints, so that springs stand on the diagonal and only weight and loads couple. Beside the terms that
-each joint's torque is made of, what is left is of the order of one, however far springs lie apart.
+Angles are those of joints, so that springs stand on the diagonal and only weight and loads couple. Beside the terms
+that each joint's torque is made of, what is left is of the order of one, however far springs lie apart.
 """
 
 from __future__ import annotations
@@ -90,7 +90,7 @@ class SpaceSprings:
     @property
     def rigid(self) -> bool:
         """Whether the arm, or a part of it, turns without resistance."""
-        return self.idle.shape[1] > 0
+        return len(self.loose) > 0
 
     @property
     def turned(self) -> Array:

@@ -210,7 +210,7 @@ class Still:
         down = np.array(self.numbers.arm.gravity)
         centers = np.array([joint.body.center for joint in self.numbers.arm.joints])
         places = self._points[1:] + np.einsum("nij,ni->nj", self.facing, centers)
-        found = [places @ (down / (np.linalg.norm(down) or 1.0))]
+        found = [-(places @ down) / (np.linalg.norm(down) or 1.0)]
         for load in self.loads:
             if load.world:
                 way = load.vector / np.linalg.norm(load.vector)
@@ -219,7 +219,8 @@ class Still:
 
     def place(self, frame: Frame) -> Array:
         """Return where a frame is, (3,), m."""
-        return self._points[frame.joint] + self._facing(frame.joint).T @ np.array(frame.at)
+        found: Array = self._points[frame.joint] + self._facing(frame.joint).T @ np.array(frame.at)
+        return found
 
     def moved(self, frame: Frame) -> tuple[Array, Array]:
         """Return how a frame moves, in world axes, and turns, in its own, as each joint turns, (3, n) each."""

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.modal.space.loads import unit_loads
-from tmm_gen.modal.space.still import Still, small_turns
+from tmm_gen.modal.space.still import Still
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -77,8 +77,9 @@ def swept(still: Still, s: Complex, inputs: Inputs) -> Complex:
         beyond, biased = slopes[j], biases[j]
         own = _own(still, j, square)
         slope = own if beyond is None else own + beyond
-        bias = -inputs.force[j] if biased is None else biased - inputs.force[j]
-        bias = np.broadcast_to(bias, (len(s), 6, len(inputs.columns)))
+        bias = np.broadcast_to(-inputs.force[j], (len(s), 6, len(inputs.columns))).astype(complex)
+        if biased is not None:
+            bias += biased
         about = slope[:, row]
         given = slope @ push
         admittance = 1.0 / (law[j] + given[:, row])
@@ -106,9 +107,7 @@ def _pushes(still: Still) -> Array:
     numbers = still.numbers
     found = np.zeros((numbers.size, 6))
     found[:, 3:] = numbers.pushes[:, 3:]
-    before = np.array(
-        [still.weight[h] if h >= 0 else -np.array(numbers.arm.gravity) for h in numbers.hosts]
-    )
+    before = np.array([still.weight[h] if h >= 0 else -np.array(numbers.arm.gravity) for h in numbers.hosts])
     found[:, :3] = (still.turned[:, :3, :3] @ before[:, :, None])[:, :, 0]
     return found
 
@@ -116,8 +115,7 @@ def _pushes(still: Still) -> Array:
 def _following(still: Still) -> Array:
     """Return how the forces behind each joint change, seen from its inner side, as they turn with it, (n, 6)."""
     turned = np.swapaxes(still.turned, -1, -2) @ still.forces[:, :, None]
-    found: Array = np.linalg.solve(np.swapaxes(still.through, -1, -2), turned)[:, :, 0]
-    return found
+    return np.asarray(np.linalg.solve(np.swapaxes(still.through, -1, -2), turned)[:, :, 0], float)
 
 
 def _own(still: Still, j: int, square: Complex) -> Complex:
@@ -147,7 +145,7 @@ def _outward(
     found = np.empty((len(square), numbers.size, columns), complex)
     for j, (about, lacking) in enumerate(kept):
         host, through = numbers.hosts[j], still.through[j]
-        unknown = -lacking
+        unknown: Complex = -lacking
         if host >= 0:
             inner = moved[host]
             turn, swing = through[:3, :3], through[:3, 3:]
