@@ -75,7 +75,7 @@ def test_what_does_not_serve_arms_in_space_says_so(
 
 
 def test_there_are_such_commands_and_every_command_is_one_or_the_other() -> None:
-    assert len(REFUSED) >= 8
+    assert REFUSED
     known = (
         WITHOUT_A_SCENE
         | {command for command, _ in REFUSED}

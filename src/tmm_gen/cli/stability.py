@@ -153,6 +153,10 @@ def _say(motion: SmallMotion, found: list[Standing], maps: list[GrowthMap], file
     click.echo(
         f"* the scene's own; growth: of the worst of {len(motion.modes)} modes, each with its own damping"
     )
+    if motion.rounds is not None:
+        click.echo(
+            "weight is left to the sweeps' corrections: growth and largest step are those of the kernel's own sweeps"
+        )
     if motion.coupled:
         exact = all(each.exact for each in found)
         click.echo(

@@ -13,7 +13,7 @@ from tmm_gen.program.arm.product import ProductWalks
 from tmm_gen.program.arm.thesis import TaylorWalks, ThesisWalks
 from tmm_gen.program.arm.walks import Walks
 from tmm_gen.program.sensitivities.walks import TangentableWalks
-from tmm_gen.program.space.assemble import SpaceChoices, build_in_space
+from tmm_gen.program.space.assemble import SpaceChoices, build_in_space, predicts_held
 from tmm_gen.program.statements import Program
 from tmm_gen.row.row import Row
 from tmm_gen.row.scene import row_of
@@ -73,9 +73,7 @@ def _in_space(scene: Scene, arm: SpatialArm, chosen: Integrator, *, auto: bool) 
     choices = SpaceChoices(
         step=scene.integrator.step,
         iterations=scene.model.sweeps,
-        # a prediction without acceleration forgives long steps, and a correction makes up for it; more stages, or a
-        # sweep alone, would lose orders
-        held=stages > 1 or not (auto or scene.model.sweeps > 1),
+        held=predicts_held(stages, scene.model.sweeps, auto=auto),
         auto=auto,
         exact=exact,
         facts=tuple(facts.items()),

@@ -1,21 +1,39 @@
-"""One step of an integrator as a matrix on the whole arm: what modes coupled by damping need."""
+"""One step of an integrator as a matrix on the whole arm: what modes need that damping or sweeps couple."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
-from tmm_gen.derive.integrators.declaration import KINDS, STEP, Integrator, Kind, past, stage
+from tmm_gen.derive.integrators.declaration import KINDS, STEP, Integrator, Kind, Past, past, stage
 from tmm_gen.derive.integrators.history import history_of
 from tmm_gen.derive.integrators.relations import affine_motion
 from tmm_gen.modal.linear import Linear
 from tmm_gen.modal.undamped import undamped_modes
+from tmm_gen.program.space.assemble import predicts_held
 
 Array = NDArray[np.float64]
 _Terms = list[tuple[sp.Symbol, float]]
+
+
+@dataclass(frozen=True, eq=False)
+class Rounds:
+    """A step whose stages are not solved at once: sweeps that leave something out, and corrections that make up for it.
+
+    Parameters
+    ----------
+    left : array, (d, d)
+        What of the stiffness the sweeps leave out, N m/rad.
+    count : int
+        A sweep and so many less one corrections.
+    """
+
+    left: Array
+    count: int
 
 
 class CoupledStep:
@@ -27,12 +45,19 @@ class CoupledStep:
         With its parameters bound to numbers.
     linear : Linear
         Of the arm.
+    rounds : Rounds, optional
+        How its stages are solved, if not at once.
     """
 
-    def __init__(self, integrator: Integrator, linear: Linear) -> None:
+    def __init__(self, integrator: Integrator, linear: Linear, rounds: Rounds | None = None) -> None:
         self._scheme = integrator.main
-        self._values = history_of([integrator.main], "acceleration")
+        found = history_of([integrator.main], "acceleration")
+        newest = Past("a", 0)
+        self._rounds = rounds
+        self._held = rounds is not None and predicts_held(len(self._scheme.stages), rounds.count)
+        self._values = (*found, newest) if self._held and newest not in found else found
         modes = undamped_modes(linear)
+        self._left = None if rounds is None else modes.shapes.T @ rounds.left @ modes.shapes
         self._stiffness = modes.squares
         self._damping: Array = modes.shapes.T @ linear.parts.braked(modes.shapes)
 
@@ -58,11 +83,34 @@ class CoupledStep:
             known = {kind: linear(offset[kind]) for kind in KINDS}
             effective = gain["a"] * np.eye(modes) + gain["v"] * damping + gain["q"] * np.diag(stiffness)
             missing = known["a"] + damping @ known["v"] + stiffness[:, None] * known["q"]
-            unknown = -np.linalg.solve(effective, missing)
+            latest = rows[stage("a", index - 1) if index > 1 else past("a")] if self._held else None
+            unknown = self._solved(effective, missing, gain["q"] * step**2, latest)
             for kind in KINDS:
                 rows[stage(kind, index)] = gain[kind] * unknown + known[kind]
         new = [linear(update[p.kind]) if p.lag == 0 else rows[past(p.kind, p.lag - 1)] for p in self._values]
         return np.vstack(new)
+
+    def _solved(self, effective: Array, missing: Array, turned: float, latest: Array | None) -> Array:
+        """Return what solves a stage, or what sweeps make of it, (modes, size).
+
+        Parameters
+        ----------
+        effective : array, (modes, modes)
+            What the unknown acceleration makes.
+        missing : array, (modes, size)
+            What it has to balance.
+        turned : float
+            Square of the step times the angle per unknown: the share of what sweeps leave out.
+        latest : array, (modes, size), optional
+            The acceleration that a stage is predicted with; none if left out.
+        """
+        if self._rounds is None or self._left is None:
+            return np.asarray(-np.linalg.solve(effective, missing), float)
+        swept = effective - turned * self._left
+        found = np.zeros_like(missing) if latest is None else latest
+        for _ in range(self._rounds.count):
+            found = found - np.linalg.solve(swept, missing + effective @ found)
+        return found
 
     def radius(self, step: float) -> float:
         """Return the spectral radius in double precision; infinite where numbers overflow."""

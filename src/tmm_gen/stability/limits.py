@@ -117,9 +117,9 @@ def standing(motion: SmallMotion, growth: Growth) -> Standing:
     excess = growth.excess(float(stiffness[worst]) * h * h, float(damping[worst]) * h)
     undamped, damped = float(stability_limit(linear)), limit_at(growth, highest.damping_ratio or 0.0)
     largest = _largest_step(motion, growth, undamped, damped)
-    exact = not motion.coupled
-    if motion.coupled:
-        whole = CoupledStep(growth.integrator, motion.linear)
+    exact = not motion.together
+    if motion.together:
+        whole = CoupledStep(growth.integrator, motion.linear, motion.rounds)
         if whole.size <= _MOST_COUPLED:
             exact = True
             found = whole.radius(h) - 1.0

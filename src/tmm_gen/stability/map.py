@@ -23,7 +23,7 @@ from tmm_gen.scene import Scene
 from tmm_gen.stability.coupled import CoupledStep
 from tmm_gen.stability.growth import Growth
 from tmm_gen.stability.measured import MeasuredStep
-from tmm_gen.stability.motion import SmallMotion, motion_of
+from tmm_gen.stability.motion import SmallMotion, motion_of, rounds_of
 from tmm_gen.stability.variants import with_integrator, with_stiffness
 
 Array = NDArray[np.float64]
@@ -34,6 +34,9 @@ an arm that turns far are differences of two motions."""
 
 GROWS, GROWS_FAR = 1e-6, 1e-5
 """Growth by less in a step is none, in either map."""
+
+_WILD = 1e3
+"""Growth in a step by more takes an arm that turns far out of small motion: by how much is not asked."""
 
 _REACH = (0.02, 50.0)
 """Steps of a map: Omega of the highest frequency from here to there; and those of the scene."""
@@ -67,10 +70,14 @@ class GrowthMap:
 
     @property
     def difference(self) -> Array:
-        """Measured less derived, relative to the larger of derived and 1, (rows, columns); zero where both overflow."""
+        """Measured less derived, relative to the larger of derived and 1, (rows, columns).
+
+        Zero where both overflow, or leave small motion in one step.
+        """
         with np.errstate(invalid="ignore"):
             found = (self.measured - self.derived) / np.maximum(self.derived, 1.0)
-        both = np.isinf(self.measured) & np.isinf(self.derived)
+        wild = np.inf if self.scene.model.linear else _WILD
+        both = (self.measured >= wild) & (self.derived >= wild)
         difference: Array = np.where(both, 0.0, found)
         return difference
 
@@ -175,7 +182,7 @@ class Rests:
     def _motion(self, factor: float) -> SmallMotion:
         changed, found = with_stiffness(self._scene, factor), self._rest(factor)
         if isinstance(found, Still):
-            return motion_of(changed, space_matrices(found))
+            return motion_of(changed, space_matrices(found), rounds_of(changed, found))
         return motion_of(changed, matrices(linear_arm(changed, found)))
 
     def _found(self, factor: float) -> Rest | Still | None:
@@ -187,8 +194,8 @@ class Rests:
 
 def derived_radii(motion: SmallMotion, growth: Growth, steps: Array) -> Array:
     """Return the spectral radius of a scene at some steps, the worst over modes, (k,)."""
-    if motion.coupled:
-        whole = CoupledStep(growth.integrator, motion.linear)
+    if motion.together:
+        whole = CoupledStep(growth.integrator, motion.linear, motion.rounds)
         return np.array([whole.radius(step) for step in steps.tolist()])
     h = steps[:, None]
     radii: Array = np.max(growth.radius(motion.stiffness * h * h, motion.damping * h), axis=1)

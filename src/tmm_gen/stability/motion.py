@@ -13,7 +13,9 @@ from tmm_gen.modal.matrices import matrices
 from tmm_gen.modal.modes import Mode, find_modes
 from tmm_gen.modal.situation import resting_arm
 from tmm_gen.modal.space.situation import resting_in_space
+from tmm_gen.modal.space.still import Still
 from tmm_gen.scene import Scene
+from tmm_gen.stability.coupled import Rounds
 
 Array = NDArray[np.float64]
 
@@ -35,12 +37,20 @@ class SmallMotion:
         Increasing in undamped frequency.
     coupled : bool
         Whether damping couples the undamped modes, so that a step does not fall apart into modes.
+    rounds : Rounds or None
+        How an arm in space solves its stages, where its sweeps leave weight to corrections.
     """
 
     scene: Scene
     linear: Linear
     modes: tuple[Mode, ...]
     coupled: bool
+    rounds: Rounds | None = None
+
+    @property
+    def together(self) -> bool:
+        """Whether a step is one of the whole arm, and not of each mode by itself."""
+        return self.coupled or self.rounds is not None
 
     @property
     def stiffness(self) -> Array:
@@ -76,22 +86,19 @@ def small_motion(scene: Scene) -> SmallMotion:
             f"scene '{scene.name}': the modes of {scene.stations} stations take dense matrices; at most "
             f"{MOST_STATIONS} are possible here. The limits do not change much with more: try fewer links."
         )
-    return motion_of(scene, linear_about_rest(scene))
-
-
-def linear_about_rest(scene: Scene) -> Linear:
-    """Return the matrices of a scene about its rest.
-
-    Raises
-    ------
-    UserError
-        If there is no equilibrium.
-    """
     if scene.spatial is not None:
-        return resting_in_space(scene).linear
-    return matrices(resting_arm(scene))
+        resting = resting_in_space(scene)
+        return motion_of(scene, resting.linear, rounds_of(scene, resting.still))
+    return motion_of(scene, matrices(resting_arm(scene)))
 
 
-def motion_of(scene: Scene, linear: Linear) -> SmallMotion:
+def motion_of(scene: Scene, linear: Linear, rounds: Rounds | None = None) -> SmallMotion:
     """Return the modes of some matrices."""
-    return SmallMotion(scene, linear, find_modes(linear), linear.damping_time is None)
+    return SmallMotion(scene, linear, find_modes(linear), linear.damping_time is None, rounds)
+
+
+def rounds_of(scene: Scene, still: Still) -> Rounds | None:
+    """Return how the stages of an arm in space are solved; None where its sweeps leave nothing out about rest."""
+    if scene.model.linearisation == "newton" or not np.any(still.geometric):
+        return None
+    return Rounds(still.geometric, scene.model.sweeps)

@@ -51,6 +51,24 @@ class SpaceChoices:
     facts: tuple[tuple[str, str], ...] = ()
 
 
+def predicts_held(stages: int, rounds: int, *, auto: bool = False) -> bool:
+    """Return whether stages are best predicted with the newest acceleration instead of none.
+
+    A prediction without acceleration forgives long steps, and a correction makes up for it; more stages, or a sweep
+    alone, would lose orders.
+
+    Parameters
+    ----------
+    stages : int
+        Of the integrator's step.
+    rounds : int
+        A sweep and its corrections.
+    auto : bool
+        Whether corrections go on until one changes next to nothing.
+    """
+    return stages > 1 or not (auto or rounds > 1)
+
+
 def build_in_space(
     arm: SpatialArm, name: str, title: str, integrator: Integrator, choices: SpaceChoices
 ) -> Program:
