@@ -161,6 +161,7 @@ def browse(need_tool: Callable[..., str], tmp_path_factory: pytest.TempPathFacto
 # -- what takes long, last ------------------------------------------------------------------------
 
 LONG = (
+    "cli/test_space_motion.py",
     "control/emitted/test_faults.py",
     "control/test_calibration_parts.py",
     "control/test_closed_loop.py",
@@ -180,6 +181,7 @@ LONG = (
     "spatial/test_order.py",
     "spatial/test_pictures.py",
     "spatial/test_planar_twins.py",
+    "spatial/test_rest.py",
     "spatial/test_text_size.py",
     "spatial/test_written_first.py",
     "spatial/test_yardsticks.py",

@@ -23,8 +23,15 @@ def test_commands(
 ) -> None:
     shutil.copytree(ROOT / "examples" / "space", tmp_path / "examples" / "space")
     monkeypatch.chdir(tmp_path)
-    assert [command.split()[0] for command in COMMANDS] == ["build", "run"]
+    told = ["build", "run", "rest", "modes", "frequency", "stability"]
+    assert [command.split()[0] for command in COMMANDS] == told
     for command in COMMANDS:
         assert main(shlex.split(command)) == 0
-    assert "accurate to about" in capsys.readouterr().out
+    shown = capsys.readouterr().out
+    for words in ("accurate to about", "4 equilibria", "forearm bends about z", "resonance (Hz)", "largest stable step"):
+        assert words in " ".join(shown.split())
+    for picture in ("modes", "frequency"):
+        assert (tmp_path / f"yaw3-{picture}.png").stat().st_size > 10_000
+    for figure in re.findall(r"\]\((figures/\S+)\)", PAGE):
+        assert (ROOT / "docs" / figure).is_file()
     assert list((tmp_path / "out" / "space" / "yaw3" / "c").glob("*.c"))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import shlex
@@ -86,6 +87,26 @@ def test_the_kernel(imported: Path) -> None:
     assert len(shown) == 2
     assert shown[0] == pytest.approx(shown[1], abs=1e-12)
     assert shown[0] == pytest.approx(exact, abs=1e-3 * abs(exact - still))
+
+
+def test_the_modes(imported: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """The frequencies that the page tells are those of the table."""
+    capsys.readouterr()
+    command = next(command for command in COMMANDS if command.startswith("modes"))
+    assert main([*shlex.split(command), "--json"]) == 0
+    rows = json.loads(capsys.readouterr().out)["rows"]
+    assert (imported.parent / "picker-modes.png").is_file()
+    by_part = {row["shares"][0]["what"]: row for row in reversed(rows)}
+    assert by_part["yaw turns"]["motion"] == "turns freely"
+    assert by_part["wrist_roll turns"]["damping_ratio"] > 1.0
+    shoulder, elbow, upper = (
+        by_part[what]["frequency_hz"]
+        for what in ("shoulder turns", "elbow turns", "upper_arm bends about z")
+    )
+    assert f"shoulder and elbow at {shoulder:.2f} and {elbow:.2f} Hz" in " ".join(PAGE.split())
+    assert f"bends sideways at {upper:.1f} Hz" in " ".join(PAGE.split())
+    for words in re.findall(r"`tmm-gen ((?:rest|frequency) picker[^`]*)`", PAGE):
+        assert main(shlex.split(words)) == 0
 
 
 def test_what_is_shown_is_in_the_files(imported: Path) -> None:
