@@ -144,7 +144,9 @@ def test_rest(capsys: pytest.CaptureFixture[str]) -> None:
     assert "yaw, shoulder turn freely: motors hold no torque but that of --input" in text
 
 
-def test_rest_of_more_joints_than_a_table_holds_leaves_noughts_out(capsys: pytest.CaptureFixture[str]) -> None:
+def test_rest_of_more_joints_than_a_table_holds_leaves_noughts_out(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
     example = Path(__file__).resolve().parents[2] / "examples" / "space" / "arm6.toml"
     shown = told("rest", str(example), capsys=capsys)
     assert "motor2 angle" in shown.replace("\n", " ")
@@ -168,7 +170,9 @@ def test_modes(capsys: pytest.CaptureFixture[str]) -> None:
     assert abs(hand["moved"][0]) > 0.5
     assert np.max(np.abs(hand["moved"][1:])) < 1e-9
     assert abs(hand["turned"][1]) == pytest.approx(1.0, abs=0.1)
-    assert "about the static equilibrium, in degrees: shoulder 90" in told("modes", "boom.toml", capsys=capsys)
+    assert "about the static equilibrium, in degrees: shoulder 90" in told(
+        "modes", "boom.toml", capsys=capsys
+    )
     afloat = facts("modes", "afloat.toml", capsys=capsys)
     assert [row["motion"] for row in afloat["rows"][:3]] == ["turns freely", "turns freely", "swings"]
 

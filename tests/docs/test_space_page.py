@@ -28,7 +28,13 @@ def test_commands(
     for command in COMMANDS:
         assert main(shlex.split(command)) == 0
     shown = capsys.readouterr().out
-    for words in ("accurate to about", "4 equilibria", "forearm bends about z", "resonance (Hz)", "largest stable step"):
+    for words in (
+        "accurate to about",
+        "4 equilibria",
+        "forearm bends about z",
+        "resonance (Hz)",
+        "largest stable step",
+    ):
         assert words in " ".join(shown.split())
     for picture in ("modes", "frequency"):
         assert (tmp_path / f"yaw3-{picture}.png").stat().st_size > 10_000

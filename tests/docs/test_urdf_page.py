@@ -100,8 +100,7 @@ def test_the_modes(imported: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert by_part["yaw turns"]["motion"] == "turns freely"
     assert by_part["wrist_roll turns"]["damping_ratio"] > 1.0
     shoulder, elbow, upper = (
-        by_part[what]["frequency_hz"]
-        for what in ("shoulder turns", "elbow turns", "upper_arm bends about z")
+        by_part[what]["frequency_hz"] for what in ("shoulder turns", "elbow turns", "upper_arm bends about z")
     )
     assert f"shoulder and elbow at {shoulder:.2f} and {elbow:.2f} Hz" in " ".join(PAGE.split())
     assert f"bends sideways at {upper:.1f} Hz" in " ".join(PAGE.split())

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -10,11 +11,11 @@ from numpy.typing import NDArray
 
 from tmm_gen.modal.modes import Mode
 from tmm_gen.modal.space.situation import RestingArm
-from tmm_gen.reference.spatial_places import Tree
+from tmm_gen.reference.spatial_places import Tree, applied
 from tmm_gen.report.space_motion import SpaceMotion
 from tmm_gen.report.space_panels import space_panels
 from tmm_gen.report.space_picture import on_ground
-from tmm_gen.scene.spatial.arm import SpatialArm
+from tmm_gen.scene.spatial.arm import ZERO, SpatialArm, Vector
 from tmm_gen.style import FAINT, PALETTE
 
 Array = NDArray[np.float64]
@@ -31,7 +32,7 @@ _RUNG = 0.05
 def space_mode_picture(resting: RestingArm, modes: Sequence[Mode], form: str = "png") -> bytes:
     """Draw mode shapes, one panel each: the arm at rest, and to both sides of it.
 
-    Beams carry rungs across, along their own y axes, so that twisting shows, and cast a shadow.
+    Beams and tips carry rungs across, along their own y axes, so that twisting shows, and the arm casts a shadow.
 
     Parameters
     ----------
@@ -44,11 +45,14 @@ def space_mode_picture(resting: RestingArm, modes: Sequence[Mode], form: str = "
     """
     arm, rest = resting.arm, resting.still.angles
     motion = SpaceMotion(arm, np.zeros(1), rest[None])
-    cells = _cells(arm)
+    rungs_of = _rungs_of(motion)
     with space_panels(motion, len(modes), _COLUMNS, resting.scene.title) as panels:
         for number, (panel, mode) in enumerate(zip(panels.axes, modes, strict=True), start=1):
             angles = rest + np.outer([0.0, 1.0, -1.0], _swing(resting, motion, mode) * mode.shape)
-            points, rungs = motion.skeleton.points(angles), _rungs(arm, angles, cells, _RUNG * motion.reach)
+            points, rungs = (
+                motion.skeleton.points(angles),
+                _rungs(arm, angles, rungs_of, _RUNG * motion.reach),
+            )
             ground = panels.set_out(
                 panel, _title(number, mode), np.concatenate([points, rungs.reshape(3, -1, 3)], axis=1)
             )
@@ -82,21 +86,39 @@ def _swing(resting: RestingArm, motion: SpaceMotion, mode: Mode) -> float:
     return min(bounds, default=1.0)
 
 
-def _cells(arm: SpatialArm) -> list[int]:
-    """Return the indices of the last joints of beams' cells, whose frames lie along the beam."""
+@dataclass(frozen=True)
+class _Rung:
+    """A line across, through a point of a body and along an axis fixed in it."""
+
+    body: int
+    at: Vector
+    along: Vector
+
+
+def _rungs_of(motion: SpaceMotion) -> list[_Rung]:
+    """Return rungs across each cell of a beam, whose last frame lies along it, and across each tip."""
+    arm = motion.arm
     parts = {frame.name for frame in arm.frames}
     found = []
     for number, joint in enumerate(arm.joints, start=1):
         behind = [other for other in arm.joints if other.host == number]
-        same = any(other.at == (0.0, 0.0, 0.0) and other.name not in parts for other in behind)
+        same = any(other.at == ZERO and other.name not in parts for other in behind)
         if joint.name not in parts and not same:
-            found.append(number - 1)
+            found.append(_Rung(number - 1, ZERO, (0.0, 1.0, 0.0)))
+    tips = {tip.name for tip in motion.skeleton.tips}
+    for frame in (each for each in arm.frames if each.name in tips and each.joint):
+        x, y, z = (row[1] for row in frame.turn)
+        found.append(_Rung(frame.joint - 1, frame.at, (x, y, z)))
     return found
 
 
-def _rungs(arm: SpatialArm, angles: Array, cells: list[int], half: float) -> Array:
-    """Return both ends of a line across each cell, (k, cells, 2, 3), m."""
+def _rungs(arm: SpatialArm, angles: Array, rungs: list[_Rung], half: float) -> Array:
+    """Return both ends of each rung, (k, rungs, 2, 3), m."""
     places = Tree(arm).places(angles)
-    point, across = places.point[:, cells], half * places.turn[..., 1][:, cells]
+    bodies = [rung.body for rung in rungs]
+    turn = places.turn[:, bodies]
+    at, along = (np.array([getattr(rung, name) for rung in rungs]).reshape(-1, 3) for name in ("at", "along"))
+    point = places.point[:, bodies] + applied(turn, at)
+    across = half * applied(turn, along)
     found: Array = np.stack([point - across, point + across], axis=2)
     return found

@@ -49,7 +49,7 @@ class SpacePanels:
         )
         self.axes = list(axes.flat)[:count]
         for panel in axes.flat[count:]:
-            panel.set_visible(False)
+            self._made.delaxes(panel)  # an unseen one has no place in the layout
         self._made.suptitle(title, x=0.01, ha="left", fontweight="bold", fontsize=11)
 
     def set_out(self, panel: Any, title: str, points: NDArray[np.float64]) -> float:
