@@ -153,12 +153,12 @@ def _say(motion: SmallMotion, found: list[Standing], maps: list[GrowthMap], file
     click.echo(
         f"* the scene's own; growth: of the worst of {len(motion.modes)} modes, each with its own damping"
     )
-    if motion.rounds is not None:
+    exact = all(each.exact for each in found)
+    if motion.rounds is not None and exact:
         click.echo(
             "weight is left to the sweeps' corrections: growth and largest step are those of the kernel's own sweeps"
         )
     if motion.coupled:
-        exact = all(each.exact for each in found)
         click.echo(
             "damping couples the modes: growth and largest step are those of the "
             + ("whole arm" if exact else "modes by themselves, the arm being too large")

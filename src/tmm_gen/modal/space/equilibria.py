@@ -204,6 +204,9 @@ def _judged(still: Still, *, reached: bool) -> SpaceEquilibrium:
     # half a turn is one to the left
     angles[free] -= 2.0 * np.pi * np.ceil(angles[free] / (2.0 * np.pi) - 0.5 - _SAME)
     settled = Still(still.numbers, angles, still.given)
+    # of many turns taken off rounding leaves something
+    polished = angles + given_way(SpaceSprings(settled), settled.unbalanced)
+    settled = Still(still.numbers, polished, still.given)
     springs = SpaceSprings(settled)
     return SpaceEquilibrium(rest=settled, falls=springs.negative, idle=springs.idle, reached=reached)
 

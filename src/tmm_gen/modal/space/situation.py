@@ -60,7 +60,7 @@ def arm_numbers(scene: Scene) -> ArmNumbers:
     if found.size > MOST_JOINTS:
         raise UserError(
             f"scene '{scene.name}': small motion of {found.size} joints takes dense matrices; at most {MOST_JOINTS} "
-            "are possible here. Frequencies change with the square of a beam's cells: try fewer `links`."
+            "are possible here. The error of frequencies falls with the square of a beam's cells: try fewer `links`."
         )
     return found
 
