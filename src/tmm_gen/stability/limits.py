@@ -193,6 +193,9 @@ def _coupled_step(whole: CoupledStep, modal: float, motion: SmallMotion) -> floa
     fastest = motion.highest.frequency
     around = modal if 0.0 < modal < math.inf else 1.0 / fastest
     factors = np.logspace(-1, 1, 41) if modal < math.inf else np.logspace(-2, 4, 41)
+    if motion.rounds is not None and modal == math.inf:  # what weight makes is slow
+        slowest = min((mode.frequency for mode in motion.modes if mode.frequency > 0.0), default=fastest)
+        factors = np.logspace(-2, max(4.0, 2.0 + math.log10(fastest / slowest)), 41)
 
     def grows(step: float) -> bool:
         return whole.radius(step) > 1.0 + COUPLED_TOLERANCE
