@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.modal.space.elements import beside
-from tmm_gen.scene.spatial.arm import ArmInput, SpatialArm
+from tmm_gen.scene.spatial.arm import ArmInput, SpatialArm, Vector
 
 Array = NDArray[np.float64]
 
@@ -28,18 +29,30 @@ class Load:
         Components, N or N m.
     world : bool
         Whether in world axes; otherwise in those of the body.
-    arm : array, (6, 3)
-        Force and moment about the joint's point by the components in the body's axes.
-    reach : float
-        Lever of a force about the joint's point, m; 1 m for a moment.
+    at : tuple of float, length 3
+        Where it acts, in the body's frame, m.
+    pushes : bool
+        Whether it is a force; otherwise a moment.
     """
 
     column: str
     body: int
     vector: Array
     world: bool
-    arm: Array
-    reach: float
+    at: Vector
+    pushes: bool
+
+    @cached_property
+    def arm(self) -> Array:
+        """Force and moment about the joint's point by the components in the body's axes, (6, 3)."""
+        # power is the same on both sides, so forces pass by the transpose of what accelerations do
+        found: Array = beside(self.at).T[:, :3] if self.pushes else np.eye(6)[:, 3:]
+        return found
+
+    @property
+    def reach(self) -> float:
+        """Lever of a force about the joint's point, m; 1 m for a moment."""
+        return float(np.linalg.norm(self.at)) if self.pushes else 1.0
 
     def on_body(self, facing: Array) -> Array:
         """Return the components in the body's axes, (3,), which see the world's as ``facing`` says, (3, 3)."""
@@ -59,7 +72,7 @@ def unit_loads(arm: SpatialArm) -> Iterator[Load]:
 def held_loads(arm: SpatialArm, given: Mapping[str, float]) -> tuple[Load, ...]:
     """Return the loads that constant inputs hold."""
     return tuple(
-        Load(each.column, each.body, given[each.column] * each.vector, each.world, each.arm, each.reach)
+        replace(each, vector=given[each.column] * each.vector)
         for each in unit_loads(arm)
         if given.get(each.column, 0.0)
     )
@@ -70,8 +83,4 @@ def _load(item: ArmInput, column: str, vector: Array) -> Load:
     body = item.frame.joint - 1
     world = item.axes == "world"
     seen = vector if world else np.array(item.frame.turn) @ vector
-    if item.acts == "force":
-        # power is the same on both sides, so forces pass by the transpose of what accelerations do
-        passed = beside(item.frame.at).T[:, :3]
-        return Load(column, body, seen, world, passed, float(np.linalg.norm(item.frame.at)))
-    return Load(column, body, seen, world, np.eye(6)[:, 3:], 1.0)
+    return Load(column, body, seen, world, item.frame.at, item.acts == "force")

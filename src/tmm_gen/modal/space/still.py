@@ -117,10 +117,9 @@ class Still:
     @cached_property
     def acting(self) -> Array:
         """The most that weight and loads can do about each joint, (n,), N m."""
-        forces, levers = np.zeros(self.numbers.size), np.zeros(self.numbers.size)
         found = self.numbers.weighing
         for load in self.loads:
-            forces, levers = np.zeros(self.numbers.size), np.zeros(self.numbers.size)
+            forces, levers = np.zeros((2, self.numbers.size))
             forces[load.body], levers[load.body] = np.linalg.norm(load.vector), load.reach
             found = found + self.numbers.stretched(forces, levers)
         return found
@@ -205,16 +204,16 @@ class Still:
     def heights(self) -> Array:
         """What is left of places by motions that weight and loads do not mind, (k,), m: all along what acts.
 
-        The bodies' centres against gravity, and the points on which loads in world axes act along them.
+        The bodies' centres against gravity, and the points on which forces in world axes act along them.
         """
         down = np.array(self.numbers.arm.gravity)
         centers = np.array([joint.body.center for joint in self.numbers.arm.joints])
         places = self._points[1:] + np.einsum("nij,ni->nj", self.facing, centers)
         found = [-(places @ down) / (np.linalg.norm(down) or 1.0)]
         for load in self.loads:
-            if load.world:
-                way = load.vector / np.linalg.norm(load.vector)
-                found.append(self._points[[load.body + 1]] @ way)
+            if load.world and load.pushes:
+                place = self._points[load.body + 1] + self.facing[load.body].T @ np.array(load.at)
+                found.append(np.array([place @ load.vector / np.linalg.norm(load.vector)]))
         return np.concatenate(found)
 
     def place(self, frame: Frame) -> Array:
