@@ -8,8 +8,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from scipy.linalg import eigh
+from support.spatial.beams import End, add_beam
 from support.spatial.random_arms import random_arm
 from support.spatial.yardsticks import (
+    CANTILEVER,
     STRIP,
     cantilever,
     cantilever_frequencies,
@@ -107,6 +109,26 @@ def test_ball_joint_in_any_position(seed: int) -> None:
     assert [mode.frequency > 0.0 for mode in modes] == [False, True, True]
     exact = frequencies(arm, still.angles)
     assert [mode.frequency for mode in modes[1:]] == pytest.approx(exact[1:], rel=1e-10)
+
+
+def test_beam_on_a_ball_joint_hangs_bent_and_turns_freely() -> None:
+    """Sixty-three joints, and still one motion that weight does not mind, whichever way it points."""
+    rng, known = np.random.default_rng(0), []
+    for _ in range(3):
+        down = rng.normal(size=3)
+        down *= G / np.linalg.norm(down)
+        beside = RigidBody(0.2, (0.05, 0.03, 0.02), (1e-3, 1e-3, 1e-3, 0.0, 0.0, 0.0))
+        joints = list(ball(beside, (0.0, 0.0, 0.0), *rng.normal(size=3).tolist()).joints)
+        add_beam(joints, CANTILEVER, 20, End(3))
+        still = rested(SpatialArm(tuple(joints), gravity=tuple(down.tolist())))
+        assert np.all(np.abs(still.unbalanced) < 1e-14 * still.scale)
+        modes = find_modes(space_matrices(still), 4)
+        assert [mode.frequency > 0.0 for mode in modes] == [False, True, True, True]
+        found = [mode.frequency for mode in modes[1:]]
+        assert found == pytest.approx(frequencies(still.numbers.arm, still.angles)[1:4], rel=1e-9)
+        known.append(found)
+    assert known[1] == pytest.approx(known[0], rel=1e-12)
+    assert known[2] == pytest.approx(known[0], rel=1e-12)
 
 
 @pytest.mark.parametrize("axis", [0, 1])

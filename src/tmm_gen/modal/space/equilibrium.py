@@ -59,7 +59,7 @@ def descended(numbers: ArmNumbers, given: Mapping[str, float], start: Array, nam
         size = max(1.0, float(np.max(np.abs(still.angles))))
         # many joints round more: then turns do not become smaller any more
         if largest <= TOLERANCE * size or (largest <= _SETTLED * size and largest > 0.5 * before):
-            return still
+            return Still(numbers, still.angles + turn, given)
         before = largest
         share = min(1.0, LARGEST_TURN / largest)
         slope = float(still.unbalanced @ turn)  # of the energy, downward
