@@ -357,6 +357,25 @@ def test_what_weight_does_not_mind_is_free_and_what_it_minds_a_little_is_not() -
     assert small[1e-7] == pytest.approx(small[1e-5], rel=1e-4)
 
 
+def test_what_falls_over_beside_what_turns_freely() -> None:
+    """On a yaw joint a pendulum stands on its head, another hangs from it by a spring across: one of each kind."""
+    joints = (
+        Revolute("yaw", 0, axis=2, body=RigidBody(0.3, (0.2, 0.0, 0.0))),
+        Revolute("stands", 1, axis=1, body=BODY),
+        Revolute("leans", 2, at=(0.0, 0.0, -0.4), axis=0, stiffness=9.0, body=BODY),
+    )
+    arm = SpatialArm(joints, gravity=(0.0, 0.0, -G))
+    still = Still(ArmNumbers(arm), np.array([0.3, math.pi, 0.0]), {})
+    assert np.all(np.abs(still.unbalanced) < 1e-14 * still.scale)
+    modes = find_modes(space_matrices(still))
+    exact = frequencies(arm, still.angles)
+    assert [mode.unstable for mode in modes] == [True, False, False]
+    assert [mode.frequency > 0.0 for mode in modes] == [False, False, True]
+    assert modes[0].poles[0].real == pytest.approx(-exact[0], rel=1e-12)
+    assert modes[2].frequency == pytest.approx(exact[2], rel=1e-12)
+    assert max(mode.bound for mode in modes) < 1e-12
+
+
 def test_a_weak_spring_is_a_spring() -> None:
     """Ten decades softer than weight: it is seen beside nothing, as nothing else resists there."""
     soft, softer = (found_frequencies(yawing(stiffness=k))[0] for k in (1e-10, 1e-14))

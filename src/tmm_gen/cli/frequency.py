@@ -100,7 +100,11 @@ def frequency(
     # energies go with the square of the motion
     readable = tuple(item for item in loaded.outputs if not loaded.quantity(item).of_arm)
     read = _chosen(scene, readable, target, "--to", "[[output]] of a place")
-    with progress(f"frequency response of {loaded.name}"):
+    import numpy as np
+
+    # what overflows in an arm in space is refused
+    quiet = np.errstate(all="ignore" if loaded.spatial else None)
+    with progress(f"frequency response of {loaded.name}"), quiet:
         answer = _respond(loaded, inputs, chosen, read, (low, high), points)
         written = _write(scene, answer, csv_file, picture)
     _show(answer, written, json_mode)

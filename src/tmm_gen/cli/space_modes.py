@@ -30,7 +30,9 @@ def show_space_modes(
     scene: Scene, count: int, inputs: dict[str, float], picture: Path | None, json_mode: bool
 ) -> None:
     """Find and show the modes of an arm in space."""
-    with progress(f"finding modes of {scene.name}"):
+    import numpy as np
+
+    with progress(f"finding modes of {scene.name}"), np.errstate(all="ignore"):  # what overflows is refused
         from tmm_gen.modal.modes import find_modes
         from tmm_gen.modal.space.situation import resting_in_space
 

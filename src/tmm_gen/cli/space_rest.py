@@ -25,7 +25,12 @@ _ALL = 4
 
 def show_space_rest(scene: Scene, inputs: dict[str, float], picture: Path | None, json_mode: bool) -> None:
     """Find and show the equilibria of an arm in space."""
-    with progress(f"balancing {scene.name}") as advance:
+    import numpy as np
+
+    with (
+        progress(f"balancing {scene.name}") as advance,
+        np.errstate(all="ignore"),
+    ):  # what overflows is refused
         from tmm_gen.modal.space.equilibria import equilibria_in_space
         from tmm_gen.modal.space.situation import arm_numbers
 

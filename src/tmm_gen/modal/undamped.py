@@ -138,7 +138,7 @@ def _lowest(linear: Linear, springs: Resistance, turning: Array, count: int) -> 
 
 def _all(linear: Linear, springs: Resistance, turning: Array, count: int) -> tuple[Array, Array]:
     """Find all modes from dense matrices; those of the arm as a whole left out."""
-    from scipy.linalg import cholesky, eigh, svd  # slow to import
+    from scipy.linalg import cholesky, eigh, qr, svd  # slow to import
     from scipy.linalg.lapack import dgejsv
 
     first, loose = turning.shape[1], springs.loose
@@ -159,13 +159,16 @@ def _all(linear: Linear, springs: Resistance, turning: Array, count: int) -> tup
             right = rows.T
         return 1.0 / sizes**2, bends @ right / sizes
     signs = np.delete(springs.signs, loose, axis=0)
+    if first:  # what turns as a whole has no part in the others, and would be eigenvalues of rounding
+        factor = qr(root @ turning)[0][:, first:].T @ factor
     values, vectors = eigh(factor @ (signs * factor.T))
     soft = 1.0 / values
     shapes = bends @ (signs * (factor.T @ vectors)) * soft
     order = np.argsort(soft)
     soft, shapes = soft[order], shapes[:, order]
     stiff, others = eigh(linear.stiffness, linear.mass)
-    stiff, others = stiff[first:], others[:, first:]
+    whole = springs.negative + np.arange(first)  # between those that fall over and those that swing
+    stiff, others = np.delete(stiff, whole), np.delete(others, whole, axis=1)
     low = np.abs(soft) <= np.sqrt(np.min(np.abs(soft)) * np.max(np.abs(stiff)))
     return np.where(low, soft, stiff), np.where(low, shapes, others)
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.errors import UserError
-from tmm_gen.modal.space.judged import require_energy
+from tmm_gen.modal.space.judged import require_energy, require_numbers
 from tmm_gen.modal.space.numbers import ArmNumbers
 from tmm_gen.modal.space.springs import SpaceSprings
 from tmm_gen.modal.space.still import ROUNDING, Still
@@ -49,7 +49,7 @@ def descended(numbers: ArmNumbers, given: Mapping[str, float], start: Array, nam
     UserError
         If there is none: a torque turns a joint forever, or what acts has no energy.
     """
-    still = Still(numbers, start, given)
+    still = require_numbers(Still(numbers, start, given), name)
     before = np.inf
     for _ in range(_STEPS):
         turn = descent(still)

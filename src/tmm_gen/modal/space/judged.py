@@ -33,8 +33,32 @@ def require_energy(still: Still, name: str) -> Still:
     )
 
 
+def require_numbers(still: Still, name: str) -> Still:
+    """Return an arm held still of which all numbers are numbers.
+
+    Parameters
+    ----------
+    still : Still
+        Wherever an arm is.
+    name : str
+        Of the scene.
+
+    Raises
+    ------
+    UserError
+        If one overflows.
+    """
+    found = (still.mass, still.geometric, still.scale, still.numbers.damping)
+    if not all(np.all(np.isfinite(each)) for each in found):
+        raise UserError(
+            f"scene '{name}': the arm's masses, lengths or forces leave the range of numbers. Look for one that is far "
+            "too large."
+        )
+    return still
+
+
 def require_inertia(still: Still, name: str) -> Still:
-    """Return a rest about which every joint turns something.
+    """Return a rest about which all numbers are numbers, and every joint turns something.
 
     Parameters
     ----------
@@ -46,10 +70,10 @@ def require_inertia(still: Still, name: str) -> Still:
     Raises
     ------
     UserError
-        If rounding leaves nothing of some joint's inertia.
+        If numbers overflow, or rounding leaves nothing of some joint's inertia.
     """
     try:
-        np.linalg.cholesky(still.mass)
+        np.linalg.cholesky(require_numbers(still, name).mass)
     except np.linalg.LinAlgError:
         raise UserError(
             f"scene '{name}': the arm's masses lie too far apart for double precision, so that some joint seems to "

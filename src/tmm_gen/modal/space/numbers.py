@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -103,15 +104,6 @@ class ArmNumbers:
         """Indices of the joints without a spring."""
         return np.flatnonzero(self.stiffness == 0.0)
 
-    @cached_property
-    def along(self) -> Array:
-        """The way from the base to each joint along the arm, (n,), m."""
-        found = np.zeros(self.size)
-        for number, joint in enumerate(self.arm.joints):
-            before = found[joint.host - 1] if joint.host else 0.0
-            found[number] = before + np.linalg.norm(joint.at)
-        return found
-
     @property
     def reach(self) -> float:
         """The longest way along the arm, m; 1 where it has no length."""
@@ -121,8 +113,8 @@ class ArmNumbers:
     def weighing(self) -> Array:
         """The most that weight can do about each joint, all levers stretched out, (n,), N m."""
         masses = np.array([joint.body.mass for joint in self.arm.joints])
-        levers = np.array([float(np.linalg.norm(joint.body.center)) for joint in self.arm.joints])
-        return self.stretched(float(np.linalg.norm(self.arm.gravity)) * masses, levers)
+        levers = np.array([math.hypot(*joint.body.center) for joint in self.arm.joints])
+        return self.stretched(math.hypot(*self.arm.gravity) * masses, levers)
 
     def stretched(self, forces: Array, levers: Array) -> Array:
         """Return the most that forces on bodies can do about each joint, (n,), N m.
@@ -134,6 +126,10 @@ class ArmNumbers:
         levers : array, (n,)
             About the body's own joint, m.
         """
-        beyond = self.ways.T
-        found: Array = beyond @ (forces * (self.along + levers)) - (beyond @ forces) * self.along
+        found, total = forces * levers, np.array(forces, float)
+        for number in reversed(range(self.size)):
+            host = self.hosts[number]
+            if host >= 0:
+                total[host] += total[number]
+                found[host] += found[number] + total[number] * math.hypot(*self.arm.joints[number].at)
         return found

@@ -196,6 +196,8 @@ class Still:
     @property
     def conservative(self) -> bool:
         """Whether what acts has an energy here: no load that turns with its body does work around a small loop."""
+        if not self.loads:
+            return True
         skew = np.abs(self.geometric - self.geometric.T)
         about = np.sqrt(self.acting[:, None] * self.acting[None, :])
         return bool(np.all(skew <= 1e3 * ROUNDING * self.numbers.size * about))
