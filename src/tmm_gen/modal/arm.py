@@ -117,7 +117,7 @@ def linear_arm(scene: Scene, rest: Rest | None = None) -> LinearArm:
     rest : Rest, optional
         About which a planar arm moves; by default straight along x and weightless.
     """
-    require_flat(scene, "modes and frequency responses do not")
+    require_flat(scene, "transfer matrices about rest do not")
     if scene.model.linear:
         return _chain(scene)
     return _planar(scene, rest if rest is not None else rest_at(scene, straight(scene), gravity=0.0))

@@ -78,7 +78,7 @@ def rest_at(
     inputs : mapping from str to float, optional
         Constant inputs by name; those not given are zero.
     """
-    require_flat(scene, "states of rest do not")
+    require_flat(scene, "angles of links at rest do not")
     given = inputs or {}
     turning = scene.hub
     n = scene.stations

@@ -53,9 +53,14 @@ def arm_numbers(scene: Scene) -> ArmNumbers:
     Raises
     ------
     UserError
-        If it has more than `MOST_JOINTS` joints.
+        If its base moves, or it has more than `MOST_JOINTS` joints.
     """
     assert scene.spatial is not None
+    if scene.prescribed is not None or scene.floats:
+        raise UserError(
+            f"scene '{scene.name}': small motion of an arm in space whose base moves is not there yet. Clamp it: "
+            '`kind = "clamp"` under [base].'
+        )
     found = ArmNumbers(scene.spatial)
     if found.size > MOST_JOINTS:
         raise UserError(
