@@ -168,6 +168,7 @@ LONG = (
     "control/test_mpc_command.py",
     "control/test_tuning.py",
     "docs/test_mpc_page.py",
+    "docs/test_space_page.py",
     "docs/test_stability_page.py",
     "modal/test_time_and_frequency.py",
     "planar/test_accuracy.py",

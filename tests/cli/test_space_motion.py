@@ -14,6 +14,7 @@ import pytest
 from tmm_gen.cli import main
 from tmm_gen.modal.space.response import space_response
 from tmm_gen.modal.space.situation import resting_in_space
+from tmm_gen.native.python_module import numpy_module
 from tmm_gen.scene import load_scene
 
 ARM = """
@@ -229,17 +230,38 @@ name = "second"
 on = "rod"
 axis = "x"
 stiffness = 0.4
-[[body]]
+[[link]]
 name = "bob"
 on = "second"
 mass = 0.3
-center = [0, 0, -0.3]
+end = [0, 0, -0.6]
 inertia = [1e-3, 1e-3, 1e-3]
+[[input]]
+name = "drive"
+at = "first"
+acts = "torque"
+[[input]]
+name = "wind"
+at = "bob"
+acts = "force"
+in = "world"
 [[output]]
 name = "first"
 at = "first"
 of = "angle"
 """
+
+
+def test_the_kernel_lets_nothing_accelerate_at_rest(capsys: pytest.CaptureFixture[str]) -> None:
+    Path("pendulums.toml").write_text(PENDULUMS)
+    given = {"drive": 0.3, "wind_x": -0.4, "wind_y": 0.5}
+    words = [word for name, value in given.items() for word in ("--input", f"{name}={value}")]
+    angles = facts("rest", "pendulums.toml", *words, capsys=capsys)["rows"][0]["angles"]
+    assert min(map(abs, angles)) > 0.02
+    module = numpy_module(load_scene(Path("pendulums.toml")))
+    for inputs, still in ((given, True), ({}, False)):
+        state = module.initialise(module.Params(), module.Input(**inputs), initial_angle=np.array(angles))
+        assert bool(np.max(np.abs(state.acceleration)) < 1e-12) is still
 
 
 def test_stability(capsys: pytest.CaptureFixture[str]) -> None:
