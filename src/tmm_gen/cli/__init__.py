@@ -40,7 +40,7 @@ COMMANDS = {
     "build": LazyCommand("tmm_gen.cli.build:build", "Generate the kernels of scenes; --check only compares."),
     "check": LazyCommand("tmm_gen.cli.check:check", "Compile and compare every backend of a scene."),
     "run": LazyCommand("tmm_gen.cli.run:run", "Simulate a scene."),
-    "rest": LazyCommand("tmm_gen.cli.rest:rest", "Show where a planar arm comes to rest, or would balance."),
+    "rest": LazyCommand("tmm_gen.cli.rest:rest", "Show where an arm comes to rest, or would balance."),
     "modes": LazyCommand("tmm_gen.cli.modes:modes", "Show natural frequencies, damping and mode shapes."),
     "frequency": LazyCommand(
         "tmm_gen.cli.frequency:frequency", "Show frequency responses, and how few links a scene requires."

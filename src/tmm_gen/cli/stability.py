@@ -52,7 +52,7 @@ def stability(
     """Show where SCENE stands against the limit of stability of every integrator.
 
     Limits and growth are derived: the largest eigenvalue, over all modes of the scene with their own damping, of the
-    amplification matrix of a step. A planar arm moves about its static equilibrium. Then the same growth is measured
+    amplification matrix of a step. Arms move about their static equilibrium. Then the same growth is measured
     by running the generated kernel over a map of steps and stiffnesses; exit code 1 where it differs.
     """
     from tmm_gen.scene.integrator import INTEGRATOR_NAMES
