@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 import warnings
 from collections.abc import Iterator
@@ -182,10 +183,15 @@ def plain_power(label: str) -> str:
     return re.sub(r"\^\{([^}]*)\}", lambda found: found[1].replace("\u2212", "-").translate(_RAISED), bare)
 
 
+LEGEND_COLUMNS = 4
+"""Names beside each other above axes, at most."""
+
+
 def subtitle(axes: Axes, title: str, below: str) -> None:
     """Put a title over axes, and a fainter line between both; a legend of several names there stays below them."""
     legend = axes.get_legend()
-    above = 20.0 if legend is not None and len(legend.get_texts()) > 2 else 0.0
+    names = len(legend.get_texts()) if legend is not None else 0
+    above = 6.0 + 14.0 * math.ceil(names / LEGEND_COLUMNS) if names > 2 else 0.0
     axes.set_title(title, loc="left", pad=22 + above)
     axes.annotate(
         below,

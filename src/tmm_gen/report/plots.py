@@ -14,7 +14,7 @@ from tmm_gen.report.space_picture import draw_arm
 from tmm_gen.scene.columns import output_columns
 from tmm_gen.scene.quantity import INPUT_UNITS
 from tmm_gen.simulate.simulation import Simulation
-from tmm_gen.style import PALETTE, panelled, picture, style, subtitle
+from tmm_gen.style import LEGEND_COLUMNS, PALETTE, panelled, picture, style, subtitle
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -78,4 +78,5 @@ def _curves(panel: Axes, time: Array, values: Mapping[str, Array]) -> None:
         panel.plot(
             time, curve, color=PALETTE[k % len(PALETTE)], linestyle=_LINES[k // len(PALETTE) % 4], label=name
         )
-    panel.legend(loc="lower right", ncols=min(len(values), 4), bbox_to_anchor=(1.0, 1.0), borderaxespad=0.2)
+    columns = min(len(values), LEGEND_COLUMNS)
+    panel.legend(loc="lower right", ncols=columns, bbox_to_anchor=(1.0, 1.0), borderaxespad=0.2)
