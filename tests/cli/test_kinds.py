@@ -30,7 +30,7 @@ MORE = {
 }
 """What commands must be given beside a scene."""
 
-FORMATS = ("fmu", "mjcf")
+FORMATS = ("fmu", "mjcf", "urdf")
 
 
 @pytest.fixture

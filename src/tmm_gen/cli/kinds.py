@@ -20,6 +20,7 @@ SERVED: Mapping[str, tuple[str, ...]] = {
         "modes",
         "frequency",
         "stability",
+        "export --to fmu",
         "export --to mjcf",
         "export --to urdf",
     )
