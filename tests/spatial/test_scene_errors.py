@@ -197,13 +197,21 @@ CASES = {
         'Remove it; `real = "float64"`',
         ('real = "float32"\ncompensated = true', 'real = "float64"'),
     ),
-    "box": Case(
+    "box of what is no input": Case(
         MOTOR,
-        "[emit.box]\nangles = [-1.0, 1.0]\n\n" + MOTOR,
-        "emit.box",
-        "is not there yet for arms in space",
-        "Remove it.",
-        ("[emit.box]\nangles = [-1.0, 1.0]\n", ""),
+        "[emit.box]\nangle = [-1.0, 1.0]\n\n" + MOTOR,
+        "emit.box.angle",
+        "is neither a state nor an input",
+        "'angles'",
+        ("angle = [-1.0", "angles = [-1.0"),
+    ),
+    "box of a step that is a constant": Case(
+        MOTOR,
+        '[emit]\nparameters = "bound"\n[emit.box]\nstep = [1e-3, 2e-3]\n\n' + MOTOR,
+        "emit.box.step",
+        "bounds a step that is a constant",
+        'parameters = "free"',
+        ('parameters = "bound"\n', 'parameters = "free"\n'),
     ),
     "setting of a language that is not emitted": Case(
         MOTOR,

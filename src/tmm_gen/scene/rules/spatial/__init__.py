@@ -11,7 +11,7 @@ from tmm_gen.scene.rules.integration import explicit_needs_acceleration, integra
 from tmm_gen.scene.rules.spatial.hanging import not_too_many, one_tree, part_names
 from tmm_gen.scene.rules.spatial.inertia import something_to_turn
 from tmm_gen.scene.rules.spatial.parts import ends, in_range, inertias, rigid_gears, twists
-from tmm_gen.scene.rules.spatial.settings import clamped, emitted, own_tables
+from tmm_gen.scene.rules.spatial.settings import boxed, clamped, emitted, own_tables
 from tmm_gen.scene.rules.spatial.signals import (
     distinct_names,
     initial_by_name,
@@ -36,6 +36,7 @@ RULES: tuple[tuple[Rule, ...], ...] = (
         real_is_used,
         budget_not_empty,
         batch_suits,
+        boxed,
     ),
 )
 """Each group takes those before it for granted."""
