@@ -13,7 +13,6 @@ from tmm_gen.cli.kinds import SERVED
 from tmm_gen.control.problem import control_problem
 from tmm_gen.derive.integrators.registry import integrator
 from tmm_gen.errors import UserError
-from tmm_gen.explain.explanation import explain
 from tmm_gen.modal.arm import linear_arm
 from tmm_gen.modal.rest import rest_at, straight
 from tmm_gen.row.scene import row_of
@@ -89,7 +88,6 @@ FUNCTIONS: dict[str, Callable[[Scene], object]] = {
     "row": lambda scene: row_of(scene, integrator("newmark")),
     "modes": linear_arm,
     "rest": lambda scene: rest_at(scene, straight(scene)),
-    "explain": explain,
     "calibrate": lambda scene: calibrate(scene, {}),
     "study": excitation,
     "control": control_problem,
@@ -107,9 +105,9 @@ def test_keys_of_the_scene_can_be_set_for_a_command_that_refuses_it(
     scene: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """Wrong keys come first."""
-    assert main(["explain", str(scene), "--set", "motor.yaw.gear=-1"]) == 2
+    assert main(["stability", str(scene), "--set", "motor.yaw.gear=-1"]) == 2
     assert "motor[1].gear: must be greater than 0" in capsys.readouterr().err
-    assert main(["explain", str(scene), "--set", "motor.yaw.gear=10"]) == 2
+    assert main(["stability", str(scene), "--set", "motor.yaw.gear=10"]) == 2
     assert "does not serve" in capsys.readouterr().err
 
 

@@ -16,6 +16,7 @@ SERVED: Mapping[str, tuple[str, ...]] = {
         "build",
         "run",
         "check",
+        "explain",
         "rest",
         "modes",
         "frequency",

@@ -59,7 +59,7 @@ def handed_at(loop: Loop, scalars: frozenset[Variable]) -> dict[int, tuple[Varia
         if isinstance(inner, Require):
             found |= _all_there(since)
             since, pivots = {}, pivots + 1
-        elif isinstance(inner, Assign) and pivots and inner.target.variable in scalars:
+        elif pivots and inner.target.variable in scalars:
             since[inner.target.variable] = place
     return found | _all_there(since)
 
