@@ -18,7 +18,6 @@ from tmm_gen.modal.rest import rest_at, straight
 from tmm_gen.row.scene import row_of
 from tmm_gen.scene import Scene, parse_scene
 from tmm_gen.scene.template import template
-from tmm_gen.study.excitation import excitation
 
 WITHOUT_A_SCENE = {"new", "import", "keys", "integrators", "errata", "demo"}
 """Commands that take none; `demo` brings its own, `import` makes one."""
@@ -89,7 +88,6 @@ FUNCTIONS: dict[str, Callable[[Scene], object]] = {
     "modes": linear_arm,
     "rest": lambda scene: rest_at(scene, straight(scene)),
     "calibrate": lambda scene: calibrate(scene, {}),
-    "study": excitation,
     "control": control_problem,
 }
 

@@ -21,6 +21,8 @@ SERVED: Mapping[str, tuple[str, ...]] = {
         "modes",
         "frequency",
         "stability",
+        "trade",
+        "tune",
         "export --to fmu",
         "export --to mjcf",
         "export --to urdf",

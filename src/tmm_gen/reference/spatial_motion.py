@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.inputs.signals import Signal
-from tmm_gen.reference.collocation import integrate
+from tmm_gen.reference.collocation import Trajectory, integrate
 from tmm_gen.reference.spatial_arm import WorldArm
 from tmm_gen.scene.spatial.arm import SpatialArm
 
@@ -40,17 +40,38 @@ def motion(
     ReferenceError
         If the equations cannot be integrated.
     """
-    world, times = WorldArm(arm), np.asarray(times, float)
+    times = np.asarray(times, float)
+    q, v, _ = trajectory(arm, signals, max(float(times[-1]), 1e-9), tolerance).at(times)
+    return q, v, WorldArm(arm).forward_dynamics(q, v, given(signals, times))
+
+
+def trajectory(arm: SpatialArm, signals: Signals, until: float, tolerance: float = 1e-11) -> Trajectory:
+    """Return the motion from where the arm starts as polynomials.
+
+    Parameters
+    ----------
+    arm : SpatialArm
+    signals : mapping from str to Signal
+        Inputs by column; those not given are zero.
+    until : float
+        s, from 0.
+    tolerance : float
+        See :func:`tmm_gen.reference.collocation.integrate`.
+
+    Raises
+    ------
+    ReferenceError
+        If the equations cannot be integrated.
+    """
+    world = WorldArm(arm)
 
     def residual(at: Array, q: Array, v: Array, a: Array) -> Array:
         return np.asarray(world.inverse_dynamics(q, v, a, given(signals, at)), np.float64)
 
-    until = max(float(times[-1]), 1e-9)
     knots = np.unique(np.concatenate([[0.0, until], *(signal.knots for signal in signals.values())]))
     breaks = knots[(knots >= 0.0) & (knots <= until)]
     slopes = _Slopes(world, signals)
-    q, v, _ = integrate(residual, slopes, *_start(arm), breaks, tolerance).at(times)
-    return q, v, world.forward_dynamics(q, v, given(signals, times))
+    return integrate(residual, slopes, *_start(arm), breaks, tolerance)
 
 
 def given(signals: Signals, times: Array) -> dict[str, Array]:
