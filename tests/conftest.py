@@ -179,6 +179,7 @@ LONG = (
     "spatial/test_budgets.py",
     "spatial/test_hard_cases.py",
     "spatial/test_import_motion.py",
+    "spatial/test_integrators.py",
     "spatial/test_newton.py",
     "spatial/test_order.py",
     "spatial/test_pictures.py",
