@@ -193,9 +193,9 @@ CASES = {
         MOTOR,
         '[emit]\nreal = "float32"\ncompensated = true\n\n' + MOTOR,
         "emit.compensated",
-        "is not there yet for arms in space",
-        'Remove it; `real = "float64"`',
-        ('real = "float32"\ncompensated = true', 'real = "float64"'),
+        "needs sines that are as exact",
+        'Write trigonometry = "own"',
+        ("compensated = true", 'compensated = true\ntrigonometry = "own"'),
     ),
     "box of what is no input": Case(
         MOTOR,

@@ -71,7 +71,7 @@ def compensated_suits(document: Document) -> Iterator[Finding]:
             "Remove one of them: exact derivatives are emitted without compensation.",
             True,
         )
-    if document.model.kind == "planar" and emit.trigonometry != "own":
+    if document.model.kind in ("planar", "spatial") and emit.trigonometry != "own":
         yield Finding(
             key,
             "needs sines that are as exact, which a C library has not",

@@ -63,13 +63,6 @@ def emitted(document: SpatialDocument) -> Iterator[Finding]:
             "Remove it; models in CasADi can be differentiated as they are.",
             True,
         )
-    if emit.compensated:
-        yield Finding(
-            ("emit", "compensated"),
-            "is not there yet for arms in space",
-            'Remove it; `real = "float64"` rounds less.',
-            True,
-        )
 
 
 def boxed(document: SpatialDocument) -> Iterator[Finding]:
