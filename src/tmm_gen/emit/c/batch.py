@@ -65,7 +65,7 @@ class BatchBody(Body):
         return self._within(value, self.real.literal(largest), "<", depth)
 
     def _fenced_together(self, scalars: tuple[Variable, ...], depth: int) -> Iterator[str]:
-        """Yield checks that each number is below its share: so is then the sum; an arm where one is not is asked alone."""
+        """Yield checks that each number is below its share: so is then the sum; other arms are asked alone."""
         share = self.fence.sum / 2.0 ** math.ceil(math.log2(len(scalars)))
         for variable in scalars:
             yield from self._within(local_name(variable), self.real.literal(share), "<", depth)
