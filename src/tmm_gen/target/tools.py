@@ -10,7 +10,7 @@ from pathlib import Path
 
 from tmm_gen.errors import UserError
 
-TIMEOUT = 180.0
+TIMEOUT = 60.0
 """Seconds after which a program is given up."""
 
 
