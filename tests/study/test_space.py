@@ -12,6 +12,7 @@ from support.spatial.boom import BOOM
 from support.spatial.palm import PALM
 
 from tmm_gen.cli import main
+from tmm_gen.inputs.signals import Constant
 from tmm_gen.reference.spatial_arm import WorldArm
 from tmm_gen.reference.spatial_reference import spatial_response
 from tmm_gen.scene import Scene, load_scene, parse_scene
@@ -19,6 +20,7 @@ from tmm_gen.study.cells import cuts
 from tmm_gen.study.configuration import Configuration, own
 from tmm_gen.study.excitation import Excitation, excitation
 from tmm_gen.study.grid import Axes, configurations, families
+from tmm_gen.study.modelling import depends_on_links, modelling_errors
 from tmm_gen.study.rewrite import rewritten
 from tmm_gen.study.study import Study, run_study
 from tmm_gen.study.truth import find_truth
@@ -121,6 +123,17 @@ def test_cells_of_all_beams_are_varied() -> None:
     assert scene.spatial is not None
     assert len(made.spatial.joints) == len(scene.spatial.joints) + 2 * 3
     assert made.integrator.step == 1e-3
+
+
+def test_cells_are_an_error_of_their_own() -> None:
+    """Which falls with the square of their number; the limit is extrapolated from references."""
+    short = BOOM.replace("links = 1", "links = 2").replace("length = 0.5", "length = 0.3")
+    scene = parse_scene(short, "boom.toml")
+    gone = excitation(scene, {"push_x": Constant(0.0), "torque": Constant(0.01)}, until=0.02)
+    assert depends_on_links(scene, gone)
+    found = modelling_errors([2], lambda n: find_truth(scene.replace(**{"beam.rod.links": n}), gone))
+    assert found[12].error < found[6].error < found[3].error < found[2].error
+    assert found[2].order == pytest.approx(2.0, abs=0.5)
 
 
 def test_beams_of_different_cells_stay_as_they_are() -> None:
