@@ -99,16 +99,6 @@ def test_functions_say_so_too(name: str) -> None:
         FUNCTIONS[name](scene)
 
 
-def test_keys_of_the_scene_can_be_set_for_a_command_that_refuses_it(
-    scene: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    """Wrong keys come first."""
-    assert main(["stability", str(scene), "--set", "motor.yaw.gear=-1"]) == 2
-    assert "motor[1].gear: must be greater than 0" in capsys.readouterr().err
-    assert main(["stability", str(scene), "--set", "motor.yaw.gear=10"]) == 2
-    assert "does not serve" in capsys.readouterr().err
-
-
 def test_new_writes_an_arm_in_space(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
