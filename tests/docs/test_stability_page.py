@@ -34,11 +34,18 @@ def test_stability(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.Monke
 
 def test_explain(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(ROOT)
-    (words,) = commands("explain.md")
-    assert main(words) == 0
+    plain, in_space = commands("explain.md")
+    assert main(plain) == 0
     out = capsys.readouterr().out
     for figure in ("220 operations a step", "+144", "+69", "-256", "366 operations a step"):
         assert figure in out
+    assert main([*in_space, "--json"]) == 0
+    out = capsys.readouterr().out
+    page = (ROOT / "docs" / "explain.md").read_text().partition(in_space[-1])[2]
+    figures = re.findall(r"^\| [^|]*\| [^|]+\| [^|]+\| \+?(\d[\d ]*) \|", page, re.MULTILINE)
+    assert len(figures) > 3
+    for figure in figures:
+        assert re.search(rf"\b{figure.replace(' ', '')}\b", out), figure
 
 
 def test_scripts_that_pages_name_exist() -> None:
