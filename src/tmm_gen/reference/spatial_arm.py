@@ -146,7 +146,7 @@ class WorldArm:
         force = self.masses[:, None] * (pull - self.gravity)
         moment = applied(inertia, motions.spinning) + cross(motions.spin, applied(inertia, motions.spin))
         moment = moment + cross(center, force)  # from here on about the base
-        outer_force, outer_moment = self._loads(places, inputs)
+        outer_force, outer_moment = self.loads(places, inputs)
         beyond = self.tree.ways.T
         force, moment = beyond @ (force - outer_force), beyond @ (moment - outer_moment)
         turning = (places.axis * (moment - cross(places.point, force))).sum(axis=-1)
@@ -184,14 +184,14 @@ class WorldArm:
         by_v = self.inverse_dynamics(q, v + small, a, spread).imag / _STEP
         return np.swapaxes(by_q, -1, -2), np.swapaxes(by_v, -1, -2)
 
-    def _loads(self, places: Places, inputs: Inputs) -> tuple[Values, Values]:
+    def loads(self, places: Places, inputs: Inputs) -> tuple[Values, Values]:
         """Return the forces of inputs on each body and their moments about the base, (..., n, 3) each, N and N m."""
         force = np.zeros_like(places.point)
         moment = np.zeros_like(places.point)
         for item in self.arm.inputs:
             if item.frame is None or not item.frame.joint:  # what acts on the base moves nothing
                 continue
-            given = _components(item, inputs)
+            given = components(item, inputs)
             if given is None:
                 continue
             axes, point = places.frame(item.frame)
@@ -205,7 +205,7 @@ class WorldArm:
         return force, moment
 
 
-def _components(item: ArmInput, inputs: Inputs) -> Values | None:
+def components(item: ArmInput, inputs: Inputs) -> Values | None:
     """Return the components of a force or moment, (..., 3); None where none is given."""
     if not any(column in inputs for column in item.columns):
         return None

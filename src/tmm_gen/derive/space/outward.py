@@ -99,7 +99,7 @@ class Outward:
         ]
         *before, last = passages(pattern)
         self.crossings = (*(self._cross(e, "mount") for e in before), self._cross(last, "own"))
-        own = self._own()
+        own = body_force(self.sheet, pattern, self.omega, self.alpha, self.accel, (OWN_FORCE, OWN_MOMENT))
         carried = dict(zip((*OMEGA, *ALPHA, *ACCEL), (*self.omega, *self.alpha, *self.accel), strict=True))
         update = {s: v for s, v in carried.items() if s != v}
         self.named = (*circle, *copies, *self.sheet.lets)
@@ -135,28 +135,44 @@ class Outward:
         """Return a value by its name if it has one."""
         return value if (found := self.sheet.known(value)) is None else found
 
-    def _own(self) -> list[Let]:
-        pattern, sheet = self.pattern, self.sheet
-        if not pattern.massive:
-            return []
-        body = body_equations(body_of(pattern))
-        motion = {
-            **dict(zip(OMEGA, self.omega, strict=True)),
-            **dict(zip(ALPHA, self.alpha, strict=True)),
-            **dict(zip(ACCEL, self.accel, strict=True)),
-        }
-        momentum = sheet.vector("momentum", body.momentum.xreplace(motion), "momentum of turning", "kg m/s")
-        spin = sheet.vector("spin", body.spin.xreplace(motion), "angular momentum", "kg m^2/s")
-        force = body.force.xreplace(motion) + self.omega.cross(momentum)
-        moment = body.moment.xreplace(motion) + self.omega.cross(spin)
-        return [
-            Let(symbol, value, doc, unit)
-            for symbols, values, doc, unit in (
-                (OWN_FORCE, force, "force that the body takes", "N"),
-                (OWN_MOMENT, moment, "moment that the body takes", "N m"),
-            )
-            for symbol, value in zip(symbols, values, strict=True)
-        ]
+
+def body_force(
+    sheet: Sheet,
+    pattern: Pattern,
+    omega: sp.Matrix,
+    alpha: sp.Matrix,
+    accel: sp.Matrix,
+    names: tuple[sp.Matrix, sp.Matrix],
+) -> list[Let]:
+    """Return the force and the moment that a body takes, by the motion of its section; nothing of none.
+
+    Parameters
+    ----------
+    sheet : Sheet
+        Receives what is named on the way; it comes before.
+    names : tuple of 2 sympy.Matrix
+        Of the force and of the moment.
+    """
+    if not pattern.massive:
+        return []
+    body = body_equations(body_of(pattern))
+    motion = {
+        **dict(zip(OMEGA, omega, strict=True)),
+        **dict(zip(ALPHA, alpha, strict=True)),
+        **dict(zip(ACCEL, accel, strict=True)),
+    }
+    momentum = sheet.vector("momentum", body.momentum.xreplace(motion), "momentum of turning", "kg m/s")
+    spin = sheet.vector("spin", body.spin.xreplace(motion), "angular momentum", "kg m^2/s")
+    force = body.force.xreplace(motion) + omega.cross(momentum)
+    moment = body.moment.xreplace(motion) + omega.cross(spin)
+    return [
+        Let(symbol, value, doc, unit)
+        for symbols, values, doc, unit in (
+            (names[0], force, "force that the body takes", "N"),
+            (names[1], moment, "moment that the body takes", "N m"),
+        )
+        for symbol, value in zip(symbols, values, strict=True)
+    ]
 
 
 def relative_acceleration(relative: sp.Matrix) -> sp.Matrix:

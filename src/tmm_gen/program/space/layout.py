@@ -11,6 +11,7 @@ from tmm_gen.derive.integrators.declaration import KINDS, Integrator, Past
 from tmm_gen.derive.integrators.history import history
 from tmm_gen.derive.space.declaration import AXES, PAIRS
 from tmm_gen.program.fields import MOTION_NAMES
+from tmm_gen.program.space.base_layout import BaseLayout, base_layout
 from tmm_gen.program.space.runs import Tree
 from tmm_gen.program.variables import Ref, Role, Variable
 from tmm_gen.scene.spatial.arm import ArmInput, Revolute, SpatialArm
@@ -32,6 +33,8 @@ class SpaceLayout:
         History of the joints' motion, newest first.
     held : dict from str to Variable
         Inputs as they last acted, kept where an output needs them.
+    base : BaseLayout or None
+        Of a base that floats.
     """
 
     name: str
@@ -44,6 +47,7 @@ class SpaceLayout:
     inputs: tuple[Variable, ...]
     outputs: tuple[Variable, ...]
     given: tuple[Variable, ...]
+    base: BaseLayout | None = None
 
     @property
     def arm(self) -> SpatialArm:
@@ -84,6 +88,7 @@ def layout_of(arm: SpatialArm, name: str, title: str, integrator: Integrator, st
     also = ", at each stage of the step" if stages > 1 else ""
     torques = {item.joint: item for item in arm.inputs if item.acts == "torque"}
     read = [torques[o.joint] for o in arm.outputs if o.quantity.read == "through" and o.joint in torques]
+    base = base_layout(arm.base, ordered) if arm.base is not None else None
     return SpaceLayout(
         name=name,
         title=title,
@@ -124,7 +129,9 @@ def layout_of(arm: SpatialArm, name: str, title: str, integrator: Integrator, st
                 "rad/s",
                 tuple(j.rate for j in arm.joints),
             ),
+            *(base.given.values() if base else ()),
         ),
+        base=base,
     )
 
 

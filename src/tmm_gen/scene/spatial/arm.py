@@ -5,9 +5,10 @@ Every body has a frame at the point of the joint that carries it; all that is sa
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal
 
+from tmm_gen.scene.digest import UNSAID
 from tmm_gen.scene.quantity import SPATIAL, Quantity
 
 Vector = tuple[float, float, float]
@@ -84,6 +85,31 @@ class Revolute:
     angle: float = 0.0
     rate: float = 0.0
     limits: tuple[float, float] | None = None
+
+
+@dataclass(frozen=True)
+class FreeBase:
+    """A base that floats.
+
+    Parameters
+    ----------
+    body : RigidBody
+        All that is rigidly fixed to it, in its frame.
+    at : tuple of float, length 3
+        Where its frame is at first, in world axes, m.
+    turn : tuple of tuple of float
+        Its axes at first in those of the world.
+    velocity : tuple of float, length 3
+        Of its frame's origin at first, in world axes, m/s.
+    rate : tuple of float, length 3
+        Its angular velocity at first, in its own axes, rad/s.
+    """
+
+    body: RigidBody
+    at: Vector = ZERO
+    turn: Turn = UPRIGHT
+    velocity: Vector = ZERO
+    rate: Vector = ZERO
 
 
 @dataclass(frozen=True)
@@ -198,9 +224,11 @@ class SpatialArm:
     frames : tuple of Frame
         Outer ends of all parts, in the order of the joints: each after what it hangs on.
     gravity : tuple of float, length 3
-        m/s^2, in world axes, which are those of the base.
+        m/s^2, in world axes, which are those of a base that never moves.
     inputs : tuple of ArmInput
     outputs : tuple of ArmOutput
+    base : FreeBase or None
+        What the arm stands on; None for one that never moves, whose axes are those of the world.
     """
 
     joints: tuple[Revolute, ...]
@@ -208,3 +236,4 @@ class SpatialArm:
     gravity: Vector = ZERO
     inputs: tuple[ArmInput, ...] = ()
     outputs: tuple[ArmOutput, ...] = ()
+    base: FreeBase | None = field(default=None, metadata=UNSAID)

@@ -1,0 +1,184 @@
+"""A base that floats: its motion by a turn counted from where a step begins.
+
+The turn within a step is said by three numbers, twice the vector of Rodrigues: the quaternion of the base is that at
+the step's start times ``(1, turn / 2)``, but for its length. All that follows of it are fractions, which have no
+singular point but half a turn in one step, so that an integrator keeps its order in these coordinates. So it does where
+it looks back over several steps, whose turns are counted anew from where each step begins.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+import sympy as sp
+
+from tmm_gen.derive.space.declaration import ACCEL, ALPHA, AXES, OMEGA, vector
+from tmm_gen.derive.space.outward import body_force
+from tmm_gen.derive.space.pattern import Pattern
+from tmm_gen.derive.space.pose import quaternion_axes, quaternion_product
+from tmm_gen.derive.space.sheet import Sheet
+from tmm_gen.derive.station.lets import Let, Line, Pivot, Update
+
+START = sp.Matrix(sp.symbols("start_w start_x start_y start_z", real=True))
+"""Quaternion of the base at the start of the step, of length one."""
+TURN, TURN_RATE, TURN_ACCELERATION = (vector(f"base_turn{kind}") for kind in ("", "_rate", "_acceleration"))
+"""What has turned it since then, and the derivatives by time."""
+PUSH = vector("base_push")
+"""Acceleration of its origin, in world axes."""
+GRAVITY = vector("gravity")
+FACING = sp.Matrix(3, 3, lambda i, j: sp.Symbol(f"base_facing_{AXES[i]}{AXES[j]}", real=True))
+"""Components in the base's axes by those in the world's."""
+FOUND = sp.Matrix(sp.symbols("base_found_w base_found_x base_found_y base_found_z", real=True))
+"""Quaternion of the base, of any length."""
+SHORT = sp.Symbol("base_shortness", real=True)
+"""One over the square of the length of ``(1, turn / 2)``."""
+OWN_FORCE, OWN_MOMENT = vector("base_force"), vector("base_moment")
+"""What its own body takes."""
+_SCALE = sp.Symbol("base_scale", real=True)
+NEW_QUATERNION = sp.Matrix(sp.symbols("base_new_w base_new_x base_new_y base_new_z", real=True))
+NEW_OMEGA, NEW_ALPHA = vector("base_new_omega"), vector("base_new_alpha")
+"""At the end of a step."""
+
+
+@cache
+def _kinematics() -> tuple[sp.Matrix, sp.Matrix, sp.Expr]:
+    """Return the relative quaternion, the angular velocity times its squared length, and that."""
+    relative = sp.Matrix([1, *(TURN / 2)])
+    changing = sp.Matrix([0, *(TURN_RATE / 2)])
+    inverse = sp.Matrix([relative[0], *(-relative[1:, 0])])
+    doubled = (2 * quaternion_product(inverse, changing)).applyfunc(sp.expand)
+    return relative, sp.Matrix(doubled[1:]), relative.dot(relative)
+
+
+def _changing(value: sp.Matrix | sp.Expr) -> sp.Matrix | sp.Expr:
+    """Return the derivative by time of what turn and its rate make."""
+    rates = zip((*TURN, *TURN_RATE), (*TURN_RATE, *TURN_ACCELERATION), strict=True)
+    terms = [value.diff(symbol) * rate for symbol, rate in rates]
+    return sum(terms[1:], terms[0])
+
+
+def spinning(sheet: Sheet, accelerations: dict[sp.Symbol, sp.Expr]) -> tuple[sp.Matrix, sp.Matrix]:
+    """Return angular velocity and angular acceleration of the base, in its own axes; names go on a sheet."""
+    _, twice, square = _kinematics()
+    short = sheet.named(SHORT.name, 1 / square, "how short the turn's quaternion must be")
+    omega = sheet.vector("base_spin", (short * twice).applyfunc(sp.factor_terms), "angular velocity", "rad/s")
+    slowing = sheet.named("base_slowing", sp.factor_terms(_changing(square)), "of that quaternion's length")
+    faster = _changing(twice).applyfunc(sp.expand).xreplace(accelerations)
+    alpha = sheet.vector(
+        "base_spinning", short * (faster - slowing * omega), "angular acceleration", "rad/s^2"
+    )
+    return omega, alpha
+
+
+def found_quaternion(sheet: Sheet) -> sp.Matrix:
+    """Return the quaternion of the base, longer than one."""
+    values = quaternion_product(START, _kinematics()[0])
+    return sp.Matrix(
+        [
+            sheet.named(s.name, value, "quaternion of the base, not of length one")
+            for s, value in zip(FOUND, values, strict=True)
+        ]
+    )
+
+
+@cache
+def outward_lines(pattern: Pattern, falls: tuple[bool, ...], *, still: bool) -> tuple[Line, ...]:
+    """Return the exact motion of the base, and what its body takes.
+
+    Parameters
+    ----------
+    pattern : Pattern
+        Of the base's body.
+    falls : tuple of bool, length 3
+        Which components gravity has.
+    still : bool
+        Whether the accelerations of place and turn are zero.
+    """
+    sheet = Sheet()
+    none = dict.fromkeys((*TURN_ACCELERATION, *PUSH), sp.Integer(0)) if still else {}
+    quaternion = found_quaternion(sheet)
+    omega, alpha = spinning(sheet, none)
+    axes = quaternion_axes(quaternion).T
+    facing = sp.Matrix(
+        3, 3, lambda i, j: sheet.named(FACING[i, j].name, SHORT * axes[i, j], "axes of the base")
+    )
+    weight = sp.Matrix([g if flag else 0 for g, flag in zip(GRAVITY, falls, strict=True)])
+    accel = sheet.vector(
+        "base_proper", facing * (PUSH.xreplace(none) - weight), "proper acceleration", "m/s^2"
+    )
+    own = body_force(sheet, pattern, omega, alpha, accel, (OWN_FORCE, OWN_MOMENT))
+    carried = zip((*OMEGA, *ALPHA, *ACCEL), (*omega, *alpha, *accel), strict=True)
+    return (*sheet.lets, *own, Update(dict(carried)))
+
+
+@cache
+def inner_turn_values() -> sp.Matrix:
+    """Return the rate of the turn by the angular velocity, shape (3, 3), by the turn."""
+    _, twice, square = _kinematics()
+    return (twice.jacobian(TURN_RATE).inv() * square).applyfunc(lambda v: sp.expand(sp.cancel(v)))
+
+
+def inner_turn(sheet: Sheet) -> sp.Matrix:
+    """Return the rate of the turn by the angular velocity, shape (3, 3); names go on a sheet."""
+    values = inner_turn_values()
+    return sp.Matrix(3, 3, lambda i, j: sheet.named(f"base_unturned_{AXES[i]}{AXES[j]}", values[i, j]))
+
+
+@cache
+def end_lines() -> tuple[Line, ...]:
+    """Return quaternion, angular velocity and angular acceleration where a step ends, at its turn.
+
+    Of any step's end the quaternion has length one, so that rounding does not add up.
+    """
+    sheet = Sheet()
+    quaternion = found_quaternion(sheet)
+    omega, alpha = spinning(sheet, {})
+    long = sheet.named("base_squared", quaternion.dot(quaternion), "square of that quaternion's length")
+    lines: list[Line] = [
+        *sheet.lets,
+        Pivot(long),
+        Let(_SCALE, 1 / sp.sqrt(long), "what makes its length one"),
+    ]
+    ends = zip(
+        (*NEW_QUATERNION, *NEW_OMEGA, *NEW_ALPHA), (*(_SCALE * quaternion), *omega, *alpha), strict=True
+    )
+    return (*lines, Update(dict(ends)))
+
+
+AGO_QUATERNION = sp.Matrix(sp.symbols("ago_w ago_x ago_y ago_z", real=True))
+AGO_OMEGA, AGO_ALPHA = vector("ago_omega"), vector("ago_alpha")
+"""Motion of the base at an earlier instant."""
+PAST_TURN, PAST_RATE, PAST_ACCELERATION = (
+    vector(f"base_past{kind}") for kind in ("", "_rate", "_acceleration")
+)
+"""The same by a turn from where the step begins."""
+
+
+@cache
+def past_lines() -> tuple[Line, ...]:
+    """Return how the base was turned at an earlier instant, counted from where the step begins."""
+    sheet = Sheet()
+    back = sp.Matrix([START[0], *(-START[1:, 0])])
+    values = quaternion_product(back, AGO_QUATERNION)
+    relative = [
+        sheet.named(f"base_since_{p}", value, "turn since then")
+        for p, value in zip("wxyz", values, strict=True)
+    ]
+    lines: list[Line] = [
+        *sheet.lets,
+        Update({s: 2 * v / relative[0] for s, v in zip(PAST_TURN, relative[1:], strict=True)}),
+    ]
+    then = dict(zip(TURN, PAST_TURN, strict=True))
+    sheet = Sheet()
+    back_turn = inner_turn(sheet)
+    lines += [Let(let.symbol, let.value.xreplace(then), let.doc, let.unit) for let in sheet.lets]
+    lines.append(Update(dict(zip(PAST_RATE, back_turn * AGO_OMEGA, strict=True))))
+    moving = {**then, **dict(zip(TURN_RATE, PAST_RATE, strict=True))}
+    plain = inner_turn_values()
+    drift = (
+        sum((plain.diff(s) * rate for s, rate in zip(TURN, TURN_RATE, strict=True)), sp.zeros(3, 3))
+        * AGO_OMEGA
+    )
+    drift = drift.xreplace(moving).applyfunc(sp.expand)
+    lines.append(Update(dict(zip(PAST_ACCELERATION, back_turn * AGO_ALPHA + drift, strict=True))))
+    return tuple(lines)
