@@ -17,9 +17,10 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.reference.spatial_arm import Inputs, WorldArm, components
+from tmm_gen.reference.spatial_arm import Inputs, WorldArm, complex_slopes, components
 from tmm_gen.reference.spatial_places import Motions, Places, Values, applied, cross
-from tmm_gen.scene.spatial.arm import FreeBase, RigidBody, SpatialArm, Turn
+from tmm_gen.reference.spatial_turns import product, quaternion, turned
+from tmm_gen.scene.spatial.arm import FreeBase, RigidBody, SpatialArm
 
 Array = NDArray[np.float64]
 
@@ -198,6 +199,10 @@ class AfloatArm:
         found: Array = np.linalg.solve(self.mass_matrix(y, u, inputs), -lacking[..., None])[..., 0]
         return found
 
+    def tangents(self, y: Array, u: Array, b: Array, inputs: Inputs) -> tuple[Array, Array]:
+        """Return the derivatives of `inverse_dynamics` by coordinates and by their rates; see `WorldArm.tangents`."""
+        return complex_slopes(self.inverse_dynamics, y, u, b, inputs)
+
     def start(self) -> tuple[Array, Array]:
         """Return coordinates and their rates at the start, (7 + n,) each."""
         base, joints = self.base, self.arm.joints
@@ -244,35 +249,6 @@ class AfloatArm:
         center, _ = world.centers(carrier.places(world.tree.places(y[..., BASE:])))
         own = carrier.place + carrier.axes @ np.array(body.center)
         return np.asarray(-((center @ world.gravity) @ world.masses + body.mass * (own @ world.gravity)))
-
-
-def product(one: Values, other: Values) -> Values:
-    """Return the product of quaternions, (..., 4), w first."""
-    w, v, x, u = one[..., :1], one[..., 1:], other[..., :1], other[..., 1:]
-    scalar = w * x - np.sum(v * u, axis=-1, keepdims=True)
-    found: Values = np.concatenate([scalar, w * u + x * v + cross(v, u)], axis=-1)
-    return found
-
-
-def turned(r: Values) -> Values:
-    """Return the axes by columns, (..., 3, 3), that quaternions of length one turn to."""
-    none = np.zeros_like(r[..., :1])
-    back = r * np.array([1.0, -1.0, -1.0, -1.0])
-    columns = [
-        product(product(r, np.concatenate([none, np.broadcast_to(axis, (*r.shape[:-1], 3))], axis=-1)), back)[
-            ..., 1:
-        ]
-        for axis in np.eye(3)
-    ]
-    return np.stack(columns, axis=-1)
-
-
-def quaternion(turn: Turn) -> Array:
-    """Return the quaternion of a turn, (4,), w first and not negative."""
-    from scipy.spatial.transform import Rotation  # slow to import
-
-    x, y, z, w = Rotation.from_matrix(np.array(turn)).as_quat(canonical=True)
-    return np.array([w, x, y, z])
 
 
 def inertia_matrix(body: RigidBody) -> Array:

@@ -13,7 +13,7 @@ A rotor has the kinetic energy ``1/2 J_a q'^2`` and no momentum besides, as wher
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -176,13 +176,7 @@ class WorldArm:
 
         Inputs must be scalars, or ``(k,)`` with ``q`` of ``(k, n)``.
         """
-        n = q.shape[-1]
-        small = 1j * _STEP * np.eye(n)
-        spread = {name: np.asarray(value)[..., None] for name, value in inputs.items()}
-        q, v, a = q[..., None, :], v[..., None, :], a[..., None, :]
-        by_q = self.inverse_dynamics(q + small, v, a, spread).imag / _STEP
-        by_v = self.inverse_dynamics(q, v + small, a, spread).imag / _STEP
-        return np.swapaxes(by_q, -1, -2), np.swapaxes(by_v, -1, -2)
+        return complex_slopes(self.inverse_dynamics, q, v, a, inputs)
 
     def loads(self, places: Places, inputs: Inputs) -> tuple[Values, Values]:
         """Return the forces of inputs on each body and their moments about the base, (..., n, 3) each, N and N m."""
@@ -203,6 +197,19 @@ class WorldArm:
             else:
                 moment[..., body, :] += vector
         return force, moment
+
+
+def complex_slopes(
+    lacking: Callable[[Values, Values, Values, Inputs], Values], q: Array, v: Array, a: Array, inputs: Inputs
+) -> tuple[Array, Array]:
+    """Return the derivatives of what is lacking by coordinates and by rates; see `WorldArm.tangents`."""
+    n = q.shape[-1]
+    small = 1j * _STEP * np.eye(n)
+    spread = {name: np.asarray(value)[..., None] for name, value in inputs.items()}
+    q, v, a = q[..., None, :], v[..., None, :], a[..., None, :]
+    by_q = lacking(q + small, v, a, spread).imag / _STEP
+    by_v = lacking(q, v + small, a, spread).imag / _STEP
+    return np.swapaxes(by_q, -1, -2), np.swapaxes(by_v, -1, -2)
 
 
 def components(item: ArmInput, inputs: Inputs) -> Values | None:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from tmm_gen.inputs.signals import Signal
 from tmm_gen.reference.collocation import integrate
+from tmm_gen.reference.spatial_afloat import AfloatArm
 from tmm_gen.reference.spatial_arm import WorldArm
 from tmm_gen.scene.spatial.arm import SpatialArm
 
@@ -24,6 +25,8 @@ def motion(
     arm: SpatialArm, signals: Signals, times: Array, tolerance: float = 1e-11
 ) -> tuple[Array, Array, Array]:
     """Return angles, rates and accelerations at some instants, (k, n) each, in rad, rad/s, rad/s^2.
+
+    Of an arm whose base floats, these are the coordinates of :class:`tmm_gen.reference.spatial_afloat.AfloatArm`.
 
     Parameters
     ----------
@@ -40,7 +43,8 @@ def motion(
     ReferenceError
         If the equations cannot be integrated.
     """
-    world, times = WorldArm(arm), np.asarray(times, float)
+    world = WorldArm(arm) if arm.base is None else AfloatArm(arm)
+    times = np.asarray(times, float)
 
     def residual(at: Array, q: Array, v: Array, a: Array) -> Array:
         return np.asarray(world.inverse_dynamics(q, v, a, given(signals, at)), np.float64)
@@ -49,7 +53,7 @@ def motion(
     knots = np.unique(np.concatenate([[0.0, until], *(signal.knots for signal in signals.values())]))
     breaks = knots[(knots >= 0.0) & (knots <= until)]
     slopes = _Slopes(world, signals)
-    q, v, _ = integrate(residual, slopes, *_start(arm), breaks, tolerance).at(times)
+    q, v, _ = integrate(residual, slopes, *start(arm), breaks, tolerance).at(times)
     return q, v, world.forward_dynamics(q, v, given(signals, times))
 
 
@@ -61,7 +65,7 @@ def given(signals: Signals, times: Array) -> dict[str, Array]:
 def pace(arm: SpatialArm) -> float:
     """Return the fastest rate of the arm where it starts, 1/s: of vibrations, decays or rotations."""
     world = WorldArm(arm)
-    q, v = _start(arm)
+    q, v = start(arm)
     mass = world.mass_matrix(q)
     by_q, by_v = world.tangents(q, v, np.zeros_like(q), {})
     n = len(q)
@@ -75,7 +79,7 @@ class _Slopes:
     Newton's method so takes a few iterations more, and each is far cheaper; what it converges to is the same.
     """
 
-    def __init__(self, world: WorldArm, signals: Signals) -> None:
+    def __init__(self, world: WorldArm | AfloatArm, signals: Signals) -> None:
         self._world, self._signals = world, signals
         self._of, self._held = (np.inf, np.inf), (np.empty(0), np.empty(0))
 
@@ -86,9 +90,13 @@ class _Slopes:
             inputs = given(self._signals, at[middle])
             self._of, self._held = of, self._world.tangents(q[middle], v[middle], a[middle], inputs)
         by_q, by_v = (np.broadcast_to(tangent, (len(at), *tangent.shape)) for tangent in self._held)
+        if isinstance(self._world, AfloatArm):
+            return by_q, by_v, self._world.mass_matrix(q, v, {})
         return by_q, by_v, self._world.mass_matrix(q)
 
 
-def _start(arm: SpatialArm) -> tuple[Array, Array]:
-    """Return the angles and rates at the start, (n,) each."""
+def start(arm: SpatialArm) -> tuple[Array, Array]:
+    """Return the angles and rates at the start, (n,) each; of a base that floats, all coordinates."""
+    if arm.base is not None:
+        return AfloatArm(arm).start()
     return np.array([joint.angle for joint in arm.joints]), np.array([joint.rate for joint in arm.joints])

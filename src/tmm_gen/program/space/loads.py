@@ -6,6 +6,8 @@ from collections.abc import Sequence
 
 import sympy as sp
 
+from tmm_gen.derive.space import base_motion
+from tmm_gen.derive.space.base_pose import found_facing_line
 from tmm_gen.derive.space.outward import OWN_FORCE, OWN_MOMENT
 from tmm_gen.derive.space.pose import FACING, facing_lines
 from tmm_gen.derive.station.lets import Line, Update
@@ -28,15 +30,21 @@ def loads_on_frames(layout: SpaceLayout, walks: SpaceWalks, stage: int) -> list[
     stage : int
         Instant of the step, from 0, at which inputs are read.
     """
-    loads = [i for i in layout.arm.inputs if i.frame is not None and i.frame.joint]
+    floats = layout.base is not None
+    loads = [i for i in layout.arm.inputs if i.frame is not None and (i.frame.joint or floats)]
     sections = []
     for item in loads:
         assert item.frame is not None
         vector = sp.Matrix([layout.input(column, stage) for column in item.columns])
         station = item.frame.joint - 1
         title = f"{item.acts} on '{item.frame.name}'"
+        turn = sp.Matrix(3, 3, lambda i, j, rows=item.frame.turn: exactly(rows[i][j]))
+        if not item.frame.joint:
+            acting = (turn if item.axes == "body" else base_motion.FACING) * vector
+            names = (base_motion.OWN_FORCE, base_motion.OWN_MOMENT)
+            sections.append(Section(title, tuple(walks.base_lines(_taken_off(item, acting, names)))))
+            continue
         if item.axes == "body":
-            turn = sp.Matrix(3, 3, lambda i, j, rows=item.frame.turn: exactly(rows[i][j]))
             lines = _taken_off(item, turn * vector)
             sections.append(Section(title, tuple(walks.at_station(station, lines))))
             continue
@@ -52,15 +60,18 @@ def loads_on_frames(layout: SpaceLayout, walks: SpaceWalks, stage: int) -> list[
             tuple(FACING),
             read,
             layout.tree.inward_of(station),
+            found_facing_line() if floats else (),
         )
         sections.append(Section(title + ", in world axes", tuple(walked)))
     return sections
 
 
-def _taken_off(item: ArmInput, acting: sp.Matrix) -> tuple[Line, ...]:
-    """Return what a load, in the axes of a joint's body, takes off what the body takes."""
+def _taken_off(
+    item: ArmInput, acting: sp.Matrix, names: tuple[sp.Matrix, sp.Matrix] = (OWN_FORCE, OWN_MOMENT)
+) -> tuple[Line, ...]:
+    """Return what a load, in the axes of a body, takes off what the body takes: force and moment by their names."""
     assert item.frame is not None
     place = sp.Matrix([exactly(r) for r in item.frame.at])
     force, moment = (acting, place.cross(acting)) if item.acts == "force" else (sp.zeros(3, 1), acting)
-    pairs = zip((*OWN_FORCE, *OWN_MOMENT), (*force, *moment), strict=True)
+    pairs = zip((*names[0], *names[1]), (*force, *moment), strict=True)
     return (Update({symbol: symbol - value for symbol, value in pairs if value != 0}),)
