@@ -193,6 +193,21 @@ class AfloatArm:
         found: Values = np.swapaxes(each - none, -1, -2)
         return found
 
+    def whole_mass(self, y: Array) -> Array:
+        """Return the mass matrix by the base's velocity and angular velocity and the rates, (6 + n, 6 + n)."""
+        n = len(self.arm.joints)
+        by_twist = np.zeros((BASE + n, 6 + n))
+        by_twist[:3, :3], by_twist[BASE:, 6:] = np.eye(3), np.eye(n)
+        turns = np.concatenate([np.zeros((3, 1)), np.eye(3)], axis=1)
+        by_twist[3:BASE, 3:6] = 0.5 * product(turns, np.broadcast_to(y[3:BASE], (3, 4))).T
+        found = self.mass_matrix(y, np.zeros_like(y), {}) @ by_twist
+        return np.asarray(np.delete(found, 6, axis=0))
+
+    def joint_mass(self, y: Array) -> Array:
+        """Return the mass matrix of the joints where nothing holds the base, (n, n), kg m^2."""
+        whole = self.whole_mass(y)
+        return np.asarray(whole[6:, 6:] - whole[6:, :6] @ np.linalg.solve(whole[:6, :6], whole[:6, 6:]))
+
     def forward_dynamics(self, y: Array, u: Array, inputs: Inputs) -> Array:
         """Return the second derivatives, (..., 7 + n)."""
         lacking = self.inverse_dynamics(y, u, np.zeros_like(y), inputs)
@@ -249,6 +264,14 @@ class AfloatArm:
         center, _ = world.centers(carrier.places(world.tree.places(y[..., BASE:])))
         own = carrier.place + carrier.axes @ np.array(body.center)
         return np.asarray(-((center @ world.gravity) @ world.masses + body.mass * (own @ world.gravity)))
+
+
+def joint_mass(arm: SpatialArm) -> Array:
+    """Return the mass matrix of an arm's joints where it starts, (n, n), kg m^2, whatever it stands on."""
+    if arm.base is not None:
+        afloat = AfloatArm(arm)
+        return afloat.joint_mass(afloat.start()[0])
+    return np.asarray(WorldArm(arm).mass_matrix(np.array([joint.angle for joint in arm.joints])))
 
 
 def inertia_matrix(body: RigidBody) -> Array:

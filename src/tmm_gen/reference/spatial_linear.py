@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.reference.collocation import ReferenceError
+from tmm_gen.reference.spatial_afloat import joint_mass
 from tmm_gen.reference.spatial_arm import Inputs, WorldArm
 from tmm_gen.scene.spatial.arm import SpatialArm
 
@@ -96,8 +97,7 @@ def vibrations(arm: SpatialArm) -> tuple[Array, Array]:
     from scipy.linalg import eigh  # slow to import
 
     world = WorldArm(arm)
-    mass = world.mass_matrix(np.array([joint.angle for joint in arm.joints]))
-    squares, shapes = eigh(np.diag(world.stiffness), mass)
+    squares, shapes = eigh(np.diag(world.stiffness), joint_mass(arm))
     found: Array = np.sqrt(np.maximum(squares, 0.0))
     damped = world.damping @ shapes**2
     ratios: Array = np.where(found > 0.0, damped / np.where(found > 0.0, 2.0 * found, 1.0), 0.0)

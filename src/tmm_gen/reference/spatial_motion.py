@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from tmm_gen.inputs.signals import Signal
 from tmm_gen.reference.collocation import integrate
-from tmm_gen.reference.spatial_afloat import AfloatArm
+from tmm_gen.reference.spatial_afloat import AfloatArm, joint_mass
 from tmm_gen.reference.spatial_arm import WorldArm
 from tmm_gen.scene.spatial.arm import SpatialArm
 
@@ -64,11 +64,13 @@ def given(signals: Signals, times: Array) -> dict[str, Array]:
 
 def pace(arm: SpatialArm) -> float:
     """Return the fastest rate of the arm where it starts, 1/s: of vibrations, decays or rotations."""
-    world = WorldArm(arm)
-    q, v = start(arm)
-    mass = world.mass_matrix(q)
-    by_q, by_v = world.tangents(q, v, np.zeros_like(q), {})
-    n = len(q)
+    world, n = WorldArm(arm), len(arm.joints)
+    mass = joint_mass(arm)
+    if arm.base is None:
+        q, v = start(arm)
+        by_q, by_v = world.tangents(q, v, np.zeros_like(q), {})
+    else:  # it falls, and weighs nothing
+        by_q, by_v = np.diag(world.stiffness), np.diag(world.damping)
     slope = np.block([[np.zeros((n, n)), np.eye(n)], [-np.linalg.solve(mass, np.hstack([by_q, by_v]))]])
     return float(np.max(np.abs(np.linalg.eigvals(slope))))
 

@@ -1,4 +1,4 @@
-"""A base that floats, where outputs are read off: its place, its axes and its motion from what is kept between steps."""
+"""A base that floats, where outputs are read off: its place, axes and motion from what is kept between steps."""
 
 from __future__ import annotations
 

@@ -52,12 +52,15 @@ class SpatialExpansion:
         Number of the joint that each motor or joint is, from 1.
     inner : tuple of str
         Name of the part that each joint comes from.
+    base : RigidBody
+        All that is rigidly fixed to the base; nothing where that never moves.
     """
 
     joints: tuple[Revolute, ...]
     frames: Mapping[str, Frame]
     numbers: Mapping[str, int]
     inner: tuple[str, ...]
+    base: RigidBody
 
     def inputs(self, items: Sequence[SpatialInput]) -> tuple[ArmInput, ...]:
         """Return inputs in the joints and on the frames that names mean."""
@@ -70,7 +73,7 @@ class SpatialExpansion:
                 item.name,
                 item.of,
                 joint=self.numbers[item.at] if item.of in OF_JOINTS else 0,
-                frame=None if item.of in OF_JOINTS else self.frames.get(item.at),
+                frame=None if item.of in OF_JOINTS else self._frame(item.at),
             )
             for item in items
         )
@@ -86,7 +89,11 @@ class SpatialExpansion:
     def _input(self, item: SpatialInput) -> ArmInput:
         if item.acts == "torque":
             return ArmInput(item.name, "torque", joint=self.numbers[item.at])
-        return ArmInput(item.name, item.acts, frame=self.frames[item.at], axes=item.axes)
+        return ArmInput(item.name, item.acts, frame=self._frame(item.at), axes=item.axes)
+
+    def _frame(self, name: str) -> Frame | None:
+        """Return the outer end of a part, or the base's own frame; None of the arm as a whole."""
+        return Frame(BASE, 0) if name == BASE else self.frames.get(name)
 
 
 def _value(values: Values, name: str) -> float:
@@ -99,8 +106,15 @@ def _value(values: Values, name: str) -> float:
 
 @dataclass
 class _Building:
-    """An arm that grows from the base outward."""
+    """An arm that grows from the base outward.
 
+    Parameters
+    ----------
+    afloat : bool
+        Whether the base moves, so that what is fixed to it weighs.
+    """
+
+    afloat: bool = False
     joints: list[Revolute] = field(default_factory=list)
     weights: list[Weight] = field(default_factory=lambda: [NOTHING])
     frames: dict[str, Frame] = field(default_factory=dict)
@@ -115,8 +129,8 @@ class _Building:
         return len(self.joints)
 
     def put(self, pose: Pose, body: Weight) -> None:
-        """Fix a body to that of a joint; what is fixed to the base never moves."""
-        if pose.joint:
+        """Fix a body to that of a joint, or to the base where that moves."""
+        if pose.joint or self.afloat:
             self.weights[pose.joint] += body.at(pose)
 
     def done(self) -> SpatialExpansion:
@@ -129,12 +143,13 @@ class _Building:
             replace(joint, body=bodies[id(body)])
             for joint, body in zip(self.joints, self.weights[1:], strict=True)
         )
-        return SpatialExpansion(joints, self.frames, self.numbers, tuple(self.inner))
+        base = bodies[id(self.weights[0])]
+        return SpatialExpansion(joints, self.frames, self.numbers, tuple(self.inner), base)
 
 
-def expanded(tree: Tree) -> SpatialExpansion:
-    """Expand parts that keep all rules."""
-    made = _Building()
+def expanded(tree: Tree, *, afloat: bool = False) -> SpatialExpansion:
+    """Expand parts that keep all rules; ``afloat`` where nothing holds the base."""
+    made = _Building(afloat)
     ends = {BASE: Pose()}
     for hung in tree.outward():
         part = hung.part

@@ -6,29 +6,44 @@ from collections.abc import Iterator
 
 from tmm_gen.scene.problem import Finding
 from tmm_gen.scene.spatial.document import SpatialDocument
+from tmm_gen.scene.spatial.settings import FLOATING_KEYS
 
 _BASES = {
     "motor": 'Write `kind = "clamp"`, and hang a [[motor]] on it.',
     "prescribed": 'Write `kind = "clamp"`, and let a [[motor]] on it move the arm.',
-    "free": 'Write `kind = "clamp"`, or describe the arm in a plane.',
-    "floating": 'Write `kind = "clamp"`, or describe the arm in a plane.',
+    "floating": 'Write `kind = "free"`.',
 }
 
 
-def clamped(document: SpatialDocument) -> Iterator[Finding]:
-    """Find a base that is no clamp, and a clamp with a hub."""
+def base_possible(document: SpatialDocument) -> Iterator[Finding]:
+    """Find a base of another kind, and keys of bases of other kinds."""
     base = document.base
-    if base.kind != "clamp":
-        what = (
-            "is a short form for arms in a plane"
-            if base.kind == "motor"
-            else "is not there yet for arms in space"
-        )
-        yield Finding(("base", "kind"), f"{what}: these stand on a clamp", _BASES[base.kind], base.kind)
+    if base.kind in _BASES:
+        what = {
+            "motor": "is a short form for arms in a plane",
+            "prescribed": "is not there yet for arms in space",
+            "floating": "is no kind of base",
+        }[base.kind]
+        stands = 'these stand on a "clamp", or float with kind = "free"'
+        yield Finding(("base", "kind"), f"{what}: {stands}", _BASES[base.kind], base.kind)
     for key in ("inertia", "damping"):
         if key in base.model_fields_set:
+            floats = "a base that floats is made of the bodies on it, and nothing damps it"
             yield Finding(
-                ("base", key), "is that of a hub, and a clamp has none", "Remove it.", getattr(base, key)
+                ("base", key),
+                f"is that of a hub: {floats}" if base.floats else "is that of a hub, and a clamp has none",
+                'Remove it; mass and inertia are those of a [[body]] with `on = "base"`.'
+                if base.floats
+                else "Remove it.",
+                getattr(base, key),
+            )
+    for key in FLOATING_KEYS:
+        if base.kind == "clamp" and key in base.model_fields_set:
+            yield Finding(
+                ("base", key),
+                "is of a base that floats, and a clamp never moves: its axes are those of the world",
+                'Remove it, or write `kind = "free"`; parts have `at` and `turn` of their own.',
+                getattr(base, key),
             )
 
 

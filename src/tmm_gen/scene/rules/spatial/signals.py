@@ -32,18 +32,18 @@ def inputs_possible(document: SpatialDocument) -> Iterator[Finding]:
             yield Finding(
                 (*path, "at"), "cannot be all of the arm: an input acts at one place", "Name a part.", item.at
             )
-        elif item.at == BASE:
+        elif item.at == BASE and not document.base.floats:
             yield Finding((*path, "at"), "cannot be the base, which never moves", "Name a part.", item.at)
-        elif hung is None:
+        elif hung is None and item.at != BASE:
             yield _unknown(document, (*path, "at"), item.at)
-        elif item.acts == "torque" and not hung.turns:
+        elif item.acts == "torque" and not (hung and hung.turns):
             yield Finding(
                 (*path, "acts"),
-                f"cannot be a torque at {hung.words}: a torque acts in a motor or a joint",
+                f"cannot be a torque at {hung.words if hung else 'the base'}: a torque acts in a motor or a joint",
                 'Write `acts = "moment"` for three components on it, or name a motor or a joint.',
                 item.acts,
             )
-        elif document.tree.mover(hung) is None:
+        elif hung and not document.base.floats and document.tree.mover(hung) is None:
             yield _fixed(document, (*path, "at"), hung)
 
 
@@ -69,18 +69,19 @@ def outputs_possible(document: SpatialDocument) -> Iterator[Finding]:
             )
         elif item.at == ARM:
             continue
-        elif item.at == BASE:
+        elif item.at == BASE and not document.base.floats:
             yield Finding((*path, "at"), "cannot be the base, which never moves", "Name a part.", item.at)
-        elif hung is None:
+        elif hung is None and item.at != BASE:
             yield _unknown(document, (*path, "at"), item.at)
-        elif item.of in OF_JOINTS and not hung.turns:
+        elif item.of in OF_JOINTS and not (hung and hung.turns):
+            words = hung.words if hung else "the base"
             yield Finding(
                 (*path, "of"),
-                f"cannot be {item.of} at {hung.words}: motors and joints have {', '.join(OF_JOINTS)}",
+                f"cannot be {item.of} at {words}: motors and joints have {', '.join(OF_JOINTS)}",
                 f"Choose one of {', '.join(OF_FRAMES)}, or name a motor or a joint.",
                 item.of,
             )
-        elif document.tree.mover(hung) is None:
+        elif hung and not document.base.floats and document.tree.mover(hung) is None:
             yield _fixed(document, (*path, "at"), hung)
 
 
