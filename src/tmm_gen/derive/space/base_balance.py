@@ -22,9 +22,9 @@ from tmm_gen.derive.station.lets import Let, Line, Pivot, Update
 MOVED = vector("base_moved")
 TURNED = vector("base_turned")
 """Per unit of acceleration per unknown: what a sweep finds the base to do."""
-_KINDS = [f"{what}_{axis}" for what in ("force", "moment") for axis in AXES]
-LEFT = [sp.Symbol(f"base_left_{kind}", real=True) for kind in _KINDS]
-_GIVES = [sp.Symbol(f"base_give_{kind}", real=True) for kind in _KINDS]
+KINDS = [f"{what}_{axis}" for what in ("force", "moment") for axis in AXES]
+LEFT = [sp.Symbol(f"base_left_{kind}", real=True) for kind in KINDS]
+GIVES = [sp.Symbol(f"base_give_{kind}", real=True) for kind in KINDS]
 SHARES = {(i, k): sp.Symbol(f"base_share_{i + 1}{k + 1}", real=True) for i in range(6) for k in range(i)}
 
 
@@ -36,17 +36,17 @@ def balance_lines(pattern: Pattern) -> tuple[Line, ...]:
     s = sp.zeros(6, 6)
     for i in range(6):
         for j in range(i, 6):
-            name = f"base_whole_{_KINDS[i]}{_KINDS[j]}"
+            name = f"base_whole_{KINDS[i]}{KINDS[j]}"
             s[i, j] = s[j, i] = sheet.named(name, own[i, j] + ARTICULATED[i, j], "of the arm with its base")
     lines += sheet.lets
     for k in range(6):
-        lines += [Pivot(s[k, k]), Let(_GIVES[k], 1 / s[k, k], "motion of the base per force on it")]
+        lines += [Pivot(s[k, k]), Let(GIVES[k], 1 / s[k, k], "motion of the base per force on it")]
         sheet = Sheet()
         for i in range(k + 1, 6):
-            lines.append(Let(SHARES[i, k], s[i, k] * _GIVES[k], "of one balance in another"))
+            lines.append(Let(SHARES[i, k], s[i, k] * GIVES[k], "of one balance in another"))
         for i in range(k + 1, 6):
             for j in range(i, 6):
-                name = f"base_freed_{_KINDS[i]}{_KINDS[j]}_{k + 1}"
+                name = f"base_freed_{KINDS[i]}{KINDS[j]}_{k + 1}"
                 s[i, j] = s[j, i] = sheet.named(name, s[i, j] - SHARES[i, k] * s[k, j])
         lines += sheet.lets
     return tuple(lines)
@@ -74,8 +74,8 @@ def answer_lines(gain: sp.Expr) -> tuple[Line, ...]:
     sheet, lines = Sheet(), list[Line]()
     change: list[sp.Expr] = [sp.Integer(0)] * 6
     for i in reversed(range(6)):
-        value = -_GIVES[i] * LEFT[i] - sum(SHARES[k, i] * change[k] for k in range(i + 1, 6))
-        change[i] = sheet.named(f"base_change_{_KINDS[i]}", value, "of the base's acceleration")
+        value = -GIVES[i] * LEFT[i] - sum(SHARES[k, i] * change[k] for k in range(i + 1, 6))
+        change[i] = sheet.named(f"base_change_{KINDS[i]}", value, "of the base's acceleration")
     back = inner_turn(sheet)
     moved = FACING.T * sp.Matrix(change[:3]) / gain
     turned = back * sp.Matrix(change[3:]) / gain

@@ -81,14 +81,11 @@ def found_quaternion(sheet: Sheet) -> sp.Matrix:
     )
 
 
-@cache
-def outward_lines(pattern: Pattern, falls: tuple[bool, ...], *, still: bool) -> tuple[Line, ...]:
-    """Return the exact motion of the base, and what its body takes.
+def motion_values(falls: tuple[bool, ...], *, still: bool) -> tuple[Sheet, sp.Matrix, sp.Matrix, sp.Matrix]:
+    """Return names in order, and angular velocity, angular and proper acceleration of the base by them.
 
     Parameters
     ----------
-    pattern : Pattern
-        Of the base's body.
     falls : tuple of bool, length 3
         Which components gravity has.
     still : bool
@@ -106,9 +103,48 @@ def outward_lines(pattern: Pattern, falls: tuple[bool, ...], *, still: bool) -> 
     accel = sheet.vector(
         "base_proper", facing * (PUSH.xreplace(none) - weight), "proper acceleration", "m/s^2"
     )
+    return sheet, omega, alpha, accel
+
+
+@cache
+def outward_lines(pattern: Pattern, falls: tuple[bool, ...], *, still: bool) -> tuple[Line, ...]:
+    """Return the exact motion of the base, and what its body takes.
+
+    Parameters
+    ----------
+    pattern : Pattern
+        Of the base's body.
+    falls, still
+        As of :func:`motion_values`.
+    """
+    sheet, omega, alpha, accel = motion_values(falls, still=still)
     own = body_force(sheet, pattern, omega, alpha, accel, (OWN_FORCE, OWN_MOMENT))
     carried = zip((*OMEGA, *ALPHA, *ACCEL), (*omega, *alpha, *accel), strict=True)
     return (*sheet.lets, *own, Update(dict(carried)))
+
+
+def spin_slopes(omega: sp.Matrix, alpha: sp.Matrix, *, still: bool) -> tuple[sp.Matrix, sp.Matrix, sp.Matrix]:
+    """Return slopes of the angular motion: velocity by turn, acceleration by turn and by its rate, (3, 3) each.
+
+    Parameters
+    ----------
+    omega, alpha : sympy.Matrix
+        Names of the angular velocity and acceleration.
+    """
+    none = dict.fromkeys(TURN_ACCELERATION, sp.Integer(0)) if still else {}
+    _, twice, square = _kinematics()
+    faster, slowing = _changing(twice).applyfunc(sp.expand).xreplace(none), _changing(square)
+
+    def by(values: sp.Matrix | sp.Expr, symbols: sp.Matrix) -> sp.Matrix:
+        return sp.Matrix([values]).jacobian(symbols)
+
+    # slopes of quotients, written by the quotients themselves
+    spin = SHORT * (by(twice, TURN) - omega * by(square, TURN))
+    slow = sp.Symbol("base_slowing", real=True)
+    by_turn = SHORT * (by(faster, TURN) - omega * by(slowing, TURN) - slow * spin - alpha * by(square, TURN))
+    spin_by_rate = SHORT * by(twice, TURN_RATE)
+    by_rate = SHORT * (by(faster, TURN_RATE) - omega * by(slowing, TURN_RATE) - slow * spin_by_rate)
+    return spin, by_turn, by_rate
 
 
 @cache

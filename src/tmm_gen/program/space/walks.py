@@ -7,6 +7,7 @@ from functools import cached_property, lru_cache
 
 import sympy as sp
 
+from tmm_gen.derive.space import base_newton
 from tmm_gen.derive.space.base_balance import answer_lines, balance_lines, force_lines
 from tmm_gen.derive.space.base_motion import GRAVITY
 from tmm_gen.derive.space.base_motion import outward_lines as base_outward
@@ -176,7 +177,12 @@ class SpaceWalks:
     def inward(self, *, still: bool) -> Section:
         """Return the articulated sweep."""
         if self._exact:
-            lines = self.walk(Order.INWARD, lambda p: newton(p, still, self._gains).inward, SLOPES_CARRIED)
+            of_base = self._of_base(
+                lambda p: base_newton.balance_lines(p, self._falls, self._gains, still=still)
+            )
+            lines = self.walk(
+                Order.INWARD, lambda p: newton(p, still, self._gains).inward, SLOPES_CARRIED, base=of_base
+            )
             return Section("in: slopes of all forces, joints eliminated one by one", tuple(lines))
         at_base = self._of_base(lambda p: (*balance_lines(p), *force_lines()))
         statements = self.walk(
@@ -195,7 +201,10 @@ class SpaceWalks:
     def back(self, *, still: bool = True) -> Section:
         """Return the way back out to what each joint does."""
         if self._exact:
-            lines = self.walk(Order.OUTWARD, lambda p: newton(p, still, self._gains).back, tuple(ALL_CHANGES))
+            of_base = self._of_base(lambda _: base_newton.answer_lines(self._falls, self._gains, still=still))
+            lines = self.walk(
+                Order.OUTWARD, lambda p: newton(p, still, self._gains).back, tuple(ALL_CHANGES), base=of_base
+            )
             return Section("back out: what each joint does", tuple(lines))
         at_base = self._of_base(lambda _: answer_lines(self._gain))
         statements = self.walk(
