@@ -129,17 +129,46 @@ CASES = {
         'kind = "clamp"',
         'kind = "floating"',
         "base.kind",
-        "is not there yet for arms in space",
-        'Write `kind = "clamp"`',
+        "is no kind of base",
+        'Write `kind = "free"`',
         ('"floating"', '"clamp"'),
     ),
-    "free base": Case(
+    "free base of nothing": Case(
         'kind = "clamp"',
         'kind = "free"',
         "base.kind",
-        "is not there yet for arms in space",
-        'Write `kind = "clamp"`',
-        ('"free"', '"clamp"'),
+        "lets the base float, and nothing fixed to it has mass",
+        'Add [[body]] with `name = "hub"`, `on = "base"`, `mass = 1.0`, `inertia = [0.01, 0.01, 0.01]`',
+        (
+            MOTOR,
+            '[[body]]\nname = "hub"\non = "base"\nmass = 1.0\ninertia = [0.01, 0.01, 0.01]\n\n'
+            + MOTOR
+            + '\non = "base"',
+        ),
+    ),
+    "free base of a point": Case(
+        'kind = "clamp"',
+        'kind = "free"\n\n[[body]]\nname = "hub"\non = "base"\nmass = 1.0\n',
+        "body[1].inertia",
+        "leaves the base that floats without the inertia to turn about every axis",
+        "Write `inertia = [0.01, 0.01, 0.01]`",
+        ("mass = 1.0\n", "mass = 1.0\ninertia = [0.01, 0.01, 0.01]\n"),
+    ),
+    "free base with a hub's inertia": Case(
+        'kind = "clamp"',
+        'kind = "free"\ninertia = 0.1\n\n[[body]]\nname = "hub"\non = "base"\nmass = 1.0\ninertia = [1, 1, 1]\n',
+        "base.inertia",
+        "is that of a hub: a base that floats is made of the bodies on it",
+        "Remove it; mass and inertia are those of a [[body]]",
+        ('"free"\ninertia = 0.1\n', '"free"\n'),
+    ),
+    "clamp that moves": Case(
+        'kind = "clamp"',
+        'kind = "clamp"\nrate = [0, 0, 1]',
+        "base.rate",
+        "is of a base that floats, and a clamp never moves",
+        'Remove it, or write `kind = "free"`',
+        ("rate = [0, 0, 1]", ""),
     ),
     "prescribed base": Case(
         'kind = "clamp"',

@@ -1,8 +1,8 @@
 """A base that floats, in the exact linearisation: six balances whose slopes are not symmetric.
 
-What the base does is counted in its own axes: ``x = (moved, turned)`` along and about them, per unit of the unknown. Then
-the slopes of the balances are the articulated inertia but for terms that fall with the step, so that they too are
-solved without pivoting.
+What the base does is counted in its own axes: ``x = (moved, turned)`` along and about them, per unit of the unknown.
+Then the slopes of the balances are the articulated inertia but for terms that fall with the step, so that they too
+are solved without pivoting.
 """
 
 from __future__ import annotations
