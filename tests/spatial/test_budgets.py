@@ -114,7 +114,6 @@ def test_newest_acceleration_costs_little(kind: str) -> None:
 
 FLOATS = {
     "bend, bend": (900, 529, 2187),
-    "bend, bend, twist": (900, 529, 2187),
     "link": (1081, 630, 2591),
 }
 """What a step takes more where the base is a body that floats instead of a clamp: one inertial sweep without any

@@ -9,7 +9,7 @@ from pydantic import BeforeValidator, Field
 from tmm_gen.scene.model import Model, sweeps_or_auto
 from tmm_gen.scene.spatial.arm import ZERO
 from tmm_gen.scene.spatial.values import Gravity, Place
-from tmm_gen.scene.table import Count, Finite, Table
+from tmm_gen.scene.table import Count, Finite, Table, fault
 
 SWEEPS = {"sdirk4": 3}
 """Sweep and corrections that give a method its order with the inertial linearisation; two for the other methods."""
@@ -62,6 +62,27 @@ class SpatialModel(Model):
         )
 
 
+_OTHER_BASES = {
+    "motor": (
+        "is a short form for arms in a plane",
+        'Write `kind = "clamp"`, and hang a [[motor]] on it.',
+    ),
+    "prescribed": (
+        "is not there yet for arms in space",
+        'Write `kind = "clamp"`, and let a [[motor]] on it move the arm.',
+    ),
+    "floating": ("is no kind of base", 'Write `kind = "free"`.'),
+}
+
+
+def _kind(value: object) -> object:
+    """Reject kinds of bases that others have, in words of their own."""
+    if isinstance(value, str) and value in _OTHER_BASES:
+        what, remedy = _OTHER_BASES[value]
+        raise fault(f'{what}: arms in space stand on a "clamp", or float with kind = "free"', remedy)
+    return value
+
+
 class SpatialBase(Table):
     """``[base]`` in space.
 
@@ -75,7 +96,7 @@ class SpatialBase(Table):
         How it moves at first: in world axes, m/s, and about its own axes, rad/s.
     """
 
-    kind: Literal["clamp", "prescribed", "free", "floating", "motor"] = Field(
+    kind: Annotated[Literal["clamp", "free"], BeforeValidator(_kind)] = Field(
         description='kind of base: "clamp", or "free" for one that floats', examples=['"clamp"']
     )
     at: Place = Field(

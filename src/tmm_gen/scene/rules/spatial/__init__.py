@@ -11,7 +11,7 @@ from tmm_gen.scene.rules.integration import explicit_needs_acceleration, integra
 from tmm_gen.scene.rules.spatial.hanging import not_too_many, one_tree, part_names
 from tmm_gen.scene.rules.spatial.inertia import base_to_turn, something_to_turn
 from tmm_gen.scene.rules.spatial.parts import ends, in_range, inertias, rigid_gears, twists
-from tmm_gen.scene.rules.spatial.settings import base_possible, emitted, own_tables
+from tmm_gen.scene.rules.spatial.settings import emitted, keys_of_base, own_tables
 from tmm_gen.scene.rules.spatial.signals import (
     distinct_names,
     initial_by_name,
@@ -23,7 +23,7 @@ from tmm_gen.scene.spatial.document import SpatialDocument
 Rule = Callable[[SpatialDocument], Iterator[Finding]]
 
 RULES: tuple[tuple[Rule, ...], ...] = (
-    (base_possible, own_tables, emitted, part_names, beams_given, not_too_many),
+    (keys_of_base, own_tables, emitted, part_names, beams_given, not_too_many),
     (one_tree, twists, ends, rigid_gears, inertias),
     (in_range, initial_by_name),
     (

@@ -8,24 +8,10 @@ from tmm_gen.scene.problem import Finding
 from tmm_gen.scene.spatial.document import SpatialDocument
 from tmm_gen.scene.spatial.settings import FLOATING_KEYS
 
-_BASES = {
-    "motor": 'Write `kind = "clamp"`, and hang a [[motor]] on it.',
-    "prescribed": 'Write `kind = "clamp"`, and let a [[motor]] on it move the arm.',
-    "floating": 'Write `kind = "free"`.',
-}
 
-
-def base_possible(document: SpatialDocument) -> Iterator[Finding]:
-    """Find a base of another kind, and keys of bases of other kinds."""
+def keys_of_base(document: SpatialDocument) -> Iterator[Finding]:
+    """Find keys of bases of other kinds."""
     base = document.base
-    if base.kind in _BASES:
-        what = {
-            "motor": "is a short form for arms in a plane",
-            "prescribed": "is not there yet for arms in space",
-            "floating": "is no kind of base",
-        }[base.kind]
-        stands = 'these stand on a "clamp", or float with kind = "free"'
-        yield Finding(("base", "kind"), f"{what}: {stands}", _BASES[base.kind], base.kind)
     for key in ("inertia", "damping"):
         if key in base.model_fields_set:
             floats = "a base that floats is made of the bodies on it, and nothing damps it"
