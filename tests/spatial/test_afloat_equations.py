@@ -14,7 +14,9 @@ from support.spatial.afloat import coordinates, random_afloat
 from support.spatial.kernels import HEADED, package_of
 
 from tmm_gen.export.mjcf import KEYFRAME, mujoco_model
+from tmm_gen.inputs.signals import Constant
 from tmm_gen.reference.spatial_afloat import AfloatArm
+from tmm_gen.reference.spatial_motion import motion
 from tmm_gen.reference.spatial_reference import outputs
 from tmm_gen.reference.spatial_turns import product
 from tmm_gen.scene.spatial.arm import ArmOutput, SpatialArm
@@ -88,6 +90,21 @@ def loaded(arm: SpatialArm) -> tuple[Any, Any]:
     data = mujoco.MjData(model)
     mujoco.mj_resetDataKeyframe(model, data, model.keyframe(KEYFRAME).id)
     return model, data
+
+
+def test_reference_moves_as_mujoco() -> None:
+    """By its RK4 at small steps, tumbling and under constant loads."""
+    arm = random_afloat(2, 3)
+    model, data = loaded(arm)
+    model.opt.timestep = 1e-4
+    inputs = random_inputs(arm, 2)
+    for name, value in inputs.items():
+        data.actuator(name).ctrl = value
+    for _ in range(1000):
+        mujoco.mj_step(model, data)
+    y = motion(arm, {name: Constant(value) for name, value in inputs.items()}, np.array([0.1]))[0][0]
+    turn = data.qpos[3:7] * np.sign(data.qpos[3:7] @ y[3:7])
+    assert np.abs(np.concatenate([data.qpos[:3], turn, data.qpos[7:]]) - y).max() < 1e-10
 
 
 @pytest.mark.parametrize("seed", range(6))

@@ -26,6 +26,9 @@ SERVED: Mapping[str, tuple[str, ...]] = {
 }
 """Commands by the kinds that not all serve yet; where an option decides, it is part of the name: "export --to fmu"."""
 
+AFLOAT = ("build", "run", "check", "export --to mjcf", "export --to urdf")
+"""Commands that serve arms in space whose base floats: what does not know of one would take it for a clamp."""
+
 
 def require_served(command: str, scene: Scene) -> Scene:
     """Return a scene that a command serves.
@@ -36,6 +39,12 @@ def require_served(command: str, scene: Scene) -> Scene:
         If it does not serve the scene's kind.
     """
     served = SERVED.get(scene.model.kind)
+    if scene.spatial is not None and scene.spatial.base is not None:
+        if command not in AFLOAT:
+            raise UserError(
+                f"tmm-gen {command} does not serve arms in space whose base floats yet; {_listed(AFLOAT)} do"
+            )
+        return scene
     if served is None or command in served:
         return scene
     raise UserError(f'tmm-gen {command} does not serve kind = "{scene.model.kind}" yet; {_listed(served)} do')
