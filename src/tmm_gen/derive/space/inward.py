@@ -73,9 +73,17 @@ class Inertial:
         Outward, to the joint's unknown.
     """
 
+    inward: tuple[Line, ...]
+    again: tuple[Line, ...]
+    back: tuple[Line, ...]
+
     def __init__(self, out: Outward, gain: sp.Expr = GAINS["a"]) -> None:
         self._out, self._gain = out, gain
         self._axis = 3 + out.pattern.axis
+        if out.pattern.given:
+            self.inward = self.again = ()
+            self.back = unchanged(CHANGE)
+            return
         self.inward = self._inward()
         self.again = self._again()
         self.back = self._back()
@@ -195,6 +203,12 @@ class Inertial:
         change[self._axis] += self._gain * OWN
         update = {s: v for s, v in zip(CHANGE, change, strict=True) if s != v}
         return (*sheet.lets, found, Update(update))
+
+
+def unchanged(change: sp.Matrix) -> tuple[Line, ...]:
+    """Return the way back over a joint whose motion is given: neither does it anything, nor changes its section."""
+    none = sp.Integer(0)
+    return (Let(OWN, none, "what the joint does"), Update(dict.fromkeys(change, none)))
 
 
 def through_accelerations(equations: PassageEquations) -> sp.Matrix:

@@ -62,7 +62,8 @@ class Outward:
     pattern : Pattern
         Of the station.
     still : bool
-        Whether the hinge's acceleration is zero, as it is where a step is predicted without any.
+        Whether the hinge's acceleration is zero, as it is where a step is predicted without any; one that is given is
+        not.
     sloped : bool
         Whether slopes are taken there too: the motion at the inner side gets names, so that it can be kept.
 
@@ -82,7 +83,7 @@ class Outward:
 
     def __init__(self, pattern: Pattern, *, still: bool, sloped: bool = False) -> None:
         self.pattern, self.sheet, self._sloped = pattern, Sheet(), sloped
-        self._acceleration = sp.Integer(0) if still else ACCELERATION
+        self._acceleration = sp.Integer(0) if still and not pattern.given else ACCELERATION
         self.omega, self.alpha, self.accel = pattern.inner_motion
         copies: list[Let] = []
         if sloped and not pattern.rooted:

@@ -42,6 +42,8 @@ class Pattern:
         On the base: which components gravity has. Empty elsewhere.
     tip : bool
         Whether nothing hangs on it.
+    given : bool
+        Whether its motion is given: on the base, and nothing that it carries changes it.
     """
 
     axis: int
@@ -52,6 +54,7 @@ class Pattern:
     inertia: Flags
     falls: Flags = ()
     tip: bool = False
+    given: bool = False
 
     @property
     def massive(self) -> bool:

@@ -17,7 +17,7 @@ from tmm_gen.program.passes.rewrite import renamed_scratch
 from tmm_gen.program.space.base import BaseStep, earlier, history_sources
 from tmm_gen.program.space.base_start import start_of_base, unit_start
 from tmm_gen.program.space.bodies import Bodies
-from tmm_gen.program.space.layout import SpaceLayout, layout_of
+from tmm_gen.program.space.layout import SpaceLayout, instants, layout_of
 from tmm_gen.program.space.outputs import output_routine
 from tmm_gen.program.space.step import SpaceStep
 from tmm_gen.program.statements import Assign, Program, Routine, Section
@@ -173,7 +173,8 @@ class _Assembly:
             main=main,
             output=output,
             stage_instants=tuple(
-                tuple(float(stage.instant) for stage in scheme.stages) for scheme in self.integrator.schemes
+                instants(scheme, given=any(joint.given for joint in layout.arm.joints))
+                for scheme in self.integrator.schemes
             ),
             facts=dict(self.choices.facts),
         )

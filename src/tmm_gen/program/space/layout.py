@@ -7,13 +7,14 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from tmm_gen.derive.integrators.declaration import KINDS, Integrator, Past
+from tmm_gen.derive.integrators.declaration import CONSISTENT_START, KINDS, Integrator, Past, Scheme
 from tmm_gen.derive.integrators.history import history
 from tmm_gen.derive.space.declaration import AXES, PAIRS
 from tmm_gen.program.fields import MOTION_NAMES
 from tmm_gen.program.space.base_layout import BaseLayout, base_layout
 from tmm_gen.program.space.runs import Tree
 from tmm_gen.program.variables import Ref, Role, Variable
+from tmm_gen.scene.signal import ACCELERATION, RATE
 from tmm_gen.scene.spatial.arm import ArmInput, Revolute, SpatialArm
 
 _AGO = {1: "one step", 2: "two steps", 3: "three steps"}
@@ -84,7 +85,8 @@ def layout_of(arm: SpatialArm, name: str, title: str, integrator: Integrator, st
     n = len(arm.joints)
     kept = set(history(integrator, "acceleration")) | {Past(kind, 0) for kind in KINDS}
     ordered = sorted(kept, key=lambda p: (p.lag, KINDS.index(p.kind)))
-    stages = max(len(scheme.stages) for scheme in integrator.schemes)
+    given = any(joint.given for joint in arm.joints)
+    stages = max(len(instants(scheme, given=given)) for scheme in integrator.schemes)
     also = ", at each stage of the step" if stages > 1 else ""
     torques = {item.joint: item for item in arm.inputs if item.acts == "torque"}
     read = [torques[o.joint] for o in arm.outputs if o.quantity.read == "through" and o.joint in torques]
@@ -135,12 +137,24 @@ def layout_of(arm: SpatialArm, name: str, title: str, integrator: Integrator, st
     )
 
 
+def instants(scheme: Scheme, *, given: bool) -> tuple[float, ...]:
+    """Return the instants of a step, in steps, at which inputs are read: its stages, and its end for what is given."""
+    stages = tuple(float(stage.instant) for stage in scheme.stages)
+    ends = scheme is CONSISTENT_START or stages[-1] == 1.0 or not given
+    return stages if ends else (*stages, 1.0)
+
+
 def _marked(arm: SpatialArm) -> frozenset[int]:
     frames = [item.frame for item in arm.inputs] + [item.frame for item in arm.outputs]
     return frozenset(frame.joint - 1 for frame in frames if frame is not None and frame.joint)
 
 
 def _columns(arm: SpatialArm, item: ArmInput) -> Iterable[tuple[str, str, str]]:
+    if item.acts == "angle":
+        turned = f"of '{arm.joints[item.joint - 1].name}', which is given"
+        words = (("angle", "rad"), ("rate", "rad/s"), ("acceleration", "rad/s^2"))
+        names = (item.name, item.name + RATE, item.name + ACCELERATION)
+        return [(name, f"{word} {turned}", unit) for name, (word, unit) in zip(names, words, strict=True)]
     if item.acts == "torque":
         joint = arm.joints[item.joint - 1]
         geared = f", {joint.gear:g}-fold at the joint" if joint.gear != 1.0 else ""

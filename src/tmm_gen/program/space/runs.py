@@ -87,7 +87,8 @@ class Tree:
         joint = self.arm.joints[index]
         gravity = tuple(g != 0.0 for g in self.arm.gravity)
         rests = joint.host == 0 and self.arm.base is None
-        return pattern_of(joint, gravity if rests else (), tip=not self.carried(index))
+        found = pattern_of(joint, gravity if rests else (), tip=not self.carried(index))
+        return replace(found, given=bool(joint.given))
 
     def runs(self) -> tuple[Run, ...]:
         """Return all stations as runs, base to tips."""

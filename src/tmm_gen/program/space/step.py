@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from tmm_gen.derive.integrators.declaration import KINDS, STEP, Kind, Scheme, stage
+from tmm_gen.derive.integrators.declaration import KINDS, STEP, Kind, Past, Scheme, stage
 from tmm_gen.derive.integrators.relations import AffineMotion, affine_motion
 from tmm_gen.derive.space.inward import IMPEDANCE, OWN, TORQUE
 from tmm_gen.program.arm.auto import LEAST_TURN, MOST_SWEEPS, SWEEPS
@@ -16,11 +16,12 @@ from tmm_gen.program.fields import MOTION_NAMES
 from tmm_gen.program.motion import kept_stage_values, stage_variable, update_assignments
 from tmm_gen.program.space.base import BaseStep, gains_of
 from tmm_gen.program.space.bodies import Bodies
-from tmm_gen.program.space.layout import SpaceLayout
+from tmm_gen.program.space.layout import SpaceLayout, instants
 from tmm_gen.program.space.loads import loads_on_frames
 from tmm_gen.program.space.walks import MOTION, SpaceWalks
 from tmm_gen.program.statements import Assign, Loop, Order, Repeat, Section, Statement, Until
 from tmm_gen.program.variables import Role, Variable, local
+from tmm_gen.scene.signal import ACCELERATION, RATE
 from tmm_gen.scene.spatial.arm import ArmInput
 
 _TURNED = local("turned", "sum of squares of what this correction changes angles by", "rad^2")
@@ -102,7 +103,7 @@ class SpaceStep:
         still = "a" in point.still
         begun = self.base.begin(point) if self.base else []
         first = [
-            Section("predicted motion", (*begun, self._begin(point))),
+            Section("predicted motion", (*begun, self._begin(point), *self._given(index - 1))),
             self._impedances(motion, walks),
             self._torques(index, walks, point.still),
             walks.outward(still=still),
@@ -202,6 +203,25 @@ class SpaceStep:
             statements.append(Assign(entry, entry - acting))
         return Section("torques of the joints' own", tuple(statements))
 
+    def _given(self, instant: int) -> list[Statement]:
+        """Set the motion of joints at an instant of the step, from 0, where it is given."""
+        return [
+            Assign(self._motion(kind).entry(item.joint - 1), self.layout.input(name, instant))
+            for item in self.layout.arm.inputs
+            if item.acts == "angle"
+            for kind, name in zip(KINDS, _names_of_motion(item), strict=True)
+        ]
+
+    def _given_end(self) -> list[Statement]:
+        """Set the motion of joints at the end of the step, where it is given."""
+        last = len(instants(self.scheme, given=True)) - 1
+        return [
+            Assign(self.layout.state[Past(kind, 0)].entry(item.joint - 1), self.layout.input(name, last))
+            for item in self.layout.arm.inputs
+            if item.acts == "angle"
+            for kind, name in zip(KINDS, _names_of_motion(item), strict=True)
+        ]
+
     # -- motion ---------------------------------------------------------------------------------------------
 
     def _gain(self, motion: AffineMotion, kind: Kind) -> sp.Expr:
@@ -287,7 +307,11 @@ class SpaceStep:
         if self.base:
             of_base += self.base.finish()
         loop = Loop(Order.OUTWARD, 0, n, tuple(body))
-        return Section(title + "motion at the end of the step", (*of_base, loop))
+        return Section(title + "motion at the end of the step", (*of_base, loop, *self._given_end()))
+
+
+def _names_of_motion(item: ArmInput) -> tuple[str, str, str]:
+    return item.name, item.name + RATE, item.name + ACCELERATION
 
 
 _OWN_DOC = ("what the sweep finds each joint to do", "rad/s^2")

@@ -69,6 +69,8 @@ class Revolute:
         To start from, rad and rad/s.
     limits : tuple of float or None
         Lowest and highest angle, rad, for controllers; no stops are simulated.
+    given : str
+        Name of the input that is its angle; empty where it moves by forces. Such a joint stands on the base.
     """
 
     name: str
@@ -85,6 +87,7 @@ class Revolute:
     angle: float = 0.0
     rate: float = 0.0
     limits: tuple[float, float] | None = None
+    given: str = field(default="", metadata=UNSAID)
 
 
 @dataclass(frozen=True)
@@ -141,11 +144,12 @@ class ArmInput:
     Parameters
     ----------
     name : str
-        Columns: itself for a torque; with ``_x``, ``_y``, ``_z`` for a force or a moment.
-    acts : {"torque", "force", "moment"}
-        Between both sides of a joint (of a motor: on the motor's side of its gear), or on a frame.
+        Columns: itself for a torque or an angle; with ``_x``, ``_y``, ``_z`` for a force or a moment.
+    acts : {"torque", "force", "moment", "angle"}
+        Between both sides of a joint (of a motor: on the motor's side of its gear), or on a frame; or the angle of a
+        joint whose motion is given.
     joint : int
-        Number of the joint a torque acts in; 0 where it is no torque.
+        Number of the joint a torque acts in, or whose angle it is; 0 where it is neither.
     frame : Frame or None
         What a force or a moment acts on.
     axes : {"world", "body"}
@@ -153,7 +157,7 @@ class ArmInput:
     """
 
     name: str
-    acts: Literal["torque", "force", "moment"]
+    acts: Literal["torque", "force", "moment", "angle"]
     joint: int = 0
     frame: Frame | None = None
     axes: Literal["world", "body"] = "body"
@@ -161,7 +165,11 @@ class ArmInput:
     @property
     def columns(self) -> tuple[str, ...]:
         """Names of its scalars."""
-        return (self.name,) if self.acts == "torque" else tuple(f"{self.name}_{axis}" for axis in "xyz")
+        return (
+            (self.name,)
+            if self.acts in ("torque", "angle")
+            else tuple(f"{self.name}_{axis}" for axis in "xyz")
+        )
 
 
 ArmQuantity = Literal[

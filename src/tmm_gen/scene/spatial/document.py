@@ -56,7 +56,11 @@ class SpatialDocument(Document):
     @cached_property
     def expansion(self) -> SpatialExpansion:
         """The joints that the parts make; only where they hang together."""
-        return expanded(self.tree, afloat=self.base.floats)
+        turns = None
+        if self.base.kind == "prescribed":
+            named = next((item.name for item in self.input if item.acts == "angle"), "")
+            turns = (self.base.axis, named)
+        return expanded(self.tree, afloat=self.base.floats, turns=turns)
 
     @property
     def arm(self) -> SpatialArm:

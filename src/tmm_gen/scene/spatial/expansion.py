@@ -9,7 +9,7 @@ from fractions import Fraction
 from tmm_gen.scene.exact import exact, nearest
 from tmm_gen.scene.initial import Values
 from tmm_gen.scene.parts.order import BASE
-from tmm_gen.scene.spatial.arm import ArmInput, ArmOutput, Frame, Revolute, RigidBody
+from tmm_gen.scene.spatial.arm import ArmInput, ArmOutput, Frame, Revolute, RigidBody, Vector
 from tmm_gen.scene.spatial.beam import cells
 from tmm_gen.scene.spatial.geometry import (
     NOWHERE,
@@ -82,18 +82,20 @@ class SpatialExpansion:
         """Return the joints as they are at time zero; beams are straight."""
         found = list(self.joints)
         for name, number in self.numbers.items():
+            if name == BASE:  # moves as its input says
+                continue
             angle, rate = (_value(values, name) for values in (angles, rates))
             found[number - 1] = replace(found[number - 1], angle=angle, rate=rate)
         return tuple(found)
 
     def _input(self, item: SpatialInput) -> ArmInput:
-        if item.acts == "torque":
-            return ArmInput(item.name, "torque", joint=self.numbers[item.at])
+        if item.acts in ("torque", "angle"):
+            return ArmInput(item.name, item.acts, joint=self.numbers[item.at])
         return ArmInput(item.name, item.acts, frame=self._frame(item.at), axes=item.axes)
 
     def _frame(self, name: str) -> Frame | None:
         """Return the outer end of a part, or the base's own frame; None of the arm as a whole."""
-        return Frame(BASE, 0) if name == BASE else self.frames.get(name)
+        return self.frames.get(name, Frame(BASE, 0) if name == BASE else None)
 
 
 def _value(values: Values, name: str) -> float:
@@ -147,16 +149,36 @@ class _Building:
         return SpatialExpansion(joints, self.frames, self.numbers, tuple(self.inner), base)
 
 
-def expanded(tree: Tree, *, afloat: bool = False) -> SpatialExpansion:
-    """Expand parts that keep all rules; ``afloat`` where nothing holds the base."""
+def expanded(
+    tree: Tree, *, afloat: bool = False, turns: tuple[Vector, str] | None = None
+) -> SpatialExpansion:
+    """Expand parts that keep all rules.
+
+    Parameters
+    ----------
+    afloat : bool
+        Whether nothing holds the base.
+    turns : tuple of (Vector, str), optional
+        The axis that a prescribed base turns about, and the input that is its angle.
+    """
     made = _Building(afloat)
-    ends = {BASE: Pose()}
+    ends = {BASE: Pose() if turns is None else _turning_base(made, *turns)}
     for hung in tree.outward():
         part = hung.part
         pose = ends[hung.on].then(point(part.at), turned(part.turn))
         ends[hung.name] = end = _placed(made, part, pose)
         made.frames[hung.name] = Frame(hung.name, end.joint, vector(end.at), floats(end.turn))
     return made.done()
+
+
+def _turning_base(made: _Building, direction: Vector, given: str) -> Pose:
+    """Add the joint that a prescribed base is, and return where parts hang on it."""
+    axis, turn = joint_frame(Pose().turn, unit(direction))
+    number = made.joint(Revolute(BASE, 0, turn=floats(turn), axis=axis, given=given), BASE)
+    made.numbers[BASE] = number
+    pose = Pose(number, NOWHERE, settled(transposed(turn)))
+    made.frames[BASE] = Frame(BASE, number, vector(pose.at), floats(pose.turn))
+    return pose
 
 
 def _placed(made: _Building, part: SpatialPart, pose: Pose) -> Pose:

@@ -8,7 +8,7 @@ from pydantic import BeforeValidator, Field
 
 from tmm_gen.scene.model import Model, sweeps_or_auto
 from tmm_gen.scene.spatial.arm import ZERO
-from tmm_gen.scene.spatial.values import Gravity, Place
+from tmm_gen.scene.spatial.values import AxisVector, Gravity, Place
 from tmm_gen.scene.table import Count, Finite, Table, fault
 
 SWEEPS = {"sdirk4": 3}
@@ -67,10 +67,6 @@ _OTHER_BASES = {
         "is a short form for arms in a plane",
         'Write `kind = "clamp"`, and hang a [[motor]] on it.',
     ),
-    "prescribed": (
-        "is not there yet for arms in space",
-        'Write `kind = "clamp"`, and let a [[motor]] on it move the arm.',
-    ),
     "floating": ("is no kind of base", 'Write `kind = "free"`.'),
 }
 
@@ -79,7 +75,7 @@ def _kind(value: object) -> object:
     """Reject kinds of bases that others have, in words of their own."""
     if isinstance(value, str) and value in _OTHER_BASES:
         what, remedy = _OTHER_BASES[value]
-        raise fault(f'{what}: arms in space stand on a "clamp", or float with kind = "free"', remedy)
+        raise fault(f'{what}: arms in space have "clamp", "free" and "prescribed"', remedy)
     return value
 
 
@@ -88,16 +84,26 @@ class SpatialBase(Table):
 
     Parameters
     ----------
-    kind : {"clamp", "free"}
-        One that never moves, or one that floats: the bodies on it. Others are refused in words of their own.
+    kind : {"clamp", "free", "prescribed"}
+        One that never moves, one that floats: the bodies on it; or one that turns as an input says. Others are refused
+        in words of their own.
+    axis : tuple of float, length 3
+        What a prescribed base turns about; of any length but 0.
     at, turn : tuple of float, length 3
         Of a base that floats: where it is at first, m, and its turn about x, then y, then z of the world, rad.
     velocity, rate : tuple of float, length 3
         How it moves at first: in world axes, m/s, and about its own axes, rad/s.
     """
 
-    kind: Annotated[Literal["clamp", "free"], BeforeValidator(_kind)] = Field(
-        description='kind of base: "clamp", or "free" for one that floats', examples=['"clamp"']
+    kind: Annotated[Literal["clamp", "free", "prescribed"], BeforeValidator(_kind)] = Field(
+        description='kind of base: "clamp", "free" for one that floats, "prescribed" for one that turns as told',
+        examples=['"clamp"'],
+    )
+    axis: AxisVector = Field(
+        default=(0.0, 0.0, 1.0),
+        description='of a prescribed base: what it turns about, "x", "y", "z" or a vector',
+        examples=['"z"'],
+        json_schema_extra={"absent": '"z"'},
     )
     at: Place = Field(
         default=ZERO,
@@ -130,6 +136,11 @@ class SpatialBase(Table):
     def floats(self) -> bool:
         """Whether nothing holds it."""
         return self.kind == "free"
+
+    @property
+    def moves(self) -> bool:
+        """Whether what is fixed to it moves."""
+        return self.kind != "clamp"
 
 
 FLOATING_KEYS = ("at", "turn", "velocity", "rate")

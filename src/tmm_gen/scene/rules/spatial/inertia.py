@@ -23,7 +23,7 @@ def something_to_turn(document: SpatialDocument) -> Iterator[Finding]:
         return
     told = set()
     for pivot, low, joint, name in zip(pivots(joints), least, joints, made.inner, strict=True):
-        if not (pivot.vanishes and low.vanishes) or name in told:
+        if joint.given or not (pivot.vanishes and low.vanishes) or name in told:
             continue
         told.add(name)
         hung = document.tree.by_name[name]

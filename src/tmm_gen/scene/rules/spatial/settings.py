@@ -17,20 +17,23 @@ def keys_of_base(document: SpatialDocument) -> Iterator[Finding]:
             floats = "a base that floats is made of the bodies on it, and nothing damps it"
             yield Finding(
                 ("base", key),
-                f"is that of a hub: {floats}" if base.floats else "is that of a hub, and a clamp has none",
+                f"is that of a hub: {floats}" if base.floats else "is that of a hub, and this base has none",
                 'Remove it; mass and inertia are those of a [[body]] with `on = "base"`.'
                 if base.floats
                 else "Remove it.",
                 getattr(base, key),
             )
     for key in FLOATING_KEYS:
-        if base.kind == "clamp" and key in base.model_fields_set:
+        if not base.floats and key in base.model_fields_set:
+            other = "a prescribed base moves as its input says" if base.moves else "a clamp never moves"
             yield Finding(
                 ("base", key),
-                "is of a base that floats, and a clamp never moves: its axes are those of the world",
+                f"is of a base that floats, and {other}: its axes are those of the world at first",
                 'Remove it, or write `kind = "free"`; parts have `at` and `turn` of their own.',
                 getattr(base, key),
             )
+    if base.kind != "prescribed" and "axis" in base.model_fields_set:
+        yield Finding(("base", "axis"), "is that of a prescribed base", "Remove it.", base.axis)
 
 
 def own_tables(document: SpatialDocument) -> Iterator[Finding]:
