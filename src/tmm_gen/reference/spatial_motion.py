@@ -15,6 +15,7 @@ from tmm_gen.inputs.signals import Signal
 from tmm_gen.reference.collocation import integrate
 from tmm_gen.reference.spatial_afloat import AfloatArm, joint_mass
 from tmm_gen.reference.spatial_arm import WorldArm
+from tmm_gen.reference.spatial_given import GivenJoints, free_joints
 from tmm_gen.scene.spatial.arm import SpatialArm
 
 Array = NDArray[np.float64]
@@ -44,17 +45,26 @@ def motion(
         If the equations cannot be integrated.
     """
     world = WorldArm(arm) if arm.base is None else AfloatArm(arm)
-    times = np.asarray(times, float)
+    times, told = np.asarray(times, float), GivenJoints(arm, signals)
 
     def residual(at: Array, q: Array, v: Array, a: Array) -> Array:
-        return np.asarray(world.inverse_dynamics(q, v, a, given(signals, at)), np.float64)
+        lacking = np.asarray(world.inverse_dynamics(q, v, a, given(signals, at)), np.float64)
+        return told.lacking(at, a, lacking)
 
     until = max(float(times[-1]), 1e-9)
     knots = np.unique(np.concatenate([[0.0, until], *(signal.knots for signal in signals.values())]))
     breaks = knots[(knots >= 0.0) & (knots <= until)]
-    slopes = _Slopes(world, signals)
-    q, v, _ = integrate(residual, slopes, *start(arm), breaks, tolerance).at(times)
-    return q, v, world.forward_dynamics(q, v, given(signals, times))
+    slopes = _Slopes(world, signals, told)
+    begun = told.settled(np.zeros(()), *start(arm))
+    q, v, _ = integrate(residual, slopes, *begun, breaks, tolerance).at(times)
+    q, v = told.settled(times, q, v)
+    if not told.of:
+        return q, v, world.forward_dynamics(q, v, given(signals, times))
+    # linear in accelerations: one step of Newton's method from none of them
+    a = np.zeros_like(q)
+    tangent = told.slopes(*slopes(times, q, v, a))[2]
+    found = np.linalg.solve(tangent, -residual(times, q, v, a)[..., None])[..., 0]
+    return q, v, np.asarray(found, np.float64)
 
 
 def given(signals: Signals, times: Array) -> dict[str, Array]:
@@ -64,13 +74,15 @@ def given(signals: Signals, times: Array) -> dict[str, Array]:
 
 def pace(arm: SpatialArm) -> float:
     """Return the fastest rate of the arm where it starts, 1/s: of vibrations, decays or rotations."""
-    world, n = WorldArm(arm), len(arm.joints)
-    mass = joint_mass(arm)
+    world, free = WorldArm(arm), free_joints(arm)
+    n = len(free)
+    mass = joint_mass(arm)[np.ix_(free, free)]
     if arm.base is None:
         q, v = start(arm)
         by_q, by_v = world.tangents(q, v, np.zeros_like(q), {})
     else:  # it falls, and weighs nothing
         by_q, by_v = np.diag(world.stiffness), np.diag(world.damping)
+    by_q, by_v = by_q[np.ix_(free, free)], by_v[np.ix_(free, free)]
     slope = np.block([[np.zeros((n, n)), np.eye(n)], [-np.linalg.solve(mass, np.hstack([by_q, by_v]))]])
     return float(np.max(np.abs(np.linalg.eigvals(slope))))
 
@@ -81,8 +93,8 @@ class _Slopes:
     Newton's method so takes a few iterations more, and each is far cheaper; what it converges to is the same.
     """
 
-    def __init__(self, world: WorldArm | AfloatArm, signals: Signals) -> None:
-        self._world, self._signals = world, signals
+    def __init__(self, world: WorldArm | AfloatArm, signals: Signals, told: GivenJoints) -> None:
+        self._world, self._signals, self._told = world, signals, told
         self._of, self._held = (np.inf, np.inf), (np.empty(0), np.empty(0))
 
     def __call__(self, at: Array, q: Array, v: Array, a: Array) -> tuple[Array, Array, Array]:
@@ -94,7 +106,7 @@ class _Slopes:
         by_q, by_v = (np.broadcast_to(tangent, (len(at), *tangent.shape)) for tangent in self._held)
         if isinstance(self._world, AfloatArm):
             return by_q, by_v, self._world.mass_matrix(q, v, {})
-        return by_q, by_v, self._world.mass_matrix(q)
+        return self._told.slopes(by_q, by_v, self._world.mass_matrix(q))
 
 
 def start(arm: SpatialArm) -> tuple[Array, Array]:

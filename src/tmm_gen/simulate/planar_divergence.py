@@ -47,6 +47,9 @@ class PlanarWatch:
         """
         before = np.array(self.scene.initial.angles) if self._before is None else self._before
         turned = np.abs(angles - before)
+        for number, joint in enumerate(self.scene.spatial.joints if self.scene.spatial else ()):
+            if joint.given:  # wherever its input has it
+                turned[number] = 0.0
         self._before = np.array(angles)
         if turned.max() <= TURN:  # false for what is no number
             return

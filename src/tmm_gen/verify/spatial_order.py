@@ -17,10 +17,13 @@ from numpy.typing import NDArray
 from tmm_gen.inputs.signals import Signal, Sine
 from tmm_gen.reference.spatial_afloat import AfloatArm, joint_mass
 from tmm_gen.reference.spatial_arm import WorldArm
+from tmm_gen.reference.spatial_given import free_joints
 from tmm_gen.reference.spatial_motion import motion, start
 from tmm_gen.scene import Scene
+from tmm_gen.scene.signal import ACCELERATION, RATE
 from tmm_gen.scene.spatial.arm import SpatialArm
 from tmm_gen.simulate.metrics import convergence_slope
+from tmm_gen.simulate.prescribed import Derivative
 from tmm_gen.simulate.trace import BASE
 from tmm_gen.verify.check_row import CheckRow
 
@@ -30,6 +33,8 @@ _RATE = 1.0
 """rad/s that all joints together turn at first, beside what the scene says."""
 _PULL = 3.0
 """rad/s^2 that each input alone gives the joint it moves most."""
+_TURNED = 0.3
+"""rad that a prescribed base turns either way."""
 _SWING = 8.0
 """rad/s of the inputs."""
 _FASTEST = 40.0
@@ -112,9 +117,10 @@ def softened(arm: SpatialArm) -> SpatialArm:
     """Return an arm with all springs and dampers scaled down until vibrations and decays are slow."""
     from scipy.linalg import eigh  # slow to import
 
-    world, mass = WorldArm(arm), joint_mass(arm)
+    world, free = WorldArm(arm), free_joints(arm)
+    mass = joint_mass(arm)[np.ix_(free, free)]
     square, decay = (
-        float(eigh(np.diag(values), mass, eigvals_only=True)[-1])
+        float(eigh(np.diag(values[free]), mass, eigvals_only=True)[-1])
         for values in (world.stiffness, world.damping)
     )
     share = 1.0 / max(1.0, square / _FASTEST**2, decay / _FASTEST)
@@ -142,7 +148,9 @@ def swings(arm: SpatialArm) -> dict[str, Signal]:
     q = start(arm)[0]
     free = world.forward_dynamics(q, 0.0 * q, {})
     found: dict[str, Signal] = {}
-    for column in (column for item in arm.inputs for column in item.columns):
+    for item in (item for item in arm.inputs if item.acts == "angle"):
+        found[item.name] = Sine(_TURNED, _SWING / 2.0)
+    for column in (column for item in arm.inputs if item.acts != "angle" for column in item.columns):
         moved = float(np.max(np.abs(world.forward_dynamics(q, 0.0 * q, {column: 1.0}) - free)))
         found[column] = Sine(_PULL / moved if moved > 0.0 else 1.0, _SWING, 0.3 * len(found))
     return found
@@ -176,8 +184,13 @@ def _angles(
         },
     )
 
+    signals: dict[str, Signal | Derivative] = dict(loads)
+    for item in (item for item in arm.inputs if item.acts == "angle"):
+        for order, word in enumerate((RATE, ACCELERATION), start=1):
+            signals[item.name + word] = Derivative(loads[item.name], order)
+
     def given(time: float) -> object:
-        return module.Input(**{name: float(signal.at(time)) for name, signal in loads.items()})
+        return module.Input(**{name: float(signal.at(time)) for name, signal in signals.items()})
 
     begun: dict[str, object] = {
         "initial_angle": np.array([j.angle for j in arm.joints]),

@@ -98,7 +98,7 @@ class Inertial:
                 value = own[i, j] + (0 if self._out.pattern.tip else ARTICULATED[i, j])
                 inertia[i, j] = inertia[j, i] = sheet.named(names[6 * i + j], value)
         about_axis = inertia[axis, :]
-        if self._out.pattern.rooted:  # what it stands on rests
+        if self._out.pattern.unyielding:  # what it stands on rests
             about_axis = sp.Matrix([[v if k == axis else 0 for k, v in enumerate(about_axis)]])
         lines: list[Line] = [
             *sheet.lets,
@@ -114,7 +114,7 @@ class Inertial:
         lines += [Pivot(pivot), Let(ADMITTANCE, 1 / pivot, "motion of the joint per torque in it")]
         bias, biased = self._balanced()
         lines += biased
-        if self._out.pattern.rooted:
+        if self._out.pattern.unyielding:
             return tuple(lines)
         sheet = Sheet()
         taken = sheet.named("giving", gain * ADMITTANCE, "what the joint gives way by")
@@ -182,14 +182,14 @@ class Inertial:
 
     def _again(self) -> tuple[Line, ...]:
         bias, lines = self._balanced()
-        if self._out.pattern.rooted:
+        if self._out.pattern.unyielding:
             return tuple(lines)
         update, passed = self._passed(bias)
         return (*lines, *passed, Update(update))
 
     def _back(self) -> tuple[Line, ...]:
         pattern, sheet = self._out.pattern, Sheet()
-        change = sp.zeros(6, 1) if pattern.rooted else CHANGE
+        change = sp.zeros(6, 1) if pattern.unyielding else CHANGE
         for crossing in self._out.crossings:
             moved = through_accelerations(crossing.equations) * change
             change = sp.Matrix(

@@ -125,7 +125,7 @@ class Newton:
             Let(ADMITTANCE, 1 / pivot, "motion of the joint per torque in it"),
             Let(IMBALANCE, bias[axis] + TORQUE, "torque that the joint lacks", "N m"),
         ]
-        if out.pattern.rooted:
+        if out.pattern.unyielding:
             return tuple(lines)
         sheet = Sheet()
         # the forces beyond the joint turn with it
@@ -207,7 +207,7 @@ class Newton:
 
     def _back(self) -> tuple[Line, ...]:
         pattern, sheet = self._out.pattern, Sheet()
-        change = sp.zeros(9, 1) if pattern.rooted else CHANGE
+        change = sp.zeros(9, 1) if pattern.unyielding else CHANGE
         for crossing in self._out.crossings:
             for part in reversed(self._through(sheet, crossing)):
                 moved = part * change

@@ -101,8 +101,10 @@ class Outward:
         *before, last = passages(pattern)
         self.crossings = (*(self._cross(e, "mount") for e in before), self._cross(last, "own"))
         own = body_force(self.sheet, pattern, self.omega, self.alpha, self.accel, (OWN_FORCE, OWN_MOMENT))
+        own = [let for let in own if let.symbol in wanted_forces(pattern)]
         carried = dict(zip((*OMEGA, *ALPHA, *ACCEL), (*self.omega, *self.alpha, *self.accel), strict=True))
-        update = {s: v for s, v in carried.items() if s != v}
+        ends = pattern.driven and pattern.tip  # nobody asks how it moves
+        update = {s: v for s, v in carried.items() if s != v and not ends}
         self.named = (*circle, *copies, *self.sheet.lets)
         self.lines: tuple[Line, ...] = (*self.named, *own, Update(update))
 
@@ -174,6 +176,16 @@ def body_force(
         )
         for symbol, value in zip(symbols, values, strict=True)
     ]
+
+
+def wanted_forces(pattern: Pattern) -> frozenset[sp.Symbol]:
+    """Return what is asked for of the force and the moment that a body takes.
+
+    Of a joint whose motion is given that is nothing, of one that stands on such a joint what is about its own axis.
+    """
+    if pattern.given:
+        return frozenset()
+    return frozenset([OWN_MOMENT[pattern.axis]] if pattern.driven else (*OWN_FORCE, *OWN_MOMENT))
 
 
 def relative_acceleration(relative: sp.Matrix) -> sp.Matrix:

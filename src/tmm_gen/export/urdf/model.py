@@ -152,6 +152,7 @@ def _left_out(arm: SpatialArm) -> list[str]:
     said = [f"gravity: {_text(*arm.gravity)} m/s^2 in the axes of base_link"] if any(arm.gravity) else []
     if arm.base is not None:
         said.append("that base_link floats, and where it is and how it moves at first")
+    said += [f"that input '{j.given}' moves joint '{j.name}'" for j in arm.joints if j.given]
     if arm.inputs:
         said.append(f"inputs: {', '.join(item.name for item in arm.inputs)}")
     for joint in arm.joints:

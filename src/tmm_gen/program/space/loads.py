@@ -8,7 +8,7 @@ import sympy as sp
 
 from tmm_gen.derive.space import base_motion
 from tmm_gen.derive.space.base_pose import found_facing_line
-from tmm_gen.derive.space.outward import OWN_FORCE, OWN_MOMENT
+from tmm_gen.derive.space.outward import OWN_FORCE, OWN_MOMENT, wanted_forces
 from tmm_gen.derive.space.pose import FACING, facing_lines
 from tmm_gen.derive.station.lets import Line, Update
 from tmm_gen.program.arm.loads import exactly
@@ -44,15 +44,22 @@ def loads_on_frames(layout: SpaceLayout, walks: SpaceWalks, stage: int) -> list[
             names = (base_motion.OWN_FORCE, base_motion.OWN_MOMENT)
             sections.append(Section(title, tuple(walks.base_lines(_taken_off(item, acting, names)))))
             continue
+        wanted = wanted_forces(layout.tree.pattern(station))
+        if not wanted:
+            continue
         if item.axes == "body":
-            lines = _taken_off(item, turn * vector)
+            lines = _taken_off(item, turn * vector, wanted=wanted)
             sections.append(Section(title, tuple(walks.at_station(station, lines))))
             continue
 
         def read(
-            at: int, station: int = station, item: ArmInput = item, v: sp.Matrix = vector
+            at: int,
+            station: int = station,
+            item: ArmInput = item,
+            v: sp.Matrix = vector,
+            wanted: frozenset[sp.Symbol] = wanted,
         ) -> Sequence[Line]:
-            return _taken_off(item, FACING * v) if at == station else ()
+            return _taken_off(item, FACING * v, wanted=wanted) if at == station else ()
 
         walked = walks.walk(
             Order.OUTWARD,
@@ -67,11 +74,23 @@ def loads_on_frames(layout: SpaceLayout, walks: SpaceWalks, stage: int) -> list[
 
 
 def _taken_off(
-    item: ArmInput, acting: sp.Matrix, names: tuple[sp.Matrix, sp.Matrix] = (OWN_FORCE, OWN_MOMENT)
+    item: ArmInput,
+    acting: sp.Matrix,
+    names: tuple[sp.Matrix, sp.Matrix] = (OWN_FORCE, OWN_MOMENT),
+    wanted: frozenset[sp.Symbol] | None = None,
 ) -> tuple[Line, ...]:
-    """Return what a load, in the axes of a body, takes off what the body takes: force and moment by their names."""
+    """Return what a load, in the axes of a body, takes off what the body takes.
+
+    Parameters
+    ----------
+    names : tuple of 2 sympy.Matrix
+        Of the body's force and moment.
+    wanted : frozenset of sympy.Symbol, optional
+        What of them is asked for; all if left out.
+    """
     assert item.frame is not None
     place = sp.Matrix([exactly(r) for r in item.frame.at])
     force, moment = (acting, place.cross(acting)) if item.acts == "force" else (sp.zeros(3, 1), acting)
     pairs = zip((*names[0], *names[1]), (*force, *moment), strict=True)
-    return (Update({symbol: symbol - value for symbol, value in pairs if value != 0}),)
+    taken = {s: s - value for s, value in pairs if value != 0 and (wanted is None or s in wanted)}
+    return (Update(taken),)

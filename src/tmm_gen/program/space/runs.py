@@ -74,6 +74,10 @@ class Tree:
         """Whether more than one station stands on one."""
         return len(self.carried(index)) > 1
 
+    def given(self, index: int) -> bool:
+        """Whether the motion of a station is given; that of the base, -1, is not."""
+        return index >= 0 and bool(self.arm.joints[index].given)
+
     def inward_of(self, index: int) -> frozenset[int]:
         """Return the stations between the base and one, itself among them."""
         found = []
@@ -88,7 +92,7 @@ class Tree:
         gravity = tuple(g != 0.0 for g in self.arm.gravity)
         rests = joint.host == 0 and self.arm.base is None
         found = pattern_of(joint, gravity if rests else (), tip=not self.carried(index))
-        return replace(found, given=bool(joint.given))
+        return replace(found, given=bool(joint.given), driven=self.given(self.host(index)))
 
     def runs(self) -> tuple[Run, ...]:
         """Return all stations as runs, base to tips."""

@@ -135,7 +135,12 @@ class SpaceStep:
         """Return one correction; ``still`` where nothing was predicted of accelerations before it."""
         return [
             Section(
-                "improved prediction", (*self._moved(motion, still=still), self._improve(motion, still=still))
+                "improved prediction",
+                (
+                    *self._moved(motion, still=still),
+                    self._improve(motion, still=still),
+                    *self._given(index - 1),
+                ),
             ),
             self._torques(index, walks, frozenset()),
             walks.outward(still=False),

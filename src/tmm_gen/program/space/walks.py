@@ -293,6 +293,8 @@ class SpaceWalks:
             taken = [Assign(self._here(s), self._fork(host, s)) for s in carried] if branch else []
             left = [Assign(self._fork(index, s), self._here(s)) for s in carried] if tree.forks(index) else []
             return [*taken, *body, *left]
+        if tree.given(index) or tree.given(host):  # nothing is passed on to what moves as given
+            return body
         added = (
             [Assign(self._here(s), self._here(s) + self._fork(index, s)) for s in carried]
             if tree.forks(index)

@@ -59,7 +59,7 @@ class SpatialDocument(Document):
         turns = None
         if self.base.kind == "prescribed":
             named = next((item.name for item in self.input if item.acts == "angle"), "")
-            turns = (self.base.axis, named)
+            turns = (self.base.axis, named) if named else None
         return expanded(self.tree, afloat=self.base.floats, turns=turns)
 
     @property

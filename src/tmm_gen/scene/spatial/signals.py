@@ -37,7 +37,8 @@ class SpatialInput(Table):
     name: Name = Field(description="identifier", examples=['"shoulder_torque"'])
     at: Where = Field(description="name of a part", examples=['"shoulder"'])
     acts: Literal["torque", "force", "moment", "angle"] = Field(
-        description="torque of a motor or in a joint, force or moment on a part's outer end, angle of a prescribed base",
+        description="torque of a motor or in a joint, force or moment on a part's outer end, "
+        "angle of a prescribed base",
         examples=['"torque"'],
     )
     axes: Literal["world", "body"] = Field(
