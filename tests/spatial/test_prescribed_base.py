@@ -113,7 +113,7 @@ def test_scene() -> None:
     vectors = list(reached_vectors(module, program, 2, relative=True))
     assert largest_difference(numpy_step(module, program), native_step(kernel, program), vectors) < 1e-12
     signals = {"table": Sine(0.7, 5.0, 0.4)}
-    found = simulate(scene, signals, 0.5, "c", kernel)
+    found = simulate(scene, signals, 0.5, "c", kernel=kernel)
     arm = scene.spatial
     assert arm is not None
     q, _, _ = motion(arm, signals, found.time[1:])

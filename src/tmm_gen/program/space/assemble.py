@@ -90,6 +90,11 @@ def build_in_space(
     return _Assembly(layout_of(arm, name, title, integrator, choices.step), integrator, choices).program()
 
 
+def _whole(sections: list[Section], _then: Section) -> list[Section]:
+    """Return the sections of a sweep as they are."""
+    return sections
+
+
 class _Assembly:
     """Gathers the routines of the program."""
 
@@ -103,6 +108,7 @@ class _Assembly:
         """Build the program."""
         layout, integrator = self.layout, self.integrator
         routines: dict[str, Routine] = {}
+        given = any(joint.given for joint in layout.arm.joints)
         # the main scheme first: its factors get the plain names
         for position, scheme in sorted(
             enumerate(integrator.schemes), key=lambda item: item[1] is not integrator.main
@@ -117,7 +123,8 @@ class _Assembly:
                 held=self.choices.held,
                 auto=self.choices.auto,
                 exact=self.choices.exact,
-                split=self.early.split,
+                # what a given joint does not set of an array would be left open in the model
+                split=_whole if given else self.early.split,
                 base=self._base(scheme),
             )
             name = "step" if main else f"step_start{position + 1}"
