@@ -185,6 +185,7 @@ LONG = (
     "spatial/test_order.py",
     "spatial/test_pictures.py",
     "spatial/test_planar_twins.py",
+    "spatial/test_prescribed_base.py",
     "spatial/test_rest.py",
     "spatial/test_text_size.py",
     "spatial/test_written_first.py",

@@ -170,13 +170,13 @@ CASES = {
         'Remove it, or write `kind = "free"`',
         ("rate = [0, 0, 1]", ""),
     ),
-    "prescribed base": Case(
+    "prescribed base without an angle": Case(
         'kind = "clamp"',
         'kind = "prescribed"',
         "base.kind",
-        "is not there yet for arms in space",
-        "let a [[motor]] on it move the arm",
-        ('"prescribed"', '"clamp"'),
+        "needs an input that prescribes the angle",
+        'Add [[input]] with `name = "base_angle"`, `at = "base"`, `acts = "angle"`.',
+        ("[initial]", '[[input]]\nname = "base_angle"\nat = "base"\nacts = "angle"\n\n[initial]'),
     ),
     "motor as a base": Case(
         'kind = "clamp"',
