@@ -42,7 +42,7 @@ def tree(seed: int, method: str, choices: SpaceChoices) -> Program:
 
 @cache
 def afloat(seed: int, method: str, choices: SpaceChoices) -> Program:
-    return program_of(random_afloat(seed, 1), method, choices)
+    return program_of(random_afloat(seed, 2), method, choices)
 
 
 @cache
