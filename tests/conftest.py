@@ -170,6 +170,7 @@ LONG = (
     "docs/test_mpc_page.py",
     "docs/test_space_page.py",
     "docs/test_stability_page.py",
+    "export/fmu/test_space.py",
     "modal/test_time_and_frequency.py",
     "planar/test_accuracy.py",
     "planar/test_energy.py",
@@ -181,6 +182,7 @@ LONG = (
     "spatial/test_budgets.py",
     "spatial/test_hard_cases.py",
     "spatial/test_import_motion.py",
+    "spatial/test_integrators.py",
     "spatial/test_newton.py",
     "spatial/test_order.py",
     "spatial/test_pictures.py",
@@ -192,6 +194,7 @@ LONG = (
     "spatial/test_yardsticks.py",
     "stability/test_map.py",
     "study/test_cluster.py",
+    "target/test_space.py",
 )
 """Files whose tests take long, besides single ones marked so; ``-m "not long"`` leaves them out."""
 

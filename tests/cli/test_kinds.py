@@ -13,13 +13,11 @@ from tmm_gen.cli.kinds import SERVED
 from tmm_gen.control.problem import control_problem
 from tmm_gen.derive.integrators.registry import integrator
 from tmm_gen.errors import UserError
-from tmm_gen.explain.explanation import explain
 from tmm_gen.modal.arm import linear_arm
 from tmm_gen.modal.rest import rest_at, straight
 from tmm_gen.row.scene import row_of
 from tmm_gen.scene import Scene, parse_scene
 from tmm_gen.scene.template import template
-from tmm_gen.study.excitation import excitation
 
 WITHOUT_A_SCENE = {"new", "import", "keys", "integrators", "errata", "demo"}
 """Commands that take none; `demo` brings its own, `import` makes one."""
@@ -30,7 +28,7 @@ MORE = {
 }
 """What commands must be given beside a scene."""
 
-FORMATS = ("fmu", "mjcf")
+FORMATS = ("fmu", "mjcf", "urdf")
 
 
 @pytest.fixture
@@ -89,9 +87,7 @@ FUNCTIONS: dict[str, Callable[[Scene], object]] = {
     "row": lambda scene: row_of(scene, integrator("newmark")),
     "modes": linear_arm,
     "rest": lambda scene: rest_at(scene, straight(scene)),
-    "explain": explain,
     "calibrate": lambda scene: calibrate(scene, {}),
-    "study": excitation,
     "control": control_problem,
 }
 
@@ -101,16 +97,6 @@ def test_functions_say_so_too(name: str) -> None:
     scene = parse_scene(template("crane", "spatial"), "crane.toml")
     with pytest.raises(UserError, match=r"^crane\.toml: .* do not serve arms in space yet"):
         FUNCTIONS[name](scene)
-
-
-def test_keys_of_the_scene_can_be_set_for_a_command_that_refuses_it(
-    scene: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    """Wrong keys come first."""
-    assert main(["explain", str(scene), "--set", "motor.yaw.gear=-1"]) == 2
-    assert "motor[1].gear: must be greater than 0" in capsys.readouterr().err
-    assert main(["explain", str(scene), "--set", "motor.yaw.gear=10"]) == 2
-    assert "does not serve" in capsys.readouterr().err
 
 
 def test_new_writes_an_arm_in_space(

@@ -26,14 +26,20 @@ def _commands() -> list[str]:
 
 def test_every_command_works(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     commands = _commands()
-    assert len(commands) == 2
+    assert len(commands) == 3
     monkeypatch.chdir(tmp_path)
-    (tmp_path / "scenes").symlink_to(ROOT / "scenes")
+    for folder in ("scenes", "examples"):
+        (tmp_path / folder).symlink_to(ROOT / folder)
     for command in commands:
         program, *words = command.split()
         assert program == "tmm-gen"
         assert main(words) == 0
-    assert {path.name for path in tmp_path.iterdir()} == {"scenes", "thesis10-trade.html", "tuned.toml"}
+    assert {path.name for path in tmp_path.iterdir()} == {
+        "scenes",
+        "examples",
+        "thesis10-trade.html",
+        "tuned.toml",
+    }
 
 
 @pytest.mark.parametrize("scene", COLUMNS)

@@ -20,6 +20,8 @@ pytestmark = pytest.mark.compiler
 
 ROOT = Path(__file__).resolve().parents[2]
 OWN_SINES = {"emit.trigonometry": "own", "emit.batch": 8}
+BOX = {"angles": [-3.2, 3.2], "rates": [-6.0, 6.0], "accelerations": [-2e3, 2e3]}
+BOX |= {f"torque{k}": [-2.0, 2.0] for k in range(1, 7)}
 CASES: dict[str, tuple[str, dict[str, Any]]] = {
     "start-up steps, a chain": ("scenes/thesis10", {"integrator": {"name": "houbolt", "step": 0.002}, "emit.batch": 8}),
     "stages": ("scenes/arm2", {**OWN_SINES, "integrator": {"name": "sdirk4", "step": 0.002}}),
@@ -27,7 +29,7 @@ CASES: dict[str, tuple[str, dict[str, Any]]] = {
     "a free base": ("scenes/cube", OWN_SINES),
     "floats, no inputs": ("scenes/fall10", {"emit.trigonometry": "own", "emit.batch": 16, "emit.real": "float32"}),
     "a prescribed base": ("scenes/drivetrain", {"emit.batch": 8}),
-    "space": ("examples/space/arm6", OWN_SINES),
+    "space, within a box": ("examples/space/arm6", {**OWN_SINES, "emit.box": BOX}),
 }  # fmt: skip
 ARMS = 21  # not a multiple of any number side by side
 

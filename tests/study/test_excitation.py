@@ -64,3 +64,20 @@ def test_a_motor_turns_what_is_beyond_it() -> None:
     forearm, payload, rotor = 0.162 * 0.4**3 / 3.0, 0.3 * 0.4**2 + 2e-4, 50.0**2 * 1e-5
     turn = 50.0 * elbow.amplitude / elbow.frequency**2 / (forearm + payload + rotor)
     assert turn == pytest.approx(1.0, rel=0.5)  # amplitudes have one digit
+
+
+def test_a_force_beyond_a_free_joint_is_of_the_size_of_what_it_carries() -> None:
+    """However heavy the arm is up to there."""
+    push = {"name": "push", "at": "payload", "acts": "force_y"}
+    for upper in (None, 50.0):
+        scene = load_scene("scenes/elbow.toml").replace(input=[push])
+        if upper is not None:
+            scene = scene.replace(**{"beam.upper.material": None, "beam.upper.section": None})
+            scene = scene.replace(
+                **{"beam.upper.mass_per_length": upper, "beam.upper.bending_stiffness": 9.0}
+            )
+        signal = excitation(scene).signals["push"]
+        assert isinstance(signal, Sine)
+        forearm, payload, rotor = 0.162 * 0.4**3 / 3.0, 0.3 * 0.4**2 + 2e-4, 50.0**2 * 1e-5
+        turn = 0.4 * signal.amplitude / signal.frequency**2 / (forearm + payload + rotor)
+        assert turn == pytest.approx(1.0, rel=0.5)

@@ -15,6 +15,7 @@ from tmm_gen.cli.kinds import require_served
 if TYPE_CHECKING:
     from tmm_gen.explain.explanation import Explained, Explanation
     from tmm_gen.scene import Scene
+    from tmm_gen.scene.spatial.tables import SpatialBeam
 
 # SymPy is imported inside: `tmm-gen --help` has no use for it.
 
@@ -73,7 +74,7 @@ def _show(found: Explanation, hints: list[str], json_mode: bool) -> None:
     for beam in beams:
         if beam["from_section"]:
             click.echo(
-                f"{beam['beam']}: EI = {beam['bending_stiffness']:.6g} N m^2 and {beam['mass_per_length']:.6g} kg/m, "
+                f"{beam['beam']}: {_bending(beam)} and {beam['mass_per_length']:.6g} kg/m, "
                 "as material and section have it"
             )
     click.echo("modelled: what the term costs; left out: what it would cost, and leaving it out saves")
@@ -86,9 +87,13 @@ def _show(found: Explanation, hints: list[str], json_mode: bool) -> None:
 def _beams(scene: Scene) -> list[dict[str, object]]:
     """Return the numbers of each beam, given or as they follow from its material and section."""
     from tmm_gen.scene.check import document_of
+    from tmm_gen.scene.spatial.document import SpatialDocument
 
+    document = document_of(scene.source)
+    if isinstance(document, SpatialDocument):
+        return [_in_space(beam) for beam in document.beam]
     found: list[dict[str, object]] = []
-    for beam in document_of(scene.source).beams().values():
+    for beam in document.beams().values():
         name, (stiffness, mass) = getattr(beam, "name", ""), beam.stiffness_and_mass()
         found.append(
             {
@@ -99,6 +104,30 @@ def _beams(scene: Scene) -> list[dict[str, object]]:
             }
         )
     return found
+
+
+def _in_space(beam: SpatialBeam) -> dict[str, object]:
+    """Return the numbers of a beam in space: EI about its y and z axes, GJ where it twists."""
+    from tmm_gen.scene.spatial.beam import per_length
+
+    numbers = per_length(beam)
+    return {
+        "beam": f"beam '{beam.name}'",
+        "bending_stiffness": [float(each) for each in numbers.bending],
+        "torsional_stiffness": None if numbers.twisting is None else float(numbers.twisting),
+        "mass_per_length": float(numbers.mass),
+        "from_section": beam.section is not None,
+    }
+
+
+def _bending(beam: dict[str, object]) -> str:
+    """Return the stiffnesses of a beam in words."""
+    bending, twisting = beam["bending_stiffness"], beam.get("torsional_stiffness")
+    if not isinstance(bending, list):
+        return f"EI = {bending:.6g} N m^2"
+    y, z = bending
+    told = f"EI = {y:.6g} and {z:.6g} N m^2 about y and z"
+    return told if twisting is None else f"{told}, GJ = {twisting:.6g} N m^2"
 
 
 def _row(explained: Explained) -> dict[str, object]:

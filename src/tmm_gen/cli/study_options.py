@@ -75,6 +75,7 @@ def axes_of(scene: Scene, options: dict[str, Any]) -> Axes:
         If an option does not suit the scene, or names no integrator.
     """
     from tmm_gen.scene.integrator import INTEGRATOR_NAMES, underscored
+    from tmm_gen.study.cells import can_be_cut
     from tmm_gen.study.grid import Axes
 
     names = tuple(underscored(name) for name in options["integrators"])
@@ -83,7 +84,7 @@ def axes_of(scene: Scene, options: dict[str, Any]) -> Axes:
             raise UserError(
                 f"--integrators {name}: no such integrator; there are {', '.join(INTEGRATOR_NAMES)}."
             )
-    if options["links"] and scene.beam is None:
+    if options["links"] and not can_be_cut(scene):
         raise UserError("--links: the scene has no [beam] to cut into links; it lists them. Leave it out.")
     if scene.model.linear and (options["linearisations"] or options["iterations"]):
         raise UserError("--linearisations and --iterations: a chain is linear. Leave them out.")

@@ -43,13 +43,13 @@ def grid_options(command: Callable[..., Any]) -> Callable[..., Any]:
             "--iterations",
             metavar="N,N",
             callback=whole_numbers,
-            help="Sweeps per stage of a planar arm; by default the scene's.",
+            help="Sweeps per stage of an arm, or sweep and corrections; by default the scene's.",
         ),
         click.option(
             "--linearisations",
             metavar="A,B",
-            callback=one_of("newton", "taylor", "frozen"),
-            help="Of a planar arm: newton, taylor, frozen; by default the scene's.",
+            callback=one_of("newton", "inertial", "taylor", "frozen"),
+            help="Of an arm: newton, in a plane taylor and frozen, in space inertial; by default the scene's.",
         ),
         click.option(
             "--reals",
@@ -102,7 +102,10 @@ def grid_options(command: Callable[..., Any]) -> Callable[..., Any]:
 @click.argument("scene", metavar="SCENE", type=click.Path(path_type=Path))
 @grid_options
 @click.option(
-    "--links", metavar="N,N", callback=whole_numbers, help="Links of a [beam]; by default the scene's."
+    "--links",
+    metavar="N,N",
+    callback=whole_numbers,
+    help="Links of a beam, in space cells of each; by default the scene's.",
 )
 @click.option("--backends", metavar="A,B", callback=one_of("c", "numpy"), help="c, numpy; by default c.")
 @click.option("--csv", "csv_file", type=OutputFile(), help="Write all configurations.")

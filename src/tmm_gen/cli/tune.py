@@ -39,17 +39,20 @@ if TYPE_CHECKING:
 @click.option(
     "--links",
     metavar="auto|N,N",
-    help="Choose the number of links of the [beam] too; by default the scene's.",
+    help="Choose the number of links of the beam too, in space cells of each; by default the scene's.",
 )
 @click.option("--integrators", metavar="A,B", callback=words, help="Choose among these; by default all.")
 @click.option(
-    "--iterations", metavar="N,N", callback=whole_numbers, help="Sweeps per stage; by default the scene's."
+    "--iterations",
+    metavar="N,N",
+    callback=whole_numbers,
+    help="Sweeps per stage, or sweep and corrections; by default the scene's.",
 )
 @click.option(
     "--linearisations",
     metavar="A,B",
-    callback=one_of("newton", "taylor", "frozen"),
-    help="Of a planar arm; by default the scene's.",
+    callback=one_of("newton", "inertial", "taylor", "frozen"),
+    help="Of an arm; by default the scene's.",
 )
 @click.option(
     "--reals",

@@ -9,12 +9,15 @@ from tmm_gen.c_language.real import Real, real_of
 from tmm_gen.derive.integrators.history import history_depth
 from tmm_gen.derive.integrators.registry import integrator
 from tmm_gen.explain.footprint import Footprint, footprint, footprint_of
+from tmm_gen.explain.space_shares import shares
+from tmm_gen.explain.space_terms import space_terms
 from tmm_gen.explain.terms import Term, terms_of, up_to
 from tmm_gen.program.build import build_program
 from tmm_gen.program.statements import Program
 from tmm_gen.program.variables import Variable
 from tmm_gen.scene import Scene
-from tmm_gen.scene.flat import require_flat
+from tmm_gen.scene.check import document_of
+from tmm_gen.scene.spatial.document import SpatialDocument
 
 NOTHING = Footprint(0, 0, 0, 0, 0)
 
@@ -74,18 +77,17 @@ def explain(scene: Scene, advance: Callable[[str], None] = lambda term: None) ->
     advance : callable, optional
         Called with the name of each term as it is counted.
     """
-    require_flat(scene, "explanations do not")
     program = build_program(scene)
     own = footprint_of(program, real_of(scene.emit))
     advance("the scene")
     found = []
     full = scene
-    for term in terms_of(scene):
+    for term in terms_of(scene) if scene.spatial is None else space_terms(scene, scene.spatial):
         found.append(_explained(term, scene, own))
         if not term.modelled:
             full = term.other(full)
         advance(term.name)
-    found = [*_parts(scene, own), *found]
+    found = [*(_parts(scene, own) if scene.spatial is None else _shares(scene, program)), *found]
     found += [_history(scene, program), _hoisted(scene, program, own)]
     whole = build_program(full)
     everything = footprint_of(whole, real_of(scene.emit))
@@ -98,6 +100,15 @@ def explain(scene: Scene, advance: Callable[[str], None] = lambda term: None) ->
     )
     advance("everything")
     return Explanation(scene, own, tuple(found), everything)
+
+
+def _shares(scene: Scene, program: Program) -> list[Explained]:
+    """Return what each part, load and output in space costs: all of the program together."""
+    document = document_of(scene.source)
+    assert isinstance(document, SpatialDocument)
+    assert scene.spatial is not None
+    found = shares(document, scene.spatial, program, real_of(scene.emit))
+    return [Explained(share.name, True, share.why, share.worth) for share in found]
 
 
 def _parts(scene: Scene, own: Footprint) -> list[Explained]:
@@ -132,7 +143,8 @@ def _history(scene: Scene, program: Program) -> Explained:
     kept = sum(v.length or 1 for v in motion)
     saved = (3 * depth * turning - kept) * real_of(scene.emit).number_size
     per_link = sum(1 for v in motion if v.length is not None)
-    why = f"{method.name} looks back {depth} instant{'s' * (depth > 1)}: {per_link} numbers a link are read"
+    each = "link" if scene.spatial is None else "joint"
+    why = f"{method.name} looks back {depth} instant{'s' * (depth > 1)}: {per_link} numbers a {each} are read"
     return Explained("history that no step reads", False, why, Footprint(0, 0, 0, saved, 0))
 
 

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import lru_cache
 
 import sympy as sp
 
-from tmm_gen.program.statements import Loop, Routine
+from tmm_gen.program.statements import Loop, Routine, Statement
 
 
 @dataclass(frozen=True)
@@ -74,6 +76,24 @@ def count_routine(routine: Routine) -> Operations:
         else:
             total += count_expression(statement.value)
     return total
+
+
+def count_by_station(statements: Iterable[Statement]) -> Counter[int | None]:
+    """Count the operations of statements by the station, from 0, that they are of; None where of no single one.
+
+    Where a loop goes over several stations at a time, what its body costs is shared out among them.
+    """
+    found: Counter[int | None] = Counter()
+    for statement in statements:
+        if not isinstance(statement, Loop):
+            found[None] += count_expression(statement.value).total
+            continue
+        body = sum(count_expression(s.value).total for s in statement.body)
+        each, left = divmod(body, statement.stride)
+        for first in statement.visits:
+            for slot in range(statement.stride):
+                found[first + slot] += each + (slot < left)
+    return found
 
 
 def _count_product(e: sp.Expr) -> Operations:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.inputs.signals import Signal
-from tmm_gen.reference.collocation import integrate
+from tmm_gen.reference.collocation import Trajectory, integrate
 from tmm_gen.reference.spatial_afloat import AfloatArm, joint_mass
 from tmm_gen.reference.spatial_arm import WorldArm
 from tmm_gen.reference.spatial_given import GivenJoints, free_joints
@@ -44,27 +44,54 @@ def motion(
     ReferenceError
         If the equations cannot be integrated.
     """
-    world = WorldArm(arm) if arm.base is None else AfloatArm(arm)
     times, told = np.asarray(times, float), GivenJoints(arm, signals)
+    q, v, _ = trajectory(arm, signals, max(float(times[-1]), 1e-9), tolerance).at(times)
+    q, v = told.settled(times, q, v)
+    world = _world(arm)
+    if not told.of:
+        return q, v, world.forward_dynamics(q, v, given(signals, times))
+    # linear in accelerations: one step of Newton's method from none of them
+    a = np.zeros_like(q)
+    inputs = given(signals, times)
+    lacking = told.lacking(times, a, np.asarray(world.inverse_dynamics(q, v, a, inputs), np.float64))
+    tangent = told.slopes(*_Slopes(world, signals, told)(times, q, v, a))[2]
+    found = np.linalg.solve(tangent, -lacking[..., None])[..., 0]
+    return q, v, np.asarray(found, np.float64)
+
+
+def _world(arm: SpatialArm) -> WorldArm | AfloatArm:
+    return WorldArm(arm) if arm.base is None else AfloatArm(arm)
+
+
+def trajectory(arm: SpatialArm, signals: Signals, until: float, tolerance: float = 1e-11) -> Trajectory:
+    """Return the motion from where the arm starts as polynomials.
+
+    Parameters
+    ----------
+    arm : SpatialArm
+    signals : mapping from str to Signal
+        Inputs by column; those not given are zero.
+    until : float
+        s, from 0.
+    tolerance : float
+        See :func:`tmm_gen.reference.collocation.integrate`.
+
+    Raises
+    ------
+    ReferenceError
+        If the equations cannot be integrated.
+    """
+    world, told = _world(arm), GivenJoints(arm, signals)
 
     def residual(at: Array, q: Array, v: Array, a: Array) -> Array:
         lacking = np.asarray(world.inverse_dynamics(q, v, a, given(signals, at)), np.float64)
         return told.lacking(at, a, lacking)
 
-    until = max(float(times[-1]), 1e-9)
     knots = np.unique(np.concatenate([[0.0, until], *(signal.knots for signal in signals.values())]))
     breaks = knots[(knots >= 0.0) & (knots <= until)]
     slopes = _Slopes(world, signals, told)
     begun = told.settled(np.zeros(()), *start(arm))
-    q, v, _ = integrate(residual, slopes, *begun, breaks, tolerance).at(times)
-    q, v = told.settled(times, q, v)
-    if not told.of:
-        return q, v, world.forward_dynamics(q, v, given(signals, times))
-    # linear in accelerations: one step of Newton's method from none of them
-    a = np.zeros_like(q)
-    tangent = told.slopes(*slopes(times, q, v, a))[2]
-    found = np.linalg.solve(tangent, -residual(times, q, v, a)[..., None])[..., 0]
-    return q, v, np.asarray(found, np.float64)
+    return integrate(residual, slopes, *begun, breaks, tolerance)
 
 
 def given(signals: Signals, times: Array) -> dict[str, Array]:

@@ -38,12 +38,12 @@ class PlanarWatch:
     _before: Array | None = field(default=None, repr=False)
 
     def look(self, time: float, angles: Array) -> None:
-        """Raise if a link has turned by more than `TURN` since the last look, a step ago.
+        """Raise if a link, in space a joint, has turned by more than `TURN` since the last look, a step ago.
 
         Raises
         ------
         DivergedError
-            With time, link, cause and remedy.
+            With time, link or joint, cause and remedy.
         """
         before = np.array(self.scene.initial.angles) if self._before is None else self._before
         turned = np.abs(angles - before)
@@ -56,10 +56,16 @@ class PlanarWatch:
         worst = int(np.argmax(np.where(np.isnan(turned), np.inf, turned)))
         value = float(turned[worst])
         how = f"turns by {value:.1e} rad in one step" if math.isfinite(value) else "is no longer finite"
+        arm = self.scene.spatial
+        one, which = (
+            (f"link {worst + 1}", f"link {worst + 1} of {self.scene.stations}")
+            if arm is None
+            else (f"joint '{arm.joints[worst].name}'",) * 2
+        )
         raise DivergedError(
-            f"scene '{self.scene.name}': the simulation has diverged: at t = {time:.6g} s link {worst + 1} of "
-            f"{self.scene.stations} {how}.\n{self.cause()}",
-            reason=f"link {worst + 1} {how} at t = {time:.3g} s",
+            f"scene '{self.scene.name}': the simulation has diverged: at t = {time:.6g} s {which} {how}.\n"
+            f"{self.cause()}",
+            reason=f"{one} {how} at t = {time:.3g} s",
         )
 
     def cause(self) -> str:

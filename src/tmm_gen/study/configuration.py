@@ -7,6 +7,7 @@ from typing import Literal
 
 from tmm_gen.scene import Scene
 from tmm_gen.scene.integrator import underscored
+from tmm_gen.study.cells import cut_into, cuts
 
 Backend = Literal["c", "numpy"]
 
@@ -20,11 +21,11 @@ class Family:
     integrator : str
         With underscores.
     links : int, optional
-        Links of the beam; None where the scene lists its links.
+        Links of the beam, in space cells of all beams; None where the scene lists its links, or cells differ.
     linearisation : str, optional
-        Of a planar arm; None for a chain.
+        Of an arm; None for a chain.
     iterations : int
-        Sweeps per stage.
+        Sweeps per stage, or a sweep and its corrections.
     real : str
         "float64" or "float32".
     backend : {"c", "numpy"}
@@ -67,15 +68,21 @@ class Family:
         wanted: dict[str, tuple[object, object]] = {
             "integrator.name": (scene.integrator.name, self.integrator),
             "emit.real": (scene.emit.real, self.real),
-            "model.iterations": (scene.model.sweeps, self.iterations),
+            "model.iterations": (self._as_it_would_be(scene), self.iterations),
         }
         if scene.emit.compensated and self.real == "float64":
             wanted["emit.compensated"] = (True, False)
-        if self.links is not None and scene.beam is not None:
-            wanted["beam.links"] = (scene.beam.links, self.links)
+        if self.links is not None:
+            wanted |= cuts(scene, self.links)
         if self.linearisation is not None:
             wanted["model.linearisation"] = (scene.model.linearisation, self.linearisation)
         return {key: new for key, (old, new) in wanted.items() if new != old}
+
+    def _as_it_would_be(self, scene: Scene) -> int | None:
+        """Return the rounds of the scene; None in space where they follow from what else differs."""
+        linearisation = self.linearisation or scene.model.linearisation
+        alike = (scene.integrator.name, scene.model.linearisation) == (self.integrator, linearisation)
+        return scene.model.sweeps if scene.spatial is None or alike else None
 
 
 @dataclass(frozen=True, order=True)
@@ -112,7 +119,7 @@ def own(scene: Scene) -> Configuration:
     """Return how a scene itself wants to be computed, in C."""
     family = Family(
         integrator=underscored(scene.integrator.name),
-        links=scene.beam.links if scene.beam else None,
+        links=cut_into(scene),
         linearisation=None if scene.model.linear else scene.model.linearisation,
         iterations=scene.model.sweeps,
         real=scene.emit.real,

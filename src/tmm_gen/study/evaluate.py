@@ -129,7 +129,7 @@ def _allowed(built: Built, configuration: Configuration) -> None:
     """Refuse what the planar kernels refuse to start with."""
     from tmm_gen.simulate.planar_divergence import planar_watch
 
-    if not built.scene.model.linear:
+    if not built.scene.model.linear and built.scene.spatial is None:
         planar_watch(built.scene, configuration.step)
 
 

@@ -20,9 +20,10 @@ from tmm_gen.inputs.signals import Constant, Signal, Sine, Table
 from tmm_gen.modal.limbs import limbs_of
 from tmm_gen.reference.duration import default_duration
 from tmm_gen.scene import Input, Output, Scene, station_of
-from tmm_gen.scene.flat import require_flat
+from tmm_gen.scene.spatial.arm import ArmOutput, SpatialArm
 from tmm_gen.simulate.prescribed import prescribed
 from tmm_gen.study.rise import Rise
+from tmm_gen.study.space_loads import turning_loads
 
 _TURN = 1.0
 """rad; what an input does to the arm, about."""
@@ -55,9 +56,9 @@ class Excitation:
     def told(self, scene: Scene) -> list[str]:
         """Say in words what the arm goes through, one line for each load."""
         lines = [f"{name}: {_words(signal)}" for name, signal in self.signals.items()]
-        if scene.model.gravity:
-            lines.append(f"gravity of {scene.model.gravity:g} m/s^2")
-        if any(scene.initial.angles) or any(scene.initial.rates):
+        if gravity := _gravity(scene):
+            lines.append(f"gravity of {gravity:g} m/s^2")
+        if _initial(scene):
             lines.append("the scene's initial motion")
         return lines or ["nothing"]
 
@@ -87,7 +88,6 @@ def excitation(
         If there is no such output, nothing moves, the time is absurd, an input has another clock, or a prescribed
         angle jumps.
     """
-    require_flat(scene, "studies do not")
     duration = until or default_duration(scene)
     if not _SHORTEST <= duration <= _LONGEST:
         raise UserError(
@@ -97,8 +97,7 @@ def excitation(
     refuse_other_clock(signals, duration)
     chosen = Excitation(signals, duration, _output(scene, output).name)
     moving = any(not isinstance(signal, Constant) or signal.value for signal in signals.values())
-    initial = any(scene.initial.angles) or any(scene.initial.rates)
-    if not (moving or initial or scene.model.gravity):
+    if not (moving or _initial(scene) or _gravity(scene)):
         raise UserError(
             f"scene '{scene.name}': nothing moves: there is no load, no gravity and no initial motion. "
             "Add an [[input]] or [initial] to it."
@@ -125,6 +124,8 @@ def _output(scene: Scene, name: str | None) -> Output:
         raise UserError(f"--output {name}: no such output; choose from {names}.")
     if not scene.outputs:
         raise UserError(f"scene '{scene.name}' has no [[output]] to measure errors at. Add one.")
+    if scene.spatial is not None:
+        return _farthest(scene, scene.spatial)
     at_tip = [item for item in scene.outputs if item.at == "tip"]
     for wanted in ("place", "motion"):
         for item in at_tip:
@@ -134,12 +135,35 @@ def _output(scene: Scene, name: str | None) -> Output:
     return (at_tip or list(scene.outputs))[0]
 
 
+def _farthest(scene: Scene, arm: SpatialArm) -> Output:
+    """Return the place of the part that is farthest out, or the first output."""
+    places = [k for k, item in enumerate(arm.outputs) if item.of == "position"]
+    return scene.outputs[max(places, key=lambda k: _station(arm.outputs[k])) if places else 0]
+
+
+def _station(output: ArmOutput) -> int:
+    return output.frame.joint if output.frame is not None else 0
+
+
+def _gravity(scene: Scene) -> float:
+    """Return the size of gravity, m/s^2; 0 without."""
+    return math.hypot(*scene.spatial.gravity) if scene.spatial else scene.model.gravity or 0.0
+
+
+def _initial(scene: Scene) -> bool:
+    """Whether the arm starts moved or moving."""
+    if scene.spatial is not None:
+        return any(joint.angle or joint.rate for joint in scene.spatial.joints)
+    return any(scene.initial.angles) or any(scene.initial.rates)
+
+
 def _default_signals(scene: Scene, until: float) -> dict[str, Signal]:
     frequency = 2.0 * math.pi * _SWINGS / until
-    return {
-        item.name: _signal(scene, item, frequency * (1.0 + 0.5 * k), until)
-        for k, item in enumerate(scene.inputs)
-    }
+    frequencies = {item.name: frequency * (1.0 + 0.5 * k) for k, item in enumerate(scene.inputs)}
+    if scene.spatial is not None:
+        sizes = turning_loads(scene.spatial, frequencies, _TURN)
+        return {name: Sine(_rounded(size), frequencies[name]) for name, size in sizes.items()}
+    return {item.name: _signal(scene, item, frequencies[item.name], until) for item in scene.inputs}
 
 
 def _signal(scene: Scene, item: Input, frequency: float, until: float) -> Signal:
@@ -149,8 +173,30 @@ def _signal(scene: Scene, item: Input, frequency: float, until: float) -> Signal
         torque = _torque(scene, frequency, item.at)
         return Sine(_rounded(torque / scene.joints[item.at - 1].gear), frequency)
     at = station_of(item.at, scene.stations)
+    if scene.model.in_plane and (joint := _free_before(scene, at)):
+        # a joint that nothing holds turns by what is beyond it, however heavy the arm is before it
+        torque = _inertia_beyond(scene, joint) * frequency**2 * _TURN
+        return Sine(
+            _rounded(torque if item.acts == "torque" else torque / _lever(scene, joint, at)), frequency
+        )
     torque = _torque(scene, frequency) * ((1.0, *scene.turns)[at] / item.factor) ** 2
     return Sine(_rounded(torque if item.acts == "torque" else torque / (scene.reach or 1.0)), frequency)
+
+
+def _free_before(scene: Scene, link: int) -> int:
+    """Return the outermost joint without a spring on the way to a link, 1 to n; 0 where springs hold all."""
+    while link and scene.joints[link - 1].stiffness > 0.0:
+        link = scene.host(link)
+    return link
+
+
+def _lever(scene: Scene, joint: int, link: int) -> float:
+    """Return the length from a joint to the outer end of a link beyond it, m."""
+    length = scene.links[link - 1].length
+    while link != joint:
+        link = scene.host(link)
+        length += scene.links[link - 1].length
+    return length or 1.0
 
 
 def _torque(scene: Scene, frequency: float, joint: int = 0) -> float:

@@ -6,6 +6,8 @@ from dataclasses import dataclass
 from itertools import product
 
 from tmm_gen.scene import INTEGRATOR_NAMES, Scene
+from tmm_gen.scene.check import document_of
+from tmm_gen.scene.spatial.document import SpatialDocument
 from tmm_gen.study.configuration import Configuration, Family, own
 
 COARSEST = 40
@@ -28,9 +30,9 @@ class Axes:
     links : tuple of int
         Of a beam.
     linearisations : tuple of str
-        Of a planar arm.
+        Of an arm.
     iterations : tuple of int
-        Sweeps per stage, with linearisation "newton".
+        Sweeps per stage, with linearisation "newton"; sweep and corrections with "inertial".
     reals : tuple of str
         "float64", "float32".
     backends : tuple of str
@@ -72,18 +74,34 @@ def configurations(scene: Scene, axes: Axes, until: float) -> tuple[Configuratio
 def families(scene: Scene, axes: Axes) -> tuple[Family, ...]:
     """Return what is generated: every combination of the axes without the steps."""
     mine = own(scene).family
+    fixed = axes.iterations or ((mine.iterations,) if _rounds_given(scene) else ())
     choices = product(
         axes.integrators or INTEGRATOR_NAMES,
         axes.links or (mine.links,),
         axes.linearisations or (mine.linearisation,),
-        axes.iterations or (mine.iterations,),
+        fixed or (None,),
         axes.reals or (mine.real,),
         axes.backends or (mine.backend,),
     )
     found = []
     for integrator, links, linearisation, iterations, real, backend in choices:
-        # only Newton's linearisation sweeps again; NumPy has one number type
-        sweeps = iterations if linearisation == "newton" else 1
+        if iterations is None:
+            iterations = _usual(scene, integrator, linearisation)
+        # only Newton's linearisation sweeps again, and that in space corrects; NumPy has one number type
+        sweeps = iterations if linearisation in ("newton", "inertial") else 1
         number = real if backend == "c" else "float64"
         found.append(Family(integrator, links, linearisation, sweeps, number, backend))
     return tuple(dict.fromkeys(found))
+
+
+def _rounds_given(scene: Scene) -> bool:
+    """Whether the scene says how often a stage sweeps, or is of a kind in which that does not follow from the rest."""
+    return scene.spatial is None or isinstance(document_of(scene.source).model.iterations, int)
+
+
+def _usual(scene: Scene, integrator: str, linearisation: str | None) -> int:
+    """Return the sweep and corrections, or sweeps, that suit an integrator in space."""
+    document = document_of(scene.source)
+    assert isinstance(document, SpatialDocument)
+    changes = {"linearisation": linearisation, "iterations": None}
+    return document.model.model_copy(update=changes).settled(integrator).sweeps

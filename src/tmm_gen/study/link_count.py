@@ -6,6 +6,7 @@ import math
 
 from tmm_gen.errors import UserError
 from tmm_gen.scene import Scene
+from tmm_gen.study.cells import cut_into
 from tmm_gen.study.excitation import Excitation
 from tmm_gen.study.modelling import depends_on_links, modelling_errors
 from tmm_gen.study.references import References
@@ -27,12 +28,12 @@ def fewest_links(
     UserError
         If the number of links cannot be chosen, or no number up to `MOST` is enough.
     """
-    if scene.beam is None or not depends_on_links(scene, excitation):
+    first = cut_into(scene)
+    if first is None or not depends_on_links(scene, excitation):
         raise UserError(
             f"--links auto: the links of scene '{scene.name}' cannot be chosen. That takes a [beam], and loads, "
-            "initial motion and output that are not given link by link."
+            "initial motion and output that are not given link by link; in space as many cells in all beams."
         )
-    first = scene.beam.links
     found = modelling_errors([first], references.of)
     if not found:
         raise UserError(

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from tmm_gen.scene import Scene, SceneError
 from tmm_gen.scene.beam import piece_length
+from tmm_gen.study.cells import cut_into, cuts
 from tmm_gen.study.excitation import Excitation
 from tmm_gen.study.truth import Truth
 
@@ -26,6 +27,9 @@ _COARSEST = 10
 
 _HIGHEST = 64.0
 """Order beyond which none is told from another: what is left is rounding."""
+
+_COARSEST_IN_SPACE = 3
+"""Cells of each beam in space: one is two or three joints."""
 
 _INSTANTS = 401
 _CONVERGING = 1.5
@@ -56,14 +60,15 @@ def depends_on_links(scene: Scene, excitation: Excitation) -> bool:
 
     There must be a beam, and neither loads nor the output may be at a numbered link, which would move.
     """
-    if scene.beam is None:
+    links = cut_into(scene)
+    if links is None:
         return False
     places = [item.at for item in scene.inputs if item.name in excitation.signals]
     places += [item.at for item in scene.outputs if item.name == excitation.output]
     if any(isinstance(place, int) for place in places):
         return False
     try:
-        scene.replace(**{"beam.links": 2 * scene.beam.links})
+        scene.replace(**{key: new for key, (_, new) in cuts(scene, 2 * links).items()})
     except SceneError:  # motion or load given link by link
         return False
     return True
@@ -82,7 +87,8 @@ def modelling_errors(links: Iterable[int], truth: Callable[[int], Truth]) -> dic
         Returns the reference motion with a number of links.
     """
     wanted = sorted(set(links))
-    start = max(_COARSEST, math.ceil(wanted[-1] / 4))
+    in_space = truth(wanted[0]).scene.spatial is not None
+    start = max(_COARSEST_IN_SPACE if in_space else _COARSEST, math.ceil(wanted[-1] / 4))
     numbers = [start * factor for factor in (1, 2, 4)]
     levels = [truth(number) for number in numbers]
     times = np.linspace(0.0, levels[0].excitation.until, _INSTANTS)
@@ -99,6 +105,9 @@ def modelling_errors(links: Iterable[int], truth: Callable[[int], Truth]) -> dic
 
 
 def _piece(scene: Scene) -> float:
+    """Return a length that falls as that of the pieces does."""
+    if (cells := cut_into(scene)) is not None and scene.spatial is not None:
+        return 1.0 / cells
     assert scene.beam is not None  # else there is no number of links to choose
     return float(piece_length(scene.beam))
 

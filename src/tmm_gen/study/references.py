@@ -8,6 +8,7 @@ from pathlib import Path
 
 from tmm_gen.errors import UserError
 from tmm_gen.scene import Scene
+from tmm_gen.study.cells import cut_into, cuts
 from tmm_gen.study.configuration import own
 from tmm_gen.study.excitation import Excitation
 from tmm_gen.study.store import Store
@@ -74,8 +75,8 @@ class References:
 
     def _find(self, links: int | None) -> Truth:
         scene = self._scene
-        if links is not None and scene.beam is not None and links != scene.beam.links:
-            scene = scene.replace(**{"beam.links": links})
+        if links is not None and links != cut_into(scene):
+            scene = scene.replace(**{key: new for key, (_, new) in cuts(scene, links).items()})
         if self._store is None:
             return find_truth(scene, self._excitation)
         key = hashlib.sha256(f"{study_key(self._scene, self._excitation)} {links}".encode()).hexdigest()

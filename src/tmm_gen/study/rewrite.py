@@ -45,10 +45,12 @@ def rewritten(
         for key in [key for key in table if key not in ("name", "step")]:
             del table[key]
     for key, value in changes.items():
-        place, name = key.split(".")
+        place, *part, name = key.split(".")
         if place not in document:
             document[place] = tomlkit.table()
         section: Any = document[place]
+        if part:
+            section = next(each for each in section if each["name"] == part[0])
         section[name] = value
     written = "".join(f"# {remark}\n" for remark in remarks) + "#\n" + tomlkit.dumps(document)
     if parse_scene(written, scene.source.origin) != expected:

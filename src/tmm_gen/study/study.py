@@ -126,8 +126,9 @@ def run_study(
     travel = references.travel()
     possible, truths, refused = _truths(grid, references)
     modelling: dict[int, Modelling] = {}
-    if depends_on_links(scene, excitation):
-        links = {n for each in grid if (n := each.family.links) is not None and n in truths}
+    links = {n for each in grid if (n := each.family.links) is not None and n in truths}
+    # in space the references of more cells take minutes, so that only who varies them waits for it
+    if depends_on_links(scene, excitation) and (scene.spatial is None or len(links) > 1):
         modelling = modelling_errors(links | {own(scene).family.links or 1}, references.of)
     advance(1, "computing")
     results: dict[Configuration, Result] = dict(refused)

@@ -1,13 +1,13 @@
 """Reference motions that errors are measured against, at any instants.
 
-A chain's is exact (matrix exponential of its assembled matrices); a planar arm's has about ten digits (Radau IIA of
-order 19 on Lagrange's equations, derived apart from the kernels'), and is integrated once, then evaluated anywhere.
+A chain's is exact (matrix exponential of its assembled matrices); an arm's has about ten digits (Radau IIA of order 19
+on equations derived apart from the kernels'), and is integrated once, then evaluated anywhere.
 """
 
 from __future__ import annotations
 
 import io
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -17,7 +17,11 @@ from tmm_gen.reference.collocation import Trajectory
 from tmm_gen.reference.planar_arm import Arm
 from tmm_gen.reference.planar_reference import dissipated, read
 from tmm_gen.reference.reference import exact_response
+from tmm_gen.reference.spatial_arm import WorldArm
+from tmm_gen.reference.spatial_motion import given, trajectory
+from tmm_gen.reference.spatial_reference import outputs
 from tmm_gen.scene import Scene
+from tmm_gen.scene.spatial.arm import SpatialArm
 from tmm_gen.study.excitation import Excitation, columns
 
 Array = NDArray[np.float64]
@@ -49,6 +53,8 @@ class Truth:
         wanted = columns(self.scene, self.excitation.output)
         if self.trajectory is None:
             found = exact_response(self.scene, self.excitation.signals, times)
+        elif self.scene.spatial is not None:
+            found = self._in_space(self.scene.spatial, self.trajectory, times)
         else:
             output = next(item for item in self.scene.outputs if item.name == self.excitation.output)
             arm = Arm(self.scene, self.excitation.signals)
@@ -57,6 +63,14 @@ class Truth:
             else:
                 found = read(arm, output, times, *self.trajectory.at(times))
         return np.array([found[name] for name in wanted])
+
+    def _in_space(self, arm: SpatialArm, trajectory: Trajectory, times: Array) -> dict[str, Array]:
+        """Return the output of an arm in space, by column."""
+        looked_at = tuple(item for item in arm.outputs if item.name == self.excitation.output)
+        inputs = given(self.excitation.signals, times)
+        q, v, _ = trajectory.at(times)
+        a = WorldArm(arm).forward_dynamics(q, v, inputs)
+        return outputs(replace(arm, outputs=looked_at), q, v, a, inputs)
 
     @cached_property
     def travel(self) -> float:
@@ -79,6 +93,8 @@ def find_truth(scene: Scene, excitation: Excitation) -> Truth:
         return Truth(scene, excitation, None)
     # a little beyond the end: the last of many steps may lie behind it by rounding
     until = excitation.until * (1.0 + 1e-9)
+    if scene.spatial is not None:
+        return Truth(scene, excitation, trajectory(scene.spatial, excitation.signals, until))
     return Truth(scene, excitation, Arm(scene, excitation.signals).trajectory(until))
 
 

@@ -24,10 +24,15 @@ from tmm_gen.scene import Scene
 from tmm_gen.scratch import scratch_folder
 from tmm_gen.target.tools import attempt, need
 
+FLAT, IN_SPACE = "100", "0"
+"""Pieces that intervals are cut in. A sweep in space has so many products that cutting takes long, and what
+it hands from joint to joint is bounded on the way."""
+PATIENCE = 600.0
+"""How long EVA may take, s: arms of a dozen joints in space take half a minute."""
 OPTIONS = (
     *("-machdep", "gcc_x86_64", "-eva", "-main", "eva_main", "-eva-precision", "3"),
     *("-eva-auto-loop-unroll", "64", "-warn-special-float", "non-finite"),
-    *("-eva-split-return", "full", "-eva-subdivide-non-linear", "100"),
+    *("-eva-split-return", "full", "-eva-subdivide-non-linear"),
 )
 """Precision 3; loops over stations unrolled; statuses kept apart; no infinity and no NaN; intervals cut in pieces where
 a number occurs in an expression more than once."""
@@ -107,7 +112,8 @@ def prove(scene: Scene) -> Proof:
             f"{place}: bounds of {', '.join(missing)} are missing; write for example `{missing[0]} = [-1.0, 1.0]`"
         )
     kernel = Kernel.of(program, scene)
-    found = analyse({**emit_kernel(program, scene), "proof.c": driver(kernel, box)}, scene.name)
+    files = {**emit_kernel(program, scene), "proof.c": driver(kernel, box)}
+    found = analyse(files, scene.name, FLAT if scene.spatial is None else IN_SPACE)
     return Proof(found[0], found[1], dict(box.bounds))
 
 
@@ -139,7 +145,7 @@ def driver(kernel: Kernel, box: Box) -> str:
     )
 
 
-def analyse(files: dict[str, str], name: str) -> tuple[tuple[Alarm, ...], str]:
+def analyse(files: dict[str, str], name: str, pieces: str = FLAT) -> tuple[tuple[Alarm, ...], str]:
     """Run EVA on a kernel and its driver.
 
     Parameters
@@ -148,6 +154,8 @@ def analyse(files: dict[str, str], name: str) -> tuple[tuple[Alarm, ...], str]:
         Header, source and driver by path.
     name : str
         Of the kernel.
+    pieces : str
+        That intervals are cut in.
 
     Returns
     -------
@@ -167,7 +175,7 @@ def analyse(files: dict[str, str], name: str) -> tuple[tuple[Alarm, ...], str]:
         for short, text in zip(names, files.values(), strict=True):
             (folder / short).write_text(text, encoding="utf-8")
         sources = sorted(short for short in names if short.endswith(".c"))
-        done = attempt([program, *OPTIONS, *sources], folder)
+        done = attempt([program, *OPTIONS, pieces, *sources], folder, PATIENCE)
     said = done.stdout
     if done.returncode != 0:
         raise UserError(

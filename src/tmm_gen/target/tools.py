@@ -45,8 +45,15 @@ def call(command: Sequence[str | Path], folder: Path) -> str:
     return said.stdout
 
 
-def attempt(command: Sequence[str | Path], folder: Path) -> subprocess.CompletedProcess[str]:
+def attempt(
+    command: Sequence[str | Path], folder: Path, within: float = TIMEOUT
+) -> subprocess.CompletedProcess[str]:
     """Run a program in a folder, whether it succeeds or not.
+
+    Parameters
+    ----------
+    within : float
+        How long it may take, s.
 
     Raises
     ------
@@ -62,7 +69,7 @@ def attempt(command: Sequence[str | Path], folder: Path) -> subprocess.Completed
             text=True,
             errors="replace",
             check=False,
-            timeout=TIMEOUT,
+            timeout=within,
         )
     except subprocess.TimeoutExpired:
-        raise UserError(f"'{' '.join(map(str, command))}' did not end within {TIMEOUT:.0f} s") from None
+        raise UserError(f"'{' '.join(map(str, command))}' did not end within {within:.0f} s") from None

@@ -72,7 +72,9 @@ def remedy(
         Whether all of its check is: slow.
     """
     loads = [item.name for item in scene.inputs if item.acts != "angle"]
-    factors = iter(_FACTORS if loads and not scene.model.linear else ())
+    # in space inputs are sines of their own sizes already, which no option scales
+    fixed = scene.model.linear or scene.spatial is not None
+    factors = iter(_FACTORS if loads and not fixed else ())
     unconfirmed, shortest = 0, scene.integrator.step
     for share in _SHARES:
         step = float(f"{scene.integrator.step / share:.2g}")

@@ -7,10 +7,11 @@ says what is wrong with them.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from tmm_gen.c_language.names import macros, member
+from tmm_gen.c_language.names import local_name, macros, member
 from tmm_gen.c_language.wrap import INDENT, statement
 from tmm_gen.emit.c.body import TOTAL, Body
 from tmm_gen.emit.c.fence import Fence
@@ -20,7 +21,7 @@ from tmm_gen.emit.c.structs import Struct, dimension
 from tmm_gen.emit.seal import sealed
 from tmm_gen.emit.templates import render
 from tmm_gen.program.statements import Assign, Repeat, Routine
-from tmm_gen.program.variables import Role, refs_in
+from tmm_gen.program.variables import Role, Variable, refs_in
 
 RIGHT = "right"
 """Mask of the arms that nothing has been found wrong with."""
@@ -62,6 +63,12 @@ class BatchBody(Body):
 
     def _fenced(self, value: str, largest: float, depth: int) -> list[str]:
         return self._within(value, self.real.literal(largest), "<", depth)
+
+    def _fenced_together(self, scalars: tuple[Variable, ...], depth: int) -> Iterator[str]:
+        """Yield checks that each number is below its share: so is then the sum; other arms are asked alone."""
+        share = self.fence.sum / 2.0 ** math.ceil(math.log2(len(scalars)))
+        for variable in scalars:
+            yield from self._within(local_name(variable), self.real.literal(share), "<", depth)
 
     def _turned(self, angle: str, name: str, depth: int) -> Iterator[str]:
         yield from statement(f"const real {name}_angle = {angle};", depth)

@@ -11,11 +11,12 @@ from itertools import count
 from tmm_gen.c_language.names import local_name, macros, member
 from tmm_gen.c_language.real import Real
 from tmm_gen.c_language.wrap import INDENT, WIDTH, comment, statement
-from tmm_gen.emit.c.circle import Turns
+from tmm_gen.emit.c.circle import Turns, error_of
 from tmm_gen.emit.c.fence import Fence
 from tmm_gen.emit.c.finite import check
 from tmm_gen.emit.c.given import given_element
 from tmm_gen.emit.c.guard import Sums, sums_of
+from tmm_gen.emit.c.handed import handed_at
 from tmm_gen.emit.c.pair import PairPrinter, is_pair
 from tmm_gen.emit.c.printer import CPrinter, element_at
 from tmm_gen.emit.c.scalars import place_scalars
@@ -186,8 +187,11 @@ class Body:
                 elif isinstance(top, Loop):
                     yield f"{INDENT * depth}{self._loop_head(top)} {{"
                     turns = Turns(names)
-                    for inner in top.body:
+                    handed = handed_at(top, self.fence.handed)
+                    for place, inner in enumerate(top.body):
                         yield from simple(inner, depth + 1, turns)
+                        if place in handed:
+                            yield from self._fenced_together(handed[place], depth + 1)
                         straight.forget(inner.target) if isinstance(inner, Assign) else None
                     if sums is not None and (terms := sums.inside.get(top, ())):
                         text = " + ".join(self._judged(assign, printer) for assign in terms)
@@ -307,6 +311,16 @@ class Body:
             lines.append(f"{pad}/*@ admit -{small} <= {value}.low <= {small}; */")
         return lines
 
+    def _fenced_together(self, scalars: tuple[Variable, ...], depth: int) -> Iterator[str]:
+        """Yield one check of the sizes of numbers: rounding is monotone, so none exceeds their sum."""
+        largest = self.fence.sum
+        numbers = [local_name(v) + self._high for v in scalars]
+        sizes = " + ".join(f"{self.real.function('fabs')}({number})" for number in numbers)
+        yield from self._leave(f"!({sizes} < {self.real.literal(largest)})", "OUT_OF_RANGE", depth)
+        # a prover does not conclude from a sum of sizes to its terms
+        for number in numbers:
+            yield f"{INDENT * depth}/*@ admit -{largest!r} < {number} < {largest!r}; */"
+
     def _turned(self, angle: str, name: str, depth: int) -> Iterator[str]:
         """Yield sine and cosine of an angle; before them, where the function can refuse, a check of its range."""
         if self.kind != "output":
@@ -314,6 +328,12 @@ class Body:
             size = f"{self.real.function('fabs')}({angle}{self._high})"
             yield from self._leave(f"!({size} <= {largest})", "OUT_OF_RANGE", depth)
         yield from statement(f"const circle {name} = circle_of({angle});", depth)
+        if self.fence.handed and self.kind != "output":
+            # the circle is right to its error up to the largest angle; a prover sees polynomials of any angle
+            most = 1.0 + error_of(self.real)
+            for which in ("sine", "cosine"):
+                number = f"{name}.{which}{self._high}"
+                yield f"{INDENT * depth}/*@ admit {-most!r} <= {number} <= {most!r}; */"
 
     def _unless(self, one: str, other: str, status: str, depth: int) -> list[str]:
         return self._leave(f"!{one} || !{other}", status, depth)

@@ -33,6 +33,11 @@ def constants(real: Real) -> Trigonometry:
     return trigonometry(_DIGITS[real.name], COUNT_BITS[real.name])
 
 
+def error_of(real: Real) -> float:
+    """Return the largest error of sine and cosine of a number type, up to its largest angle."""
+    return PAIR_ERROR if real.pair else ERROR * 2.0 ** -constants(real).digits
+
+
 @dataclass(frozen=True)
 class Circle:
     """What the template of sine and cosine asks for, as literals.
@@ -53,7 +58,7 @@ class Circle:
     @property
     def error(self) -> str:
         """Largest error, in decimal."""
-        return f"{ERROR * 2.0 ** -constants(self.real).digits:.1e}"
+        return f"{error_of(self.real):.1e}"
 
     @property
     def largest_angle(self) -> str:
@@ -92,11 +97,6 @@ class Circle:
 
 class PairCircle(Circle):
     """The same for numbers that are sums of two: constants are such sums where they have to be."""
-
-    @property
-    def error(self) -> str:
-        """Largest error, in decimal."""
-        return f"{PAIR_ERROR:.1e}"
 
     @property
     def quarters(self) -> str:

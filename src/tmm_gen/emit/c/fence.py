@@ -5,6 +5,8 @@ link to link and exceed any number type, though the numbers themselves never do:
 does not know that the arm is passive. Where a scene states a box (``[emit.box]``), its kernel therefore checks the
 pivots and the answers that a sweep keeps, and returns a status where they leave their bounds. Those lie far beyond what
 random states of the box lead to.
+In space a sweep hands 21 numbers from joint to joint (54 with all slopes): their sizes are added up at each joint and
+the sum is checked, and so is what each joint is found to do, which corrections begin with.
 """
 
 from __future__ import annotations
@@ -14,7 +16,11 @@ import random
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
+import sympy as sp
+
+from tmm_gen.derive.space.inward import OWN
 from tmm_gen.emit.c.box import Box
+from tmm_gen.emit.c.handed import handed_at, handed_on
 from tmm_gen.program.evaluate import Values, VanishingPivotError, allocate, execute, key
 from tmm_gen.program.statements import Assign, Loop, Order, Program, Require, Routine, Section, Statement
 from tmm_gen.program.variables import Role, Variable, refs_in
@@ -34,10 +40,16 @@ class Fence:
         By name of a scratch array: what the absolute value of its elements must stay below.
     least : mapping from str to float
         By the expression of a pivot: what it must exceed.
+    handed : frozenset of Variable
+        Scalars that one joint hands to the next.
+    sum : float
+        What the sum of their sizes must stay below.
     """
 
     largest: Mapping[str, float] = field(default_factory=dict)
     least: Mapping[str, float] = field(default_factory=dict)
+    handed: frozenset[Variable] = frozenset()
+    sum: float = 0.0
 
     def least_of(self, required: Require) -> float:
         """Return what a pivot must exceed."""
@@ -45,10 +57,10 @@ class Fence:
 
     def __bool__(self) -> bool:
         """Whether there are bounds besides those of pivots."""
-        return bool(self.largest)
+        return bool(self.largest or self.handed)
 
 
-def fence_of(program: Program, box: Box, routine: Routine) -> Fence:
+def fence_of(program: Program, box: Box, routine: Routine, *, in_space: bool = False) -> Fence:
     """Return bounds for a step of a program or its start, found by taking it from random states of a box.
 
     Parameters
@@ -59,18 +71,22 @@ def fence_of(program: Program, box: Box, routine: Routine) -> Fence:
         Bounds of state and inputs.
     routine : Routine
         Its step, one of the first, or its start.
+    in_space : bool
+        Whether it is an arm's in space, whose sweeps keep little and hand on much.
 
     Returns
     -------
     Fence
         Powers of two, so that they are exact in every number type; empty where the step has no pivots.
     """
-    kept = kept_answers(routine)
-    if not kept:
+    kept = (*kept_answers(routine), *(found_by(routine) if in_space else ()))
+    handed = handed_on(routine) if in_space else frozenset()
+    if not kept and not handed:
         return Fence()
-    watched, pivots = _watched(routine)
+    watched, pivots, sums = _watched(routine, handed)
     largest = dict.fromkeys((v.name for v in kept), 0.0)
     least = dict.fromkeys(pivots, math.inf)
+    most = 0.0
     for values in _steps(program, box, watched):
         for variable in kept:
             largest[variable.name] = max(largest[variable.name], *map(abs, values[key(variable)]))
@@ -78,14 +94,22 @@ def fence_of(program: Program, box: Box, routine: Routine) -> Fence:
             held = values[key(recorded)]
             taken = [pivot for pivot in (held if isinstance(held, list) else [held]) if pivot > 0.0]
             least[required] = min([least[required], *taken])  # stations without this pivot have zero there
+        most = max([most, *(value for total in sums for value in values[key(total)])])
     return Fence(
-        {name: 2.0 ** math.ceil(math.log2(MARGIN * value)) for name, value in largest.items() if value > 0.0},
+        {name: _beyond(value) for name, value in largest.items() if value > 0.0},
         {
             name: 2.0 ** math.floor(math.log2(value / MARGIN))
             for name, value in least.items()
             if math.isfinite(value)
         },
+        handed if most > 0.0 else frozenset(),
+        _beyond(most) if most > 0.0 else 0.0,
     )
+
+
+def _beyond(value: float) -> float:
+    """Return a power of two that random states do not come near."""
+    return 2.0 ** math.ceil(math.log2(MARGIN * value))
 
 
 def kept_answers(routine: Routine) -> tuple[Variable, ...]:
@@ -104,9 +128,17 @@ def kept_answers(routine: Routine) -> tuple[Variable, ...]:
     return tuple(found)
 
 
-def _watched(routine: Routine) -> tuple[Routine, dict[str, Variable]]:
-    """Return the routine with every pivot recorded, and the records by expression."""
+def found_by(routine: Routine) -> tuple[Variable, ...]:
+    """Return the array in which a step in space keeps what each joint is found to do: corrections begin with it."""
+    return tuple(v for v in routine.variables(Role.WORK) if v.name == OWN.name)
+
+
+def _watched(
+    routine: Routine, handed: frozenset[Variable]
+) -> tuple[Routine, dict[str, Variable], list[Variable]]:
+    """Return the routine with every pivot recorded, the records by expression, and those of what is handed on."""
     records: dict[str, Variable] = {}
+    totals: list[Variable] = []
     stations = max((loop.stop for loop in routine.statements() if isinstance(loop, Loop)), default=0)
 
     def record(required: Require, length: int | None) -> list[Assign | Require]:
@@ -121,8 +153,15 @@ def _watched(routine: Routine) -> tuple[Routine, dict[str, Variable]]:
             return list(record(statement, None))
         if isinstance(statement, Loop):
             body: list[Assign | Require] = []
-            for inner in statement.body:
+            places = handed_at(statement, handed)
+            for place, inner in enumerate(statement.body):
                 body += record(inner, stations) if isinstance(inner, Require) else [inner]
+                if place in places:
+                    total = Variable(
+                        f"handed_{len(totals)}", Role.WORK, stations, "sizes of what is handed on"
+                    )
+                    totals.append(total)
+                    body.append(Assign(total.at(), sp.Add(*(sp.Abs(v.ref) for v in places[place]))))
             return [replace(statement, body=tuple(body))]
         return [statement]
 
@@ -130,7 +169,7 @@ def _watched(routine: Routine) -> tuple[Routine, dict[str, Variable]]:
         Section(s.title, tuple(new for old in s.statements for new in expanded(old)))
         for s in routine.sections
     )
-    return Routine(routine.name, routine.doc, sections), records
+    return Routine(routine.name, routine.doc, sections), records, totals
 
 
 def _steps(program: Program, box: Box, routine: Routine) -> list[Values]:

@@ -203,7 +203,7 @@ class Kernel:
         if box is None:
             return {}
         return {
-            routine.name: fence_of(self.program, box, routine)
+            routine.name: fence_of(self.program, box, routine, in_space=self.scene.spatial is not None)
             for routine in (self.program.initialise, *self.program.steps)
         }
 

@@ -37,7 +37,7 @@ def loads_on_frames(layout: SpaceLayout, walks: SpaceWalks, stage: int) -> list[
         assert item.frame is not None
         vector = sp.Matrix([layout.input(column, stage) for column in item.columns])
         station = item.frame.joint - 1
-        title = f"{item.acts} on '{item.frame.name}'"
+        title = load_title(item)
         turn = sp.Matrix(3, 3, lambda i, j, rows=item.frame.turn: exactly(rows[i][j]))
         if not item.frame.joint:
             acting = (turn if item.axes == "body" else base_motion.FACING) * vector
@@ -69,8 +69,14 @@ def loads_on_frames(layout: SpaceLayout, walks: SpaceWalks, stage: int) -> list[
             layout.tree.inward_of(station),
             found_facing_line() if floats else (),
         )
-        sections.append(Section(title + ", in world axes", tuple(walked)))
+        sections.append(Section(title, tuple(walked)))
     return sections
+
+
+def load_title(item: ArmInput) -> str:
+    """Return the title of the section of a force or a moment."""
+    assert item.frame is not None
+    return f"{item.acts} on '{item.frame.name}'" + (", in world axes" if item.axes == "world" else "")
 
 
 def _taken_off(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from tmm_gen.scene.document import Document
 from tmm_gen.scene.emit import Budget, Emit
@@ -71,7 +71,7 @@ def compensated_suits(document: Document) -> Iterator[Finding]:
             "Remove one of them: exact derivatives are emitted without compensation.",
             True,
         )
-    if document.model.kind == "planar" and emit.trigonometry != "own":
+    if document.model.kind in ("planar", "spatial") and emit.trigonometry != "own":
         yield Finding(
             key,
             "needs sines that are as exact, which a C library has not",
@@ -123,16 +123,22 @@ def budget_not_empty(document: Document) -> Iterator[Finding]:
 
 def box_names(document: Document) -> Iterator[Finding]:
     """Find bounds on what is neither state nor input of this scene, and inputs called as a key of the state."""
-    for index, item in enumerate(document.input if document.emit.box is not None else ()):
-        if item.name in BOX_STATES:
-            yield Finding(
-                ("input", index, "name"),
-                "is a key of [emit.box], where it bounds something else",
-                f"Choose another, for example '{item.name}_1'.",
-                item.name,
-            )
-    known = [*BOX_STATES, *(name for item in document.input for name in kernel_names(item))]
-    for key, bounds in (document.emit.box or {}).items():
+    yield from box_of_names(document.emit, [kernel_names(item) for item in document.input])
+
+
+def box_of_names(emit: Emit, names: Sequence[Sequence[str]]) -> Iterator[Finding]:
+    """Find the same where kernels take each input under some names."""
+    for index, mine in enumerate(names if emit.box is not None else ()):
+        for name in mine:
+            if name in BOX_STATES:
+                yield Finding(
+                    ("input", index, "name"),
+                    "is a key of [emit.box], where it bounds something else",
+                    f"Choose another, for example '{name}_1'.",
+                    name,
+                )
+    known = [*BOX_STATES, *(name for mine in names for name in mine)]
+    for key, bounds in (emit.box or {}).items():
         if key not in known:
             yield Finding(
                 ("emit", "box", key),
@@ -140,7 +146,7 @@ def box_names(document: Document) -> Iterator[Finding]:
                 closest(key, known),
                 bounds,
             )
-        elif key == "step" and document.emit.parameters == "bound":
+        elif key == "step" and emit.parameters == "bound":
             yield Finding(
                 ("emit", "box", key),
                 "bounds a step that is a constant of the code",

@@ -6,12 +6,12 @@ from collections.abc import Callable, Iterator
 
 from tmm_gen.scene.problem import Finding
 from tmm_gen.scene.rules.beams import beams_given
-from tmm_gen.scene.rules.emission import batch_suits, budget_not_empty, real_is_used
+from tmm_gen.scene.rules.emission import batch_suits, budget_not_empty, compensated_suits, real_is_used
 from tmm_gen.scene.rules.integration import explicit_needs_acceleration, integrator_parameters
 from tmm_gen.scene.rules.spatial.hanging import not_too_many, one_tree, part_names
 from tmm_gen.scene.rules.spatial.inertia import base_to_turn, something_to_turn
 from tmm_gen.scene.rules.spatial.parts import ends, in_range, inertias, rigid_gears, twists
-from tmm_gen.scene.rules.spatial.settings import emitted, keys_of_base, own_tables
+from tmm_gen.scene.rules.spatial.settings import boxed, emitted, keys_of_base, own_tables
 from tmm_gen.scene.rules.spatial.signals import (
     distinct_names,
     initial_by_name,
@@ -37,6 +37,8 @@ RULES: tuple[tuple[Rule, ...], ...] = (
         real_is_used,
         budget_not_empty,
         batch_suits,
+        boxed,
+        compensated_suits,
     ),
 )
 """Each group takes those before it for granted."""

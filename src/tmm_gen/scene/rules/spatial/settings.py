@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from tmm_gen.scene.problem import Finding
+from tmm_gen.scene.rules.emission import box_of_names
 from tmm_gen.scene.spatial.document import SpatialDocument
 from tmm_gen.scene.spatial.settings import FLOATING_KEYS
 
@@ -66,14 +67,12 @@ def emitted(document: SpatialDocument) -> Iterator[Finding]:
             "Remove it; models in CasADi can be differentiated as they are.",
             True,
         )
-    if emit.compensated:
-        yield Finding(
-            ("emit", "compensated"),
-            "is not there yet for arms in space",
-            'Remove it; `real = "float64"` rounds less.',
-            True,
-        )
-    if emit.box is not None:
-        yield Finding(
-            ("emit", "box"), "is not there yet for arms in space: nothing is proved of them", "Remove it."
-        )
+
+
+def boxed(document: SpatialDocument) -> Iterator[Finding]:
+    """Find bounds on what is neither state nor input: of a force or a moment each component has its own."""
+    names = [
+        (item.name,) if item.acts == "torque" else tuple(f"{item.name}_{axis}" for axis in "xyz")
+        for item in document.input
+    ]
+    yield from box_of_names(document.emit, names)

@@ -1,0 +1,77 @@
+"""Terms an arm in space may have or not, and the same scene with each put in or taken out."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from tmm_gen.explain.terms import Term
+from tmm_gen.scene import Scene
+from tmm_gen.scene.spatial.arm import ZERO, SpatialArm, Vector
+
+_DOWN: Vector = (0.0, 0.0, -9.81)
+_MORE = 1e-3
+
+
+def space_terms(scene: Scene, arm: SpatialArm) -> list[Term]:
+    """Return the terms of an arm in space, in the order of its file."""
+    return [_gravity(arm), _rounds(scene), _linearisation(scene), _damping(arm), _rotors(arm)]
+
+
+def _gravity(arm: SpatialArm) -> Term:
+    falls = any(arm.gravity)
+    why = f"model.gravity = {[*arm.gravity]}" if falls else "no model.gravity"
+    return Term("gravity", falls, why, lambda s: _with_arm(s, gravity=ZERO if falls else _DOWN))
+
+
+def _rounds(scene: Scene) -> Term:
+    """Return what is done beyond the first sweep: one round of it, or one that could be."""
+    count = scene.model.sweeps
+    word = "sweep" if scene.model.linearisation == "newton" else "correction"
+    changed = count - 1 if count > 1 else 2
+    rounds = count - 1
+    why = f"model.iterations = {count}: {rounds} {word}{'s' * (rounds != 1)} behind the first sweep"
+    return Term(
+        f"{'the last' if count > 1 else 'a'} {word} in each stage",
+        count > 1,
+        why,
+        lambda s: _with_model(s, iterations=changed),
+    )
+
+
+def _linearisation(scene: Scene) -> Term:
+    """Return all slopes in as many sweeps."""
+    newton = scene.model.linearisation == "newton"
+    why = f'model.linearisation = "{scene.model.linearisation}"'
+    other = "inertial" if newton else "newton"
+    return Term("slopes by angles and rates", newton, why, lambda s: _with_model(s, linearisation=other))
+
+
+def _damping(arm: SpatialArm) -> Term:
+    damped = sum(joint.damping > 0.0 for joint in arm.joints)
+    why = f"{damped} of {len(arm.joints)} joints have a damper" if damped else "no joint has damping"
+    return Term("joint damping", damped > 0, why, lambda s: _with_damping(s, 0.0 if damped else _MORE))
+
+
+def _rotors(arm: SpatialArm) -> Term:
+    rotors = sum(joint.armature > 0.0 for joint in arm.joints)
+    why = f"{rotors} of {len(arm.joints)} joints have a rotor" if rotors else "no joint has a rotor"
+    return Term("rotors", rotors > 0, why, lambda s: _with_rotors(s, 0.0 if rotors else _MORE))
+
+
+def _with_damping(scene: Scene, value: float) -> Scene:
+    assert scene.spatial is not None
+    return _with_arm(scene, joints=tuple(replace(j, damping=value) for j in scene.spatial.joints))
+
+
+def _with_rotors(scene: Scene, value: float) -> Scene:
+    assert scene.spatial is not None
+    return _with_arm(scene, joints=tuple(replace(j, armature=value) for j in scene.spatial.joints))
+
+
+def _with_arm(scene: Scene, **update: object) -> Scene:
+    assert scene.spatial is not None
+    return replace(scene, spatial=replace(scene.spatial, **update))  # type: ignore[arg-type]
+
+
+def _with_model(scene: Scene, **update: object) -> Scene:
+    return replace(scene, model=scene.model.model_copy(update=update))

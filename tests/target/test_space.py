@@ -1,0 +1,102 @@
+"""Arms in space on microcontrollers: the host's bits, and proofs that need the sums which a sweep checks on its way."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable
+
+import pytest
+from support.spatial.boom import BOOM
+
+from tmm_gen.emit.c import emit_kernel
+from tmm_gen.emit.c.box import box_of
+from tmm_gen.emit.c.kernel import Kernel
+from tmm_gen.native import compile_kernel
+from tmm_gen.native.library import OutOfRangeError
+from tmm_gen.program.build import build_program
+from tmm_gen.program.count import count_routine
+from tmm_gen.program.statements import Program
+from tmm_gen.scene import Scene, parse_scene
+from tmm_gen.target import measure
+from tmm_gen.target.proof import IN_SPACE, analyse, driver
+
+BOX = {
+    "angles": [-3.0, 3.0],
+    "rates": [-10.0, 10.0],
+    "accelerations": [-1e3, 1e3],
+    "torque": [-0.2, 0.2],
+    **{f"push_{axis}": [-5.0, 5.0] for axis in "xyz"},
+}
+
+
+@pytest.fixture(scope="module")
+def boom() -> Scene:
+    """A motor, and a beam whose cells turn about all three axes; its own sines, and a box."""
+    changes = {"emit.trigonometry": "own", "emit.real": "float32", "emit.box": BOX}
+    return parse_scene(BOOM).replace(**changes)
+
+
+@pytest.fixture(scope="module")
+def program(boom: Scene) -> Program:
+    return build_program(boom)
+
+
+def test_no_fault_is_possible_within_the_box(
+    boom: Scene, program: Program, need_tool: Callable[[str], str]
+) -> None:
+    """In single precision, whose range is the smaller; and without what is checked on the way nothing is proved."""
+    need_tool("frama-c")
+    box = box_of(boom)
+    assert box is not None
+    call = driver(Kernel.of(program, boom), box)
+    alarms, _ = analyse({**emit_kernel(program, boom), "proof.c": call}, "boom", IN_SPACE)
+    assert alarms == ()
+    bare = boom.replace(**{"emit.box": None})
+    alarms, _ = analyse({**emit_kernel(program, bare), "proof.c": call}, "boom", IN_SPACE)
+    assert alarms
+    assert all("is_finite" in alarm.text for alarm in alarms)
+
+
+def test_what_is_checked_lies_far_beyond_what_states_of_the_box_lead_to(
+    boom: Scene, program: Program
+) -> None:
+    kernel = Kernel.of(program, boom)
+    fence = kernel.fences["step"]
+    assert {name.split("_")[0] for name in (v.name for v in fence.handed)} == {"articulated"}
+    assert set(fence.largest) == {"imbalance", "unknown"}
+    guarded = compile_kernel(program, boom.replace(**{"emit.real": "float64"}), flags=("-O1",))
+    guarded.prepare()
+    draw = random.Random(31)
+    keys = {"angle": "angles", "rate": "rates", "acceleration": "accelerations"}
+    for _ in range(100):
+        guarded.state = {
+            name: [draw.uniform(*BOX[key]) for _ in range(program.stations)] for name, key in keys.items()
+        }
+        guarded.step({name: draw.uniform(*BOX[name]) for name in BOX if name not in keys.values()})
+
+
+def test_checks_refuse_what_leaves_their_bounds(boom: Scene, program: Program) -> None:
+    """An arm a million times as heavy as the scene's: its state stays as it was."""
+    guarded = compile_kernel(program, boom, flags=("-O1",))
+    guarded.prepare()
+    guarded.initialise()
+    masses = next(v.default for v in program.parameters if v.name == "mass")
+    assert isinstance(masses, tuple)
+    guarded.prepare({"mass": [1e6 * mass for mass in masses]})
+    before = guarded.state
+    with pytest.raises(OutOfRangeError):
+        guarded.step()
+    assert {k: list(v) for k, v in guarded.state.items()} == {k: list(v) for k, v in before.items()}
+
+
+@pytest.mark.parametrize("parameters", ["free", "bound"])
+def test_bits_are_the_hosts(
+    boom: Scene, program: Program, parameters: str, need_tool: Callable[[str], str]
+) -> None:
+    for tool in ("arm-none-eabi-gcc", "qemu-system-arm"):
+        need_tool(tool)
+    found = measure(boom.replace(**{"emit.parameters": parameters}), "cortex-m4f")
+    assert found.bits_equal
+    assert found.library_functions == ()
+    assert found.instructions_per_step == found.instructions_least > count_routine(program.main).total
+    assert found.stack_proved
