@@ -7,6 +7,7 @@ from functools import cache
 from pathlib import Path
 
 import pytest
+from support.spatial.afloat import random_afloat
 from support.spatial.kernels import HEADED, program_of
 from support.spatial.random_arms import random_arm
 
@@ -40,6 +41,11 @@ def tree(seed: int, method: str, choices: SpaceChoices) -> Program:
 
 
 @cache
+def afloat(seed: int, method: str, choices: SpaceChoices) -> Program:
+    return program_of(random_afloat(seed, 2), method, choices)
+
+
+@cache
 def yaw3(method: str) -> Scene:
     """Return the scene with another integrator, its beams of two cells."""
     text = YAW3.read_text("utf-8").replace('"newmark"', f'"{method}"').replace("links = 5", "links = 2")
@@ -61,6 +67,12 @@ def agree(program: Program, scene: Scene) -> None:
 @pytest.mark.parametrize("kind", TREES)
 def test_trees(kind: str) -> None:
     agree(tree(*TREES[kind]), HEADED)
+
+
+@pytest.mark.parametrize("kind", TREES)
+def test_bases_that_float(kind: str) -> None:
+    """Under forces and moments on the base too; with a history of turns where the method has one."""
+    agree(afloat(*TREES[kind]), HEADED)
 
 
 @pytest.mark.parametrize("method", METHODS)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cache
 from itertools import pairwise
@@ -13,7 +13,7 @@ from support.spatial.kernels import program_of
 
 from tmm_gen.program.count import count_routine
 from tmm_gen.program.space.assemble import SpaceChoices
-from tmm_gen.scene.spatial.arm import Revolute, RigidBody, SpatialArm, Turn
+from tmm_gen.scene.spatial.arm import FreeBase, Revolute, RigidBody, SpatialArm, Turn
 
 BEAM = Beam(1.0, (2.0, 5.0), 0.8, 1.0, 2e-4, decay=1e-3)
 BODY = RigidBody(1.0, (0.1, 0.02, 0.03), (0.01, 0.02, 0.03, 0.001, 0.002, 0.003))
@@ -110,3 +110,31 @@ def test_newest_acceleration_costs_little(kind: str) -> None:
     """Predicting with it instead of with none takes up to four operations a joint."""
     none, newest = (per_joint(kind, SpaceChoices(1e-3, iterations=1, held=held)) for held in (False, True))
     assert 0 < newest - none <= 4
+
+
+FLOATS = {
+    "bend, bend": (996, 586, 2601),
+    "link": (1177, 687, 3005),
+}
+"""What a step takes more where the base is a body that floats instead of a clamp: one inertial sweep without any
+acceleration predicted, each correction, one exact sweep. The first joint's share, which a clamp spares, is in it."""
+
+
+@pytest.mark.parametrize("kind", FLOATS)
+def test_a_base_that_floats(kind: str) -> None:
+    """However long the arm is."""
+    once, twice, exact = (
+        SpaceChoices(1e-3, iterations=1),
+        SpaceChoices(1e-3, iterations=2),
+        SpaceChoices(1e-3, iterations=1, exact=True),
+    )
+    for count in (3, 6) if kind == "link" else (2, 3):
+        (arm,) = arms(kind, count)
+        more = []
+        for choices in (once, twice, exact):
+            stands, floats = (
+                count_routine(program_of(each, choices=choices).main).total
+                for each in (arm, replace(arm, base=FreeBase(BODY)))
+            )
+            more.append(floats - stands)
+        assert (more[0], more[1] - more[0], more[2]) == FLOATS[kind]

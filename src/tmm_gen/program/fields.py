@@ -43,10 +43,19 @@ def gain_names(
 
 
 def living_state(
-    state: tuple[Variable, ...], steps: tuple[Routine, ...], output: Routine
+    state: tuple[Variable, ...],
+    steps: tuple[Routine, ...],
+    output: Routine,
+    always: frozenset[str] = frozenset(),
 ) -> tuple[Variable, ...]:
-    """Return the state that outputs depend on, through any number of steps; the angle always stays."""
-    alive = {v for v in state if v in output.read() or v.name == "angle"}
+    """Return the state that outputs depend on, through any number of steps; the angle always stays.
+
+    Parameters
+    ----------
+    always : frozenset of str
+        Names of what stays as well.
+    """
+    alive = {v for v in state if v in output.read() or v.name == "angle" or v.name in always}
     while True:
         wanted = frozenset(alive)
         for routine in steps:

@@ -13,7 +13,7 @@ A rotor has the kinetic energy ``1/2 J_a q'^2`` and no momentum besides, as wher
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -146,7 +146,7 @@ class WorldArm:
         force = self.masses[:, None] * (pull - self.gravity)
         moment = applied(inertia, motions.spinning) + cross(motions.spin, applied(inertia, motions.spin))
         moment = moment + cross(center, force)  # from here on about the base
-        outer_force, outer_moment = self._loads(places, inputs)
+        outer_force, outer_moment = self.loads(places, inputs)
         beyond = self.tree.ways.T
         force, moment = beyond @ (force - outer_force), beyond @ (moment - outer_moment)
         turning = (places.axis * (moment - cross(places.point, force))).sum(axis=-1)
@@ -176,22 +176,16 @@ class WorldArm:
 
         Inputs must be scalars, or ``(k,)`` with ``q`` of ``(k, n)``.
         """
-        n = q.shape[-1]
-        small = 1j * _STEP * np.eye(n)
-        spread = {name: np.asarray(value)[..., None] for name, value in inputs.items()}
-        q, v, a = q[..., None, :], v[..., None, :], a[..., None, :]
-        by_q = self.inverse_dynamics(q + small, v, a, spread).imag / _STEP
-        by_v = self.inverse_dynamics(q, v + small, a, spread).imag / _STEP
-        return np.swapaxes(by_q, -1, -2), np.swapaxes(by_v, -1, -2)
+        return complex_slopes(self.inverse_dynamics, q, v, a, inputs)
 
-    def _loads(self, places: Places, inputs: Inputs) -> tuple[Values, Values]:
+    def loads(self, places: Places, inputs: Inputs) -> tuple[Values, Values]:
         """Return the forces of inputs on each body and their moments about the base, (..., n, 3) each, N and N m."""
         force = np.zeros_like(places.point)
         moment = np.zeros_like(places.point)
         for item in self.arm.inputs:
             if item.frame is None or not item.frame.joint:  # what acts on the base moves nothing
                 continue
-            given = _components(item, inputs)
+            given = components(item, inputs)
             if given is None:
                 continue
             axes, point = places.frame(item.frame)
@@ -205,7 +199,20 @@ class WorldArm:
         return force, moment
 
 
-def _components(item: ArmInput, inputs: Inputs) -> Values | None:
+def complex_slopes(
+    lacking: Callable[[Values, Values, Values, Inputs], Values], q: Array, v: Array, a: Array, inputs: Inputs
+) -> tuple[Array, Array]:
+    """Return the derivatives of what is lacking by coordinates and by rates; see `WorldArm.tangents`."""
+    n = q.shape[-1]
+    small = 1j * _STEP * np.eye(n)
+    spread = {name: np.asarray(value)[..., None] for name, value in inputs.items()}
+    q, v, a = q[..., None, :], v[..., None, :], a[..., None, :]
+    by_q = lacking(q + small, v, a, spread).imag / _STEP
+    by_v = lacking(q, v + small, a, spread).imag / _STEP
+    return np.swapaxes(by_q, -1, -2), np.swapaxes(by_v, -1, -2)
+
+
+def components(item: ArmInput, inputs: Inputs) -> Values | None:
     """Return the components of a force or moment, (..., 3); None where none is given."""
     if not any(column in inputs for column in item.columns):
         return None

@@ -6,7 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.reference.collocation import ReferenceError
+from tmm_gen.reference.spatial_afloat import joint_mass
 from tmm_gen.reference.spatial_arm import Inputs, WorldArm
+from tmm_gen.reference.spatial_given import free_joints
 from tmm_gen.scene.spatial.arm import SpatialArm
 
 Array = NDArray[np.float64]
@@ -96,9 +98,10 @@ def vibrations(arm: SpatialArm) -> tuple[Array, Array]:
     from scipy.linalg import eigh  # slow to import
 
     world = WorldArm(arm)
-    mass = world.mass_matrix(np.array([joint.angle for joint in arm.joints]))
-    squares, shapes = eigh(np.diag(world.stiffness), mass)
+    free = free_joints(arm)
+    mass = joint_mass(arm)[np.ix_(free, free)]
+    squares, shapes = eigh(np.diag(world.stiffness[free]), mass)
     found: Array = np.sqrt(np.maximum(squares, 0.0))
-    damped = world.damping @ shapes**2
+    damped = world.damping[free] @ shapes**2
     ratios: Array = np.where(found > 0.0, damped / np.where(found > 0.0, 2.0 * found, 1.0), 0.0)
     return found, ratios

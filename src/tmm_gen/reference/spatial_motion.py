@@ -13,7 +13,9 @@ from numpy.typing import NDArray
 
 from tmm_gen.inputs.signals import Signal
 from tmm_gen.reference.collocation import Trajectory, integrate
+from tmm_gen.reference.spatial_afloat import AfloatArm, joint_mass
 from tmm_gen.reference.spatial_arm import WorldArm
+from tmm_gen.reference.spatial_given import GivenJoints, free_joints
 from tmm_gen.scene.spatial.arm import SpatialArm
 
 Array = NDArray[np.float64]
@@ -24,6 +26,8 @@ def motion(
     arm: SpatialArm, signals: Signals, times: Array, tolerance: float = 1e-11
 ) -> tuple[Array, Array, Array]:
     """Return angles, rates and accelerations at some instants, (k, n) each, in rad, rad/s, rad/s^2.
+
+    Of an arm whose base floats, these are the coordinates of :class:`tmm_gen.reference.spatial_afloat.AfloatArm`.
 
     Parameters
     ----------
@@ -40,9 +44,23 @@ def motion(
     ReferenceError
         If the equations cannot be integrated.
     """
-    times = np.asarray(times, float)
+    times, told = np.asarray(times, float), GivenJoints(arm, signals)
     q, v, _ = trajectory(arm, signals, max(float(times[-1]), 1e-9), tolerance).at(times)
-    return q, v, WorldArm(arm).forward_dynamics(q, v, given(signals, times))
+    q, v = told.settled(times, q, v)
+    world = _world(arm)
+    if not told.of:
+        return q, v, world.forward_dynamics(q, v, given(signals, times))
+    # linear in accelerations: one step of Newton's method from none of them
+    a = np.zeros_like(q)
+    inputs = given(signals, times)
+    lacking = told.lacking(times, a, np.asarray(world.inverse_dynamics(q, v, a, inputs), np.float64))
+    tangent = told.slopes(*_Slopes(world, signals, told)(times, q, v, a))[2]
+    found = np.linalg.solve(tangent, -lacking[..., None])[..., 0]
+    return q, v, np.asarray(found, np.float64)
+
+
+def _world(arm: SpatialArm) -> WorldArm | AfloatArm:
+    return WorldArm(arm) if arm.base is None else AfloatArm(arm)
 
 
 def trajectory(arm: SpatialArm, signals: Signals, until: float, tolerance: float = 1e-11) -> Trajectory:
@@ -63,15 +81,17 @@ def trajectory(arm: SpatialArm, signals: Signals, until: float, tolerance: float
     ReferenceError
         If the equations cannot be integrated.
     """
-    world = WorldArm(arm)
+    world, told = _world(arm), GivenJoints(arm, signals)
 
     def residual(at: Array, q: Array, v: Array, a: Array) -> Array:
-        return np.asarray(world.inverse_dynamics(q, v, a, given(signals, at)), np.float64)
+        lacking = np.asarray(world.inverse_dynamics(q, v, a, given(signals, at)), np.float64)
+        return told.lacking(at, a, lacking)
 
     knots = np.unique(np.concatenate([[0.0, until], *(signal.knots for signal in signals.values())]))
     breaks = knots[(knots >= 0.0) & (knots <= until)]
-    slopes = _Slopes(world, signals)
-    return integrate(residual, slopes, *_start(arm), breaks, tolerance)
+    slopes = _Slopes(world, signals, told)
+    begun = told.settled(np.zeros(()), *start(arm))
+    return integrate(residual, slopes, *begun, breaks, tolerance)
 
 
 def given(signals: Signals, times: Array) -> dict[str, Array]:
@@ -81,11 +101,15 @@ def given(signals: Signals, times: Array) -> dict[str, Array]:
 
 def pace(arm: SpatialArm) -> float:
     """Return the fastest rate of the arm where it starts, 1/s: of vibrations, decays or rotations."""
-    world = WorldArm(arm)
-    q, v = _start(arm)
-    mass = world.mass_matrix(q)
-    by_q, by_v = world.tangents(q, v, np.zeros_like(q), {})
-    n = len(q)
+    world, free = WorldArm(arm), free_joints(arm)
+    n = len(free)
+    mass = joint_mass(arm)[np.ix_(free, free)]
+    if arm.base is None:
+        q, v = start(arm)
+        by_q, by_v = world.tangents(q, v, np.zeros_like(q), {})
+    else:  # it falls, and weighs nothing
+        by_q, by_v = np.diag(world.stiffness), np.diag(world.damping)
+    by_q, by_v = by_q[np.ix_(free, free)], by_v[np.ix_(free, free)]
     slope = np.block([[np.zeros((n, n)), np.eye(n)], [-np.linalg.solve(mass, np.hstack([by_q, by_v]))]])
     return float(np.max(np.abs(np.linalg.eigvals(slope))))
 
@@ -96,8 +120,8 @@ class _Slopes:
     Newton's method so takes a few iterations more, and each is far cheaper; what it converges to is the same.
     """
 
-    def __init__(self, world: WorldArm, signals: Signals) -> None:
-        self._world, self._signals = world, signals
+    def __init__(self, world: WorldArm | AfloatArm, signals: Signals, told: GivenJoints) -> None:
+        self._world, self._signals, self._told = world, signals, told
         self._of, self._held = (np.inf, np.inf), (np.empty(0), np.empty(0))
 
     def __call__(self, at: Array, q: Array, v: Array, a: Array) -> tuple[Array, Array, Array]:
@@ -107,9 +131,13 @@ class _Slopes:
             inputs = given(self._signals, at[middle])
             self._of, self._held = of, self._world.tangents(q[middle], v[middle], a[middle], inputs)
         by_q, by_v = (np.broadcast_to(tangent, (len(at), *tangent.shape)) for tangent in self._held)
-        return by_q, by_v, self._world.mass_matrix(q)
+        if isinstance(self._world, AfloatArm):
+            return by_q, by_v, self._world.mass_matrix(q, v, {})
+        return self._told.slopes(by_q, by_v, self._world.mass_matrix(q))
 
 
-def _start(arm: SpatialArm) -> tuple[Array, Array]:
-    """Return the angles and rates at the start, (n,) each."""
+def start(arm: SpatialArm) -> tuple[Array, Array]:
+    """Return the angles and rates at the start, (n,) each; of a base that floats, all coordinates."""
+    if arm.base is not None:
+        return AfloatArm(arm).start()
     return np.array([joint.angle for joint in arm.joints]), np.array([joint.rate for joint in arm.joints])

@@ -5,9 +5,12 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from tmm_gen.reference.spatial_afloat import AfloatArm
+from tmm_gen.reference.spatial_afloat_outputs import afloat_values
 from tmm_gen.reference.spatial_arm import Inputs, WorldArm
 from tmm_gen.reference.spatial_motion import Signals, given, motion
 from tmm_gen.reference.spatial_places import cross
+from tmm_gen.reference.spatial_turns import alike, followed, quaternions
 from tmm_gen.scene.spatial.arm import ArmOutput, Frame, SpatialArm
 
 Array = NDArray[np.float64]
@@ -43,11 +46,17 @@ def spatial_response(
 
 
 def outputs(arm: SpatialArm, q: Array, v: Array, a: Array, inputs: Inputs) -> dict[str, Array]:
-    """Return the outputs by column from the motion at some instants, (k, n) each; inputs by column, (k,)."""
-    world = WorldArm(arm)
+    """Return the outputs by column from the motion at some instants, (k, n) each; inputs by column, (k,).
+
+    On a base that floats, motion is that of its coordinates too, (k, 7 + n): see
+    :class:`tmm_gen.reference.spatial_afloat.AfloatArm`.
+    """
     found: dict[str, Array] = {}
     for output in arm.outputs:
-        values = _values(world, output, q, v, a, inputs)
+        if arm.base is None:
+            values = _values(WorldArm(arm), output, q, v, a, inputs)
+        else:
+            values = afloat_values(AfloatArm(arm), output, q, v, a, inputs)
         columns = np.moveaxis(values, -1, 0) if len(output.columns) > 1 else [values]
         found |= dict(zip(output.columns, columns, strict=True))
     return found
@@ -69,9 +78,7 @@ def _values(world: WorldArm, output: ArmOutput, q: Array, v: Array, a: Array, in
     axes, point = world.tree.places(q).frame(output.frame)
     if quantity.components == "xyz":
         return np.asarray(point)
-    found = quaternions(axes)
-    sign = np.sign(np.sum(found * _followed(world.arm, output.frame, q), axis=-1, keepdims=True))
-    return np.asarray(np.where(sign < 0.0, -found, found))
+    return alike(quaternions(axes), followed(world.arm, output.frame, q))
 
 
 def _energy(world: WorldArm, which: str, q: Array, v: Array) -> Array:
@@ -102,35 +109,3 @@ def gravitational_energy(world: WorldArm, q: Array) -> Array:
     """Return the energy of weight, (k,), J: zero where all mass is at the height of the base."""
     center, _ = world.centers(world.tree.places(q))
     return np.asarray(-(world.masses @ (center @ world.gravity)[..., None])[..., 0])
-
-
-def quaternions(axes: Array) -> Array:
-    """Return the rotations with given columns, (k, 3, 3), as quaternions w, x, y, z with w not negative, (k, 4)."""
-    from scipy.spatial.transform import Rotation  # slow to import
-
-    last = Rotation.from_matrix(axes).as_quat(canonical=False)
-    found: Array = last[:, [3, 0, 1, 2]]
-    return np.where(found[:, :1] < 0.0, -found, found)
-
-
-def _followed(arm: SpatialArm, frame: Frame, q: Array) -> Array:
-    """Return the quaternion, (k, 4), that half of each joint's angle makes on the way to a frame: it never jumps."""
-    way = []
-    number = frame.joint
-    while number:
-        way.append(number)
-        number = arm.joints[number - 1].host
-    found = np.tile([1.0, 0.0, 0.0, 0.0], (len(q), 1))
-    for number in reversed(way):
-        joint, half = arm.joints[number - 1], 0.5 * q[:, number - 1]
-        turn = np.zeros((len(q), 4))
-        turn[:, 0], turn[:, 1 + joint.axis] = np.cos(half), np.sin(half)
-        found = _product(_product(found, quaternions(np.array([joint.turn]))), turn)
-    return _product(found, quaternions(np.array([frame.turn])))
-
-
-def _product(one: Array, other: Array) -> Array:
-    """Return the product of quaternions, (k, 4)."""
-    (w, v), (x, u) = ((q[:, :1], q[:, 1:]) for q in (one, other))
-    scalar = w * x - np.sum(v * u, axis=-1, keepdims=True)
-    return np.concatenate([scalar, w * u + x * v + np.cross(v, u)], axis=-1)

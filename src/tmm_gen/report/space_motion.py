@@ -26,7 +26,7 @@ class SpaceMotion:
     time : array, (k,)
         s, from 0 on.
     angles : array, (k, n)
-        Of its joints, rad.
+        Of its joints, rad; (k, 7 + n) where its base floats, its place and quaternion first.
     """
 
     arm: SpatialArm

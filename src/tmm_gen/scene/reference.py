@@ -14,7 +14,7 @@ from tmm_gen.scene.document import Document
 from tmm_gen.scene.integrator import INTEGRATOR_NAMES, METHODS
 from tmm_gen.scene.parts.document import PARTS, ChainDocument, PartsDocument
 from tmm_gen.scene.spatial.document import SPATIAL_PARTS, SpatialDocument
-from tmm_gen.scene.spatial.settings import SpatialModel
+from tmm_gen.scene.spatial.settings import SpatialBase, SpatialModel
 from tmm_gen.scene.table import Table, file_keys, hidden
 
 
@@ -58,6 +58,7 @@ def keys() -> Iterator[Key]:
         assert table is not None
         yield from _table_keys(table, f"[[{name}]] by name in a chain")
     yield from _table_keys(SpatialModel, "[model] in space")
+    yield from _table_keys(SpatialBase, "[base] in space")
     for name in (*SPATIAL_PARTS, "input", "output"):
         table = _table_in(SpatialDocument.model_fields[name].annotation)
         assert table is not None

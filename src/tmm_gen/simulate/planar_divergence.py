@@ -47,6 +47,9 @@ class PlanarWatch:
         """
         before = np.array(self.scene.initial.angles) if self._before is None else self._before
         turned = np.abs(angles - before)
+        for number, joint in enumerate(self.scene.spatial.joints if self.scene.spatial else ()):
+            if joint.given:  # wherever its input has it
+                turned[number] = 0.0
         self._before = np.array(angles)
         if turned.max() <= TURN:  # false for what is no number
             return
@@ -105,7 +108,9 @@ def planar_watch(scene: Scene, step: float) -> PlanarWatch:
     TooLongError
         If it starts too fast for its step.
     """
-    fastest = max((abs(rate) for rate in scene.initial.rates), default=0.0)
+    base = scene.spatial.base if scene.spatial else None
+    rates = (*scene.initial.rates, *([math.hypot(*base.rate)] if base else []))
+    fastest = max((abs(rate) for rate in rates), default=0.0)
     most = START_TURN[scene.model.auto or scene.model.sweeps > 1]
     turn = fastest * step
     if turn > most:

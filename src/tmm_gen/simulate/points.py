@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from tmm_gen.reference.spatial_turns import turned as axes_of
 from tmm_gen.scene.spatial.arm import SpatialArm
 
 Array = NDArray[np.float64]
@@ -16,18 +17,21 @@ def body_points(arm: SpatialArm, angles: Array, spread: float) -> Array:
     Parameters
     ----------
     angles : array, (k, n)
-        Of the joints, rad.
+        Of the joints, rad; (k, 7 + n) where the base floats, whose place and quaternion come first.
     spread : float
         How far along the first two axes of the joint's frame the other two stand, m.
 
     Returns
     -------
     array, (3, k, 3 n)
-        Along x, y and z, m.
+        Along x, y and z, m; with three more, the base's own first, where that floats.
     """
     axes: list[Array] = [np.broadcast_to(np.eye(3), (len(angles), 3, 3))]
     places: list[Array] = [np.zeros((len(angles), 3))]
     found: list[Array] = []
+    if arm.base is not None:
+        axes, places, angles = [axes_of(angles[:, 3:7])], [angles[:, :3]], angles[:, 7:]
+        found += [places[0], places[0] + spread * axes[0][:, :, 0], places[0] + spread * axes[0][:, :, 1]]
     for joint, angle in zip(arm.joints, angles.T, strict=True):
         place = places[joint.host] + axes[joint.host] @ np.array(joint.at)
         turned = axes[joint.host] @ np.array(joint.turn) @ _turns(joint.axis, angle)

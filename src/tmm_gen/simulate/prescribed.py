@@ -164,7 +164,8 @@ def _way(scene: Scene, item: Input, before: float, after: float, instant: float)
 def _refuse_start(scene: Scene, item: Input, signal: Signal) -> None:
     """Refuse a base that stands elsewhere than a straight arm at rest at the beginning."""
     angles = scene.initial.angles
-    if np.ptp(angles) > 0.0:  # bent at first: as the scene says
+    # in space angles are those of joints, whatever the base does; bent at first: as the scene says
+    if scene.spatial is not None or np.ptp(angles) > 0.0:
         return
     start, arm = float(signal.at(0.0)), float(angles[0])
     way = np.abs(signal.at(np.concatenate([signal.knots, [0.0]])) - start)

@@ -10,7 +10,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from tmm_gen.reference.spatial_afloat import AfloatArm
 from tmm_gen.reference.spatial_places import Tree
+from tmm_gen.reference.spatial_turns import turned
 from tmm_gen.scene.spatial.arm import ZERO, SpatialArm, Vector
 from tmm_gen.scene.spatial.reach import longest_way
 
@@ -155,7 +157,7 @@ class Skeleton:
         names = {
             spot: frame.name
             for spot, frame in zip(self.of_frames, self.arm.frames, strict=True)
-            if frame.joint and not self._behind[spot]
+            if (frame.joint or self.arm.base) and spot and not self._behind[spot]
         }
         return tuple(Tip(spot, name) for spot, name in names.items())
 
@@ -187,7 +189,7 @@ class Skeleton:
         Parameters
         ----------
         angles : array, (k, n)
-            Of the joints at some instants, rad.
+            Of the joints at some instants, rad; (k, 7 + n) where the base floats, its place and quaternion first.
 
         Returns
         -------
@@ -206,13 +208,16 @@ class Skeleton:
         angles : array, (k, n)
             Of the joints at some instants, rad.
         """
-        places = Tree(self.arm).places(angles)
+        afloat = self.arm.base is not None
+        places = (AfloatArm(self.arm) if afloat else Tree(self.arm)).places(angles)
         points = np.empty((len(angles), len(self.spots), 3))
         for number, spot in enumerate(self.spots):
             at = np.array(spot.at)
             if spot.body:
                 body = spot.body - 1
                 points[:, number] = places.point[:, body] + places.turn[:, body] @ at
+            elif afloat:
+                points[:, number] = angles[:, :3] + turned(angles[:, 3:7]) @ at
             else:
                 points[:, number] = at
         joints = list(self.pins)

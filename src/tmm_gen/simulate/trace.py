@@ -14,6 +14,11 @@ from tmm_gen.scene import Scene
 
 Array = NDArray[np.float64]
 
+BASE = tuple(
+    f"base_{word}" for word in (*(f"place_{x}" for x in "xyz"), *(f"quaternion_{x}" for x in "wxyz"))
+)
+"""State of a base that floats in space: where it is."""
+
 
 @dataclass(eq=False)
 class Trace:
@@ -22,7 +27,8 @@ class Trace:
     Parameters
     ----------
     angle, rate : array, (k, m)
-        rad, rad/s; filled as steps are taken. Rates are zero where the integrator remembers none.
+        rad, rad/s; filled as steps are taken. Rates are zero where the integrator remembers none. Of a base that
+        floats in space place and quaternion come first, with rates of zero.
     every : int
         How many steps lie from one instant to the next.
     count : int
@@ -37,7 +43,8 @@ class Trace:
     @classmethod
     def empty(cls, scene: Scene, instants: int, every: int = 1) -> Trace:
         """Return room for the start and what each so many of some steps lead to."""
-        columns = scene.stations + scene.hub
+        afloat = scene.spatial is not None and scene.spatial.base is not None
+        columns = scene.stations + scene.hub + len(BASE) * afloat
         kept = (instants - 1) // every + 1
         return cls(np.zeros((kept, columns)), np.zeros((kept, columns)), every)
 
@@ -63,11 +70,13 @@ class Trace:
         self.count += len(found)
         if len(found) <= first:
             return
-        hub = self.angle.shape[1] > found.shape[1]
+        hub = self.angle.shape[1] - found.shape[1]
+        if hub == len(BASE):
+            self.angle[place, :hub] = np.stack([states[name][first :: self.every] for name in BASE], axis=1)
         for target, name in ((self.angle, "angle"), (self.rate, "rate")):
             if name in states:
-                target[place, int(hub) :] = states[name].reshape(found.shape)[first :: self.every]
-            if hub and f"hub_{name}" in states:
+                target[place, hub:] = states[name].reshape(found.shape)[first :: self.every]
+            if hub == 1 and f"hub_{name}" in states:
                 target[place, 0] = states[f"hub_{name}"][first :: self.every]
         if "turned" in states:
             turned = states["turned"][first :: self.every]

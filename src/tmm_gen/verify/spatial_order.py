@@ -15,11 +15,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.inputs.signals import Signal, Sine
+from tmm_gen.reference.spatial_afloat import AfloatArm, joint_mass
 from tmm_gen.reference.spatial_arm import WorldArm
-from tmm_gen.reference.spatial_motion import motion
+from tmm_gen.reference.spatial_given import free_joints
+from tmm_gen.reference.spatial_motion import motion, start
 from tmm_gen.scene import Scene
+from tmm_gen.scene.signal import ACCELERATION, RATE
 from tmm_gen.scene.spatial.arm import SpatialArm
 from tmm_gen.simulate.metrics import convergence_slope
+from tmm_gen.simulate.prescribed import Derivative
+from tmm_gen.simulate.trace import BASE
 from tmm_gen.verify.check_row import CheckRow
 
 Array = NDArray[np.float64]
@@ -28,6 +33,8 @@ _RATE = 1.0
 """rad/s that all joints together turn at first, beside what the scene says."""
 _PULL = 3.0
 """rad/s^2 that each input alone gives the joint it moves most."""
+_TURNED = 0.3
+"""rad that a prescribed base turns either way."""
 _SWING = 8.0
 """rad/s of the inputs."""
 _FASTEST = 40.0
@@ -110,10 +117,10 @@ def softened(arm: SpatialArm) -> SpatialArm:
     """Return an arm with all springs and dampers scaled down until vibrations and decays are slow."""
     from scipy.linalg import eigh  # slow to import
 
-    world = WorldArm(arm)
-    mass = world.mass_matrix(np.array([joint.angle for joint in arm.joints]))
+    world, free = WorldArm(arm), free_joints(arm)
+    mass = joint_mass(arm)[np.ix_(free, free)]
     square, decay = (
-        float(eigh(np.diag(values), mass, eigvals_only=True)[-1])
+        float(eigh(np.diag(values[free]), mass, eigvals_only=True)[-1])
         for values in (world.stiffness, world.damping)
     )
     share = 1.0 / max(1.0, square / _FASTEST**2, decay / _FASTEST)
@@ -125,18 +132,25 @@ def softened(arm: SpatialArm) -> SpatialArm:
 
 
 def started(arm: SpatialArm) -> SpatialArm:
-    """Return an arm whose joints all turn at first."""
+    """Return an arm whose joints all turn at first, and whose base does where it floats."""
     more = _RATE / len(arm.joints)
-    return replace(arm, joints=tuple(replace(joint, rate=joint.rate + more) for joint in arm.joints))
+    base = arm.base
+    if base is not None:
+        x, y, z = base.rate
+        base = replace(base, rate=(x + more, y + more, z - more))
+    joints = tuple(replace(joint, rate=joint.rate + more) for joint in arm.joints)
+    return replace(arm, joints=joints, base=base)
 
 
 def swings(arm: SpatialArm) -> dict[str, Signal]:
     """Return a sine for each column of the inputs, as large as the arm is heavy."""
-    world = WorldArm(arm)
-    q = np.array([joint.angle for joint in arm.joints])
+    world: WorldArm | AfloatArm = WorldArm(arm) if arm.base is None else AfloatArm(arm)
+    q = start(arm)[0]
     free = world.forward_dynamics(q, 0.0 * q, {})
     found: dict[str, Signal] = {}
-    for column in (column for item in arm.inputs for column in item.columns):
+    for item in (item for item in arm.inputs if item.acts == "angle"):
+        found[item.name] = Sine(_TURNED, _SWING / 2.0)
+    for column in (column for item in arm.inputs if item.acts != "angle" for column in item.columns):
         moved = float(np.max(np.abs(world.forward_dynamics(q, 0.0 * q, {column: 1.0}) - free)))
         found[column] = Sine(_PULL / moved if moved > 0.0 else 1.0, _SWING, 0.3 * len(found))
     return found
@@ -157,7 +171,7 @@ def turned_alike(
 def _angles(
     module: ModuleType, arm: SpatialArm, loads: Mapping[str, Signal], step: float, steps: int
 ) -> Array:
-    """Return the angles after each step, (steps, n)."""
+    """Return the angles after each step, (steps, n); where the base floats its place and quaternion first."""
     params = module.Params()
     joints = {"stiffness": [j.stiffness for j in arm.joints], "damping": [j.damping for j in arm.joints]}
     params = replace(
@@ -170,20 +184,28 @@ def _angles(
         },
     )
 
-    def given(time: float) -> object:
-        return module.Input(**{name: float(signal.at(time)) for name, signal in loads.items()})
+    signals: dict[str, Signal | Derivative] = dict(loads)
+    for item in (item for item in arm.inputs if item.acts == "angle"):
+        for order, word in enumerate((RATE, ACCELERATION), start=1):
+            signals[item.name + word] = Derivative(loads[item.name], order)
 
-    start: dict[str, object] = {
+    def given(time: float) -> object:
+        return module.Input(**{name: float(signal.at(time)) for name, signal in signals.items()})
+
+    begun: dict[str, object] = {
         "initial_angle": np.array([j.angle for j in arm.joints]),
         "initial_rate": np.array([j.rate for j in arm.joints]),
     }
+    if arm.base is not None:
+        begun["initial_base_omega"] = np.array(arm.base.rate)
     if "step" in inspect.signature(module.initialise).parameters:
-        start["step"] = step
-    model, state = module.prepare(params, step=step), module.initialise(params, given(0.0), **start)
-    found = np.empty((steps, len(arm.joints)))
+        begun["step"] = step
+    model, state = module.prepare(params, step=step), module.initialise(params, given(0.0), **begun)
+    own = BASE if arm.base is not None else ()
+    found = np.empty((steps, len(own) + len(arm.joints)))
     for index in range(steps):
         instants = module.STAGE_INSTANTS[min(index, len(module.STAGE_INSTANTS) - 1)]
         stages = [given((index + at) * step) for at in instants]
         state = module.step(model, state, stages if len(stages) > 1 else stages[0])
-        found[index] = state.angle
+        found[index] = [*(float(getattr(state, name)) for name in own), *state.angle]
     return found

@@ -73,9 +73,17 @@ class Inertial:
         Outward, to the joint's unknown.
     """
 
+    inward: tuple[Line, ...]
+    again: tuple[Line, ...]
+    back: tuple[Line, ...]
+
     def __init__(self, out: Outward, gain: sp.Expr = GAINS["a"]) -> None:
         self._out, self._gain = out, gain
         self._axis = 3 + out.pattern.axis
+        if out.pattern.given:
+            self.inward = self.again = ()
+            self.back = unchanged(CHANGE)
+            return
         self.inward = self._inward()
         self.again = self._again()
         self.back = self._back()
@@ -90,7 +98,7 @@ class Inertial:
                 value = own[i, j] + (0 if self._out.pattern.tip else ARTICULATED[i, j])
                 inertia[i, j] = inertia[j, i] = sheet.named(names[6 * i + j], value)
         about_axis = inertia[axis, :]
-        if self._out.pattern.rooted:  # what it stands on rests
+        if self._out.pattern.unyielding:  # what it stands on rests
             about_axis = sp.Matrix([[v if k == axis else 0 for k, v in enumerate(about_axis)]])
         lines: list[Line] = [
             *sheet.lets,
@@ -106,7 +114,7 @@ class Inertial:
         lines += [Pivot(pivot), Let(ADMITTANCE, 1 / pivot, "motion of the joint per torque in it")]
         bias, biased = self._balanced()
         lines += biased
-        if self._out.pattern.rooted:
+        if self._out.pattern.unyielding:
             return tuple(lines)
         sheet = Sheet()
         taken = sheet.named("giving", gain * ADMITTANCE, "what the joint gives way by")
@@ -174,14 +182,14 @@ class Inertial:
 
     def _again(self) -> tuple[Line, ...]:
         bias, lines = self._balanced()
-        if self._out.pattern.rooted:
+        if self._out.pattern.unyielding:
             return tuple(lines)
         update, passed = self._passed(bias)
         return (*lines, *passed, Update(update))
 
     def _back(self) -> tuple[Line, ...]:
         pattern, sheet = self._out.pattern, Sheet()
-        change = sp.zeros(6, 1) if pattern.rooted else CHANGE
+        change = sp.zeros(6, 1) if pattern.unyielding else CHANGE
         for crossing in self._out.crossings:
             moved = through_accelerations(crossing.equations) * change
             change = sp.Matrix(
@@ -195,6 +203,12 @@ class Inertial:
         change[self._axis] += self._gain * OWN
         update = {s: v for s, v in zip(CHANGE, change, strict=True) if s != v}
         return (*sheet.lets, found, Update(update))
+
+
+def unchanged(change: sp.Matrix) -> tuple[Line, ...]:
+    """Return the way back over a joint whose motion is given: neither does it anything, nor changes its section."""
+    none = sp.Integer(0)
+    return (Let(OWN, none, "what the joint does"), Update(dict.fromkeys(change, none)))
 
 
 def through_accelerations(equations: PassageEquations) -> sp.Matrix:

@@ -13,7 +13,7 @@ import sympy as sp
 
 from tmm_gen.derive.space.declaration import ACCEL, ALPHA, ANGLE, AXES, OMEGA, RATE, hinge
 from tmm_gen.derive.space.equations import body_equations, passage_equations
-from tmm_gen.derive.space.inward import ADMITTANCE, BIAS, IMBALANCE, IMPEDANCE, OWN, TORQUE
+from tmm_gen.derive.space.inward import ADMITTANCE, BIAS, IMBALANCE, IMPEDANCE, OWN, TORQUE, unchanged
 from tmm_gen.derive.space.outward import COSINE, OWN_FORCE, OWN_MOMENT, SINE, Crossing, Outward, body_of
 from tmm_gen.derive.space.shared import with_shared
 from tmm_gen.derive.space.sheet import Sheet
@@ -48,6 +48,10 @@ class Newton:
     def __init__(self, out: Outward, gains: Sequence[sp.Expr]) -> None:
         self._out, self._gains = out, tuple(gains)
         self._axis = 3 + out.pattern.axis
+        self.inward: tuple[Line, ...] = ()
+        self.back: tuple[Line, ...] = unchanged(CHANGE)
+        if out.pattern.given:
+            return
         self._push = self._pushed()
         self.inward = self._inward()
         self.back = self._back()
@@ -121,7 +125,7 @@ class Newton:
             Let(ADMITTANCE, 1 / pivot, "motion of the joint per torque in it"),
             Let(IMBALANCE, bias[axis] + TORQUE, "torque that the joint lacks", "N m"),
         ]
-        if out.pattern.rooted:
+        if out.pattern.unyielding:
             return tuple(lines)
         sheet = Sheet()
         # the forces beyond the joint turn with it
@@ -203,7 +207,7 @@ class Newton:
 
     def _back(self) -> tuple[Line, ...]:
         pattern, sheet = self._out.pattern, Sheet()
-        change = sp.zeros(9, 1) if pattern.rooted else CHANGE
+        change = sp.zeros(9, 1) if pattern.unyielding else CHANGE
         for crossing in self._out.crossings:
             for part in reversed(self._through(sheet, crossing)):
                 moved = part * change

@@ -62,7 +62,8 @@ class Outward:
     pattern : Pattern
         Of the station.
     still : bool
-        Whether the hinge's acceleration is zero, as it is where a step is predicted without any.
+        Whether the hinge's acceleration is zero, as it is where a step is predicted without any; one that is given is
+        not.
     sloped : bool
         Whether slopes are taken there too: the motion at the inner side gets names, so that it can be kept.
 
@@ -82,7 +83,7 @@ class Outward:
 
     def __init__(self, pattern: Pattern, *, still: bool, sloped: bool = False) -> None:
         self.pattern, self.sheet, self._sloped = pattern, Sheet(), sloped
-        self._acceleration = sp.Integer(0) if still else ACCELERATION
+        self._acceleration = sp.Integer(0) if still and not pattern.given else ACCELERATION
         self.omega, self.alpha, self.accel = pattern.inner_motion
         copies: list[Let] = []
         if sloped and not pattern.rooted:
@@ -99,9 +100,11 @@ class Outward:
         ]
         *before, last = passages(pattern)
         self.crossings = (*(self._cross(e, "mount") for e in before), self._cross(last, "own"))
-        own = self._own()
+        own = body_force(self.sheet, pattern, self.omega, self.alpha, self.accel, (OWN_FORCE, OWN_MOMENT))
+        own = [let for let in own if let.symbol in wanted_forces(pattern)]
         carried = dict(zip((*OMEGA, *ALPHA, *ACCEL), (*self.omega, *self.alpha, *self.accel), strict=True))
-        update = {s: v for s, v in carried.items() if s != v}
+        ends = pattern.driven and pattern.tip  # nobody asks how it moves
+        update = {s: v for s, v in carried.items() if s != v and not ends}
         self.named = (*circle, *copies, *self.sheet.lets)
         self.lines: tuple[Line, ...] = (*self.named, *own, Update(update))
 
@@ -135,28 +138,54 @@ class Outward:
         """Return a value by its name if it has one."""
         return value if (found := self.sheet.known(value)) is None else found
 
-    def _own(self) -> list[Let]:
-        pattern, sheet = self.pattern, self.sheet
-        if not pattern.massive:
-            return []
-        body = body_equations(body_of(pattern))
-        motion = {
-            **dict(zip(OMEGA, self.omega, strict=True)),
-            **dict(zip(ALPHA, self.alpha, strict=True)),
-            **dict(zip(ACCEL, self.accel, strict=True)),
-        }
-        momentum = sheet.vector("momentum", body.momentum.xreplace(motion), "momentum of turning", "kg m/s")
-        spin = sheet.vector("spin", body.spin.xreplace(motion), "angular momentum", "kg m^2/s")
-        force = body.force.xreplace(motion) + self.omega.cross(momentum)
-        moment = body.moment.xreplace(motion) + self.omega.cross(spin)
-        return [
-            Let(symbol, value, doc, unit)
-            for symbols, values, doc, unit in (
-                (OWN_FORCE, force, "force that the body takes", "N"),
-                (OWN_MOMENT, moment, "moment that the body takes", "N m"),
-            )
-            for symbol, value in zip(symbols, values, strict=True)
-        ]
+
+def body_force(
+    sheet: Sheet,
+    pattern: Pattern,
+    omega: sp.Matrix,
+    alpha: sp.Matrix,
+    accel: sp.Matrix,
+    names: tuple[sp.Matrix, sp.Matrix],
+) -> list[Let]:
+    """Return the force and the moment that a body takes, by the motion of its section; nothing of none.
+
+    Parameters
+    ----------
+    sheet : Sheet
+        Receives what is named on the way; it comes before.
+    names : tuple of 2 sympy.Matrix
+        Of the force and of the moment.
+    """
+    if not pattern.massive:
+        return []
+    body = body_equations(body_of(pattern))
+    motion = {
+        **dict(zip(OMEGA, omega, strict=True)),
+        **dict(zip(ALPHA, alpha, strict=True)),
+        **dict(zip(ACCEL, accel, strict=True)),
+    }
+    momentum = sheet.vector("momentum", body.momentum.xreplace(motion), "momentum of turning", "kg m/s")
+    spin = sheet.vector("spin", body.spin.xreplace(motion), "angular momentum", "kg m^2/s")
+    force = body.force.xreplace(motion) + omega.cross(momentum)
+    moment = body.moment.xreplace(motion) + omega.cross(spin)
+    return [
+        Let(symbol, value, doc, unit)
+        for symbols, values, doc, unit in (
+            (names[0], force, "force that the body takes", "N"),
+            (names[1], moment, "moment that the body takes", "N m"),
+        )
+        for symbol, value in zip(symbols, values, strict=True)
+    ]
+
+
+def wanted_forces(pattern: Pattern) -> frozenset[sp.Symbol]:
+    """Return what is asked for of the force and the moment that a body takes.
+
+    Of a joint whose motion is given that is nothing, of one that stands on such a joint what is about its own axis.
+    """
+    if pattern.given:
+        return frozenset()
+    return frozenset([OWN_MOMENT[pattern.axis]] if pattern.driven else (*OWN_FORCE, *OWN_MOMENT))
 
 
 def relative_acceleration(relative: sp.Matrix) -> sp.Matrix:

@@ -42,6 +42,10 @@ class Pattern:
         On the base: which components gravity has. Empty elsewhere.
     tip : bool
         Whether nothing hangs on it.
+    given : bool
+        Whether its motion is given: on the base, and nothing that it carries changes it.
+    driven : bool
+        Whether it stands on such a joint.
     """
 
     axis: int
@@ -52,6 +56,8 @@ class Pattern:
     inertia: Flags
     falls: Flags = ()
     tip: bool = False
+    given: bool = False
+    driven: bool = False
 
     @property
     def massive(self) -> bool:
@@ -62,6 +68,11 @@ class Pattern:
     def rooted(self) -> bool:
         """Whether it stands on the base, which rests."""
         return bool(self.falls)
+
+    @property
+    def unyielding(self) -> bool:
+        """Whether what it stands on does not give way, so that no forces need to be passed on."""
+        return self.rooted or self.driven
 
     @property
     def symbols(self) -> dict[str, sp.Matrix]:

@@ -110,7 +110,13 @@ def cosine(angle: Estimate) -> Estimate:
     return _rounded(mpmath.cos(angle.value), -float(mpmath.sin(angle.value)) * angle.errors, 2.0)
 
 
-FUNCTIONS = ({"sin": sine, "cos": cosine}, "mpmath")
+def root(square: Estimate) -> Estimate:
+    """Return the square root, which is rounded once."""
+    found = mpmath.sqrt(square.value)
+    return _rounded(found, square.errors / (2.0 * float(found)))
+
+
+FUNCTIONS = ({"sin": sine, "cos": cosine, "sqrt": root}, "mpmath")
 """As modules of :func:`sympy.lambdify`."""
 
 

@@ -11,7 +11,7 @@ from tmm_gen.export.mjcf.bodies import add_bodies, text_of
 from tmm_gen.export.mjcf.readings import Reading
 from tmm_gen.export.mjcf.shafts import add_shafts
 from tmm_gen.export.mjcf.signals import Signals
-from tmm_gen.export.mjcf.space import add_arm
+from tmm_gen.export.mjcf.space import add_arm, start_text
 from tmm_gen.export.mjcf.space_signals import SpaceSignals
 from tmm_gen.export.mjcf.timestep import stable_timestep
 from tmm_gen.scene import Scene
@@ -60,6 +60,11 @@ def mujoco_model(scene: Scene) -> MujocoModel:
         If the base's angle is prescribed: MuJoCo has forces and springs, but no motion that is given exactly; or a
         body in space has an inertia that MuJoCo refuses.
     """
+    if scene.prescribed and scene.spatial:
+        raise UserError(
+            f"scene '{scene.name}': base.kind = \"prescribed\" cannot be a MuJoCo model, in which nothing moves "
+            'as prescribed. Use base.kind = "clamp" with a [[motor]] on it.'
+        )
     if scene.prescribed:
         raise UserError(
             f"scene '{scene.name}': base.kind = \"prescribed\" cannot be a MuJoCo model, in which nothing moves "
@@ -91,11 +96,12 @@ def mujoco_model(scene: Scene) -> MujocoModel:
 
 def _add_start(root: Xml.Element, scene: Scene) -> None:
     if arm := scene.spatial:
-        angles, rates = [joint.angle for joint in arm.joints], [joint.rate for joint in arm.joints]
+        qpos, qvel = start_text(arm)
     else:
-        angles, rates = (_relative(scene, values) for values in (scene.initial.angles, scene.initial.rates))
+        start = (scene.initial.angles, scene.initial.rates)
+        qpos, qvel = (text_of(*_relative(scene, values)) for values in start)
     frames = Xml.SubElement(root, "keyframe")
-    Xml.SubElement(frames, "key", name=KEYFRAME, qpos=text_of(*angles), qvel=text_of(*rates))
+    Xml.SubElement(frames, "key", name=KEYFRAME, qpos=qpos, qvel=qvel)
 
 
 def _relative(scene: Scene, values: Sequence[float]) -> list[float]:

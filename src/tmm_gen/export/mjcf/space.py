@@ -29,6 +29,10 @@ _DRAWN = 0.02
 """Radius of what is drawn, over the reach of the arm."""
 
 
+BASE_BODY = "base"
+"""What a base that floats is called, and its joint."""
+
+
 def add_arm(world: Xml.Element, scene: Scene, arm: SpatialArm) -> dict[int, Xml.Element]:
     """Add the bodies of an arm.
 
@@ -51,8 +55,8 @@ def add_arm(world: Xml.Element, scene: Scene, arm: SpatialArm) -> dict[int, Xml.
     UserError
         If a body's inertia is one that MuJoCo refuses.
     """
-    bodies = {0: Xml.SubElement(world, "body", name="ground")}
     size = _DRAWN * max(scene.reach, 1e-3)
+    bodies = {0: _add_base(world, scene, arm, size)}
     for number, placed in placed_bodies(arm).items():
         joint, host = arm.joints[number - 1], bodies[placed.host]
         body = Xml.SubElement(host, "body", name=_body_name(joint), pos=text_of(*placed.at))
@@ -60,7 +64,7 @@ def add_arm(world: Xml.Element, scene: Scene, arm: SpatialArm) -> dict[int, Xml.
             body.set("quat", quaternion_text(placed.turn))
         for hinge in placed.hinges:
             _add_hinge(body, hinge)
-        _add_inertial(body, joint, scene)
+        _add_inertial(body, joint.body, joint.name, scene)
         if placed.at.any():
             way = {"type": "capsule", "size": f"{size / 2:.4g}", "fromto": text_of(0, 0, 0, *placed.at)}
             Xml.SubElement(host, "geom", way)
@@ -70,6 +74,28 @@ def add_arm(world: Xml.Element, scene: Scene, arm: SpatialArm) -> dict[int, Xml.
     return bodies
 
 
+def _add_base(world: Xml.Element, scene: Scene, arm: SpatialArm, size: float) -> Xml.Element:
+    """Add what the arm stands on: ground, or a body that floats."""
+    if arm.base is None:
+        return Xml.SubElement(world, "body", name="ground")
+    body = Xml.SubElement(world, "body", name=BASE_BODY)
+    Xml.SubElement(body, "freejoint", name=BASE_BODY)
+    _add_inertial(body, arm.base.body, "the base", scene)
+    Xml.SubElement(body, "geom", type="sphere", size=f"{2 * size:.4g}", pos=text_of(*arm.base.body.center))
+    return body
+
+
+def start_text(arm: SpatialArm) -> tuple[str, str]:
+    """Return positions and velocities at the start, as MuJoCo has them: of a base that floats first."""
+    place: list[float] = []
+    moving: list[float] = []
+    if arm.base is not None:
+        x, y, z, w = Rotation.from_matrix(np.array(arm.base.turn)).as_quat()
+        place, moving = [*arm.base.at, w, x, y, z], [*arm.base.velocity, *arm.base.rate]
+    angles, rates = ([getattr(joint, key) for joint in arm.joints] for key in ("angle", "rate"))
+    return text_of(*place, *angles), text_of(*moving, *rates)
+
+
 def quaternion_text(turn: Turn | NDArray[np.float64]) -> str:
     """Return a turn as MuJoCo has it: w, x, y, z."""
     x, y, z, w = Rotation.from_matrix(np.array(turn)).as_quat()
@@ -77,7 +103,7 @@ def quaternion_text(turn: Turn | NDArray[np.float64]) -> str:
 
 
 def _body_name(joint: Revolute) -> str:
-    return f"{joint.name}_body" if joint.name in ("world", "ground") else joint.name
+    return f"{joint.name}_body" if joint.name in ("world", "ground", BASE_BODY) else joint.name
 
 
 def _add_hinge(body: Xml.Element, hinge: Hinge) -> None:
@@ -99,13 +125,12 @@ def _add_hinge(body: Xml.Element, hinge: Hinge) -> None:
         element.set("springref", text_of(joint.rest))
 
 
-def _add_inertial(body: Xml.Element, joint: Revolute, scene: Scene) -> None:
-    given = joint.body
+def _add_inertial(body: Xml.Element, given: RigidBody, name: str, scene: Scene) -> None:
     inertia = _inertia(given)
     low, middle, high = np.linalg.eigvalsh(inertia)
     if high > (low + middle) * (1.0 + 1e-9):
         raise UserError(
-            f"{scene.source.origin}: what '{joint.name}' carries has principal moments of inertia {low:g}, {middle:g} "
+            f"{scene.source.origin}: what '{name}' carries has principal moments of inertia {low:g}, {middle:g} "
             f"and {high:g} kg m^2: one exceeds the sum of the others, which MuJoCo refuses. Correct the inertia of "
             "what hangs on it, or use --to urdf."
         )

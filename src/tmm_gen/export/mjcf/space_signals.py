@@ -50,7 +50,7 @@ class SpaceSignals:
             joint = self.arm.joints[item.joint - 1]
             Xml.SubElement(actuators, "motor", name=item.name, joint=joint.name, gear=text_of(joint.gear))
             return
-        if not item.frame.joint:
+        if not item.frame.joint and self.arm.base is None:
             self.left_out.append(f"{item.name}: acts on the base, which does not move")
             return
         for number, name in enumerate(item.columns):
@@ -60,7 +60,7 @@ class SpaceSignals:
                 actuators, "general", name=name, site=self._site(item.frame), gear=text_of(*wrench)
             )
             if item.axes == "world":
-                general.set("refsite", self._site(_GROUND))
+                general.set("refsite", self._world())
 
     def _measure(self, sensors: Xml.Element, output: ArmOutput) -> None:
         name, quantity = output.name, output.quantity
@@ -106,6 +106,17 @@ class SpaceSignals:
                 Xml.SubElement(sensors, kind, name=f"{name}_{part}", joint=joint.name)
                 terms.append((f"{name}_{part}", 0, -factor))
         self.readings.append(Reading(name, tuple(terms), joint.stiffness * joint.rest))
+
+    def _world(self) -> str:
+        """Return a site with the axes of the world."""
+        if self.arm.base is None:
+            return self._site(_GROUND)
+        world = self.root.find("worldbody")
+        assert world is not None
+        if _GROUND not in self._sites:
+            Xml.SubElement(world, "site", name=_GROUND.name)
+            self._sites[_GROUND] = _GROUND.name
+        return self._sites[_GROUND]
 
     def _site(self, frame: Frame) -> str:
         if frame not in self._sites:

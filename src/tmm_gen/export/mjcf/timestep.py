@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from tmm_gen.modal.arm import linear_arm
 from tmm_gen.modal.matrices import matrices
+from tmm_gen.reference.spatial_afloat import joint_mass
 from tmm_gen.reference.spatial_arm import WorldArm
 from tmm_gen.scene import Scene
 
@@ -55,6 +56,8 @@ def _linear(scene: Scene) -> tuple[Matrix, Matrix, Matrix]:
         found = matrices(linear_arm(scene))
         return found.mass, found.stiffness, found.damping
     arm = WorldArm(scene.spatial)
+    if scene.spatial.base is not None:  # it falls, and weighs nothing
+        return joint_mass(scene.spatial), np.diag(arm.stiffness), np.diag(arm.damping)
     angles, rates = (np.array([getattr(j, key) for j in scene.spatial.joints]) for key in ("angle", "rate"))
     stiffness, damping = arm.tangents(angles, rates, np.zeros_like(angles), {})
     return arm.mass_matrix(angles), stiffness, damping

@@ -61,7 +61,9 @@ def urdf_model(scene: Scene) -> UrdfModel:
         )
     root = Xml.Element("robot", name=scene.name)
     names = _link_names(arm)
-    Xml.SubElement(root, "link", name=names[0])
+    base = Xml.SubElement(root, "link", name=names[0])
+    if arm.base is not None:
+        _add_inertial(base, arm.base.body)
     for number, joint in enumerate(arm.joints, start=1):
         _add_joint(root, joint, names[joint.host], names[number])
         link = Xml.SubElement(root, "link", name=names[number])
@@ -148,6 +150,9 @@ def _add_inertial(link: Xml.Element, body: RigidBody) -> None:
 def _left_out(arm: SpatialArm) -> list[str]:
     """Say what URDF cannot hold; rotors and gears as a file for `tmm-gen import --flex` has them."""
     said = [f"gravity: {_text(*arm.gravity)} m/s^2 in the axes of base_link"] if any(arm.gravity) else []
+    if arm.base is not None:
+        said.append("that base_link floats, and where it is and how it moves at first")
+    said += [f"that input '{j.given}' moves joint '{j.name}'" for j in arm.joints if j.given]
     if arm.inputs:
         said.append(f"inputs: {', '.join(item.name for item in arm.inputs)}")
     for joint in arm.joints:

@@ -56,7 +56,7 @@ def arm_numbers(scene: Scene) -> ArmNumbers:
         If its base moves, or it has more than `MOST_JOINTS` joints.
     """
     assert scene.spatial is not None
-    if scene.prescribed is not None or scene.floats:
+    if scene.prescribed is not None or scene.spatial.base is not None:
         raise UserError(
             f"scene '{scene.name}': small motion of an arm in space whose base moves is not there yet. Clamp it: "
             '`kind = "clamp"` under [base].'

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import sympy as sp
 
-from tmm_gen.derive.integrators.declaration import CONSISTENT_START, Integrator, past
+from tmm_gen.derive.integrators.declaration import CONSISTENT_START, Integrator, Scheme, past
 from tmm_gen.program.arm.auto import LEAST_TURN, SWEEPS
 from tmm_gen.program.fields import gain_names, living_state
 from tmm_gen.program.motion import history_values
@@ -14,8 +14,10 @@ from tmm_gen.program.passes.early import EarlySets, lifted
 from tmm_gen.program.passes.hoist import Hoister
 from tmm_gen.program.passes.prune import prune
 from tmm_gen.program.passes.rewrite import renamed_scratch
+from tmm_gen.program.space.base import BaseStep, earlier, history_sources
+from tmm_gen.program.space.base_start import start_of_base, unit_start
 from tmm_gen.program.space.bodies import Bodies
-from tmm_gen.program.space.layout import SpaceLayout, layout_of
+from tmm_gen.program.space.layout import SpaceLayout, instants, layout_of
 from tmm_gen.program.space.outputs import output_routine
 from tmm_gen.program.space.step import SpaceStep
 from tmm_gen.program.statements import Assign, Program, Routine, Section
@@ -88,6 +90,11 @@ def build_in_space(
     return _Assembly(layout_of(arm, name, title, integrator, choices.step), integrator, choices).program()
 
 
+def _whole(sections: list[Section], _then: Section) -> list[Section]:
+    """Return the sections of a sweep as they are."""
+    return sections
+
+
 class _Assembly:
     """Gathers the routines of the program."""
 
@@ -101,6 +108,7 @@ class _Assembly:
         """Build the program."""
         layout, integrator = self.layout, self.integrator
         routines: dict[str, Routine] = {}
+        given = any(joint.given for joint in layout.arm.joints)
         # the main scheme first: its factors get the plain names
         for position, scheme in sorted(
             enumerate(integrator.schemes), key=lambda item: item[1] is not integrator.main
@@ -115,11 +123,15 @@ class _Assembly:
                 held=self.choices.held,
                 auto=self.choices.auto,
                 exact=self.choices.exact,
-                split=self.early.split,
+                # what a given joint does not set of an array would be left open in the model
+                split=_whole if given else self.early.split,
+                base=self._base(scheme),
             )
             name = "step" if main else f"step_start{position + 1}"
             doc = "Advance the state by one step." if main else f"Start-up: take step {position + 1}."
-            sections = (*step.sections(), *self._hold(len(scheme.stages)))
+            before = earlier(layout.base) if layout.base else []
+            known = (Section("where the base was before", tuple(before)),) if before else ()
+            sections = (*known, *step.sections(), *self._hold(len(scheme.stages)))
             routines[name] = self.hoister.hoist(Routine(name, doc, sections))
         main_routine = routines.pop("step")
         startup = tuple(routines[f"step_start{k + 1}"] for k in range(len(integrator.startup)))
@@ -129,8 +141,11 @@ class _Assembly:
         layout = self.layout
         output = self.hoister.hoist(output_routine(layout, self.bodies))
         initialise = self._initialise()
-        state = living_state((*layout.state.values(), *layout.held.values()), (*startup, main), output)
-        parameters = tuple(layout.parameters.values())
+        base = layout.base
+        kept = (*layout.state.values(), *(base.state if base else ()), *layout.held.values())
+        always = base.always if base else frozenset()
+        state = living_state(kept, (*startup, main), output, always)
+        parameters = (*layout.parameters.values(), *(base.parameters.values() if base else ()))
         if self.choices.auto:
             state, parameters = (*state, SWEEPS), (*parameters, LEAST_TURN)
             none = Section("no sweep has been taken yet", (Assign(SWEEPS.ref, sp.Integer(0)),))
@@ -165,10 +180,17 @@ class _Assembly:
             main=main,
             output=output,
             stage_instants=tuple(
-                tuple(float(stage.instant) for stage in scheme.stages) for scheme in self.integrator.schemes
+                instants(scheme, given=any(joint.given for joint in layout.arm.joints))
+                for scheme in self.integrator.schemes
             ),
             facts=dict(self.choices.facts),
         )
+
+    def _base(self, scheme: Scheme) -> BaseStep | None:
+        base = self.layout.base
+        if base is None:
+            return None
+        return BaseStep(base, self.layout.step, scheme, history_sources(base), base.start)
 
     def _hold(self, stages: int) -> tuple[Section, ...]:
         """Remember torques for outputs that need them."""
@@ -182,15 +204,18 @@ class _Assembly:
         """Build the start: given motion, and the acceleration that satisfies the equations of motion."""
         layout = self.layout
         bodies = Bodies(layout, Role.WORK)
-        angle, rate = layout.given
+        angle, rate = layout.given[:2]
         newest = replace(layout, state={p: v for p, v in layout.state.items() if p.lag == 0})
         step = SpaceStep(
             newest,
             bodies,
             CONSISTENT_START,
             {past("q"): angle.at(), past("v"): rate.at(), past("a"): sp.Integer(0)},
+            base=start_of_base(layout.base, layout.step) if layout.base else None,
         )
-        sections = (bodies.section, *lifted(list(step.sections()), ask=True), *self._hold(1))
+        before = unit_start(layout.base) if layout.base else []
+        given = (Section("where the base starts", tuple(before)),) if before else ()
+        sections = (bodies.section, *given, *lifted(list(step.sections()), ask=True), *self._hold(1))
         routine = Routine(
             "initialise",
             "Start from given angles and rates with the acceleration that satisfies the equations of motion.",

@@ -13,8 +13,9 @@ from tmm_gen.derive.space.declaration import (
     symmetric,
     vector,
 )
+from tmm_gen.program.space.base_layout import BaseLayout
 from tmm_gen.program.space.layout import SpaceLayout
-from tmm_gen.program.statements import Assign, Loop, Order, Section
+from tmm_gen.program.statements import Assign, Loop, Order, Section, Statement
 from tmm_gen.program.variables import Role, Variable
 
 _CENTER = vector("center")
@@ -63,9 +64,35 @@ class Bodies:
             variable = Variable(name, role, n, f"{doc}, of each body", unit)
             self.variables[name] = variable
             body.append(Assign(variable.at(), written))
-        loop = (Loop(Order.OUTWARD, 0, n, tuple(body)),) if body else ()
-        self.section = Section("bodies about the points of their joints", loop)
+        statements: list[Statement] = [Loop(Order.OUTWARD, 0, n, tuple(body))] if body else []
+        self._base: dict[str, sp.Expr] = {}
+        if layout.base:
+            statements += self._of_base(layout.base, role)
+        self.section = Section("bodies about the points of their joints", tuple(statements))
+
+    def _of_base(self, layout: BaseLayout, role: Role) -> list[Assign]:
+        """Return statements for what is derived of a base that floats."""
+        own = {name: variable.ref for name, variable in layout.parameters.items()}
+        self._base = {"mass": own["mass"]}
+        symbols = {s: own.get(s.name, sp.Integer(0)) for s in (_MASS, *_CENTER, *_CENTRAL)}
+        found = []
+        for name, (value, doc, unit) in DERIVED.items():
+            written = sp.factor_terms(value.xreplace(symbols))
+            if written == 0:
+                continue
+            variable = Variable(
+                f"base_{name}", role, None, f"{doc}, of the base".replace("joint's point", "its origin"), unit
+            )
+            self.variables[variable.name] = variable
+            self._base[name] = variable.ref
+            found.append(Assign(variable.ref, written))
+        return found
+
+    @property
+    def of_base(self) -> dict[sp.Symbol, sp.Expr]:
+        """What stands for the mass, first moment and inertia of a base that floats."""
+        return {sp.Symbol(name, real=True): value for name, value in self._base.items()}
 
     def at(self, offset: int) -> dict[str, sp.Expr]:
         """Return them at a station of a loop, by the names of the symbols that stand for them."""
-        return {name: variable.at(offset) for name, variable in self.variables.items()}
+        return {name: v.at(offset) for name, v in self.variables.items() if v.length is not None}

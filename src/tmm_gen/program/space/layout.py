@@ -7,12 +7,14 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from tmm_gen.derive.integrators.declaration import KINDS, Integrator, Past
+from tmm_gen.derive.integrators.declaration import CONSISTENT_START, KINDS, Integrator, Past, Scheme
 from tmm_gen.derive.integrators.history import history
 from tmm_gen.derive.space.declaration import AXES, PAIRS
 from tmm_gen.program.fields import MOTION_NAMES
+from tmm_gen.program.space.base_layout import BaseLayout, base_layout
 from tmm_gen.program.space.runs import Tree
 from tmm_gen.program.variables import Ref, Role, Variable
+from tmm_gen.scene.signal import ACCELERATION, RATE
 from tmm_gen.scene.spatial.arm import ArmInput, Revolute, SpatialArm
 
 _AGO = {1: "one step", 2: "two steps", 3: "three steps"}
@@ -32,6 +34,8 @@ class SpaceLayout:
         History of the joints' motion, newest first.
     held : dict from str to Variable
         Inputs as they last acted, kept where an output needs them.
+    base : BaseLayout or None
+        Of a base that floats.
     """
 
     name: str
@@ -44,6 +48,7 @@ class SpaceLayout:
     inputs: tuple[Variable, ...]
     outputs: tuple[Variable, ...]
     given: tuple[Variable, ...]
+    base: BaseLayout | None = None
 
     @property
     def arm(self) -> SpatialArm:
@@ -80,10 +85,12 @@ def layout_of(arm: SpatialArm, name: str, title: str, integrator: Integrator, st
     n = len(arm.joints)
     kept = set(history(integrator, "acceleration")) | {Past(kind, 0) for kind in KINDS}
     ordered = sorted(kept, key=lambda p: (p.lag, KINDS.index(p.kind)))
-    stages = max(len(scheme.stages) for scheme in integrator.schemes)
+    given = any(joint.given for joint in arm.joints)
+    stages = max(len(instants(scheme, given=given)) for scheme in integrator.schemes)
     also = ", at each stage of the step" if stages > 1 else ""
     torques = {item.joint: item for item in arm.inputs if item.acts == "torque"}
     read = [torques[o.joint] for o in arm.outputs if o.quantity.read == "through" and o.joint in torques]
+    base = base_layout(arm.base, ordered) if arm.base is not None else None
     return SpaceLayout(
         name=name,
         title=title,
@@ -124,8 +131,17 @@ def layout_of(arm: SpatialArm, name: str, title: str, integrator: Integrator, st
                 "rad/s",
                 tuple(j.rate for j in arm.joints),
             ),
+            *(base.given.values() if base else ()),
         ),
+        base=base,
     )
+
+
+def instants(scheme: Scheme, *, given: bool) -> tuple[float, ...]:
+    """Return the instants of a step, in steps, at which inputs are read: its stages, and its end for what is given."""
+    stages = tuple(float(stage.instant) for stage in scheme.stages)
+    ends = scheme is CONSISTENT_START or stages[-1] == 1.0 or not given
+    return stages if ends else (*stages, 1.0)
 
 
 def _marked(arm: SpatialArm) -> frozenset[int]:
@@ -134,6 +150,11 @@ def _marked(arm: SpatialArm) -> frozenset[int]:
 
 
 def _columns(arm: SpatialArm, item: ArmInput) -> Iterable[tuple[str, str, str]]:
+    if item.acts == "angle":
+        turned = f"of '{arm.joints[item.joint - 1].name}', which is given"
+        words = (("angle", "rad"), ("rate", "rad/s"), ("acceleration", "rad/s^2"))
+        names = (item.name, item.name + RATE, item.name + ACCELERATION)
+        return [(name, f"{word} {turned}", unit) for name, (word, unit) in zip(names, words, strict=True)]
     if item.acts == "torque":
         joint = arm.joints[item.joint - 1]
         geared = f", {joint.gear:g}-fold at the joint" if joint.gear != 1.0 else ""

@@ -7,6 +7,8 @@ from collections.abc import Callable, Sequence
 import sympy as sp
 
 from tmm_gen.derive.integrators.declaration import KINDS, Kind, Past
+from tmm_gen.derive.space.base_pose import AT, GOES, SPINS, STANDS, facing_line, quaternion_line
+from tmm_gen.derive.space.base_pose import velocity_lines as base_velocity
 from tmm_gen.derive.space.declaration import AXES, OMEGA, VELOCITY
 from tmm_gen.derive.space.pattern import Pattern
 from tmm_gen.derive.space.pose import (
@@ -65,7 +67,30 @@ class _Readings:
 
     def _walks(self) -> SpaceWalks:
         motion = {MOTION[k]: self._state(k) for k in KINDS}
-        return SpaceWalks(self._layout, self._bodies, motion, (sp.S.Zero, sp.S.Zero, sp.S.One))
+        gains = (sp.S.Zero, sp.S.Zero, sp.S.One)
+        return SpaceWalks(self._layout, self._bodies, motion, gains, base=self._base_values)
+
+    @property
+    def _base_values(self) -> dict[sp.Symbol, sp.Expr]:
+        """What symbols of a base that floats stand for."""
+        base = self._layout.base
+        if base is None:
+            return {}
+        symbols = (*AT, *GOES, *STANDS, *SPINS)
+        values = (
+            *base.newest("q", base.place),
+            *base.newest("v", base.place),
+            *base.start,
+            *base.newest("v", base.omega),
+        )
+        return dict(zip(symbols, values, strict=True))
+
+    def _at_base(self, lines: tuple[Line, ...]) -> tuple[Line, ...]:
+        """Return lines that begin a walk at a base that floats; none at one that rests."""
+        return lines if self._layout.base else ()
+
+    def _rests(self, frame: Frame) -> bool:
+        return not frame.joint and self._layout.base is None
 
     # -- joints ------------------------------------------------------------------------------------------------
 
@@ -97,21 +122,22 @@ class _Readings:
     def _position(self, output: ArmOutput, targets: list[Ref]) -> list[Statement]:
         frame = _frame(output)
         at = sp.Matrix([exactly(r) for r in frame.at])
-        if not frame.joint:
+        if self._rests(frame):
             return [Assign(t, v) for t, v in zip(targets, at, strict=True)]
-        return self._read(frame, pose_lines, (*PLACE, *FACING), PLACE + FACING.T * at, targets)
+        begun = facing_line(place=True)
+        return self._read(frame, pose_lines, (*PLACE, *FACING), PLACE + FACING.T * at, targets, begun)
 
     def _orientation(self, output: ArmOutput, targets: list[Ref]) -> list[Statement]:
         frame = _frame(output)
         own = sp.Matrix([exactly(x) for x in quaternion_of(frame.turn)])
-        if not frame.joint:
+        if self._rests(frame):
             return [Assign(t, v) for t, v in zip(targets, own, strict=True)]
         value = quaternion_product(QUATERNION, own)
-        return self._read(frame, quaternion_lines, tuple(QUATERNION), value, targets)
+        return self._read(frame, quaternion_lines, tuple(QUATERNION), value, targets, quaternion_line())
 
     def _velocity(self, output: ArmOutput, targets: list[Ref]) -> list[Statement]:
         frame = _frame(output)
-        if not frame.joint:
+        if self._rests(frame):
             return [Assign(t, sp.Integer(0)) for t in targets]
         at = sp.Matrix([exactly(r) for r in frame.at])
 
@@ -119,7 +145,8 @@ class _Readings:
             return (*velocity_lines(pattern), *facing_lines(pattern))
 
         carried = (*VELOCITY, *OMEGA, *FACING)
-        return self._read(frame, lines, carried, FACING.T * (VELOCITY + OMEGA.cross(at)), targets)
+        value = FACING.T * (VELOCITY + OMEGA.cross(at))
+        return self._read(frame, lines, carried, value, targets, (*base_velocity(), *facing_line()))
 
     def _read(
         self,
@@ -128,14 +155,19 @@ class _Readings:
         carried: tuple[sp.Symbol, ...],
         value: sp.Matrix,
         targets: list[Ref],
+        begun: tuple[Line, ...],
     ) -> list[Statement]:
-        """Walk out to a frame's body, and read something there."""
+        """Walk out to a frame's body, and read something there; ``begun`` at a base that floats."""
         last = frame.joint - 1
+        if not frame.joint:
+            there = Update(dict(zip(targets, value, strict=True)))
+            return list(self._walks().base_lines((*begun, there)))
 
         def read(index: int) -> Sequence[Line]:
             return (Update(dict(zip(targets, value, strict=True))),) if index == last else ()
 
-        return self._walks().walk(Order.OUTWARD, lines, carried, read, self._layout.tree.inward_of(last))
+        within = self._layout.tree.inward_of(last)
+        return self._walks().walk(Order.OUTWARD, lines, carried, read, within, self._at_base(begun))
 
     # -- energies ----------------------------------------------------------------------------------------------
 
@@ -145,6 +177,7 @@ class _Readings:
         lines: Callable[[Pattern], Sequence[Line]],
         carried: tuple[sp.Symbol, ...],
         energy: Callable[[Pattern], sp.Expr],
+        begun: tuple[Line, ...],
     ) -> list[Statement]:
         def all_lines(pattern: Pattern) -> Sequence[Line]:
             share = energy(pattern)
@@ -152,7 +185,9 @@ class _Readings:
 
         walks = self._walks()
         total = walks.scalar(_TOTAL, "of all bodies so far", "J")
-        walked = walks.walk(Order.OUTWARD, all_lines, carried)
+        base = self._layout.base
+        of_base = (*begun, Update({_TOTAL: _TOTAL + energy(base.pattern)})) if base else ()
+        walked = walks.walk(Order.OUTWARD, all_lines, carried, base=of_base)
         return [Assign(total, sp.Integer(0)), *walked, Assign(target, total)]
 
     def _energy(self, output: ArmOutput, targets: list[Ref]) -> list[Statement]:
@@ -161,7 +196,8 @@ class _Readings:
 
     def _kinetic(self, targets: list[Ref]) -> list[Statement]:
         """Return the bodies' energy, and the rotors' about their joints."""
-        found = self._summed(targets[0], velocity_lines, (*VELOCITY, *OMEGA), kinetic_energy)
+        carried = (*VELOCITY, *OMEGA)
+        found = self._summed(targets[0], velocity_lines, carried, kinetic_energy, base_velocity())
         armature = self._layout.at("armature", None)
         if armature != 0:
             share = armature * self._state("v").at() ** 2 / 2
@@ -184,7 +220,7 @@ class _Readings:
             moment = pattern.symbols["first_moment"]
             return -gravity.dot(pattern.mass_symbol * PLACE + FACING.T * moment)
 
-        return self._summed(targets[0], pose_lines, (*PLACE, *FACING), energy)
+        return self._summed(targets[0], pose_lines, (*PLACE, *FACING), energy, facing_line(place=True))
 
 
 def _frame(output: ArmOutput) -> Frame:

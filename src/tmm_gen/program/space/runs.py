@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from tmm_gen.derive.space.pattern import Pattern
-from tmm_gen.scene.spatial.arm import Revolute, SpatialArm, Turn
+from tmm_gen.scene.spatial.arm import Revolute, RigidBody, SpatialArm, Turn
 
 LONGEST = 6
 """Joints of a cell and its mirror image, in a beam that bends both ways and twists."""
@@ -74,6 +74,10 @@ class Tree:
         """Whether more than one station stands on one."""
         return len(self.carried(index)) > 1
 
+    def given(self, index: int) -> bool:
+        """Whether the motion of a station is given; that of the base, -1, is not."""
+        return index >= 0 and bool(self.arm.joints[index].given)
+
     def inward_of(self, index: int) -> frozenset[int]:
         """Return the stations between the base and one, itself among them."""
         found = []
@@ -86,7 +90,9 @@ class Tree:
         """Return what of a station is there."""
         joint = self.arm.joints[index]
         gravity = tuple(g != 0.0 for g in self.arm.gravity)
-        return pattern_of(joint, gravity if joint.host == 0 else (), tip=not self.carried(index))
+        rests = joint.host == 0 and self.arm.base is None
+        found = pattern_of(joint, gravity if rests else (), tip=not self.carried(index))
+        return replace(found, given=bool(joint.given), driven=self.given(self.host(index)))
 
     def runs(self) -> tuple[Run, ...]:
         """Return all stations as runs, base to tips."""
@@ -126,19 +132,28 @@ def _repeated(keys: Sequence[tuple[Pattern, Turn]], alone: Sequence[bool], at: i
 
 def pattern_of(joint: Revolute, falls: tuple[bool, ...], *, tip: bool) -> Pattern:
     """Return what of a joint and its body is there."""
-    body = joint.body
-    moment = tuple(body.mass * c != 0.0 for c in body.center)
-    return Pattern(
+    own = body_pattern(joint.body)
+    return replace(
+        own,
         axis=joint.axis,
         offset=tuple(r != 0.0 for r in joint.at),
         turn=tuple(tuple(_structural(entry) for entry in row) for row in joint.turn),
-        mass=body.mass != 0.0,
-        first_moment=moment,
-        inertia=tuple(
-            _inertia_there(joint, i, j, entry) for (i, j), entry in zip(_PAIRS, body.inertia, strict=True)
-        ),
         falls=falls,
         tip=tip,
+    )
+
+
+def body_pattern(body: RigidBody) -> Pattern:
+    """Return what of a body is there, on no joint."""
+    return Pattern(
+        axis=0,
+        offset=(False, False, False),
+        turn=tuple(tuple(int(i == j) for j in range(3)) for i in range(3)),
+        mass=body.mass != 0.0,
+        first_moment=tuple(body.mass * c != 0.0 for c in body.center),
+        inertia=tuple(
+            _inertia_there(body, i, j, entry) for (i, j), entry in zip(_PAIRS, body.inertia, strict=True)
+        ),
     )
 
 
@@ -146,9 +161,9 @@ def _structural(entry: float) -> int | None:
     return int(entry) if entry in (0.0, 1.0, -1.0) else None
 
 
-def _inertia_there(joint: Revolute, i: int, j: int, about_center: float) -> bool:
+def _inertia_there(body: RigidBody, i: int, j: int, about_center: float) -> bool:
     """Whether an entry of the inertia about the joint's point is there: its own, or that of a mass off the point."""
-    center, mass = joint.body.center, joint.body.mass
+    center, mass = body.center, body.mass
     if about_center != 0.0:
         return True
     if i == j:

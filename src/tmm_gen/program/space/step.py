@@ -7,19 +7,21 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from tmm_gen.derive.integrators.declaration import KINDS, STEP, Kind, Scheme, stage
+from tmm_gen.derive.integrators.declaration import KINDS, STEP, Kind, Past, Scheme, stage
 from tmm_gen.derive.integrators.relations import AffineMotion, affine_motion
 from tmm_gen.derive.space.inward import IMPEDANCE, OWN, TORQUE
 from tmm_gen.program.arm.auto import LEAST_TURN, MOST_SWEEPS, SWEEPS
 from tmm_gen.program.arm.motion import KNOWN_RATE, StartingPoint, starting_point
 from tmm_gen.program.fields import MOTION_NAMES
 from tmm_gen.program.motion import kept_stage_values, stage_variable, update_assignments
+from tmm_gen.program.space.base import BaseStep, gains_of
 from tmm_gen.program.space.bodies import Bodies
-from tmm_gen.program.space.layout import SpaceLayout
+from tmm_gen.program.space.layout import SpaceLayout, instants
 from tmm_gen.program.space.loads import loads_on_frames
 from tmm_gen.program.space.walks import MOTION, SpaceWalks
 from tmm_gen.program.statements import Assign, Loop, Order, Repeat, Section, Statement, Until
 from tmm_gen.program.variables import Role, Variable, local
+from tmm_gen.scene.signal import ACCELERATION, RATE
 from tmm_gen.scene.spatial.arm import ArmInput
 
 _TURNED = local("turned", "sum of squares of what this correction changes angles by", "rad^2")
@@ -49,6 +51,8 @@ class SpaceStep:
         Whether all sweeps are Newton's own; then there are no corrections but further sweeps.
     split : callable
         Takes from a sweep's sections what is bound early.
+    base : BaseStep or None
+        Of a base that floats.
     """
 
     layout: SpaceLayout
@@ -60,6 +64,7 @@ class SpaceStep:
     auto: bool = False
     exact: bool = False
     split: Callable[[list[Section], Section], list[Section]] = lambda sections, _: sections
+    base: BaseStep | None = None
 
     def sections(self) -> tuple[Section, ...]:
         """Return the whole step."""
@@ -93,10 +98,12 @@ class SpaceStep:
             tuple(self._gain(motion, k) for k in KINDS),
             self._absent(motion),
             exact=self.exact,
+            base=self.base.values if self.base else {},
         )
         still = "a" in point.still
+        begun = self.base.begin(point) if self.base else []
         first = [
-            Section("predicted motion", (self._begin(point),)),
+            Section("predicted motion", (*begun, self._begin(point), *self._given(index - 1))),
             self._impedances(motion, walks),
             self._torques(index, walks, point.still),
             walks.outward(still=still),
@@ -127,7 +134,14 @@ class SpaceStep:
     ) -> list[Section]:
         """Return one correction; ``still`` where nothing was predicted of accelerations before it."""
         return [
-            Section("improved prediction", (self._improve(motion, still=still),)),
+            Section(
+                "improved prediction",
+                (
+                    *self._moved(motion, still=still),
+                    self._improve(motion, still=still),
+                    *self._given(index - 1),
+                ),
+            ),
             self._torques(index, walks, frozenset()),
             walks.outward(still=False),
             *loads_on_frames(self.layout, walks, index - 1),
@@ -141,7 +155,12 @@ class SpaceStep:
             return []
         target = self._motion("a").at()
         loop = Loop(Order.OUTWARD, 0, self.layout.stations, (Assign(target, sp.Integer(0)),))
-        return [Section("predicted without acceleration", (loop,))]
+        of_base = self.base.cleared() if self.base else []
+        return [Section("predicted without acceleration", (*of_base, loop))]
+
+    def _moved(self, motion: AffineMotion, *, still: bool) -> list[Statement]:
+        """Take up what a sweep has found a base that floats to do."""
+        return self.base.improve(gains_of(motion, self.layout.step), still=still) if self.base else []
 
     def _impedances(self, motion: AffineMotion, walks: SpaceWalks) -> Section:
         loop = Loop(
@@ -188,6 +207,25 @@ class SpaceStep:
             acting = layout.input(item.name, index - 1) * (geared.ref if geared else 1)
             statements.append(Assign(entry, entry - acting))
         return Section("torques of the joints' own", tuple(statements))
+
+    def _given(self, instant: int) -> list[Statement]:
+        """Set the motion of joints at an instant of the step, from 0, where it is given."""
+        return [
+            Assign(self._motion(kind).entry(item.joint - 1), self.layout.input(name, instant))
+            for item in self.layout.arm.inputs
+            if item.acts == "angle"
+            for kind, name in zip(KINDS, _names_of_motion(item), strict=True)
+        ]
+
+    def _given_end(self) -> list[Statement]:
+        """Set the motion of joints at the end of the step, where it is given."""
+        last = len(instants(self.scheme, given=True)) - 1
+        return [
+            Assign(self.layout.state[Past(kind, 0)].entry(item.joint - 1), self.layout.input(name, last))
+            for item in self.layout.arm.inputs
+            if item.acts == "angle"
+            for kind, name in zip(KINDS, _names_of_motion(item), strict=True)
+        ]
 
     # -- motion ---------------------------------------------------------------------------------------------
 
@@ -259,17 +297,26 @@ class SpaceStep:
             gone = kind in point.still and (kind != "a" or still)
             before = sp.Integer(0) if gone else self._motion(kind).at()
             values[kind] = before + self._gain(motion, kind) * found
+        of_base = self._moved(motion, still="a" in point.still and still)
         if not last:
+            if self.base:
+                of_base += self.base.keep(index, kept)
             mine = sorted((k, i) for k, i in kept if i == index)
             body = [Assign(stage_variable(k, i, "", n).at(), values[k]) for k, i in mine]
-            return Section(
-                title + "motion at this stage", (Loop(Order.OUTWARD, 0, n, tuple(body)),) if body else ()
-            )
+            loops = (Loop(Order.OUTWARD, 0, n, tuple(body)),) if body else ()
+            return Section(title + "motion at this stage", (*of_base, *loops))
         own = {stage(k, index): values[k] for k in KINDS}
         at = self._values()
         new = {k: sp.expand(sp.sympify(self.scheme.update[k]).xreplace({**own, **at})) for k in KINDS}
         body = update_assignments(self.layout.state, new, lambda v: v.at(), "")
-        return Section(title + "motion at the end of the step", (Loop(Order.OUTWARD, 0, n, tuple(body)),))
+        if self.base:
+            of_base += self.base.finish()
+        loop = Loop(Order.OUTWARD, 0, n, tuple(body))
+        return Section(title + "motion at the end of the step", (*of_base, loop, *self._given_end()))
+
+
+def _names_of_motion(item: ArmInput) -> tuple[str, str, str]:
+    return item.name, item.name + RATE, item.name + ACCELERATION
 
 
 _OWN_DOC = ("what the sweep finds each joint to do", "rad/s^2")

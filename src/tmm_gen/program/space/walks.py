@@ -7,6 +7,10 @@ from functools import cached_property, lru_cache
 
 import sympy as sp
 
+from tmm_gen.derive.space import base_newton
+from tmm_gen.derive.space.base_balance import answer_lines, balance_lines, force_lines
+from tmm_gen.derive.space.base_motion import GRAVITY
+from tmm_gen.derive.space.base_motion import outward_lines as base_outward
 from tmm_gen.derive.space.declaration import (
     ACCEL,
     ACCELERATION,
@@ -99,6 +103,8 @@ class SpaceWalks:
         What of the joints' own law is zero everywhere.
     exact : bool
         Whether sweeps are Newton's own.
+    base : mapping from sympy.Symbol to sympy.Expr
+        What symbols of the motion of a base that floats stand for.
     """
 
     def __init__(
@@ -110,7 +116,9 @@ class SpaceWalks:
         absent: frozenset[sp.Symbol] = frozenset(),
         *,
         exact: bool = False,
+        base: Mapping[sp.Symbol, sp.Expr] = {},
     ) -> None:
+        self._base_values = {**base, **bodies.of_base, **gravity_values(layout)}
         self.layout, self._bodies, self._motion, self._gains = layout, bodies, motion, gains
         self._gain, self._absent, self._exact = gains[-1], absent, exact
         self._runs = layout.tree.runs()
@@ -158,7 +166,10 @@ class SpaceWalks:
     def outward(self, *, still: bool) -> Section:
         """Return the exact motion of all sections and the forces that bodies take."""
         carried = (*OMEGA, *ALPHA, *ACCEL)
-        statements = self.walk(Order.OUTWARD, lambda p: outward(p, still, self._exact).lines, carried)
+        at_base = self._of_base(lambda p: base_outward(p, self._falls, still=still))
+        statements = self.walk(
+            Order.OUTWARD, lambda p: outward(p, still, self._exact).lines, carried, base=at_base
+        )
         return Section(
             "out: motion of every link in its own axes, and what its body takes", tuple(statements)
         )
@@ -166,23 +177,52 @@ class SpaceWalks:
     def inward(self, *, still: bool) -> Section:
         """Return the articulated sweep."""
         if self._exact:
-            lines = self.walk(Order.INWARD, lambda p: newton(p, still, self._gains).inward, SLOPES_CARRIED)
+            of_base = self._of_base(
+                lambda p: base_newton.balance_lines(p, self._falls, self._gains, still=still)
+            )
+            lines = self.walk(
+                Order.INWARD, lambda p: newton(p, still, self._gains).inward, SLOPES_CARRIED, base=of_base
+            )
             return Section("in: slopes of all forces, joints eliminated one by one", tuple(lines))
-        statements = self.walk(Order.INWARD, lambda p: inertial(p, still, self._gain).inward, CARRIED)
+        at_base = self._of_base(lambda p: (*balance_lines(p), *force_lines()))
+        statements = self.walk(
+            Order.INWARD, lambda p: inertial(p, still, self._gain).inward, CARRIED, base=at_base
+        )
         return Section("in: articulated inertia, joints eliminated one by one", tuple(statements))
 
     def again(self) -> Section:
         """Return the way in of a correction."""
-        statements = self.walk(Order.INWARD, lambda p: inertial(p, False, self._gain).again, CARRIED[-6:])
+        at_base = self._of_base(lambda _: force_lines())
+        statements = self.walk(
+            Order.INWARD, lambda p: inertial(p, False, self._gain).again, CARRIED[-6:], base=at_base
+        )
         return Section("in: forces alone, with the factors of the sweep", tuple(statements))
 
     def back(self, *, still: bool = True) -> Section:
         """Return the way back out to what each joint does."""
         if self._exact:
-            lines = self.walk(Order.OUTWARD, lambda p: newton(p, still, self._gains).back, tuple(ALL_CHANGES))
+            of_base = self._of_base(lambda _: base_newton.answer_lines(self._falls, self._gains, still=still))
+            lines = self.walk(
+                Order.OUTWARD, lambda p: newton(p, still, self._gains).back, tuple(ALL_CHANGES), base=of_base
+            )
             return Section("back out: what each joint does", tuple(lines))
-        statements = self.walk(Order.OUTWARD, lambda p: inertial(p, True, self._gain).back, tuple(CHANGE))
+        at_base = self._of_base(lambda _: answer_lines(self._gain))
+        statements = self.walk(
+            Order.OUTWARD, lambda p: inertial(p, True, self._gain).back, tuple(CHANGE), base=at_base
+        )
         return Section("back out: what each joint does", tuple(statements))
+
+    @property
+    def _falls(self) -> tuple[bool, ...]:
+        return tuple(g != 0.0 for g in self.layout.arm.gravity)
+
+    def _of_base(self, lines: Callable[[Pattern], Sequence[Line]]) -> Sequence[Line]:
+        """Return lines of a base that floats; none of one that rests."""
+        return lines(self.layout.base.pattern) if self.layout.base else ()
+
+    def base_lines(self, lines: Sequence[Line]) -> list[Assign | Require]:
+        """Return lines at a base that floats as statements."""
+        return Binding(self._scratch, self._base_values).lines(lines)
 
     # -- one walk ------------------------------------------------------------------------------------------
 
@@ -193,6 +233,7 @@ class SpaceWalks:
         carried: tuple[sp.Symbol, ...],
         read: Callable[[int], Sequence[Line]] = lambda _: (),
         within: frozenset[int] | None = None,
+        base: Sequence[Line] = (),
     ) -> list[Statement]:
         """Return loops over the stations.
 
@@ -206,9 +247,13 @@ class SpaceWalks:
             Further lines behind those of stations that stand by themselves, by index.
         within : frozenset of int, optional
             Stations to be visited, with all of their run; all if left out.
+        base : sequence of Line
+            Of a base that floats: before the stations outward, behind them inward.
         """
         runs = [r for r in self._runs if within is None or within & set(range(r.start, r.stop))]
         found: list[Statement] = []
+        if order is Order.OUTWARD:
+            found += self._at_base(base, order, carried)
         for run in reversed(runs) if order is Order.INWARD else runs:
             slots = list(enumerate(run.patterns))
             body: list[Assign | Require] = []
@@ -220,18 +265,36 @@ class SpaceWalks:
                 body = self._joined(run.start, body, order, carried)
             if body:
                 found.append(Loop(order, run.start, run.stop, tuple(body), len(slots)))
+        if order is Order.INWARD:
+            found += self._at_base(base, order, carried)
         return found
+
+    def _at_base(
+        self, lines: Sequence[Line], order: Order, carried: tuple[sp.Symbol, ...]
+    ) -> list[Assign | Require]:
+        """Return what happens at a base that floats, with what its branches take over from there or leave there."""
+        if not lines:
+            return []
+        body = self.base_lines(lines)
+        if not self.layout.tree.forks(-1):
+            return body
+        here = [(self._here(s), self._fork(-1, s)) for s in carried]
+        if order is Order.OUTWARD:
+            return [*body, *(Assign(fork, own) for own, fork in here)]
+        return [*(Assign(own, own + fork) for own, fork in here), *body]
 
     def _joined(
         self, index: int, body: list[Assign | Require], order: Order, carried: tuple[sp.Symbol, ...]
     ) -> list[Assign | Require]:
         """Add what a station takes over from where its branch begins, or leaves there."""
         tree, host = self.layout.tree, self.layout.tree.host(index)
-        branch = host >= 0 and host != index - 1
+        branch = (host >= 0 or self.layout.base is not None) and host != index - 1
         if order is Order.OUTWARD:
             taken = [Assign(self._here(s), self._fork(host, s)) for s in carried] if branch else []
             left = [Assign(self._fork(index, s), self._here(s)) for s in carried] if tree.forks(index) else []
             return [*taken, *body, *left]
+        if tree.given(index) or tree.given(host):  # nothing is passed on to what moves as given
+            return body
         added = (
             [Assign(self._here(s), self._here(s) + self._fork(index, s)) for s in carried]
             if tree.forks(index)
@@ -250,7 +313,7 @@ class SpaceWalks:
         return self._scratch.ref(symbol.name)
 
     def _fork(self, index: int, symbol: sp.Symbol) -> Ref:
-        return local(f"fork{index + 1}_{symbol.name}")
+        return local(f"fork{index + 1}_{symbol.name}")  # the base is 0
 
     def _lines(
         self, lines: Sequence[Line], slot: int, suffix: str, carried: Iterable[sp.Symbol], run: Run
@@ -285,6 +348,11 @@ class SpaceWalks:
         values |= {symbol: self._arrays[symbol].at(slot) for symbol in _KEPT}
         values |= {symbol: variable.at(slot) for symbol, variable in self._motion.items()}
         return values | dict.fromkeys(self._absent, sp.Integer(0))
+
+
+def gravity_values(layout: SpaceLayout) -> dict[sp.Symbol, sp.Expr]:
+    """Return gravity by the symbols of its components."""
+    return {s: layout.at(s.name, None) for s in GRAVITY}
 
 
 def _names_in(lines: Sequence[Line]) -> set[sp.Symbol]:

@@ -5,9 +5,10 @@ Every body has a frame at the point of the joint that carries it; all that is sa
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal
 
+from tmm_gen.scene.digest import UNSAID
 from tmm_gen.scene.quantity import SPATIAL, Quantity
 
 Vector = tuple[float, float, float]
@@ -68,6 +69,8 @@ class Revolute:
         To start from, rad and rad/s.
     limits : tuple of float or None
         Lowest and highest angle, rad, for controllers; no stops are simulated.
+    given : str
+        Name of the input that is its angle; empty where it moves by forces. Such a joint stands on the base.
     """
 
     name: str
@@ -84,6 +87,32 @@ class Revolute:
     angle: float = 0.0
     rate: float = 0.0
     limits: tuple[float, float] | None = None
+    given: str = field(default="", metadata=UNSAID)
+
+
+@dataclass(frozen=True)
+class FreeBase:
+    """A base that floats.
+
+    Parameters
+    ----------
+    body : RigidBody
+        All that is rigidly fixed to it, in its frame.
+    at : tuple of float, length 3
+        Where its frame is at first, in world axes, m.
+    turn : tuple of tuple of float
+        Its axes at first in those of the world.
+    velocity : tuple of float, length 3
+        Of its frame's origin at first, in world axes, m/s.
+    rate : tuple of float, length 3
+        Its angular velocity at first, in its own axes, rad/s.
+    """
+
+    body: RigidBody
+    at: Vector = ZERO
+    turn: Turn = UPRIGHT
+    velocity: Vector = ZERO
+    rate: Vector = ZERO
 
 
 @dataclass(frozen=True)
@@ -115,11 +144,12 @@ class ArmInput:
     Parameters
     ----------
     name : str
-        Columns: itself for a torque; with ``_x``, ``_y``, ``_z`` for a force or a moment.
-    acts : {"torque", "force", "moment"}
-        Between both sides of a joint (of a motor: on the motor's side of its gear), or on a frame.
+        Columns: itself for a torque or an angle; with ``_x``, ``_y``, ``_z`` for a force or a moment.
+    acts : {"torque", "force", "moment", "angle"}
+        Between both sides of a joint (of a motor: on the motor's side of its gear), or on a frame; or the angle of a
+        joint whose motion is given.
     joint : int
-        Number of the joint a torque acts in; 0 where it is no torque.
+        Number of the joint a torque acts in, or whose angle it is; 0 where it is neither.
     frame : Frame or None
         What a force or a moment acts on.
     axes : {"world", "body"}
@@ -127,7 +157,7 @@ class ArmInput:
     """
 
     name: str
-    acts: Literal["torque", "force", "moment"]
+    acts: Literal["torque", "force", "moment", "angle"]
     joint: int = 0
     frame: Frame | None = None
     axes: Literal["world", "body"] = "body"
@@ -135,7 +165,11 @@ class ArmInput:
     @property
     def columns(self) -> tuple[str, ...]:
         """Names of its scalars."""
-        return (self.name,) if self.acts == "torque" else tuple(f"{self.name}_{axis}" for axis in "xyz")
+        return (
+            (self.name,)
+            if self.acts in ("torque", "angle")
+            else tuple(f"{self.name}_{axis}" for axis in "xyz")
+        )
 
 
 ArmQuantity = Literal[
@@ -198,9 +232,11 @@ class SpatialArm:
     frames : tuple of Frame
         Outer ends of all parts, in the order of the joints: each after what it hangs on.
     gravity : tuple of float, length 3
-        m/s^2, in world axes, which are those of the base.
+        m/s^2, in world axes, which are those of a base that never moves.
     inputs : tuple of ArmInput
     outputs : tuple of ArmOutput
+    base : FreeBase or None
+        What the arm stands on; None for one that never moves, whose axes are those of the world.
     """
 
     joints: tuple[Revolute, ...]
@@ -208,3 +244,4 @@ class SpatialArm:
     gravity: Vector = ZERO
     inputs: tuple[ArmInput, ...] = ()
     outputs: tuple[ArmOutput, ...] = ()
+    base: FreeBase | None = field(default=None, metadata=UNSAID)

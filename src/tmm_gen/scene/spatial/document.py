@@ -12,8 +12,9 @@ from tmm_gen.scene.model import Base
 from tmm_gen.scene.parts.tables import GearPart
 from tmm_gen.scene.problem import Path
 from tmm_gen.scene.section import Uniform
-from tmm_gen.scene.spatial.arm import SpatialArm
+from tmm_gen.scene.spatial.arm import FreeBase, SpatialArm
 from tmm_gen.scene.spatial.expansion import SpatialExpansion, expanded
+from tmm_gen.scene.spatial.geometry import floats, turned
 from tmm_gen.scene.spatial.settings import SpatialBase, SpatialModel
 from tmm_gen.scene.spatial.signals import SpatialInput, SpatialOutput
 from tmm_gen.scene.spatial.tables import (
@@ -55,7 +56,11 @@ class SpatialDocument(Document):
     @cached_property
     def expansion(self) -> SpatialExpansion:
         """The joints that the parts make; only where they hang together."""
-        return expanded(self.tree)
+        turns = None
+        if self.base.kind == "prescribed":
+            named = next((item.name for item in self.input if item.acts == "angle"), "")
+            turns = (self.base.axis, named) if named else None
+        return expanded(self.tree, afloat=self.base.floats, turns=turns)
 
     @property
     def arm(self) -> SpatialArm:
@@ -67,7 +72,14 @@ class SpatialDocument(Document):
             gravity=self.model.gravity,
             inputs=made.inputs(self.input),
             outputs=made.outputs(self.output),
+            base=self._floating if self.base.floats else None,
         )
+
+    @property
+    def _floating(self) -> FreeBase:
+        base = self.base
+        turn = floats(turned(base.turn))
+        return FreeBase(self.expansion.base, base.at, turn, base.velocity, base.rate)
 
     def beams(self) -> Mapping[Path, Uniform]:
         """Return the beams by their places in the file."""

@@ -9,7 +9,7 @@ from fractions import Fraction
 from tmm_gen.scene.exact import exact, nearest
 from tmm_gen.scene.initial import Values
 from tmm_gen.scene.parts.order import BASE
-from tmm_gen.scene.spatial.arm import ArmInput, ArmOutput, Frame, Revolute, RigidBody
+from tmm_gen.scene.spatial.arm import ArmInput, ArmOutput, Frame, Revolute, RigidBody, Vector
 from tmm_gen.scene.spatial.beam import cells
 from tmm_gen.scene.spatial.geometry import (
     NOWHERE,
@@ -52,12 +52,15 @@ class SpatialExpansion:
         Number of the joint that each motor or joint is, from 1.
     inner : tuple of str
         Name of the part that each joint comes from.
+    base : RigidBody
+        All that is rigidly fixed to the base; nothing where that never moves.
     """
 
     joints: tuple[Revolute, ...]
     frames: Mapping[str, Frame]
     numbers: Mapping[str, int]
     inner: tuple[str, ...]
+    base: RigidBody
 
     def inputs(self, items: Sequence[SpatialInput]) -> tuple[ArmInput, ...]:
         """Return inputs in the joints and on the frames that names mean."""
@@ -70,7 +73,7 @@ class SpatialExpansion:
                 item.name,
                 item.of,
                 joint=self.numbers[item.at] if item.of in OF_JOINTS else 0,
-                frame=None if item.of in OF_JOINTS else self.frames.get(item.at),
+                frame=None if item.of in OF_JOINTS else self._frame(item.at),
             )
             for item in items
         )
@@ -79,14 +82,20 @@ class SpatialExpansion:
         """Return the joints as they are at time zero; beams are straight."""
         found = list(self.joints)
         for name, number in self.numbers.items():
+            if name == BASE:  # moves as its input says
+                continue
             angle, rate = (_value(values, name) for values in (angles, rates))
             found[number - 1] = replace(found[number - 1], angle=angle, rate=rate)
         return tuple(found)
 
     def _input(self, item: SpatialInput) -> ArmInput:
-        if item.acts == "torque":
-            return ArmInput(item.name, "torque", joint=self.numbers[item.at])
-        return ArmInput(item.name, item.acts, frame=self.frames[item.at], axes=item.axes)
+        if item.acts in ("torque", "angle"):
+            return ArmInput(item.name, item.acts, joint=self.numbers[item.at])
+        return ArmInput(item.name, item.acts, frame=self._frame(item.at), axes=item.axes)
+
+    def _frame(self, name: str) -> Frame | None:
+        """Return the outer end of a part, or the base's own frame; None of the arm as a whole."""
+        return self.frames.get(name, Frame(BASE, 0) if name == BASE else None)
 
 
 def _value(values: Values, name: str) -> float:
@@ -99,8 +108,15 @@ def _value(values: Values, name: str) -> float:
 
 @dataclass
 class _Building:
-    """An arm that grows from the base outward."""
+    """An arm that grows from the base outward.
 
+    Parameters
+    ----------
+    afloat : bool
+        Whether the base moves, so that what is fixed to it weighs.
+    """
+
+    afloat: bool = False
     joints: list[Revolute] = field(default_factory=list)
     weights: list[Weight] = field(default_factory=lambda: [NOTHING])
     frames: dict[str, Frame] = field(default_factory=dict)
@@ -115,8 +131,8 @@ class _Building:
         return len(self.joints)
 
     def put(self, pose: Pose, body: Weight) -> None:
-        """Fix a body to that of a joint; what is fixed to the base never moves."""
-        if pose.joint:
+        """Fix a body to that of a joint, or to the base where that moves."""
+        if pose.joint or self.afloat:
             self.weights[pose.joint] += body.at(pose)
 
     def done(self) -> SpatialExpansion:
@@ -129,19 +145,40 @@ class _Building:
             replace(joint, body=bodies[id(body)])
             for joint, body in zip(self.joints, self.weights[1:], strict=True)
         )
-        return SpatialExpansion(joints, self.frames, self.numbers, tuple(self.inner))
+        base = bodies[id(self.weights[0])]
+        return SpatialExpansion(joints, self.frames, self.numbers, tuple(self.inner), base)
 
 
-def expanded(tree: Tree) -> SpatialExpansion:
-    """Expand parts that keep all rules."""
-    made = _Building()
-    ends = {BASE: Pose()}
+def expanded(
+    tree: Tree, *, afloat: bool = False, turns: tuple[Vector, str] | None = None
+) -> SpatialExpansion:
+    """Expand parts that keep all rules.
+
+    Parameters
+    ----------
+    afloat : bool
+        Whether nothing holds the base.
+    turns : tuple of (Vector, str), optional
+        The axis that a prescribed base turns about, and the input that is its angle.
+    """
+    made = _Building(afloat)
+    ends = {BASE: Pose() if turns is None else _turning_base(made, *turns)}
     for hung in tree.outward():
         part = hung.part
         pose = ends[hung.on].then(point(part.at), turned(part.turn))
         ends[hung.name] = end = _placed(made, part, pose)
         made.frames[hung.name] = Frame(hung.name, end.joint, vector(end.at), floats(end.turn))
     return made.done()
+
+
+def _turning_base(made: _Building, direction: Vector, given: str) -> Pose:
+    """Add the joint that a prescribed base is, and return where parts hang on it."""
+    axis, turn = joint_frame(Pose().turn, unit(direction))
+    number = made.joint(Revolute(BASE, 0, turn=floats(turn), axis=axis, given=given), BASE)
+    made.numbers[BASE] = number
+    pose = Pose(number, NOWHERE, settled(transposed(turn)))
+    made.frames[BASE] = Frame(BASE, number, vector(pose.at), floats(pose.turn))
+    return pose
 
 
 def _placed(made: _Building, part: SpatialPart, pose: Pose) -> Pose:

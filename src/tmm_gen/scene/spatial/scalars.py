@@ -10,6 +10,9 @@ def arm_inputs(arm: SpatialArm) -> tuple[Input, ...]:
     """Return an input for each number that acts on an arm, at the part's name."""
     found = []
     for item in arm.inputs:
+        if item.acts == "angle":
+            found.append(Input.model_construct(name=item.name, at="base", acts="angle", part=""))
+            continue
         if item.acts == "torque":
             part = arm.joints[item.joint - 1].name
             found.append(Input.model_construct(name=item.name, at=part, acts="drive", part=part))

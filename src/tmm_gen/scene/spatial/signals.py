@@ -25,8 +25,9 @@ class SpatialInput(Table):
         Identifier.
     at : str
         Name of a part.
-    acts : {"torque", "force", "moment"}
-        N m between both sides of a motor or joint; N or N m, as vectors, on a part's outer end.
+    acts : {"torque", "force", "moment", "angle"}
+        N m between both sides of a motor or joint; N or N m, as vectors, on a part's outer end; rad of a prescribed
+        base.
     axes : {"world", "body"}
         ``in``: in whose axes a force or a moment has its components.
     """
@@ -35,8 +36,9 @@ class SpatialInput(Table):
 
     name: Name = Field(description="identifier", examples=['"shoulder_torque"'])
     at: Where = Field(description="name of a part", examples=['"shoulder"'])
-    acts: Literal["torque", "force", "moment"] = Field(
-        description="torque of a motor or in a joint, or force or moment on a part's outer end",
+    acts: Literal["torque", "force", "moment", "angle"] = Field(
+        description="torque of a motor or in a joint, force or moment on a part's outer end, "
+        "angle of a prescribed base",
         examples=['"torque"'],
     )
     axes: Literal["world", "body"] = Field(

@@ -9,9 +9,9 @@ from tmm_gen.scene.rules.beams import beams_given
 from tmm_gen.scene.rules.emission import batch_suits, budget_not_empty, compensated_suits, real_is_used
 from tmm_gen.scene.rules.integration import explicit_needs_acceleration, integrator_parameters
 from tmm_gen.scene.rules.spatial.hanging import not_too_many, one_tree, part_names
-from tmm_gen.scene.rules.spatial.inertia import something_to_turn
+from tmm_gen.scene.rules.spatial.inertia import base_to_turn, something_to_turn
 from tmm_gen.scene.rules.spatial.parts import ends, in_range, inertias, rigid_gears, twists
-from tmm_gen.scene.rules.spatial.settings import boxed, clamped, emitted, own_tables
+from tmm_gen.scene.rules.spatial.settings import boxed, emitted, keys_of_base, own_tables
 from tmm_gen.scene.rules.spatial.signals import (
     distinct_names,
     initial_by_name,
@@ -23,10 +23,11 @@ from tmm_gen.scene.spatial.document import SpatialDocument
 Rule = Callable[[SpatialDocument], Iterator[Finding]]
 
 RULES: tuple[tuple[Rule, ...], ...] = (
-    (clamped, own_tables, emitted, part_names, beams_given, not_too_many),
+    (keys_of_base, own_tables, emitted, part_names, beams_given, not_too_many),
     (one_tree, twists, ends, rigid_gears, inertias),
     (in_range, initial_by_name),
     (
+        base_to_turn,
         something_to_turn,
         inputs_possible,
         outputs_possible,

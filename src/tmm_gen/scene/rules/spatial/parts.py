@@ -112,6 +112,8 @@ def in_range(document: SpatialDocument) -> Iterator[Finding]:
     """Products of extreme numbers may leave the range of a float although each factor is in it."""
     made, told = document.expansion, set()
     for joint, name in zip(made.joints, made.inner, strict=True):
+        if joint.given:
+            continue
         hung = document.tree.by_name[name]
         for what, values in _numbers(joint).items():
             wrong = next((value for value in values if not math.isfinite(value)), None)
@@ -130,7 +132,7 @@ def in_range(document: SpatialDocument) -> Iterator[Finding]:
                     "Check the units here and of what hangs on it: SI, N m^2, kg/m, m, kg m^2.",
                 )
     for frame in made.frames.values():
-        if not all(map(math.isfinite, frame.at)):
+        if frame.name in document.tree.by_name and not all(map(math.isfinite, frame.at)):
             hung = document.tree.by_name[frame.name]
             yield Finding(hung.path, "ends beyond the range of numbers", "Check the units: SI, m.")
 

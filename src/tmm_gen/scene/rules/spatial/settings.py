@@ -7,30 +7,34 @@ from collections.abc import Iterator
 from tmm_gen.scene.problem import Finding
 from tmm_gen.scene.rules.emission import box_of_names
 from tmm_gen.scene.spatial.document import SpatialDocument
-
-_BASES = {
-    "motor": 'Write `kind = "clamp"`, and hang a [[motor]] on it.',
-    "prescribed": 'Write `kind = "clamp"`, and let a [[motor]] on it move the arm.',
-    "free": 'Write `kind = "clamp"`, or describe the arm in a plane.',
-    "floating": 'Write `kind = "clamp"`, or describe the arm in a plane.',
-}
+from tmm_gen.scene.spatial.settings import FLOATING_KEYS
 
 
-def clamped(document: SpatialDocument) -> Iterator[Finding]:
-    """Find a base that is no clamp, and a clamp with a hub."""
+def keys_of_base(document: SpatialDocument) -> Iterator[Finding]:
+    """Find keys of bases of other kinds."""
     base = document.base
-    if base.kind != "clamp":
-        what = (
-            "is a short form for arms in a plane"
-            if base.kind == "motor"
-            else "is not there yet for arms in space"
-        )
-        yield Finding(("base", "kind"), f"{what}: these stand on a clamp", _BASES[base.kind], base.kind)
     for key in ("inertia", "damping"):
         if key in base.model_fields_set:
+            floats = "a base that floats is made of the bodies on it, and nothing damps it"
             yield Finding(
-                ("base", key), "is that of a hub, and a clamp has none", "Remove it.", getattr(base, key)
+                ("base", key),
+                f"is that of a hub: {floats}" if base.floats else "is that of a hub, and this base has none",
+                'Remove it; mass and inertia are those of a [[body]] with `on = "base"`.'
+                if base.floats
+                else "Remove it.",
+                getattr(base, key),
             )
+    for key in FLOATING_KEYS:
+        if not base.floats and key in base.model_fields_set:
+            other = "a prescribed base moves as its input says" if base.moves else "a clamp never moves"
+            yield Finding(
+                ("base", key),
+                f"is of a base that floats, and {other}: its axes are those of the world at first",
+                'Remove it, or write `kind = "free"`; parts have `at` and `turn` of their own.',
+                getattr(base, key),
+            )
+    if base.kind != "prescribed" and "axis" in base.model_fields_set:
+        yield Finding(("base", "axis"), "is that of a prescribed base", "Remove it.", base.axis)
 
 
 def own_tables(document: SpatialDocument) -> Iterator[Finding]:

@@ -32,19 +32,50 @@ def inputs_possible(document: SpatialDocument) -> Iterator[Finding]:
             yield Finding(
                 (*path, "at"), "cannot be all of the arm: an input acts at one place", "Name a part.", item.at
             )
-        elif item.at == BASE:
-            yield Finding((*path, "at"), "cannot be the base, which never moves", "Name a part.", item.at)
-        elif hung is None:
+        elif item.acts == "angle":
+            if item.at != BASE or document.base.kind != "prescribed":
+                yield Finding(
+                    (*path, "acts"),
+                    'cannot be "angle" here: only a base of kind = "prescribed" has an angle that is given',
+                    'Write `acts = "torque"` at a motor or a joint, or `at = "base"` and base.kind = "prescribed".',
+                    item.acts,
+                )
+        elif item.at == BASE and not document.base.floats:
+            why = "which moves as its angle says" if document.base.moves else "which never moves"
+            yield Finding((*path, "at"), f"cannot be the base, {why}", "Name a part.", item.at)
+        elif hung is None and item.at != BASE:
             yield _unknown(document, (*path, "at"), item.at)
-        elif item.acts == "torque" and not hung.turns:
+        elif item.acts == "torque" and not (hung and hung.turns):
             yield Finding(
                 (*path, "acts"),
-                f"cannot be a torque at {hung.words}: a torque acts in a motor or a joint",
+                f"cannot be a torque at {hung.words if hung else 'the base'}: a torque acts in a motor or a joint",
                 'Write `acts = "moment"` for three components on it, or name a motor or a joint.',
                 item.acts,
             )
-        elif document.tree.mover(hung) is None:
+        elif hung and not document.base.moves and document.tree.mover(hung) is None:
             yield _fixed(document, (*path, "at"), hung)
+    yield from _angle_given(document)
+
+
+def _angle_given(document: SpatialDocument) -> Iterator[Finding]:
+    """Find a prescribed base without its angle, or with two."""
+    if document.base.kind != "prescribed":
+        return
+    angles = [index for index, item in enumerate(document.input) if item.acts == "angle" and item.at == BASE]
+    if not angles:
+        yield Finding(
+            ("base", "kind"),
+            "needs an input that prescribes the angle",
+            'Add [[input]] with `name = "base_angle"`, `at = "base"`, `acts = "angle"`.',
+            document.base.kind,
+        )
+    for index in angles[1:]:
+        yield Finding(
+            ("input", index, "acts"),
+            f"prescribes the angle of the base a second time, after '{document.input[angles[0]].name}'",
+            "Remove one of them.",
+            "angle",
+        )
 
 
 def outputs_possible(document: SpatialDocument) -> Iterator[Finding]:
@@ -69,18 +100,27 @@ def outputs_possible(document: SpatialDocument) -> Iterator[Finding]:
             )
         elif item.at == ARM:
             continue
-        elif item.at == BASE:
+        elif item.at == BASE and not document.base.moves:
             yield Finding((*path, "at"), "cannot be the base, which never moves", "Name a part.", item.at)
-        elif hung is None:
+        elif hung is None and item.at != BASE:
             yield _unknown(document, (*path, "at"), item.at)
-        elif item.of in OF_JOINTS and not hung.turns:
+        elif item.at == BASE and document.base.kind == "prescribed" and item.of in OF_JOINTS:
+            if item.of == "torque":
+                yield Finding(
+                    (*path, "of"),
+                    "cannot be torque at the base: what turns a prescribed base is not found yet",
+                    'Choose "angle", "rate" or "acceleration".',
+                    item.of,
+                )
+        elif item.of in OF_JOINTS and not (hung and hung.turns):
+            words = hung.words if hung else "the base"
             yield Finding(
                 (*path, "of"),
-                f"cannot be {item.of} at {hung.words}: motors and joints have {', '.join(OF_JOINTS)}",
+                f"cannot be {item.of} at {words}: motors and joints have {', '.join(OF_JOINTS)}",
                 f"Choose one of {', '.join(OF_FRAMES)}, or name a motor or a joint.",
                 item.of,
             )
-        elif document.tree.mover(hung) is None:
+        elif hung and not document.base.moves and document.tree.mover(hung) is None:
             yield _fixed(document, (*path, "at"), hung)
 
 

@@ -1,0 +1,68 @@
+"""Steps of arms on a base that floats go to the reference with the order of their integrators, turns included."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from types import ModuleType
+
+import numpy as np
+import pytest
+from support.spatial.afloat import coordinates, random_afloat
+from support.spatial.kernels import package_of, stepped
+
+from tmm_gen.program.space.assemble import SpaceChoices
+from tmm_gen.reference.spatial_motion import motion
+from tmm_gen.scene.spatial.arm import SpatialArm
+from tmm_gen.verify.spatial_order import SLOPE, fitted_order
+
+ONCE, TWICE, THRICE = (SpaceChoices(1e-3, iterations=count) for count in (1, 2, 3))
+
+
+def bare(seed: int) -> SpatialArm:
+    return replace(random_afloat(seed, 2, loads=False), outputs=())
+
+
+def generated(arm: SpatialArm, name: str, choices: SpaceChoices) -> ModuleType:
+    return package_of(arm, name, choices)
+
+
+@pytest.mark.parametrize(
+    ("name", "choices", "order"),
+    [
+        ("newmark", TWICE, 2),
+        ("newmark", replace(ONCE, exact=True, held=True), 2),
+        ("sdirk4", replace(THRICE, held=True), 4),
+        ("sdirk4", replace(ONCE, exact=True, held=True), 4),
+        ("park", TWICE, 2),
+    ],
+    ids=["newmark", "newmark, exact", "sdirk4", "sdirk4, exact", "park"],
+)
+def test_order(name: str, choices: SpaceChoices, order: int) -> None:
+    """Park's method looks back over two steps, which are turned to where each step begins."""
+    arm = bare(3)
+    fitted, _ = fitted_order(arm, generated(arm, name, choices))
+    assert fitted == pytest.approx(order, abs=SLOPE)
+
+
+def test_heavier_base_shows() -> None:
+    """A kernel of another base does not go to this one's motion."""
+    arm = bare(3)
+    assert arm.base is not None
+    body = replace(arm.base.body, mass=1.01 * arm.base.body.mass)
+    other = replace(arm, base=replace(arm.base, body=body))
+    fitted, _ = fitted_order(arm, generated(other, "newmark", TWICE))
+    assert abs(fitted - 2.0) > SLOPE
+
+
+@pytest.mark.parametrize("name", ["houbolt", "zhou", "zhai", "wilson", "bathe", "generalized_alpha"])
+def test_every_other_method_goes_there(name: str) -> None:
+    """Those with a history too."""
+    arm, until = bare(4), 0.1
+    exact = motion(arm, {}, np.array([until]))[0][0]
+    module = generated(arm, name, TWICE)
+    errors = []
+    for steps in (50, 100):
+        state = stepped(module, until / steps, steps)[-1]
+        errors.append(float(np.abs(coordinates(state)[0] - exact).max()))
+    assert errors[1] < 2e-3
+    assert np.log2(errors[0] / errors[1]) > 1.7
