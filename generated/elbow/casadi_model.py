@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: a37910a69b52f238259a20213fd8db76ea0063d6b7948a86cd4625c4f988d405
-# sha256 of the rest of this file: 2abc83baef79228c91598c964199cf724db213a46ace9e3bb5f0c6f4a4d9a328
+# sha256 of the rest of this file: 17cf4ee20ca8936002a427818721f7cfcaaa99ad78db2feca1598493579ed860
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 12
@@ -570,14 +570,9 @@ def _initialise(given: dict[str, ca.SX], stages: Sequence[ca.SX], p: ca.SX) -> c
         impedance_xx = impedance_xx - answer_x[j] * impedance_xu
         impedance_xy = impedance_xy - answer_y[j] * impedance_xu
         force_x = force_x + answer_own[j] * impedance_xu
-        impedance_xu = impedance_xu * transmission[j]
         impedance_yx = impedance_yx - answer_x[j] * impedance_yu
         impedance_yy = impedance_yy - answer_y[j] * impedance_yu
         force_y = force_y + answer_own[j] * impedance_yu
-        impedance_yu = impedance_yu * transmission[j]
-        impedance_ux = answer_x[j] * start_joint_impedance
-        impedance_uy = answer_y[j] * start_joint_impedance
-        impedance_uu = impedance_uu * transmission[j]
         torque = joint_torque[j] - answer_own[j] * start_joint_impedance
 
     # the base

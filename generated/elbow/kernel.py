@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: a37910a69b52f238259a20213fd8db76ea0063d6b7948a86cd4625c4f988d405
-# sha256 of the rest of this file: cac950b79e51f53e8d83ec4b6f9df872afa2f2f70efc178032a4ed8c579f9682
+# sha256 of the rest of this file: beab4d23b10cba75a14c1f9c68755d6bf2887b1a3c0c8ef68d9f217367157787
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 12
@@ -664,14 +664,9 @@ def initialise(
         impedance_xx = impedance_xx - answer_x[j] * impedance_xu
         impedance_xy = impedance_xy - answer_y[j] * impedance_xu
         force_x = force_x + answer_own[j] * impedance_xu
-        impedance_xu = impedance_xu * transmission[j]
         impedance_yx = impedance_yx - answer_x[j] * impedance_yu
         impedance_yy = impedance_yy - answer_y[j] * impedance_yu
         force_y = force_y + answer_own[j] * impedance_yu
-        impedance_yu = impedance_yu * transmission[j]
-        impedance_ux = answer_x[j] * start_joint_impedance
-        impedance_uy = answer_y[j] * start_joint_impedance
-        impedance_uu = impedance_uu * transmission[j]
         torque = joint_torque[j] - answer_own[j] * start_joint_impedance
 
     # the base

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: a37910a69b52f238259a20213fd8db76ea0063d6b7948a86cd4625c4f988d405
- * sha256 of the rest of this file: a3265f03b7346e51bc10d6c0560187512a250a70ed6462a4f91c93eb7f9332b8
+ * sha256 of the rest of this file: f23fcd2e1b0833baab0601c6bd558c70dfa7b23d06b1fe75960bf47a0a2938e5
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 12
@@ -491,14 +491,9 @@ elbow_status elbow_initialise(
         impedance_xx = impedance_xx - answer_x[j] * impedance_xu;
         impedance_xy = impedance_xy - answer_y[j] * impedance_xu;
         force_x = force_x + answer_own[j] * impedance_xu;
-        impedance_xu = impedance_xu * transmission[j];
         impedance_yx = impedance_yx - answer_x[j] * impedance_yu;
         impedance_yy = impedance_yy - answer_y[j] * impedance_yu;
         force_y = force_y + answer_own[j] * impedance_yu;
-        impedance_yu = impedance_yu * transmission[j];
-        impedance_ux = answer_x[j] * start_armature[j];
-        impedance_uy = answer_y[j] * start_armature[j];
-        impedance_uu = impedance_uu * transmission[j];
         torque = joint_torque - answer_own[j] * start_armature[j];
     }
 
