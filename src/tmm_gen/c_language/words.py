@@ -46,7 +46,7 @@ OWN = _words(
 OWN_PREFIXES = ("tmm_", "TMM_GEN_", "INSTANCE_", "FMI_", "DAQP_", "SYST_")
 """How other macros of theirs begin, and the members that have a prefix."""
 
-TYPES = ("real", "pair")
+TYPES = ("real", "pair", "many")
 """Behind a scene's name: types by which its structs are declared. In C++ no member may be called as the type of
 another."""
 

@@ -10,7 +10,7 @@ import pytest
 
 from tmm_gen.emit.c import emit_c
 from tmm_gen.program.build import build_program
-from tmm_gen.scene import load_scene
+from tmm_gen.scene import load_scene, parse_scene
 
 pytestmark = pytest.mark.compiler
 
@@ -151,6 +151,17 @@ def test_its_folder_is_a_whole_program(written: Any, command: Any) -> None:
 
 def test_cpp_takes_the_header(written: Any, command: Any, tmp_path: Path) -> None:
     written(emitted("arm2"))
+    (tmp_path / "user.cpp").write_text('#include "arm2_batch.h"\nint arms = ARM2_BATCH;\n')
+    command("g++", "-Wall", "-Wextra", "-Werror", "-c", "user.cpp")
+
+
+def test_cpp_takes_inputs_and_outputs_called_as_types(written: Any, command: Any, tmp_path: Path) -> None:
+    """In C++ no member may be called as the type of another in the same struct."""
+    text = (ROOT / "scenes" / "arm2.toml").read_text()
+    scene = parse_scene(text.replace('name = "hub_torque"', 'name = "arm2_many"'))
+    scene = scene.replace(**CASES["arm2"])
+    assert "arm2_many" in [item.name for item in scene.inputs]
+    written(emit_c(build_program(scene), scene))
     (tmp_path / "user.cpp").write_text('#include "arm2_batch.h"\nint arms = ARM2_BATCH;\n')
     command("g++", "-Wall", "-Wextra", "-Werror", "-c", "user.cpp")
 
