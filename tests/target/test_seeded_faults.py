@@ -183,3 +183,24 @@ def test_doubles_are_not_asked_to_be_single(
     for tool in TOOLS.values():
         need_tool(*tool)
     assert "single_precision" not in [row.check for row in lint({}, "float64")]
+
+
+@pytest.mark.parametrize("check", ["gcc_analyzer", "misra", "single_precision"])
+def test_analysers_see_one_arm_and_not_the_vectors_of_many(
+    emitting: Emitting, need_tool: Callable[[str, str], str], check: str
+) -> None:
+    scene = emitting("thesis2", real="float32", batch=4)
+    files = emit_c(build_program(scene), scene)
+    assert "c/thesis2_batch.c" in files
+    need_tool(*TOOLS[check])
+    row = CHECKS[check](files)
+    assert row.passed, row.said
+
+
+def test_a_file_is_left_out_for_its_vectors_and_not_for_its_name(
+    files: dict[str, str], need_tool: Callable[[str, str], str]
+) -> None:
+    need_tool(*TOOLS["misra"])
+    row = CHECKS["misra"]({**files, "c/arm_batch.c": "int f(int x) { if (x) x = 0; return x; }\n"})
+    assert not row.passed
+    assert "arm_batch.c" in row.said
