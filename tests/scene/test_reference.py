@@ -44,6 +44,7 @@ def test_what_must_be_there_and_what_is_not_modelled() -> None:
     assert by_name["[model]", "unsolved"].default == "follows the step's own error"
     assert by_name["[base]", "inertia"].value == "number from 0"
     assert by_name["[base]", "kind"].value == '"clamp", "motor", "prescribed", "free"'
+    assert by_name["[emit]", "batch"].value == "4, 8, 16"
     assert '"sdirk4"' in by_name["[integrator]", "name"].value
 
 

@@ -158,9 +158,9 @@ def _value(field: FieldInfo, example: str) -> str:
 
 
 def _leaves(annotation: Any) -> Iterator[Any]:
-    """Yield the types and the literal words an annotation is made of, outermost first."""
+    """Yield the types and the literal words and numbers an annotation is made of, outermost first."""
     origin = getattr(annotation, "__origin__", None)
-    if isinstance(annotation, type | str):
+    if isinstance(annotation, type | str | int):
         yield annotation
     elif isinstance(origin, type) and origin in (tuple, list, dict):
         yield origin
