@@ -19,6 +19,7 @@ from tmm_gen.scene import Scene, load_scene
 pytestmark = pytest.mark.compiler
 
 ROOT = Path(__file__).resolve().parents[2]
+PRESCRIBED = [{"name": "base_angle", "at": "base", "acts": "angle"}]
 OWN_SINES = {"emit.trigonometry": "own", "emit.batch": 8}
 BOX = {"angles": [-3.2, 3.2], "rates": [-6.0, 6.0], "accelerations": [-2e3, 2e3]}
 BOX |= {f"torque{k}": [-2.0, 2.0] for k in range(1, 7)}
@@ -28,7 +29,8 @@ CASES: dict[str, tuple[str, dict[str, Any]]] = {
     "four lanes, branches": ("scenes/gripper", {**OWN_SINES, "emit.batch": 4}),
     "a free base": ("scenes/cube", OWN_SINES),
     "floats, no inputs": ("scenes/fall10", {"emit.trigonometry": "own", "emit.batch": 16, "emit.real": "float32"}),
-    "a prescribed base": ("scenes/drivetrain", {"emit.batch": 8}),
+    "a motor with gears": ("scenes/drivetrain", {"emit.batch": 8}),
+    "a prescribed angle": ("scenes/thesis2", {"base": {"kind": "prescribed"}, "input": PRESCRIBED, "emit.batch": 4}),
     "space, within a box": ("examples/space/arm6", {**OWN_SINES, "emit.box": BOX}),
 }  # fmt: skip
 ARMS = 21  # not a multiple of any number side by side
@@ -169,14 +171,91 @@ def test_threads_and_what_is_kept_change_no_bit() -> None:
         ({"inputs": {"hub_torque": np.ones((7, 3))}}, "7 rows for 50 steps"),
         ({"inputs": {"hub_torque": np.ones((7, 3, 1))}}, "3 dimensions"),
         ({"duration": -1.0}, "duration and step"),
-        ({"every": 0}, "every must be 1 or more"),
-        ({"arms": 0}, "arms must be 1 or more"),
+        ({"inputs": {"hub_torque": []}}, "hub_torque has the shape (0,)"),
+        ({"inputs": {"hub_torque": np.zeros((0, 3))}, "duration": 0.0}, "hub_torque has rows"),
+        ({"inputs": {"hub_torque": "much"}}, "hub_torque must be a real number"),
+        ({"inputs": {"hub_torque": [[1.0], [1.0, 2.0]]}}, "hub_torque must be a real number"),
+        ({"inputs": {"hub_torque": lambda t: None}}, "s must be a real number"),
+        ({"inputs": {"hub_torque": lambda t: np.ones((2, 3))}}, "hub_torque gives the shape (2, 3)"),
+        ({"inputs": {"hub_torque": lambda t: np.ones(3 if t < 0.01 else 4)}}, "for 3 and for 4 arms"),
+        (
+            {"inputs": {"hub_torque": lambda t: np.ones(3 if t == 0.0 else 4)}, "arms": 4},
+            "hub_torque is for 3",
+        ),
+        ({"inputs": {"hub_torque": np.ones(50)}, "arms": 4}, "has rows, the shape (steps, 1)"),
+        ({"params": {"gravity": 1.0j}}, "gravity must be a real number"),
+        ({"params": {"gravity": []}}, "gravity has the shape (0,)"),
+        ({"initial_angle": "up"}, "initial_angle must be a real number"),
+        ({"step": np.inf}, "duration and step"),
+        ({"every": 0}, "every must be a whole number, 1 or more"),
+        ({"every": 1.5}, "every must be a whole number, 1 or more"),
+        ({"arms": 0}, "arms must be a whole number, 1 or more"),
+        ({"arms": 2.5}, "arms must be a whole number, 1 or more"),
+        ({"threads": 0}, "threads must be a whole number, 1 or more"),
     ],
 )
 def test_what_does_not_fit_is_said(arguments: dict[str, Any], said: str) -> None:
     scene, batch, _ = compiled("stages")
     with pytest.raises(ValueError, match=re.escape(said)):
         batch.simulate(**{"duration": 50 * scene.integrator.step, **arguments})
+
+
+def test_inputs_may_lie_anywhere_in_memory() -> None:
+    """Records, columns, reversed, of another byte order, of integers: the numbers count, not how they are kept."""
+    scene, batch, _ = compiled("stages")
+    rows = np.random.default_rng(5).integers(-9, 9, (20, ARMS)).astype(float)
+    records = np.zeros((20, ARMS), dtype=[("torque", "f8"), ("count", "i4")])  # 12 bytes from one to the next
+    records["torque"] = rows
+    kept = [
+        rows,
+        records["torque"],
+        np.asfortranarray(rows),
+        rows[::-1].copy()[::-1],
+        rows.astype(">f8"),
+        rows.astype(int),
+    ]
+    runs = [batch.simulate(20 * scene.integrator.step, {"hub_torque": torque}) for torque in kept]
+    for run in runs[1:]:
+        for name, values in run.outputs.items():
+            np.testing.assert_array_equal(values, runs[0].outputs[name])
+
+
+def test_a_function_may_give_one_number_and_later_one_for_each_arm() -> None:
+    scene, batch, _ = compiled("stages")
+    step = scene.integrator.step
+    amounts = np.linspace(0.0, 1.0, 5)
+    told = batch.simulate(10 * step, {"hub_torque": lambda t: 0.0 if t < 4.5 * step else amounts})
+    same = batch.simulate(10 * step, {"hub_torque": lambda t: amounts * (t >= 4.5 * step)})
+    assert told.status.shape == (5,)
+    for name, values in told.outputs.items():
+        np.testing.assert_array_equal(values, same.outputs[name])
+
+
+@pytest.mark.filterwarnings("error")
+def test_what_floats_are_too_small_for_is_refused_without_a_warning() -> None:
+    _, batch, _ = compiled("floats, no inputs")
+    name = batch.program.parameters[0].name
+    shape = np.shape(batch.parameters[name])
+    run = batch.simulate(0.0, params={name: np.broadcast_to([1e300, 1.0], (*shape, 2))})
+    assert run.status.tolist() == [STATUSES.index("an argument is not finite"), 0]
+
+
+@pytest.mark.parametrize("name", ["batch", "harness", "batch_harness", "kernel_harness"])
+def test_a_scene_may_be_called_as_our_own_sources(name: str) -> None:
+    scene = load_scene(ROOT / "scenes" / "arm2.toml").replace(name=name, **OWN_SINES)
+    program = build_program(scene)
+    step = scene.integrator.step
+    times, outputs = compile_kernel(program, scene).simulate(step)
+    run = compile_batch(program, scene).simulate(step)
+    np.testing.assert_array_equal(run.times, times)
+    assert all(run.outputs[output][-1, 0] == values[-1] for output, values in outputs.items())
+
+
+@pytest.mark.parametrize("wrong", [None, "far", np.ones((2, 2))], ids=["none", "text", "rows"])
+def test_a_wrong_function_of_a_prescribed_angle_is_told_by_its_name(wrong: Any) -> None:
+    _, batch, _ = compiled("a prescribed angle")
+    with pytest.raises(ValueError, match=r"^base_angle (at|gives)"):
+        batch.simulate(0.01, {"base_angle": lambda _: wrong})
 
 
 def test_a_scene_without_a_batch_has_none() -> None:

@@ -19,9 +19,10 @@ from tmm_gen.native.compiler import FLAGS, compile_library
 from tmm_gen.native.differences import with_derivatives
 from tmm_gen.native.layout import structure_of
 from tmm_gen.native.machine import machine, machine_flags, processors
-from tmm_gen.native.many import Numbers, arm_count, by_arm, columns, require_known, shares
+from tmm_gen.native.many import Numbers, arm_count, by_arm, columns, numbers, require_known, shares, whole
 from tmm_gen.native.many_inputs import Signal, at_start, sampled, signal_structs
 from tmm_gen.program.statements import Program
+from tmm_gen.program.variables import Variable
 from tmm_gen.scene import Scene
 
 STATUSES = (
@@ -89,7 +90,7 @@ def compile_batch(
     harness = render(
         "c/batch_harness.c.jinja", name=program.name, given=program.given, starts_from_step=starts
     )
-    files = {**emit_c_batch(program, scene), "c/batch_harness.c": harness}
+    files = {**emit_c_batch(program, scene), "c/batch-harness.c": harness}
     if flags is None:
         flags = ("-O3", *FLAGS[1:], *machine_flags(cc))
         files["machine.txt"] = machine(cc)  # so that a library is found again only where its instructions are
@@ -153,11 +154,11 @@ class NativeBatch:
             Time to simulate (s); the last instant is the last whole step within it.
         inputs : mapping from str, optional
             What acts: a number, an array of shape (arms,), one of shape (steps, arms) or (steps, 1) held over each
-            step, or a function of time that gives one of the first two. Inputs not named are zero, but rate and
+            step, or a function of time (s) that gives one of the first two. Inputs not named are zero, but rate and
             acceleration of a prescribed angle that is a function are its derivatives.
         params : mapping from str, optional
-            Parameters that differ from the scene's: a number or an array of shape (arms,); of those with one value per
-            station also (stations,) or (stations, arms).
+            Parameters that differ from the scene's: a number or an array of shape (arms,); those with one value per
+            station: a number or an array of shape (stations,), the same for all arms, (1, arms) or (stations, arms).
         step : float, optional
             Time step (s), by default the scene's.
         arms : int, optional
@@ -181,26 +182,28 @@ class NativeBatch:
             If a name is unknown, a shape does not fit, or a number is out of its range.
         """
         step = float(self.program.step.default) if step is None else float(step)  # type: ignore[arg-type]
-        if not (0.0 <= duration < np.inf and step > 0.0):
+        if not (0.0 <= duration < np.inf and 0.0 < step < np.inf):
             raise ValueError(f"duration and step must be times, not {duration!r} and {step!r}")
-        if every < 1:
-            raise ValueError(f"every must be 1 or more, not {every!r}")
+        every = whole("every", every)
+        threads = processors() if threads is None else whole("threads", threads)
         program, values = self.program, {**(params or {}), **given}
         signals = with_derivatives(program, dict(inputs or {}), step)
         require_known(signals, program.inputs, "inputs")
         require_known(params or {}, program.parameters, "parameters")
         require_known(given, program.given, "arguments of the start")
         steps = int(np.floor(duration / step * (1.0 + 1e-12)))
-        series = {name: sampled(program, signal, steps, step, self._real) for name, signal in signals.items()}
+        series = {
+            name: sampled(program, name, signal, steps, step, self._real) for name, signal in signals.items()
+        }
         count = arm_count(arms, (*program.parameters, *program.given), values, series)
-        first = {name: at_start(signals[name], array, count) for name, array in series.items()}
+        first = {name: at_start(name, signals[name], array, count) for name, array in series.items()}
         models, states, status = self._started(count, values, step, first)
         lost = status.copy()
         kept = np.full((steps // every + 1, len(program.outputs), count), np.nan, dtype=self._real)
         if not lost.all():
             sound = int(np.argmin(lost != 0))  # what could not start has another's place, and its outputs go
             models[lost != 0], states[lost != 0] = models[sound], states[sound]
-            self._advance(steps, every, models, states, series, kept, status, threads or processors())
+            self._advance(steps, every, models, states, series, kept, status, threads)
             status = np.where(lost != 0, lost, status)
             kept[..., lost != 0] = np.nan
         outputs = {v.name: kept[:, index] for index, v in enumerate(program.outputs)}
@@ -215,15 +218,13 @@ class NativeBatch:
         params = np.tile(np.frombuffer(bytes(default), dtype=self._real), (arms, 1))
         for variable, place in columns(self._structs["params"]):
             if variable.name in values:
-                params[:, place] = by_arm(variable, values[variable.name], arms)
+                params[:, place] = self._of_arms(variable, values, arms)
         inputs = np.zeros((arms, ctypes.sizeof(self._types["inputs"])), np.uint8).view(self._real)
         for variable, place in columns(self._structs["inputs"]):
             if variable.name in first:
                 inputs[:, place] = first[variable.name][:, None]
         starts = [
-            np.ascontiguousarray(by_arm(v, values[v.name], arms), dtype=self._real)
-            if v.name in values
-            else None
+            np.ascontiguousarray(self._of_arms(v, values, arms)) if v.name in values else None
             for v in self.program.given
         ]
         models, states = (
@@ -239,6 +240,10 @@ class NativeBatch:
             *map(_pointer, (inputs, models, states, status)),
         )
         return models, states, status
+
+    def _of_arms(self, variable: Variable, values: Mapping[str, ArrayLike], arms: int) -> Numbers:
+        """Return a parameter or a start in the kernel's numbers, shape (arms, length)."""
+        return numbers(variable.name, by_arm(variable, values[variable.name], arms), self._real)
 
     def _advance(
         self,

@@ -31,7 +31,8 @@ def with_derivatives(program: Program, signals: Mapping[str, Any], step: float) 
     if names is None or not callable(angle := signals.get(names[0])):
         return dict(signals)
     derived = {name: _difference(angle, order, 0.25 * step) for order, name in enumerate(names) if order}
-    return {**derived, **signals}
+    absent = {name: signal for name, signal in derived.items() if name not in signals}
+    return {**signals, **absent}  # behind the angle: what is wrong with it is said of it
 
 
 def _difference(angle: Callable[[Any], Any], order: int, apart: float) -> Callable[[Any], Any]:

@@ -62,7 +62,7 @@ def load_kernel(
     flags: Sequence[str] = FLAGS,
 ) -> NativeKernel:
     """Compile and load what :func:`emit_kernel` has written; see :func:`compile_kernel`."""
-    sources = {**files, "c/harness.c": render("c/harness.c.jinja", name=program.name)}
+    sources = {**files, "c/kernel-harness.c": render("c/harness.c.jinja", name=program.name)}
     handle = ctypes.CDLL(str(compile_library(sources, cc, flags)))
     return NativeKernel(program, Library(program, real_of(scene.emit), handle))
 

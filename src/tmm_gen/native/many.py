@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
@@ -12,6 +13,52 @@ from tmm_gen.emit.c.structs import Struct
 from tmm_gen.program.variables import Variable
 
 Numbers = NDArray[np.floating[Any]]
+
+
+def numbers(name: str, value: object, real: Any = np.float64) -> Numbers:
+    """Return what a user gives under a name as an array.
+
+    Parameters
+    ----------
+    name : str
+        For the message.
+    value : array_like
+        Numbers, integers too; what is beyond the number type becomes infinite.
+    real : type
+        Of the kernel's numbers.
+
+    Raises
+    ------
+    ValueError
+        If these are not real numbers, or there is none.
+    """
+    try:
+        array = np.asarray(value)
+    except (TypeError, ValueError):  # rows of different lengths
+        array = np.asarray(None)
+    if array.dtype.kind not in "biuf":
+        raise ValueError(f"{name} must be a real number or an array of them, not {value!r:.60}")
+    if array.size == 0:
+        raise ValueError(f"{name} has the shape {array.shape}, in which there is no number")
+    with np.errstate(over="ignore"):  # the kernel refuses infinities
+        return array.astype(real, copy=False)
+
+
+def whole(name: str, value: object) -> int:
+    """Return a whole number that is 1 or more.
+
+    Raises
+    ------
+    ValueError
+        If it is not.
+    """
+    try:
+        number = operator.index(value)  # type: ignore[arg-type]
+    except TypeError:
+        number = 0
+    if number < 1:
+        raise ValueError(f"{name} must be a whole number, 1 or more, not {value!r}")
+    return number
 
 
 def require_known(named: Mapping[str, object], known: Sequence[Variable], what: str) -> None:
@@ -66,14 +113,16 @@ def arm_count(
         shape = np.shape(values.get(variable.name, 0.0))
         if len(shape) == (1 if variable.length is None else 2) and shape[-1] > 1:
             found[variable.name] = shape[-1]
-    counts = set(found.values()) | (set() if arms is None else {int(arms)})
+    counts = set(found.values()) | (set() if arms is None else {whole("arms", arms)})
     if len(counts) > 1:
         told = ", ".join(f"{name} is for {number}" for name, number in found.items())
-        raise ValueError(f"how many arms? {told}{'' if arms is None else f', arms = {arms}'}")
-    wanted = counts.pop() if counts else 1
-    if wanted < 1:
-        raise ValueError(f"arms must be 1 or more, not {wanted}")
-    return wanted
+        rows = (
+            "; an input that changes over time has rows, the shape (steps, 1)"
+            if found.keys() & series
+            else ""
+        )
+        raise ValueError(f"how many arms? {told}{'' if arms is None else f', arms = {arms}'}{rows}")
+    return counts.pop() if counts else 1
 
 
 def by_arm(variable: Variable, value: ArrayLike, arms: int) -> Numbers:
@@ -98,7 +147,7 @@ def by_arm(variable: Variable, value: ArrayLike, arms: int) -> Numbers:
     ValueError
         If the shape fits neither the variable nor the arms.
     """
-    array = np.asarray(value, dtype=float)
+    array = numbers(variable.name, value)
     if variable.length is not None and array.ndim == 1:
         array = array[:, None]
     length = variable.length or 1
@@ -107,8 +156,9 @@ def by_arm(variable: Variable, value: ArrayLike, arms: int) -> Numbers:
             return np.broadcast_to(array, (length, arms)).T
         except ValueError:
             pass
+    each = f"; values for each arm have the shape ({length}, arms)" if variable.length else ""
     raise ValueError(
-        f"{variable.name} has the shape {np.shape(value)}, which fits neither {length} values nor {arms} arms"
+        f"{variable.name} has the shape {np.shape(value)}, which fits neither {length} values nor {arms} arms{each}"
     )
 
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from tmm_gen.native.many import Numbers
+from tmm_gen.native.many import Numbers, numbers
 from tmm_gen.program.statements import Program
 
 Signal = ArrayLike | Callable[[float], ArrayLike]
@@ -28,13 +28,15 @@ class SignalStruct(ctypes.Structure):
     )
 
 
-def sampled(program: Program, signal: Signal, steps: int, step: float, real: Any) -> Numbers:
+def sampled(program: Program, name: str, signal: Signal, steps: int, step: float, real: Any) -> Numbers:
     """Return an input at the instants of steps and stages.
 
     Parameters
     ----------
     program : Program
         Whose steps are meant.
+    name : str
+        Of the input.
     signal : array_like or callable
         What a user gives.
     steps : int
@@ -52,33 +54,66 @@ def sampled(program: Program, signal: Signal, steps: int, step: float, real: Any
     Raises
     ------
     ValueError
-        If rows are not as many as steps, or an array has more than two dimensions.
+        If rows are not as many as steps, an array has more than two dimensions, a function gives another number of
+        arms now than before, or something is not a number.
     """
     if callable(signal):
-        return _of_function(program, signal, steps, step, real)
-    values = np.asarray(signal, dtype=real)
+        return _of_function(program, name, signal, steps, step, real)
+    if steps == 0 and np.ndim(signal) == 2:
+        raise ValueError(f"{name} has rows, and there is no step to take: give a number or one for each arm")
+    values = numbers(name, signal, real)
     if values.ndim > 2:
-        raise ValueError(f"an input has {values.ndim} dimensions; it may have two: steps and arms")
+        raise ValueError(f"{name} has {values.ndim} dimensions; it may have two: steps and arms")
     if values.ndim == 2 and values.shape[0] != steps:
-        raise ValueError(f"an input has {values.shape[0]} rows for {steps} steps")
+        raise ValueError(f"{name} has {values.shape[0]} rows for {steps} steps")
+    if any(
+        stride % values.itemsize for stride in values.strides
+    ):  # a field of records: C counts whole numbers
+        values = values.copy()
     return values.reshape((1,) * (2 - values.ndim) + values.shape)[:, None, :]
 
 
 def _of_function(
-    program: Program, signal: Callable[[float], ArrayLike], steps: int, step: float, real: Any
+    program: Program, name: str, signal: Callable[[float], ArrayLike], steps: int, step: float, real: Any
 ) -> Numbers:
     stages = max(len(instants) for instants in program.stage_instants)
-    rows: list[list[Any]] = []
+    rows: list[list[Numbers]] = []
     for index in range(steps):
         instants = program.stage_instants[min(index, len(program.startup))]
-        found = [np.atleast_1d(signal(step * (index + instant))) for instant in instants]
+        found = [_at(name, signal, step * (index + instant), real) for instant in instants]
         rows.append([*found, *found[-1:] * (stages - len(found))])  # a start-up step may have fewer
-    return np.asarray(rows or [[np.atleast_1d(signal(0.0))]], dtype=real)
+    rows = rows or [[_at(name, signal, 0.0, real)]]
+    counts = {found.size for row in rows for found in row} - {1}
+    if len(counts) > 1:
+        raise ValueError(
+            f"{name} is for {' and for '.join(map(str, sorted(counts)))} arms, at different times"
+        )
+    made = np.empty((len(rows), len(rows[0]), counts.pop() if counts else 1), dtype=real)
+    for index, row in enumerate(rows):
+        for stage, now in enumerate(row):
+            made[index, stage] = now
+    return made
 
 
-def at_start(signal: Signal, series: Numbers, arms: int) -> Numbers:
-    """Return an input at time zero for each arm."""
-    now = np.asarray(signal(0.0), dtype=series.dtype) if callable(signal) else series[0, 0]
+def _at(name: str, signal: Callable[[float], ArrayLike], time: float, real: Any) -> Numbers:
+    """Return what a function of time gives, shape (arms or 1,)."""
+    found = numbers(f"{name} at {time:.6g} s", signal(time), real)
+    if found.ndim > 1:
+        raise ValueError(f"{name} gives the shape {found.shape}; it may give a number, or one for each arm")
+    return np.atleast_1d(found)
+
+
+def at_start(name: str, signal: Signal, series: Numbers, arms: int) -> Numbers:
+    """Return an input at time zero for each arm.
+
+    Raises
+    ------
+    ValueError
+        If a function gives another number of arms there.
+    """
+    now = _at(name, signal, 0.0, series.dtype) if callable(signal) else series[0, 0]
+    if now.size not in (1, arms):
+        raise ValueError(f"{name} is for {now.size} arms at its start, and for {arms} later")
     return np.broadcast_to(now, (arms,))
 
 

@@ -57,7 +57,7 @@ class NativeSensitivities:
         if program.sensitivities is None:
             raise ValueError(f"{program.name} has no sensitivities: set emit.sensitivities")
         files = emit_kernel(program, scene)
-        files["c/harness.c"] = render("c/harness.c.jinja", name=program.name)
+        files["c/kernel-harness.c"] = render("c/harness.c.jinja", name=program.name)
         handle = ctypes.CDLL(str(compile_library(files, cc, flags)))
         self._library = Library(program, REALS[scene.emit.real], handle)
         self._function: Any = getattr(handle, f"{program.name}_step_with_sensitivities")
