@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tmm_gen.emit.c.estimate import Estimate, cosine, sine
+from tmm_gen.emit.c.estimate import Estimate, cosine, root, sine
 
 UNIT = 2.0**-53
 numbers = st.floats(0.1, 10.0) | st.floats(-10.0, -0.1)
@@ -74,3 +74,10 @@ def test_samples_are_the_same_every_time() -> None:
         first, second = ((exact(1.1) * exact(2.3) + exact(0.7)).errors for _ in range(2))
     assert np.array_equal(first, second)
     assert np.ptp(first) > 0
+
+
+@pytest.mark.parametrize("number", [2, exact(2.0)], ids=["constant", "estimate"])
+def test_a_root_is_rounded_once_also_that_of_a_constant(number: Any) -> None:
+    found = root(number)
+    assert float(found.value) == math.sqrt(2.0)
+    np.testing.assert_allclose(np.abs(found.errors), math.sqrt(2.0))

@@ -110,8 +110,9 @@ def cosine(angle: Estimate) -> Estimate:
     return _rounded(mpmath.cos(angle.value), -float(mpmath.sin(angle.value)) * angle.errors, 2.0)
 
 
-def root(square: Estimate) -> Estimate:
-    """Return the square root, which is rounded once."""
+def root(number: object) -> Estimate:
+    """Return the square root, which is rounded once; also of a constant, as coefficients of integrators have it."""
+    square = estimate_of(number)
     found = mpmath.sqrt(square.value)
     return _rounded(found, square.errors / (2.0 * float(found)))
 
