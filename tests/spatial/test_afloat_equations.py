@@ -8,8 +8,6 @@ from typing import Any
 import mujoco
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 from support.spatial.afloat import coordinates, random_afloat
 from support.spatial.kernels import HEADED, package_of
 
@@ -54,8 +52,7 @@ def assert_starts(arm: SpatialArm, seed: int) -> None:
         assert abs(getattr(read, name) - value) < 1e-12 * size, name
 
 
-@settings(max_examples=3)
-@given(st.integers(0, 10**6))
+@pytest.mark.parametrize("seed", [7, 106])  # the last has loads on a joint without mass
 def test_start_and_outputs(seed: int) -> None:
     assert_starts(random_afloat(seed, 2), seed)
 

@@ -172,7 +172,7 @@ def bode_picture(
     """
     with style():
         made, axes = figure(8.0, 5.6, nrows=2, sharex=True, gridspec_kw={"height_ratios": [2.0, 1.0]})
-        name = _KINDS[scene.model.kind].format(scene.stations)
+        name = _KINDS[scene.model.kind].format(scene.stations)  # what its curve is called
         curves = [(name, response, PALETTE[0], 1.6, 1.0)]
         if beam is not None:
             curves.insert(0, ("continuous beam", beam, PALETTE[1], 3.4, 0.45))

@@ -151,7 +151,7 @@ class Inertial:
     def _balanced(self) -> tuple[sp.Matrix, list[Line]]:
         """Return the forces at the joint's outer side, and what torque the joint lacks."""
         sheet = Sheet()
-        own = [*OWN_FORCE, *OWN_MOMENT] if self._out.pattern.massive else [sp.Integer(0)] * 6
+        own = [*OWN_FORCE, *OWN_MOMENT] if self._out.pattern.acted else [sp.Integer(0)] * 6
         values = [
             mine + (0 if self._out.pattern.tip else carried) for mine, carried in zip(own, BIAS, strict=True)
         ]

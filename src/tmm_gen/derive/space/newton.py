@@ -110,7 +110,7 @@ class Newton:
         ]
         sheet = Sheet()
         taken = [0 if out.pattern.tip else carried for carried in BIAS]
-        own_forces = [*OWN_FORCE, *OWN_MOMENT] if out.pattern.massive else [sp.Integer(0)] * 6
+        own_forces = [*OWN_FORCE, *OWN_MOMENT] if out.pattern.acted else [sp.Integer(0)] * 6
         bias = sp.Matrix(
             [
                 sheet.named(f"acting_{name}", mine + other)

@@ -157,7 +157,10 @@ def body_force(
         Of the force and of the moment.
     """
     if not pattern.massive:
-        return []
+        unit = {**dict.fromkeys(names[0], "N"), **dict.fromkeys(names[1], "N m")} if pattern.loaded else {}
+        return [
+            Let(symbol, sp.Integer(0), "what acts where nothing has mass", unit[symbol]) for symbol in unit
+        ]
     body = body_equations(body_of(pattern))
     motion = {
         **dict(zip(OMEGA, omega, strict=True)),

@@ -46,6 +46,8 @@ class Pattern:
         Whether its motion is given: on the base, and nothing that it carries changes it.
     driven : bool
         Whether it stands on such a joint.
+    loaded : bool
+        Whether a force or a moment acts on it though nothing there has mass.
     """
 
     axis: int
@@ -58,11 +60,17 @@ class Pattern:
     tip: bool = False
     given: bool = False
     driven: bool = False
+    loaded: bool = False
 
     @property
     def massive(self) -> bool:
         """Whether its body takes any force to move."""
         return self.mass or any(self.inertia)
+
+    @property
+    def acted(self) -> bool:
+        """Whether there is any force to be passed on: what its body takes, or what acts on it."""
+        return self.massive or self.loaded
 
     @property
     def rooted(self) -> bool:

@@ -92,7 +92,13 @@ class Tree:
         gravity = tuple(g != 0.0 for g in self.arm.gravity)
         rests = joint.host == 0 and self.arm.base is None
         found = pattern_of(joint, gravity if rests else (), tip=not self.carried(index))
-        return replace(found, given=bool(joint.given), driven=self.given(self.host(index)))
+        loaded = not found.massive and index in self._loaded
+        return replace(found, given=bool(joint.given), driven=self.given(self.host(index)), loaded=loaded)
+
+    @property
+    def _loaded(self) -> frozenset[int]:
+        """Indices of stations that forces or moments act on."""
+        return frozenset(i.frame.joint - 1 for i in self.arm.inputs if i.frame is not None)
 
     def runs(self) -> tuple[Run, ...]:
         """Return all stations as runs, base to tips."""
