@@ -15,6 +15,7 @@ from tmm_gen.derive.integrators.declaration import Integrator
 from tmm_gen.derive.integrators.parameters import exact
 from tmm_gen.derive.integrators.registry import all_integrators, integrator
 from tmm_gen.derive.integrators.stability import radius_at_infinity, stability_limit
+from tmm_gen.errors import UserError
 
 LINEAR = {method.name: amplification(method.main) for method in all_integrators()}
 UNCONDITIONAL = sorted({*LINEAR} - {"zhou", "zhai"})
@@ -187,3 +188,13 @@ def test_radius_equals_that_of_the_matrix(name: str, omega: float, zeta: float) 
 def test_damping_of_many_digits() -> None:
     """SymPy cannot work exactly with what this damping makes of sdirk2: it is taken with fewer digits then."""
     assert stability_limit(linear("sdirk2"), 8.560935915e-11) == sp.oo
+
+
+@pytest.mark.parametrize("name", sorted(LINEAR))
+def test_absurd_damping_has_a_limit_or_a_sentence(name: str) -> None:
+    """Where numbers of a field are longer than SymPy can tell apart, the remedy that is named works."""
+    try:
+        assert stability_limit(LINEAR[name], 9.796933025e38) >= 0
+    except UserError as error:
+        assert "below 1e6" in str(error)  # noqa: PT017 - a limit is as right
+        assert stability_limit(LINEAR[name], 9.8765432101234e5) >= 0

@@ -12,9 +12,11 @@ from collections.abc import Iterator
 import mpmath
 import sympy as sp
 from sympy.polys.matrices import DomainMatrix
+from sympy.polys.polyerrors import CoercionFailed
 
 from tmm_gen.derive.integrators.amplification import LAMBDA, OMEGA, ZETA, Amplification
 from tmm_gen.derive.integrators.parameters import Number, exact
+from tmm_gen.errors import UserError
 
 _DIGITS = 50
 _FEWER = 5
@@ -30,11 +32,24 @@ def stability_limit(linear: Amplification, zeta: Number = 0) -> sp.Expr:
     -------
     sympy.Expr
         Exact; infinity if there is no limit, zero if motion grows however small the step.
+
+    Raises
+    ------
+    UserError
+        If the damping ratio is so large that its numbers cannot be told apart in an exact field.
     """
-    try:
-        return _limit(at_damping(linear, zeta))
-    except ValueError:  # SymPy's table of prime factors refuses what it has left of some very large integers
-        return _limit(at_damping(linear, float(f"{float(zeta):.{_FEWER}g}")))
+    fewer = float(f"{float(zeta):.{_FEWER}g}")
+    for ratio in (zeta, fewer):
+        try:
+            return _limit(at_damping(linear, ratio))
+        except (ValueError, CoercionFailed):
+            # SymPy's table of prime factors refuses what it has left of some very large integers, and its search for
+            # a number of a field finds none where integers are longer than its digits
+            continue
+    raise UserError(
+        f"no exact limit can be derived at a damping ratio of {float(zeta):.3g}. Lower the damping, or stiffness and "
+        "damping time, until it is below 1e6."
+    )
 
 
 def _limit(polynomial: sp.Poly) -> sp.Expr:
