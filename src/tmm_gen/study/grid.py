@@ -103,5 +103,5 @@ def _usual(scene: Scene, integrator: str, linearisation: str | None) -> int:
     """Return the sweep and corrections, or sweeps, that suit an integrator in space."""
     document = document_of(scene.source)
     assert isinstance(document, SpatialDocument)
-    changes = {"linearisation": linearisation, "iterations": None}
+    changes = {"linearisation": linearisation, "iterations": "auto"}
     return document.model.model_copy(update=changes).settled(integrator).sweeps

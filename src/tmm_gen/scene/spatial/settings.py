@@ -15,6 +15,23 @@ SWEEPS = {"sdirk4": 3}
 """Sweep and corrections that give a method its order with the inertial linearisation; two for the other methods."""
 
 
+class SettledModel(Model):
+    """The model of an arm in space, whose kernels correct as often as suits their integrator.
+
+    Parameters
+    ----------
+    usual : int
+        Sweep and corrections, or sweeps, per stage of a kernel where the scene leaves them open.
+    """
+
+    usual: int
+
+    @property
+    def sweeps(self) -> int:
+        """Sweep and corrections per stage of a kernel."""
+        return self.usual if self.iterations == "auto" else self.iterations
+
+
 class SpatialModel(Model):
     """``[model]`` in space.
 
@@ -24,8 +41,9 @@ class SpatialModel(Model):
         m/s^2 in world axes, which are those of a clamp.
     linearisation : {"inertial", "newton"}
         One symmetric sweep and corrections, or exact sweeps.
-    iterations : int, "auto" or None
-        The sweep and its corrections, or sweeps, per stage; None for as many as suit the integrator.
+    iterations : int or "auto"
+        The sweep and its corrections, or sweeps, per stage. "auto": a simulation corrects as often as it takes, kernels
+        as often as suits the integrator.
     """
 
     kind: Literal["spatial"] = Field(description="family of models", examples=['"spatial"'])
@@ -38,11 +56,11 @@ class SpatialModel(Model):
     linearisation: Literal["inertial", "newton"] = Field(
         default="inertial", description="linearisation", examples=['"inertial"']
     )
-    iterations: Annotated[Count | Literal["auto"] | None, BeforeValidator(sweeps_or_auto)] = Field(  # type: ignore[assignment]
-        default=None,
-        description='sweep and corrections per stage; with "auto", `run` takes as many as it needs',
-        examples=["2"],
-        json_schema_extra={"absent": "2, with sdirk4 3; with newton 1"},
+    iterations: Annotated[Count | Literal["auto"], BeforeValidator(sweeps_or_auto)] = Field(
+        default="auto",
+        description='sweep and corrections per stage; with "auto", `run` takes as many as it needs and kernels 2, with '
+        "sdirk4 3, with newton 1",
+        examples=['"auto"', "2"],
     )
     sweep: Literal["riccati"] = Field(default="riccati", description="sweep", examples=['"riccati"'])
     unknown: Literal["acceleration"] = Field(
@@ -50,13 +68,12 @@ class SpatialModel(Model):
     )
 
     def settled(self, integrator: str) -> Model:
-        """Return it as scenes have it: gravity is the arm's, and iterations are a number or "auto"."""
-        given = self.iterations
-        usual = SWEEPS.get(integrator, 2) if self.linearisation == "inertial" else 1
-        return Model.model_construct(
+        """Return it as scenes have it: gravity is the arm's, and kernels know how often they correct."""
+        return SettledModel.model_construct(
             kind="spatial",
             linearisation=self.linearisation,
-            iterations=usual if given is None else given,
+            iterations=self.iterations,
+            usual=SWEEPS.get(integrator, 2) if self.linearisation == "inertial" else 1,
             unsolved=self.unsolved,
             accuracy=self.accuracy,
         )
