@@ -149,7 +149,8 @@ def test_the_example_scenes_run(scene: str, capsys: pytest.CaptureFixture[str]) 
         (["--csv", "."], "is a directory"),
         (["--backend", "rust"], "'rust' is not one of"),
         (["--until", "1e9"], "takes 100000000000 steps, more than 20000000"),
-        (["--step", "1e-320"], "more than 20000000. Simulate a shorter time"),
+        (["--step", "1e-300"], "more than 20000000. Simulate a shorter time"),
+        (["--step", "1e-320"], "so short that a part of it is no number any more (got 1e-320). Write for"),
         (
             ["--step", "1e-200", "--until", "1e-199", "--set", "model.unknown=displacement"],
             "what it adds is rounded off. Use a step above",

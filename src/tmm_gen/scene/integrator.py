@@ -8,10 +8,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from typing import Annotated
 
-from pydantic import ConfigDict, Field
+from pydantic import AfterValidator, ConfigDict, Field
 
-from tmm_gen.scene.table import Positive, Table
+from tmm_gen.scene.table import Positive, Table, fault
+
+_SHORTEST = 1e-300
+"""s; from there on steps and their parts keep all digits."""
 
 
 @dataclass(frozen=True)
@@ -107,13 +111,22 @@ def underscored(name: str) -> str:
     return name.replace("-", "_")
 
 
+def _divisible(step: float) -> float:
+    """Reject a step that runs cannot divide: what is left of it would be zero."""
+    if step < _SHORTEST:
+        raise fault("is so short that a part of it is no number any more", "Write for example `step = 1e-3`.")
+    return step
+
+
 class IntegratorTable(Table):
     """``[integrator]`` as written; which further keys are allowed depends on the name."""
 
     model_config = ConfigDict(frozen=True, extra="allow")
 
     name: str = Field(description="method of time integration", examples=['"newmark"'])
-    step: Positive = Field(description="time step in s", examples=["0.001"])
+    step: Annotated[Positive, AfterValidator(_divisible)] = Field(
+        description="time step in s", examples=["0.001"]
+    )
 
 
 @dataclass(frozen=True)
