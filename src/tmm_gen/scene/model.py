@@ -36,6 +36,9 @@ class Model(Table):
     iterations : int or "auto"
         Sweeps per stage, or a sweep and its corrections; with ``newton`` and ``inertial`` only. "auto": a simulation
         sweeps as often as it takes, kernels once.
+    corrections : int
+        Of each stage behind its sweeps, of arms in a plane with ``newton``: they carry forces and keep the last
+        sweep's factors.
     unsolved : float, optional
         Most work of what sweeps leave unsolved, as a share of the energy that moves; absent, what the step leaves by
         itself (:mod:`tmm_gen.simulate.tolerance`). With ``newton`` only.
@@ -56,6 +59,11 @@ class Model(Table):
         default="auto",
         description='sweeps per stage; with "auto", `run` takes as many as it needs and kernels take one',
         examples=['"auto"', "2"],
+    )
+    corrections: Annotated[int, Field(ge=0)] = Field(
+        default=0,
+        description="corrections per stage behind its sweeps: less than half a sweep's work each",
+        examples=["1"],
     )
     unsolved: Positive | None = Field(
         default=None,

@@ -78,6 +78,8 @@ class Frame:
         Where nodes have motions of their own: share in which their accelerations follow the unknown as lever arms turn.
     predicted : bool
         Whether slopes are taken at the forces as predicted, instead of those the sweep has found.
+    corrected : bool
+        Whether corrections follow the sweep, which read its factors.
     """
 
     coordinates: tuple[Coordinate, ...]
@@ -89,6 +91,7 @@ class Frame:
     square_slope: sp.Expr = 2 * OUTER["v"]
     followed: sp.Expr | None = None
     predicted: bool = False
+    corrected: bool = False
 
     @property
     def gains(self) -> dict[str, sp.Expr]:

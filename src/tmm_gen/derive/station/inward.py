@@ -2,7 +2,8 @@
 
 Outboard of an element ``f = S k + e``, with ``k`` the changes of motion a sweep solves for. An element with motion
 through it changes ``S`` by congruence, ``A S T + B``; one that gives way in a coordinate by a rank-one update, whose
-force row follows from the element's own law.
+force row follows from the element's own law. A correction takes ``e`` over the same elements again, at new motion and
+with the factors that a sweep has left: pivots, slopes and answers stay.
 """
 
 from __future__ import annotations
@@ -44,6 +45,8 @@ class Inward:
         self.arriving = zero
         """What was known to be zero at the outer side."""
         self.lines: list[Line] = []
+        self.again: list[Line] = []
+        """What a correction repeats: forces alone, with the factors of the sweep."""
         self.ahead: list[Line] = []
         """What known forces need besides motion: of parameters and gains alone."""
         self.known: list[Let] = []
@@ -196,13 +199,13 @@ class Inward:
             Let(ADMITTANCE, 1 / PIVOT, "inverse pivot of each joint"),
         ]
         answers: dict[str, sp.Expr] = {"own": OWN}
-        self.lines.append(
-            Let(
-                OWN,
-                ADMITTANCE * (known - bias if sign > 0 else bias - known),
-                "unknown of a station if its inner side kept its motion",
-            )
+        answer = Let(
+            OWN,
+            ADMITTANCE * (known - bias if sign > 0 else bias - known),
+            "unknown of a station if its inner side kept its motion",
         )
+        self.lines.append(answer)
+        self.again.append(answer)
         for k, name in enumerate(names):
             if k != own and self._s[own, k] != 0:
                 answers[name] = sp.Symbol(f"answer_{name}", real=True)
@@ -222,7 +225,7 @@ class Inward:
                     "share of motion and torque each joint passes on",
                 )
             )
-        if frame.predicted:
+        if frame.predicted or frame.corrected:
             self.columns = {
                 sp.Symbol(f"column_{name}", real=True): self._s[k, own]
                 for k, name in enumerate(names)
@@ -244,6 +247,8 @@ class Inward:
             if i == own:
                 continue
             column = self._s[i, own]
+            if frame.corrected and column != 0:
+                column = sp.Symbol(f"column_{names[i]}", real=True)
             for k, name in enumerate(names):
                 if k == own:
                     impedances[i, k] = column * passes
@@ -322,6 +327,9 @@ class Inward:
                 self._e[i] = _changed(force(row), self._e[i], forces[i], update)
         if update:
             self.lines.append(Update(update))
+        of_forces = {force(row): update[force(row)] for row in c if force(row) in update}
+        if of_forces:
+            self.again.append(Update(of_forces))
 
 
 def _changed(symbol: sp.Symbol, old: sp.Expr, new: sp.Expr, update: dict[sp.Symbol, sp.Expr]) -> sp.Expr:

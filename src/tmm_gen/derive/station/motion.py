@@ -148,7 +148,7 @@ class Outward:
         relative_to = {
             i: self._let(
                 f"relative_{names[i]}",
-                value,
+                self.frame.settled(value),
                 f"acceleration of the outer end against the inner one along {names[i]}",
                 "m/s^2",
             )
@@ -176,7 +176,7 @@ class Outward:
         """Name the change per unknown of what is added, sharing what the coordinates have in common."""
         parts: dict[int, sp.Expr] = dict.fromkeys(added, sp.Integer(0))
         for kind in KINDS:
-            slopes = {i: self.frame.slope(value, kind) for i, value in added.items()}
+            slopes = {i: self.frame.settled(self.frame.slope(value, kind)) for i, value in added.items()}
             written = {
                 i: sp.expand(self.frame.gains[kind] * self.values.written(s)) for i, s in slopes.items()
             }

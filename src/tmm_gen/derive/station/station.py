@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from functools import cache
 
 import sympy as sp
@@ -46,9 +47,15 @@ def recurring(
     return found
 
 
-def ceasing(found: Inward, stations: int) -> tuple[Line, ...]:
-    """Return what must be set to zero between stations of a run: it arrives at the outermost and at no other."""
-    gone = sorted(found.zero - found.arriving, key=str) if stations > 1 else []
+def ceasing(found: Inward, stations: int, carried: Collection[sp.Symbol]) -> tuple[Line, ...]:
+    """Return what must be set to zero between stations of a run: it arrives at the outermost and at no other.
+
+    Parameters
+    ----------
+    carried : collection of sympy.Symbol
+        What is carried at all.
+    """
+    gone = sorted((found.zero - found.arriving) & set(carried), key=str) if stations > 1 else []
     if not found.frame.predicted:
         gone = [s for s in gone if s not in set(map(predicted_force, found.frame.coordinates))]
     return (Update(dict.fromkeys(gone, sp.Integer(0))),) if gone else ()

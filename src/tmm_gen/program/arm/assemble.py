@@ -43,6 +43,8 @@ class Choices:
         What sweeps solve for.
     iterations : int
         Sweeps per stage.
+    corrections : int
+        Behind the sweeps of each stage, with the factors of the last.
     walks : callable
         Makes the walks of a sweep.
     places : bool
@@ -58,6 +60,7 @@ class Choices:
     step: float
     unknown: Unknown = "acceleration"
     iterations: int = 1
+    corrections: int = 0
     walks: MakeWalks = Walks
     places: bool = False
     turns_apart: bool = False
@@ -110,6 +113,7 @@ class Assembly:
                     axis: history_values(kept, lambda v: v.ref) for axis, kept in layout.floating.items()
                 },
                 iterations=self.choices.iterations,
+                corrections=self.choices.corrections,
                 split=self.early.split,
                 walks=self.choices.walks,
             )

@@ -40,14 +40,14 @@ _TURNED = local("turned", "sum of squares of what this sweep changes angles by",
 class AutoStep(StepBuilder):
     """Builds the sections of one scheme's step; fields are those of :class:`StepBuilder`, but iterations."""
 
-    def _swept(self, title: str, walks: Walks, motion: AffineMotion) -> list[Section]:
-        begin = Section(
+    def _swept(self, title: str, begun: Section, walks: Walks, motion: AffineMotion) -> list[Section]:
+        rounds = Section(
             title + f"sweeps, until one changes next to nothing, {MOST_SWEEPS} at most",
             (Repeat(MOST_SWEEPS),),
         )
         sweep = [Section(title + s.title, s.statements) for s in self.split(walks.sections())]
         improve = Section(title + "improved prediction", tuple(self._improve(motion)))
-        return [begin, *sweep, improve, self._judged(title, motion)]
+        return [begun, rounds, *sweep, improve, self._judged(title, motion)]
 
     def _stays(self) -> bool:
         return False

@@ -35,16 +35,19 @@ class Floating:
     scheme : Scheme
     sources : mapping from str to mapping from sympy.Symbol to sympy.Expr
         Where history is read from, by coordinate.
+    held : bool
+        Whether a stage is predicted with the newest acceleration instead of none.
     """
 
     layout: Layout
     scheme: Scheme
     sources: Mapping[str, Mapping[sp.Symbol, sp.Expr]]
+    held: bool = True
 
     def begin(self, index: int) -> list[Statement]:
-        """Predict the acceleration of a stage, counted from 1: that of the instant solved before."""
+        """Predict the acceleration of a stage, counted from 1: that of the instant solved before, or none."""
         motion = affine_motion(self.scheme, index, "acceleration")
-        guess = starting_point(motion, index - 1, self.layout.row.about).values["a"]
+        guess = starting_point(motion, index - 1, self.layout.row.about, held=self.held).values["a"]
         return [Assign(base_acceleration(c), self._written(guess, c)) for c in self._coordinates]
 
     def improve(self) -> list[Statement]:
@@ -85,7 +88,7 @@ class Floating:
         for i in range(len(self.scheme.stages)):
             motion = affine_motion(self.scheme, i + 1, "acceleration")
             offsets |= {(i, kind): motion.offset[kind] for kind in KINDS}
-            guess = starting_point(motion, i, self.layout.row.about).values["a"]
+            guess = starting_point(motion, i, self.layout.row.about, held=self.held).values["a"]
             offsets[i, "a"] = offsets[i, "a"] + guess
         return kept_stage_values(self.scheme, offsets)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection
+from copy import copy
 
 import sympy as sp
 
@@ -45,6 +46,12 @@ class Loads:
     def filled_besides(self, within: Collection[sp.Symbol]) -> list[Statement]:
         """Return the statements that fill the arrays of all other loads on stations."""
         return [s for symbol, fill in self._fill.items() if symbol not in within for s in fill]
+
+    def standing(self) -> Loads:
+        """Return the same loads where their arrays are filled already."""
+        found = copy(self)
+        found._fill = {}
+        return found
 
     def _add(self, load: Load) -> None:
         if all(index is None for index, _ in load.places):

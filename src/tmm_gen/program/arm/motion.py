@@ -28,12 +28,18 @@ class StartingPoint:
         return frozenset(k for k in KINDS if self.values[k] == 0)
 
 
-def starting_point(motion: AffineMotion, index: int, about: str) -> StartingPoint:
-    """Return the motion about which a stage (from 0) is linearised."""
+def starting_point(motion: AffineMotion, index: int, about: str, *, held: bool = True) -> StartingPoint:
+    """Return the motion about which a stage (from 0) is linearised.
+
+    Parameters
+    ----------
+    held : bool
+        Whether a prediction takes the acceleration to be that of the instant solved before; otherwise to be none.
+    """
     values = dict(motion.offset)
     if about == "prediction":
-        # as if the acceleration were that of the instant solved before
-        latest = stage("a", index) if index else past("a")
+        newest = stage("a", index) if index else past("a")
+        latest = newest if held else sp.Integer(0)
         guess = (latest - motion.offset["a"]) / motion.gain["a"]
         values = {k: sp.expand(motion.offset[k] + motion.gain[k] * guess) for k in KINDS}
     return StartingPoint(_short(values, motion))

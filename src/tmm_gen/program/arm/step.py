@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
+from functools import partial
 
 import sympy as sp
 
 from tmm_gen.derive.integrators.declaration import KINDS, STEP, Kind, Scheme, stage
 from tmm_gen.derive.integrators.relations import AffineMotion, Unknown, affine_motion
 from tmm_gen.derive.station.frame import GAINS, Frame
+from tmm_gen.program.arm.correction import Correction
 from tmm_gen.program.arm.floating import Floating
 from tmm_gen.program.arm.layout import Layout
 from tmm_gen.program.arm.loads import Loads
@@ -50,6 +52,8 @@ class StepBuilder:
         The same of the place of a base that floats, by coordinate.
     iterations : int
         Sweeps per stage.
+    corrections : int
+        Behind the last of them, with its factors.
     split : callable
         Takes from a sweep's sections what is bound early.
     walks : callable
@@ -64,6 +68,7 @@ class StepBuilder:
     hub_sources: Mapping[sp.Symbol, sp.Expr]
     base_sources: Mapping[str, Mapping[sp.Symbol, sp.Expr]]
     iterations: int = 1
+    corrections: int = 0
     split: Callable[[list[Section]], list[Section]] = list
     walks: MakeWalks = Walks
 
@@ -71,7 +76,9 @@ class StepBuilder:
         """Return the whole step."""
         count, about = len(self.scheme.stages), self.layout.row.about
         motions = [affine_motion(self.scheme, i + 1, self.unknown) for i in range(count)]
-        points = [starting_point(motion, i, about) for i, motion in enumerate(motions)]
+        points = [
+            starting_point(motion, i, about, held=self._predicts_held) for i, motion in enumerate(motions)
+        ]
         kept = kept_stage_values(
             self.scheme, {(i, k): p.values[k] for i, p in enumerate(points) for k in KINDS}
         )
@@ -80,31 +87,60 @@ class StepBuilder:
             title = f"Stage {index} of {count}: " if count > 1 else ""
             walks = self._walks(index, motion, point)
             before = "predicted motion" if about == "prediction" else "motion known before the sweep"
-            sections.append(Section(title + before, tuple(self._begin(index, motion, point))))
-            sections += self._swept(title, walks, motion)
+            begun = Section(title + before, tuple(self._begin(index, motion, point)))
+            sections += self._swept(title, begun, walks, motion)
             sections.append(self._finish(title, index, motion, point, walks, kept, last=index == count))
         return tuple(s for s in sections if s.statements)
 
-    def _swept(self, title: str, walks: Walks, motion: AffineMotion) -> list[Section]:
-        """Return the sweeps of a stage, each from what the one before has found."""
-        sections: list[Section] = []
-        for iteration in range(self.iterations):
-            again = f"iteration {iteration + 1}: " if self.iterations > 1 else ""
-            sections += [Section(title + again + s.title, s.statements) for s in self.split(walks.sections())]
-            if iteration + 1 < self.iterations:
-                sections.append(Section(title + again + "improved prediction", tuple(self._improve(motion))))
-        return sections
+    def _swept(self, title: str, begun: Section, walks: Walks, motion: AffineMotion) -> list[Section]:
+        """Return the sweeps of a stage, each from what the one before has found, and what corrects the last."""
+        found = [begun]
+        # behind corrections only who sees the whole stage can tell what in it is bound early
+        split = list if self.corrections else self.split
+        for iteration in range(1, self.iterations + 1):
+            last = iteration == self.iterations
+            again = f"iteration {iteration}: " if self.iterations > 1 else ""
+            swept = walks.sections(partial(self._corrected, walks, motion) if last else tuple)
+            found += [Section(title + again + s.title, s.statements) for s in split(swept)]
+            if not last:
+                found.append(Section(title + again + "improved prediction", tuple(self._improve(motion))))
+        return self.split(found) if self.corrections else found
+
+    def _corrected(self, walks: Walks, motion: AffineMotion) -> list[Section]:
+        """Return corrections of what a sweep has found."""
+        found: list[Section] = []
+        still = walks.frame.still
+        for number in range(1, self.corrections + 1):
+            so_far = Section("motion as found so far", tuple(self._improve(motion, still)))
+            sections = (so_far, *Correction(walks, self._all_motion).plain())
+            found += [Section(f"correction {number}: {s.title}", s.statements) for s in sections]
+            still = frozenset()
+        return found
+
+    @property
+    def _predicts_held(self) -> bool:
+        """Whether a stage is predicted with the newest acceleration instead of none.
+
+        A prediction without acceleration forgives long steps, and a correction makes up for it; a sweep alone, and stages
+        that follow others, would lose digits.
+        """
+        return self.corrections == 0 or self.iterations > 1 or len(self.scheme.stages) > 1
+
+    @property
+    def _all_motion(self) -> dict[str, Moving]:
+        return {k: self._motion(k) for k in KINDS}
 
     def _stays(self) -> bool:
         """Whether motion before the sweep stays what it was until the step ends."""
-        return self.iterations == 1
+        return self.iterations == 1 and self.corrections == 0
 
     # -- before the sweep --------------------------------------------------------------------------------------
 
     def _walks(self, index: int, motion: AffineMotion, point: StartingPoint) -> Walks:
         row = self.layout.row
         gain = tuple(motion.gain[k] if motion.gain[k].is_number else GAINS[k] for k in KINDS)
-        frame = Frame(row.coordinates, gain, point.still, row.about, row.sign)
+        still = self._still(point)
+        frame = Frame(row.coordinates, gain, still, row.about, row.sign, corrected=self.corrections > 0)
         gains = {GAINS[k]: self._gain(motion, k) for k in KINDS}
         known = self._moving(index, point)
         stage_of = StageOf(self.scheme, index, motion, self.sources)
@@ -113,8 +149,9 @@ class StepBuilder:
 
     def _moving(self, index: int, point: StartingPoint) -> dict[Kind, Moving]:
         """Return where the motion of nodes before the sweep is held."""
-        found: dict[Kind, Moving] = {k: self._motion(k) for k in KINDS if k not in point.still}
-        if not self._stays() or "a" in point.still or _reads_inner_acceleration(self.layout):
+        still = self._still(point)
+        found: dict[Kind, Moving] = {k: self._motion(k) for k in KINDS if k not in still}
+        if not self._stays() or "a" in still or _reads_inner_acceleration(self.layout):
             return found
         stands = point.values["a"].xreplace(self._values("", self.layout.stations))
         if isinstance(stands, Ref):
@@ -125,6 +162,11 @@ class StepBuilder:
                 base = Loads(self.layout, index - 1).prescribed["a"]
             found["a"] = Held(stands, base)
         return found
+
+    def _still(self, point: StartingPoint) -> frozenset[str]:
+        """Return the kinds of motion that are zero before the sweep, at the base too where stations read it there."""
+        led = self.layout.row.boundary == "prescribed" and _reads_inner_acceleration(self.layout)
+        return frozenset() if led and self.layout.row.about == "prediction" else point.still
 
     def _gain(self, motion: AffineMotion, kind: Kind) -> sp.Expr:
         return motion.gain[kind].xreplace({STEP: self.layout.step.ref})
@@ -163,22 +205,26 @@ class StepBuilder:
 
     @property
     def _floating(self) -> Floating:
-        return Floating(self.layout, self.scheme, self.base_sources)
+        return Floating(self.layout, self.scheme, self.base_sources, held=self._predicts_held)
 
     @property
     def _free(self) -> bool:
         return self.layout.row.boundary == "free"
 
-    def _improve(self, motion: AffineMotion) -> list[Statement]:
+    def _improve(self, motion: AffineMotion, still: Collection[str] = ()) -> list[Statement]:
+        """Take up what a sweep has found; ``still`` is what was zero before it."""
         n = self.layout.stations
         solved, hub = solved_variable(n), hub_unknown()
         body, base = [], []
         for kind in KINDS:
             gain = self._gain(motion, kind)
             ref, entry = self._motion(kind).at(1), self._motion(kind).entry(BASE)
-            body.append(Assign(ref, ref + gain * solved.at()))
-            base.append(Assign(entry, entry + gain * hub))
-        moved = [*self._floating.improve(), *base] if self._free else []
+            began = kind in still
+            body.append(Assign(ref, (0 if began else ref) + gain * solved.at()))
+            base.append(Assign(entry, (0 if began else entry) + gain * hub))
+        moved: list[Statement] = [*self._floating.improve(), *base] if self._free else []
+        if self._held and _reads_inner_acceleration(self.layout):
+            moved = [Assign(self._motion(kind).entry(BASE), sp.Integer(0)) for kind in KINDS if kind in still]
         return [*moved, Loop(Order.OUTWARD, 0, n, tuple(a for a in body if a.value != a.target))]
 
     def _values(self, prefix: str, length: int | None) -> dict[sp.Symbol, sp.Expr]:
@@ -200,7 +246,8 @@ class StepBuilder:
         last: bool,
     ) -> Section:
         n = self.layout.stations
-        links, hub = self._solved_motion(motion, self._moving(index, point), point)
+        moving = self._all_motion if self.corrections else self._moving(index, point)
+        links, hub = self._solved_motion(motion, moving, point)
         statements: list[Statement] = self._found_of_base()
         if not last:
             statements += self._floating.keep(index)

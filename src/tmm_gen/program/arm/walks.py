@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import sympy as sp
 
+from tmm_gen.derive.elements.declaration import Element
 from tmm_gen.derive.integrators.declaration import Scheme
 from tmm_gen.derive.integrators.relations import AffineMotion
 from tmm_gen.derive.station.frame import (
@@ -96,7 +97,7 @@ class Walks:
     ) -> None:
         self.stage = stage
         self.layout, self.frame, self.motion, self.loads = layout, frame, motion, loads
-        self.gains = gains
+        self.gains, self.prepared = gains, prepared
         self.scratch = Scratch(dict(_described(frame)))
         self._parameters = {sp.Symbol(name): v for name, v in {**layout.parameters, **prepared}.items()}
         self.nodes = {
@@ -114,9 +115,10 @@ class Walks:
         self.runs = layout.row.runs(layout.row.swept())
         self._inwards = self._derive()
 
-    def sections(self) -> list[Section]:
-        """Return the whole sweep."""
-        found = [replace(s, statements=tuple(x for x in s.statements if not _empty(x))) for s in self.plain()]
+    def sections(self, then: Callable[[], Iterable[Section]] = tuple) -> list[Section]:
+        """Return the whole sweep, and what follows it: that may read what the sweep has named at each station."""
+        plain = (*self.plain(), *then())
+        found = [replace(s, statements=tuple(x for x in s.statements if not _empty(x))) for s in plain]
         return spread([s for s in found if s.statements], self.scratch, self.layout.stations)
 
     def plain(self) -> list[Section]:
@@ -190,8 +192,8 @@ class Walks:
         }
         along = Binding(self.scratch, {**here.values, **carried, **moving})
         kept = {ref: v.entry for ref, v in zip(carried.values(), self.nodes.values(), strict=True)}
-        for start, stop, elements in self.runs:
-            lets = outward(elements, self.frame).lets
+        for (start, stop, elements), derived in zip(self.runs, self._inwards, strict=True):
+            lets = self.ways_out(elements, derived)
             self.scratch.describe(let for let in lets if let.symbol not in moving)
             at_nodes = _depending(lets, set(carried))
             still = [let for let in lets if let not in at_nodes]
@@ -203,6 +205,11 @@ class Walks:
                 body += [Assign(v.at(1), self.scratch.ref(f"node_{name}")) for name, v in self.nodes.items()]
                 walk.append(self.over(Order.OUTWARD, start, stop, body))
         return [*first, *self._start_nodes(), *walk] if walk else first
+
+    def ways_out(self, elements: tuple[Element, ...], derived: Inward) -> list[Let]:
+        """Return what is computed on the way out over a station."""
+        del derived
+        return outward(elements, self.frame).lets
 
     def _start_nodes(self) -> list[Statement]:
         falls = dict.fromkeys(self.nodes, sp.Integer(0))
@@ -220,9 +227,13 @@ class Walks:
         found: list[Statement] = self.loads.filled(self._driven)
         for (start, stop, _), derived in zip(self.runs, self._inwards, strict=True):
             if derived.known:
-                lines = [*derived.ahead, *derived.known]
+                lines = [*self.ways_ahead(derived), *derived.known]
                 found.append(self.over(Order.OUTWARD, start, stop, here.lines(lines)))
         return found
+
+    def ways_ahead(self, derived: Inward) -> Sequence[Line]:
+        """Return what the forces of joints need of parameters and gains alone."""
+        return derived.ahead
 
     @property
     def _driven(self) -> set[sp.Symbol]:
@@ -242,10 +253,10 @@ class Walks:
             begin = self.tail() if stop == len(row.stations) else {}
             begin |= self._joined(gathered, stop - 1, arriving)
             begin |= dict.fromkeys(arriving - derived.arriving - unread, sp.Integer(0))
-            for symbol in _entries(self.frame):
+            for symbol in self.carried_inward():
                 if symbol in begin:
                     found.append(Assign(self.scratch.ref(symbol.name), begin[symbol]))
-            lines = [*derived.lines, *ceasing(derived, stop - start)]
+            lines = [*self.ways_in(derived), *ceasing(derived, stop - start, self.carried_inward())]
             found.append(self.over(Order.INWARD, start, stop, here.lines(lines)))
             found += gathered.leave(start, self._carried(derived.zero))
         if row.boundary == "free":
@@ -253,13 +264,22 @@ class Walks:
             found += [Assign(self.scratch.ref(s.name), value) for s, value in at_base.items()]
         return found
 
+    def ways_in(self, derived: Inward) -> Sequence[Line]:
+        """Return what is computed on the way in over a station."""
+        return derived.lines
+
+    def carried_inward(self) -> list[sp.Symbol]:
+        """Return what is carried from each station to the next on the way in."""
+        c = self.frame.coordinates
+        return [*(impedance(a, b) for a in c for b in c), *map(force, c), *map(predicted_force, c)]
+
     def over(self, order: Order, start: int, stop: int, body: Sequence[Assign | Require]) -> Loop:
         """Return a loop over a run of stations."""
         return rooted(self.layout.row, Loop(order, start, stop, tuple(body)))
 
     def _carried(self, zero: Collection[sp.Symbol]) -> list[Ref]:
         """Return the scalars of the walk inward that are not known to be zero."""
-        return [self.scratch.ref(s.name) for s in _entries(self.frame) if s not in zero]
+        return [self.scratch.ref(s.name) for s in self.carried_inward() if s not in zero]
 
     def _joined(
         self, gathered: Gathered, station: int, zero: Collection[sp.Symbol]
@@ -271,7 +291,7 @@ class Walks:
         """Return what stands beyond the last station, as forces there."""
         at_tip = self.at_node(self.layout.stations)
         left = composed(self._tail.lines)
-        return {s: at_tip.value(left[s]) for s in _entries(self.frame) if s in left}
+        return {s: at_tip.value(left[s]) for s in self.carried_inward() if s in left}
 
     def base(self) -> list[Statement]:
         """Solve for the unknown of the base."""
@@ -386,11 +406,6 @@ def _depending(lets: list[Let], on: set[sp.Symbol]) -> list[Let]:
             found.append(let)
             reached.add(let.symbol)
     return found
-
-
-def _entries(frame: Frame) -> list[sp.Symbol]:
-    c = frame.coordinates
-    return [*(impedance(a, b) for a in c for b in c), *map(force, c), *map(predicted_force, c)]
 
 
 def _described(frame: Frame) -> dict[str, tuple[str, str]]:
