@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Callable
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -43,14 +44,26 @@ def numbers(_context: click.Context, parameter: click.Parameter, value: str | No
     return tuple(found)
 
 
-def whole_numbers(_context: click.Context, parameter: click.Parameter, value: str | None) -> tuple[int, ...]:
-    """Read positive whole numbers between commas."""
+def whole_numbers(
+    _context: click.Context, parameter: click.Parameter, value: str | None, *, least: int = 1
+) -> tuple[int, ...]:
+    """Read whole numbers between commas, positive or from another least one."""
     found = []
     for word in words(_context, parameter, value):
-        if not word.isdecimal() or int(word) < 1:
-            raise click.BadParameter(f"'{word}' is no positive whole number", param=parameter)
+        if not word.isdecimal() or int(word) < least:
+            what = "positive whole number" if least == 1 else f"whole number from {least}"
+            raise click.BadParameter(f"'{word}' is no {what}", param=parameter)
         found.append(int(word))
     return tuple(found)
+
+
+corrections_option = click.option(
+    "--corrections",
+    metavar="N,N",
+    callback=partial(whole_numbers, least=0),
+    help="Corrections per stage of an arm in a plane, behind its sweeps; by default the scene's.",
+)
+"""What `trade` and `tune` vary of corrections."""
 
 
 def one_of(*choices: str) -> Callable[[click.Context, click.Parameter, str | None], tuple[str, ...]]:
@@ -88,12 +101,18 @@ def axes_of(scene: Scene, options: dict[str, Any]) -> Axes:
         raise UserError("--links: the scene has no [beam] to cut into links; it lists them. Leave it out.")
     if scene.model.linear and (options["linearisations"] or options["iterations"]):
         raise UserError("--linearisations and --iterations: a chain is linear. Leave them out.")
+    if options["corrections"] and not scene.model.in_plane:
+        where = (
+            "a chain is linear. Leave it out" if scene.model.linear else "in space --iterations counts them"
+        )
+        raise UserError(f"--corrections: {where}.")
     return Axes(
         integrators=names,
         steps=options["steps"],
         links=options["links"],
         linearisations=options["linearisations"],
         iterations=options["iterations"],
+        corrections=options["corrections"],
         reals=options["reals"],
         backends=options["backends"],
     )

@@ -12,7 +12,15 @@ from tmm_gen.cli.console import Column, progress, table
 from tmm_gen.cli.given import picture_file, plot_option, positive
 from tmm_gen.cli.kinds import served_scene
 from tmm_gen.cli.outputs import OutputFile, claim, write_outputs
-from tmm_gen.cli.study_options import axes_of, numbers, one_of, one_thread, whole_numbers, words
+from tmm_gen.cli.study_options import (
+    axes_of,
+    corrections_option,
+    numbers,
+    one_of,
+    one_thread,
+    whole_numbers,
+    words,
+)
 from tmm_gen.errors import CheckFailed
 
 if TYPE_CHECKING:
@@ -45,6 +53,7 @@ def grid_options(command: Callable[..., Any]) -> Callable[..., Any]:
             callback=whole_numbers,
             help="Sweeps per stage of an arm, or sweep and corrections; by default the scene's.",
         ),
+        corrections_option,
         click.option(
             "--linearisations",
             metavar="A,B",

@@ -11,7 +11,7 @@ from tmm_gen.cli.console import Column, progress, table
 from tmm_gen.cli.given import positive
 from tmm_gen.cli.kinds import served_scene
 from tmm_gen.cli.outputs import OutputFile, force_option, require_new, write_outputs
-from tmm_gen.cli.study_options import axes_of, one_of, one_thread, whole_numbers, words
+from tmm_gen.cli.study_options import axes_of, corrections_option, one_of, one_thread, whole_numbers, words
 from tmm_gen.errors import UserError
 
 if TYPE_CHECKING:
@@ -48,6 +48,7 @@ if TYPE_CHECKING:
     callback=whole_numbers,
     help="Sweeps per stage, or sweep and corrections; by default the scene's.",
 )
+@corrections_option
 @click.option(
     "--linearisations",
     metavar="A,B",

@@ -31,6 +31,7 @@ def prediction_scene(scene: Scene, calibrate: bool = True) -> Scene:
     A beam cut into few links vibrates too slowly, and a long step slows it down further. The spring at the hub and
     the others are scaled, each by a factor, so that the first two natural frequencies of the straight arm on its
     free hub are those of the continuous beam *when stepped*. Damping stays proportional to stiffness.
+    A step with corrections has no exact derivatives: predictions sweep alone.
 
     Parameters
     ----------
@@ -44,6 +45,7 @@ def prediction_scene(scene: Scene, calibrate: bool = True) -> Scene:
     step = control.sample_time / control.substeps
     changes: dict[str, object] = {"output": SENSORS, "integrator.step": step, "emit.sensitivities": True}
     changes["emit.compensated"] = False  # derivatives are not
+    changes["model.corrections"] = None
     if calibrate and scene.beam is not None:
         first, others = spring_factors(scene, step)
         joints, more = scene.joints, scene.stations - 1

@@ -48,7 +48,9 @@ def terms_of(scene: Scene) -> list[Term]:
         found[1:1] = [_alike_joints(scene), _alike_links(scene)]
     if scene.model.in_plane:
         found = [_gravity(scene), _iterations(scene), *found, *([] if scene.hosts else _tip(scene))]
-        if not scene.emit.sensitivities:  # heat has no derivatives: the two do not go together
+        if not scene.emit.sensitivities:  # neither has derivatives
+            if scene.model.iterates:
+                found.insert(2, _corrections(scene))
             found.append(_heat(scene))
     return [*found, _inputs(scene), _outputs(scene)]
 
@@ -64,6 +66,14 @@ def _iterations(scene: Scene) -> Term:
     why = f"model.iterations = {count}"
     changed = 1 if count > 1 else 2
     return Term("a second sweep in each stage", count > 1, why, lambda s: _with_model(s, iterations=changed))
+
+
+def _corrections(scene: Scene) -> Term:
+    count = scene.model.corrections
+    why = f"model.corrections = {count}" if count else "no model.corrections"
+    changed = count - 1 if count else 1
+    name = f"{'the last' if count > 1 else 'a'} correction in each stage"
+    return Term(name, count > 0, why, lambda s: _with_model(s, corrections=changed))
 
 
 def _joint_damping(scene: Scene) -> Term:

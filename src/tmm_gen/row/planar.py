@@ -111,7 +111,9 @@ def planar_row(scene: Scene, integrator: str) -> Row:
     model = "planar arm, large rotations"
     model += ", gravity" if named["gravity"] else ""
     model += ", tip mass" if named["tip_mass"] else ""
-    iterations = f", {scene.model.sweeps} iterations" if scene.model.sweeps > 1 else ""
+    rounds = f", {scene.model.sweeps} iterations" if scene.model.sweeps > 1 else ""
+    if corrections := scene.model.corrections:
+        rounds += f", {corrections} correction{'s' if corrections > 1 else ''}"
     return Row(
         name=scene.name,
         title=scene.title,
@@ -136,7 +138,7 @@ def planar_row(scene: Scene, integrator: str) -> Row:
         held=_held(scene),
         fall=gravity,
         counts_heat=_counts_heat(scene),
-        facts=facts_of(scene, model, integrator, linearisation=scene.model.linearisation + iterations),
+        facts=facts_of(scene, model, integrator, linearisation=scene.model.linearisation + rounds),
         angles=tuple(scene.initial.angles),
         rates=tuple(scene.initial.rates),
         hosts=tuple(host - 1 for host in scene.hosts),

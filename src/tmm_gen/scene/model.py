@@ -11,6 +11,7 @@ from tmm_gen.scene.table import Count, NonNegative, Positive, Table, fault
 Kind = Literal["chain", "planar", "spatial"]
 Linearisation = Literal["newton", "taylor", "frozen", "inertial"]
 Sweep = Literal["riccati", "product"]
+Rounds = Annotated[int, Field(strict=True, ge=0)]
 Unknown = Literal["acceleration", "increment", "displacement"]
 
 
@@ -60,9 +61,9 @@ class Model(Table):
         description='sweeps per stage; with "auto", `run` takes as many as it needs and kernels take one',
         examples=['"auto"', "2"],
     )
-    corrections: Annotated[int, Field(ge=0)] = Field(
+    corrections: Rounds = Field(
         default=0,
-        description="corrections per stage behind its sweeps: less than half a sweep's work each",
+        description="corrections per stage behind its sweeps, each for less than half the work of a sweep",
         examples=["1"],
     )
     unsolved: Positive | None = Field(

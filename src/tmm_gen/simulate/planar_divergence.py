@@ -111,7 +111,7 @@ def planar_watch(scene: Scene, step: float) -> PlanarWatch:
     base = scene.spatial.base if scene.spatial else None
     rates = (*scene.initial.rates, *([math.hypot(*base.rate)] if base else []))
     fastest = max((abs(rate) for rate in rates), default=0.0)
-    most = START_TURN[scene.model.auto or scene.model.sweeps > 1]
+    most = START_TURN[scene.model.auto or scene.model.sweeps + scene.model.corrections > 1]
     turn = fastest * step
     if turn > most:
         raise TooLongError(

@@ -30,6 +30,8 @@ class Family:
         "float64" or "float32".
     backend : {"c", "numpy"}
         NumPy knows float64 only.
+    corrections : int
+        Per stage behind its sweeps, of an arm in a plane.
     """
 
     integrator: str
@@ -38,6 +40,7 @@ class Family:
     iterations: int
     real: str
     backend: str
+    corrections: int = 0
 
     @property
     def label(self) -> str:
@@ -57,6 +60,8 @@ class Family:
             parts.append(str(self.linearisation))
         if self.iterations > 1:
             parts.append(f"{self.iterations} sweeps")
+        if self.corrections:
+            parts.append(f"{self.corrections} correction{'s' if self.corrections > 1 else ''}")
         if self.real != "float64":
             parts.append(self.real)
         if self.backend != "c":
@@ -69,6 +74,7 @@ class Family:
             "integrator.name": (scene.integrator.name, self.integrator),
             "emit.real": (scene.emit.real, self.real),
             "model.iterations": (self._as_it_would_be(scene), self.iterations),
+            "model.corrections": (scene.model.corrections, self.corrections),
         }
         if scene.emit.compensated and self.real == "float64":
             wanted["emit.compensated"] = (True, False)
@@ -124,5 +130,6 @@ def own(scene: Scene) -> Configuration:
         iterations=scene.model.sweeps,
         real=scene.emit.real,
         backend="c",
+        corrections=scene.model.corrections,
     )
     return Configuration(family, scene.integrator.step)

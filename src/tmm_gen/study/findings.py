@@ -158,8 +158,7 @@ def findings(study: Study, levels: Sequence[float] = LEVELS) -> tuple[Finding, .
     alike = [
         (family, points)
         for family, points in by_family(study.points)
-        if (family.links, family.linearisation, family.iterations, family.real, family.backend)
-        == (mine.links, mine.linearisation, mine.iterations, mine.real, mine.backend)
+        if replace(family, integrator=mine.integrator) == mine
     ]
     tried = any(family.integrator == BASELINE for family, _ in alike)
     found = []

@@ -33,6 +33,8 @@ class Axes:
         Of an arm.
     iterations : tuple of int
         Sweeps per stage, with linearisation "newton"; sweep and corrections with "inertial".
+    corrections : tuple of int
+        Per stage behind its sweeps, of an arm in a plane with linearisation "newton".
     reals : tuple of str
         "float64", "float32".
     backends : tuple of str
@@ -44,6 +46,7 @@ class Axes:
     links: tuple[int, ...] = ()
     linearisations: tuple[str, ...] = ()
     iterations: tuple[int, ...] = ()
+    corrections: tuple[int, ...] = ()
     reals: tuple[str, ...] = ()
     backends: tuple[str, ...] = ()
 
@@ -80,17 +83,19 @@ def families(scene: Scene, axes: Axes) -> tuple[Family, ...]:
         axes.links or (mine.links,),
         axes.linearisations or (mine.linearisation,),
         fixed or (None,),
+        axes.corrections or (mine.corrections,),
         axes.reals or (mine.real,),
         axes.backends or (mine.backend,),
     )
     found = []
-    for integrator, links, linearisation, iterations, real, backend in choices:
+    for integrator, links, linearisation, iterations, corrections, real, backend in choices:
         if iterations is None:
             iterations = _usual(scene, integrator, linearisation)
         # only Newton's linearisation sweeps again, and that in space corrects; NumPy has one number type
         sweeps = iterations if linearisation in ("newton", "inertial") else 1
         number = real if backend == "c" else "float64"
-        found.append(Family(integrator, links, linearisation, sweeps, number, backend))
+        more = corrections if linearisation == "newton" else 0
+        found.append(Family(integrator, links, linearisation, sweeps, number, backend, more))
     return tuple(dict.fromkeys(found))
 
 

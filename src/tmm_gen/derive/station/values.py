@@ -65,7 +65,7 @@ class Values:
             if ratio is None:
                 continue
             found = ratio * symbol
-            if best is None or sp.count_ops(found) < sp.count_ops(best):
+            if best is None or _price(found) < _price(best):
                 best = found
         return best
 
@@ -92,6 +92,11 @@ class Values:
                     terms = (terms - parts) | {ratio * symbol}
             full = sp.Add(*terms)
         return full
+
+
+def _price(value: sp.Expr) -> int:
+    """Count operations; a change of sign is none."""
+    return int(sp.count_ops(value)) - bool(value.could_extract_minus_sign())
 
 
 def _ratio(full: sp.Expr, known: sp.Expr) -> sp.Expr | None:

@@ -7,7 +7,7 @@ as much as ``A`` has changed in between.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import sympy as sp
@@ -42,7 +42,7 @@ class Correction(Walks):
         As the sweep has found it.
     """
 
-    def __init__(self, sweep: Walks, motion: dict[str, Moving]) -> None:
+    def __init__(self, sweep: Walks, motion: Mapping[str, Moving]) -> None:
         frame = replace(sweep.frame, still=frozenset())
         super().__init__(
             sweep.layout, sweep.prepared, frame, sweep.gains, motion, sweep.loads.standing(), sweep.stage

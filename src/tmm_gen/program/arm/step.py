@@ -112,7 +112,7 @@ class StepBuilder:
         still = walks.frame.still
         for number in range(1, self.corrections + 1):
             so_far = Section("motion as found so far", tuple(self._improve(motion, still)))
-            sections = (so_far, *Correction(walks, self._all_motion).plain())
+            sections = (so_far, *Correction(walks, {k: self._motion(k) for k in KINDS}).plain())
             found += [Section(f"correction {number}: {s.title}", s.statements) for s in sections]
             still = frozenset()
         return found
@@ -121,14 +121,10 @@ class StepBuilder:
     def _predicts_held(self) -> bool:
         """Whether a stage is predicted with the newest acceleration instead of none.
 
-        A prediction without acceleration forgives long steps, and a correction makes up for it; a sweep alone, and stages
-        that follow others, would lose digits.
+        A prediction without acceleration forgives long steps, and a correction makes up for it; a sweep alone, and
+        stages that follow others, would lose digits.
         """
         return self.corrections == 0 or self.iterations > 1 or len(self.scheme.stages) > 1
-
-    @property
-    def _all_motion(self) -> dict[str, Moving]:
-        return {k: self._motion(k) for k in KINDS}
 
     def _stays(self) -> bool:
         """Whether motion before the sweep stays what it was until the step ends."""
@@ -246,7 +242,9 @@ class StepBuilder:
         last: bool,
     ) -> Section:
         n = self.layout.stations
-        moving = self._all_motion if self.corrections else self._moving(index, point)
+        moving = self._moving(index, point)
+        if self.corrections:
+            moving = {k: self._motion(k) for k in KINDS}
         links, hub = self._solved_motion(motion, moving, point)
         statements: list[Statement] = self._found_of_base()
         if not last:

@@ -25,6 +25,7 @@ from tmm_gen.scene.rules.emission import (
     box_names,
     budget_not_empty,
     compensated_suits,
+    corrections_without_sensitivities,
     real_is_used,
 )
 from tmm_gen.scene.rules.floating import floating_base
@@ -64,6 +65,7 @@ RULES: tuple[Rule, ...] = (
     outputs_possible,
     real_is_used,
     bound_without_sensitivities,
+    corrections_without_sensitivities,
     budget_not_empty,
     compensated_suits,
     batch_suits,
@@ -87,6 +89,7 @@ _ALL: tuple[Rule, ...] = (
     prescribed_motion,
     real_is_used,
     bound_without_sensitivities,
+    corrections_without_sensitivities,
     budget_not_empty,
     compensated_suits,
     batch_suits,

@@ -52,6 +52,19 @@ def bound_without_sensitivities(document: Document) -> Iterator[Finding]:
         )
 
 
+def corrections_without_sensitivities(document: Document) -> Iterator[Finding]:
+    """Find derivatives asked of a step with corrections: they would be those of factors too."""
+    corrections = document.model.corrections
+    if corrections and document.emit.sensitivities:
+        rounds = document.model.sweeps + corrections
+        yield Finding(
+            ("model", "corrections"),
+            "and emit.sensitivities exclude each other: a step with corrections has no exact derivatives yet",
+            f"Write `iterations = {rounds}` in their place, or remove sensitivities.",
+            corrections,
+        )
+
+
 def compensated_suits(document: Document) -> Iterator[Finding]:
     """Find sums of two numbers asked for where they are of no use, or not to be had."""
     emit, key = document.emit, ("emit", "compensated")

@@ -30,7 +30,7 @@ def kind_keys(document: Document) -> Iterator[Finding]:
 
 def _planar_keys_in_chain(document: Document) -> Iterator[Finding]:
     model = document.model
-    for key in ("gravity", "linearisation", "iterations", "unsolved"):
+    for key in ("gravity", "linearisation", "iterations", "corrections", "unsolved"):
         if key in model.model_fields_set:
             yield Finding(
                 ("model", key),
@@ -64,7 +64,7 @@ def newton_keys(document: Document) -> Iterator[Finding]:
     model = document.model
     if model.kind != "planar" or model.linearisation == "newton":
         return
-    for key in ("iterations", "unsolved"):
+    for key in ("iterations", "corrections", "unsolved"):
         if key in model.model_fields_set:
             yield Finding(
                 ("model", key),

@@ -32,6 +32,15 @@ class SettledModel(Model):
         return self.usual if self.iterations == "auto" else self.iterations
 
 
+def corrections_counted(value: object) -> object:
+    """Reject a key of planar arms: in space another one counts corrections."""
+    more = value if isinstance(value, int) and not isinstance(value, bool) and value >= 0 else 1
+    raise fault(
+        "is for arms in a plane: in space `iterations` counts the sweep and its corrections",
+        f"Remove it, and write `iterations = {more + 1}`.",
+    )
+
+
 class SpatialModel(Model):
     """``[model]`` in space.
 
@@ -61,6 +70,9 @@ class SpatialModel(Model):
         description='sweep and corrections per stage; with "auto", `run` takes as many as it needs and kernels 2, with '
         "sdirk4 3, with newton 1",
         examples=['"auto"', "2"],
+    )
+    corrections: Annotated[int, BeforeValidator(corrections_counted)] = Field(
+        default=0, json_schema_extra={"hidden": True}
     )
     sweep: Literal["riccati"] = Field(default="riccati", description="sweep", examples=['"riccati"'])
     unknown: Literal["acceleration"] = Field(
