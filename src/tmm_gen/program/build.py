@@ -106,7 +106,7 @@ def build_unchecked(scene: Scene, chosen: Integrator, *, auto: bool = False) -> 
             step=scene.integrator.step,
             unknown=scene.model.unknown,
             iterations=scene.model.sweeps,
-            corrections=scene.model.corrections,
+            corrections=0 if auto else scene.model.corrections,
             walks=_walks(scene, row, derived=derived),
             places=scene.model.linearisation != "newton",
             # behind gears a turn of the hub is another angle: those of such chains grow as they turn

@@ -66,7 +66,7 @@ def execute(
         If a required pivot is not positive and finite.
     """
     for variable in routine.written():
-        if key(variable) not in values:
+        if key(variable) not in values or _misfits(values[key(variable)], variable):
             values[key(variable)] = (
                 number(0.0) if variable.length is None else [number(0.0)] * variable.length
             )
@@ -133,6 +133,11 @@ def _function(value: sp.Expr, modules: Any) -> _Function:
             _SHAPES[shape] = sp.lambdify(names, plain, modules=handed)
         _FUNCTIONS[expression] = [(key(ref.variable), ref) for ref in refs], _SHAPES[shape]
     return _FUNCTIONS[expression]
+
+
+def _misfits(held: Any, variable: Variable) -> bool:
+    """Whether what is held under a variable's name is scratch of another routine, and of another shape."""
+    return variable.role is Role.WORK and not isinstance(held, list)
 
 
 def _read(values: Mapping[str, Any], name: str, ref: Ref, j: int | None) -> Any:
