@@ -75,6 +75,23 @@ def test_steps_are_those_of_lagranges_equations(
         assert abs(half[column] - values[0]) < 10.0 * own, column
 
 
+@pytest.mark.parametrize(
+    ("seed", "count", "floating"),
+    [(3, 3, True), (15, 4, False)],  # the second has an elastic gear where a branch begins
+)
+def test_corrections_end_where_sweeps_end(
+    seed: int, count: int, floating: bool, drawn: Callable[..., Scene]
+) -> None:
+    arm = {"step": 5e-4, "branching": True, "floating": floating}
+    steps = []
+    for rounds in ({"iterations": 4}, {"corrections": 4}):
+        scene = drawn(seed, count, **arm, **rounds)
+        program = build_program(scene)
+        module = numpy_module(scene, program)
+        steps.append(numpy_step(module, program))
+    assert largest_difference(*steps, list(reached_vectors(module, program, 3))) < 1e-10
+
+
 def ended(kernel: NativeKernel, scene: Scene, signals: dict[str, Sine], step: float) -> dict[str, float]:
     """Return the outputs of the compiled kernel at the end."""
     moving = kernel_signals(scene, signals)

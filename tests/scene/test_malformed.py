@@ -90,6 +90,7 @@ STATIONS = [
     Case("mass in a chain", "= 1.0", "= 1.0\nmass = 3.0", 22, "link[1].mass", 3.0, "planar", "inertia"),
     Case("gravity in a chain", '"chain"', '"chain"\ngravity = 9.81', 6, "model.gravity", 9.81, "Remove it"),
     Case("newton in a chain", '"chain"', '"chain"\niterations = 2', 6, "model.iterations", 2, "Remove it"),
+    Case("corrected chain", '"chain"', '"chain"\ncorrections = 1', 6, "model.corrections", 1, "Remove it"),
     Case("tip in a chain", "[base]", "[tip]\nmass = 1\n[base]", 13, "tip", None, "last [[link]]"),
     Case(
         "too few angles",

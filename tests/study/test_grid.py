@@ -35,6 +35,17 @@ def test_sweeps_belong_to_newton_and_float32_to_c(arm: Scene) -> None:
     assert {each.real for each in found if each.backend == "numpy"} == {"float64"}
 
 
+def test_corrections_belong_to_newton(arm: Scene) -> None:
+    axes = Axes(
+        integrators=("newmark",), linearisations=("newton", "taylor"), corrections=(0, 1), steps=(0.01,)
+    )
+    grid = configurations(arm, axes, 1.0)
+    tried = [(each.family.linearisation, each.family.corrections) for each in grid]
+    assert tried[:3] == [("newton", 0), ("newton", 1), ("taylor", 0)]
+    assert grid[1].family.label == "newmark, 3 links, 1 correction"
+    assert grid[1].apply(arm).model.corrections == 1
+
+
 def test_a_configuration_is_the_scene_with_its_keys_changed(arm: Scene) -> None:
     axes = Axes(integrators=("sdirk4",), steps=(0.01,), links=(5,), iterations=(2,), reals=("float32",))
     changed = configurations(arm, axes, 1.0)[0].apply(arm)
