@@ -9,10 +9,12 @@ from typing import Any
 import numpy as np
 import pytest
 
+from tmm_gen.control.prediction import prediction_scene
 from tmm_gen.native import NativeKernel
 from tmm_gen.native.python_module import casadi_module, numpy_module
 from tmm_gen.program.build import build_program
-from tmm_gen.scene import Scene, SceneError
+from tmm_gen.scene import Scene, SceneError, parse_scene
+from tmm_gen.scene.template import template
 from tmm_gen.verify.agreement import (
     casadi_step,
     largest_difference,
@@ -84,6 +86,16 @@ def test_what_has_none_says_so(changes: dict[str, Any], said: str, falling: Call
         falling(2, **{"model.corrections": 1, **changes})
     instead = {"model.iterations": 2} if "emit.sensitivities" in changes else {}
     falling(2, **changes, **instead)
+
+
+def test_controllers_predict_by_sweeps_alone() -> None:
+    text = template("steered", "planar", control=True).replace(
+        'kind = "planar"', 'kind = "planar"\ncorrections = 1', 1
+    )
+    scene = parse_scene(text)
+    predicted = prediction_scene(scene, calibrate=False)
+    assert (scene.model.corrections, predicted.model.corrections) == (1, 0)
+    assert predicted.emit.sensitivities
 
 
 def test_runs_that_sweep_as_often_as_it_takes_do_without(falling: Callable[..., Scene]) -> None:

@@ -102,10 +102,11 @@ def axes_of(scene: Scene, options: dict[str, Any]) -> Axes:
     if scene.model.linear and (options["linearisations"] or options["iterations"]):
         raise UserError("--linearisations and --iterations: a chain is linear. Leave them out.")
     if options["corrections"] and not scene.model.in_plane:
-        where = (
-            "a chain is linear. Leave it out" if scene.model.linear else "in space --iterations counts them"
+        raise UserError(
+            "--corrections: a chain is linear. Leave it out."
+            if scene.model.linear
+            else "--corrections: in space --iterations counts a sweep and its corrections. Write --iterations 1,2."
         )
-        raise UserError(f"--corrections: {where}.")
     return Axes(
         integrators=names,
         steps=options["steps"],

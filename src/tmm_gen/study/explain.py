@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from tmm_gen.study.configuration import own
 from tmm_gen.study.findings import time_text
 from tmm_gen.study.point import Point
@@ -124,7 +126,7 @@ def _total(tuning: Tuning) -> float:
 def _label(tuning: Tuning, point: Point) -> str:
     """Name a configuration by what of it differs from the scene."""
     family, mine = point.configuration.family, own(tuning.scene).family
-    return family.integrator if (family.links, family.real) == (mine.links, mine.real) else family.label
+    return family.integrator if replace(family, integrator=mine.integrator) == mine else family.label
 
 
 def _error(tuning: Tuning, relative: float | None) -> str:
