@@ -29,7 +29,12 @@ TIP = {"name": "tip", "at": "tip", "of": "position"}
 @pytest.mark.parametrize("base", ["motor", "prescribed"])
 def test_they_end_where_sweeps_end(base: str, unlike: Callable[..., Scene]) -> None:
     scene = unlike(base, 2, step=0.01, iterations=1).replace(output=[TIP])
-    changes = ({"model.iterations": 5}, {"model.corrections": 6}, {"model.corrections": 1}, {})
+    changes = (
+        {"model.iterations": 5},
+        {"model.iterations": 2, "model.corrections": 4},
+        {"model.corrections": 1},
+        {},
+    )
     scenes = [scene.replace(**each) for each in changes]
     programs = [build_program(each) for each in scenes]
     modules = [numpy_module(*pair) for pair in zip(scenes, programs, strict=True)]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 import sympy as sp
@@ -94,26 +94,28 @@ class StepBuilder:
 
     def _swept(self, title: str, begun: Section, walks: Walks, motion: AffineMotion) -> list[Section]:
         """Return the sweeps of a stage, each from what the one before has found, and what corrects the last."""
+        if self.corrections:  # only who sees the whole stage can tell what in it is bound early
+            swept = walks.sections(partial(self._corrected, walks, motion))
+            return self.split([begun, *(replace(s, title=title + s.title) for s in swept)])
         found = [begun]
-        # behind corrections only who sees the whole stage can tell what in it is bound early
-        split = list if self.corrections else self.split
         for iteration in range(1, self.iterations + 1):
-            last = iteration == self.iterations
             again = f"iteration {iteration}: " if self.iterations > 1 else ""
-            swept = walks.sections(partial(self._corrected, walks, motion) if last else tuple)
-            found += [Section(title + again + s.title, s.statements) for s in split(swept)]
-            if not last:
+            found += [Section(title + again + s.title, s.statements) for s in self.split(walks.sections())]
+            if iteration < self.iterations:
                 found.append(Section(title + again + "improved prediction", tuple(self._improve(motion))))
-        return self.split(found) if self.corrections else found
+        return found
 
     def _corrected(self, walks: Walks, motion: AffineMotion) -> list[Section]:
-        """Return corrections of what a sweep has found."""
+        """Return what follows a stage's first sweep: further ones, and corrections of what the last has found."""
         found: list[Section] = []
         still = walks.frame.still
-        for number in range(1, self.corrections + 1):
+        again = [f"iteration {k}" for k in range(2, self.iterations + 1)]
+        for word in (*again, *(f"correction {k}" for k in range(1, self.corrections + 1))):
+            next_walks = walks
+            if word not in again:
+                next_walks = Correction(walks, {k: self._motion(k) for k in KINDS})
             so_far = Section("motion as found so far", tuple(self._improve(motion, still)))
-            sections = (so_far, *Correction(walks, {k: self._motion(k) for k in KINDS}).plain())
-            found += [Section(f"correction {number}: {s.title}", s.statements) for s in sections]
+            found += [replace(s, title=f"{word}: {s.title}") for s in (so_far, *next_walks.plain())]
             still = frozenset()
         return found
 
