@@ -109,6 +109,14 @@ CASES = {
         '`iterations = "auto"`',
         ("iterations = 0", 'iterations = "auto"'),
     ),
+    "corrections": Case(
+        "gravity",
+        "corrections = 1\ngravity",
+        "model.corrections",
+        "is for arms in a plane: in space `iterations` counts the sweep and its corrections",
+        "write `iterations = 2`",
+        ("corrections = 1", "iterations = 2"),
+    ),
     "product sweep": Case(
         "gravity",
         'sweep = "product"\ngravity',
