@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from tmm_gen.backends import OWN, backend_named, backend_names
+from tmm_gen.backends import OWN, USUAL, backend_named, backend_names
 
 SCENES = Path(__file__).resolve().parents[1] / "scenes"
 
@@ -42,7 +42,8 @@ def test_every_backend_of_ours_has_an_emitter(each) -> None:  # type: ignore[no-
 
 
 def test_there_is_no_other() -> None:
-    assert backend_names()[:3] == ("numpy", "c", "casadi")
+    assert backend_names()[:4] == ("numpy", "c", "casadi", "jax")
+    assert [name for name in backend_names() if name in USUAL] == list(USUAL)
     assert backend_named("nupy") is None
 
 

@@ -20,8 +20,12 @@ OWN: tuple[EntryPoint, ...] = (
     EntryPoint("numpy", "tmm_gen.emit.numpy:emit_numpy", GROUP),
     EntryPoint("c", "tmm_gen.emit.c:emit_c", GROUP),
     EntryPoint("casadi", "tmm_gen.emit.casadi:emit_casadi", GROUP),
+    EntryPoint("jax", "tmm_gen.emit.jax:emit_jax", GROUP),
 )
 """Backends that come with tmm-gen, in the order in which scenes list them."""
+
+USUAL = ("numpy", "c", "casadi")
+"""Those that are written for a scene that names none."""
 
 
 def backend_named(name: str) -> EntryPoint | None:

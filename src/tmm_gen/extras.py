@@ -14,6 +14,8 @@ _EXTRAS = {
     "study": ("distributed", "Dask", ("dask", "distributed")),
     "fmu": ("fmpy", "FMPy", ("fmpy",)),
     "mpc": ("daqp", "DAQP", ("cma", "daqp")),
+    "jax": ("jax", "JAX", ("jax>=0.10",)),
+    "cuda": ("nvidia.cuda_nvrtc", "NVRTC", ("nvidia-cuda-nvrtc-cu12>=12.4",)),
 }
 """By extra: a module of it, its name in words, and its packages where tmm-gen's own metadata is not at hand."""
 

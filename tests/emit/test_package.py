@@ -21,6 +21,7 @@ SCENES = ROOT / "scenes"
 PYTHON = {
     "numpy": {"__init__.py", "kernel.py"},
     "casadi": {"casadi_model.py"},
+    "jax": {"jax_kernel.py"},
 }
 
 
@@ -29,7 +30,9 @@ def thesis2() -> Scene:
     return load_scene(SCENES / "thesis2.toml")
 
 
-@pytest.mark.parametrize("backends", [["numpy"], ["casadi"], ["numpy", "casadi"], ["numpy", "c", "casadi"]])
+@pytest.mark.parametrize(
+    "backends", [["numpy"], ["casadi"], ["numpy", "casadi"], ["numpy", "c", "casadi"], ["jax", "numpy"]]
+)
 def test_a_package_has_the_backends_asked_for(thesis2: Scene, backends: list[str]) -> None:
     files = emit_package(thesis2.replace(**{"emit.backends": backends}))
     python = {path for path in files if not path.startswith("c/")}
@@ -75,7 +78,7 @@ def printed(tmp_path_factory: pytest.TempPathFactory) -> Path:
     scenes["odd"] = drivetrain.replace(**odd)
     scenes["hundred"] = load_scene(SCENES / "hundred.toml")
     for name, scene in scenes.items():
-        for path, text in emit_package(scene.replace(emit={"backends": ["numpy", "casadi"]})).items():
+        for path, text in emit_package(scene.replace(emit={"backends": ["numpy", "casadi", "jax"]})).items():
             (folder / name).mkdir(exist_ok=True)
             (folder / name / path).write_text(text, encoding="utf-8")
     return folder
@@ -119,7 +122,7 @@ def test_a_linter_finds_nothing(printed: Path) -> None:
 @pytest.mark.parametrize("name", ["houbolt", "bathe", "odd", "planar_stages"])
 def test_a_checker_of_types_finds_nothing(printed: Path, name: str, tmp_path: Path) -> None:
     settings = tmp_path / "mypy.ini"
-    settings.write_text("[mypy]\nstrict = True\n[mypy-casadi.*]\nignore_missing_imports = True\n")
+    settings.write_text("[mypy]\nstrict = True\n[mypy-casadi.*,jax.*]\nignore_missing_imports = True\n")
     command = [
         sys.executable,
         "-m",

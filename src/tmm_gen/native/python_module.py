@@ -8,6 +8,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
+from tmm_gen.extras import extra
 from tmm_gen.scene import Scene
 from tmm_gen.scratch import scratch_folder
 
@@ -64,6 +65,35 @@ def casadi_module(scene: Scene, program: Any = None) -> ModuleType:
 
     (text,) = emit_casadi(program or build_program(scene), scene).values()
     return import_package({"__init__.py": text}, f"{scene.name}_casadi")
+
+
+def jax_module(scene: Scene, program: Any = None) -> ModuleType:
+    """Generate a scene's JAX module and import it.
+
+    Parameters
+    ----------
+    scene : Scene
+        What to generate.
+    program : Program, optional
+        That of the scene, if it is built already.
+
+    Returns
+    -------
+    module
+        With the generated functions ``prepare``, ``initialise``, ``step``, ``output``, ``simulate`` and what
+        they take.
+
+    Raises
+    ------
+    UserError
+        If JAX is not installed, or the scene asks for something that does not exist.
+    """
+    from tmm_gen.emit.jax import emit_jax  # loads SymPy and Jinja2
+    from tmm_gen.program.build import build_program
+
+    extra("jax", "a kernel in JAX")
+    (text,) = emit_jax(program or build_program(scene), scene).values()
+    return import_package({"__init__.py": text}, f"{scene.name}_jax")
 
 
 def import_package(files: dict[str, str], name: str) -> ModuleType:

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import AfterValidator, Field, PlainValidator
 
-from tmm_gen.backends import OWN, backend_named, backend_names
+from tmm_gen.backends import OWN, USUAL, backend_named, backend_names
 from tmm_gen.scene.table import Count, Table, closest, fault, is_finite_number
 
 
@@ -67,7 +67,7 @@ class Emit(Table):
     ----------
     backends : tuple of str
         Names of installed backends, each at most once: "numpy", "c", "casadi" in this order, which are the default,
-        then those of other packages.
+        then "jax" and those of other packages.
     real : {"float64", "float32"}
         Number type of the C code.
     sensitivities : bool
@@ -90,7 +90,7 @@ class Emit(Table):
     """
 
     backends: Annotated[tuple[Backend, ...], AfterValidator(_distinct)] = Field(
-        default=tuple(each.name for each in OWN),
+        default=USUAL,
         description="languages",
         examples=['["numpy", "c", "casadi"]'],
     )

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from tmm_gen.emit.header import header_lines
-from tmm_gen.emit.numpy.fields import given_argument, input_field, parameter_field, value_field
 from tmm_gen.emit.numpy.functions import RESERVED, Functions
+from tmm_gen.emit.python.fields import given_argument, input_field, parameter_field, value_field
 from tmm_gen.emit.python.lines import comments, listing, prose, text
 from tmm_gen.emit.python.names import Names
 from tmm_gen.emit.seal import sealed

@@ -33,6 +33,7 @@ class Names:
                 name += "_"
             taken.add(name)
             self._names[variable] = name
+        self._taken = frozenset(taken)
         if program.sensitivities is not None:
             for variable, change in zip(program.inputs, program.sensitivities.inputs, strict=True):
                 self._names[change] = self._names[variable]
@@ -42,6 +43,13 @@ class Names:
     def __getitem__(self, variable: Variable) -> str:
         """Return the name of a variable."""
         return self._names.get(variable, variable.name)
+
+    def beside(self, variable: Variable, word: str) -> str:
+        """Return a name for something of a variable that no variable has."""
+        name = f"{self[variable]}_{word}"
+        while name in self._taken:
+            name += "_"
+        return name
 
 
 def _variables(program: Program) -> set[Variable]:

@@ -9,6 +9,8 @@ from tmm_gen.emit.runs import python_items
 from tmm_gen.program.variables import Variable
 
 _INDENT = "    "
+BATCH = "*batch"
+"""The axes of many arms, as NumPy's kernels have them behind all others."""
 
 
 @dataclass(frozen=True)
@@ -33,27 +35,29 @@ class Field:
     default: str = ""
 
 
-def parameter_field(variable: Variable) -> Field:
+def parameter_field(variable: Variable, axes: str = BATCH) -> Field:
     """Return a field of the physical parameters, with the scene's default."""
-    return Field(variable.name, _with_default(variable, "ArrayLike"), _doc(variable, "array_like"))
+    return Field(variable.name, _with_default(variable, "ArrayLike"), _doc(variable, "array_like", axes))
 
 
-def value_field(variable: Variable) -> Field:
+def value_field(variable: Variable, axes: str = BATCH) -> Field:
     """Return a field of the model, the state or the outputs, which has no default."""
-    return Field(variable.name, f"{_INDENT}{variable.name}: Array", _doc(variable, "array"))
+    return Field(variable.name, f"{_INDENT}{variable.name}: Array", _doc(variable, "array", axes))
 
 
-def input_field(variable: Variable) -> Field:
+def input_field(variable: Variable, axes: str = BATCH) -> Field:
     """Return a field of the inputs, zero unless it is given."""
     scalar = Variable(variable.name, variable.role, None, variable.doc, variable.unit)
-    return Field(variable.name, f"{_INDENT}{variable.name}: ArrayLike = 0.0", _doc(scalar, "array_like"))
+    return Field(
+        variable.name, f"{_INDENT}{variable.name}: ArrayLike = 0.0", _doc(scalar, "array_like", axes)
+    )
 
 
-def given_argument(variable: Variable) -> Field:
+def given_argument(variable: Variable, axes: str = BATCH) -> Field:
     """Return an argument of ``initialise``: its default is a number where all stations are alike."""
     name = variable.name.upper()
     lines = _with_default(variable, "ArrayLike", name, indent="")
-    return Field(variable.name, lines, _doc(variable, "number, or array_like"), name)
+    return Field(variable.name, lines, _doc(variable, "number, or array_like", axes), name)
 
 
 def _with_default(variable: Variable, kind: str, name: str = "", indent: str = _INDENT) -> str:
@@ -67,8 +71,9 @@ def _with_default(variable: Variable, kind: str, name: str = "", indent: str = _
     return f"{indent}{head}{float(value)!r}"
 
 
-def _doc(variable: Variable, kind: str) -> str:
-    shape = "(*batch)" if variable.length is None else f"({variable.length}, *batch)"
+def _doc(variable: Variable, kind: str, axes: str) -> str:
+    behind = f" {axes}" if axes else ""
+    shape = f"({axes})" if variable.length is None else f"({variable.length},{behind})"
     what = _with_unit(variable.doc[:1].upper() + variable.doc[1:], variable.unit)
     return text([f"{_INDENT}{variable.name} : {kind}, shape {shape}", *prose(what, 2 * _INDENT)])
 
