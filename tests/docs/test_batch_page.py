@@ -17,6 +17,7 @@ pytestmark = pytest.mark.compiler
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = (ROOT / "docs" / "batch.md").read_text()
+SNIPPETS = re.findall(r"```python\n(.*?)```", PAGE, re.DOTALL)
 SESSION = re.findall(r"^\$ (.*)$\n((?:[^$`].*\n)*)", PAGE, re.MULTILINE)
 
 
@@ -30,8 +31,21 @@ def test_commands(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert done.stdout == printed
 
 
+def test_the_package(tmp_path: Path) -> None:
+    scene = str(ROOT / "examples" / "batch" / "scatter.toml")
+    assert main(["build", scene, "--out", str(tmp_path)]) == 0
+    command = [sys.executable, "-c", SNIPPETS[0]]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=True)
+    found = re.fullmatch(r"10000 arms, 0 refused: y (\S+) m, scatter (\S+) mm\n", done.stdout)
+    told = re.search(r"^y (\S+) m, scatter \S+ mm$", PAGE, re.MULTILINE)
+    assert found
+    assert told
+    assert float(found[1]) == pytest.approx(float(told[1]), abs=5e-4)  # other arms, as likely
+    assert 2.0 < float(found[2]) < 4.5
+
+
 def test_python() -> None:
-    (snippet,) = re.findall(r"```python\n(.*?)```", PAGE, re.DOTALL)
+    _, snippet = SNIPPETS
     done = subprocess.run(
         [sys.executable, "-c", snippet], cwd=ROOT, capture_output=True, text=True, check=True
     )

@@ -77,10 +77,15 @@ def printed(tmp_path_factory: pytest.TempPathFactory) -> Path:
     odd = {"input.1.name": long, "output.1.name": "model", "title": f'"Quotes" {"and words " * 20}'}
     scenes["odd"] = drivetrain.replace(**odd)
     scenes["hundred"] = load_scene(SCENES / "hundred.toml")
+    scenes["batch"] = drivetrain.replace(**{"emit.batch": 4})
     for name, scene in scenes.items():
-        for path, text in emit_package(scene.replace(emit={"backends": ["numpy", "casadi", "jax"]})).items():
-            (folder / name).mkdir(exist_ok=True)
-            (folder / name / path).write_text(text, encoding="utf-8")
+        emitted = {"backends": ["numpy", "casadi", "jax"]}
+        if scene.emit.batch is not None:
+            emitted = {"backends": ["numpy", "c"], "batch": scene.emit.batch}
+        for path, text in emit_package(scene.replace(emit=emitted)).items():
+            if path.endswith(".py"):
+                (folder / name).mkdir(exist_ok=True)
+                (folder / name / path).write_text(text, encoding="utf-8")
     return folder
 
 
@@ -119,7 +124,7 @@ def test_a_linter_finds_nothing(printed: Path) -> None:
 
 
 @pytest.mark.style
-@pytest.mark.parametrize("name", ["houbolt", "bathe", "odd", "planar_stages"])
+@pytest.mark.parametrize("name", ["houbolt", "bathe", "odd", "planar_stages", "batch"])
 def test_a_checker_of_types_finds_nothing(printed: Path, name: str, tmp_path: Path) -> None:
     settings = tmp_path / "mypy.ini"
     settings.write_text("[mypy]\nstrict = True\n[mypy-casadi.*,jax.*]\nignore_missing_imports = True\n")

@@ -73,6 +73,21 @@ def test_outputs_cost_nothing_in_a_step(explained: dict[str, Explanation]) -> No
     assert found.worth.output > 0
 
 
+def test_arms_side_by_side_cost_their_memory_alone(
+    explained: dict[str, Explanation], example: Callable[[str], Scene]
+) -> None:
+    plain = explained["arm2"]
+    found = explain(example("arm2").replace(**{"emit.batch": 8, "emit.trigonometry": "own"}))
+    worth = term(found, "arms side by side").worth
+    assert (worth.step, worth.state_bytes, worth.model_bytes) == (
+        0,
+        7 * plain.own.state_bytes,
+        7 * plain.own.model_bytes,
+    )
+    assert found.own == plain.own
+    assert not [each for each in plain.terms if each.term == "arms side by side"]
+
+
 def test_planar_terms(explained: dict[str, Explanation], example: Callable[[str], Scene]) -> None:
     found = explained["arm2"]
     scene = found.scene

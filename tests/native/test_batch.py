@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import importlib
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -11,8 +13,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+from tmm_gen.emit.numpy.batch import STATUSES
 from tmm_gen.native import NativeKernel, compile_kernel
-from tmm_gen.native.batch import STATUSES, NativeBatch, compile_batch
+from tmm_gen.native.batch import NativeBatch, compile_batch
+from tmm_gen.package.texts import emit_package
+from tmm_gen.package.write import write_package
 from tmm_gen.program.build import build_program
 from tmm_gen.scene import Scene, load_scene
 
@@ -262,3 +267,32 @@ def test_a_scene_without_a_batch_has_none() -> None:
     scene = load_scene(ROOT / "scenes" / "arm2.toml")
     with pytest.raises(ValueError, match=r"emit\.batch is not set"):
         compile_batch(build_program(scene), scene)
+
+
+@pytest.mark.parametrize("which", ["a prescribed angle", "start-up steps, a chain"])
+def test_the_generated_package_gives_the_same_bits(
+    which: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Of arms that differ, of which one cannot start, by threads; what does not fit is said."""
+    scene, batch, _ = compiled(which)
+    write_package(emit_package(scene), tmp_path / f"arms_of_{scene.name}")
+    monkeypatch.syspath_prepend(tmp_path)
+    package = importlib.import_module(f"arms_of_{scene.name}")
+    inputs, params = drawn(batch, 6)
+    next(iter(params.values()))[..., 4] = np.inf
+    duration = 12 * scene.integrator.step
+    expected = batch.simulate(duration, inputs, params, every=3, arms=ARMS)
+    given = replace(package.Params(), **params)
+    found = package.simulate_batch(given, inputs, duration, every=3, arms=ARMS, n_threads=2)
+    np.testing.assert_array_equal(found.status, expected.status)
+    assert found.status[4] == STATUSES.index("an argument is not finite")
+    np.testing.assert_array_equal(found.times, expected.times)
+    for name, values in expected.outputs.items():
+        np.testing.assert_array_equal(found.outputs[name], values)
+    with pytest.raises(ValueError, match="no input is named nothing; there are: "):
+        package.simulate_batch(given, {"nothing": 1.0}, duration)
+    name = package.INPUT_NAMES[0]
+    with pytest.raises(ValueError, match=rf"{name} has the shape \(2, 3\); .* a row for each of 12 steps"):
+        package.simulate_batch(given, {name: np.zeros((2, 3))}, duration)
+    with pytest.raises(ValueError, match=rf"how many arms\? {name} is for 3, "):
+        package.simulate_batch(given, {name: np.zeros(3)}, duration)

@@ -88,7 +88,7 @@ def explain(scene: Scene, advance: Callable[[str], None] = lambda term: None) ->
             full = term.other(full)
         advance(term.name)
     found = [*(_parts(scene, own) if scene.spatial is None else _shares(scene, program)), *found]
-    found += [_history(scene, program), _hoisted(scene, program, own)]
+    found += [_history(scene, program), _hoisted(scene, program, own), *_side_by_side(scene, own)]
     whole = build_program(full)
     everything = footprint_of(whole, real_of(scene.emit))
     everything = everything - Footprint(
@@ -160,6 +160,22 @@ def _hoisted(scene: Scene, program: Program, own: Footprint) -> Explained:
     return Explained(
         "parameters that change between steps", False, why, Footprint(own.prepare, 0, 0, 0, -bytes_kept)
     )
+
+
+def _side_by_side(scene: Scene, own: Footprint) -> list[Explained]:
+    """Say what the kernel for many arms keeps, and what it does for that; nothing where there is none."""
+    arms = scene.emit.batch
+    if arms is None:
+        return []
+    why = f"a second kernel steps {arms} by the instructions of one, {own.step} operations an arm; it holds all of them"
+    return [
+        Explained(
+            "arms side by side",
+            True,
+            why,
+            Footprint(0, 0, 0, (arms - 1) * own.state_bytes, (arms - 1) * own.model_bytes),
+        )
+    ]
 
 
 def _coefficient_bytes(program: Program, real: Real) -> int:

@@ -25,18 +25,6 @@ from tmm_gen.program.statements import Program
 from tmm_gen.program.variables import Variable
 from tmm_gen.scene import Scene
 
-STATUSES = (
-    "ok",
-    "an argument is not finite",
-    "the time step is not a positive number",
-    "a pivot is not positive",
-    "the motion has outgrown the number type",
-    "an angle or an intermediate result is out of range",
-    "a pointer is NULL",
-    "parameters or step are too large or too small for the number type",
-)
-"""What the numbers in :attr:`BatchRun.status` say."""
-
 
 @dataclass(frozen=True)
 class BatchRun:
@@ -49,7 +37,7 @@ class BatchRun:
     outputs : dict from str to array, shape (kept, arms)
         Outputs at these instants, NaN where an arm was refused before.
     status : array of int, shape (arms,)
-        0 for an arm that came through, otherwise an index of :data:`STATUSES`.
+        0 for an arm that came through, otherwise an index of :data:`tmm_gen.emit.numpy.batch.STATUSES`.
     """
 
     times: NDArray[np.float64]

@@ -9,7 +9,7 @@ from types import MappingProxyType
 from tmm_gen.emit.header import header_lines
 from tmm_gen.emit.jax.statements import RoutineText
 from tmm_gen.emit.python.fields import Field, given_argument, input_field, parameter_field, value_field
-from tmm_gen.emit.python.lines import call, comments, listing, text
+from tmm_gen.emit.python.lines import call, comments, listing, prose, text
 from tmm_gen.emit.python.names import Names
 from tmm_gen.emit.runs import python_items
 from tmm_gen.emit.seal import sealed
@@ -60,7 +60,7 @@ def emit_jax(program: Program, scene: Scene) -> dict[str, str]:
     rendered = render(
         "jax/kernel.py.jinja",
         header=text(comments(header_lines(program, scene))),
-        summary=f"{program.name}: {program.title.rstrip('.')}",
+        summary=text(prose(f'"""{program.name}: {program.title.rstrip(".")}.')),
         stations=program.stations,
         step=repr(program.step.default),
         input_names=text(listing("INPUT_NAMES: tuple[str, ...] = ", [f'"{v.name}"' for v in program.inputs])),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from tmm_gen.emit.header import header_lines
+from tmm_gen.emit.numpy.batch import BATCH_EXPORTS, emit_batch_module, has_batch
 from tmm_gen.emit.numpy.functions import RESERVED, Functions
 from tmm_gen.emit.python.fields import given_argument, input_field, parameter_field, value_field
 from tmm_gen.emit.python.lines import comments, listing, prose, text
@@ -28,7 +29,8 @@ def emit_numpy(program: Program, scene: Scene) -> dict[str, str]:
     Returns
     -------
     dict from str to str
-        Text by path inside the package: ``kernel.py`` and an ``__init__.py`` that shows its names.
+        Text by path inside the package: ``kernel.py``, an ``__init__.py`` that shows its names, and ``batch.py``
+        where C code for many arms stands beside them.
     """
     header = header_lines(program, scene)
     exports = [name for name in EXPORTS if name != "VanishingPivotError" or _requires(program)]
@@ -36,9 +38,11 @@ def emit_numpy(program: Program, scene: Scene) -> dict[str, str]:
         "numpy/init.py.jinja",
         header=text(comments(header[:5])),
         description=text(prose(f'"""{_summary(program)}"""')),
-        exports=exports,
+        modules={**({"batch": BATCH_EXPORTS} if has_batch(scene) else {}), "kernel": exports},
+        exports=exports + (list(BATCH_EXPORTS) if has_batch(scene) else []),
     )
-    return {"__init__.py": sealed(init), "kernel.py": sealed(_kernel(program, header))}
+    files = {"__init__.py": sealed(init), "kernel.py": sealed(_kernel(program, header))}
+    return files | ({"batch.py": emit_batch_module(program, scene, header)} if has_batch(scene) else {})
 
 
 def _kernel(program: Program, header: list[str]) -> str:
