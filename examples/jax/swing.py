@@ -35,7 +35,7 @@ def cost(torques: jax.Array, softness: jax.Array) -> jax.Array:
     return missed + 0.01 * moved + 1e-4 * jnp.sum(torques**2) + 0.01 * jnp.sum(softness**2)
 
 
-def main() -> None:
+def main(turns: int = 150) -> None:
     """Descend along the gradient, each number by its own scale (Adam), and print what is gained."""
     gradient = jax.jit(jax.value_and_grad(cost, argnums=(0, 1)))
     links = arm.STATIONS
@@ -45,12 +45,13 @@ def main() -> None:
     size = 1e-4
     for name, place in (("torque", 0), ("softness", 1)):
         up, down = (
-            cost(*(x.at[2].add(d) if k == place else x for k, x in enumerate(at))) for d in (size, -size)
+            gradient(*(x.at[2].add(d) if k == place else x for k, x in enumerate(at)))[0]
+            for d in (size, -size)
         )
         print(f"by {name} 3: {slopes[place][2]:.6f}, by differences {(up - down) / (2 * size):.6f}")
 
     mean, square = [[jnp.zeros_like(x) for x in at] for _ in range(2)]
-    for turn in range(1, 151):
+    for turn in range(1, turns + 1):
         _, slopes = gradient(*at)
         mean = [0.9 * m + 0.1 * g for m, g in zip(mean, slopes, strict=True)]
         square = [0.99 * s + 0.01 * g * g for s, g in zip(square, slopes, strict=True)]

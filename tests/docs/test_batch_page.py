@@ -45,7 +45,7 @@ def test_the_package(tmp_path: Path) -> None:
 
 
 def test_python() -> None:
-    _, snippet = SNIPPETS
+    snippet = SNIPPETS[1]
     done = subprocess.run(
         [sys.executable, "-c", snippet], cwd=ROOT, capture_output=True, text=True, check=True
     )
