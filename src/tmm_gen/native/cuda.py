@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import ctypes
 import re
-from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -26,14 +25,16 @@ from tmm_gen.scene import Scene
 
 OPTIONS = ("-default-device", "--std=c++17", "--fmad=false")
 """Of NVRTC: functions of the C code are the device's, and multiplications and additions stay apart, as on the host."""
-_HEADERS = {
-    "float.h": "#define FLT_MAX 3.40282346638528859812e+38F\n#define DBL_MAX 1.7976931348623157e+308\n",
-    "math.h": "",  # NVRTC has these functions without it
-    "stddef.h": "",
-    "stdint.h": "typedef unsigned int uint32_t;\ntypedef unsigned long long uint64_t;\n"
-    "typedef int int32_t;\ntypedef long long int64_t;\n",
-}
-"""What a kernel needs of the C library's headers, of which NVRTC has none."""
+_INCLUDE = re.compile(r"^#include <(\w+\.h)>\n", re.MULTILINE)
+_DEFINED = """\
+#define FLT_MAX 3.40282346638528859812e+38F
+#define DBL_MAX 1.7976931348623157e+308
+typedef unsigned int uint32_t;
+typedef unsigned long long uint64_t;
+typedef int int32_t;
+typedef long long int64_t;
+"""
+"""What a kernel needs of the C library's headers, of which NVRTC has none; its functions it knows without them."""
 
 
 @dataclass(frozen=True)
@@ -95,7 +96,9 @@ def cuda_source(program: Program, scene: Scene) -> str:
         inputs=program.inputs,
     )
     source = texts[f"c/{name}.c"].replace(f'#include "{name}.h"\n', texts[f"c/{name}.h"])
-    return f"{source}\n{kernel}"
+    others = "".join(dict.fromkeys(found[0] for found in _INCLUDE.finditer(source)))
+    head = f"#ifdef __CUDACC_RTC__\n{_DEFINED}#else\n{others}#endif\n"
+    return f"{head}{_INCLUDE.sub('', source)}\n{kernel}"
 
 
 def compile_cuda(source: str, architecture: str = "sm_90") -> Compiled:
@@ -114,7 +117,7 @@ def compile_cuda(source: str, architecture: str = "sm_90") -> Compiled:
         If NVRTC is not installed, or refuses the source.
     """
     library = _nvrtc()
-    with _Programme(library, source, _HEADERS) as held:
+    with _Programme(library, source) as held:
         options = [*OPTIONS, f"--gpu-architecture={architecture}", "--ptxas-options=-v"]
         failed = library.nvrtcCompileProgram(held, len(options), _texts(options))
         log = _filled(library.nvrtcGetProgramLogSize, library.nvrtcGetProgramLog, held).decode()
@@ -134,11 +137,9 @@ def compile_cuda(source: str, architecture: str = "sm_90") -> Compiled:
 class _Programme:
     """A program of NVRTC, as long as it is needed."""
 
-    def __init__(self, library: Any, source: str, headers: Mapping[str, str]) -> None:
+    def __init__(self, library: Any, source: str) -> None:
         self._library, self._held = library, ctypes.c_void_p()
-        texts, names = _texts(list(headers.values())), _texts(list(headers))
-        given = (source.encode(), b"arms.cu", len(headers), texts, names)
-        if library.nvrtcCreateProgram(ctypes.byref(self._held), *given):
+        if library.nvrtcCreateProgram(ctypes.byref(self._held), source.encode(), b"arms.cu", 0, None, None):
             raise RuntimeError("NVRTC cannot make a program")
 
     def __enter__(self) -> ctypes.c_void_p:
