@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+import json
 import os
 import re
 import sys
@@ -78,6 +79,17 @@ def test_an_environment_of_arms_no_two_of_which_are_alike() -> None:
     assert (rewards[5] == 0.0).all()
     np.testing.assert_allclose(seen[5], first, atol=1e-6)
     assert len({round(float(x), 9) for x in (*seen[3][:, 2], *seen[6][:, 2])}) == 6
+
+
+def test_check_compares_it_with_numpy(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    scene = tmp_path / "thesis2.toml"
+    text = (ROOT / "scenes" / "thesis2.toml").read_text()
+    scene.write_text(text + '\n[emit]\nbackends = ["jax"]\n')
+    assert main(["check", str(scene), "--json"]) == 0
+    (row,) = [
+        row for row in json.loads(capsys.readouterr().out)["rows"] if row["check"] == "numpy_against_jax"
+    ]
+    assert 0.0 <= row["value"] <= row["bound"] == 1e-13
 
 
 def test_the_page() -> None:

@@ -159,6 +159,26 @@ def numpy_step(module: ModuleType, program: Any) -> Step:
     return step
 
 
+def jax_step(module: ModuleType, program: Any) -> Step:
+    """Return the step of a generated JAX module, in double precision whatever JAX is set to."""
+    import jax
+
+    with jax.enable_x64(True):
+        model = jax.jit(module.prepare)()
+    compiled = jax.jit(lambda state, given: (module.step(model, state, given), module.output(model, state)))
+
+    def step(vector: Vector) -> Stepped:
+        counted = {"steps_taken": vector.taken} if program.startup else {}
+        with jax.enable_x64(True):
+            after, found = compiled(module.State(**vector.state, **counted), module.Input(**vector.inputs))
+        return Stepped(
+            {v.name: np.asarray(getattr(after, v.name)) for v in program.state},
+            {v.name: np.asarray(getattr(found, v.name)) for v in program.outputs},
+        )
+
+    return step
+
+
 def casadi_step(module: ModuleType, program: Any) -> Step:
     """Return the step of a generated CasADi model."""
     functions = (*module.start_functions(), module.step_function())

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from tmm_gen.errors import CheckFailed
 from tmm_gen.inputs.signals import Constant, Signal, Sine
-from tmm_gen.native.python_module import casadi_module, numpy_module
+from tmm_gen.native.python_module import casadi_module, jax_module, numpy_module
 from tmm_gen.native.timing import by_turns
 from tmm_gen.reference.duration import default_duration
 from tmm_gen.reference.frequency import fastest_mode
@@ -30,6 +30,7 @@ from tmm_gen.verify.agreement import (
     Step,
     Vector,
     casadi_step,
+    jax_step,
     largest_difference,
     native_step,
     numpy_step,
@@ -165,6 +166,9 @@ def check_scene(
         advance(0.2, "building the CasADi model")
         step = casadi_step(casadi_module(scene, program), program)
         rows.append(one_step("casadi", step, allowed["float64"]))
+    if "jax" in backends:
+        advance(0.0, "compiling the JAX kernel")
+        rows.append(one_step("jax", jax_step(jax_module(scene, program), program), allowed["float64"]))
     advance(0.2, "simulating")
     run = _Run.of(scene, module, kernel, loads or {})
     rows += run.rows()
