@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 import shlex
 import shutil
@@ -42,6 +43,18 @@ def test_the_package(tmp_path: Path) -> None:
     assert told
     assert float(found[1]) == pytest.approx(float(told[1]), abs=5e-4)  # other arms, as likely
     assert 2.0 < float(found[2]) < 4.5
+
+
+def test_gpu(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    if not os.environ.get("CI"):
+        pytest.importorskip("nvidia.cuda_nvrtc")
+    monkeypatch.chdir(ROOT)
+    exec(SNIPPETS[2], {})
+    registers = re.fullmatch(r"(\d+) registers, 0 bytes spilled\n", capsys.readouterr().out)
+    told = re.search(r"(\d+) registers a thread for `thesis10`", PAGE)
+    assert registers
+    assert told
+    assert int(registers[1]) == pytest.approx(int(told[1]), rel=0.25)  # as NVRTC's version has it
 
 
 def test_python() -> None:
