@@ -18,16 +18,22 @@ from typing import Any
 
 os.environ["XLA_FLAGS"] = "--xla_cpu_multi_thread_eigen=false intra_op_parallelism_threads=1"
 
-import jax
-import jax.numpy as jnp
 import numpy as np
 from marks import renewed
 
 from tmm_gen.csv_text import csv_text
+from tmm_gen.extras import install, packages
 from tmm_gen.files import write_whole
 from tmm_gen.native.python_module import jax_module, numpy_module
 from tmm_gen.program.build import build_program
 from tmm_gen.scene import load_scene
+
+try:
+    import jax
+    import jax.numpy as jnp
+except ImportError:
+    print(f"left out: JAX is not installed: {install(*packages('jax'))}")
+    raise SystemExit from None
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGE = ROOT / "docs" / "jax.md"
