@@ -8,11 +8,15 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 import pytest
 
 from tmm_gen.scene.quantity import CHAIN, PLANAR, SPATIAL
+
+# one worker reads the sources, once
+pytestmark = pytest.mark.xdist_group("branches")
 
 PACKAGE = Path(__file__).resolve().parents[1] / "src" / "tmm_gen"
 
@@ -53,16 +57,24 @@ def _branches(tree: ast.AST) -> Iterator[int]:
             yield node.lineno
 
 
-FOUND = [
-    (path.relative_to(PACKAGE), line)
-    for path in sorted(PACKAGE.rglob("*.py"))
-    if path.relative_to(PACKAGE).parts[0] != "scene"
-    for line in sorted(set(_branches(ast.parse(path.read_text()))))
-]
+@cache
+def trees() -> dict[Path, ast.Module]:
+    """Return what is outside of scenes, read."""
+    return {
+        path.relative_to(PACKAGE): ast.parse(path.read_text())
+        for path in sorted(PACKAGE.rglob("*.py"))
+        if path.relative_to(PACKAGE).parts[0] != "scene"
+    }
+
+
+@cache
+def found() -> list[tuple[Path, int]]:
+    """Return the places that branch."""
+    return [(path, line) for path, tree in trees().items() for line in sorted(set(_branches(tree)))]
 
 
 def test_few_places_branch_on_a_kind_or_a_name() -> None:
-    assert len(FOUND) < 15, FOUND
+    assert len(found()) < 15, found()
 
 
 def test_questions_about_the_equations_do_not_multiply() -> None:
@@ -71,24 +83,23 @@ def test_questions_about_the_equations_do_not_multiply() -> None:
     Such are whether errors are known exactly, whether sweeps iterate, whether there is a picture to draw.
     """
     asked = [
-        (path.relative_to(PACKAGE), node.lineno)
-        for path in sorted(PACKAGE.rglob("*.py"))
-        if path.relative_to(PACKAGE).parts[0] != "scene"
-        for node in ast.walk(ast.parse(path.read_text()))
+        (path, node.lineno)
+        for path, tree in trees().items()
+        for node in ast.walk(tree)
         if isinstance(node, ast.Attribute) and node.attr in ("linear", "in_plane")
         if ast.unparse(node.value).endswith(".model")
     ]
     assert len(asked) <= 32, asked
 
 
-@pytest.mark.parametrize(("path", "line"), FOUND, ids=[f"{path}:{line}" for path, line in FOUND])
-def test_each_says_why(path: Path, line: int) -> None:
-    lines = (PACKAGE / path).read_text().splitlines()
-    assert "#" in lines[line - 1] or lines[line - 2].lstrip().startswith("#")
+def test_each_says_why() -> None:
+    for path, line in found():
+        lines = (PACKAGE / path).read_text().splitlines()
+        assert "#" in lines[line - 1] or lines[line - 2].lstrip().startswith("#"), f"{path}:{line}"
 
 
 def test_the_search_finds_what_it_is_for() -> None:
-    found = (
+    branching = (
         'scene.model.kind == "chain"',
         'scene.base.kind != "motor"',
         'arm.scene.base.kind in ("clamp", "prescribed")',
@@ -99,6 +110,6 @@ def test_the_search_finds_what_it_is_for() -> None:
         "TABLE[scene.model.kind]",
         "TABLE[output.of]",
     )
-    for text in found:
+    for text in branching:
         assert list(_branches(ast.parse(text))) == [1], text
     assert not list(_branches(ast.parse('p.kind == "q"\nvalue.of(1) == 2\nnode.value.kind in KINDS')))

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from functools import cache
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 import pytest
+
+# one worker reads the sources, once
+pytestmark = pytest.mark.xdist_group("layers")
 
 PACKAGE = Path(__file__).resolve().parents[1] / "src" / "tmm_gen"
 
@@ -54,12 +58,15 @@ MODULES = _modules()
 
 def _imports(path: Path) -> Iterator[str]:
     """Modules of the package that a file imports, inside of functions too; not those for type checkers alone."""
-    tree = ast.parse(path.read_text())
-    for node in ast.walk(tree):
+    open_nodes: list[ast.AST] = [ast.parse(path.read_text())]
+    while open_nodes:
+        node = open_nodes.pop()
+        # an expression holds no import
+        open_nodes.extend(n for n in ast.iter_child_nodes(node) if not isinstance(n, ast.expr))
         if isinstance(node, ast.If) and "TYPE_CHECKING" in ast.dump(node.test):
-            node.body = []
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Import):
+            del open_nodes[-len(node.body) - len(node.orelse) :]
+            open_nodes.extend(node.orelse)
+        elif isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names if alias.name.startswith("tmm_gen"))
         elif isinstance(node, ast.ImportFrom) and (node.module or "").startswith("tmm_gen"):
             for alias in node.names:
@@ -67,7 +74,10 @@ def _imports(path: Path) -> Iterator[str]:
                 yield inner if inner in MODULES else str(node.module)
 
 
-IMPORTS = {name: set(_imports(path)) - {"tmm_gen"} for name, path in MODULES.items() if name != "tmm_gen"}
+@cache
+def imports() -> Mapping[str, set[str]]:
+    """Return what each module imports."""
+    return {name: set(_imports(path)) - {"tmm_gen"} for name, path in MODULES.items() if name != "tmm_gen"}
 
 
 def _folder(module: str) -> str:
@@ -78,14 +88,14 @@ RANK = {folder: rank for rank, layer in enumerate(LAYERS) for folder in layer}
 
 
 def test_every_folder_has_a_place() -> None:
-    assert {_folder(name) for name in IMPORTS} == set(RANK)
+    assert {_folder(name) for name in imports()} == set(RANK)
 
 
 @pytest.mark.parametrize("folder", sorted(RANK))
 def test_no_arrow_upward(folder: str) -> None:
     upward = {
         f"{name} -> {other}"
-        for name, others in IMPORTS.items()
+        for name, others in imports().items()
         if _folder(name) == folder
         for other in others
         if _folder(other) != folder and RANK[_folder(other)] >= RANK[folder]
@@ -95,7 +105,7 @@ def test_no_arrow_upward(folder: str) -> None:
 
 def test_no_circles() -> None:
     try:
-        TopologicalSorter(IMPORTS).prepare()
+        TopologicalSorter(imports()).prepare()
     except CycleError as error:
         pytest.fail(" -> ".join(error.args[1]))
 
@@ -103,10 +113,10 @@ def test_no_circles() -> None:
 @pytest.mark.parametrize(("folder", "hidden"), INDEPENDENT.items())
 def test_references_are_independent(folder: str, hidden: set[str]) -> None:
     seen: set[str] = set()
-    reached = [name for name in IMPORTS if _folder(name) == folder]
+    reached = [name for name in imports() if _folder(name) == folder]
     while reached:
         name = reached.pop()
         if name not in seen:
             seen.add(name)
-            reached.extend(IMPORTS[name])
+            reached.extend(imports()[name])
     assert not {name for name in seen if _folder(name) in hidden}

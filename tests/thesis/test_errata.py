@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import json
+from functools import cache
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from tmm_gen.derive.integrators.registry import integrator
 from tmm_gen.derive.integrators.relations import discrete_coefficients
 from tmm_gen.thesis.errata import (
     COEFFICIENTS,
+    ErratumRow,
     derived_coefficients,
     errata_rows,
     headline,
@@ -21,8 +23,9 @@ from tmm_gen.thesis.errata import (
 from tmm_gen.thesis.response import exact_tip, settling_time, simulate
 from tmm_gen.thesis.tables import BETA, PRINTED_B, TABLES, THETA
 
-ROWS = errata_rows()
-BY_NAME = {(row.table, row.coefficient): row for row in ROWS}
+# one worker derives them, once
+pytestmark = pytest.mark.xdist_group("errata")
+
 WRONG = {
     ("3-3", "A"),
     ("3-3", "B"),
@@ -35,13 +38,19 @@ WRONG = {
 }
 
 
+@cache
+def by_name() -> dict[tuple[str, str], ErratumRow]:
+    """Return what is found of each coefficient that is printed."""
+    return {(row.table, row.coefficient): row for row in errata_rows()}
+
+
 def test_every_printed_coefficient_has_a_row() -> None:
     assert [t.number for t in TABLES] == ["3-1", "3-3", "3-4", "3-5", "3-6", "3-7", "3-8"]
-    assert [(r.table, r.coefficient) for r in ROWS] == [(t.number, c) for t in TABLES for c in COEFFICIENTS]
+    assert list(by_name()) == [(t.number, c) for t in TABLES for c in COEFFICIENTS]
 
 
 def test_which_coefficients_are_misprinted() -> None:
-    assert {key for key, row in BY_NAME.items() if not row.agrees} == WRONG
+    assert {key for key, row in by_name().items() if not row.agrees} == WRONG
 
 
 def test_agreement_is_decided_by_numbers_too() -> None:
@@ -55,7 +64,7 @@ def test_agreement_is_decided_by_numbers_too() -> None:
             symbols = sorted(difference.free_symbols, key=str)
             values = [generator.integers(10, 200, len(symbols)) for _ in range(5)]
             errors = [abs(difference.subs(dict(zip(symbols, v / 97, strict=True))).evalf()) for v in values]
-            assert (max(errors, default=0) < 1e-9) == BY_NAME[table.number, name].agrees
+            assert (max(errors, default=0) < 1e-9) == by_name()[table.number, name].agrees
 
 
 def test_what_the_misprints_are() -> None:
@@ -99,12 +108,12 @@ def test_the_headline_of_the_thesis_is_that_misprint() -> None:
 
 def test_neither_d_nor_e_alone_gives_the_headline() -> None:
     for name in ("D", "E"):
-        assert BY_NAME["3-8", name].effect.startswith("diverges")
-        assert np.isinf(BY_NAME["3-8", name].rms_error)
+        assert by_name()["3-8", name].effect.startswith("diverges")
+        assert np.isinf(by_name()["3-8", name].rms_error)
 
 
 def test_effects_are_measured() -> None:
-    for row in ROWS:
+    for row in by_name().values():
         if row.agrees:
             assert row.effect == "none"
             assert row.rms_error == row.derived_rms_error
@@ -119,7 +128,7 @@ def test_the_misprinted_newmark_a_ends_where_its_fixed_point_says() -> None:
     found = simulate(integrator("newmark"), 0.1, {0: misprinted})
     rest = np.linalg.solve(2 / 0.1**2 * 5 * np.eye(2) + [[40, -20], [-20, 20]], [0, 1])
     assert found.final == pytest.approx(rest[1] / 0.1, rel=1e-2)
-    assert "does not settle" in BY_NAME["3-3", "A"].effect
+    assert "does not settle" in by_name()["3-3", "A"].effect
 
 
 def test_the_yardstick_against_another_integrator() -> None:

@@ -8,6 +8,7 @@ import pytest
 import sympy as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from support.linear import linear_of
 
 from tmm_gen.derive.integrators.accuracy import (
     leading_terms,
@@ -21,16 +22,17 @@ from tmm_gen.derive.integrators.order import free_order
 from tmm_gen.derive.integrators.registry import all_integrators, integrator
 
 ALL = all_integrators()
-LINEAR = {method.name: amplification(method.main) for method in ALL}
 
 
 def test_trapezoidal_rule_has_the_known_closed_form() -> None:
     """Its frequency is 2 arctan(Omega/2)/h."""
-    terms = leading_terms(LINEAR["newmark"])
+    terms = leading_terms(linear_of("newmark"))
     assert terms == (OMEGA**2 / 12, 0)
     for omega in (0.1, 1.0, 3.0):
-        assert period_error(LINEAR["newmark"], omega) == pytest.approx(omega / (2 * math.atan(omega / 2)) - 1)
-        assert numerical_damping(LINEAR["newmark"], omega) == pytest.approx(0, abs=1e-14)
+        assert period_error(linear_of("newmark"), omega) == pytest.approx(
+            omega / (2 * math.atan(omega / 2)) - 1
+        )
+        assert numerical_damping(linear_of("newmark"), omega) == pytest.approx(0, abs=1e-14)
 
 
 def test_newmark_period_error_depends_on_beta() -> None:
@@ -52,12 +54,12 @@ def test_newmark_period_error_depends_on_beta() -> None:
     ],
 )
 def test_leading_terms(name: str, expected: tuple[sp.Expr, sp.Expr]) -> None:
-    assert leading_terms(LINEAR[name]) == expected
+    assert leading_terms(linear_of(name)) == expected
 
 
 @pytest.mark.parametrize("method", ALL, ids=lambda m: m.name)
 def test_leading_terms_are_approached_by_the_numbers(method: Integrator) -> None:
-    linear = LINEAR[method.name]
+    linear = linear_of(method.name)
     small = 1e-2
     for term, measured in zip(
         leading_terms(linear), (period_error(linear, small), numerical_damping(linear, small)), strict=True
@@ -69,9 +71,9 @@ def test_leading_terms_are_approached_by_the_numbers(method: Integrator) -> None
 @pytest.mark.parametrize("method", ALL, ids=lambda m: m.name)
 def test_the_lowest_power_is_the_order(method: Integrator) -> None:
     """The eigenvalue's error, period and damping together, is of the order of free motion."""
-    terms = [sp.Poly(term, OMEGA).degree() for term in leading_terms(LINEAR[method.name]) if term != 0]
+    terms = [sp.Poly(term, OMEGA).degree() for term in leading_terms(linear_of(method.name)) if term != 0]
     # damping hides one order higher than frequency for even orders, frequency for odd ones
-    assert min(terms) == free_order(LINEAR[method.name])
+    assert min(terms) == free_order(linear_of(method.name))
 
 
 @pytest.mark.parametrize("zeta", [0.0, 0.1])
@@ -87,11 +89,11 @@ def test_numbers_against_a_simulation(
     (one, two), *_ = np.linalg.lstsq(rows, q[2:], rcond=None)
     root = max(np.roots([1, -one, -two]), key=lambda r: r.imag)
     exponent = np.log(root)
-    assert exponent == pytest.approx(principal_exponent(LINEAR[method.name], omega, zeta), rel=1e-8)
-    assert period_error(LINEAR[method.name], omega, zeta) == pytest.approx(
+    assert exponent == pytest.approx(principal_exponent(linear_of(method.name), omega, zeta), rel=1e-8)
+    assert period_error(linear_of(method.name), omega, zeta) == pytest.approx(
         omega * math.sqrt(1 - zeta**2) / exponent.imag - 1, rel=1e-6
     )
-    assert numerical_damping(LINEAR[method.name], omega, zeta) == pytest.approx(
+    assert numerical_damping(linear_of(method.name), omega, zeta) == pytest.approx(
         -exponent.real / abs(exponent) - zeta, rel=1e-6, abs=1e-10
     )
 

@@ -7,13 +7,13 @@ import pytest
 import sympy as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from support.linear import linear_of
 
 from tmm_gen.derive.integrators.amplification import LAMBDA, OMEGA, ZETA, Amplification, amplification
 from tmm_gen.derive.integrators.declaration import KINDS, Integrator
 from tmm_gen.derive.integrators.registry import all_integrators, integrator
 
 ALL = all_integrators()
-LINEAR = {method.name: amplification(method.main) for method in ALL}
 
 
 def numbers(linear: Amplification, omega: float, zeta: float) -> np.ndarray:
@@ -27,7 +27,7 @@ def test_the_matrix_repeats_a_simulation(
 ) -> None:
     """Steps after the start-up, against the declared relations solved as they stand."""
     step, frequency, zeta = 0.25, 3.0, 0.125
-    linear = LINEAR[method.name]
+    linear = linear_of(method.name)
     matrix = numbers(linear, step * frequency, zeta)
     motion = simulate(method, oscillator(frequency=frequency, zeta=zeta), step, 12)
     scale = {kind: step**k for k, kind in enumerate(KINDS)}
@@ -44,7 +44,7 @@ def test_a_load_enters_as_in_a_simulation(
     method: Integrator, simulate: Callable[..., np.ndarray], oscillator: type
 ) -> None:
     step, frequency, zeta = 0.25, 2.0, 0.125
-    linear = LINEAR[method.name]
+    linear = linear_of(method.name)
     matrix = numbers(linear, step * frequency, zeta)
     forcing = linear.forcing.to_Matrix().subs(linear.roots)
     forcing = np.array(forcing.subs({OMEGA: step * frequency, ZETA: zeta}).evalf(30).tolist(), dtype=float)
@@ -64,7 +64,7 @@ def test_a_load_enters_as_in_a_simulation(
 
 @pytest.mark.parametrize("method", ALL, ids=lambda m: m.name)
 def test_characteristic_polynomial_vanishes_at_eigenvalues(method: Integrator) -> None:
-    linear = LINEAR[method.name]
+    linear = linear_of(method.name)
     omega, zeta = 0.75, 0.125
     at = sp.Poly(linear.characteristic.as_expr().subs({OMEGA: omega, ZETA: zeta}), LAMBDA)
     eigenvalues = np.linalg.eigvals(numbers(linear, omega, zeta))
@@ -77,7 +77,7 @@ def test_characteristic_polynomial_vanishes_at_eigenvalues(method: Integrator) -
 @given(omega=st.fractions("1/10", 5, max_denominator=20))
 def test_steady_response_solves_the_step(name: str, omega: float) -> None:
     """(LAMBDA - matrix) x = forcing for a load that grows by LAMBDA a step, stage by stage."""
-    linear = LINEAR[name]
+    linear = linear_of(name)
     at = {OMEGA: sp.Rational(omega), ZETA: sp.Rational(1, 8), LAMBDA: sp.Rational(5, 4)}
     denominator, numerators = linear.response
     size, stages = len(linear.history), len(linear.instants)
@@ -98,6 +98,6 @@ def test_symbolic_parameters_stay_symbols() -> None:
 
 def test_undamped_trapezoidal_rule_is_the_cayley_transform() -> None:
     """Newmark 1/4 maps exp(i Omega) to (1 + i Omega/2)/(1 - i Omega/2)."""
-    polynomial = LINEAR["newmark"].characteristic.as_expr().subs(ZETA, 0)
+    polynomial = linear_of("newmark").characteristic.as_expr().subs(ZETA, 0)
     cayley = (1 + sp.I * OMEGA / 2) / (1 - sp.I * OMEGA / 2)
     assert sp.simplify(polynomial.subs(LAMBDA, cayley)) == 0

@@ -9,16 +9,17 @@ import sympy as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from support.eigenvalues import spectral_radius
+from support.linear import linear_of
 
 from tmm_gen.derive.integrators.amplification import LAMBDA, OMEGA, ZETA, Amplification, amplification
 from tmm_gen.derive.integrators.declaration import Integrator
 from tmm_gen.derive.integrators.parameters import exact
-from tmm_gen.derive.integrators.registry import all_integrators, integrator
+from tmm_gen.derive.integrators.registry import integrator, names
 from tmm_gen.derive.integrators.stability import radius_at_infinity, stability_limit
 from tmm_gen.errors import UserError
 
-LINEAR = {method.name: amplification(method.main) for method in all_integrators()}
-UNCONDITIONAL = sorted({*LINEAR} - {"zhou", "zhai"})
+NAMES = names()
+UNCONDITIONAL = sorted({*NAMES} - {"zhou", "zhai"})
 
 
 def linear(name: str, **parameters: float | sp.Expr) -> Amplification:
@@ -35,14 +36,14 @@ def _flips(method: Amplification) -> list[sp.Expr]:
 @pytest.mark.parametrize("zeta", [0, 0.05, 0.7])
 @pytest.mark.parametrize("name", UNCONDITIONAL)
 def test_unconditionally_stable(name: str, zeta: float) -> None:
-    assert stability_limit(LINEAR[name], zeta) == sp.oo
+    assert stability_limit(linear_of(name), zeta) == sp.oo
 
 
 @pytest.mark.parametrize("name", UNCONDITIONAL)
 @settings(max_examples=30)
 @given(power=st.floats(-2, 4), zeta=st.floats(0, 2))
 def test_unconditionally_stable_at_random_steps(name: str, power: float, zeta: float) -> None:
-    assert spectral_radius(LINEAR[name], 10**power, zeta) <= 1 + 1e-12
+    assert spectral_radius(linear_of(name), 10**power, zeta) <= 1 + 1e-12
 
 
 def test_newmark_closed_forms() -> None:
@@ -92,16 +93,16 @@ def test_wilson_is_unconditionally_stable_from_theta_1_366() -> None:
 
 
 def test_the_proposed_method_grows_at_any_step_without_damping() -> None:
-    assert stability_limit(LINEAR["zhou"]) == 0
-    assert spectral_radius(LINEAR["zhou"], 0.1) > 1
-    limits = [float(stability_limit(LINEAR["zhou"], zeta)) for zeta in (0.01, 0.05, 0.2)]
+    assert stability_limit(linear_of("zhou")) == 0
+    assert spectral_radius(linear_of("zhou"), 0.1) > 1
+    limits = [float(stability_limit(linear_of("zhou"), zeta)) for zeta in (0.01, 0.05, 0.2)]
     assert 0 < limits[0] < limits[1] < limits[2] < 4
     assert stability_limit(linear("zhou", g2=1)) == sp.sqrt(6)
 
 
 def test_zhai_undamped_is_the_central_difference_method() -> None:
-    assert stability_limit(LINEAR["zhai"]) == 2
-    assert stability_limit(LINEAR["zhai"], 0.05) < 2
+    assert stability_limit(linear_of("zhai")) == 2
+    assert stability_limit(linear_of("zhai"), 0.05) < 2
 
 
 @pytest.mark.parametrize("zeta", [0.0, 0.05, 0.3])
@@ -153,12 +154,12 @@ def test_generalized_alpha_has_the_radius_asked_for(rho: float) -> None:
     ],
 )
 def test_radius_at_infinity(name: str, expected: int) -> None:
-    assert radius_at_infinity(LINEAR[name]) == expected
-    assert spectral_radius(LINEAR[name], 10**9) == pytest.approx(expected, abs=1e-2)
+    assert radius_at_infinity(linear_of(name)) == expected
+    assert spectral_radius(linear_of(name), 10**9) == pytest.approx(expected, abs=1e-2)
 
 
 def test_explicit_methods_have_no_radius_at_infinity() -> None:
-    assert radius_at_infinity(LINEAR["zhai"]) == sp.oo
+    assert radius_at_infinity(linear_of("zhai")) == sp.oo
     assert radius_at_infinity(linear("newmark", beta=0)) == sp.oo
 
 
@@ -180,21 +181,23 @@ def test_bathe_is_unconditionally_stable_for_any_split(gamma: float) -> None:
 @settings(max_examples=30)
 @given(omega=st.floats(0.05, 20), zeta=st.floats(0, 0.9))
 def test_radius_equals_that_of_the_matrix(name: str, omega: float, zeta: float) -> None:
-    matrix = LINEAR[name].expression.subs({OMEGA: exact(omega), ZETA: exact(zeta)}).evalf(30)
+    matrix = linear_of(name).expression.subs({OMEGA: exact(omega), ZETA: exact(zeta)}).evalf(30)
     eigenvalues = np.linalg.eigvals(np.array(matrix.tolist(), dtype=float))
-    assert spectral_radius(LINEAR[name], omega, zeta) == pytest.approx(np.max(np.abs(eigenvalues)), rel=1e-6)
+    assert spectral_radius(linear_of(name), omega, zeta) == pytest.approx(
+        np.max(np.abs(eigenvalues)), rel=1e-6
+    )
 
 
 def test_damping_of_many_digits() -> None:
     """SymPy cannot work exactly with what this damping makes of sdirk2: it is taken with fewer digits then."""
-    assert stability_limit(linear("sdirk2"), 8.560935915e-11) == sp.oo
+    assert stability_limit(linear_of("sdirk2"), 8.560935915e-11) == sp.oo
 
 
-@pytest.mark.parametrize("name", sorted(LINEAR))
+@pytest.mark.parametrize("name", NAMES)
 def test_absurd_damping_has_a_limit_or_a_sentence(name: str) -> None:
     """Where numbers of a field are longer than SymPy can tell apart, the remedy that is named works."""
     try:
-        assert stability_limit(LINEAR[name], 9.796933025e38) >= 0
+        assert stability_limit(linear_of(name), 9.796933025e38) >= 0
     except UserError as error:
         assert "below 1e6" in str(error)  # noqa: PT017 - a limit is as right
-        assert stability_limit(LINEAR[name], 9.8765432101234e5) >= 0
+        assert stability_limit(linear_of(name), 9.8765432101234e5) >= 0
