@@ -1,6 +1,6 @@
 # Everything runs in .venv, made on first use; nothing is written that git sees.
 PYTHON       ?= python3
-PYTEST_FLAGS ?= -n auto --dist loadgroup
+PYTEST_FLAGS ?= -n auto --dist loadgroup --no-loadscope-reorder
 
 VENV ?= .venv
 PY   := $(VENV)/bin/python

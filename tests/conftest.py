@@ -162,7 +162,7 @@ def browse(need_tool: Callable[..., str], tmp_path_factory: pytest.TempPathFacto
     return call
 
 
-# -- what takes long, last ------------------------------------------------------------------------
+# -- what takes long, first -------------------------------------------------------------------------
 
 LONG = (
     "cli/test_space_motion.py",
@@ -200,7 +200,10 @@ LONG = (
     "study/test_cluster.py",
     "target/test_space.py",
 )
-"""Files whose tests take long, besides single ones marked so; ``-m "not long"`` leaves them out."""
+"""Files whose tests take long, besides single ones marked so; ``-m "not long"`` leaves them out.
+
+They begin first: what is left at the end, when a worker has nothing more to do, is short.
+"""
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -214,13 +217,19 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 @pytest.hookimpl(tryfirst=True)  # before -m looks for the marks
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Mark what takes long, and what wants an optional tool; put the former last, leave repeats out if asked."""
+    """Mark what takes long, and what wants an optional tool; put the former first, leave repeats out if asked.
+
+    A file's tests go to one worker unless they say otherwise: what its fixtures make is made once.
+    """
     for item in items:
-        if item.path.relative_to(ROOT / "tests").as_posix() in LONG:
+        place = item.path.relative_to(ROOT / "tests").as_posix()
+        if place in LONG:
             item.add_marker(pytest.mark.long)
+        if item.get_closest_marker("xdist_group") is None:
+            item.add_marker(pytest.mark.xdist_group(place))
         if "need_tool" in getattr(item, "fixturenames", ()):
             item.add_marker(pytest.mark.tools)
-    items.sort(key=lambda item: item.get_closest_marker("long") is not None)
+    items.sort(key=lambda item: item.get_closest_marker("long") is None)
     if config.getoption("--one-of-each"):
         firsts: dict[Path, pytest.Item] = {}
         for item in items:

@@ -11,12 +11,7 @@ from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
-import pytest
-
 from tmm_gen.scene.quantity import CHAIN, PLANAR, SPATIAL
-
-# one worker reads the sources, once
-pytestmark = pytest.mark.xdist_group("branches")
 
 PACKAGE = Path(__file__).resolve().parents[1] / "src" / "tmm_gen"
 

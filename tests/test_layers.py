@@ -10,9 +10,6 @@ from pathlib import Path
 
 import pytest
 
-# one worker reads the sources, once
-pytestmark = pytest.mark.xdist_group("layers")
-
 PACKAGE = Path(__file__).resolve().parents[1] / "src" / "tmm_gen"
 
 LAYERS = (

@@ -23,9 +23,6 @@ from tmm_gen.thesis.errata import (
 from tmm_gen.thesis.response import exact_tip, settling_time, simulate
 from tmm_gen.thesis.tables import BETA, PRINTED_B, TABLES, THETA
 
-# one worker derives them, once
-pytestmark = pytest.mark.xdist_group("errata")
-
 WRONG = {
     ("3-3", "A"),
     ("3-3", "B"),

@@ -13,9 +13,6 @@ from tmm_gen.thesis.errata import ErratumRow
 from tmm_gen.thesis.errata_frequency import RATIOS, frequency_errata_rows
 from tmm_gen.thesis.transfer_functions import numbered_chain, transfer_functions
 
-# one worker derives them, once
-pytestmark = pytest.mark.xdist_group("errata of the frequency domain")
-
 WRONG = {("2-90", "U_21"), ("2-90", "U_31"), ("2-90", "U_32"), ("2-99", "theta_2/T")}
 
 
