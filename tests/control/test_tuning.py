@@ -133,9 +133,9 @@ def test_refining_begins_where_the_scene_stands(bench: Bench) -> None:
 def test_processes_side_by_side_find_the_same_numbers(bench: Bench) -> None:
     """Also what is broken off is broken off alike."""
     tunable = BY_NAME["pd"]
-    alone = tune(bench.scene, tunable, 40, 3)
+    alone = tune(bench.scene, tunable, 16, 3)
     with side_by_side(2) as pricing:
-        together = tune(bench.scene, tunable, 40, 3, pricing=pricing)
+        together = tune(bench.scene, tunable, 16, 3, pricing=pricing)
         payloads = [bench.scene.replace(**{"control.payload": value}) for value in (1.1, 1.2, 1.1)]
         assert list(pricing(payloads, ["lqr"], np.inf)) == list(OneByOne()(payloads, ["lqr"], np.inf))
     assert together.scene == alone.scene

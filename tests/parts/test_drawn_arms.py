@@ -28,12 +28,12 @@ pytestmark = [pytest.mark.compiler, pytest.mark.long]
 
 AGREE = 1e-12
 UNTIL = 0.05
-FEW = settings(max_examples=5, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck))
+FEW = settings(max_examples=3, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck))
 
 
 @FEW
 @example(seed=3, count=7, branching=True, floating=True)
-@given(seed=st.integers(0, 10_000), count=st.integers(2, 12), branching=st.booleans(), floating=st.booleans())
+@given(seed=st.integers(0, 10_000), count=st.integers(2, 8), branching=st.booleans(), floating=st.booleans())
 def test_backends_agree(
     seed: int, count: int, branching: bool, floating: bool, drawn: Callable[..., Scene]
 ) -> None:
@@ -42,7 +42,7 @@ def test_backends_agree(
     module = numpy_module(scene, program)
     ours = numpy_step(module, program)
     vectors = list(reached_vectors(module, program, 4))
-    native = native_step(compile_kernel(program, scene, flags=("-O1",)), program)
+    native = native_step(compile_kernel(program, scene, flags=("-O0",)), program)
     assert largest_difference(ours, native, vectors) < AGREE
     assert largest_difference(ours, casadi_step(casadi_module(scene, program), program), vectors) < AGREE
 
@@ -51,7 +51,7 @@ def test_backends_agree(
 @example(seed=15, count=6, order=4, branching=True, floating=False)  # an elastic gear begins a branch
 @given(
     seed=st.integers(0, 10_000),
-    count=st.integers(2, 12),
+    count=st.integers(2, 8),
     order=st.sampled_from([2, 4]),
     branching=st.booleans(),
     floating=st.booleans(),
@@ -68,7 +68,7 @@ def test_steps_are_those_of_lagranges_equations(
         for k, item in enumerate(scene.inputs)
     }
     right = planar_response(scene, signals, np.array([UNTIL]))
-    kernel = compile_kernel(build_program(scene), scene, flags=("-O1",))
+    kernel = compile_kernel(build_program(scene), scene, flags=("-O0",))
     whole, half = (ended(kernel, scene, signals, step / share) for share in (1, 2))
     for column, values in right.items():
         own = abs(whole[column] - half[column]) + 1e-9 * max(1.0, abs(values[0]))

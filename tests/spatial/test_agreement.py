@@ -29,8 +29,8 @@ pytestmark = pytest.mark.compiler
 
 TOLERANCE, SINGLE = 1e-12, 2e-3
 YAW3 = Path(__file__).parents[2] / "examples" / "space" / "yaw3.toml"
-METHODS = ("newmark", "generalized_alpha", "bathe")
-"""Of one stage and of two; what has a history is among the trees."""
+METHODS = ("generalized_alpha", "bathe")
+"""Of one stage that is not the step's end, and of two; Newmark and what has a history are among the trees."""
 CHOICES = SpaceChoices(1e-3, iterations=2)
 TREES = {"exact": (1, "newmark", replace(CHOICES, exact=True)), "park": (2, "park", CHOICES)}
 
@@ -42,7 +42,7 @@ def tree(seed: int, method: str, choices: SpaceChoices) -> Program:
 
 @cache
 def afloat(seed: int, method: str, choices: SpaceChoices) -> Program:
-    return program_of(random_afloat(seed, 2), method, choices)
+    return program_of(random_afloat(seed, 2 if choices.exact else 1), method, choices)
 
 
 @cache
@@ -52,30 +52,32 @@ def yaw3(method: str) -> Scene:
     return parse_scene(text)
 
 
-def agree(program: Program, scene: Scene) -> None:
+def agree(program: Program, scene: Scene, *, single: bool) -> None:
+    """Hold the backends against each other; ``single`` is asked once for each kind of arm."""
     module = numpy_module(scene, program)
     ours = numpy_step(module, program)
     vectors = list(reached_vectors(module, program, 2, relative=True))
-    native = native_step(compile_kernel(program, scene, flags=("-O1",)), program)
+    native = native_step(compile_kernel(program, scene, flags=("-O0",)), program)
     assert largest_difference(ours, native, vectors) < TOLERANCE
     assert largest_difference(ours, casadi_step(casadi_module(scene, program), program), vectors) < TOLERANCE
-    halved = scene.replace(**{"emit.real": "float32"})
-    single = native_step(compile_kernel(program, halved, flags=("-O1",)), program)
-    assert TOLERANCE < largest_difference(ours, single, vectors) < SINGLE
+    if single:
+        halved = scene.replace(**{"emit.real": "float32"})
+        native = native_step(compile_kernel(program, halved, flags=("-O0",)), program)
+        assert TOLERANCE < largest_difference(ours, native, vectors) < SINGLE
 
 
 @pytest.mark.parametrize("kind", TREES)
 def test_trees(kind: str) -> None:
-    agree(tree(*TREES[kind]), HEADED)
+    agree(tree(*TREES[kind]), HEADED, single=kind == "park")
 
 
 @pytest.mark.parametrize("kind", TREES)
 def test_bases_that_float(kind: str) -> None:
     """Under forces and moments on the base too; with a history of turns where the method has one."""
-    agree(afloat(*TREES[kind]), HEADED)
+    agree(afloat(*TREES[kind]), HEADED, single=kind == "exact")
 
 
 @pytest.mark.parametrize("method", METHODS)
 def test_arms_with_beams(method: str) -> None:
     scene = yaw3(method)
-    agree(build_program(scene), scene)
+    agree(build_program(scene), scene, single=method == "bathe")

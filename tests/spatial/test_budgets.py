@@ -66,22 +66,22 @@ COSTS = {
 }
 
 
-def arms(kind: str, count: int) -> list[SpatialArm]:
-    """Return the arms of a kind; those of one list cost the same."""
-    if kind == "link":
-        return [links(count, QUARTER)]
-    return [beam(count, len(kind.split(",")))]
+def arm_of(kind: str, cells: int) -> SpatialArm:
+    """Return the arm of a kind."""
+    return links(cells, QUARTER) if kind == "link" else beam(cells, len(kind.split(",")))
 
 
 @cache
+def operations(kind: str, cells: int, choices: SpaceChoices, base: FreeBase | None = None) -> int:
+    """Return what a step of an arm takes on a clamp, or on a base that floats."""
+    return count_routine(program_of(replace(arm_of(kind, cells), base=base), choices=choices).main).total
+
+
 def per_joint(kind: str, choices: SpaceChoices) -> Fraction:
     """Return the operations of a step per joint between 10 and 20 cells."""
-    found = set()
-    for short, long in zip(arms(kind, 10), arms(kind, 20), strict=True):
-        few, many = (count_routine(program_of(arm, choices=choices).main).total for arm in (short, long))
-        found.add(Fraction(many - few, len(long.joints) - len(short.joints)))
-    (only,) = found
-    return only
+    few, many = (operations(kind, cells, choices) for cells in (10, 20))
+    joints = [len(arm_of(kind, cells).joints) for cells in (10, 20)]
+    return Fraction(many - few, joints[1] - joints[0])
 
 
 @pytest.mark.parametrize("kind", COSTS)
@@ -128,13 +128,9 @@ def test_a_base_that_floats(kind: str) -> None:
         SpaceChoices(1e-3, iterations=2),
         SpaceChoices(1e-3, iterations=1, exact=True),
     )
-    for count in (3, 6) if kind == "link" else (2, 3):
-        (arm,) = arms(kind, count)
-        more = []
-        for choices in (once, twice, exact):
-            stands, floats = (
-                count_routine(program_of(each, choices=choices).main).total
-                for each in (arm, replace(arm, base=FreeBase(BODY)))
-            )
-            more.append(floats - stands)
+    for cells in (10, 20):
+        more = [
+            operations(kind, cells, choices, FreeBase(BODY)) - operations(kind, cells, choices)
+            for choices in (once, twice, exact)
+        ]
         assert (more[0], more[1] - more[0], more[2]) == FLOATS[kind]
