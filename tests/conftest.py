@@ -65,6 +65,19 @@ def optional_tools() -> dict[str, str]:
     return OPTIONAL_TOOLS
 
 
+@pytest.fixture(scope="session", autouse=True)
+def _quickly_compiled() -> None:
+    """Let compiled kernels be optimised less than a user's, where a test does not say how: their bits are the same.
+
+    What is compiled as a user's is: by commands that run in a process of their own, for functional mock-up units and
+    batches, whose bits are compared with these kernels', and by the tests of emitted C.
+    """
+    kernel = import_module("tmm_gen.native.kernel")
+    for compiling in (kernel.compile_kernel, kernel.load_kernel):
+        assert compiling.__defaults__ == ("gcc", kernel.FLAGS)
+        compiling.__defaults__ = ("gcc", ("-O1", *kernel.FLAGS[1:]))
+
+
 @pytest.fixture
 def tmm_gen(tmp_path: Path) -> Callable[..., subprocess.CompletedProcess[str]]:
     """Run the command line in a process of its own, in an empty folder unless `cwd` is given."""
