@@ -15,6 +15,8 @@ from tmm_gen.reference.spatial_motion import motion
 from tmm_gen.scene.spatial.arm import SpatialArm
 from tmm_gen.verify.spatial_order import SLOPE, fitted_order
 
+UNTIL = 0.1
+"""s."""
 ONCE, TWICE, THRICE = (SpaceChoices(1e-3, iterations=count) for count in (1, 2, 3))
 
 
@@ -55,15 +57,19 @@ def test_heavier_base_shows() -> None:
     assert abs(fitted - 2.0) > SLOPE
 
 
+@pytest.fixture(scope="module")
+def place() -> np.ndarray:
+    """Coordinates of an arm after a tenth of a second."""
+    return motion(bare(4), {}, np.array([UNTIL]))[0][0]
+
+
 @pytest.mark.parametrize("name", ["houbolt", "zhou", "zhai", "wilson", "bathe", "generalized_alpha"])
-def test_every_other_method_goes_there(name: str) -> None:
+def test_every_other_method_goes_there(name: str, place: np.ndarray) -> None:
     """Those with a history too."""
-    arm, until = bare(4), 0.1
-    exact = motion(arm, {}, np.array([until]))[0][0]
-    module = generated(arm, name, TWICE)
+    module = generated(bare(4), name, TWICE)
     errors = []
     for steps in (50, 100):
-        state = stepped(module, until / steps, steps)[-1]
-        errors.append(float(np.abs(coordinates(state)[0] - exact).max()))
+        state = stepped(module, UNTIL / steps, steps)[-1]
+        errors.append(float(np.abs(coordinates(state)[0] - place).max()))
     assert errors[1] < 2e-3
     assert np.log2(errors[0] / errors[1]) > 1.7
