@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping
+from functools import cache, partial
 
 import numpy as np
 import pytest
@@ -31,7 +32,7 @@ def written(files: Mapping[str, str]) -> str:
     return re.sub(r"/\*.*?\*/", "", "\n".join(ours), flags=re.DOTALL)
 
 
-@pytest.fixture(params=["at once", "half a sample", "two samples", "as late as the model"])
+@pytest.fixture(scope="module", params=["at once", "half a sample", "two samples", "as late as the model"])
 def late(request: pytest.FixtureRequest, swing: Scene, bench: Bench) -> Bench:
     """The swing, whose torques begin to act at different parts of a sample; in the last one links see one each."""
     sample = bench.problem.sample_time
@@ -44,9 +45,15 @@ def late(request: pytest.FixtureRequest, swing: Scene, bench: Bench) -> Bench:
     return bench if delay == 0.0 else Bench.of(swing.replace(**{"control.delay": delay}))
 
 
+@pytest.fixture(scope="module")
+def emitting(late: Bench) -> Callable[[str], tuple[str, dict[str, str]]]:
+    """Write a controller, each once."""
+    return cache(partial(emit_controller, late))
+
+
 @pytest.mark.parametrize("kind", EMITTED)
-def test_no_term_is_dead(kind: str, late: Bench) -> None:
-    _, files = emit_controller(late, kind)
+def test_no_term_is_dead(kind: str, emitting: Callable[[str], tuple[str, dict[str, str]]]) -> None:
+    _, files = emitting(kind)
     text = written(files)
     tables = _TABLE.findall(text)
     assert len(tables) > 8
@@ -60,10 +67,13 @@ def test_no_term_is_dead(kind: str, late: Bench) -> None:
 @pytest.mark.compiler
 @pytest.mark.parametrize("kind", EMITTED)
 def test_it_does_what_the_one_in_python_does(
-    kind: str, late: Bench, in_python: Callable[[Bench, str], Controller]
+    kind: str,
+    late: Bench,
+    emitting: Callable[[str], tuple[str, dict[str, str]]],
+    in_python: Callable[[Bench, str], Controller],
 ) -> None:
-    name, files = emit_controller(late, kind)
-    emitted = EmittedController(name, files, [0, 1], flags=("-O1", "-ffp-contract=off"))
+    name, files = emitting(kind)
+    emitted = EmittedController(name, files, [0, 1], flags=("-O0", "-ffp-contract=off"))
     controller, plant = in_python(late, kind), Plant(late.scene, late.problem, CONDITIONS[1])
     for _ in range(8 if kind == "rti" else 25):
         measured = plant.measured()
