@@ -178,7 +178,9 @@ def browse(need_tool: Callable[..., str], tmp_path_factory: pytest.TempPathFacto
 # -- what takes long, first -------------------------------------------------------------------------
 
 LONG = (
+    "cli/test_demo.py",
     "cli/test_space_motion.py",
+    "cli/test_stability.py",
     "control/emitted/test_faults.py",
     "control/test_calibration_parts.py",
     "control/test_closed_loop.py",
@@ -187,6 +189,8 @@ LONG = (
     "docs/test_mpc_page.py",
     "docs/test_space_page.py",
     "docs/test_stability_page.py",
+    "docs/test_trade_page.py",
+    "explain/test_space.py",
     "export/fmu/test_space.py",
     "modal/test_time_and_frequency.py",
     "planar/test_accuracy.py",
@@ -197,6 +201,7 @@ LONG = (
     "spatial/test_afloat_order.py",
     "spatial/test_agreement.py",
     "spatial/test_budgets.py",
+    "spatial/test_compensated.py",
     "spatial/test_hard_cases.py",
     "spatial/test_import_motion.py",
     "spatial/test_integrators.py",
@@ -207,6 +212,7 @@ LONG = (
     "spatial/test_prescribed_base.py",
     "spatial/test_rest.py",
     "spatial/test_text_size.py",
+    "spatial/test_wide_vectors.py",
     "spatial/test_written_first.py",
     "spatial/test_yardsticks.py",
     "stability/test_map.py",
@@ -228,6 +234,10 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     )
 
 
+def _is_short(item: pytest.Item) -> bool:
+    return item.get_closest_marker("long") is None
+
+
 @pytest.hookimpl(tryfirst=True)  # before -m looks for the marks
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     """Mark what takes long, and what wants an optional tool; put the former first, leave repeats out if asked.
@@ -242,10 +252,10 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
             item.add_marker(pytest.mark.xdist_group(place))
         if "need_tool" in getattr(item, "fixturenames", ()):
             item.add_marker(pytest.mark.tools)
-    items.sort(key=lambda item: item.get_closest_marker("long") is None)
+    items.sort(key=_is_short)
     if config.getoption("--one-of-each"):
         firsts: dict[Path, pytest.Item] = {}
-        for item in items:
+        for item in sorted(items, key=_is_short, reverse=True):  # long ones may be left out too
             firsts.setdefault(item.path, item)
         chosen = {id(item) for item in firsts.values()}
         chosen |= {id(item) for item in items if item.get_closest_marker("tools")}

@@ -16,19 +16,19 @@ THESIS = str(SCENES / "thesis2.toml")
 STEPS = "2,0.5,0.1,0.05,1e-3"  # some diverge, some have single precision's floor
 
 COMMANDS = {
-    "errata": ["errata"],
+    "trade where little finishes": [
+        "trade", THESIS, "--integrators", "zhai", "--steps", "2,0.001", "--until", "4", "--rounds", "1",
+        "--report", "r.html", "--plot", "p.png",
+    ],
     "trade": [
         "trade", THESIS, "--integrators", "newmark,zhai,fox_euler", "--steps", STEPS, "--until", "4",
         "--reals", "float64,float32", "--rounds", "2", "--workers", "1", "--store", "s.sqlite",
         "--report", "r.html", "--plot", "p.png",
     ],
-    "trade where little finishes": [
-        "trade", THESIS, "--integrators", "zhai", "--steps", "2,0.001", "--until", "4", "--rounds", "1",
-        "--report", "r.html", "--plot", "p.png",
-    ],
     "tune": ["tune", THESIS, "--integrators", "newmark,zhai", "--max-error", "1e-3", "--max-time", "1s",
              "--until", "4", "--rounds", "1"],
     "calibrate": ["calibrate", THESIS, "made.csv", "--input", "tip_torque=1"],
+    "errata": ["errata"],
 }  # fmt: skip
 
 
