@@ -17,7 +17,7 @@ from tmm_gen.emit.c.structs import structs_of
 from tmm_gen.emit.templates import render
 from tmm_gen.native.compiler import FLAGS, compile_library
 from tmm_gen.native.differences import with_derivatives
-from tmm_gen.native.layout import structure_of
+from tmm_gen.native.layout import require_sizes, structure_of
 from tmm_gen.native.machine import machine, machine_flags, processors
 from tmm_gen.native.many import Numbers, arm_count, by_arm, columns, numbers, require_known, shares, whole
 from tmm_gen.native.many_inputs import Signal, at_start, sampled, signal_structs
@@ -110,10 +110,7 @@ class NativeBatch:
         self._real: Any = np.float32 if real.size == 4 else np.float64
         self._structs = {struct.name: struct for struct in structs_of(program)}
         self._types = {name: structure_of(struct, real) for name, struct in self._structs.items()}
-        sizes = (ctypes.c_size_t * len(self._types))()
-        handle.batch_sizes(sizes)
-        if list(sizes) != [ctypes.sizeof(kind) for kind in self._types.values()]:
-            raise RuntimeError(f"{program.name}: structs have other sizes in C than in ctypes")
+        require_sizes(program.name, self._types, handle.batch_sizes)
         self._run: Any = getattr(handle, f"{program.name}_run_batch")
         self._run.restype = ctypes.c_long
 

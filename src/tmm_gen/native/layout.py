@@ -47,6 +47,30 @@ def structure_of(struct: Struct, real: Real) -> type[ctypes.Structure]:
     return type(struct.name.capitalize(), (ctypes.Structure,), {"_fields_": fields})
 
 
+def require_sizes(name: str, types: Mapping[str, type[ctypes.Structure]], sizes_in_c: Any) -> None:
+    """Hold the sizes of structs against the compiler's.
+
+    Parameters
+    ----------
+    name : str
+        The kernel's.
+    types : mapping from str to type
+        In the order in which the library tells sizes.
+    sizes_in_c : ctypes function
+        Of a loaded library; fills an array of size_t.
+
+    Raises
+    ------
+    RuntimeError
+        If compiler and ctypes disagree on the layout of a struct.
+    """
+    sizes = (ctypes.c_size_t * len(types))()
+    sizes_in_c(sizes)
+    expected = [ctypes.sizeof(kind) for kind in types.values()]
+    if list(sizes) != expected:
+        raise RuntimeError(f"{name}: structs have {list(sizes)} bytes in C, {expected} in ctypes")
+
+
 def read(instance: ctypes.Structure, struct: Struct) -> dict[str, Any]:
     """Return the members of a struct: floats, arrays, and the counter if it has one."""
     members = {v.name: _python(getattr(instance, v.name)) for v in struct.variables}

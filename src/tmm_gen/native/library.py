@@ -7,7 +7,7 @@ from typing import Any
 
 from tmm_gen.c_language.real import Real
 from tmm_gen.emit.c.structs import structs_of
-from tmm_gen.native.layout import PairStructure, structure_of
+from tmm_gen.native.layout import PairStructure, require_sizes, structure_of
 from tmm_gen.program.evaluate import VanishingPivotError
 from tmm_gen.program.statements import Program
 
@@ -45,7 +45,7 @@ class Library:
         self.structs = {struct.name: struct for struct in structs_of(program)}
         self.types = {name: structure_of(struct, real) for name, struct in self.structs.items()}
         self._handle = handle
-        self._check_sizes()
+        require_sizes(self.name, self.types, handle.harness_sizes)
         handle.harness_seconds.restype = ctypes.c_double
         self._function("output").restype = None
         self._function("default_params").restype = None
@@ -139,10 +139,3 @@ class Library:
             )
         if status == 4:
             raise NonFiniteStateError(f"{what}: the motion has outgrown the number type")
-
-    def _check_sizes(self) -> None:
-        sizes = (ctypes.c_size_t * len(self.types))()
-        self._handle.harness_sizes(sizes)
-        expected = [ctypes.sizeof(kind) for kind in self.types.values()]
-        if list(sizes) != expected:
-            raise RuntimeError(f"{self.name}: structs have {list(sizes)} bytes in C, {expected} in ctypes")
