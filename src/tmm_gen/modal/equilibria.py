@@ -4,17 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import partial
 from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.errors import UserError
 from tmm_gen.modal.arm import linear_arm
 from tmm_gen.modal.equilibrium import descent, equilibrium
 from tmm_gen.modal.held import Held
 from tmm_gen.modal.matrices import Matrices, matrices
 from tmm_gen.modal.rest import Rest, rest_at, straight
+from tmm_gen.modal.search import NEWTON_STEPS, SAME, Found, Search, shared_ways
 from tmm_gen.modal.springs import springs_of
 from tmm_gen.modal.undamped import undamped_modes
 from tmm_gen.scene import Scene
@@ -22,17 +23,8 @@ from tmm_gen.scene import Scene
 Array = NDArray[np.float64]
 
 _QUADRANTS = (-0.5 * np.pi, 0.5 * np.pi, 0.0, np.pi)
-_STARTS = 64
-"""Most starts; each more joint that turns freely would make four times as many."""
-_STEPS = 60
 _LARGEST_TURN = 0.5
 _TOLERANCE = 1e-11
-_SAME = 1e-6
-"""rad; equilibria no further apart are one."""
-_NUDGE = 0.05
-"""rad that an arm is moved off an equilibrium to see where it falls."""
-_FALLS = 16
-"""Most unstable equilibria whose fall is followed."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -48,20 +40,8 @@ class Equilibrium(Held):
     rest: Rest
 
 
-@dataclass(frozen=True, eq=False)
-class Equilibria:
-    """What was found from how many starts.
-
-    Parameters
-    ----------
-    found : tuple of Equilibrium
-        That which is reached from the scene's start first, then stable ones, then by the ways to fall.
-    starts : int
-        From how many configurations they were looked for.
-    """
-
-    found: tuple[Equilibrium, ...]
-    starts: int
+Equilibria = Found[Equilibrium]
+"""All that were found of a planar arm."""
 
 
 def free_joints(scene: Scene) -> tuple[int, ...]:
@@ -92,33 +72,14 @@ def equilibria(
     UserError
         If there is none, as a torque turns the arm forever.
     """
-    found: list[Equilibrium] = []
-
-    def keep(rest: Rest | None, reached: bool = False) -> None:
-        if rest is not None:
-            each = _judged(scene, inputs, rest, reached)
-            if not any(_same(each, other) for other in found):
-                found.append(each)
-
-    failure: UserError | None = None
-    try:
-        keep(equilibrium(scene, inputs), reached=True)
-    except UserError as error:
-        failure = error
-    count = 0
-    for start in _starts(scene):
-        keep(_stationary(scene, inputs, start))
-        count += 1
-        advance()
-    for each in [e for e in found if e.falls][:_FALLS]:
-        for side in _beside(scene, each.rest):
-            try:
-                keep(equilibrium(scene, inputs, start=side))
-            except UserError:  # it falls and falls: a torque turns it on and on
-                continue
-    if not found and failure is not None:
-        raise failure
-    return Equilibria(tuple(sorted(found, key=lambda e: (not e.reached, e.falls))), count)
+    return Search(
+        descended=lambda start: equilibrium(scene, inputs, start=start),
+        starts=_starts(scene),
+        stationary=partial(_stationary, scene, inputs),
+        judged=partial(_judged, scene, inputs),
+        same=_same,
+        fall=partial(_fall, scene),
+    ).run(advance)
 
 
 def _starts(scene: Scene) -> Iterator[Array]:
@@ -128,10 +89,7 @@ def _starts(scene: Scene) -> Iterator[Array]:
     """
     shape = np.concatenate([np.zeros(1 - scene.hub), straight(scene)])  # of hub or base, then of each link
     pivots = free_joints(scene)
-    quadrants = _QUADRANTS if len(_QUADRANTS) ** len(pivots) <= _STARTS else _QUADRANTS[:2]
-    turned = 0
-    while turned < len(pivots) and len(quadrants) ** (turned + 1) <= _STARTS:
-        turned += 1
+    quadrants, turned = shared_ways(_QUADRANTS, len(pivots))
     for directions in product(quadrants, repeat=turned):
         angles = shape.copy()
         for number, pivot in enumerate(pivots):
@@ -156,7 +114,7 @@ def _looked(scene: Scene, inputs: Mapping[str, float] | None, angles: Array) -> 
 
 def _stationary(scene: Scene, inputs: Mapping[str, float] | None, angles: Array) -> Rest | None:
     """Return the equilibrium near some angles, of whatever kind; None where there is none."""
-    for _ in range(_STEPS):
+    for _ in range(NEWTON_STEPS):
         rest, linear = _looked(scene, inputs, angles)
         springs = springs_of(linear.parts)
         torque = rest.unbalanced
@@ -180,7 +138,7 @@ def _judged(scene: Scene, inputs: Mapping[str, float] | None, rest: Rest, reache
         inner = angles[scene.host(joint)] if joint else 0.0
         turns = (angles[joint] - inner) / (2.0 * np.pi)
         # half a turn is one to the left
-        angles[_beyond(scene, joint)] -= 2.0 * np.pi * np.ceil(turns - 0.5 - _SAME)
+        angles[_beyond(scene, joint)] -= 2.0 * np.pi * np.ceil(turns - 0.5 - SAME)
     settled, linear = _looked(scene, inputs, angles[1 - scene.hub :])
     springs = springs_of(linear.parts)
     idle = springs.turned if springs.rigid else np.zeros((len(springs.pivot), 0))
@@ -193,11 +151,9 @@ def _same(one: Equilibrium, other: Equilibrium) -> bool:
     if one.idle.shape == other.idle.shape:
         turns = turns - one.idle @ np.linalg.lstsq(one.idle, turns)[0]
     apart = np.abs(turns - 2.0 * np.pi * np.round(turns / (2.0 * np.pi)))
-    return bool(np.all(apart < _SAME))
+    return bool(np.all(apart < SAME))
 
 
-def _beside(scene: Scene, rest: Rest) -> tuple[Array, Array]:
-    """Return an arm on both sides of an unstable equilibrium, along its fastest fall."""
-    shape = undamped_modes(matrices(linear_arm(scene, rest)), 1).shapes[:, 0]
-    nudge = _NUDGE * shape / np.max(np.abs(shape))
-    return rest.free_angles + nudge, rest.free_angles - nudge
+def _fall(scene: Scene, each: Equilibrium) -> tuple[Array, Array]:
+    """Return the free angles of an unstable equilibrium, and the shape of its fastest fall."""
+    return each.rest.free_angles, undamped_modes(matrices(linear_arm(scene, each.rest)), 1).shapes[:, 0]

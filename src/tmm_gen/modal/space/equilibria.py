@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.errors import UserError
 from tmm_gen.modal.held import Held
+from tmm_gen.modal.search import NEWTON_STEPS, SAME, Found, Search, shared_ways
 from tmm_gen.modal.space.equilibrium import (
     LARGEST_TURN,
     TOLERANCE,
@@ -29,15 +30,6 @@ Array = NDArray[np.float64]
 
 _WAYS = (0.0, np.pi, -0.5 * np.pi, 0.5 * np.pi)
 """From where what stands on a joint hangs: so, on its head, and level to both sides."""
-_STARTS = 64
-"""Most starts; each more joint that turns freely would make four times as many."""
-_STEPS = 60
-_SAME = 1e-6
-"""rad, or share of the arm's reach; equilibria no further apart are one."""
-_NUDGE = 0.05
-"""rad that an arm is moved off an equilibrium to see where it falls."""
-_FALLS = 16
-"""Most unstable equilibria whose fall is followed."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -53,20 +45,8 @@ class SpaceEquilibrium(Held):
     rest: Still
 
 
-@dataclass(frozen=True, eq=False)
-class SpaceEquilibria:
-    """What was found from how many starts.
-
-    Parameters
-    ----------
-    found : tuple of SpaceEquilibrium
-        That which is reached from the scene's start first, then stable ones, then by the ways to fall.
-    starts : int
-        From how many configurations they were looked for.
-    """
-
-    found: tuple[SpaceEquilibrium, ...]
-    starts: int
+SpaceEquilibria = Found[SpaceEquilibrium]
+"""All that were found of an arm in space."""
 
 
 def equilibria_in_space(
@@ -93,33 +73,16 @@ def equilibria_in_space(
     UserError
         If there is none, as a torque turns a joint forever; or one that cannot be judged, as what acts has no energy.
     """
-    found: list[SpaceEquilibrium] = []
-
-    def keep(still: Still | None, *, reached: bool = False) -> None:
-        if still is not None:
-            each = _judged(require_energy(require_inertia(still, name), name), reached=reached)
-            if not any(_same(each, other) for other in found):
-                found.append(each)
-
-    failure: UserError | None = None
-    try:
-        keep(descended(numbers, given, numbers.start, name), reached=True)
-    except UserError as error:
-        failure = error
-    count = 0
-    for start in _starts(numbers, given):
-        keep(_stationary(numbers, given, start))
-        count += 1
-        advance()
-    for each in [e for e in found if e.falls][:_FALLS]:
-        for side in _beside(each.rest):
-            try:
-                keep(descended(numbers, given, side, name))
-            except UserError:  # it falls and falls: a torque turns it on and on
-                continue
-    if not found and failure is not None:
-        raise failure
-    return SpaceEquilibria(tuple(sorted(found, key=lambda e: (not e.reached, e.falls))), count)
+    return Search(
+        descended=lambda start: descended(numbers, given, numbers.start if start is None else start, name),
+        starts=_starts(numbers, given),
+        stationary=partial(_stationary, numbers, given),
+        judged=lambda still, reached: _judged(
+            require_energy(require_inertia(still, name), name), reached=reached
+        ),
+        same=_same,
+        fall=_fall,
+    ).run(advance)
 
 
 def _starts(numbers: ArmNumbers, given: Mapping[str, float]) -> Iterator[Array]:
@@ -129,10 +92,7 @@ def _starts(numbers: ArmNumbers, given: Mapping[str, float]) -> Iterator[Array]:
     the rest of the arm hangs. Where weight and loads do not mind how a joint stands, it stays as it starts.
     """
     minded = _minded(numbers, given)
-    ways = _WAYS if len(_WAYS) ** len(minded) <= _STARTS else _WAYS[:2]
-    turned = 0
-    while turned < len(minded) and len(ways) ** (turned + 1) <= _STARTS:
-        turned += 1
+    ways, turned = shared_ways(_WAYS, len(minded))
     slack = np.where(numbers.stiffness > 0.0, numbers.rest, numbers.start)
 
     def set_on(angles: Array, number: int) -> Iterator[Array]:
@@ -184,7 +144,7 @@ def _hanging(
 
 def _stationary(numbers: ArmNumbers, given: Mapping[str, float], angles: Array) -> Still | None:
     """Return the equilibrium near some angles, of whatever kind; None where there is none."""
-    for _ in range(_STEPS):
+    for _ in range(NEWTON_STEPS):
         still = Still(numbers, angles, given)
         springs = SpaceSprings(still)
         # level, say: nothing tells how far to turn
@@ -202,7 +162,7 @@ def _judged(still: Still, *, reached: bool) -> SpaceEquilibrium:
     """Return an equilibrium with whole turns at free joints taken off, and how it is held."""
     angles, free = still.angles.copy(), still.numbers.free
     # half a turn is one to the left
-    angles[free] -= 2.0 * np.pi * np.ceil(angles[free] / (2.0 * np.pi) - 0.5 - _SAME)
+    angles[free] -= 2.0 * np.pi * np.ceil(angles[free] / (2.0 * np.pi) - 0.5 - SAME)
     settled = Still(still.numbers, angles, still.given)
     # of many turns taken off rounding leaves something
     polished = angles + given_way(SpaceSprings(settled), settled.unbalanced)
@@ -223,16 +183,14 @@ def _same(one: SpaceEquilibrium, other: SpaceEquilibrium) -> bool:
     turns = one.rest.angles - other.rest.angles
     turns[numbers.free] -= 2.0 * np.pi * np.round(turns[numbers.free] / (2.0 * np.pi))
     if not one.idle.shape[1]:
-        return bool(np.all(np.abs(turns) < _SAME))
+        return bool(np.all(np.abs(turns) < SAME))
     turns[numbers.free] = 0.0
     heights = (one.rest.heights - other.rest.heights) / numbers.reach
     massive = np.array([joint.body.mass > 0.0 for joint in numbers.arm.joints])
     seen = (one.rest.weight - other.rest.weight)[massive] / (np.linalg.norm(numbers.arm.gravity) or 1.0)
-    return all(bool(np.all(np.abs(each) < _SAME)) for each in (turns, heights, seen))
+    return all(bool(np.all(np.abs(each) < SAME)) for each in (turns, heights, seen))
 
 
-def _beside(still: Still) -> tuple[Array, Array]:
-    """Return an arm on both sides of an unstable equilibrium, along its fastest fall."""
-    shape = undamped_modes(space_matrices(still), 1).shapes[:, 0]
-    nudge = _NUDGE * shape / np.max(np.abs(shape))
-    return still.angles + nudge, still.angles - nudge
+def _fall(each: SpaceEquilibrium) -> tuple[Array, Array]:
+    """Return the angles of an unstable equilibrium, and the shape of its fastest fall."""
+    return each.rest.angles, undamped_modes(space_matrices(each.rest), 1).shapes[:, 0]
