@@ -13,7 +13,8 @@ from support.spatial.kernels import package_of, stepped
 from tmm_gen.program.space.assemble import SpaceChoices
 from tmm_gen.reference.spatial_motion import motion
 from tmm_gen.scene.spatial.arm import SpatialArm
-from tmm_gen.verify.spatial_order import SLOPE, fitted_order
+from tmm_gen.verify.check_row import SLOPE
+from tmm_gen.verify.spatial_order import fitted_order
 
 UNTIL = 0.1
 """s."""

@@ -16,7 +16,8 @@ from support.spatial.yardsticks import cantilever
 from tmm_gen.program.space.assemble import SpaceChoices
 from tmm_gen.reference.spatial_arm import WorldArm
 from tmm_gen.scene.spatial.arm import SpatialArm
-from tmm_gen.verify.spatial_order import SLOPE, fitted_order
+from tmm_gen.verify.check_row import SLOPE
+from tmm_gen.verify.spatial_order import fitted_order
 
 STEP = 0.02
 """s, long: one sweep leaves much to do."""

@@ -18,7 +18,8 @@ from tmm_gen.program.space.assemble import SpaceChoices, build_in_space
 from tmm_gen.reference.spatial_arm import WorldArm
 from tmm_gen.scene import load_scene
 from tmm_gen.scene.spatial.arm import ArmOutput, Frame, Revolute, SpatialArm
-from tmm_gen.verify.spatial_order import SLOPE, fitted_order, softened, swings, turned_alike
+from tmm_gen.verify.check_row import SLOPE
+from tmm_gen.verify.spatial_order import fitted_order, softened, swings, turned_alike
 
 HEADED = load_scene(Path(__file__).resolve().parents[2] / "scenes" / "arm10.toml")
 """Any scene: headers are written of one."""

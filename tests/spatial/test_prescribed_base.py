@@ -21,7 +21,8 @@ from tmm_gen.scene import SceneError, parse_scene
 from tmm_gen.scene.spatial.arm import ArmInput, SpatialArm
 from tmm_gen.simulate.run import simulate
 from tmm_gen.verify.agreement import largest_difference, native_step, numpy_step, reached_vectors
-from tmm_gen.verify.spatial_order import SLOPE, fitted_order
+from tmm_gen.verify.check_row import SLOPE
+from tmm_gen.verify.spatial_order import fitted_order
 
 TABLE = """
 name = "turntable"

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+SLOPE = 0.1
+"""How far a fitted order may be from the derived one."""
+
 
 @dataclass(frozen=True)
 class CheckRow:

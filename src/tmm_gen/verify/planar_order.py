@@ -18,7 +18,7 @@ from tmm_gen.reference.frequency import fastest_mode
 from tmm_gen.reference.planar_arm import Arm
 from tmm_gen.scene import Scene
 from tmm_gen.simulate.metrics import convergence_slope
-from tmm_gen.verify.check_row import CheckRow
+from tmm_gen.verify.check_row import SLOPE, CheckRow
 
 Array = NDArray[np.float64]
 
@@ -32,8 +32,6 @@ _STEPS = (64, 128, 256, 512)
 _SMALL = 0.01
 """rad; of errors larger than this the order says nothing yet: finer steps are fitted."""
 _HALVINGS = 4
-SLOPE = 0.1
-"""How far the fitted order may be from the derived one."""
 _STEADY = 1e-10
 """rad; a motion this close to constant rates has no order: every integrator steps it exactly."""
 

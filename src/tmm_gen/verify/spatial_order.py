@@ -25,7 +25,7 @@ from tmm_gen.scene.spatial.arm import SpatialArm
 from tmm_gen.simulate.metrics import convergence_slope
 from tmm_gen.simulate.prescribed import Derivative
 from tmm_gen.simulate.trace import BASE
-from tmm_gen.verify.check_row import CheckRow
+from tmm_gen.verify.check_row import SLOPE, CheckRow
 
 Array = NDArray[np.float64]
 
@@ -45,8 +45,6 @@ _STEPS = (32, 64, 128, 256)
 _SMALL = 0.01
 """rad; of errors larger than this the order says nothing yet: finer steps are fitted."""
 _HALVINGS = 4
-SLOPE = 0.1
-"""How far the fitted order may be from the derived one."""
 
 
 def spatial_slope(scene: Scene, module: ModuleType, facts: dict[str, object]) -> CheckRow:
