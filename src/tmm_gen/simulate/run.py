@@ -12,20 +12,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.errors import UserError
-from tmm_gen.inputs.curve import Curve
-from tmm_gen.inputs.profiles import Step
 from tmm_gen.inputs.signals import Constant, Signal
-from tmm_gen.reference.assembly import assemble
-from tmm_gen.reference.energy import energy
 from tmm_gen.scene import Scene
 from tmm_gen.simulate.divergence import BrokenOffError, DivergedError, Watch, watch
+from tmm_gen.simulate.imbalance import imbalance_of
 from tmm_gen.simulate.planar_divergence import PlanarWatch, more_sweeps, planar_watch
 from tmm_gen.simulate.prescribed import followed, prescribed
+from tmm_gen.simulate.settled import outputs_at_rest
 from tmm_gen.simulate.simulation import Simulation
 from tmm_gen.simulate.stepping import Backend, Course, Stepper
 from tmm_gen.simulate.substeps import Progress, Substeps, divided
 from tmm_gen.simulate.tolerance import refuse_inaccurate, refuse_unsolved, tolerance
-from tmm_gen.simulate.trace import Trace
+from tmm_gen.simulate.trace import MOST, room_for
 
 if TYPE_CHECKING:
     from tmm_gen.simulate.accuracy import Accuracy
@@ -33,20 +31,11 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-_MOST = 20_000_000
-"""Steps whose outputs are sure to fit in memory."""
-
 _LEAST_TURN = 1e-8
 """rad; what a sweep may turn the links by and be the last, where the usual does not do."""
 
 _SMALL_SHARE, _SMALLEST = 0.2, 1e-9
 """Share of the error that sweeps may have, and an error that is none."""
-
-_SHORT = 100
-"""Links of a planar arm whose equilibrium is looked for."""
-
-_FEW = 5
-"""Steps over which a load must spread for its work to be known from its values at them."""
 
 
 def number_of_steps(until: float, step: float) -> int:
@@ -58,10 +47,10 @@ def number_of_steps(until: float, step: float) -> int:
         If they are too many to keep.
     """
     ratio = until / step
-    if not ratio <= _MOST:
+    if not ratio <= MOST:
         count = f"{ratio:.0f}" if ratio < 1e15 else "far too many"
         raise UserError(
-            f"simulating {until:g} s at a step of {step:g} s takes {count} steps, more than {_MOST:.0f}. "
+            f"simulating {until:g} s at a step of {step:g} s takes {count} steps, more than {MOST:.0f}. "
             "Simulate a shorter time (--until) or take larger steps (--step)."
         )
     return max(1, math.ceil(ratio * (1.0 - 1e-12)))
@@ -137,9 +126,9 @@ def simulate(
         time=time,
         outputs={name: found.outputs[:, k] for k, name in enumerate(found.course.names)},
         inputs={name: signal.at(time) for name, signal in inputs.items()},
-        rest=_rest(scene, inputs, float(time[-1])),
+        rest=outputs_at_rest(scene, inputs, float(time[-1])),
         trace=None if whole is None else whole.thinned(count),
-        imbalance=_imbalance(used, inputs, fine, whole),
+        imbalance=imbalance_of(used, inputs, fine, whole),
         unsolved=found.unsolved,
         step_error=found.step_error,
         accuracy=found.accuracy,
@@ -213,7 +202,7 @@ class _Task:
             steps,
             step,
             self._guard(used),
-            _trace(used, steps, whole=self.trace) if self.trace or self.judge else None,
+            room_for(used, steps, whole=self.trace) if self.trace or self.judge else None,
             _unsolved(used, self.inputs, steps, self.backend),
             parameters=parameters,
         )
@@ -294,24 +283,6 @@ def _outputs(course: Course, stepper: Stepper, every: int, advance: Callable[[fl
     return outputs
 
 
-def _imbalance(scene: Scene, signals: Mapping[str, Signal], time: Array, trace: Trace | None) -> float | None:
-    """Return how well a planar arm's energies balance; None where a load is too abrupt to know its work."""
-    step, until = scene.integrator.step, float(time[-1])
-    abrupt = any(_abrupt(signals[item.name], item.acts, step, until) for item in scene.inputs)
-    flat = scene.model.in_plane
-    if not flat or trace is None or len(time) < 3 or abrupt:
-        return None
-    return energy(scene, signals, time, trace.angle, trace.rate).imbalance
-
-
-def _abrupt(signal: Signal, acts: str, step: float, until: float) -> bool:
-    """Whether a load changes within a few steps, or the rate of a prescribed base jumps on the way."""
-    knots = signal.knots
-    if acts == "angle":
-        return isinstance(signal, Curve) and any(0.0 < knots[row] < until for row, _ in signal.corners)
-    return isinstance(signal, Step) or bool(np.min(np.diff(knots), initial=np.inf) < _FEW * step)
-
-
 def _unsolved(scene: Scene, signals: Mapping[str, Signal], steps: int, backend: Backend) -> Unsolved | None:
     """Return who looks at what sweeps leave unsolved; None where nothing is solved by iteration."""
     if not scene.model.iterates or scene.spatial is not None:
@@ -320,52 +291,3 @@ def _unsolved(scene: Scene, signals: Mapping[str, Signal], steps: int, backend: 
 
     real = "compensated" if scene.emit.compensated else scene.emit.real
     return Unsolved(scene, signals, steps, real if backend == "c" else "float64")
-
-
-def _trace(scene: Scene, steps: int, *, whole: bool) -> Trace:
-    """Return room for the motion of all links, at every instant if need be or if there is room."""
-    if steps * scene.stations <= _MOST:
-        return Trace.empty(scene, steps + 1)
-    if whole:
-        raise UserError(
-            f"the motion of {scene.stations} links over {steps} steps is too much to keep. "
-            "Simulate a shorter time (--until) or take larger steps (--step)."
-        )
-    return Trace.empty(scene, steps + 1, math.ceil(steps * scene.stations / _MOST))
-
-
-def _rest(scene: Scene, signals: Mapping[str, Signal], until: float) -> dict[str, float] | None:
-    """Return the outputs at rest under the last values of the inputs; None where there is no such thing."""
-    if any(signal.ends > until for signal in signals.values()):
-        return None
-    last = {name: float(signal.at(until)) for name, signal in signals.items()}
-    if scene.spatial is not None:
-        return None  # its equilibria are not looked for yet
-    if not scene.model.linear:
-        return _planar_rest(scene, last)
-    assembly = assemble(scene)
-    if assembly.free:
-        return None
-    found = assembly.static(np.array(list(last.values())))
-    return dict(zip(assembly.outputs, found.tolist(), strict=True))
-
-
-def _planar_rest(scene: Scene, inputs: Mapping[str, float]) -> dict[str, float] | None:
-    """Return the outputs of an arm that hangs still; None where it would turn on, or is too long to be looked at."""
-    if scene.hub or scene.stations > _SHORT:
-        return None
-    from tmm_gen.modal.equilibrium import equilibrium
-    from tmm_gen.reference.planar_arm import Arm
-    from tmm_gen.reference.planar_reference import read
-
-    try:
-        angles = equilibrium(scene, inputs).free_angles[None]
-    except UserError:
-        return None
-    arm = Arm(scene, {name: Constant(value) for name, value in inputs.items()})
-    still = np.zeros_like(angles)
-    found: dict[str, Array] = {}
-    for output in scene.outputs:
-        if not scene.quantity(output).accumulates:
-            found |= read(arm, output, np.zeros(1), angles, still, still)
-    return {name: float(value[0]) for name, value in found.items()}

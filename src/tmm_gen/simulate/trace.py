@@ -10,9 +10,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from tmm_gen.errors import UserError
 from tmm_gen.scene import Scene
 
 Array = NDArray[np.float64]
+
+MOST = 20_000_000
+"""Steps whose outputs are sure to fit in memory."""
 
 BASE = tuple(
     f"base_{word}" for word in (*(f"place_{x}" for x in "xyz"), *(f"quaternion_{x}" for x in "wxyz"))
@@ -81,3 +85,30 @@ class Trace:
         if "turned" in states:
             turned = states["turned"][first :: self.every]
             self.angle[place] += turned if turned.ndim > 1 else turned[:, None]
+
+
+def room_for(scene: Scene, steps: int, *, whole: bool) -> Trace:
+    """Return room for the motion of all links, at every instant if need be or if there is room.
+
+    Parameters
+    ----------
+    scene : Scene
+        Whose links move.
+    steps : int
+        How many are taken.
+    whole : bool
+        Whether every instant is needed.
+
+    Raises
+    ------
+    UserError
+        If every instant is needed and there is no room.
+    """
+    if steps * scene.stations <= MOST:
+        return Trace.empty(scene, steps + 1)
+    if whole:
+        raise UserError(
+            f"the motion of {scene.stations} links over {steps} steps is too much to keep. "
+            "Simulate a shorter time (--until) or take larger steps (--step)."
+        )
+    return Trace.empty(scene, steps + 1, math.ceil(steps * scene.stations / MOST))
