@@ -33,7 +33,7 @@ def test_the_workflow_runs_what_anyone_can_run(repository: Path) -> None:
     assert re.findall(r'"(3\.\d+)"', text) == ["3.11", "3.13"]
 
 
-def test_ci_tests_then_shows_then_looks_for_changes(repository: Path) -> None:
+def test_ci_tests_and_shows_then_looks_for_changes(repository: Path) -> None:
     script = repository / ".ci" / "run"
     lines = script.read_text().splitlines()
     assert lines[0] == "#!/usr/bin/env bash"
@@ -43,8 +43,10 @@ def test_ci_tests_then_shows_then_looks_for_changes(repository: Path) -> None:
         next(k for k, line in enumerate(lines) if line.startswith("make lint")),
         next(k for k, line in enumerate(lines) if line.startswith('wait "$lint" || {')),
         next(k for k, line in enumerate(lines) if 'PATH="$hidden" make test' in line),
+        next(k for k, line in enumerate(lines) if line.startswith('wait "$install" || {')),
+        next(k for k, line in enumerate(lines) if line.startswith("make demo >")),
         lines.index("make test"),
-        lines.index("make demo"),
+        next(k for k, line in enumerate(lines) if line.startswith('wait "$demo" || {')),
         lines.index('changes="$(git status --porcelain)"'),
     ]
     assert order == sorted(order)
