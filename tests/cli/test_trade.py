@@ -79,7 +79,7 @@ def test_given_inputs_move_the_arm(capsys: pytest.CaptureFixture[str]) -> None:
         (("--links", "5"), "has no [beam] to cut into links"),
         (("--links", "many"), "'many' is no positive whole number"),
         (("--iterations", "2"), "a chain is linear"),
-        (("--corrections", "1"), "--corrections: a chain is linear. Leave it out."),
+        (("--corrections", "1"), "--corrections: a chain is linear, nothing is iterated. Leave that out."),
         (("--corrections", "-1"), "is no whole number from 0"),
         (("--reals", "float16"), "'float16' is none of float64, float32"),
         (("--output", "elbow"), "no such output; choose from tip"),

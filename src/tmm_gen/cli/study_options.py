@@ -99,13 +99,12 @@ def axes_of(scene: Scene, options: dict[str, Any]) -> Axes:
             )
     if options["links"] and not can_be_cut(scene):
         raise UserError("--links: the scene has no [beam] to cut into links; it lists them. Leave it out.")
-    if scene.model.linear and (options["linearisations"] or options["iterations"]):
-        raise UserError("--linearisations and --iterations: a chain is linear. Leave them out.")
-    if options["corrections"] and not scene.model.in_plane:
+    given = [f"--{name}" for name in ("linearisations", "iterations", "corrections") if options[name]]
+    if given and scene.model.linear:
+        raise UserError(f"{', '.join(given)}: a chain is linear, nothing is iterated. Leave that out.")
+    if options["corrections"] and scene.spatial is not None:
         raise UserError(
-            "--corrections: a chain is linear. Leave it out."
-            if scene.model.linear
-            else "--corrections: in space --iterations counts a sweep and its corrections. Write --iterations 1,2."
+            "--corrections: in space --iterations counts a sweep and its corrections. Write --iterations 1,2."
         )
     return Axes(
         integrators=names,
