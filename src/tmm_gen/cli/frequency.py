@@ -14,6 +14,7 @@ from tmm_gen.cli.console import Column, progress, table
 from tmm_gen.cli.given import constant_inputs, picture_file, plot_option, positive
 from tmm_gen.cli.kinds import served_scene
 from tmm_gen.cli.links import show_links
+from tmm_gen.cli.near import near_option, start_of
 from tmm_gen.cli.outputs import OutputFile, claim, write_outputs
 from tmm_gen.errors import UserError
 
@@ -54,6 +55,7 @@ _ROUNDING = 1e-12
     multiple=True,
     help="A constant input that an arm rests under. Repeatable; the rest is zero.",
 )
+@near_option
 @click.option("--csv", "csv_file", type=OutputFile(), help="Write the response.")
 @plot_option("magnitude and phase", "-frequency")
 @click.option(
@@ -76,6 +78,7 @@ def frequency(
     high: float | None,
     points: int,
     given: tuple[str, ...],
+    near: tuple[str, ...],
     csv_file: Path | None,
     picture: Path | None,
     error: float | None,
@@ -95,7 +98,7 @@ def frequency(
         show_links(loaded, error, band, json_mode)
         return
     claim((csv_file, picture), (scene,))
-    inputs = constant_inputs(loaded, given)
+    inputs, start = constant_inputs(loaded, given), start_of(loaded, near)
     chosen = _chosen(scene, loaded.inputs, source, "--from", "[[input]]")
     # energies go with the square of the motion
     readable = tuple(item for item in loaded.outputs if not loaded.quantity(item).of_arm)
@@ -105,7 +108,7 @@ def frequency(
     # what overflows in an arm in space is refused
     quiet = np.errstate(all="ignore" if loaded.spatial else None)
     with progress(f"frequency response of {loaded.name}"), quiet:
-        answer = _respond(loaded, inputs, chosen, read, (low, high), points)
+        answer = _respond(_swinging(loaded, inputs, start), (loaded, chosen, read), (low, high), points)
         written = _write(scene, answer, csv_file, picture)
     _show(answer, written, json_mode)
 
@@ -165,29 +168,27 @@ class _Swinging:
     straight: bool = False
 
 
-def _swinging(scene: Scene, inputs: dict[str, float]) -> _Swinging:
+def _swinging(scene: Scene, inputs: dict[str, float], start: NDArray[np.float64] | None) -> _Swinging:
     import numpy as np
 
     if scene.spatial is not None:
         from tmm_gen.modal.space.response import space_response
         from tmm_gen.modal.space.situation import resting_in_space
 
-        resting = resting_in_space(scene, inputs)
+        resting = resting_in_space(scene, inputs, start)
         return _Swinging(resting.linear, lambda s: space_response(resting.still, s))
     from tmm_gen.modal.matrices import matrices
     from tmm_gen.modal.response import frequency_response
     from tmm_gen.modal.situation import resting_arm
 
-    arm = resting_arm(scene, inputs)
+    arm = resting_arm(scene, inputs, start)
     straight = arm.rest is not None and float(np.max(np.abs(arm.rest.angles))) < 1e-9
     return _Swinging(matrices(arm), lambda s: frequency_response(arm, s), straight)
 
 
 def _respond(
-    scene: Scene,
-    inputs: dict[str, float],
-    given: Input,
-    read: Output,
+    arm: _Swinging,
+    about: tuple[Scene, Input, Output],
     limits: tuple[float | None, float | None],
     points: int,
 ) -> _Answer:
@@ -196,7 +197,7 @@ def _respond(
     from tmm_gen.modal.beam.response import beam_response
     from tmm_gen.modal.modes import find_modes, modes_up_to
 
-    arm = _swinging(scene, inputs)
+    scene, given, read = about
     swinging = [mode.hertz for mode in find_modes(arm.linear, _SHOWN + 1) if mode.frequency > 0.0][:_SHOWN]
     low = limits[0] or (0.1 * swinging[0] if swinging else 0.01)
     high = limits[1] or (2.0 * swinging[-1] if swinging else 100.0 * low)

@@ -13,6 +13,7 @@ from tmm_gen.cli.console import Column, progress, table
 from tmm_gen.cli.given import constant_inputs, picture_file, plot_option
 from tmm_gen.cli.kinds import served_scene
 from tmm_gen.cli.modes_table import mode_row, say_unsure
+from tmm_gen.cli.near import near_option, start_of
 from tmm_gen.cli.outputs import claim, write_outputs
 from tmm_gen.cli.space_modes import show_space_modes
 
@@ -34,26 +35,35 @@ if TYPE_CHECKING:
     multiple=True,
     help="A constant input that an arm rests under. Repeatable; the rest is zero.",
 )
+@near_option
 @plot_option("the mode shapes", "-modes")
 @click.option("--json", "json_mode", is_flag=True, help="One JSON object instead of a table.")
-def modes(scene: Path, count: int, given: tuple[str, ...], picture: Path | None, json_mode: bool) -> None:
+def modes(
+    scene: Path,
+    count: int,
+    given: tuple[str, ...],
+    near: tuple[str, ...],
+    picture: Path | None,
+    json_mode: bool,
+) -> None:
     """Show natural frequencies, damping ratios and mode shapes of SCENE.
 
-    An arm in a plane or in space swings about its static equilibrium. A planar arm made from a [beam] is shown beside
-    the exact continuous beam, straight and weightless.
+    An arm in a plane or in space swings about its static equilibrium: the one that it reaches from its [initial]
+    angles, or that near the angles of --near. A planar arm made from a [beam] is shown beside the exact continuous
+    beam, straight and weightless.
     """
     loaded = served_scene("modes", scene)
-    inputs = constant_inputs(loaded, given)
+    inputs, start = constant_inputs(loaded, given), start_of(loaded, near)
     claim((picture,), (scene,))
     if loaded.spatial is not None:
-        show_space_modes(loaded, count, inputs, picture, json_mode)
+        show_space_modes(loaded, count, inputs, start, picture, json_mode)
         return
     with progress(f"finding modes of {loaded.name}"):
         from tmm_gen.modal.matrices import matrices
         from tmm_gen.modal.modes import find_modes
         from tmm_gen.modal.situation import resting_arm
 
-        arm = resting_arm(loaded, inputs)
+        arm = resting_arm(loaded, inputs, start)
         found = find_modes(matrices(arm), count)
         beside = _Beside(loaded, arm, len(found))
         rows = [mode_row(number, mode) | beside.row(number) for number, mode in enumerate(found)]

@@ -11,6 +11,7 @@ from tmm_gen.cli.changes import changed_scene, set_option
 from tmm_gen.cli.console import Column, print_json, progress, table
 from tmm_gen.cli.given import constant_inputs, picture_file, plot_option
 from tmm_gen.cli.kinds import require_served
+from tmm_gen.cli.near import FROM_START, near_option, start_of
 from tmm_gen.cli.outputs import claim, write_outputs
 from tmm_gen.cli.space_rest import show_space_rest
 from tmm_gen.errors import UserError
@@ -34,17 +35,23 @@ _DECIMALS = 9
     multiple=True,
     help="A constant input that the arm rests under. Repeatable; the rest is zero.",
 )
+@near_option
 @set_option
 @plot_option("the arm in each equilibrium", "-rest")
 @click.option("--json", "json_mode", is_flag=True, help="One JSON object instead of a table.")
 def rest(
-    scene: Path, given: tuple[str, ...], changes: tuple[str, ...], picture: Path | None, json_mode: bool
+    scene: Path,
+    given: tuple[str, ...],
+    near: tuple[str, ...],
+    changes: tuple[str, ...],
+    picture: Path | None,
+    json_mode: bool,
 ) -> None:
     """Show the static equilibria of SCENE, an arm in a plane or in space, under gravity and constant inputs.
 
-    Where a descent from the scene's start ends comes first. Others are looked for from every quadrant of each joint
-    that turns freely, as motors without a torque do. Angles of joints are those of the outer side against the inner
-    one, torques what the inner side exerts on the outer one.
+    Where a descent from the scene's start ends comes first, or what is found near the angles of --near. Others are
+    looked for from every quadrant of each joint that turns freely, as motors without a torque do. Angles of joints are
+    those of the outer side against the inner one, torques what the inner side exerts on the outer one.
     """
     loaded = require_served("rest", changed_scene(scene, changes))
     if loaded.model.linear:
@@ -53,30 +60,37 @@ def rest(
             "Name a planar scene, or one in space."
         )
     inputs = constant_inputs(loaded, given)
+    start = start_of(loaded, near)
     claim((picture,), (scene,))
     if loaded.spatial is not None:
-        show_space_rest(loaded, inputs, picture, json_mode)
+        show_space_rest(loaded, inputs, start, picture, json_mode)
         return
     with progress(f"balancing {loaded.name}") as advance:
         from tmm_gen.modal.equilibria import equilibria
 
-        held = equilibria(loaded, inputs, advance)
+        held = equilibria(loaded, inputs, advance, start)
         files: list[Path] = []
         if picture is not None:
             from tmm_gen.report.rest_picture import rest_picture
 
             target = picture_file(picture, loaded.name, "-rest")
             files = write_outputs({target: rest_picture(loaded, held, target.suffix[1:].lower())})
-    _show(loaded, inputs, held, files, json_mode)
+    _show(loaded, inputs, held, FROM_START if start is None else "--near", files, json_mode)
 
 
 def _show(
-    scene: Scene, inputs: dict[str, float], held: Equilibria, files: list[Path], json_mode: bool
+    scene: Scene,
+    inputs: dict[str, float],
+    held: Equilibria,
+    origin: str,
+    files: list[Path],
+    json_mode: bool,
 ) -> None:
     from tmm_gen.modal.equilibria import free_joints
+    from tmm_gen.modal.near import joint_name
 
-    names = {number: _joint_name(scene, number) for number in free_joints(scene)}
-    rows = [_row(scene, number, each) for number, each in enumerate(held.found, start=1)]
+    names = {number: joint_name(scene, number) for number in free_joints(scene)}
+    rows = [_row(scene, number, each, origin) for number, each in enumerate(held.found, start=1)]
     if json_mode:
         facts = {
             "scene": scene.name,
@@ -112,14 +126,6 @@ def _six(value: float) -> str:
     return f"{round(value, _DECIMALS) + 0.0:.6g}"
 
 
-def _joint_name(scene: Scene, number: int) -> str:
-    """Return what to call a joint, counted from 1, or the hub, 0."""
-    if number == 0:
-        return "the base, which floats," if scene.floats else "hub"
-    named = (part.name for part in scene.parts if number in (part.joint, part.gear))
-    return next(named, f"joint {number}")
-
-
 def _ends(scene: Scene) -> list[tuple[int, str]]:
     """Return the links that carry nothing, with names: "tip" of an arm without branches, else that of the last part."""
     from tmm_gen.simulate.places import ends
@@ -129,9 +135,10 @@ def _ends(scene: Scene) -> list[tuple[int, str]]:
     return [(end, "tip" if len(found) == 1 else names[end]) for end in found]
 
 
-def _row(scene: Scene, number: int, each: Equilibrium) -> dict[str, Any]:
+def _row(scene: Scene, number: int, each: Equilibrium, origin: str) -> dict[str, Any]:
     import numpy as np
 
+    from tmm_gen.modal.near import joint_name
     from tmm_gen.simulate.places import node_places
 
     at = each.rest
@@ -140,9 +147,10 @@ def _row(scene: Scene, number: int, each: Equilibrium) -> dict[str, Any]:
     turned = at.angles - angles[[scene.inner(joint) for joint in range(1, scene.stations + 1)]]
     return {
         "equilibrium": number,
-        "state": each.state + (", reached from the start" if each.reached else ""),
+        "state": each.told(origin),
         "stable": each.stable,
-        "from_start": each.reached,
+        "from_start": each.reached and origin == FROM_START,
+        "from_near": each.reached and origin != FROM_START,
         "falls": each.falls,
         "idle": each.idle.shape[1],
         "hub_angle": at.hub,
@@ -156,7 +164,7 @@ def _row(scene: Scene, number: int, each: Equilibrium) -> dict[str, Any]:
         ],
         "joints": [
             {
-                "name": _joint_name(scene, joint),
+                "name": joint_name(scene, joint),
                 "angle": float(turned[joint - 1]),
                 "torque": float(at.inner[joint - 1, 2]),
             }

@@ -15,6 +15,9 @@ from tmm_gen.cli.outputs import write_outputs
 from tmm_gen.cli.space_rest import parts_that_turn
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from tmm_gen.modal.modes import Mode
     from tmm_gen.modal.space.situation import RestingArm
     from tmm_gen.scene import Scene
@@ -27,7 +30,12 @@ _STRAIGHT = 1e-9
 
 
 def show_space_modes(
-    scene: Scene, count: int, inputs: dict[str, float], picture: Path | None, json_mode: bool
+    scene: Scene,
+    count: int,
+    inputs: dict[str, float],
+    start: NDArray[np.float64] | None,
+    picture: Path | None,
+    json_mode: bool,
 ) -> None:
     """Find and show the modes of an arm in space."""
     import numpy as np
@@ -36,7 +44,7 @@ def show_space_modes(
         from tmm_gen.modal.modes import find_modes
         from tmm_gen.modal.space.situation import resting_in_space
 
-        resting = resting_in_space(scene, inputs)
+        resting = resting_in_space(scene, inputs, start)
         found = find_modes(resting.linear, count)
         rows = [_row(resting, number, mode) for number, mode in enumerate(found)]
         files: list[Path] = []

@@ -9,9 +9,13 @@ import click
 
 from tmm_gen.cli.console import Column, print_json, progress, table
 from tmm_gen.cli.given import picture_file
+from tmm_gen.cli.near import FROM_START
 from tmm_gen.cli.outputs import write_outputs
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from tmm_gen.modal.space.equilibria import SpaceEquilibria, SpaceEquilibrium
     from tmm_gen.scene import Scene
     from tmm_gen.scene.spatial.arm import SpatialArm
@@ -23,7 +27,13 @@ _ALL = 4
 """Joints up to which a table shows all angles and torques."""
 
 
-def show_space_rest(scene: Scene, inputs: dict[str, float], picture: Path | None, json_mode: bool) -> None:
+def show_space_rest(
+    scene: Scene,
+    inputs: dict[str, float],
+    start: NDArray[np.float64] | None,
+    picture: Path | None,
+    json_mode: bool,
+) -> None:
     """Find and show the equilibria of an arm in space."""
     import numpy as np
 
@@ -35,14 +45,14 @@ def show_space_rest(scene: Scene, inputs: dict[str, float], picture: Path | None
         from tmm_gen.modal.space.situation import arm_numbers
 
         numbers = arm_numbers(scene)
-        held = equilibria_in_space(numbers, inputs, scene.name, advance)
+        held = equilibria_in_space(numbers, inputs, scene.name, advance, start)
         files: list[Path] = []
         if picture is not None:
             from tmm_gen.report.space_rest import space_rest_picture
 
             target = picture_file(picture, scene.name, "-rest")
             files = write_outputs({target: space_rest_picture(scene, held, target.suffix[1:].lower())})
-    _show(scene, inputs, held, files, json_mode)
+    _show(scene, inputs, held, FROM_START if start is None else "--near", files, json_mode)
 
 
 def parts_that_turn(arm: SpatialArm) -> list[tuple[int, str]]:
@@ -52,14 +62,19 @@ def parts_that_turn(arm: SpatialArm) -> list[tuple[int, str]]:
 
 
 def _show(
-    scene: Scene, inputs: dict[str, float], held: SpaceEquilibria, files: list[Path], json_mode: bool
+    scene: Scene,
+    inputs: dict[str, float],
+    held: SpaceEquilibria,
+    origin: str,
+    files: list[Path],
+    json_mode: bool,
 ) -> None:
     from tmm_gen.simulate.skeleton import Skeleton
 
     arm = scene.spatial
     assert arm is not None
     free = [joint.name for joint in arm.joints if joint.stiffness == 0.0]
-    rows = [_row(arm, number, each) for number, each in enumerate(held.found, start=1)]
+    rows = [_row(arm, number, each, origin) for number, each in enumerate(held.found, start=1)]
     if json_mode:
         facts = {
             "scene": scene.name,
@@ -104,13 +119,14 @@ def _six(value: float) -> str:
     return f"{round(value, _DECIMALS) + 0.0:.6g}"
 
 
-def _row(arm: SpatialArm, number: int, each: SpaceEquilibrium) -> dict[str, Any]:
+def _row(arm: SpatialArm, number: int, each: SpaceEquilibrium, origin: str) -> dict[str, Any]:
     rest = each.rest
     return {
         "equilibrium": number,
-        "state": each.state + (", reached from the start" if each.reached else ""),
+        "state": each.told(origin),
         "stable": each.stable,
-        "from_start": each.reached,
+        "from_start": each.reached and origin == FROM_START,
+        "from_near": each.reached and origin != FROM_START,
         "falls": each.falls,
         "idle": each.idle.shape[1],
         "angles": rest.angles,

@@ -13,6 +13,7 @@ from tmm_gen.cli.changes import changed_scene, set_option
 from tmm_gen.cli.console import Column, progress, table
 from tmm_gen.cli.given import picture_file, plot_option
 from tmm_gen.cli.kinds import require_served
+from tmm_gen.cli.near import near_option, start_of
 from tmm_gen.cli.outputs import claim, write_outputs
 
 if TYPE_CHECKING:
@@ -39,6 +40,7 @@ if TYPE_CHECKING:
     help="Steps of a map, for two thirds as many stiffnesses; 0 leaves maps out. By default what takes seconds.",
 )
 @plot_option("the maps, measured beside derived", "-stability")
+@near_option
 @set_option
 @click.option("--json", "json_mode", is_flag=True, help="One JSON object instead of a table.")
 def stability(
@@ -46,18 +48,21 @@ def stability(
     mapped: tuple[str, ...],
     cells: int | None,
     picture: Path | None,
+    near: tuple[str, ...],
     changes: tuple[str, ...],
     json_mode: bool,
 ) -> int:
     """Show where SCENE stands against the limit of stability of every integrator.
 
     Limits and growth are derived: the largest eigenvalue, over all modes of the scene with their own damping, of the
-    amplification matrix of a step. Arms move about their static equilibrium. Then the same growth is measured
-    by running the generated kernel over a map of steps and stiffnesses; exit code 1 where it differs.
+    amplification matrix of a step. Arms move about their static equilibrium, or the one near the angles of --near. Then
+    the same growth is measured by running the generated kernel over a map of steps and stiffnesses; exit code 1 where
+    it differs.
     """
     from tmm_gen.scene.integrator import INTEGRATOR_NAMES
 
     loaded = require_served("stability", changed_scene(scene, changes))
+    start = start_of(loaded, near)
     chosen = _known(mapped or (loaded.integrator.name,))
     claim((picture,), (scene,))
     if picture is not None and cells == 0:
@@ -66,7 +71,7 @@ def stability(
         from tmm_gen.stability.limits import scene_integrators, standings
         from tmm_gen.stability.motion import small_motion
 
-        motion = small_motion(loaded)
+        motion = small_motion(loaded, start)
         found = standings(motion, scene_integrators(loaded), lambda name: advance(1, doing=f"derived {name}"))
     maps = _measure(motion, chosen, cells)
     files = _draw(maps, picture, loaded.name)

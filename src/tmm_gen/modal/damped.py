@@ -134,8 +134,9 @@ def _projected(
             better, vector = _polish(stiffness, damping, pole)
             both.append(better)
             shape = shapes @ (turned @ vector)
+            slope = abs(better * (2.0 * better * (vector @ vector) + vector @ damping @ vector))
             left = _left(linear, springs, shape, better)
-            errors[k] = max(errors[k], float(np.linalg.norm(left)) * _weight(springs, shape, better))
+            errors[k] = max(errors[k], float(np.linalg.norm(left)) * _weight(springs, shape, slope))
             missing += [left.real, left.imag] if better.imag else [left.real]
         polished.append((both[0], both[0].conjugate()) if pair[0].imag else (both[0], both[1]))
     found = np.array(missing).T if missing else np.zeros((len(shapes), 0))
@@ -168,12 +169,16 @@ def _acting(linear: Linear, shapes: Array) -> tuple[Array, Array]:
     return linear.parts.weighed(shapes), linear.parts.braked(shapes)
 
 
-def _weight(springs: Resistance, shape: Complex, pole: complex) -> float:
-    """Return what turns a residual into a relative error of the pole: the residual moves it by ``r / (2 s |b|)``."""
+def _weight(springs: Resistance, shape: Complex, slope: float) -> float:
+    """Return what turns a residual into a relative error of the pole.
+
+    The residual moves it by ``r / (2 |b|)``; a motion that dampers hold, not springs, has hardly any bends ``b``, and
+    ``s`` times the slope of its quadratic form says more: ``r |b| / slope``.
+    """
     bends = springs.bends(np.stack([shape.real, shape.imag], axis=1))
     bends[springs.loose] = 0.0
     size = float(np.linalg.norm(bends))
-    return 0.5 / size if size > 0.0 else 0.0
+    return min(0.5 / size, size / slope) if size > 0.0 and slope > 0.0 else 0.0
 
 
 def _widened(linear: Linear, shapes: Array, more: Array) -> Array:

@@ -11,11 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.modal.arm import linear_arm
-from tmm_gen.modal.equilibrium import descent, equilibrium
+from tmm_gen.modal.equilibrium import equilibrium, looked, nearest, stationary
 from tmm_gen.modal.held import Held
-from tmm_gen.modal.matrices import Matrices, matrices
-from tmm_gen.modal.rest import Rest, rest_at, straight
-from tmm_gen.modal.search import NEWTON_STEPS, SAME, Found, Search, shared_ways
+from tmm_gen.modal.matrices import matrices
+from tmm_gen.modal.near import beyond
+from tmm_gen.modal.rest import Rest, straight
+from tmm_gen.modal.search import SAME, Found, Search, shared_ways
 from tmm_gen.modal.springs import springs_of
 from tmm_gen.modal.undamped import undamped_modes
 from tmm_gen.scene import Scene
@@ -23,8 +24,6 @@ from tmm_gen.scene import Scene
 Array = NDArray[np.float64]
 
 _QUADRANTS = (-0.5 * np.pi, 0.5 * np.pi, 0.0, np.pi)
-_LARGEST_TURN = 0.5
-_TOLERANCE = 1e-11
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -51,7 +50,10 @@ def free_joints(scene: Scene) -> tuple[int, ...]:
 
 
 def equilibria(
-    scene: Scene, inputs: Mapping[str, float] | None = None, advance: Callable[[], None] = lambda: None
+    scene: Scene,
+    inputs: Mapping[str, float] | None = None,
+    advance: Callable[[], None] = lambda: None,
+    start: Array | None = None,
 ) -> Equilibria:
     """Return the static equilibria of an arm under gravity and constant inputs.
 
@@ -66,19 +68,22 @@ def equilibria(
         Constant inputs by name; those not given are zero.
     advance : callable, optional
         Called at each start.
+    start : array, optional
+        Free angles, rad: the equilibrium near them comes first, in place of that reached from the scene's start.
 
     Raises
     ------
     UserError
-        If there is none, as a torque turns the arm forever.
+        If there is none, as a torque turns the arm forever; or none is found near `start`.
     """
     return Search(
-        descended=lambda start: equilibrium(scene, inputs, start=start),
+        descended=lambda angles: equilibrium(scene, inputs, start=angles),
         starts=_starts(scene),
-        stationary=partial(_stationary, scene, inputs),
+        stationary=partial(stationary, scene, inputs),
         judged=partial(_judged, scene, inputs),
         same=_same,
         fall=partial(_fall, scene),
+        near=None if start is None else partial(nearest, scene, inputs, start),
     ).run(advance)
 
 
@@ -93,42 +98,9 @@ def _starts(scene: Scene) -> Iterator[Array]:
     for directions in product(quadrants, repeat=turned):
         angles = shape.copy()
         for number, pivot in enumerate(pivots):
-            beyond = _beyond(scene, pivot)
-            angles[beyond] = shape[beyond] + directions[min(number, turned - 1)] - shape[pivot]
+            turning = beyond(scene, pivot)
+            angles[turning] = shape[turning] + directions[min(number, turned - 1)] - shape[pivot]
         yield angles[1 - scene.hub :]
-
-
-def _beyond(scene: Scene, joint: int) -> list[int]:
-    """Return the numbers of all links that turn with a joint; the hub itself is 0."""
-    turning = {joint}
-    for number in range(joint + 1, scene.stations + 1):
-        if scene.host(number) in turning:
-            turning.add(number)
-    return sorted(turning)
-
-
-def _looked(scene: Scene, inputs: Mapping[str, float] | None, angles: Array) -> tuple[Rest, Matrices]:
-    rest = rest_at(scene, angles, inputs=inputs)
-    return rest, matrices(linear_arm(scene, rest))
-
-
-def _stationary(scene: Scene, inputs: Mapping[str, float] | None, angles: Array) -> Rest | None:
-    """Return the equilibrium near some angles, of whatever kind; None where there is none."""
-    for _ in range(NEWTON_STEPS):
-        rest, linear = _looked(scene, inputs, angles)
-        springs = springs_of(linear.parts)
-        torque = rest.unbalanced
-        if springs.rigid:  # level, say: nothing tells how far to turn
-            turn = descent(linear, torque)
-        else:
-            turn = springs.angles(springs.signs * springs.loads(torque[:, None]))[:, 0]
-        largest = float(np.max(np.abs(turn)))
-        if not np.isfinite(largest):
-            return None
-        if largest <= _TOLERANCE * max(1.0, float(np.max(np.abs(angles)))):
-            return rest
-        angles = angles + min(1.0, _LARGEST_TURN / largest) * turn
-    return None
 
 
 def _judged(scene: Scene, inputs: Mapping[str, float] | None, rest: Rest, reached: bool) -> Equilibrium:
@@ -138,8 +110,8 @@ def _judged(scene: Scene, inputs: Mapping[str, float] | None, rest: Rest, reache
         inner = angles[scene.host(joint)] if joint else 0.0
         turns = (angles[joint] - inner) / (2.0 * np.pi)
         # half a turn is one to the left
-        angles[_beyond(scene, joint)] -= 2.0 * np.pi * np.ceil(turns - 0.5 - SAME)
-    settled, linear = _looked(scene, inputs, angles[1 - scene.hub :])
+        angles[beyond(scene, joint)] -= 2.0 * np.pi * np.ceil(turns - 0.5 - SAME)
+    settled, linear = looked(scene, inputs, angles[1 - scene.hub :])
     springs = springs_of(linear.parts)
     idle = springs.turned if springs.rigid else np.zeros((len(springs.pivot), 0))
     return Equilibrium(rest=settled, falls=springs.negative, idle=idle, reached=reached)

@@ -1,4 +1,4 @@
-"""Where a planar arm comes to rest, by following its descent to the bottom."""
+"""Where a planar arm comes to rest: by following its descent to the bottom, or near where one looks."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from tmm_gen.modal.arm import linear_arm
 from tmm_gen.modal.matrices import Matrices, matrices
 from tmm_gen.modal.parts import Parts
 from tmm_gen.modal.rest import Rest, rest_at, straight
+from tmm_gen.modal.search import NEWTON_STEPS
 from tmm_gen.modal.springs import springs_of
 from tmm_gen.scene import Scene
 
@@ -23,6 +24,7 @@ Unbalanced = Callable[[Rest, Matrices], Array]
 _STEPS = 500
 _LARGEST_TURN = 0.5
 _TOLERANCE = 1e-12
+_STATIONARY = 1e-11
 _ROUNDING = 1e-9
 _HALVINGS = 30
 _OVERSHOOT = 0.9
@@ -90,11 +92,58 @@ def equilibrium(
     )
 
 
+def stationary(scene: Scene, inputs: Mapping[str, float] | None, angles: Array) -> Rest | None:
+    """Return the equilibrium near some free angles, of whatever kind; None where Newton's iteration finds none."""
+    for _ in range(NEWTON_STEPS):
+        rest, linear = looked(scene, inputs, angles)
+        springs = springs_of(linear.parts)
+        torque = rest.unbalanced
+        if springs.rigid:  # level, say: nothing tells how far to turn
+            turn = descent(linear, torque)
+        else:
+            turn = springs.angles(springs.signs * springs.loads(torque[:, None]))[:, 0]
+        largest = float(np.max(np.abs(turn)))
+        if not np.isfinite(largest):
+            return None
+        if largest <= _STATIONARY * max(1.0, float(np.max(np.abs(angles)))):
+            return rest
+        angles = angles + min(1.0, _LARGEST_TURN / largest) * turn
+    return None
+
+
+def nearest(scene: Scene, inputs: Mapping[str, float] | None, angles: Array) -> Rest:
+    """Return the equilibrium near some free angles, one on which the arm falls over too.
+
+    Raises
+    ------
+    UserError
+        If none is found.
+    """
+    found = stationary(scene, inputs, angles)
+    if found is None:
+        raise not_near(scene.name, inputs)
+    return found
+
+
+def not_near(name: str, inputs: Mapping[str, float] | None) -> UserError:
+    """Return the error of a search that found no equilibrium."""
+    smaller = "smaller values of --input, or " if any((inputs or {}).values()) else ""
+    return UserError(
+        f"scene '{name}': no static equilibrium found near the angles of --near; try {smaller}angles of one that "
+        "`tmm-gen rest` lists"
+    )
+
+
+def looked(scene: Scene, inputs: Mapping[str, float] | None, angles: Array) -> tuple[Rest, Matrices]:
+    """Return an arm held still at some free angles, and its matrices there."""
+    rest = rest_at(scene, angles, inputs=inputs)
+    return rest, matrices(linear_arm(scene, rest))
+
+
 def _look(
     scene: Scene, angles: Array, inputs: Mapping[str, float] | None, unbalanced: Unbalanced | None
 ) -> tuple[Rest, Matrices, Array]:
-    rest = rest_at(scene, angles, inputs=inputs)
-    linear = matrices(linear_arm(scene, rest))
+    rest, linear = looked(scene, inputs, angles)
     return rest, linear, rest.unbalanced if unbalanced is None else unbalanced(rest, linear)
 
 

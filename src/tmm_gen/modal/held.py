@@ -21,7 +21,7 @@ class Held:
     idle : array, (d, k)
         Motions of the free angles that nothing resists at all: the arm stays wherever it is put.
     reached : bool
-        Whether a descent from the scene's initial angles ends there.
+        Whether a descent from the scene's initial angles ends there, or the search for it began near.
     """
 
     falls: int
@@ -37,3 +37,7 @@ class Held:
     def state(self) -> str:
         """Which of the three it is, in words."""
         return "stable" if self.stable else "falls over" if self.falls else "stays anywhere"
+
+    def told(self, origin: str) -> str:
+        """Return its state, and whether it is what was reached from an origin of some name."""
+        return f"{self.state}, reached from {origin}" if self.reached else self.state

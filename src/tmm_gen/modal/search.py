@@ -35,7 +35,7 @@ class Found(Generic[Each]):
     Parameters
     ----------
     found : tuple of Held
-        That which is reached from the scene's start first, then stable ones, then by the ways to fall.
+        That which is reached from the start first, then stable ones, then by the ways to fall.
     starts : int
         From how many configurations they were looked for.
     """
@@ -74,11 +74,13 @@ class Search(Generic[Rest, Each]):
     stationary : callable
         Newton's iteration: to an equilibrium of whatever kind, or None where it ends nowhere.
     judged : callable
-        Tells how an arm is held there, and takes whether it is reached from the scene's start.
+        Tells how an arm is held there, and takes whether it is reached from where one looks first.
     same : callable
         Whether two equilibria are one.
     fall : callable
         Angles of an unstable equilibrium, and the shape of its fastest fall.
+    near : callable, optional
+        Finds one that comes first, in place of that which is reached from the scene's start.
     """
 
     descended: Callable[[Array | None], Rest]
@@ -87,6 +89,7 @@ class Search(Generic[Rest, Each]):
     judged: Callable[[Rest, bool], Each]
     same: Callable[[Each, Each], bool]
     fall: Callable[[Each], tuple[Array, Array]]
+    near: Callable[[], Rest] | None = None
 
     def run(self, advance: Callable[[], None] = lambda: None) -> Found[Each]:
         """Look from all starts, then descend on both sides of each unstable equilibrium along its fall.
@@ -99,7 +102,7 @@ class Search(Generic[Rest, Each]):
         Raises
         ------
         UserError
-            If there is none, as a torque turns the arm forever.
+            If there is none, as a torque turns the arm forever; or `near` finds none.
         """
         found: list[Each] = []
 
@@ -109,9 +112,11 @@ class Search(Generic[Rest, Each]):
                 if not any(self.same(each, other) for other in found):
                     found.append(each)
 
+        if self.near is not None:
+            keep(self.near(), reached=True)
         failure: UserError | None = None
         try:
-            keep(self.descended(None), reached=True)
+            keep(self.descended(None), reached=self.near is None)
         except UserError as error:
             failure = error
         count = 0

@@ -147,7 +147,7 @@ def growth_map(
     low, high = (edge / highest for edge in _REACH)
     steps = np.geomspace(min(low, h / 2.0), max(high, 2.0 * h), columns)
     factors = np.geomspace(1.0 / _STIFFER, _STIFFER, _rows(columns))
-    rests = Rests(scene)
+    rests = Rests(scene, motion.start)
     derived = np.empty((len(factors), len(steps)))
     growth = Growth(method)
     for row, factor in enumerate(factors.tolist()):
@@ -165,10 +165,12 @@ class Rests:
     ----------
     scene : Scene
         At factor 1.
+    start : array, optional
+        Free angles near which it rests, rad.
     """
 
-    def __init__(self, scene: Scene) -> None:
-        self._scene = scene
+    def __init__(self, scene: Scene, start: Array | None = None) -> None:
+        self._scene, self._start = scene, start
         self.motion = cache(self._motion)
         self._rest = cache(self._found)
 
@@ -188,8 +190,8 @@ class Rests:
     def _found(self, factor: float) -> Rest | Still | None:
         scene = with_stiffness(self._scene, factor)
         if scene.spatial is not None:
-            return rest_in_space(scene)
-        return None if scene.model.linear else rest_of(scene)
+            return rest_in_space(scene, start=self._start)
+        return None if scene.model.linear else rest_of(scene, start=self._start)
 
 
 def derived_radii(motion: SmallMotion, growth: Growth, steps: Array) -> Array:

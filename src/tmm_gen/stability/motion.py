@@ -39,6 +39,8 @@ class SmallMotion:
         Whether damping couples the undamped modes, so that a step does not fall apart into modes.
     rounds : Rounds or None
         How an arm in space solves its stages, where its sweeps leave weight to corrections.
+    start : array, optional
+        Free angles near which it rests, rad; None for where it comes to rest.
     """
 
     scene: Scene
@@ -46,6 +48,7 @@ class SmallMotion:
     modes: tuple[Mode, ...]
     coupled: bool
     rounds: Rounds | None = None
+    start: Array | None = None
 
     @property
     def together(self) -> bool:
@@ -73,8 +76,15 @@ class SmallMotion:
         return any(mode.unstable for mode in self.modes)
 
 
-def small_motion(scene: Scene) -> SmallMotion:
+def small_motion(scene: Scene, start: Array | None = None) -> SmallMotion:
     """Return the modes of a scene: of a chain, or of an arm about its static equilibrium.
+
+    Parameters
+    ----------
+    scene : Scene
+        What moves.
+    start : array, optional
+        Free angles near which an arm rests, rad, whether it falls over there or not.
 
     Raises
     ------
@@ -87,14 +97,16 @@ def small_motion(scene: Scene) -> SmallMotion:
             f"{MOST_STATIONS} are possible here. The limits do not change much with more: try fewer links."
         )
     if scene.spatial is not None:
-        resting = resting_in_space(scene)
-        return motion_of(scene, resting.linear, rounds_of(scene, resting.still))
-    return motion_of(scene, matrices(resting_arm(scene)))
+        resting = resting_in_space(scene, start=start)
+        return motion_of(scene, resting.linear, rounds_of(scene, resting.still), start)
+    return motion_of(scene, matrices(resting_arm(scene, start=start)), start=start)
 
 
-def motion_of(scene: Scene, linear: Linear, rounds: Rounds | None = None) -> SmallMotion:
+def motion_of(
+    scene: Scene, linear: Linear, rounds: Rounds | None = None, start: Array | None = None
+) -> SmallMotion:
     """Return the modes of some matrices."""
-    return SmallMotion(scene, linear, find_modes(linear), linear.damping_time is None, rounds)
+    return SmallMotion(scene, linear, find_modes(linear), linear.damping_time is None, rounds, start)
 
 
 def rounds_of(scene: Scene, still: Still) -> Rounds | None:

@@ -10,15 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.modal.held import Held
-from tmm_gen.modal.search import NEWTON_STEPS, SAME, Found, Search, shared_ways
-from tmm_gen.modal.space.equilibrium import (
-    LARGEST_TURN,
-    TOLERANCE,
-    descended,
-    descent,
-    given_way,
-    idly_pushed,
-)
+from tmm_gen.modal.search import SAME, Found, Search, shared_ways
+from tmm_gen.modal.space.equilibrium import descended, given_way, nearest, stationary
 from tmm_gen.modal.space.judged import require_energy, require_inertia
 from tmm_gen.modal.space.matrices import space_matrices
 from tmm_gen.modal.space.numbers import ArmNumbers
@@ -50,7 +43,11 @@ SpaceEquilibria = Found[SpaceEquilibrium]
 
 
 def equilibria_in_space(
-    numbers: ArmNumbers, given: Mapping[str, float], name: str, advance: Callable[[], None] = lambda: None
+    numbers: ArmNumbers,
+    given: Mapping[str, float],
+    name: str,
+    advance: Callable[[], None] = lambda: None,
+    start: Array | None = None,
 ) -> SpaceEquilibria:
     """Return the static equilibria of an arm under gravity and constant inputs.
 
@@ -67,21 +64,26 @@ def equilibria_in_space(
         Of the scene, for the error.
     advance : callable, optional
         Called at each start.
+    start : array, optional
+        Angles of the joints, rad: the equilibrium near them comes first, in place of that reached from the scene's
+        start.
 
     Raises
     ------
     UserError
-        If there is none, as a torque turns a joint forever; or one that cannot be judged, as what acts has no energy.
+        If there is none, as a torque turns a joint forever; none is found near `start`; or one that cannot be judged,
+        as what acts has no energy.
     """
     return Search(
-        descended=lambda start: descended(numbers, given, numbers.start if start is None else start, name),
+        descended=lambda angles: descended(numbers, given, numbers.start if angles is None else angles, name),
         starts=_starts(numbers, given),
-        stationary=partial(_stationary, numbers, given),
+        stationary=partial(stationary, numbers, given),
         judged=lambda still, reached: _judged(
             require_energy(require_inertia(still, name), name), reached=reached
         ),
         same=_same,
         fall=_fall,
+        near=None if start is None else partial(nearest, numbers, given, start, name),
     ).run(advance)
 
 
@@ -140,22 +142,6 @@ def _hanging(
     cosine, sine = 0.5 * (needed[0] - needed[2]), needed[1] - 0.5 * (needed[0] + needed[2])
     minds = float(np.hypot(cosine, sine)) > ROUNDING * numbers.size * float(still.acting[joint])
     return (float(np.arctan2(-cosine, sine)) if minds else float(angles[joint])), minds
-
-
-def _stationary(numbers: ArmNumbers, given: Mapping[str, float], angles: Array) -> Still | None:
-    """Return the equilibrium near some angles, of whatever kind; None where there is none."""
-    for _ in range(NEWTON_STEPS):
-        still = Still(numbers, angles, given)
-        springs = SpaceSprings(still)
-        # level, say: nothing tells how far to turn
-        turn = descent(still) if idly_pushed(still, springs) else given_way(springs, still.unbalanced)
-        largest = float(np.max(np.abs(turn)))
-        if not np.isfinite(largest):
-            return None
-        if largest <= TOLERANCE * max(1.0, float(np.max(np.abs(angles)))):
-            return Still(numbers, angles + turn, given)
-        angles = angles + min(1.0, LARGEST_TURN / largest) * turn
-    return None
 
 
 def _judged(still: Still, *, reached: bool) -> SpaceEquilibrium:

@@ -1,4 +1,4 @@
-"""Where an arm in space comes to rest, by following its descent to the bottom."""
+"""Where an arm in space comes to rest: by following its descent to the bottom, or near where one looks."""
 
 from __future__ import annotations
 
@@ -8,6 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.errors import UserError
+from tmm_gen.modal.equilibrium import not_near
+from tmm_gen.modal.search import NEWTON_STEPS
 from tmm_gen.modal.space.judged import require_energy, require_numbers
 from tmm_gen.modal.space.numbers import ArmNumbers
 from tmm_gen.modal.space.springs import SpaceSprings
@@ -16,8 +18,8 @@ from tmm_gen.modal.space.still import ROUNDING, Still
 Array = NDArray[np.float64]
 
 _STEPS = 500
-LARGEST_TURN = 0.5
-TOLERANCE = 1e-12
+_LARGEST_TURN = 0.5
+_TOLERANCE = 1e-12
 _SETTLED = 1e-9
 _HALVINGS = 30
 _OVERSHOOT = 0.9
@@ -58,10 +60,10 @@ def descended(numbers: ArmNumbers, given: Mapping[str, float], start: Array, nam
             break
         size = max(1.0, float(np.max(np.abs(still.angles))))
         # many joints round more: then turns do not become smaller any more
-        if largest <= TOLERANCE * size or (largest <= _SETTLED * size and largest > 0.5 * before):
+        if largest <= _TOLERANCE * size or (largest <= _SETTLED * size and largest > 0.5 * before):
             return Still(numbers, still.angles + turn, given)
         before = largest
-        share = min(1.0, LARGEST_TURN / largest)
+        share = min(1.0, _LARGEST_TURN / largest)
         slope = float(still.unbalanced @ turn)  # of the energy, downward
         for _ in range(_HALVINGS):
             further = Still(numbers, still.angles + share * turn, given)
@@ -76,6 +78,36 @@ def descended(numbers: ArmNumbers, given: Mapping[str, float], start: Array, nam
     raise UserError(
         f"scene '{name}': no static equilibrium found from its initial angles; {', or '.join(remedies)}"
     )
+
+
+def stationary(numbers: ArmNumbers, given: Mapping[str, float], angles: Array) -> Still | None:
+    """Return the equilibrium near some angles, of whatever kind; None where Newton's iteration finds none."""
+    for _ in range(NEWTON_STEPS):
+        still = Still(numbers, angles, given)
+        springs = SpaceSprings(still)
+        # level, say: nothing tells how far to turn
+        turn = descent(still) if idly_pushed(still, springs) else given_way(springs, still.unbalanced)
+        largest = float(np.max(np.abs(turn)))
+        if not np.isfinite(largest):
+            return None
+        if largest <= _TOLERANCE * max(1.0, float(np.max(np.abs(angles)))):
+            return Still(numbers, angles + turn, given)
+        angles = angles + min(1.0, _LARGEST_TURN / largest) * turn
+    return None
+
+
+def nearest(numbers: ArmNumbers, given: Mapping[str, float], angles: Array, name: str) -> Still:
+    """Return the equilibrium near some angles, one on which the arm falls over too.
+
+    Raises
+    ------
+    UserError
+        If none is found.
+    """
+    found = stationary(numbers, given, require_numbers(Still(numbers, angles, given), name).angles)
+    if found is None:
+        raise not_near(name, given)
+    return found
 
 
 def descent(still: Still) -> Array:

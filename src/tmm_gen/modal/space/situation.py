@@ -7,15 +7,18 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from tmm_gen.errors import UserError
-from tmm_gen.modal.space.equilibrium import descended
+from tmm_gen.modal.space.equilibrium import descended, nearest
 from tmm_gen.modal.space.judged import require_energy, require_inertia
 from tmm_gen.modal.space.matrices import SpaceMatrices, space_matrices
 from tmm_gen.modal.space.numbers import ArmNumbers
 from tmm_gen.modal.space.still import Still
 from tmm_gen.scene import Scene
 from tmm_gen.scene.spatial.arm import SpatialArm
+
+Array = NDArray[np.float64]
 
 MOST_JOINTS = 1500
 """Of what is done with dense matrices."""
@@ -70,8 +73,12 @@ def arm_numbers(scene: Scene) -> ArmNumbers:
     return found
 
 
-def rest_in_space(scene: Scene, inputs: Mapping[str, float] | None = None) -> Still:
+def rest_in_space(
+    scene: Scene, inputs: Mapping[str, float] | None = None, start: Array | None = None
+) -> Still:
     """Return where an arm in space comes to rest.
+
+    Near the joints' angles of `start`, rad, where they are given, whether it falls over there or not. Else:
 
     Under gravity or constant inputs that is where no joint is out of balance. Without either its springs are slack, and
     what turns freely stands as at the scene's start.
@@ -83,18 +90,22 @@ def rest_in_space(scene: Scene, inputs: Mapping[str, float] | None = None) -> St
     """
     numbers = arm_numbers(scene)
     held = {name: value for name, value in (inputs or {}).items() if value != 0.0}
+    if start is not None:
+        return nearest(numbers, held, start, scene.name)
     if any(numbers.arm.gravity) or held:
         return descended(numbers, held, numbers.start, scene.name)
     return Still(numbers, np.where(numbers.stiffness > 0.0, numbers.rest, numbers.start), {})
 
 
-def resting_in_space(scene: Scene, inputs: Mapping[str, float] | None = None) -> RestingArm:
-    """Return a scene's arm in small motion about where it rests.
+def resting_in_space(
+    scene: Scene, inputs: Mapping[str, float] | None = None, start: Array | None = None
+) -> RestingArm:
+    """Return a scene's arm in small motion about where it rests, as of :func:`rest_in_space`.
 
     Raises
     ------
     UserError
         If there is no equilibrium, or none whose small motion can be judged.
     """
-    still = require_inertia(rest_in_space(scene, inputs), scene.name)
+    still = require_inertia(rest_in_space(scene, inputs, start), scene.name)
     return RestingArm(scene, require_energy(still, scene.name))
