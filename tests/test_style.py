@@ -57,6 +57,24 @@ def drawn(title: str) -> str:
         return picture(made, "svg").decode()
 
 
+def test_labels_between_powers_do_not_touch() -> None:
+    """One and a half decades, of which Matplotlib labels 3 and 4 beside each other."""
+    with style():
+        made, axes = figure(5.0, 4.0)
+        axes.loglog([12.3, 490.0], [1e-9, 2.0])
+        axes.set_xlim(10.3, 560.0)
+        picture(made, "png")
+        for axis in (axes.xaxis, axes.yaxis):
+            boxes = [
+                label.get_window_extent()
+                for label in axis.get_ticklabels(which="both")
+                if label.get_text() and label.get_visible()
+            ]
+            assert len(boxes) >= 3
+            for k, box in enumerate(boxes):
+                assert not any(box.overlaps(other) for other in boxes[:k])
+
+
 @pytest.mark.parametrize("title", DOLLARS)
 def test_titles_stand_as_they_are_written(title: str) -> None:
     assert title_fault(title) is None

@@ -172,9 +172,20 @@ def _plain(formatter: LogFormatterMathtext) -> Formatter:
             formatter.set_locs(locs)
 
         def __call__(self, x: float, pos: int | None = None) -> str:
-            return plain_power(formatter(x, pos))
+            low, high = formatter.axis.get_view_interval() if formatter.axis else (x, x)
+            return plain_power(formatter(x, pos)) if _has_room(x, low, high) else ""
 
     return Plain()
+
+
+def _has_room(x: float, low: float, high: float) -> bool:
+    """Return whether a tick can have a label: on half a decade or more 3 and 4 would touch, and 6 and 10."""
+    if x <= 0.0 or low <= 0.0 or math.log10(high / low) < _NARROW:
+        return True
+    return round(10.0 ** (math.log10(x) % 1.0), 6) in (1.0, 2.0, 4.0, 10.0)
+
+
+_NARROW = 0.5
 
 
 def plain_power(label: str) -> str:

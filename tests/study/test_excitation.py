@@ -66,6 +66,19 @@ def test_a_motor_turns_what_is_beyond_it() -> None:
     assert turn == pytest.approx(1.0, rel=0.5)  # amplitudes have one digit
 
 
+def test_a_motor_with_a_strong_damper_turns_too() -> None:
+    """The gripper's fingers are light: their dampers are what holds them, in a plane as in space."""
+    for arm in ("scenes/gripper.toml", "examples/space/yaw3.toml"):
+        scene = load_scene(arm)
+        went = excitation(scene)
+        signal = went.signals["left_torque" if scene.spatial is None else "yaw_torque"]
+        assert isinstance(signal, Sine)
+        gear, damping = (30.0, 0.06) if scene.spatial is None else (100.0, 0.5)
+        share = len(went.signals) if scene.spatial else 1  # in space all loads together turn it
+        turn = gear * signal.amplitude / (damping * signal.frequency)
+        assert turn * share == pytest.approx(1.0, rel=0.6)
+
+
 def test_a_force_beyond_a_free_joint_is_of_the_size_of_what_it_carries() -> None:
     """However heavy the arm is up to there."""
     push = {"name": "push", "at": "payload", "acts": "force_y"}
@@ -79,5 +92,6 @@ def test_a_force_beyond_a_free_joint_is_of_the_size_of_what_it_carries() -> None
         signal = excitation(scene).signals["push"]
         assert isinstance(signal, Sine)
         forearm, payload, rotor = 0.162 * 0.4**3 / 3.0, 0.3 * 0.4**2 + 2e-4, 50.0**2 * 1e-5
-        turn = 0.4 * signal.amplitude / signal.frequency**2 / (forearm + payload + rotor)
+        inertia, w = forearm + payload + rotor, signal.frequency
+        turn = 0.4 * signal.amplitude / np.hypot(inertia * w**2, 0.1 * w)  # the elbow's damper too
         assert turn == pytest.approx(1.0, rel=0.5)

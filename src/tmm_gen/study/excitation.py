@@ -176,7 +176,7 @@ def _signal(scene: Scene, item: Input, frequency: float, until: float) -> Signal
     at = station_of(item.at, scene.stations)
     if scene.model.in_plane and (joint := _free_before(scene, at)):
         # a joint that nothing holds turns by what is beyond it, however heavy the arm is before it
-        torque = _inertia_beyond(scene, joint) * frequency**2 * _TURN
+        torque = _against(_inertia_beyond(scene, joint), scene.joints[joint - 1].damping, frequency)
         return Sine(
             _rounded(torque if item.acts == "torque" else torque / _lever(scene, joint, at)), frequency
         )
@@ -201,15 +201,21 @@ def _lever(scene: Scene, joint: int, link: int) -> float:
 
 
 def _torque(scene: Scene, frequency: float, joint: int = 0) -> float:
-    """Return a torque, N m, that turns the arm by about `_TURN`: against its springs, or its inertia if it is free.
+    """Return a torque, N m, that turns the arm by about `_TURN`, against its springs, or inertia and damper where free.
 
     A torque in a joint turns what is beyond the joint. With gears it is that on the base's shaft.
     """
     if not scene.hub and all(joint.stiffness > 0.0 for joint in scene.joints):
         softness = np.array([t * t / j.stiffness for t, j in zip(scene.turns, scene.joints, strict=True)])
         return _TURN / float(np.max(limbs_of(scene).outward(softness)))
-    inertia = _inertia_beyond(scene, joint) if joint else _inertia_about_base(scene)
-    return inertia * frequency**2 * _TURN
+    if joint:
+        return _against(_inertia_beyond(scene, joint), scene.joints[joint - 1].damping, frequency)
+    return _against(_inertia_about_base(scene), scene.base.damping, frequency)
+
+
+def _against(inertia: float, damping: float, frequency: float) -> float:
+    """Return the amplitude of a torque that swings an inertia on a damper by `_TURN`, N m."""
+    return math.hypot(inertia * frequency**2, damping * frequency) * _TURN
 
 
 def _inertia_about_base(scene: Scene) -> float:

@@ -146,7 +146,9 @@ def _steps(way: Way) -> str:
 
 
 def _times(factor: float, saved: str, spent: str) -> str:
-    return f"{factor:.1f} times {saved}" if factor >= 1.0 else f"{1.0 / factor:.1f} times {spent}"
+    times, what = (factor, saved) if factor >= 1.0 else (1.0 / factor, spent)
+    digits = 1 if times >= 1.05 else 2  # "1.0 times more" would say nothing
+    return f"{times:.{digits}f} times {what}"
 
 
 def findings(study: Study, levels: Sequence[float] = LEVELS) -> tuple[Finding, ...]:

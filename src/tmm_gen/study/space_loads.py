@@ -13,8 +13,8 @@ from tmm_gen.scene.spatial.arm import SpatialArm
 def turning_loads(arm: SpatialArm, frequencies: Mapping[str, float], turn: float) -> dict[str, float]:
     """Return amplitudes for each column of the inputs, in N, or N m of the motor's own side.
 
-    Springs and inertia both resist: where one of the two is far larger than the other, it alone decides, so that a free
-    joint costs no absurd torque and a stiff one no absurd motion.
+    Springs, dampers and inertia all resist: where one of them is far larger than the others, it alone decides, so that
+    a free joint costs no absurd torque and a stiff one no absurd motion.
 
     Parameters
     ----------
@@ -29,12 +29,12 @@ def turning_loads(arm: SpatialArm, frequencies: Mapping[str, float], turn: float
     q = np.array([joint.angle for joint in arm.joints])
     still = np.zeros_like(q)
     places = world.tree.places(q)
-    mass, spring = world.mass_matrix(q), np.diag(world.stiffness)
+    mass, spring, damper = world.mass_matrix(q), np.diag(world.stiffness), np.diag(world.damping)
     alone = world.inverse_dynamics(q, still, still, {})
     turns = {}
     for column, frequency in frequencies.items():
         push = alone - world.inverse_dynamics(q, still, still, {column: 1.0})
-        swing = np.linalg.solve(spring + frequency**2 * mass, push)
+        swing = np.linalg.solve(spring + frequency**2 * mass + 1j * frequency * damper, push)
         turned = world.tree.ways @ (places.axis * swing[:, None])
         turns[column] = float(np.max(np.linalg.norm(turned, axis=-1)))
     found: dict[str, float] = {}
