@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ctypes
 import subprocess
 from collections.abc import Callable
 from pathlib import Path
@@ -72,6 +73,17 @@ def test_a_missing_compiler_is_named() -> None:
 def test_something_else_than_a_compiler() -> None:
     with pytest.raises(UserError, match=r"'false --version' failed: is it a C compiler\?"):
         compile_library(FILES, "false")
+
+
+def test_what_compiles_nothing_is_told() -> None:
+    with pytest.raises(UserError, match=r"left no library: is 'true' a C compiler\? Name one, such as gcc"):
+        compile_library(FILES, "true")
+
+
+def test_a_compiler_of_another_language_is_told_that_it_is_c(need_tool: Callable[..., str]) -> None:
+    """Else names would be those of C++, and nothing found in the library."""
+    need_tool("g++")
+    assert ctypes.CDLL(str(compile_library(FILES, "g++"))).answer() == ctypes.CDLL(str(compile_library(FILES))).answer()
 
 
 def test_refused_sources_show_the_compilers_words(empty_cache: Path) -> None:

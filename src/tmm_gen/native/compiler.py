@@ -18,7 +18,8 @@ from tmm_gen.trusted import digest_of, discard, own_content, own_folder
 
 FLAGS = ("-O2", "-ffp-contract=off")
 """Optimised, and without fused multiply-add, so that results are the same bits everywhere."""
-_ALWAYS = ("-std=c99", "-fPIC", "-shared")
+_ALWAYS = ("-std=c99", "-fPIC", "-shared", "-x", "c")
+"""Told that it is C, a C++ compiler takes it for that too: names would be none that are looked for."""
 
 
 def compile_library(files: Mapping[str, str], cc: str = "gcc", flags: Sequence[str] = FLAGS) -> Path:
@@ -83,6 +84,8 @@ def _compile(files: Mapping[str, str], cc: str, flags: Sequence[str], folder: Pa
         if done.returncode != 0:
             raise UserError(f"'{' '.join(command)}' failed: {' '.join(done.stderr.split())}")
         built = here / "kernel.so"
+        if not built.is_file():
+            raise UserError(f"'{' '.join(command)}' left no library: is '{cc}' a C compiler? Name one, such as gcc.")
         built.chmod(0o700)
         library = place / f"{digest_of(built.read_bytes())}.so"
         built.replace(library)
