@@ -83,7 +83,10 @@ def test_what_compiles_nothing_is_told() -> None:
 def test_a_compiler_of_another_language_is_told_that_it_is_c(need_tool: Callable[..., str]) -> None:
     """Else names would be those of C++, and nothing found in the library."""
     need_tool("g++")
-    assert ctypes.CDLL(str(compile_library(FILES, "g++"))).answer() == ctypes.CDLL(str(compile_library(FILES))).answer()
+    assert (
+        ctypes.CDLL(str(compile_library(FILES, "g++"))).answer()
+        == ctypes.CDLL(str(compile_library(FILES))).answer()
+    )
 
 
 def test_refused_sources_show_the_compilers_words(empty_cache: Path) -> None:

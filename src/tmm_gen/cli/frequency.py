@@ -161,11 +161,14 @@ class _Swinging:
         From s to outputs by their components, each for a unit of all inputs.
     straight : bool
         Whether it is a planar arm that rests straight, as the continuous beam does.
+    before : int
+        Modes in which an arm in space moves as a whole; they are counted before the others.
     """
 
     linear: Linear
     response: Callable[[NDArray[np.complex128]], dict[str, NDArray[np.complex128]]]
     straight: bool = False
+    before: int = 0
 
 
 def _swinging(scene: Scene, inputs: dict[str, float], start: NDArray[np.float64] | None) -> _Swinging:
@@ -176,7 +179,7 @@ def _swinging(scene: Scene, inputs: dict[str, float], start: NDArray[np.float64]
         from tmm_gen.modal.space.situation import resting_in_space
 
         resting = resting_in_space(scene, inputs, start)
-        return _Swinging(resting.linear, lambda s: space_response(resting.still, s))
+        return _Swinging(resting.linear, lambda s: space_response(resting.still, s), before=resting.whole)
     from tmm_gen.modal.matrices import matrices
     from tmm_gen.modal.response import frequency_response
     from tmm_gen.modal.situation import resting_arm
@@ -207,7 +210,7 @@ def _respond(
     number = [item.name for item in scene.inputs].index(given.name)
     names = scene.quantity(read).columns(read.name)
     modes = modes_up_to(arm.linear, 2.0 * np.pi * high)
-    inside = [(k, mode) for k, mode in enumerate(modes) if low <= mode.hertz <= high]
+    inside = [(k, mode) for k, mode in enumerate(modes, start=arm.before) if low <= mode.hertz <= high]
     at_modes = np.array([mode.hertz for _, mode in inside])
     with np.errstate(all="ignore"):  # without damping a resonance has no bound
         found = arm.response(2j * np.pi * np.concatenate([hertz, at_modes]))

@@ -30,7 +30,17 @@ SERVED: Mapping[str, tuple[str, ...]] = {
 }
 """Commands by the kinds that not all serve yet; where an option decides, it is part of the name: "export --to fmu"."""
 
-ON_MOVING_BASES = ("build", "run", "check", "export --to mjcf", "export --to urdf")
+ON_MOVING_BASES = (
+    "build",
+    "run",
+    "check",
+    "rest",
+    "modes",
+    "frequency",
+    "stability",
+    "export --to mjcf",
+    "export --to urdf",
+)
 """Commands that serve arms in space whose base floats or is prescribed; others would take it for a clamp."""
 
 

@@ -27,7 +27,13 @@ if TYPE_CHECKING:
 
 @click.command("modes")
 @click.argument("scene", metavar="SCENE", type=click.Path(path_type=Path))
-@click.option("--count", type=click.IntRange(min=1), default=6, show_default=True, help="How many modes.")
+@click.option(
+    "--count",
+    type=click.IntRange(min=1),
+    default=6,
+    show_default=True,
+    help="How many modes; those of a base that floats in space come besides.",
+)
 @click.option(
     "--input",
     "given",

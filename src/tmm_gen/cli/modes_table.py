@@ -22,7 +22,7 @@ def mode_row(number: int, mode: Mode) -> dict[str, object]:
         "angular_frequency": mode.frequency,
         "damping_ratio": mode.damping_ratio,
         "poles": [{"real": pole.real, "imaginary": pole.imag} for pole in mode.poles],
-        "motion": "falls over" if mode.unstable else ("swings" if mode.frequency else "turns freely"),
+        "motion": mode.motion,
         "shape": mode.shape,
         "error_bound": mode.bound,
     }

@@ -41,11 +41,10 @@ def show_space_modes(
     import numpy as np
 
     with progress(f"finding modes of {scene.name}"), np.errstate(all="ignore"):  # what overflows is refused
-        from tmm_gen.modal.modes import find_modes
         from tmm_gen.modal.space.situation import resting_in_space
 
         resting = resting_in_space(scene, inputs, start)
-        found = find_modes(resting.linear, count)
+        found = resting.modes(count)
         rows = [_row(resting, number, mode) for number, mode in enumerate(found)]
         files: list[Path] = []
         if picture is not None:
@@ -57,6 +56,8 @@ def show_space_modes(
 
 
 def _row(resting: RestingArm, number: int, mode: Mode) -> dict[str, Any]:
+    import numpy as np
+
     from tmm_gen.modal.space.shares import shares
 
     parts = shares(resting.still, mode.shape)
@@ -67,6 +68,11 @@ def _row(resting: RestingArm, number: int, mode: Mode) -> dict[str, Any]:
         frames.append({"name": frame.name, "moved": moved @ mode.shape, "turned": turned @ mode.shape})
     return {
         **mode_row(number, mode),
+        "shape": mode.shape[6:],
+        "motion": "moves along freely"
+        if np.any(mode.shape[:3]) and not np.any(mode.shape[3:])
+        else mode.motion,
+        "base_shape": mode.shape[:6] if resting.still.numbers.floats else None,
         "mostly": ", ".join(f"{each.what} {100.0 * each.share:.0f} %" for each in told),
         "shares": [{"what": each.what, "share": each.share} for each in parts],
         "frames": frames,
@@ -92,7 +98,8 @@ def _show(resting: RestingArm, rows: list[dict[str, Any]], files: list[Path], js
         "rest_angles": rest,
         "files": files,
     }
-    title = f"{scene.title}: {scene.stations} joint{'s' * (scene.stations > 1)}"
+    count = len(rest)
+    title = f"{scene.title}: {count} joint{'s' * (count > 1)}"
     table(rows, columns, json_mode, title=title, more=facts)
     if json_mode:
         return

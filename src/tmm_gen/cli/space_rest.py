@@ -44,15 +44,18 @@ def show_space_rest(
         from tmm_gen.modal.space.equilibria import equilibria_in_space
         from tmm_gen.modal.space.situation import arm_numbers
 
-        numbers = arm_numbers(scene)
+        numbers = arm_numbers(scene, inputs)
+        arm = numbers.arm
         held = equilibria_in_space(numbers, inputs, scene.name, advance, start)
         files: list[Path] = []
         if picture is not None:
             from tmm_gen.report.space_rest import space_rest_picture
 
             target = picture_file(picture, scene.name, "-rest")
-            files = write_outputs({target: space_rest_picture(scene, held, target.suffix[1:].lower())})
-    _show(scene, inputs, held, FROM_START if start is None else "--near", files, json_mode)
+            files = write_outputs(
+                {target: space_rest_picture(arm, scene.title, held, target.suffix[1:].lower())}
+            )
+    _show(scene, arm, inputs, held, FROM_START if start is None else "--near", files, json_mode)
 
 
 def parts_that_turn(arm: SpatialArm) -> list[tuple[int, str]]:
@@ -63,6 +66,7 @@ def parts_that_turn(arm: SpatialArm) -> list[tuple[int, str]]:
 
 def _show(
     scene: Scene,
+    arm: SpatialArm,
     inputs: dict[str, float],
     held: SpaceEquilibria,
     origin: str,
@@ -71,8 +75,6 @@ def _show(
 ) -> None:
     from tmm_gen.simulate.skeleton import Skeleton
 
-    arm = scene.spatial
-    assert arm is not None
     free = [joint.name for joint in arm.joints if joint.stiffness == 0.0]
     rows = [_row(arm, number, each, origin) for number, each in enumerate(held.found, start=1)]
     if json_mode:
@@ -107,6 +109,10 @@ def _show(
         driven = {arm.joints[item.joint - 1].name for item in arm.inputs if item.acts == "torque"}
         motors = "motors hold no torque but that of --input"
         click.echo(f"{turning}: {motors}" if driven & set(free) else turning)
+    if arm.base is not None:
+        click.echo(
+            "nothing holds the base: it stays where it starts, and falls with all it carries under gravity"
+        )
     click.echo(f"looked for from {held.starts} start{'s' * (held.starts > 1)}: there may be more")
     for path in files:
         click.echo(f"wrote {path}")

@@ -48,6 +48,11 @@ class Mode:
         return float(self.frequency / (2.0 * np.pi))
 
     @property
+    def motion(self) -> str:
+        """What becomes of it, in words."""
+        return "falls over" if self.unstable else ("swings" if self.frequency else "turns freely")
+
+    @property
     def unstable(self) -> bool:
         """Whether the motion grows."""
         return self.damping_ratio is None and max(pole.real for pole in self.poles) > 0.0

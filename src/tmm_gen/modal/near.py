@@ -25,7 +25,8 @@ def joint_name(scene: Scene, number: int) -> str:
 def joint_numbers(scene: Scene) -> dict[str, int]:
     """Return the joints that can be set, by name: counted from 1, base to tip; 0 is a hub."""
     if scene.spatial is not None:
-        return {joint.name: number for number, joint in enumerate(scene.spatial.joints, start=1)}
+        joints = enumerate(scene.spatial.joints, start=1)
+        return {joint.name: number for number, joint in joints if not joint.given}
     # of an elastic gear, whose shaft is in between, the outer side is meant
     seen = [number for number, link in enumerate(scene.links, start=1) if not link.massless]
     hub = [0] if scene.hub and not scene.floats else []
@@ -69,7 +70,7 @@ def start_near(scene: Scene, angles: Mapping[str, float]) -> Array:
             )
     if scene.spatial is not None:
         joints = scene.spatial.joints
-        return np.array([angles.get(joint.name, joint.angle) for joint in joints])
+        return np.array([angles.get(joint.name, joint.angle) for joint in joints if not joint.given])
     shape = np.concatenate([np.zeros(1 - scene.hub), straight(scene)])  # of hub or base, then of each link
     for name, number in sorted((name, numbers[name]) for name in angles):
         inner = scene.inner(number) if number else 0

@@ -85,7 +85,9 @@ def _compile(files: Mapping[str, str], cc: str, flags: Sequence[str], folder: Pa
             raise UserError(f"'{' '.join(command)}' failed: {' '.join(done.stderr.split())}")
         built = here / "kernel.so"
         if not built.is_file():
-            raise UserError(f"'{' '.join(command)}' left no library: is '{cc}' a C compiler? Name one, such as gcc.")
+            raise UserError(
+                f"'{' '.join(command)}' left no library: is '{cc}' a C compiler? Name one, such as gcc."
+            )
         built.chmod(0o700)
         library = place / f"{digest_of(built.read_bytes())}.so"
         built.replace(library)

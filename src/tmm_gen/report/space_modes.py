@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from tmm_gen.modal.modes import Mode
 from tmm_gen.modal.space.situation import RestingArm
+from tmm_gen.reference.spatial_afloat import AfloatArm
 from tmm_gen.reference.spatial_places import Tree, applied
 from tmm_gen.report.space_motion import SpaceMotion
 from tmm_gen.report.space_panels import space_panels
@@ -43,15 +44,15 @@ def space_mode_picture(resting: RestingArm, modes: Sequence[Mode], form: str = "
     form : {"png", "svg", "pdf"}
         Format.
     """
-    arm, rest = resting.arm, resting.still.angles
-    motion = SpaceMotion(arm, np.zeros(1), rest[None])
+    arm, still = resting.arm, resting.still
+    motion = SpaceMotion(arm, np.zeros(1), still.posed())
     rungs_of = _rungs_of(motion)
     with space_panels(motion, len(modes), _COLUMNS, resting.scene.title) as panels:
         for number, (panel, mode) in enumerate(zip(panels.axes, modes, strict=True), start=1):
-            angles = rest + np.outer([0.0, 1.0, -1.0], _swing(resting, motion, mode) * mode.shape)
+            poses = still.posed(np.outer([0.0, 1.0, -1.0], _swing(resting, motion, mode) * mode.shape))
             points, rungs = (
-                motion.skeleton.points(angles),
-                _rungs(arm, angles, rungs_of, _RUNG * motion.reach),
+                motion.skeleton.points(poses),
+                _rungs(arm, poses, rungs_of, _RUNG * motion.reach),
             )
             ground = panels.set_out(
                 panel, _title(number, mode), np.concatenate([points, rungs.reshape(3, -1, 3)], axis=1)
@@ -72,16 +73,17 @@ def space_mode_picture(resting: RestingArm, modes: Sequence[Mode], form: str = "
 
 
 def _title(number: int, mode: Mode) -> str:
-    text = f"{mode.hertz:.4g} Hz" if mode.frequency else ("falls over" if mode.unstable else "turns freely")
+    text = f"{mode.hertz:.4g} Hz" if mode.frequency else mode.motion
     return f"{number}:  {text}" + (f", ζ = {mode.damping_ratio:.2g}" if mode.damping_ratio else "")
 
 
 def _swing(resting: RestingArm, motion: SpaceMotion, mode: Mode) -> float:
     """Return by how much of its shape a mode is drawn: far enough to be seen, not so far that small motion is none."""
-    small = 1e-4
-    before, after = motion.skeleton.points(resting.still.angles + np.outer([0.0, small], mode.shape))
+    small, still = 1e-4, resting.still
+    before, after = motion.skeleton.points(still.posed(np.outer([0.0, small], mode.shape)))
     moved = float(np.max(np.linalg.norm(after - before, axis=1))) / small
-    turned = float(np.max(np.linalg.norm(resting.still.turns @ mode.shape, axis=1)))
+    turns = still.turns @ mode.shape[6:] + still.carried[:, 3:] @ mode.shape[:6]
+    turned = float(np.max(np.linalg.norm(turns, axis=1)))
     bounds = [limit / size for limit, size in ((_SWING * motion.reach, moved), (_TURN, turned)) if size > 0.0]
     return min(bounds, default=1.0)
 
@@ -112,9 +114,9 @@ def _rungs_of(motion: SpaceMotion) -> list[_Rung]:
     return found
 
 
-def _rungs(arm: SpatialArm, angles: Array, rungs: list[_Rung], half: float) -> Array:
+def _rungs(arm: SpatialArm, poses: Array, rungs: list[_Rung], half: float) -> Array:
     """Return both ends of each rung, (k, rungs, 2, 3), m."""
-    places = Tree(arm).places(angles)
+    places = (AfloatArm(arm) if arm.base else Tree(arm)).places(poses)
     bodies = [rung.body for rung in rungs]
     turn = places.turn[:, bodies]
     at, along = (np.array([getattr(rung, name) for rung in rungs]).reshape(-1, 3) for name in ("at", "along"))

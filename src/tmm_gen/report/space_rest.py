@@ -8,32 +8,32 @@ from tmm_gen.modal.space.equilibria import SpaceEquilibria
 from tmm_gen.report.space_motion import SpaceMotion
 from tmm_gen.report.space_panels import space_panels
 from tmm_gen.report.space_picture import on_ground
-from tmm_gen.scene import Scene
+from tmm_gen.scene.spatial.arm import SpatialArm
 from tmm_gen.style import PALETTE
 
 _COLUMNS = 4
 
 
-def space_rest_picture(scene: Scene, held: SpaceEquilibria, form: str = "png") -> bytes:
+def space_rest_picture(arm: SpatialArm, title: str, held: SpaceEquilibria, form: str = "png") -> bytes:
     """Draw each equilibrium in a panel of its own, all to one scale, with its shadow.
 
     Parameters
     ----------
-    scene : Scene
-        Of kind "spatial".
+    arm : SpatialArm
+        Whose base does not move.
+    title : str
+        Of its scene.
     held : SpaceEquilibria
         Of it.
     form : {"png", "svg", "pdf"}
         Format.
     """
-    assert scene.spatial is not None
     count = len(held.found)
-    motion = SpaceMotion(
-        scene.spatial, np.arange(count, dtype=float), np.array([each.rest.angles for each in held.found])
-    )
+    poses = np.concatenate([each.rest.posed() for each in held.found])
+    motion = SpaceMotion(arm, np.arange(count, dtype=float), poses)
     points = motion.skeleton.points(motion.angles)
     tips = [tip.spot for tip in motion.skeleton.tips]
-    with space_panels(motion, count, _COLUMNS, scene.title) as panels:
+    with space_panels(motion, count, _COLUMNS, title) as panels:
         for number, (panel, each, place) in enumerate(zip(panels.axes, held.found, points, strict=True)):
             ground = panels.set_out(panel, f"{number + 1}:  {each.state}", points)
             colour = PALETTE[0 if each.stable else 1]

@@ -123,6 +123,7 @@ def standing(motion: SmallMotion, growth: Growth) -> Standing:
         if whole.size <= _MOST_COUPLED:
             exact = True
             found = whole.radius(h) - 1.0
+            found = max(found, 0.0) if motion.afloat else found
             excess = 0.0 if abs(found) <= COUPLED_TOLERANCE else found
             largest = _coupled_step(whole, largest, motion)
     return Standing(

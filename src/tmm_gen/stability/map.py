@@ -16,14 +16,13 @@ from tmm_gen.modal.arm import linear_arm
 from tmm_gen.modal.matrices import matrices
 from tmm_gen.modal.rest import Rest
 from tmm_gen.modal.situation import rest_of
-from tmm_gen.modal.space.matrices import space_matrices
-from tmm_gen.modal.space.situation import rest_in_space
+from tmm_gen.modal.space.situation import RestingArm, rest_in_space
 from tmm_gen.modal.space.still import Still
 from tmm_gen.scene import Scene
 from tmm_gen.stability.coupled import CoupledStep
 from tmm_gen.stability.growth import Growth
 from tmm_gen.stability.measured import MeasuredStep
-from tmm_gen.stability.motion import SmallMotion, motion_of, rounds_of
+from tmm_gen.stability.motion import SmallMotion, motion_in_space, motion_of
 from tmm_gen.stability.variants import with_integrator, with_stiffness
 
 Array = NDArray[np.float64]
@@ -178,13 +177,16 @@ class Rests:
         """Return the free angles at rest, rad."""
         found = self._rest(factor)
         if isinstance(found, Still):
-            return found.angles
+            assert self._scene.spatial is not None
+            angles = np.zeros(self._scene.stations)  # a prescribed base is at 0
+            angles[[not joint.given for joint in self._scene.spatial.joints]] = found.angles
+            return angles
         return found.free_angles if found else np.zeros(self._scene.stations + self._scene.hub)
 
     def _motion(self, factor: float) -> SmallMotion:
         changed, found = with_stiffness(self._scene, factor), self._rest(factor)
         if isinstance(found, Still):
-            return motion_of(changed, space_matrices(found), rounds_of(changed, found))
+            return motion_in_space(RestingArm(changed, found))
         return motion_of(changed, matrices(linear_arm(changed, found)))
 
     def _found(self, factor: float) -> Rest | Still | None:
@@ -198,7 +200,8 @@ def derived_radii(motion: SmallMotion, growth: Growth, steps: Array) -> Array:
     """Return the spectral radius of a scene at some steps, the worst over modes, (k,)."""
     if motion.together:
         whole = CoupledStep(growth.integrator, motion.linear, motion.rounds)
-        return np.array([whole.radius(step) for step in steps.tolist()])
+        least = 1.0 if motion.afloat else 0.0
+        return np.array([max(least, whole.radius(step)) for step in steps.tolist()])
     h = steps[:, None]
     radii: Array = np.max(growth.radius(motion.stiffness * h * h, motion.damping * h), axis=1)
     return radii

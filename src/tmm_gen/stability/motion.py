@@ -12,7 +12,7 @@ from tmm_gen.modal.linear import Linear
 from tmm_gen.modal.matrices import matrices
 from tmm_gen.modal.modes import Mode, find_modes
 from tmm_gen.modal.situation import resting_arm
-from tmm_gen.modal.space.situation import resting_in_space
+from tmm_gen.modal.space.situation import RestingArm, resting_in_space
 from tmm_gen.modal.space.still import Still
 from tmm_gen.scene import Scene
 from tmm_gen.stability.coupled import Rounds
@@ -56,6 +56,11 @@ class SmallMotion:
         return self.coupled or self.rounds is not None
 
     @property
+    def afloat(self) -> bool:
+        """Whether the arm moves along and turns as a whole, of which its matrices know nothing."""
+        return self.scene.spatial is not None and self.scene.spatial.base is not None
+
+    @property
     def stiffness(self) -> Array:
         """``k`` of ``q'' + d q' + k q = 0`` for each mode, 1/s^2: the product of its poles."""
         return np.array([(mode.poles[0] * mode.poles[1]).real for mode in self.modes])
@@ -97,16 +102,20 @@ def small_motion(scene: Scene, start: Array | None = None) -> SmallMotion:
             f"{MOST_STATIONS} are possible here. The limits do not change much with more: try fewer links."
         )
     if scene.spatial is not None:
-        resting = resting_in_space(scene, start=start)
-        return motion_of(scene, resting.linear, rounds_of(scene, resting.still), start)
+        return motion_in_space(resting_in_space(scene, start=start), start)
     return motion_of(scene, matrices(resting_arm(scene, start=start)), start=start)
 
 
-def motion_of(
-    scene: Scene, linear: Linear, rounds: Rounds | None = None, start: Array | None = None
-) -> SmallMotion:
+def motion_of(scene: Scene, linear: Linear, start: Array | None = None) -> SmallMotion:
     """Return the modes of some matrices."""
-    return SmallMotion(scene, linear, find_modes(linear), linear.damping_time is None, rounds, start)
+    return SmallMotion(scene, linear, find_modes(linear), linear.damping_time is None, start=start)
+
+
+def motion_in_space(resting: RestingArm, start: Array | None = None) -> SmallMotion:
+    """Return the modes of an arm in space, those in which it moves as a whole among them."""
+    scene, linear = resting.scene, resting.linear
+    coupled = linear.damping_time is None
+    return SmallMotion(scene, linear, resting.modes(), coupled, rounds_of(scene, resting.still), start)
 
 
 def rounds_of(scene: Scene, still: Still) -> Rounds | None:

@@ -25,7 +25,7 @@ from tmm_gen.derive.space.declaration import (
 )
 from tmm_gen.derive.space.resting import resting_body, resting_passage
 from tmm_gen.modal.blocks import filler
-from tmm_gen.scene.spatial.arm import Revolute
+from tmm_gen.scene.spatial.arm import Revolute, RigidBody
 
 Array = NDArray[np.float64]
 
@@ -73,12 +73,12 @@ def beside(at: Sequence[float]) -> Array:
     return found
 
 
-def bodies(joints: Sequence[Revolute]) -> Array:
-    """Return force and moment that each joint's body takes per acceleration, (n, 6, 6), symmetric."""
-    masses = np.array([joint.body.mass for joint in joints])
-    centers = np.array([joint.body.center for joint in joints])
-    inertias = np.array([joint.body.inertia for joint in joints])
-    found = np.empty((len(joints), 6, 6))
+def bodies(rigid: Sequence[RigidBody]) -> Array:
+    """Return force and moment that each body takes per acceleration, (n, 6, 6), symmetric."""
+    masses = np.array([body.mass for body in rigid])
+    centers = np.array([body.center for body in rigid]).reshape(-1, 3)
+    inertias = np.array([body.inertia for body in rigid]).reshape(-1, 6)
+    found = np.empty((len(rigid), 6, 6))
     _body()(found, masses, *centers.T, *inertias.T)
     return found
 

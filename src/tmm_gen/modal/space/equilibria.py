@@ -173,7 +173,7 @@ def _same(one: SpaceEquilibrium, other: SpaceEquilibrium) -> bool:
     turns[numbers.free] = 0.0
     heights = (one.rest.heights - other.rest.heights) / numbers.reach
     massive = np.array([joint.body.mass > 0.0 for joint in numbers.arm.joints])
-    seen = (one.rest.weight - other.rest.weight)[massive] / (np.linalg.norm(numbers.arm.gravity) or 1.0)
+    seen = (one.rest.weight - other.rest.weight)[massive] / (np.linalg.norm(numbers.gravity) or 1.0)
     return all(bool(np.all(np.abs(each) < SAME)) for each in (turns, heights, seen))
 
 

@@ -24,7 +24,7 @@ class Load:
     column : str
         Of the input.
     body : int
-        Index of the body, from 0.
+        Index of the body, from 0; -1 is a base that floats.
     vector : array, (3,)
         Components, N or N m.
     world : bool
@@ -61,9 +61,9 @@ class Load:
 
 
 def unit_loads(arm: SpatialArm) -> Iterator[Load]:
-    """Yield a unit of each column of the inputs that act on a frame that moves."""
+    """Yield a unit of each column of the inputs that act on a frame that moves by forces."""
     for item in arm.inputs:
-        if item.frame is None or not item.frame.joint:
+        if item.frame is None or not (item.frame.joint or arm.base):
             continue
         for column, axis in zip(item.columns, np.eye(3), strict=True):
             yield _load(item, column, axis)
@@ -74,7 +74,7 @@ def held_loads(arm: SpatialArm, given: Mapping[str, float]) -> tuple[Load, ...]:
     return tuple(
         replace(each, vector=given[each.column] * each.vector)
         for each in unit_loads(arm)
-        if given.get(each.column, 0.0)
+        if each.body >= 0 and given.get(each.column, 0.0)
     )
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.modal.space.elements import bodies, mounts, pushes
+from tmm_gen.modal.space.held_base import Turning
 from tmm_gen.scene.spatial.arm import SpatialArm
 from tmm_gen.scene.spatial.reach import longest_way
 
@@ -24,10 +25,13 @@ class ArmNumbers:
     Parameters
     ----------
     arm : SpatialArm
-        What they are of.
+        What they are of; none of its joints moves as an input says.
+    turning : Turning or None
+        How its base moves, if an input says that; it is held in `arm`.
     """
 
     arm: SpatialArm
+    turning: Turning | None = None
 
     @property
     def size(self) -> int:
@@ -72,7 +76,32 @@ class ArmNumbers:
     @cached_property
     def bodies(self) -> Array:
         """Force and moment each body takes per acceleration, (n, 6, 6)."""
-        return bodies(self.arm.joints)
+        return bodies([joint.body for joint in self.arm.joints])
+
+    @property
+    def floats(self) -> bool:
+        """Whether nothing holds the base, so that it moves along and turns: six coordinates before the joints'."""
+        return self.arm.base is not None
+
+    @cached_property
+    def base_body(self) -> Array:
+        """Force and moment that the base itself takes per acceleration, (6, 6); zero where it is held."""
+        return bodies([self.arm.base.body])[0] if self.arm.base else np.zeros((6, 6))
+
+    @cached_property
+    def base_facing(self) -> Array:
+        """Components in the base's axes by those in the world's, (3, 3)."""
+        return np.array(self.arm.base.turn).T if self.arm.base else np.eye(3)
+
+    @cached_property
+    def base_place(self) -> Array:
+        """Where the base is, (3,), m."""
+        return np.array(self.arm.base.at) if self.arm.base else np.zeros(3)
+
+    @cached_property
+    def gravity(self) -> Array:
+        """What weight is felt of, (3,), m/s^2, in world axes: none by what falls freely."""
+        return np.zeros(3) if self.floats else np.array(self.arm.gravity)
 
     @cached_property
     def stiffness(self) -> Array:
@@ -114,7 +143,7 @@ class ArmNumbers:
         """The most that weight can do about each joint, all levers stretched out, (n,), N m."""
         masses = np.array([joint.body.mass for joint in self.arm.joints])
         levers = np.array([math.hypot(*joint.body.center) for joint in self.arm.joints])
-        return self.stretched(math.hypot(*self.arm.gravity) * masses, levers)
+        return self.stretched(float(np.linalg.norm(self.gravity)) * masses, levers)
 
     def stretched(self, forces: Array, levers: Array) -> Array:
         """Return the most that forces on bodies can do about each joint, (n,), N m.

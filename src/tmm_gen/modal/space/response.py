@@ -46,18 +46,22 @@ def space_response(still: Still, s: ArrayLike) -> dict[str, Complex]:
     parts: list[dict[str, Complex]] = []
     for start in range(0, len(points), chunk):
         some = points[start : start + chunk]
-        angles = swept(still, some, inputs)
+        whole = swept(still, some, inputs)
         read: dict[str, Complex] = {}
         for item in outputs:
-            read |= _read(still, inputs, some, angles, item)
+            read |= _read(still, inputs, some, whole, item)
         parts.append(read)
     return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
 
 
-def _read(still: Still, inputs: Inputs, s: Complex, angles: Complex, output: ArmOutput) -> dict[str, Complex]:
-    factor = (s**output.quantity.order)[:, None]
+def _read(still: Still, inputs: Inputs, s: Complex, whole: Complex, output: ArmOutput) -> dict[str, Complex]:
+    factor, angles = (s**output.quantity.order)[:, None], whole[:, 6:]
     if output.quantity.read == "bend":
-        return {output.name: factor * angles[:, output.joint - 1]}
+        turning = still.numbers.turning
+        if output.joint or turning is None:
+            return {output.name: factor * angles[:, output.joint - 1]}
+        own = np.equal(inputs.columns, turning.column)  # the base's own angle
+        return {output.name: factor * own}
     if output.quantity.read == "through":
         joint = output.joint - 1
         law = still.numbers.stiffness[joint] + still.numbers.damping[joint] * s
@@ -66,12 +70,12 @@ def _read(still: Still, inputs: Inputs, s: Complex, angles: Complex, output: Arm
     moved, turned = still.moved(output.frame)
     turns = len(output.columns) == len("wxyz")
     slopes = small_orientation(still, output.frame, turned) if turns else moved
-    values = factor[:, None] * (slopes @ angles)
+    values = factor[:, None] * (slopes @ whole)
     return {name: values[:, k] for k, name in enumerate(output.columns)}
 
 
 def small_orientation(still: Still, frame: Frame, turned: Array) -> Array:
-    """Return how a frame's quaternion changes, (4, n), by how it turns in its own axes, (3, n).
+    """Return how a frame's quaternion changes, (4, k), by how it turns in its own axes, (3, k).
 
     The quaternion is that of outputs: half of each joint's angle on the way makes it.
     """
@@ -80,7 +84,8 @@ def small_orientation(still: Still, frame: Frame, turned: Array) -> Array:
     while number:
         way.append(number - 1)
         number = still.numbers.hosts[number - 1] + 1
-    found = np.array([1.0, 0.0, 0.0, 0.0])
+    base = still.numbers.arm.base
+    found = np.array(quaternion_of(base.turn)) if base else np.array([1.0, 0.0, 0.0, 0.0])
     for joint in reversed(way):
         item, half = still.numbers.arm.joints[joint], 0.5 * float(still.angles[joint])
         turn = np.array([np.cos(half), 0.0, 0.0, 0.0])

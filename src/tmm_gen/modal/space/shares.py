@@ -42,9 +42,13 @@ def shares(still: Still, shape: Array) -> tuple[Share, ...]:
     ----------
     still : Still
         Where the arm rests.
-    shape : array, (n,)
-        Of the mode.
+    shape : array, (6 + n,)
+        Of the mode: base and joints.
     """
+    if not np.any(shape[6:]):  # all of the arm as one
+        ways = [f"base {word} {axis}" for word in ("moves along", "turns about") for axis in "xyz"]
+        return tuple(Share(way, 1.0) for way, size in zip(ways, shape[:6].tolist(), strict=True) if size)
+    shape = shape[6:]
     held = (still.numbers.stiffness + np.abs(np.diag(still.geometric))) * shape**2
     if not np.any(held > 0.0):
         held = np.diag(still.mass) * shape**2

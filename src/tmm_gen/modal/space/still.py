@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from tmm_gen.modal.space.elements import beside, hinges, turning
 from tmm_gen.modal.space.loads import Load, held_loads
 from tmm_gen.modal.space.numbers import ArmNumbers
+from tmm_gen.reference.spatial_turns import product, quaternion
 from tmm_gen.scene.spatial.arm import Frame
 
 Array = NDArray[np.float64]
@@ -60,13 +61,13 @@ class Still:
         found = np.empty((self.numbers.size, 3, 3))
         for number, host in enumerate(self.numbers.hosts):
             own = self.through[number, :3, :3]
-            found[number] = own @ found[host] if host >= 0 else own
+            found[number] = own @ (found[host] if host >= 0 else self.numbers.base_facing)
         return found
 
     @cached_property
     def weight(self) -> Array:
         """Proper acceleration of each body's point: gravity with its sign turned, in the body's axes, (n, 3), m/s^2."""
-        found: Array = self.facing @ -np.array(self.numbers.arm.gravity)
+        found: Array = self.facing @ -self.numbers.gravity
         return found
 
     @cached_property
@@ -157,13 +158,40 @@ class Still:
 
     @cached_property
     def mass(self) -> Array:
-        """The mass matrix, (n, n), kg m^2."""
+        """The mass matrix, (n, n), kg m^2; of an arm that floats where momentum is zero: the base moves along."""
         size = self.numbers.size
         weighed = (self.numbers.bodies @ self.moves).reshape(-1, size)
         found = self.moves.reshape(-1, size).T @ weighed
+        if self.numbers.floats:
+            found += self._coupling.T @ self.following
         found = 0.5 * (found + found.T)
         found[np.diag_indices(size)] += self.numbers.armature
         return found
+
+    @cached_property
+    def carried(self) -> Array:
+        """How each body moves and turns, in its own axes, as the base does in the base's, (n, 6, 6)."""
+        found = np.empty((self.numbers.size, 6, 6))
+        for number, host in enumerate(self.numbers.hosts):
+            found[number] = self.through[number] @ found[host] if host >= 0 else self.through[number]
+        return found
+
+    @cached_property
+    def base_mass(self) -> Array:
+        """Force and moment that all of the arm takes as the base accelerates, (6, 6), in its axes."""
+        own = np.einsum("nai,nab,nbj->ij", self.carried, self.numbers.bodies, self.carried)
+        return np.asarray(self.numbers.base_body + own)
+
+    @cached_property
+    def _coupling(self) -> Array:
+        return np.asarray(np.einsum("nai,nab,nbj->ij", self.carried, self.numbers.bodies, self.moves))
+
+    @cached_property
+    def following(self) -> Array:
+        """How a base that floats moves and turns as each joint turns, (6, n), in its axes: momentum stays zero."""
+        if not self.numbers.floats:
+            return np.zeros((6, self.numbers.size))
+        return np.asarray(-np.linalg.solve(self.base_mass, self._coupling))
 
     @cached_property
     def geometric(self) -> Array:
@@ -208,7 +236,7 @@ class Still:
 
         The bodies' centres against gravity, and the points on which forces in world axes act along them.
         """
-        down = np.array(self.numbers.arm.gravity)
+        down = self.numbers.gravity
         centers = np.array([joint.body.center for joint in self.numbers.arm.joints])
         places = self._points[1:] + np.einsum("nij,ni->nj", self.facing, centers)
         found = [-(places @ down) / (np.linalg.norm(down) or 1.0)]
@@ -224,22 +252,44 @@ class Still:
         return found
 
     def moved(self, frame: Frame) -> tuple[Array, Array]:
-        """Return how a frame moves, in world axes, and turns, in its own, as each joint turns, (3, n) each."""
-        if not frame.joint:
-            return np.zeros((3, self.numbers.size)), np.zeros((3, self.numbers.size))
-        moved = beside(frame.at) @ self.moves[frame.joint - 1]
+        """Return how a frame moves, in world axes, and turns, in its own, (3, 6 + n) each.
+
+        First as the base moves and turns in its own axes, then as each joint turns.
+        """
+        own = np.hstack([np.eye(6), np.zeros((6, self.numbers.size))])
+        if frame.joint:
+            own = np.hstack([self.carried[frame.joint - 1], self.moves[frame.joint - 1]])
+        moved = beside(frame.at) @ own
         return self._facing(frame.joint).T @ moved[:3], np.array(frame.turn).T @ moved[3:]
+
+    def posed(self, changes: Array | None = None) -> Array:
+        """Return it moved a little as pictures take it, (k, n): angles; (k, 7 + n) where the base floats.
+
+        Parameters
+        ----------
+        changes : array, (k, 6 + n)
+            How the base moves and turns, in its own axes, and each joint turns, m and rad; none by default.
+        """
+        moves = np.zeros((1, 6 + self.numbers.size)) if changes is None else changes
+        angles = self.angles + moves[:, 6:]
+        base = self.numbers.arm.base
+        if base is None:
+            return np.asarray(angles)
+        size = np.linalg.norm(moves[:, 3:6], axis=1, keepdims=True)
+        turn = np.hstack([np.cos(0.5 * size), 0.5 * np.sinc(size / (2.0 * np.pi)) * moves[:, 3:6]])
+        place = self.numbers.base_place + moves[:, :3] @ self.numbers.base_facing
+        return np.hstack([place, product(quaternion(base.turn), turn), angles])
 
     @cached_property
     def _points(self) -> Array:
         """Where the base and the joints are, (n + 1, 3), m."""
-        found = np.zeros((self.numbers.size + 1, 3))
+        found = np.tile(self.numbers.base_place, (self.numbers.size + 1, 1))
         for number, joint in enumerate(self.numbers.arm.joints, start=1):
             found[number] = found[joint.host] + self._facing(joint.host).T @ np.array(joint.at)
         return found
 
     def _facing(self, joint: int) -> Array:
-        return self.facing[joint - 1] if joint else np.eye(3)
+        return self.facing[joint - 1] if joint else self.numbers.base_facing
 
 
 def small_turns(vectors: Array) -> Array:

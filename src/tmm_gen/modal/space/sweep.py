@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.modal.space.loads import unit_loads
-from tmm_gen.modal.space.still import Still
+from tmm_gen.modal.space.still import Still, small_turns
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -31,11 +31,17 @@ class Inputs:
         In each joint, N m.
     force : array, (n, 6, m)
         On each body: force and moment about its joint's point, in its own axes.
+    on_base : array, (6, m)
+        The same on a base that floats.
+    base : array, (6, m)
+        How a base that moves as an input says moves and turns, in its own axes.
     """
 
     columns: tuple[str, ...]
     torque: Array
     force: Array
+    on_base: Array
+    base: Array
 
 
 def inputs_of(still: Still) -> Inputs:
@@ -47,13 +53,19 @@ def inputs_of(still: Still) -> Inputs:
         if item.acts == "torque":
             gear = numbers.arm.joints[item.joint - 1].gear
             torque[item.joint - 1, columns.index(item.name)] += gear
+    on_base, base = np.zeros((2, 6, len(columns)))
     for load in unit_loads(numbers.arm):
-        force[load.body, :, columns.index(load.column)] += load.arm @ load.on_body(still.facing[load.body])
-    return Inputs(columns, torque, force)
+        on, facing = (
+            (force[load.body], still.facing[load.body]) if load.body >= 0 else (on_base, numbers.base_facing)
+        )
+        on[:, columns.index(load.column)] += load.arm @ load.on_body(facing)
+    if numbers.turning is not None:
+        base[:, columns.index(numbers.turning.column)] = numbers.turning.coordinates
+    return Inputs(columns, torque, force, on_base, base)
 
 
 def swept(still: Still, s: Complex, inputs: Inputs) -> Complex:
-    """Return the angles of the joints for a unit of each input, (f, n, m), rad.
+    """Return how the base moves and turns, in its axes, and the joints turn for a unit of each input, (f, 6 + n, m).
 
     Parameters
     ----------
@@ -72,10 +84,12 @@ def swept(still: Still, s: Complex, inputs: Inputs) -> Complex:
     slopes: list[Complex | None] = [None] * numbers.size
     biases: list[Complex | None] = [None] * numbers.size
     kept: list[tuple[Complex, Complex]] = []
+    whole = _own(numbers.base_body, np.zeros((6, 3)), square)
+    left_over = np.broadcast_to(-inputs.on_base, (len(s), *inputs.on_base.shape)).astype(complex)
     for j in reversed(range(numbers.size)):
         row, push = int(numbers.rows[j]), pushes[j]
         beyond, biased = slopes[j], biases[j]
-        own = _own(still, j, square)
+        own = _own(numbers.bodies[j], still.loaded[j], square)
         slope = own if beyond is None else own + beyond
         bias = np.broadcast_to(-inputs.force[j], (len(s), 6, len(inputs.columns))).astype(complex)
         if biased is not None:
@@ -92,14 +106,36 @@ def swept(still: Still, s: Complex, inputs: Inputs) -> Complex:
         left[:, row] = law[j][:, None] * lacking + inputs.torque[j]
         kept.append((admittance[:, None] * about, lacking))
         host = numbers.hosts[j]
-        if host >= 0:
-            back = still.through[j].T
-            passed, carried = back @ _moved(still, j, freed, square), back @ left
-            before, biased = slopes[host], biases[host]
-            slopes[host] = passed if before is None else before + passed
-            biases[host] = carried if biased is None else biased + carried
+        if host < 0 and not numbers.floats:
+            continue
+        back = still.through[j].T
+        passed, carried = back @ _moved(still, j, freed, square), back @ left
+        if host < 0:
+            whole, left_over = whole + passed, left_over + carried
+            continue
+        before, biased = slopes[host], biases[host]
+        slopes[host] = passed if before is None else before + passed
+        biases[host] = carried if biased is None else biased + carried
     kept.reverse()
-    return _outward(still, square, pushes, kept, len(inputs.columns))
+    base = _floating(whole, left_over, square) if numbers.floats else _turning(still, inputs, square)
+    return _outward(still, square, pushes, kept, base)
+
+
+def _floating(whole: Complex, left: Complex, square: Complex) -> tuple[Complex, Complex]:
+    """Return what a base does that nothing holds, (f, 6, m): as a section, and how it moves and turns."""
+    section = np.asarray(-np.linalg.solve(whole, left), complex)
+    return section, np.concatenate([section[:, :3] / square[:, :, None], section[:, 3:]], axis=1)
+
+
+def _turning(still: Still, inputs: Inputs, square: Complex) -> tuple[Complex, Complex]:
+    """Return what a base does that is held or moves as an input says, (f, 6, m), in the same two ways.
+
+    Its axes are those of the world: weight is seen in axes that turn.
+    """
+    moved = np.broadcast_to(inputs.base, (len(square), *inputs.base.shape)).astype(complex)
+    section = moved.copy()
+    section[:, :3] = square[:, :, None] * moved[:, :3] + small_turns(-still.numbers.gravity) @ inputs.base[3:]
+    return section, moved
 
 
 def _pushes(still: Still) -> Array:
@@ -107,7 +143,7 @@ def _pushes(still: Still) -> Array:
     numbers = still.numbers
     found = np.zeros((numbers.size, 6))
     found[:, 3:] = numbers.pushes[:, 3:]
-    before = np.array([still.weight[h] if h >= 0 else -np.array(numbers.arm.gravity) for h in numbers.hosts])
+    before = np.array([still.weight[h] if h >= 0 else -numbers.gravity for h in numbers.hosts])
     found[:, :3] = (still.turned[:, :3, :3] @ before[:, :, None])[:, :, 0]
     return found
 
@@ -118,12 +154,11 @@ def _following(still: Still) -> Array:
     return np.asarray(np.linalg.solve(np.swapaxes(still.through, -1, -2), turned)[:, :, 0], float)
 
 
-def _own(still: Still, j: int, square: Complex) -> Complex:
+def _own(body: Array, loaded: Array, square: Complex) -> Complex:
     """Return what a body takes, (f, 6, 6), per proper acceleration and small turn of its section."""
-    body = still.numbers.bodies[j]
     found = np.empty((len(square), 6, 6), complex)
     found[:, :, :3] = body[:, :3]
-    found[:, :, 3:] = square[:, :, None] * body[:, 3:] + still.loaded[j]
+    found[:, :, 3:] = square[:, :, None] * body[:, 3:] + loaded
     return found
 
 
@@ -137,21 +172,25 @@ def _moved(still: Still, j: int, slope: Complex, square: Complex) -> Complex:
 
 
 def _outward(
-    still: Still, square: Complex, pushes: Array, kept: list[tuple[Complex, Complex]], columns: int
+    still: Still,
+    square: Complex,
+    pushes: Array,
+    kept: list[tuple[Complex, Complex]],
+    base: tuple[Complex, Complex],
 ) -> Complex:
-    """Return what each joint does, base to tips."""
+    """Return what the base and each joint do, base to tips."""
     numbers = still.numbers
-    moved = np.zeros((numbers.size, len(square), 6, columns), complex)
-    found = np.empty((len(square), numbers.size, columns), complex)
+    section, coordinates = base
+    moved = np.empty((numbers.size, *section.shape), complex)
+    found = np.empty((len(square), 6 + numbers.size, section.shape[-1]), complex)
+    found[:, :6] = coordinates
     for j, (about, lacking) in enumerate(kept):
         host, through = numbers.hosts[j], still.through[j]
-        unknown: Complex = -lacking
-        if host >= 0:
-            inner = moved[host]
-            turn, swing = through[:3, :3], through[:3, 3:]
-            moved[j, :, :3] = turn @ inner[:, :3] + square[:, :, None] * (swing @ inner[:, 3:])
-            moved[j, :, 3:] = turn @ inner[:, 3:]
-            unknown = unknown - (about[:, None, :] @ moved[j])[:, 0]
-        found[:, j] = unknown
+        inner = moved[host] if host >= 0 else section
+        turn, swing = through[:3, :3], through[:3, 3:]
+        moved[j, :, :3] = turn @ inner[:, :3] + square[:, :, None] * (swing @ inner[:, 3:])
+        moved[j, :, 3:] = turn @ inner[:, 3:]
+        unknown = -lacking - (about[:, None, :] @ moved[j])[:, 0]
+        found[:, 6 + j] = unknown
         moved[j] += pushes[j][:, None] * unknown[:, None, :]
     return found
