@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 from support.spatial.boom import BOOM
+from support.spatial.moving import AFLOAT, TABLE
 
 from tmm_gen.c_language.real import REALS
 from tmm_gen.cli import main
@@ -94,6 +95,21 @@ def test_so_they_do_in_a_tree_with_first_steps() -> None:
     for key in SUMMED:
         assert sum(getattr(each.worth, key) for each in mine) == getattr(own, key), key
     assert all(each.worth.step > 0 for each in mine if each.name.startswith("motor"))
+
+
+@pytest.mark.parametrize("text", [AFLOAT, TABLE], ids=["floats", "prescribed"])
+def test_so_they_do_where_the_base_moves(text: str) -> None:
+    scene = parse_scene(text)
+    document, program = document_of(scene.source), build_program(scene)
+    assert isinstance(document, SpatialDocument)
+    assert scene.spatial is not None
+    mine = shares(document, scene.spatial, program, REALS["float64"])
+    own = footprint_of(program, REALS["float64"])
+    for key in SUMMED:
+        assert sum(getattr(each.worth, key) for each in mine) == getattr(own, key), key
+    told = {each.name: each.why for each in mine}
+    assert told.get("the base") == (None if scene.prescribed is None else "turns as input 'table' says")
+    assert told[SHARED].startswith("the base, which floats") == (scene.prescribed is None)
 
 
 def test_a_load_costs_what_the_arm_costs_less_without_it(found: Explanation) -> None:

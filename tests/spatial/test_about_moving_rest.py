@@ -12,6 +12,7 @@ import pytest
 from scipy.linalg import eigh
 from support.spatial.afloat import random_afloat
 from support.spatial.kernels import HEADED
+from support.spatial.moving import AFLOAT, TABLE
 
 from tmm_gen.cli import main
 from tmm_gen.errors import UserError
@@ -33,39 +34,6 @@ from tmm_gen.stability.motion import small_motion
 
 Array = np.ndarray
 S = np.array([0.3 + 2.0j, 40.0j, -1.0 + 300.0j])
-AFLOAT = """
-name = "bird"
-model = { kind = "spatial", gravity = [0, 0, -9.81] }
-integrator = { name = "newmark", step = 1e-2 }
-base = { kind = "free" }
-joint = [{ name = "hinge", on = "base", at = [0.1, 0.0, 0.1], axis = "y", stiffness = 20.0, damping = 0.05 }]
-body = [
-  { name = "hub", on = "base", mass = 2.0, center = [0.01, 0.02, -0.05], inertia = [0.1, 0.2, 0.3] },
-  { name = "load", on = "hinge", mass = 0.5, center = [0.3, 0.02, 0.01], inertia = [1e-3, 1e-3, 5e-4] },
-]
-input = [{ name = "push", at = "load", acts = "force" }]
-output = [{ name = "load", at = "load", of = "position" }]
-"""
-TABLE = """
-name = "table"
-model = { kind = "spatial", gravity = [0, 0, -9.81] }
-integrator = { name = "newmark", step = 1e-2 }
-base = { kind = "prescribed", axis = [0.5, 0.6, 1.0] }
-joint = [
-  { name = "hinge", on = "base", at = [0.1, 0.0, 0.1], axis = "y", stiffness = 20.0, damping = 0.05 },
-  { name = "other", on = "base", axis = "x", stiffness = 20.0 },
-]
-body = [
-  { name = "load", on = "hinge", mass = 0.5, center = [0.3, 0.02, 0.01], inertia = [1e-3, 1e-3, 5e-4] },
-  { name = "second", on = "other", mass = 0.5, center = [-0.1, 0.2, 0.01], inertia = [1e-3, 1e-3, 5e-4] },
-]
-input = [{ name = "table", at = "base", acts = "angle" }, { name = "push", at = "load", acts = "force" }]
-output = [
-  { name = "load", at = "load", of = "position" },
-  { name = "facing", at = "second", of = "orientation" },
-  { name = "turned", at = "base", of = "rate" },
-]
-"""
 
 
 def apart(found: Array, exact: Array) -> float:
@@ -182,7 +150,7 @@ def test_a_prescribed_base_is_a_clamp_that_the_reference_can_move() -> None:
         change = np.concatenate([[1.0], np.linalg.solve(dynamic[1:, 1:], -dynamic[1:, 0])])
         assert apart(swept(resting.still, S, inputs_of(resting.still))[k, 6:, column], change[1:]) < 1e-11
         assert read["turned"][k, column] == pytest.approx(s)
-        frame = next(each for each in arm.frames if each.name == "load")
+        frame = next(each for each in arm.frames if each.name == "tip")
         slope = [
             world.tree.places(q + 1e-40j * part).frame(frame)[1].imag / 1e-40
             for part in (change.real, change.imag)

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from support.spatial.boom import BOOM
+from support.spatial.moving import AFLOAT, TABLE
 from support.spatial.palm import PALM
 
 from tmm_gen.cli import main
@@ -70,6 +71,26 @@ def test_loads_turn_the_arm_by_about_a_radian(palm: Scene) -> None:
     q, _, _ = turned.at(times)
     assert 0.3 < float(np.max(np.abs(q))) < 4.0
     assert np.all(np.isfinite(WorldArm(palm.spatial).mass_matrix(q[-1])))
+
+
+@pytest.mark.parametrize("text", [AFLOAT, TABLE], ids=["floats", "prescribed"])
+def test_bases_that_move_are_studied_too(text: str) -> None:
+    """Of second order against the reference, under loads that move the arm by about its own size."""
+    scene = parse_scene(text)
+    found = excitation(scene, until=0.3)
+    loads = configurations(scene, Axes(("newmark",), steps=(4e-3, 2e-3)), 0.3)
+    points = run_study(scene, found, loads, rounds=0).points
+    coarse, fine = (next(p.error for p in points if p.configuration.step == step) for step in (4e-3, 2e-3))
+    assert coarse / fine == pytest.approx(4.0, rel=0.1)
+    values = find_truth(scene, found).at(np.linspace(0.0, 0.3, 31))
+    assert 0.02 < float(np.max(np.ptp(values, axis=1))) < 2.0
+
+
+def test_a_force_through_all_axes_is_no_absurd_one() -> None:
+    """At the hinge's own point it turns nothing but by rounding."""
+    scene = parse_scene(TABLE.replace('at = "tip", acts = "force"', 'at = "load", acts = "force"'))
+    signals = excitation(scene).signals
+    assert [getattr(signals[f"push_{axis}"], "amplitude", None) for axis in "xyz"] == [1.0] * 3
 
 
 def errors(study: Study, iterations: int, real: str = "float64") -> Mapping[float, float]:

@@ -7,10 +7,12 @@ from collections.abc import Callable
 
 import pytest
 from support.spatial.boom import BOOM
+from support.spatial.moving import AFLOAT, TABLE
 
 from tmm_gen.emit.c import emit_kernel
 from tmm_gen.emit.c.box import box_of
 from tmm_gen.emit.c.kernel import Kernel
+from tmm_gen.errors import UserError
 from tmm_gen.native import compile_kernel
 from tmm_gen.native.library import OutOfRangeError
 from tmm_gen.program.build import build_program
@@ -100,3 +102,33 @@ def test_bits_are_the_hosts(
     assert found.library_functions == ()
     assert found.instructions_per_step == found.instructions_least > count_routine(program.main).total
     assert found.stack_proved
+
+
+@pytest.mark.parametrize("text", [AFLOAT, TABLE], ids=["floats", "prescribed"])
+def test_bits_are_the_hosts_on_a_base_that_moves(text: str, need_tool: Callable[[str], str]) -> None:
+    for tool in ("arm-none-eabi-gcc", "qemu-system-arm"):
+        need_tool(tool)
+    found = measure(
+        parse_scene(text).replace(**{"emit.trigonometry": "own", "emit.real": "float32"}), "cortex-m4f"
+    )
+    assert found.bits_equal
+    assert found.stack_proved
+
+
+def test_a_prescribed_base_is_proved_too_and_one_that_floats_is_told(need_tool: Callable[[str], str]) -> None:
+    need_tool("frama-c")
+    turning = {"table": [-3.0, 3.0], "table_rate": [-5.0, 5.0], "table_acceleration": [-50.0, 50.0]}
+    bounds = {name: limits for name, limits in BOX.items() if name != "torque"}
+    changes = {"emit.trigonometry": "own", "emit.box": bounds | turning}
+    scene = parse_scene(TABLE).replace(**changes)
+    made, box = build_program(scene), box_of(scene)
+    assert box is not None
+    alarms, _ = analyse(
+        {**emit_kernel(made, scene), "proof.c": driver(Kernel.of(made, scene), box)}, "table", IN_SPACE
+    )
+    assert alarms == ()
+    afloat = parse_scene(AFLOAT).replace(**{"emit.box": bounds})
+    found = box_of(afloat)
+    assert found is not None
+    with pytest.raises(UserError, match="whose base floats is not proved yet"):
+        found.missing(build_program(afloat))

@@ -30,19 +30,6 @@ SERVED: Mapping[str, tuple[str, ...]] = {
 }
 """Commands by the kinds that not all serve yet; where an option decides, it is part of the name: "export --to fmu"."""
 
-ON_MOVING_BASES = (
-    "build",
-    "run",
-    "check",
-    "rest",
-    "modes",
-    "frequency",
-    "stability",
-    "export --to mjcf",
-    "export --to urdf",
-)
-"""Commands that serve arms in space whose base floats or is prescribed; others would take it for a clamp."""
-
 
 def require_served(command: str, scene: Scene) -> Scene:
     """Return a scene that a command serves.
@@ -53,12 +40,6 @@ def require_served(command: str, scene: Scene) -> Scene:
         If it does not serve the scene's kind.
     """
     served = SERVED.get(scene.model.kind)
-    if scene.spatial is not None and (scene.spatial.base is not None or scene.prescribed is not None):
-        if command not in ON_MOVING_BASES:
-            raise UserError(
-                f"tmm-gen {command} does not serve arms in space whose base moves yet; {_listed(ON_MOVING_BASES)} do"
-            )
-        return scene
     if served is None or command in served:
         return scene
     raise UserError(f'tmm-gen {command} does not serve kind = "{scene.model.kind}" yet; {_listed(served)} do')

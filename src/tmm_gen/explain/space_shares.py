@@ -60,7 +60,8 @@ def shares(document: SpatialDocument, arm: SpatialArm, program: Program, real: R
     for name, stations in _parts(document):
         numbers = _bytes(state, stations, real), _bytes(model, stations, real)
         worth = Footprint(_sum(step, stations), 0, _sum(prepare, stations), *numbers)
-        found.append(Share(f"{_kind(document, name)} '{name}'", _why(document, arm, name, stations), worth))
+        title, why = _told(document, arm, name, stations)
+        found.append(Share(title, why, worth))
     found += _loads(program.main, loads)
     whole = footprint_of(program, real)
     scalars = [
@@ -68,7 +69,8 @@ def shares(document: SpatialDocument, arm: SpatialArm, program: Program, real: R
         for key, total in (("state_bytes", whole.state_bytes), ("model_bytes", whole.model_bytes))
     ]
     rest = Footprint(step[None], 0, prepare[None], *scalars)
-    found.append(Share(SHARED, "scalars, and torques as they come in", rest))
+    afloat = "the base, which floats, " if arm.base is not None else ""
+    found.append(Share(SHARED, f"{afloat}scalars, and torques as they come in", rest))
     return [*found, *_outputs(program)]
 
 
@@ -77,6 +79,14 @@ def _parts(document: SpatialDocument) -> Iterator[tuple[str, list[int]]]:
     inner = document.expansion.inner
     for name in dict.fromkeys(inner):
         yield name, [k for k, part in enumerate(inner) if part == name]
+
+
+def _told(document: SpatialDocument, arm: SpatialArm, name: str, stations: Sequence[int]) -> tuple[str, str]:
+    """Return what a part is called, and why it costs something."""
+    turning = arm.joints[stations[0]].given
+    if turning:
+        return "the base", f"turns as input '{turning}' says"
+    return f"{_kind(document, name)} '{name}'", _why(document, arm, name, stations)
 
 
 def _kind(document: SpatialDocument, name: str) -> str:

@@ -48,24 +48,33 @@ def _linearisation(scene: Scene) -> Term:
 
 def _damping(arm: SpatialArm) -> Term:
     damped = sum(joint.damping > 0.0 for joint in arm.joints)
-    why = f"{damped} of {len(arm.joints)} joints have a damper" if damped else "no joint has damping"
+    why = f"{damped} of {_moving(arm)} joints have a damper" if damped else "no joint has damping"
     return Term("joint damping", damped > 0, why, lambda s: _with_damping(s, 0.0 if damped else _MORE))
 
 
 def _rotors(arm: SpatialArm) -> Term:
     rotors = sum(joint.armature > 0.0 for joint in arm.joints)
-    why = f"{rotors} of {len(arm.joints)} joints have a rotor" if rotors else "no joint has a rotor"
+    why = f"{rotors} of {_moving(arm)} joints have a rotor" if rotors else "no joint has a rotor"
     return Term("rotors", rotors > 0, why, lambda s: _with_rotors(s, 0.0 if rotors else _MORE))
 
 
 def _with_damping(scene: Scene, value: float) -> Scene:
     assert scene.spatial is not None
-    return _with_arm(scene, joints=tuple(replace(j, damping=value) for j in scene.spatial.joints))
+    return _with_arm(
+        scene, joints=tuple(j if j.given else replace(j, damping=value) for j in scene.spatial.joints)
+    )
 
 
 def _with_rotors(scene: Scene, value: float) -> Scene:
     assert scene.spatial is not None
-    return _with_arm(scene, joints=tuple(replace(j, armature=value) for j in scene.spatial.joints))
+    return _with_arm(
+        scene, joints=tuple(j if j.given else replace(j, armature=value) for j in scene.spatial.joints)
+    )
+
+
+def _moving(arm: SpatialArm) -> int:
+    """Return how many joints move by forces."""
+    return sum(not joint.given for joint in arm.joints)
 
 
 def _with_arm(scene: Scene, **update: object) -> Scene:

@@ -44,8 +44,16 @@ def motion(
     ReferenceError
         If the equations cannot be integrated.
     """
-    times, told = np.asarray(times, float), GivenJoints(arm, signals)
+    times = np.asarray(times, float)
     q, v, _ = trajectory(arm, signals, max(float(times[-1]), 1e-9), tolerance).at(times)
+    return completed(arm, signals, times, q, v)
+
+
+def completed(
+    arm: SpatialArm, signals: Signals, times: Array, q: Array, v: Array
+) -> tuple[Array, Array, Array]:
+    """Return a motion with what is given of it, and its accelerations, (k, n) each; see :func:`motion`."""
+    told = GivenJoints(arm, signals)
     q, v = told.settled(times, q, v)
     world = _world(arm)
     if not told.of:

@@ -154,7 +154,9 @@ def _gravity(scene: Scene) -> float:
 def _initial(scene: Scene) -> bool:
     """Whether the arm starts moved or moving."""
     if scene.spatial is not None:
-        return any(joint.angle or joint.rate for joint in scene.spatial.joints)
+        base = scene.spatial.base
+        afloat = base is not None and any((*base.velocity, *base.rate))
+        return afloat or any(joint.angle or joint.rate for joint in scene.spatial.joints)
     return any(scene.initial.angles) or any(scene.initial.rates)
 
 
@@ -162,8 +164,11 @@ def _default_signals(scene: Scene, until: float) -> dict[str, Signal]:
     frequency = 2.0 * math.pi * _SWINGS / until
     frequencies = {item.name: frequency * (1.0 + 0.5 * k) for k, item in enumerate(scene.inputs)}
     if scene.spatial is not None:
-        sizes = turning_loads(scene.spatial, frequencies, _TURN)
-        return {name: Sine(_rounded(size), frequencies[name]) for name, size in sizes.items()}
+        turned = scene.prescribed.name if scene.prescribed else None
+        acting = {name: frequency for name, frequency in frequencies.items() if name != turned}
+        sizes = turning_loads(scene.spatial, acting, _TURN)
+        rise: dict[str, Signal] = {turned: Rise(_TURN, 0.5 * until)} if turned else {}
+        return rise | {name: Sine(_rounded(size), acting[name]) for name, size in sizes.items()}
     return {item.name: _signal(scene, item, frequencies[item.name], until) for item in scene.inputs}
 
 

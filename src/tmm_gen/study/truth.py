@@ -17,8 +17,7 @@ from tmm_gen.reference.collocation import Trajectory
 from tmm_gen.reference.planar_arm import Arm
 from tmm_gen.reference.planar_reference import dissipated, read
 from tmm_gen.reference.reference import exact_response
-from tmm_gen.reference.spatial_arm import WorldArm
-from tmm_gen.reference.spatial_motion import given, trajectory
+from tmm_gen.reference.spatial_motion import completed, given, trajectory
 from tmm_gen.reference.spatial_reference import outputs
 from tmm_gen.scene import Scene
 from tmm_gen.scene.spatial.arm import SpatialArm
@@ -67,10 +66,10 @@ class Truth:
     def _in_space(self, arm: SpatialArm, trajectory: Trajectory, times: Array) -> dict[str, Array]:
         """Return the output of an arm in space, by column."""
         looked_at = tuple(item for item in arm.outputs if item.name == self.excitation.output)
-        inputs = given(self.excitation.signals, times)
+        signals = self.excitation.signals
         q, v, _ = trajectory.at(times)
-        a = WorldArm(arm).forward_dynamics(q, v, inputs)
-        return outputs(replace(arm, outputs=looked_at), q, v, a, inputs)
+        moved = completed(arm, signals, times, q, v)
+        return outputs(replace(arm, outputs=looked_at), *moved, given(signals, times))
 
     @cached_property
     def travel(self) -> float:

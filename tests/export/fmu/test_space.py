@@ -9,6 +9,7 @@ import fmpy
 import numpy as np
 import pytest
 from support.spatial.boom import BOOM
+from support.spatial.moving import AFLOAT, TABLE
 
 from tmm_gen.cli import main
 from tmm_gen.export.fmu import FmiVersion
@@ -48,6 +49,28 @@ def test_no_bit_differs_from_the_kernel(version: FmiVersion, boom: Scene, instan
         assert unit.outputs() == kernel.output()
         np.testing.assert_array_equal(unit.get("state.angle"), kernel.state["angle"])
     assert all(first[name] != value for name, value in unit.outputs().items())
+
+
+@pytest.mark.parametrize("text", [AFLOAT, TABLE], ids=["floats", "prescribed"])
+def test_a_unit_on_a_base_that_moves_is_its_kernel(text: str, instance: Any, direct: Any) -> None:
+    """But for the rounding of a prescribed angle, which units follow between the instants at which it is set."""
+    scene = parse_scene(text)
+    unit, kernel = instance(scene, 3), direct(scene)
+    given = {"push_x": 0.3, "push_y": -0.2, "push_z": 0.4}
+    if scene.prescribed is not None:
+        given |= {"table": 0.1, "table_rate": 0.5, "table_acceleration": -0.3}
+    kernel.prepare()
+    kernel.initialise(given)
+    unit.begin(**given)
+    step = scene.integrator.step
+    for k in range(5):
+        given = {name: 1.1 * value for name, value in given.items()}
+        for name, value in given.items():
+            unit.set(name, value)
+        unit.step(step * k, step)
+        kernel.step(given)
+        assert unit.outputs() == pytest.approx(kernel.output(), rel=1e-13, abs=1e-14)
+        assert scene.prescribed is not None or unit.outputs() == kernel.output()
 
 
 def test_a_unit_moves_as_the_reference(boom: Scene, unit_of: Any) -> None:

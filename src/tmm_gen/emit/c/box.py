@@ -57,6 +57,11 @@ class Box:
         keys: dict[str, None] = {}
         for variable in (*program.state, *program.inputs):
             key = self.key_of(variable)
+            if key is None and variable.name.startswith("base_quaternion"):
+                raise UserError(
+                    f"{program.name}: the C of an arm in space whose base floats is not proved yet: [emit.box] has no "
+                    "bounds for how it is turned. `tmm-gen check` without --prove compares it with all else."
+                )
             if key is None:
                 raise UserError(
                     f"{program.name}: [emit.box] has no key for the state's '{variable.name}' ({variable.unit}): "

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from tmm_gen.scene.problem import Finding
 from tmm_gen.scene.rules.emission import box_of_names
+from tmm_gen.scene.signal import ACCELERATION, RATE
 from tmm_gen.scene.spatial.document import SpatialDocument
 from tmm_gen.scene.spatial.settings import FLOATING_KEYS
 
@@ -72,7 +73,9 @@ def emitted(document: SpatialDocument) -> Iterator[Finding]:
 def boxed(document: SpatialDocument) -> Iterator[Finding]:
     """Find bounds on what is neither state nor input: of a force or a moment each component has its own."""
     names = [
-        (item.name,) if item.acts == "torque" else tuple(f"{item.name}_{axis}" for axis in "xyz")
+        tuple(f"{item.name}_{axis}" for axis in "xyz")
+        if item.acts in ("force", "moment")
+        else (item.name, *((item.name + RATE, item.name + ACCELERATION) if item.acts == "angle" else ()))
         for item in document.input
     ]
     yield from box_of_names(document.emit, names)
