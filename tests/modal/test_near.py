@@ -133,6 +133,8 @@ def test_a_joint_that_is_not_there_is_one_line(
         ("wrist=1", "scene 'pendulum': has no joint 'wrist'; there are upper, lower."),
         ("upper=up", "--near upper=up: write JOINT=ANGLE, the angle in rad"),
         ("upper", "--near upper: write JOINT=ANGLE"),
+        ("upper=inf", "the angle in rad, at most 1000"),
+        ("upper=-1e300", "the angle in rad, at most 1000"),
     ):
         assert main([command, str(scene), "--near", word]) == 2
         error = capsys.readouterr().err

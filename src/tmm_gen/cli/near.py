@@ -25,6 +25,9 @@ near_option = click.option(
 )
 """The option; gives a command the argument ``near``."""
 
+_MOST = 1000.0
+"""rad; after so many turns nothing is near."""
+
 FROM_START = "the start"
 """Where a search begins without it."""
 
@@ -52,8 +55,8 @@ def start_of(scene: Scene, near: Sequence[str]) -> NDArray[np.float64] | None:
             angles[name.strip()] = float(value)
         except ValueError:
             angles[name.strip()] = math.nan
-        if not math.isfinite(angles[name.strip()]):
+        if not abs(angles[name.strip()]) <= _MOST:  # no number is not either
             raise UserError(
-                f"--near {text}: write JOINT=ANGLE, the angle in rad, for example --near elbow=0.5."
+                f"--near {text}: write JOINT=ANGLE, the angle in rad, at most {_MOST:g}; for example --near elbow=0.5."
             )
     return start_near(scene, angles)
