@@ -85,13 +85,10 @@ OTHERS = {
 
 def outputs(bench: Bench) -> dict[str, np.ndarray]:
     """Return the rows that give tip, hub and their rates from a state of the kernel."""
-    step = bench.step
-    return {
-        "tip": step.mean_row("angle"),
-        "tip_rate": step.mean_row("rate"),
-        "hub": step.hub_row("angle"),
-        "hub_rate": step.hub_row("rate"),
-    }
+    step, found = bench.step, {}
+    for name, rows in (("tip", step.motors.tip), ("hub", step.motors.hub)):
+        found[name], found[f"{name}_rate"] = (step.rows(rows, what)[0] for what in ("angle", "rate"))
+    return found
 
 
 # -- measuring --------------------------------------------------------------------------------------------------
@@ -120,18 +117,18 @@ def record(bench: Bench, controller: EmittedController) -> Record:
     controller.reset()
     samples = round(DURATION / bench.problem.sample_time)
     observer = NonlinearFilter(step, bench.links)
-    past = np.zeros(step.delay.memory + 1)
+    past = np.zeros((step.delay.memory + 1, 1))
     state = step.initial()
     rows: list[tuple[np.ndarray, float, np.ndarray, float, float]] = []
     for _ in range(samples):
         seen = np.array(step.sensors(state)).ravel()
-        observer.correct(observer.surprise(seen), tuple(observer.sensors), np.inf)
+        observer.correct(observer.surprise(seen), tuple(observer.sensors), np.full(1, np.inf))
         torque = controller.command(seen).torque
         estimate = observer.estimate.copy()
-        rows.append((seen, torque, estimate[:-1], float(past[-1]), float(estimate[-1])))
-        past = np.append(past[1:], torque)
+        rows.append((seen, float(torque[0]), estimate[:-1], float(past[-1, 0]), float(estimate[-1])))
+        past = np.vstack([past[1:], torque])
         observer.advance(step.delay.pair(past), step.delay.end(past))
-        state = np.array(step.sample(state, np.array(step.delay.pair(past)))).ravel()
+        state = np.array(step.sample(state, np.hstack(step.delay.pair(past)))).ravel()
     return Record(*(np.array(column) for column in zip(*rows, strict=True)))
 
 
@@ -141,7 +138,7 @@ def time_emitted(controller: EmittedController, seen: Record) -> tuple[np.ndarra
     for _ in range(REPEATS // 2):
         controller.reset()
         runs.append(controller.run(seen.measured))
-    return np.array([run.seconds for run in runs]), runs[0].torques
+    return np.array([run.seconds for run in runs]), runs[0].torques[:, 0]
 
 
 def time_other(solver: Solver, seen: Record, count: int) -> tuple[np.ndarray, np.ndarray]:
@@ -227,11 +224,13 @@ def compile_all(counts: Sequence[int], compared: Sequence[int]) -> None:
 class Converged(RealTimeIteration):
     """Sequential quadratic programming to convergence at every sample: the same iteration, repeated."""
 
-    def decide(self, state: np.ndarray, disturbance: float, last: float) -> Command:
+    def decide(self, state: np.ndarray, disturbance: np.ndarray, last: np.ndarray) -> Command:
         command = super().decide(state, disturbance, last)
         for _ in range(MOST_ITERATIONS):
             before = self._plan.copy()
-            self._plan = np.append(before[:1], before[:-1])  # what is shifted again becomes the plan as it is
+            self._plan = np.hstack(
+                [before[:, :1], before[:, :-1]]
+            )  # what is shifted again becomes the plan as it is
             command = super().decide(state, disturbance, last)
             if np.abs(self._plan - before).max() < 1e-7:
                 break
@@ -255,23 +254,23 @@ def costs(links: int) -> list[dict[str, object]]:
 
 def closed_loop_cost(bench: Bench, controller: Controller) -> float:
     """Return the sum of the problem's own cost along a closed loop on the model."""
-    step, problem, weights = bench.step, bench.problem, bench.problem.weights
-    rows = outputs(bench)
+    step, goal, rows = bench.step, bench.links.goal, outputs(bench)
+    weights = {name: float(value[0]) for name, value in vars(bench.problem.weights).items()}
+    bounds = {kind.what: kind for kind in bench.problem.kinds(goal)}
+    targets = {"tip": float(goal.tip[0]), "hub": float(goal.hub[0])}
     controller.reset()
-    past, state, cost = np.zeros(step.delay.memory + 1), step.initial(), 0.0
+    past, state, cost = np.zeros((step.delay.memory + 1, 1)), step.initial(), 0.0
     for _ in range(COSTED):
         torque = controller.command(np.array(step.sensors(state)).ravel()).torque
-        past = np.append(past[1:], torque)
-        state = np.array(step.sample(state, np.array(step.delay.pair(past)))).ravel()
+        past = np.vstack([past[1:], torque])
+        state = np.array(step.sample(state, np.hstack(step.delay.pair(past)))).ravel()
         seen = {name: float(row @ state) for name, row in rows.items()}
-        assert problem.tip is not None
-        assert problem.hub is not None
-        beyond = max(0.0, seen["tip"] - problem.tip[1])
-        out = max(0.0, seen["hub"] - problem.hub[1], problem.hub[0] - seen["hub"])
-        targets = {"tip": problem.reference, "hub": bench.links.target_hub}
-        cost += 0.5 * sum(getattr(weights, k) * (v - targets.get(k, 0.0)) ** 2 for k, v in seen.items())
-        cost += 0.5 * (weights.torque * torque**2 + weights.torque_step * (past[-1] - past[-2]) ** 2)
-        cost += 0.5 * (weights.overshoot * beyond**2 + weights.hub_bound * out**2)
+        beyond = max(0.0, seen["tip"] - bounds["tip"].high)
+        out = max(0.0, seen["hub"] - bounds["hub"].high, bounds["hub"].low - seen["hub"])
+        cost += 0.5 * sum(weights[k] * (v - targets.get(k, 0.0)) ** 2 for k, v in seen.items())
+        change = float(past[-1, 0] - past[-2, 0])
+        cost += 0.5 * (weights["torque"] * float(torque[0]) ** 2 + weights["torque_step"] * change**2)
+        cost += 0.5 * (weights["overshoot"] * beyond**2 + weights["hub_bound"] * out**2)
     return cost
 
 

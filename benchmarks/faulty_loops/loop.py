@@ -113,10 +113,10 @@ class FaultyLoop:
         for spell in case.spells:
             kinds[at : at + spell.samples], values[at : at + spell.samples] = spell.kinds, spell.values
             at += spell.samples
-        low, high = self.problem.torque
+        low, high = (float(bound[0]) for bound in self.problem.torque)
         given = _Given(
             case.start,
-            self.problem.reference,
+            float(self.problem.reference[0]),
             low,
             high,
             self.gravity,

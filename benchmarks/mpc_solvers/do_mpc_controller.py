@@ -107,13 +107,12 @@ def _controller(stage: Stage, kind: str) -> tuple[Any, Any]:
     controller.set_rterm(u=np.zeros(INPUTS))
     for side, value in zip(("lower", "upper"), problem.torque, strict=True):
         beyond = -np.inf if side == "lower" else np.inf
-        controller.bounds[side, "_u", "u"] = np.array([value, *[beyond] * (INPUTS - 1)])
+        controller.bounds[side, "_u", "u"] = np.array([value[0], *[beyond] * (INPUTS - 1)])
     seen = motion.outputs(x)
-    assert problem.tip is not None
-    assert problem.hub is not None
-    controller.set_nl_cons("tip", seen["tip"] - u[1], ub=problem.tip[1])
-    controller.set_nl_cons("hub_high", seen["hub"] - u[2], ub=problem.hub[1])
-    controller.set_nl_cons("hub_low", -seen["hub"] - u[2], ub=-problem.hub[0])
+    highest, lowest_hub, highest_hub = motion.bounds
+    controller.set_nl_cons("tip", seen["tip"] - u[1], ub=highest)
+    controller.set_nl_cons("hub_high", seen["hub"] - u[2], ub=highest_hub)
+    controller.set_nl_cons("hub_low", -seen["hub"] - u[2], ub=-lowest_hub)
     template = controller.get_p_template(1)
     controller.set_p_fun(lambda _: template)
     controller.setup()

@@ -52,8 +52,19 @@ class Motion:
     @cached_property
     def rows(self) -> dict[str, np.ndarray]:
         """What gives tip and hub from all angles."""
-        means = {"tip": self.step.mean_row("angle"), "hub": self.step.hub_row("angle")}
-        return {name: row[self.angles] for name, row in means.items()}
+        motors = self.step.motors
+        return {"tip": motors.tip[0], "hub": motors.hub[0]}
+
+    @property
+    def bounds(self) -> tuple[float, float, float]:
+        """Highest tip angle, lowest and highest hub angle, rad."""
+        kinds = {kind.what: kind for kind in self.bench.problem.kinds(self.bench.links.goal)}
+        return kinds["tip"].high, kinds["hub"].low, kinds["hub"].high
+
+    @cached_property
+    def weights(self) -> dict[str, float]:
+        """Of the cost, of the only motor."""
+        return {name: float(value[0]) for name, value in vars(self.bench.problem.weights).items()}
 
     def start(self, state: np.ndarray, last: float) -> np.ndarray:
         """Return the coordinates of a state of the kernel."""
@@ -100,10 +111,10 @@ class Motion:
 
     def state_cost(self, x: Any) -> Any:
         """Return what a state costs."""
-        weights = self.bench.problem.weights
-        targets = {"tip": self.bench.problem.reference, "hub": self.bench.links.target_hub}
+        goal = self.bench.links.goal
+        targets = {"tip": float(goal.tip[0]), "hub": float(goal.hub[0])}
         return 0.5 * sum(
-            getattr(weights, name) * (value - targets.get(name, 0.0)) ** 2
+            self.weights[name] * (value - targets.get(name, 0.0)) ** 2
             for name, value in self.outputs(x).items()
         )
 
@@ -119,10 +130,10 @@ class Motion:
 
     def input_cost(self, x: Any, u: Any, disturbance: Any) -> Any:
         """Return what torque, its change and both slacks cost."""
-        weights = self.bench.problem.weights
+        weights = self.weights
         return 0.5 * (
-            weights.torque * (u[0] + disturbance) ** 2
-            + weights.torque_step * (u[0] - x[2 * self.count]) ** 2
-            + weights.overshoot * u[1] ** 2
-            + weights.hub_bound * u[2] ** 2
+            weights["torque"] * (u[0] + disturbance) ** 2
+            + weights["torque_step"] * (u[0] - x[2 * self.count]) ** 2
+            + weights["overshoot"] * u[1] ** 2
+            + weights["hub_bound"] * u[2] ** 2
         )

@@ -75,10 +75,9 @@ def horizon(stage: Stage, slopes: Any) -> Horizon:
     low, high = np.full((count, width), -np.inf), np.full((count, width), np.inf)
     low[:, size], high[:, size] = problem.torque
     free = np.full(size, np.inf)
-    assert problem.tip is not None
-    assert problem.hub is not None
-    lowest = [*np.zeros(size), -np.inf, -np.inf, problem.hub[0]]
-    highest = [*np.zeros(size), problem.tip[1], problem.hub[1], np.inf]
+    highest_tip, lowest_hub, highest_hub = motion.bounds
+    lowest = [*np.zeros(size), -np.inf, -np.inf, lowest_hub]
+    highest = [*np.zeros(size), highest_tip, highest_hub, np.inf]
     programme = {"x": point, "p": disturbance, "f": value}
     programme["g"] = ca.vec(stage.rows.map(count)(*given) - following)
     return Horizon(

@@ -123,10 +123,13 @@ def run_case(bench: Bench, case: RandomCase, duration: float = DURATION) -> Rand
     duration : float
         s.
     """
-    problem = replace(bench.problem, torque=(-case.torque, case.torque), torque_rate=case.torque_rate)
+    largest, rate = np.array([case.torque]), case.torque_rate
+    change = np.array([np.inf if rate is None else rate])
+    problem = replace(bench.problem, torque=(-largest, largest), torque_rate=change)
     if case.tight:
         # a hub that may hardly move although it has to, and a tip that is beyond its bound at the start
-        problem = replace(problem, hub=(0.4, 0.6), tip=(-np.inf, -0.5))
+        beyond = -0.5 - float(problem.reference[0])
+        problem = replace(problem, hub=((0.4, 0.6),), tip=((-np.inf, beyond),))
     told = bench.with_problem(problem)
     controller: Controller = BY_NAME[case.controller].make(told)
     if case.dropouts:
@@ -135,7 +138,7 @@ def run_case(bench: Bench, case: RandomCase, duration: float = DURATION) -> Rand
     stations = bench.scene.stations
     plant.restart(case.bend * np.linspace(0.0, 1.0, max(stations, 2)), case.rate)
     loop = run_loop(controller, plant, duration)
-    return RandomOutcome(case, loop, loop_figures(loop, problem.reference), _within(loop, case, bench))
+    return RandomOutcome(case, loop, loop_figures(loop), _within(loop, case, bench))
 
 
 def _within(loop: Loop, case: RandomCase, bench: Bench) -> bool:
@@ -144,7 +147,7 @@ def _within(loop: Loop, case: RandomCase, bench: Bench) -> bool:
     good = bool(np.all(np.isfinite(torque)) and np.all(np.abs(torque) <= case.torque + _TOLERANCE))
     if case.torque_rate is not None:
         largest = case.torque_rate * bench.problem.sample_time + _TOLERANCE
-        good = good and bool(np.all(np.abs(np.diff(torque, prepend=0.0)) <= largest))
+        good = good and bool(np.all(np.abs(np.diff(torque, axis=0, prepend=0.0)) <= largest))
     return good
 
 

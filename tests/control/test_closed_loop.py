@@ -61,7 +61,7 @@ def test_an_unknown_delay_is_noticed(bench: Bench) -> None:
     from tmm_gen.closed_loop.figures import loop_figures
     from tmm_gen.closed_loop.loop import run_loop
 
-    figures = loop_figures(run_loop(BY_NAME["mpc-modes"].make(bench), plant, 2.0), 1.0)
+    figures = loop_figures(run_loop(BY_NAME["mpc-modes"].make(bench), plant, 2.0))
     assert figures.settling is None or figures.settling > 0.9
 
 
@@ -71,7 +71,7 @@ def test_the_encoder_rounds_and_the_same_seed_rustles_alike(bench: Bench) -> Non
     shown = []
     for plant in plants:
         plant.kernel.initialise()
-        plant.advance(1.0)
+        plant.advance(np.ones(1))
         measured = plant.measured()
         shown.append(measured[1])
         assert measured[0] / count == pytest.approx(round(measured[0] / count), abs=1e-9)

@@ -11,21 +11,21 @@ from numpy.testing import assert_allclose
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.condensed import Condensed, Outputs
 from tmm_gen.control.linear import LinearModel
-from tmm_gen.control.problem import ControlProblem
+from tmm_gen.control.problem import ControlProblem, Goal
 from tmm_gen.control.response import response
 
 
 def predicted(model: LinearModel, problem: ControlProblem, state: np.ndarray, torques: np.ndarray, last: float,
               disturbance: float) -> tuple[np.ndarray, np.ndarray]:  # fmt: skip
-    """Step a linear model through the horizon; tip, tip rate, hub, hub rate, (4, N), and what is left, (m + 1,)."""
+    """Step a linear model through the horizon; tip, tip rate, hub, hub rate, (4, N), and what is left, (s + 1,)."""
     found = []
     for before, then in zip(np.append(last, torques[:-1]), torques, strict=True):
-        pushed = disturbance - model.target_torque
-        state = model.transition @ state + model.before * (before + pushed) + model.then * (then + pushed)
+        pushed = disturbance - model.goal.torque
+        state = model.transition @ state + model.before @ (before + pushed) + model.then @ (then + pushed)
         rows = (model.tip, model.tip_rate, model.hub, model.hub_rate)
-        found.append([row @ state for row in rows])
-    offsets = np.array([problem.reference, 0.0, model.target_hub, 0.0])
-    left = np.append(state, torques[-1] + disturbance - model.target_torque)
+        found.append(np.concatenate([row @ state for row in rows]))
+    offsets = np.array([*problem.reference, 0.0, *model.goal.hub, 0.0])
+    left = np.append(state, torques[-1] + disturbance - model.goal.torque)
     return (np.array(found) + offsets).T, left
 
 
@@ -33,13 +33,15 @@ def stated_cost(problem: ControlProblem, model: LinearModel, outputs: np.ndarray
                 last: float, disturbance: float, slack: np.ndarray) -> float:  # fmt: skip
     """The cost, term by term as the problem states it."""
     weights, total = problem.weights, 0.0
+    weights = dataclasses.replace(weights, **{key: value[0] for key, value in vars(weights).items()})
+    reference, target_hub, target_torque = problem.reference[0], model.goal.hub[0], model.goal.torque[0]
     tip, tip_rate, hub, hub_rate = outputs
     for k in range(problem.horizon):
-        total += 0.5 * weights.tip * (tip[k] - problem.reference) ** 2
-        total += 0.5 * weights.hub * (hub[k] - model.target_hub) ** 2
+        total += 0.5 * weights.tip * (tip[k] - reference) ** 2
+        total += 0.5 * weights.hub * (hub[k] - target_hub) ** 2
         total += 0.5 * (weights.tip_rate * tip_rate[k] ** 2 + weights.hub_rate * hub_rate[k] ** 2)
         change = torques[k] - (torques[k - 1] if k else last)
-        total += 0.5 * weights.torque * (torques[k] - model.target_torque + disturbance) ** 2
+        total += 0.5 * weights.torque * (torques[k] - target_torque + disturbance) ** 2
         total += 0.5 * weights.torque_step * change**2
         total += 0.5 * (weights.overshoot * slack[0, k] ** 2 + weights.hub_bound * slack[1, k] ** 2)
     return total
@@ -47,13 +49,12 @@ def stated_cost(problem: ControlProblem, model: LinearModel, outputs: np.ndarray
 
 def test_cost_and_rows_are_those_of_the_problem(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("tmm_gen.control.condensed.BEYOND", np.inf)  # no bound gives way
-    problem = dataclasses.replace(bench.problem, torque_rate=40.0, delay=0.027)
+    problem = dataclasses.replace(bench.problem, torque_rate=np.array([40.0]), delay=0.027)
     model = dataclasses.replace(
         bench.modes,
         before=0.3 * bench.modes.then,
         then=0.7 * bench.modes.then,
-        target_torque=0.2,
-        target_hub=1.03,
+        goal=Goal(np.ones(1), np.array([1.03]), np.array([0.2])),
     )
     random = np.random.default_rng(0)
     count, last, disturbance = problem.horizon, 0.4, -0.15
@@ -61,11 +62,12 @@ def test_cost_and_rows_are_those_of_the_problem(bench: Bench, monkeypatch: pytes
     along = random.uniform(-1.0, 1.0, count)
     end = random.standard_normal((3, model.size + 1))
     made = response(model, count, end)
-    condensed = Condensed(problem, made.slopes, model.target_hub, model.target_torque)
+    condensed = Condensed(problem, made.slopes, model.goal)
     start, left = predicted(model, problem, state, along, last, disturbance)
-    at_start = Outputs(*start, end @ left)
-    gradient = condensed.gradient(at_start, along, last, disturbance)
-    low, high = condensed.bounds(at_start, along, last)
+    at_start = Outputs(*start[:, None], end @ left)
+    known = (at_start, along[None], np.array([last]))
+    gradient = condensed.gradient(*known, np.array([disturbance]))
+    low, high = condensed.bounds(*known)
     origin = stated_cost(problem, model, start, along, last, disturbance, np.zeros((2, count)))
     origin += 0.5 * np.sum((end @ left) ** 2)
     for _ in range(3):
@@ -81,10 +83,10 @@ def test_cost_and_rows_are_those_of_the_problem(bench: Bench, monkeypatch: pytes
         upper = [
             torques - 3.0,
             changes - 0.8,
-            tip - slack[0] - problem.tip[1],
-            hub - slack[1] - problem.hub[1],
+            tip - slack[0] - 1.005,
+            hub - slack[1] - problem.hub[0][1],
         ]
-        lower = [torques + 3.0, changes + 0.8, hub + slack[1] - problem.hub[0]]
+        lower = [torques + 3.0, changes + 0.8, hub + slack[1] - problem.hub[0][0]]
         rows = np.concatenate([z[:count], condensed.rows @ z])
         assert_allclose(np.sort((rows - high)[np.isfinite(high)]), np.sort(np.concatenate(upper)), atol=1e-9)
         assert_allclose(np.sort((rows - low)[np.isfinite(low)]), np.sort(np.concatenate(lower)), atol=1e-9)
@@ -96,13 +98,13 @@ def test_the_free_response_is_the_models(bench: Bench) -> None:
     state, torques = 0.1 * random.standard_normal(model.size), random.uniform(-3.0, 3.0, problem.horizon)
     end = np.eye(model.size + 1)
     made = response(model, problem.horizon, end)
-    found = made.by_state @ state + made.by_constant * (0.3 - model.target_torque) + made.by_last * 0.7
+    found = made.by_state @ state + made.by_constant @ (0.3 - model.goal.torque) + made.by_last @ [0.7]
     slopes = (made.slopes.tip, made.slopes.tip_rate, made.slopes.hub, made.slopes.hub_rate, made.slopes.end)
-    found += np.concatenate([slope @ torques for slope in slopes])
+    found += np.concatenate([(slope @ torques).ravel() for slope in slopes])
     shown = made.outputs(found)
     outputs, left = predicted(model, problem, state, torques, 0.7, 0.3)
-    targets = np.array([problem.reference, 0.0, model.target_hub, 0.0])[:, None]
-    together = np.array([shown.tip, shown.tip_rate, shown.hub, shown.hub_rate]) + targets
+    targets = np.array([*problem.reference, 0.0, *model.goal.hub, 0.0])[:, None]
+    together = np.vstack([shown.tip, shown.tip_rate, shown.hub, shown.hub_rate]) + targets
     assert_allclose(together, outputs, rtol=1e-9, atol=1e-9)
     assert_allclose(shown.end, left, rtol=1e-9, atol=1e-9)
 
@@ -116,11 +118,11 @@ def test_soft_bounds_give_way_where_the_arm_passes_them_anyway(
     """Far beyond, or so fast (rad per sample) that no brake helps."""
     problem, model = bench.problem, bench.modes
     made = response(model, problem.horizon, np.zeros((1, model.size + 1)))
-    condensed = Condensed(problem, made.slopes, model.target_hub, model.target_torque)
+    condensed = Condensed(problem, made.slopes, model.goal)
     way = tip + rate * np.arange(problem.horizon)
     hub = np.full(problem.horizon, 0.5)
-    along = Outputs(way, 0.0 * way, hub, 0.0 * way, np.zeros(1))
-    _, high = condensed.bounds(along, 0.0 * way, 0.0)
+    along = Outputs(*(each[None] for each in (way, 0.0 * way, hub, 0.0 * way)), np.zeros(1))
+    _, high = condensed.bounds(along, 0.0 * way[None], np.zeros(1))
     soft = high[condensed.soft]
     assert np.all(np.isinf(soft[: problem.horizon])) == given_way
     assert np.isfinite(soft[problem.horizon : 2 * problem.horizon]).all()

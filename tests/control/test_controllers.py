@@ -15,6 +15,9 @@ from tmm_gen.control.full_nmpc import FullNmpc
 from tmm_gen.control.linear_mpc import LinearMpc
 from tmm_gen.control.rti import RealTimeIteration
 
+KNOWN = (np.array([0.1]), np.array([0.2]))
+"""Disturbance and last torque, N m."""
+
 
 def near_the_target(bench: Bench) -> np.ndarray:
     """A state from which no torque of the solution is at its bound."""
@@ -25,7 +28,7 @@ def near_the_target(bench: Bench) -> np.ndarray:
 
 def test_solvers_of_the_nonlinear_problem_agree(small: Bench) -> None:
     torques = [
-        FullNmpc(small.step, small.links, small.inertia, solver).decide(near_the_target(small), 0.1, 0.2)
+        FullNmpc(small.step, small.links, small.inertia, solver).decide(near_the_target(small), *KNOWN)
         for solver in ("fatrop", "ipopt")
     ]
     assert [command.status for command in torques] == [Status.OK] * 2
@@ -37,22 +40,22 @@ def test_solvers_of_the_nonlinear_problem_agree(small: Bench) -> None:
 def test_iterations_converge_to_the_nonlinear_solution(small: Bench, zero_order: bool) -> None:
     """Full sensitivities to the solution; constant ones close to it."""
     state = near_the_target(small)
-    wanted = FullNmpc(small.step, small.links, small.inertia).decide(state, 0.1, 0.2).torque
+    wanted = FullNmpc(small.step, small.links, small.inertia).decide(state, *KNOWN).torque
     rti = RealTimeIteration(small.step, small.links, small.inertia, zero_order)
     for _ in range(6):
-        found = rti.decide(state, 0.1, 0.2)
+        found = rti.decide(state, *KNOWN)
         assert found.status is Status.OK
-        rti._plan = np.insert(rti._plan, 0, 0.0)[:-1]  # what the next call shifts away
+        rti._plan = np.insert(rti._plan, 0, 0.0, axis=1)[:, :-1]  # what the next call shifts away
     assert found.torque == pytest.approx(wanted, abs=1e-2 if zero_order else 2e-3)
 
 
 def test_linear_and_nonlinear_agree_near_the_target(bench: Bench) -> None:
-    state = near_the_target(bench)
+    state, known = near_the_target(bench), (np.array([0.05]), np.array([0.1]))
     linear = LinearMpc(bench.links, bench.problem, bench.inertia)
-    off = linear.decide(state - bench.step.straight(1.0), 0.05, 0.1).torque
+    off = linear.decide(state - bench.step.straight(1.0), *known).torque
     rti = RealTimeIteration(bench.step, bench.links, bench.inertia)
-    rti.decide(state, 0.05, 0.1)
-    assert off == pytest.approx(rti.decide(state, 0.05, 0.1).torque, abs=0.02)
+    rti.decide(state, *known)
+    assert off == pytest.approx(rti.decide(state, *known).torque, abs=0.02)
 
 
 def test_a_delay_of_whole_samples_only_shifts_the_plan(bench: Bench) -> None:
@@ -60,13 +63,13 @@ def test_a_delay_of_whole_samples_only_shifts_the_plan(bench: Bench) -> None:
     problem = dataclasses.replace(bench.problem, delay=0.04)
     model = dataclasses.replace(bench.modes, delay=dataclasses.replace(bench.modes.delay, whole=2, acting=2))
     late = LinearMpc(model, problem, bench.inertia)
-    late._past = np.array([0.0, 0.5, -0.4, 1.0])[-late.delay.memory - 1 :]
+    late._past = np.array([[0.0], [0.5], [-0.4], [1.0]])[-late.delay.memory - 1 :]
     state = 0.05 * np.ones(model.size)
     late.estimator.estimate = np.append(state, 0.1)  # type: ignore[attr-defined]
     ahead, disturbance = late.estimator.ahead(late.delay.known(late._past))
     expected = state
     for torque in late._past[-2:]:
-        expected = model.transition @ expected + model.drive * (torque + 0.1)
+        expected = model.transition @ expected + model.drive @ (torque + 0.1)
     assert_allclose(ahead, expected, rtol=1e-12)
     assert disturbance == pytest.approx(0.1)
 

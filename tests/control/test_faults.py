@@ -72,7 +72,7 @@ def follow(
             shown = [held, np.array(kinds[at].values), seen + kinds[at].values]
             seen = np.array([[seen, *shown][kind][i] for i, kind in enumerate(kinds[at].kinds)])
         command = controller.command(seen)
-        torques.append(command.torque)
+        torques.append(command.torque[0])
         angles = plant.advance(command.torque)
         if at >= len(kinds):
             statuses.append(command.status)

@@ -77,7 +77,7 @@ def test_a_beam_of_few_links_is_too_slow_without_calibration(small: Bench) -> No
     from tmm_gen.control.prediction import prediction_scene
 
     raw = StepModel(prediction_scene(small.assumed, calibrate=False), small.problem)
-    transition, _ = raw.jacobian(raw.straight(1.0), 0.0)
+    transition, _ = raw.jacobian(raw.straight(1.0), np.zeros(1))
     beam = continuous(small.assumed)
     assert beam is not None
     exact = natural_frequencies(beam, 3)[1:]
@@ -165,18 +165,19 @@ def test_models_follow_the_arm_under_known_torques(swing: Scene, bench: Bench, d
     modes = modes_model(swing, problem)
     random = np.random.default_rng(3)
     state, modal = step.initial(), modes.start.copy()
-    offset = np.array([modes.tip @ modes.start, modes.hub @ modes.start])
-    past = {"links": np.zeros(5), "modes": np.zeros(5)}
+    offset = np.vstack([modes.tip, modes.hub]) @ modes.start
+    rows = step.rows(np.vstack([step.motors.tip, step.motors.hub]), "angle")
+    past = {"links": np.zeros((5, 1)), "modes": np.zeros((5, 1))}
     seen, way = [], []
     for k in range(25):
-        torque = 2.0 * (1.0 if k < 12 else -1.0) + random.uniform(-1.0, 1.0)
+        torque = 2.0 * (1.0 if k < 12 else -1.0) + random.uniform(-1.0, 1.0, 1)
         angles = plant.advance(torque)[-1]
-        past = {name: np.append(old[1:], torque) for name, old in past.items()}
-        state = np.array(step.sample(state, step.delay.pair(past["links"]))).ravel()
+        past = {name: np.vstack([old[1:], torque]) for name, old in past.items()}
+        state = np.array(step.sample(state, np.hstack(step.delay.pair(past["links"])))).ravel()
         before, then = modes.delay.pair(past["modes"])
-        modal = modes.transition @ modal + modes.before * before + modes.then * then
-        links = np.array([step.mean_row("angle") @ state, step.hub_row("angle") @ state])
-        found = np.array([modes.tip @ modal, modes.hub @ modal]) - offset
+        modal = modes.transition @ modal + modes.before @ before + modes.then @ then
+        links = rows @ state
+        found = np.vstack([modes.tip, modes.hub]) @ modal - offset
         seen.append([links - angles, found - angles])
         way.append(angles)
     off, reach = np.max(np.abs(seen), axis=0), np.max(np.abs(way), axis=0)
@@ -192,5 +193,5 @@ def test_models_reckon_with_the_payload_they_are_told(swing: Scene) -> None:
     for model, other in ((told.modes, heavier.modes), (told.links, heavier.links)):
         assert_allclose(model.transition, other.transition, rtol=1e-12, atol=1e-12)
     plants = [Plant(each.scene, each.problem, CONDITIONS[0]) for each in (told, heavier)]
-    lighter, loaded = (np.vstack([plant.advance(1.0) for _ in range(10)])[-1, 0] for plant in plants)
+    lighter, loaded = (np.vstack([plant.advance(np.ones(1)) for _ in range(10)])[-1, 0] for plant in plants)
     assert lighter > 1.05 * loaded  # the arm itself has the payload of the scene

@@ -36,6 +36,6 @@ def test_the_longer_shaper_forgives_more() -> None:
 
 def test_the_closed_loops_slowest_vibration_is_found(bench: Bench) -> None:
     """With a stiff hub the arm swings as a clamped one does, a little slower: 1.8 to 2.2 Hz with this payload."""
-    frequency, damping = slowest_vibration(bench.modes, bench.problem, 60.0, 1.0)
+    frequency, damping = slowest_vibration(bench.modes, bench.problem, np.array([60.0]), np.array([1.0]))
     assert 1.5 < frequency / (2.0 * math.pi) < 6.0
     assert 0.0 <= damping < 0.7

@@ -21,21 +21,21 @@ from tmm_gen.scene.control import RegulatorWeights
 def unbounded(model: LinearModel, problem: ControlProblem, state: np.ndarray, last: float,
               end: np.ndarray) -> tuple[float, float]:  # fmt: skip
     """First torque and cost of the best torques without bounds."""
-    problem = dataclasses.replace(problem, tip=None, hub=None, torque_rate=None)
+    problem = dataclasses.replace(problem, tip=(None,), hub=(None,), torque_rate=np.array([np.inf]))
     count = problem.horizon
     made = response(model, count, end)
-    condensed = Condensed(problem, made.slopes, model.target_hub, model.target_torque)
-    targets = np.repeat([problem.reference, 0.0, model.target_hub, 0.0], count)
+    condensed = Condensed(problem, made.slopes, model.goal)
+    targets = np.repeat([*problem.reference, 0.0, *model.goal.hub, 0.0], count)
     offsets = np.concatenate([targets, np.zeros(len(end))])
-    nothing = np.zeros(count)
-    along = made.outputs(made.by_state @ state + made.by_last * last + offsets)
-    gradient = condensed.gradient(along, nothing, last, model.target_torque)
+    nothing, before = np.zeros((1, count)), np.array([last])
+    along = made.outputs(made.by_state @ state + made.by_last @ before + offsets)
+    gradient = condensed.gradient(along, nothing, before, model.goal.torque)
     torques = -np.linalg.solve(condensed.hessian, gradient)
-    errors = made.by_state @ state + made.by_last * last
+    errors = made.by_state @ state + made.by_last @ before
     weights = problem.weights
-    per_row = np.repeat([weights.tip, weights.tip_rate, weights.hub, weights.hub_rate], count)
+    per_row = np.repeat(np.hstack([weights.tip, weights.tip_rate, weights.hub, weights.hub_rate]), count)
     per_row = np.concatenate([per_row, np.ones(len(end))])
-    alone = 0.5 * np.sum(per_row * errors**2) + 0.5 * weights.torque_step * last**2
+    alone = 0.5 * np.sum(per_row * errors**2) + 0.5 * weights.torque_step[0] * last**2
     return float(torques[0]), float(alone + 0.5 * gradient @ torques)
 
 
@@ -57,15 +57,15 @@ def test_every_horizon_gives_the_same(bench: Bench, which: str, late: float) -> 
 
 
 def test_it_is_that_of_a_regulator_where_changes_of_torque_cost_nothing(bench: Bench) -> None:
-    free = bench.problem.weights.model_copy(update={"torque_step": 1e-12})
+    free = dataclasses.replace(bench.problem.weights, torque_step=np.array([1e-12]))
     problem = dataclasses.replace(bench.problem, weights=free)
     rest = RegulatorWeights(
-        **{name: getattr(free, name) for name in ("hub", "tip_rate", "hub_rate", "torque")}
+        **{name: float(getattr(free, name)[0]) for name in ("hub", "tip_rate", "hub_rate", "torque")}
     )
     regulator = Regulator(bench.modes, problem, rest, bench.inertia)
     state = 1e-3 * np.random.default_rng(3).standard_normal(bench.modes.size)
     torque, _ = unbounded(bench.modes, problem, state, 0.0, end_rows(bench.modes, free))
-    assert torque == pytest.approx(-float(regulator.gain @ state), rel=1e-6)
+    assert torque == pytest.approx(-float(regulator.gain[0] @ state), rel=1e-6)
 
 
 def test_rows_make_the_whole_cost(bench: Bench) -> None:

@@ -103,7 +103,7 @@ def compare(
             controller = made(kind, told[known], compiled)
             plant = Plant(bench.scene, bench.problem, condition, seed)
             loop = run_loop(controller, plant, duration)
-            figures = loop_figures(loop, bench.problem.reference)
+            figures = loop_figures(loop)
             yield Trial(kind, condition, loop, figures, compiled and kind.name in EMITTED)
 
 
@@ -136,7 +136,7 @@ def worst(
     every = []
     for seed in seeds:
         loop = run_loop(controller, Plant(bench.scene, bench.problem, condition, seed), duration)
-        every.append(loop_figures(loop, bench.problem.reference))
+        every.append(loop_figures(loop))
     settling = [figures.settling for figures in every if figures.settling is not None]
     return Figures(
         settling=max(settling) if len(settling) == len(every) else None,
@@ -152,4 +152,4 @@ def made(kind: ControllerKind, bench: Bench, compiled: bool) -> Controller:
     if not compiled or kind.name not in EMITTED:
         return kind.make(bench)
     name, files = emit_controller(bench, kind.name)
-    return EmittedController(name, files, sensors=present_sensors(bench.problem))
+    return EmittedController(name, files, sensors=present_sensors(bench.problem), motors=bench.problem.count)

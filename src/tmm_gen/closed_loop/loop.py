@@ -23,11 +23,11 @@ class Loop:
     ----------
     time : array, (k + 1,)
         Instants of the arm's steps, s.
-    tip, hub : array, (k + 1,)
-        Polar angle of the tip, angle of the hub, rad.
+    tip, hub : array, (k + 1, m)
+        Polar angles of the tips against what carries their motors, angles of the hubs, rad.
     sampled : array, (samples,)
         Instants at which torques were chosen, s.
-    torque : array, (samples,)
+    torque : array, (samples, m)
         N m.
     statuses : tuple of Status
         One for each torque.
@@ -37,6 +37,8 @@ class Loop:
         Of its solver.
     states : tuple of dict
         State of the arm's kernel at the start of each sample.
+    goal : array, (m,)
+        Polar angles of the tips to reach, rad.
     """
 
     time: Array
@@ -48,6 +50,7 @@ class Loop:
     seconds: Array
     iterations: NDArray[np.int64]
     states: tuple[dict[str, Any], ...]
+    goal: Array
 
     @property
     def fallbacks(self) -> int:
@@ -75,7 +78,7 @@ def run_loop(controller: Controller, plant: Plant, duration: float, timed: bool 
     controller.command(plant.measured())  # caches warm up, so that the first sample is timed like the others
     controller.reset()
     samples = max(1, round(duration / plant.problem.sample_time))
-    seen = [plant.angles()[None]]
+    seen, count = [plant.angles()[None]], plant.problem.count
     commands, seconds = [], np.zeros(samples)
     for sample in range(samples):
         measured = plant.measured()
@@ -87,12 +90,13 @@ def run_loop(controller: Controller, plant: Plant, duration: float, timed: bool 
     angles = np.vstack(seen)
     return Loop(
         time=plant.step * np.arange(len(angles), dtype=float),
-        tip=np.unwrap(angles[:, 0]),
-        hub=angles[:, 1],
+        tip=np.unwrap(angles[:, :count], axis=0),
+        hub=angles[:, count:],
         sampled=plant.problem.sample_time * np.arange(samples, dtype=float),
         torque=np.array([command.torque for command in commands]),
         statuses=tuple(command.status for command in commands),
         seconds=seconds,
         iterations=np.array([command.iterations for command in commands]),
         states=tuple(plant.states[-samples:]),
+        goal=plant.goal,
     )

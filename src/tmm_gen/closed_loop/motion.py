@@ -6,6 +6,7 @@ import numpy as np
 
 from tmm_gen.closed_loop.compare import Trial
 from tmm_gen.closed_loop.plant import plant_scene
+from tmm_gen.control.motors import HUB, motors_of
 from tmm_gen.scene import Scene
 from tmm_gen.simulate.simulation import Simulation
 from tmm_gen.simulate.trace import Trace
@@ -26,5 +27,14 @@ def motion(scene: Scene, trial: Trial) -> Simulation:
     trace = Trace.empty(arm, len(loop.states))
     for state in loop.states:
         trace.add(state)
-    angles = np.interp(loop.sampled, loop.time, loop.tip)
-    return Simulation(arm, "c", loop.sampled, {"tip": angles}, {"hub_torque": loop.torque}, None, trace)
+    names = motors_of(arm).names
+    tips = {
+        _column(names, "tip", k): np.interp(loop.sampled, loop.time, tip) for k, tip in enumerate(loop.tip.T)
+    }
+    torques = {_column(names, "torque", k): each for k, each in enumerate(loop.torque.T)}
+    return Simulation(arm, "c", loop.sampled, tips, torques, None, trace)
+
+
+def _column(names: tuple[str, ...], what: str, k: int) -> str:
+    """Return the name of a column; the tip of an arm on a hub is the only one."""
+    return what if names == (HUB,) and what == "tip" else f"{names[k]}_{what}"

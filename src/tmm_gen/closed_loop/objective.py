@@ -66,15 +66,15 @@ for noises not tried: the worst of ten settles a few milliseconds later and vibr
 Of the others it is wanted that the arm comes to rest soon."""
 
 
-def price(loop: Loop, reference: float, aim: Aim) -> float:
+def price(loop: Loop, aim: Aim) -> float:
     """Return what a closed loop costs: the worst of settling, overshoot and vibration, relative to what was aimed at.
 
     Of settling, it is what the tip is off from the time on at which it should have settled, relative to the band:
     unlike the time itself that has no jumps. Its root is taken, since it varies more than the others.
     """
-    off = np.max(np.abs(loop.tip - reference)[loop.time >= aim.settling - 1e-9])
-    band = BAND * abs(reference - loop.tip[0])
-    figures = loop_figures(loop, reference)
+    off = np.max(np.abs(loop.tip - loop.goal)[loop.time >= aim.settling - 1e-9])
+    band = BAND * float(np.max(np.abs(loop.goal - loop.tip[0])))
+    figures = loop_figures(loop)
     found = max(math.sqrt(off / band), figures.overshoot / aim.overshoot, figures.residual / aim.residual)
     return min(found, _ASTRAY) if math.isfinite(found) else _ASTRAY
 
@@ -113,9 +113,7 @@ def objective(
         except (np.linalg.LinAlgError, ValueError):  # numbers with which nothing can be solved
             return _HOPELESS
         plant = Plant(bench.scene, bench.problem, aim.condition, seed)
-        prices[index] = price(
-            run_loop(controller, plant, DURATION, timed=False), bench.problem.reference, aim
-        )
+        prices[index] = price(run_loop(controller, plant, DURATION, timed=False), aim)
         total = float(np.linalg.norm(prices, order)) / len(loops) ** (1.0 / order)
         if total > enough:
             break

@@ -1,4 +1,4 @@
-"""Closed loops as a picture: the tip's angle and the torque, a column for each condition."""
+"""Closed loops as a picture: the angle of each tip and its motor's torque, a column for each condition."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import numpy as np
 
 from tmm_gen.closed_loop.compare import Trial
 from tmm_gen.closed_loop.figures import BAND
+from tmm_gen.closed_loop.loop import Loop
 from tmm_gen.control.problem import ControlProblem
 from tmm_gen.style import FAINT, PALETTE, figure, picture, style
 
@@ -28,50 +29,54 @@ def comparison_picture(trials: Sequence[Trial], problem: ControlProblem, form: s
     trials : sequence of Trial
         At least one.
     problem : ControlProblem
-        Gives the reference and the bounds.
+        Gives motors and bounds.
     form : {"png", "svg", "pdf"}
         Format.
     """
     conditions = list(dict.fromkeys(trial.condition for trial in trials))
-    names = list(dict.fromkeys(trial.kind.name for trial in trials))
+    kinds = list(dict.fromkeys(trial.kind.name for trial in trials))
+    motors = problem.motors.names
     with style():
-        made, spare = figure(max(8.0, 0.8 + _WIDTH * len(conditions)), 6.4)
+        made, spare = figure(max(8.0, 0.8 + _WIDTH * len(conditions)), 6.4 * len(motors))
         spare.remove()
         axes = made.subplots(
-            2,
+            2 * len(motors),
             len(conditions),
             sharex=True,
             sharey="row",
             squeeze=False,
-            gridspec_kw={"height_ratios": [3, 2]},
+            gridspec_kw={"height_ratios": [3, 2] * len(motors)},
         )
         for column, condition in enumerate(conditions):
-            upper, lower = axes[:, column]
-            _targets(upper, lower, problem)
-            upper.set_title(condition.title)
-            lower.set_xlabel("time (s)")
-            for trial in trials:
-                if trial.condition is condition:
-                    _curves(upper, lower, trial, names.index(trial.kind.name))
-        way = problem.reference - problem.start
-        edges = np.array([problem.start - 0.1 * way, problem.reference + 0.25 * way])
-        axes[0, 0].set_ylim(edges.min(), edges.max())
-        axes[0, 0].set_ylabel("tip angle (rad)")
-        axes[1, 0].set_ylabel("torque (N m)")
+            axes[0, column].set_title(condition.title)
+            axes[-1, column].set_xlabel("time (s)")
+            shown = [trial for trial in trials if trial.condition is condition]
+            for k in range(len(motors)):
+                upper, lower = axes[2 * k : 2 * k + 2, column]
+                _targets(upper, lower, problem, shown[0].loop, k)
+                for trial in shown:
+                    _curves(upper, lower, trial, kinds.index(trial.kind.name), k)
+        for k, name in enumerate(motors):
+            first, whose = trials[0].loop, "" if problem.motors.on_hub else f" of {name}"
+            way = first.goal[k] - first.tip[0, k]
+            edges = np.array([first.tip[0, k] - 0.1 * way, first.goal[k] + 0.25 * way])
+            axes[2 * k, 0].set_ylim(edges.min(), edges.max())
+            axes[2 * k, 0].set_ylabel(f"tip angle{whose} (rad)")
+            axes[2 * k + 1, 0].set_ylabel(f"torque{whose} (N m)")
         axes[0, 0].legend(loc="lower right")
         return picture(made, form)
 
 
-def _targets(upper: Axes, lower: Axes, problem: ControlProblem) -> None:
-    """Draw the reference with its band, and the bounds of the torque."""
-    width = BAND * abs(problem.reference - problem.start)
-    upper.axhspan(problem.reference - width, problem.reference + width, color=FAINT, alpha=0.25, linewidth=0)
+def _targets(upper: Axes, lower: Axes, problem: ControlProblem, loop: Loop, k: int) -> None:
+    """Draw a motor's reference with its band, and the bounds of its torque."""
+    width, goal = BAND * float(np.max(np.abs(loop.goal - loop.tip[0]))), loop.goal[k]
+    upper.axhspan(goal - width, goal + width, color=FAINT, alpha=0.25, linewidth=0)
     for bound in problem.torque:
-        lower.axhline(bound, color=FAINT, linewidth=1.0, linestyle=":")
+        lower.axhline(bound[k], color=FAINT, linewidth=1.0, linestyle=":")
 
 
-def _curves(upper: Axes, lower: Axes, trial: Trial, number: int) -> None:
+def _curves(upper: Axes, lower: Axes, trial: Trial, number: int, k: int) -> None:
     colour, line = PALETTE[number % len(PALETTE)], _LINES[number // len(PALETTE) % len(_LINES)]
     loop = trial.loop
-    upper.plot(loop.time, loop.tip, color=colour, linestyle=line, label=trial.kind.title)
-    lower.step(loop.sampled, loop.torque, where="post", color=colour, linestyle=line, linewidth=1.2)
+    upper.plot(loop.time, loop.tip[:, k], color=colour, linestyle=line, label=trial.kind.title)
+    lower.step(loop.sampled, loop.torque[:, k], where="post", color=colour, linestyle=line, linewidth=1.2)

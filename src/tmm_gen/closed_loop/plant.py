@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import replace
 from functools import cache
 from typing import Any
 
@@ -9,8 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.control.condition import Condition
+from tmm_gen.control.motors import motors_of
 from tmm_gen.control.prediction import fine_scene
 from tmm_gen.control.problem import ControlProblem
+from tmm_gen.control.target import rest_with
 from tmm_gen.native import NativeKernel, compile_kernel
 from tmm_gen.program.build import build_program
 from tmm_gen.scene import Scene
@@ -22,15 +26,16 @@ PLANT_INTEGRATOR = "sdirk4"
 PLANT_STEP = 1e-3
 """s; rounded down to a whole fraction of the sample time."""
 SLIP = 5e-3
-"""Rate at which Coulomb friction has reached 76 % of its value, rad/s."""
+"""Rate of a hub at which Coulomb friction has reached 76 % of its value, rad/s."""
 
-OUTPUTS = [
+OUTPUTS: list[dict[str, object]] = [
     {"name": "hub", "at": "base", "of": "angle"},
     {"name": "last", "at": "tip", "of": "angle"},
     {"name": "tip", "at": "tip", "of": "position"},
     {"name": "tip_acceleration", "at": "tip", "of": "acceleration"},
     {"name": "root", "at": "base", "of": "torque"},
 ]
+"""Of an arm on a hub."""
 
 
 def plant_scene(scene: Scene, condition: Condition) -> Scene:
@@ -38,7 +43,7 @@ def plant_scene(scene: Scene, condition: Condition) -> Scene:
     gravity = (scene.model.gravity or 0.0) + condition.gravity
     changes: dict[str, object] = {
         "name": "plant",
-        "output": OUTPUTS,
+        "output": _outputs(scene) if scene.parts else OUTPUTS,
         "integrator.name": PLANT_INTEGRATOR,
         "integrator.step": PLANT_STEP,
         "control": None,
@@ -47,6 +52,20 @@ def plant_scene(scene: Scene, condition: Condition) -> Scene:
     if gravity:
         changes["model.gravity"] = gravity
     return fine_scene(scene.replace(**changes), PLANT_LINKS)
+
+
+def _outputs(scene: Scene) -> list[dict[str, object]]:
+    """Return for each motor of an arm by parts its angle, where and how it stands, and where what it carries ends."""
+    solid = {part.last: part.name for part in scene.parts if part.kind in ("beam", "link")}
+    found: list[dict[str, object]] = []
+    for motor in motors_of(scene).each:
+        found.append({"name": f"hub_{motor.name}", "at": motor.name, "of": "angle"})
+        if motor.host >= 0:
+            inner = solid[motor.host + 1]
+            found.append({"name": f"root_{motor.name}", "at": inner, "of": "position"})
+            found.append({"name": f"turned_{motor.name}", "at": inner, "of": "angle"})
+        found.append({"name": f"tip_{motor.name}", "at": solid[motor.end], "of": "position"})
+    return found
 
 
 @cache
@@ -78,27 +97,28 @@ class Plant:
     def __init__(self, scene: Scene, problem: ControlProblem, condition: Condition, seed: int = 0) -> None:
         self.scene = plant_scene(scene, condition)
         self.problem, self.condition = problem, condition
+        self.motors = motors_of(self.scene)
         self.kernel = plant_kernel(self.scene)
         self.substeps = max(1, int(np.ceil(problem.sample_time / PLANT_STEP - 1e-9)))
         self.step = problem.sample_time / self.substeps
         self.states: list[dict[str, Any]] = []
         self._late = round((problem.delay + condition.delay) / self.step)
         self._random = np.random.default_rng(seed)
-        self._torques = [0.0] * self._late
         self._gravity = self.scene.model.gravity or 0.0
         # a sample's steps in one call of C: that is most of the time a closed loop takes
         types = self.kernel.types
         self._inputs = (types["inputs"] * self.substeps)()
         self._outputs = (types["outputs"] * self.substeps)()
-        field: Any = getattr(types["inputs"], problem.input_name)
-        first, last = field.offset // 8, (field.offset + field.size) // 8
-        self._driven = _numbers(self._inputs)[:, first:last]
-        names = [variable.name for variable in self.kernel.program.outputs]
-        seen = _numbers(self._outputs)
-        self._seen = [seen[:, names.index(name)] for name in ("tip_x", "tip_y", "hub")]
-        self._start()
+        numbers = _numbers(self._inputs)
+        fields: list[Any] = [getattr(types["inputs"], name) for name in self.motors.inputs]
+        self._driven = [numbers[:, each.offset // 8 : (each.offset + each.size) // 8] for each in fields]
+        self._names = [variable.name for variable in self.kernel.program.outputs]
+        self._seen = _numbers(self._outputs)
+        self.goal, torque = self._start()
+        self._torques = [torque] * self._late
 
-    def _start(self) -> None:
+    def _start(self) -> tuple[Array, Array]:
+        """Set the arm where it starts; return polar angles of tips to reach, and the torques that act at first."""
         defaults = {v.name: v.default for v in self.kernel.program.parameters}
         changes = {}
         if self.condition.payload != 1.0 and "tip_mass" in defaults:
@@ -108,7 +128,30 @@ class Plant:
                 if name in defaults:
                     changes[name] = np.multiply(self.condition.stiffness, np.asarray(defaults[name], float))
         self.kernel.prepare(changes, self.step)
-        self.kernel.initialise()
+        if self.motors.on_hub:
+            self.kernel.initialise()
+            return self.problem.reference, np.zeros(self.motors.count)
+        # held at rest by its motors; what is to be reached is where it rests with its joints at the reference
+        arm = self._as_it_is()
+        target = rest_with(arm, self.problem.reference, "control.reference")
+        start = rest_with(arm, self.problem.start, "initial.angles")
+        self.kernel.initialise(initial_angle=start.angles, inputs=self.motors.torques(start.goal.torque))
+        goal = []
+        for motor in self.motors.each:
+            carried = slice(motor.place, motor.end)
+            lengths, angles = self.motors.lengths[carried], target.angles[carried]
+            chord = np.arctan2(lengths @ np.sin(angles), lengths @ np.cos(angles))
+            goal.append(chord - (target.angles[motor.host] if motor.host >= 0 else 0.0))
+        return np.array(goal), start.goal.torque
+
+    def _as_it_is(self) -> Scene:
+        """Return the scene of the arm under its condition, for its rest."""
+        stiff, tip = self.condition.stiffness, self.scene.tip
+        joints = [
+            joint.model_copy(update={"stiffness": stiff * joint.stiffness}) for joint in self.scene.joints
+        ]
+        loaded = tip and tip.model_copy(update={"mass": self.condition.payload * tip.mass})
+        return replace(self.scene, joints=tuple(joints), tip=loaded)
 
     def restart(self, bend: Array, rate: float) -> None:
         """Start anew, bent and moving.
@@ -125,54 +168,68 @@ class Plant:
         self.kernel.initialise(initial_angle=angles, initial_rate=np.full(count, rate))
 
     def measured(self) -> Array:
-        """Return what the sensors show, (3,): NaN where there is none."""
+        """Return what the sensors show, (m + 2,): NaN where there is none."""
         sensors, noise, out = self.problem.sensors, self.condition.noise, self.kernel.output()
-        count = 2.0 * np.pi / sensors.encoder
-        angle = out["last"]
-        across = -out["tip_acceleration_x"] * np.sin(angle)
-        across += (out["tip_acceleration_y"] + self._gravity) * np.cos(angle)
-        shown = np.array([np.round(out["hub"] / count) * count, np.nan, np.nan])
+        count = 2.0 * np.pi / self.problem.encoders
+        shown = np.full(self.motors.count + 2, np.nan)
+        shown[:-2] = np.round(self._hubs(out) / count) * count
         rustle = noise * self._random.standard_normal(2)
         if sensors.accelerometer is not None:
-            shown[1] = across + sensors.accelerometer * rustle[0]
+            angle = out["last"]
+            across = -out["tip_acceleration_x"] * np.sin(angle)
+            across += (out["tip_acceleration_y"] + self._gravity) * np.cos(angle)
+            shown[-2] = across + sensors.accelerometer * rustle[0]
         if sensors.strain is not None:
-            shown[2] = out["root"] + sensors.strain * rustle[1]
+            shown[-1] = out["root"] + sensors.strain * rustle[1]
         return shown
 
-    def advance(self, torque: float) -> Array:
-        """Let a sample pass under a torque chosen now.
+    def advance(self, torque: Array) -> Array:
+        """Let a sample pass under torques chosen now.
 
         Parameters
         ----------
-        torque : float
-            N m; acts after the delay.
+        torque : array, (m,)
+            N m; act after the delay.
 
         Returns
         -------
-        array, (substeps, 2)
-            Polar angle of the tip and hub angle after each step, rad.
+        array, (substeps, 2 m)
+            Polar angles of the tips against what carries their motors, then hub angles, after each step, rad.
         """
         self.states.append(self.kernel.state)
         self._torques += [torque] * self.substeps
         acting, self._torques = self._torques[: self.substeps], self._torques[self.substeps :]
         if self.condition.friction:
             return np.array([self._rubbed(each) for each in acting])
-        self._driven[:] = np.array(acting)[:, None]  # one number for each of a step's stages
+        for driven, each in zip(self._driven, np.array(acting).T, strict=True):
+            driven[:] = each[:, None]  # one number for each of a step's stages
         self.kernel.run(self._inputs, self._outputs)
-        across, up, hub = self._seen
-        return np.column_stack([np.arctan2(up, across), hub])
+        return self._angles(dict(zip(self._names, self._seen.T, strict=True)))
 
-    def _rubbed(self, torque: float) -> Array:
-        """Take one step under a torque, less friction; return the angles after it."""
-        rate = self.kernel.state["hub_rate"]
-        rubbing = self.condition.friction * float(np.tanh(rate / SLIP))
-        self.kernel.step({self.problem.input_name: torque - rubbing})
+    def _rubbed(self, torque: Array) -> Array:
+        """Take one step under torques, less friction; return the angles after it."""
+        state = self.kernel.state
+        rates = np.array([*([state["hub_rate"]] if self.scene.hub else []), *state["rate"]])
+        rubbing = self.condition.friction * np.tanh(self.motors.hub @ rates / SLIP) / self.motors.gears
+        self.kernel.step(self.motors.torques(torque - rubbing))
         return self.angles()
 
     def angles(self) -> Array:
-        """Return polar angle of the tip and hub angle, (2,), rad."""
-        out = self.kernel.output()
-        return np.array([np.arctan2(out["tip_y"], out["tip_x"]), out["hub"]])
+        """Return polar angles of the tips and hub angles, (2 m,), rad."""
+        return self._angles(self.kernel.output())
+
+    def _hubs(self, out: Mapping[str, Any]) -> Array:
+        names = ["hub"] if self.motors.on_hub else [f"hub_{name}" for name in self.motors.names]
+        return np.array([out[name] for name in names])
+
+    def _angles(self, out: Mapping[str, Any]) -> Array:
+        """Return polar angles of the tips and hub angles, (2 m,) or (steps, 2 m), of numbers or arrays by name."""
+        tips = []
+        for name in self.motors.names:
+            tip, root = ("tip", "") if self.motors.on_hub else (f"tip_{name}", f"root_{name}")
+            across, up = (out[f"{tip}_{axis}"] - out.get(f"{root}_{axis}", 0.0) for axis in "xy")
+            tips.append(np.arctan2(up, across) - out.get(f"turned_{name}", 0.0))
+        return np.array([*tips, *self._hubs(out)]).T
 
 
 def _numbers(structs: Any) -> Array:

@@ -10,6 +10,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
 from tmm_gen.control.step_model import StepModel
 
 
@@ -27,17 +29,18 @@ def acados_fields(model: StepModel, continuous: bool = False) -> dict[str, Any]:
     Returns
     -------
     dict from str to object
-        ``name``; symbols ``x``, ``u`` (the hub's torque), ``p`` (none), and ``xdot``; the expressions; ``x_labels``,
-        ``u_labels`` and ``cost_y_expr`` = tip angle and hub angle.
+        ``name``; symbols ``x``, ``u`` (the motors' torques), ``p`` (none), and ``xdot``; the expressions; ``x_labels``,
+        ``u_labels`` and ``cost_y_expr`` = angles of the tips, then of the hubs.
     """
     import casadi as ca
 
-    u = ca.SX.sym(model.problem.input_name)
+    names = list(model.motors.inputs)
+    u = ca.vertcat(*(ca.SX.sym(name) for name in names))
     common: dict[str, Any] = {
         "name": f"{model.scene.name}_{'continuous' if continuous else 'discrete'}",
         "u": u,
         "p": ca.SX.sym("p", 0),
-        "u_labels": [model.problem.input_name],
+        "u_labels": names,
     }
     if not continuous:
         x = ca.vertcat(*(ca.SX.sym(name) for name in model.names))
@@ -48,8 +51,8 @@ def acados_fields(model: StepModel, continuous: bool = False) -> dict[str, Any]:
             "cost_y_expr": _angles(model, x),
         }
     motion = [*model.places("angle"), *model.places("rate")]
-    names = [model.names[place] for place in motion]
-    x, rates = (ca.vertcat(*(ca.SX.sym(before + name) for name in names)) for before in ("", "d_"))
+    labels = [model.names[place] for place in motion]
+    x, rates = (ca.vertcat(*(ca.SX.sym(before + name) for name in labels)) for before in ("", "d_"))
     state = ca.SX.zeros(model.size)
     for k, place in enumerate(motion):
         state[place] = x[k]
@@ -59,13 +62,13 @@ def acados_fields(model: StepModel, continuous: bool = False) -> dict[str, Any]:
         "xdot": rates,
         "f_expl_expr": derivative,
         "f_impl_expr": rates - derivative,
-        "x_labels": names,
+        "x_labels": labels,
         "cost_y_expr": _angles(model, state),
     }
 
 
-def accelerations(model: StepModel, state: Any, torque: Any) -> Any:
-    """Return the accelerations of hub and links at a state under a torque, as an expression.
+def accelerations(model: StepModel, state: Any, torques: Any) -> Any:
+    """Return the accelerations of hub and links at a state under torques, as an expression.
 
     They are those of a generated step of no length: it leaves angles and rates as they are and solves the equations of
     motion there.
@@ -74,13 +77,12 @@ def accelerations(model: StepModel, state: Any, torque: Any) -> Any:
 
     parameters = ca.SX(model.parameters)
     parameters[0] = 0.0
-    after = model.module.step_function()(state, model.inputs(torque), parameters)[0]
+    after = model.module.step_function()(state, model.inputs(torques), parameters)[0]
     return after[model.places("acceleration")]
 
 
 def _angles(model: StepModel, state: Any) -> Any:
-    """Return tip angle and hub angle."""
+    """Return angles of tips and hubs."""
     import casadi as ca
 
-    rows = (model.mean_row("angle"), model.hub_row("angle"))
-    return ca.vertcat(*(ca.dot(ca.DM(row), state) for row in rows))
+    return ca.mtimes(ca.DM(model.rows(np.vstack([model.motors.tip, model.motors.hub]), "angle")), state)

@@ -4,17 +4,24 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from tmm_gen.control.condition import Condition
 from tmm_gen.control.linear import LinearModel
 from tmm_gen.control.links import links_model
 from tmm_gen.control.modes import modes_model
+from tmm_gen.control.motors import motors_of
 from tmm_gen.control.prediction import prediction_scene
 from tmm_gen.control.problem import ControlProblem, control_problem
 from tmm_gen.control.step_model import StepModel
 from tmm_gen.modal.arm import linear_arm
 from tmm_gen.modal.matrices import matrices
 from tmm_gen.scene import Scene
+
+Array = NDArray[np.float64]
 
 _MODELS = ("step", "links", "modes", "inertia")
 
@@ -86,7 +93,13 @@ class Bench:
         scene = self.scene
         if scene.control is None or scene.tip is None or scene.control.payload == 1.0:
             return scene
-        return scene.replace(**{"tip.mass": scene.control.payload * scene.tip.mass})
+        factor = scene.control.payload
+        if not scene.parts:
+            return scene.replace(**{"tip.mass": factor * scene.tip.mass})
+        bodies = [part.name for part in scene.parts if part.kind == "body" and part.last == scene.stations]
+        entries: Any = scene.source.data["body"]
+        masses = {entry["name"]: entry["mass"] for entry in entries}
+        return scene.replace(**{f"body.{name}.mass": factor * masses[name] for name in bodies})
 
     @cached_property
     def step(self) -> StepModel:
@@ -104,6 +117,6 @@ class Bench:
         return modes_model(self.assumed, self.problem)
 
     @cached_property
-    def inertia(self) -> float:
-        """Of hub and straight arm about the hub, kg m^2."""
-        return float(matrices(linear_arm(self.assumed)).mass.sum())
+    def inertia(self) -> Array:
+        """What each motor turns, (m,), by its own torque, kg m^2: the arm as its scene starts, straight on a hub."""
+        return motors_of(self.assumed).inertia(matrices(linear_arm(self.assumed)).mass)

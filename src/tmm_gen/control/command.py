@@ -35,21 +35,21 @@ class Status(Enum):
         return self in (Status.OK, Status.REDUCED, Status.RELAXED)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Command:
-    """A torque and how it came about.
+    """Torques and how they came about.
 
     Parameters
     ----------
-    torque : float
-        N m, within its bounds.
+    torque : array, (m,)
+        N m, within their bounds.
     status : Status
         ``OK``, or what was not as it should be.
     iterations : int
         Of the solver.
     """
 
-    torque: float
+    torque: Array
     status: Status = Status.OK
     iterations: int = 0
 
@@ -61,12 +61,12 @@ class Controller(Protocol):
         """Forget all measurements."""
 
     def command(self, measured: Array) -> Command:
-        """Return the torque for a measurement.
+        """Return the torques for a measurement.
 
         Parameters
         ----------
-        measured : array, (3,)
-            Hub angle (rad), acceleration across the last link at the tip (m/s^2), bending moment at the root
+        measured : array, (m + 2,)
+            Hub angles (rad), acceleration across the last link at the tip (m/s^2), bending moment at the root
             (N m); NaN where there is no such sensor.
         """
         ...

@@ -11,7 +11,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.control.problem import ControlProblem
+from tmm_gen.control.problem import ControlProblem, Goal, Kind
 
 Array = NDArray[np.float64]
 
@@ -22,13 +22,13 @@ be passed at nearly every sample of the horizon, whatever the torques, and pull 
 
 @dataclass(frozen=True, eq=False)
 class Outputs:
-    """Tip and hub over the horizon, or how they depend on the inputs.
+    """Tips and hubs over the horizon, or how they depend on the inputs.
 
     Parameters
     ----------
-    tip, tip_rate, hub, hub_rate : array, (N,) or (N, N)
-        After samples 1 to N: rad and rad/s; or their derivatives by ``u[0], ..., u[N-1]``.
-    end : array, (r,) or (r, N)
+    tip, tip_rate, hub, hub_rate : array, (m, N) or (m, N, m N)
+        After samples 1 to N: rad and rad/s; or their derivatives by the inputs, motor by motor.
+    end : array, (r,) or (r, m N)
         ``G s_N``, what is left at the end: half its square is the cost to go; or its derivatives.
     """
 
@@ -48,109 +48,130 @@ class Condensed:
     problem : ControlProblem
         What is to be solved.
     slopes : Outputs
-        Derivatives by the inputs, (N, N) each, those of the end (r, N).
-    target_hub, target_torque : float
-        ``hub_s`` (rad), ``u_s`` (N m).
+        Derivatives by the inputs, (m, N, m N) each, those of the end (r, m N).
+    goal : Goal
+        ``tip_s``, ``hub_s`` (rad), ``u_s`` (N m).
     """
 
     problem: ControlProblem
     slopes: Outputs
-    target_hub: float
-    target_torque: float
+    goal: Goal
 
     @property
     def size(self) -> int:
         """Number of variables."""
         return len(self.hessian)
 
+    @property
+    def inputs(self) -> int:
+        """Number of inputs, m N."""
+        return self.problem.count * self.problem.horizon
+
+    @cached_property
+    def kinds(self) -> tuple[Kind, ...]:
+        """The rows of A, N for each."""
+        return self.problem.kinds(self.goal)
+
     @cached_property
     def difference(self) -> Array:
-        """``D``, (N, N): changes of the inputs are ``D u - e_0 u[-1]``."""
+        """``D``, (N, N): changes of a motor's inputs are ``D u - e_0 u[-1]``."""
         count = self.problem.horizon
         return np.eye(count) - np.eye(count, k=-1)
 
     @cached_property
     def input_hessian(self) -> Array:
-        """The part of the inputs, (N, N), Gauss-Newton."""
+        """The part of the inputs, (m N, m N), Gauss-Newton."""
         weights, slopes = self.problem.weights, self.slopes
-        found = weights.torque * np.eye(self.problem.horizon)
-        found += weights.torque_step * self.difference.T @ self.difference + slopes.end.T @ slopes.end
-        for weight, slope in (
+        price = np.kron(np.diag(weights.torque), np.eye(self.problem.horizon))
+        change = np.kron(np.diag(weights.torque_step), self.difference.T @ self.difference)
+        found = price + change + slopes.end.T @ slopes.end
+        for every, slope in (
             (weights.tip, slopes.tip),
             (weights.hub, slopes.hub),
             (weights.tip_rate, slopes.tip_rate),
             (weights.hub_rate, slopes.hub_rate),
         ):
-            if weight:
-                found += weight * slope.T @ slope
-        return found
+            for weight, each in zip(every, slope, strict=True):
+                if weight:
+                    found += weight * each.T @ each
+        return np.asarray(found, float)
 
     @cached_property
     def hessian(self) -> Array:
         """H, with the slacks behind the inputs."""
-        weights, problem = self.problem.weights, self.problem
-        slack = [weights.overshoot] * problem.horizon if problem.tip else []
-        slack += [weights.hub_bound] * problem.horizon if problem.hub else []
-        count = problem.horizon
-        found = np.diag(np.concatenate([np.zeros(count), slack]))
-        found[:count, :count] = self.input_hessian
+        slack = np.repeat([kind.weight for kind in self.kinds if kind.soft], self.problem.horizon)
+        found = np.diag(np.concatenate([np.zeros(self.inputs), slack]))
+        found[: self.inputs, : self.inputs] = self.input_hessian
         return found
 
     @cached_property
+    def input_rows(self) -> Array:
+        """A without slacks: what the inputs make of each kind of rows, (N kinds, m N)."""
+        count = self.problem.horizon
+        found = np.zeros((len(self.kinds), count, self.inputs))
+        for rows, kind in zip(found, self.kinds, strict=True):
+            if kind.what == "rate":
+                rows[:, kind.motor * count : (kind.motor + 1) * count] = self.difference
+            else:
+                rows[:] = getattr(self.slopes, kind.what)[kind.motor]
+        return found.reshape(-1, self.inputs)
+
+    @cached_property
     def rows(self) -> Array:
-        """A: changes of the torque, tip, hub; those present, N rows each."""
-        problem, count = self.problem, self.problem.horizon
+        """A: changes of the torques, tips, hubs; those present, N rows for each finite side."""
+        count, column = self.problem.horizon, self.inputs
         width = len(self.hessian)
         blocks = []
-        if problem.torque_rate is not None:
-            blocks.append(np.hstack([self.difference, np.zeros((count, width - count))]))
-        column = count
-        for present, slope in ((problem.tip, self.slopes.tip), (problem.hub, self.slopes.hub)):
-            if present is not None:
-                block = np.zeros((count, width))
-                block[:, :count] = slope
-                block[:, column : column + count] = -np.eye(count)
-                column += count
-                # two-sided with one slack: low - s <= y <= high + s needs a row for each finite side
-                if np.isfinite(present[1]):
-                    blocks.append(block)
-                if np.isfinite(present[0]):
-                    lower = block.copy()
-                    lower[:, count:] *= -1.0
-                    blocks.append(lower)
+        for number, kind in enumerate(self.kinds):
+            block = np.zeros((count, width))
+            block[:, : self.inputs] = self.input_rows[number * count : (number + 1) * count]
+            if not kind.soft:
+                blocks.append(block)
+                continue
+            block[:, column : column + count] = -np.eye(count)
+            column += count
+            # two-sided with one slack: low - s <= y <= high + s needs a row for each finite side
+            if np.isfinite(kind.high):
+                blocks.append(block)
+            if np.isfinite(kind.low):
+                lower = block.copy()
+                lower[:, self.inputs :] *= -1.0
+                blocks.append(lower)
         return np.vstack(blocks) if blocks else np.zeros((0, width))
 
-    def gradient(self, along: Outputs, inputs: Array, last: float, disturbance: float) -> Array:
+    def gradient(self, along: Outputs, inputs: Array, last: Array, disturbance: Array) -> Array:
         """Return f.
 
         Parameters
         ----------
         along : Outputs
-            Predicted with the inputs below, (N,) each, (r,) at the end.
-        inputs : array, (N,)
+            Predicted with the inputs below, (m, N) each, (r,) at the end.
+        inputs : array, (m, N)
             ``u^``, N m.
-        last : float
+        last : array, (m,)
             ``u[-1]``, N m.
-        disturbance : float
+        disturbance : array, (m,)
             ``d``, N m.
         """
-        weights, slopes = self.problem.weights, self.slopes
-        changes = self.difference @ inputs
-        changes[0] -= last
-        found = weights.torque * (inputs - self.target_torque + disturbance)
-        found += weights.torque_step * (changes @ self.difference) + along.end @ slopes.end
-        for weight, slope, error in (
-            (weights.tip, slopes.tip, along.tip - self.problem.reference),
-            (weights.hub, slopes.hub, along.hub - self.target_hub),
+        weights, slopes, goal = self.problem.weights, self.slopes, self.goal
+        changes = np.diff(inputs, axis=1, prepend=last[:, None])
+        torques = inputs - goal.torque[:, None] + disturbance[:, None]
+        priced = weights.torque[:, None] * torques
+        priced += weights.torque_step[:, None] * (changes @ self.difference)
+        found = priced.ravel() + along.end @ slopes.end
+        for every, slope, error in (
+            (weights.tip, slopes.tip, along.tip - goal.tip[:, None]),
+            (weights.hub, slopes.hub, along.hub - goal.hub[:, None]),
             (weights.tip_rate, slopes.tip_rate, along.tip_rate),
             (weights.hub_rate, slopes.hub_rate, along.hub_rate),
         ):
-            if weight:
-                found += weight * error @ slope
+            for weight, rows, off in zip(every, slope, error, strict=True):
+                if weight:
+                    found += weight * off @ rows
         return np.concatenate([found, np.zeros(self.size - len(found))])
 
     def bounds(
-        self, along: Outputs, inputs: Array, last: float, stopping: float | None = None
+        self, along: Outputs, inputs: Array, last: Array, stopping: Array | None = None
     ) -> tuple[Array, Array]:
         """Return lower and upper bounds of the inputs and of the rows, with arguments as for :meth:`gradient`.
 
@@ -159,42 +180,43 @@ class Condensed:
         """
         stopping = self.stopping if stopping is None else stopping
         problem, count = self.problem, self.problem.horizon
-        low, high = [problem.torque[0] - inputs], [problem.torque[1] - inputs]
-        if problem.torque_rate is not None:
-            change = problem.torque_rate * problem.sample_time
-            changes = self.difference @ inputs
-            changes[0] -= last
-            low.append(-change - changes)
-            high.append(change - changes)
+        low, high = ([(bound[:, None] - inputs).ravel()] for bound in problem.torque)
+        changes = np.diff(inputs, axis=1, prepend=last[:, None])
         none = np.full(count, np.inf)
-        for present, value in ((problem.tip, along.tip), (problem.hub, along.hub)):
-            if present is None:
+        for kind in self.kinds:
+            if kind.what == "rate":
+                low.append(kind.low - changes[kind.motor])
+                high.append(kind.high - changes[kind.motor])
                 continue
+            value = getattr(along, kind.what)[kind.motor]
             way = float(value[1] - value[0]) if count > 1 else 0.0
-            ahead = value[0] + np.copysign(stopping * way**2, way)
-            near = min(value[0], ahead) >= present[0] - BEYOND and max(value[0], ahead) <= present[1] + BEYOND
-            if np.isfinite(present[1]):
+            ahead = value[0] + np.copysign(stopping[kind.motor] * way**2, way)
+            near = min(value[0], ahead) >= kind.low - BEYOND and max(value[0], ahead) <= kind.high + BEYOND
+            if np.isfinite(kind.high):
                 low.append(-none)
-                high.append(present[1] - value if near else none)
-            if np.isfinite(present[0]):
-                low.append(present[0] - value if near else -none)
+                high.append(kind.high - value if near else none)
+            if np.isfinite(kind.low):
+                low.append(kind.low - value if near else -none)
                 high.append(none)
         return np.concatenate(low), np.concatenate(high)
 
     @property
-    def stopping(self) -> float:
-        """Half the angle in which the largest torque stops the arm, if it turned by 1 rad per sample, rad.
+    def stopping(self) -> Array:
+        """Half the angle in which a motor's largest torque stops it, if it turned by 1 rad per sample, (m,), rad.
 
         From how far a torque throughout turns the hub in the horizon: the rigid arm by half its acceleration times
         the time squared. Half, since the arm vibrates.
         """
         count = self.problem.horizon
-        largest = max(abs(bound) for bound in self.problem.torque)
-        turned = largest * abs(float(np.sum(self.slopes.hub[-1])))
-        return 0.25 * count**2 / (2.0 * turned) if turned > 0.0 else 0.0
+        found = np.zeros(self.problem.count)
+        for motor, largest in enumerate(np.max(np.abs(self.problem.torque), axis=0)):
+            slope = self.slopes.hub[motor, -1, motor * count : (motor + 1) * count]
+            turned = float(largest) * abs(float(np.sum(slope)))
+            found[motor] = 0.25 * count**2 / (2.0 * turned) if turned > 0.0 else 0.0
+        return found
 
     @cached_property
     def soft(self) -> NDArray[np.bool_]:
         """Which of the bounds are soft."""
-        hard = self.problem.horizon * (1 if self.problem.torque_rate is None else 2)
-        return np.arange(self.problem.horizon + len(self.rows)) >= hard
+        hard = self.inputs + self.problem.horizon * sum(not kind.soft for kind in self.kinds)
+        return np.arange(self.inputs + len(self.rows)) >= hard

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
 
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.command import Controller
@@ -15,6 +17,9 @@ from tmm_gen.control.qp import require_daqp
 from tmm_gen.control.rti import RealTimeIteration
 from tmm_gen.control.shaper import Kind, shaper, slowest_vibration
 from tmm_gen.scene.control import Baselines
+from tmm_gen.scene.each import Each, by_names
+
+Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -42,10 +47,11 @@ class ControllerKind:
     quadratic: bool = False
 
 
-def _gains(bench: Bench, gains: tuple[float, float] | None) -> tuple[float, float]:
-    """Return gains, by default critical damping of the rigid arm at a quarter of its first frequency."""
+def _gains(bench: Bench, gains: Each[tuple[float, float]] | None) -> tuple[Array, Array]:
+    """Return gains, (m,) each, by default critical damping of the rigid arm at a quarter of its first frequency."""
     if gains is not None:
-        return gains
+        proportional, derivative = np.array(by_names(gains, bench.problem.motors.names)).T
+        return proportional, derivative
     from tmm_gen.reference.planar_linear import vibration
 
     frequencies = vibration(bench.scene).frequencies
@@ -58,23 +64,18 @@ def _baselines(bench: Bench) -> Baselines:
     return control.baselines if control is not None else Baselines()
 
 
-def make_pd(bench: Bench, gains: tuple[float, float] | None, shaping: Kind | None = None) -> PdController:
-    """Return a PD controller, with a reference shaped for the closed loop's slowest vibration if asked for."""
+def make_pd(
+    bench: Bench, gains: Each[tuple[float, float]] | None, shaping: Kind | None = None
+) -> PdController:
+    """Return a PD controller, with references shaped for the closed loop's slowest vibration if asked for."""
     proportional, derivative = _gains(bench, gains)
     model, problem = bench.modes, bench.problem
-    impulses = None
+    shapers = None
     if shaping is not None:
         frequency, damping = slowest_vibration(model, problem, proportional, derivative)
-        impulses = shaper(shaping, frequency, damping, problem.sample_time)
-    return PdController(
-        problem,
-        proportional,
-        derivative,
-        model.target_hub,
-        model.target_torque,
-        impulses,
-        bench.inertia if math.isfinite(bench.inertia) else 0.0,
-    )
+        shapers = [shaper(shaping, frequency, damping, problem.sample_time)] * problem.count
+    inertia = np.where(np.isfinite(bench.inertia), bench.inertia, 0.0)
+    return PdController(problem, proportional, derivative, model.goal, shapers, inertia, model.start_torque)
 
 
 def _nmpc(bench: Bench) -> Controller:

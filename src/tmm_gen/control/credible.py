@@ -1,13 +1,12 @@
 """What of a measurement is believed: sensors fail, and one wrong number must not spoil what comes after it.
 
 A sensor is left out of a sample if it shows no finite number, or is further off what was expected than the arm can
-be. If it is the encoder that stays off, the estimate is wrong and not the sensor: it starts anew from where the
-encoder says that the arm is. So whatever was shown before, a few samples after the last wrong one all is well again.
+be. If it is an encoder that stays off, the estimate is wrong and not the sensor: it starts anew from where the
+encoders say that the arm is. So whatever was shown before, a few samples after the last wrong one all is well again.
 """
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -41,60 +40,62 @@ class Credible:
     Parameters
     ----------
     sensors : tuple of int
-        Which of encoder, accelerometer and strain gauge there are.
-    surprise : tuple of float, (3,)
-        Of encoder (rad), accelerometer (m/s^2) and strain gauge (N m) against what was expected.
-    home : float
-        Hub angle at which the scene starts, rad.
-    disturbance : float
-        The largest torque nobody commanded that is reckoned with, N m: a larger one could not be held anyway.
+        Which there are: m encoders, then accelerometer and strain gauge.
+    surprise : tuple of float, (m + 2,)
+        Of encoders (rad), accelerometer (m/s^2) and strain gauge (N m) against what was expected.
+    home : array, (m,)
+        Hub angles at which the scene starts, rad.
+    disturbance : array, (m,)
+        The largest torques nobody commanded that are reckoned with, N m: larger ones could not be held anyway.
     rate : float
         The largest rate of an estimate, rad/s.
     bend : float
-        Largest angle between a link and the hub, rad.
+        Largest angle between a link and the hub of the motor that carries it, rad.
     """
 
     sensors: tuple[int, ...]
-    surprise: tuple[float, float, float]
-    home: float
-    disturbance: float
+    surprise: tuple[float, ...]
+    home: Array
+    disturbance: Array
     rate: float
     bend: float = _LARGEST_BEND
 
-    def is_place(self, hub: float) -> bool:
-        """Return whether a hub can be there."""
-        return math.isfinite(hub) and abs(hub - self.home) <= FARTHEST
+    def is_place(self, hub: Array) -> bool:
+        """Return whether hubs, (m,), can be there."""
+        return bool(np.all(np.isfinite(hub) & (np.abs(hub - self.home) <= FARTHEST)))
 
-    def is_move(self, before: float, now: float) -> bool:
-        """Return whether a hub can go from there to here in a sample."""
-        return abs(now - before) <= JUMP
+    def is_move(self, before: Array, now: Array) -> NDArray[np.bool_]:
+        """Return which hubs, (m,), can go from there to here in a sample."""
+        return np.asarray(np.abs(now - before) <= JUMP)
 
     def believed(self, surprise: Array) -> tuple[int, ...]:
-        """Return which sensors to take in, for what they are off what was expected, (3,)."""
+        """Return which sensors to take in, for what they are off what was expected, (m + 2,)."""
         return tuple(i for i in self.sensors if abs(float(surprise[i])) <= self.surprise[i])
 
 
-def credible(problem: ControlProblem, home: float, inertia: float, length: float) -> Credible:
+def credible(problem: ControlProblem, home: Array, inertia: Array, length: float) -> Credible:
     """Return what can be believed of an arm.
 
     Parameters
     ----------
     problem : ControlProblem
         Sensors, bounds of the torque, what the estimator assumes.
-    home : float
-        Hub angle at which the scene starts, rad.
-    inertia : float
-        Of hub and arm about the hub, kg m^2.
+    home : array, (m,)
+        Hub angles at which the scene starts, rad.
+    inertia : array, (m,)
+        What each motor turns, kg m^2.
     length : float
-        From hub to tip, m.
+        From base to tip, m.
     """
     low, high = problem.torque
-    largest, assumed = max(abs(low), abs(high)), problem.estimator
-    tip = largest * length / inertia if inertia > 0.0 else 0.0
+    assumed = problem.estimator
+    # accelerometer and strain gauge are those of an arm on a hub
+    largest, turned = float(np.max(np.abs([low[0], high[0]]))), float(inertia[0])
+    tip = largest * length / turned if turned > 0.0 else 0.0
     return Credible(
         sensors=tuple(present_sensors(problem)),
         surprise=(
-            max(SURPRISE, _SPREADS * assumed.encoder),
+            *(max(SURPRISE, _SPREADS * float(spread)) for spread in assumed.encoder),
             max(_FORCES * tip, _SPREADS * assumed.accelerometer),
             max(_FORCES * largest, _SPREADS * assumed.strain),
         ),

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from tmm_gen.control.problem import ControlProblem
 
 Array = NDArray[np.float64]
-Pair = tuple[float, float]
+Pair = tuple[Array, Array]
+"""Torques of the motors, (m,) each."""
 
 _NOTHING = 1e-9
 """Parts of a sample so short are rounding."""
@@ -41,17 +42,17 @@ class Delay:
         return max(self.whole + 1, self.acting)
 
     def pair(self, past: Array) -> Pair:
-        """Return what acts before and what acts then in the sample that starts, from torques chosen so far."""
-        return float(past[-2 - self.whole]), float(past[-1 - self.whole])
+        """Return what acts before and what acts then in the sample that starts, from torques chosen so far, (k, m)."""
+        return past[-2 - self.whole], past[-1 - self.whole]
 
-    def end(self, past: Array) -> float:
+    def end(self, past: Array) -> Array:
         """Return what acts on the arm at the end of the sample that starts, from torques chosen so far."""
-        return float(past[-1 - self.acting])
+        return np.asarray(past[-1 - self.acting])
 
     def known(self, past: Array) -> list[Pair]:
         """Return the pairs of the samples before a torque chosen now begins to act, from torques chosen so far."""
         ends = range(len(past) - self.whole + 1, len(past) + 1)
-        return [(float(past[k - 2]), float(past[k - 1])) for k in ends]
+        return [(past[k - 2], past[k - 1]) for k in ends]
 
     def shares(self, steps: int) -> Array:
         """Return the share of the earlier torque in each step of a sample, (steps,).

@@ -12,8 +12,8 @@ from tmm_gen.extras import install
 def do_mpc_model(model: StepModel) -> Any:
     """Return a discrete ``do_mpc.model.Model``, set up.
 
-    States are those of the kernel by their names, the input is the hub's torque; ``tip`` and ``hub`` are auxiliary
-    expressions for costs and bounds.
+    States are those of the kernel by their names, inputs are the motors' torques; ``tip`` and ``hub`` are auxiliary
+    expressions for costs and bounds, each with a row per motor.
 
     Parameters
     ----------
@@ -33,11 +33,11 @@ def do_mpc_model(model: StepModel) -> Any:
 
     made = Model("discrete", "SX")
     x = ca.vertcat(*(made.set_variable("_x", name) for name in model.names))
-    u = made.set_variable("_u", model.problem.input_name)
+    u = ca.vertcat(*(made.set_variable("_u", name) for name in model.motors.inputs))
     after = ca.vertsplit(model.sample(x, ca.vertcat(u, u)))
     for name, value in zip(model.names, after, strict=True):
         made.set_rhs(name, value)
-    made.set_expression("tip", ca.dot(ca.DM(model.mean_row("angle")), x))
-    made.set_expression("hub", ca.dot(ca.DM(model.hub_row("angle")), x))
+    for name, rows in (("tip", model.motors.tip), ("hub", model.motors.hub)):
+        made.set_expression(name, ca.mtimes(ca.DM(model.rows(rows, "angle")), x))
     made.setup()
     return made

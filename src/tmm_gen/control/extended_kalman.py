@@ -27,59 +27,71 @@ class NonlinearFilter:
     """
 
     def __init__(self, model: StepModel, linear: LinearModel) -> None:
-        self.model = model
+        self.model, self._motors = model, model.motors
         self._linear, self._stationary = linear, KalmanFilter(linear, model.problem)
         self.gain, self.sensors = self._stationary.gain, self._stationary.sensors
-        self.home, self.length = linear.start_hub, linear.length
+        self.home, self.start, self.length = linear.start_hub, linear.start_torque, linear.length
         self._angles, self._rates = model.places("angle"), model.places("rate")
         self.reset()
 
     def reset(self) -> None:
         """Start from the scene's initial motion."""
-        self.estimate = np.append(self.model.initial(), 0.0)
+        self.estimate = np.append(self.model.initial(), np.zeros(self._linear.count))
 
-    def turn(self, angle: float) -> None:
-        """Turn the whole arm by an angle, rad."""
-        self.estimate[self._angles] += angle
+    def turn(self, angle: Array) -> None:
+        """Turn hubs by angles, (m,), rad, with all they carry."""
+        self.estimate[self._angles] += self._motors.turned @ angle
 
-    def rest(self, hub: float, rate: float) -> None:
-        """Start anew from an arm of the target's shape: where its hub is, rad, and how fast it turns, rad/s."""
-        self.estimate = np.append(rest_state(self.model, self._linear), 0.0)
-        self.estimate[self._angles] += hub - self._linear.target_hub
-        self.estimate[self._rates] = rate
+    def rest(self, hub: Array, rate: Array) -> None:
+        """Start anew from an arm of the target's shape: where its hubs are, rad, how fast they turn, rad/s, (m,)."""
+        state = rest_state(self.model, self._linear)
+        self.estimate = np.append(state, np.zeros(self._linear.count))
+        self.estimate[self._angles] += self._motors.turned @ (hub - self._linear.goal.hub)
+        self.estimate[self._rates] = self._motors.turned @ rate
 
     def surprise(self, measured: Array) -> Array:
-        """Return how far a measurement is off what is expected, (3,), NaN where there is no sensor."""
-        return np.asarray(measured - np.array(self.model.sensors(self.estimate[:-1])).ravel(), float)
+        """Return how far a measurement is off what is expected, (m + 2,), NaN where there is no sensor."""
+        state, _ = self._parts(self.estimate)
+        return np.asarray(measured - np.array(self.model.sensors(state)).ravel(), float)
 
-    def correct(self, surprise: Array, sensors: tuple[int, ...], most: float) -> None:
-        """Take in what some sensors are off, (3,); the disturbance stays within ``most`` N m either way."""
+    def correct(self, surprise: Array, sensors: tuple[int, ...], most: Array) -> None:
+        """Take in what some sensors are off, (m + 2,); disturbances stay within ``most`` N m, (m,), either way."""
         self.estimate = self.estimate + self._stationary.gain_of(sensors) @ surprise[list(sensors)]
-        self.estimate[-1] = np.clip(self.estimate[-1], -most, most)
+        self._limit(most)
 
-    def advance(self, torques: Pair, end: float) -> None:
-        """Predict a sample with the torques that act in it, and the one at its end, N m."""
+    def _limit(self, most: Array) -> None:
+        _, disturbance = self._parts(self.estimate)
+        np.clip(disturbance, -most, most, out=disturbance)
+
+    def advance(self, torques: Pair, end: Array) -> None:
+        """Predict a sample with the torques that act in it, and those at its end, N m."""
         self.estimate = self._after(self.estimate, torques)
 
-    def ahead(self, torques: list[Pair]) -> tuple[Array, float]:
-        """Return state, (m,), and disturbance, N m, after some more samples."""
+    def ahead(self, torques: list[Pair]) -> tuple[Array, Array]:
+        """Return state, (s,), and disturbances, (m,), N m, after some more samples."""
         estimate = self.estimate
         for pair in torques:
             estimate = self._after(estimate, pair)
-        return estimate[:-1], float(estimate[-1])
+        return self._parts(estimate)
+
+    def _parts(self, estimate: Array) -> tuple[Array, Array]:
+        """Return state and disturbances of an estimate, as views of it."""
+        return estimate[: self.model.size], estimate[self.model.size :]
 
     def usable(self, limits: Credible) -> bool:
         """Return whether the estimate can be that of an arm: finite, no link far out of line, none too fast."""
         angles = self.estimate[self._angles]
+        bent = [np.max(np.abs(angles[m.place : m.end] - angles[m.place])) for m in self._motors.each]
         return bool(
             np.all(np.isfinite(self.estimate))
-            and np.max(np.abs(angles - angles[0])) <= limits.bend
+            and max(bent) <= limits.bend
             and np.max(np.abs(self.estimate[self._rates])) <= limits.rate
         )
 
     def _after(self, estimate: Array, torques: Pair) -> Array:
-        after = np.array(self.model.sample(estimate[:-1], np.array(torques) + estimate[-1])).ravel()
-        return np.append(after, estimate[-1])
+        state, disturbance = self._parts(estimate)
+        acting = np.concatenate([torque + disturbance for torque in torques])
+        return np.append(np.array(self.model.sample(state, acting)).ravel(), disturbance)
 
 
 class ExtendedKalmanFilter(NonlinearFilter):
@@ -101,35 +113,37 @@ class ExtendedKalmanFilter(NonlinearFilter):
         super().reset()
         self.covariance = self._stationary.covariance
 
-    def rest(self, hub: float, rate: float) -> None:
+    def rest(self, hub: Array, rate: Array) -> None:
         """Start anew; see :class:`NonlinearFilter`."""
         super().rest(hub, rate)
         self.covariance = self._stationary.covariance
 
-    def correct(self, surprise: Array, sensors: tuple[int, ...], most: float) -> None:
-        """Take in what some sensors are off, (3,); the disturbance stays within ``most`` N m either way."""
-        _, by_state = (np.array(item) for item in self.model.sensor_slopes(self.estimate[:-1]))
+    def correct(self, surprise: Array, sensors: tuple[int, ...], most: Array) -> None:
+        """Take in what some sensors are off; see :class:`NonlinearFilter`."""
+        state, disturbance = self._parts(self.estimate)
+        _, by_state = (np.array(item) for item in self.model.sensor_slopes(state))
         seen = list(sensors)
-        measure = np.column_stack([by_state, np.zeros(3)])[seen]
+        measure = np.hstack([by_state, np.zeros((len(by_state), len(disturbance)))])[seen]
         product = measure @ self.covariance
         noise = self._stationary.noise_of(sensors)
         gain = np.linalg.solve(product @ measure.T + noise, product).T
         self.estimate = self.estimate + gain @ surprise[seen]
-        self.estimate[-1] = np.clip(self.estimate[-1], -most, most)
+        self._limit(most)
         self.covariance = self.covariance - gain @ product
 
-    def advance(self, torques: Pair, end: float) -> None:
+    def advance(self, torques: Pair, end: Array) -> None:
         """Predict a sample with the torques that act in it, and the one at its end, N m."""
-        acting = np.array(torques) + self.estimate[-1]
-        after, by_state, by_torques = (
-            np.array(item) for item in self.model.sample_slopes(self.estimate[:-1], acting)
-        )
-        drive = by_torques.sum(axis=1)
-        transition = np.eye(len(self.estimate))
-        transition[:-1, :-1], transition[:-1, -1] = by_state, drive
-        self.estimate = np.append(after.ravel(), self.estimate[-1])
+        state, disturbance = self._parts(self.estimate)
+        size, count = len(state), len(disturbance)
+        acting = np.concatenate([torque + disturbance for torque in torques])
+        after, by_state, by_torques = (np.array(item) for item in self.model.sample_slopes(state, acting))
+        drive = by_torques[:, :count] + by_torques[:, count:]
+        transition = np.eye(size + count)
+        transition[:size, :size], transition[:size, size:] = by_state, drive
+        self.estimate = np.append(after.ravel(), disturbance)
         spread = transition @ self.covariance @ transition.T
-        self.covariance = 0.5 * (spread + spread.T) + self._stationary.driven(np.append(drive, 0.0))
+        grown = self._stationary.driven(np.vstack([drive, np.zeros((count, count))]))
+        self.covariance = 0.5 * (spread + spread.T) + grown
 
     def usable(self, limits: Credible) -> bool:
         """Return whether the estimate can be that of an arm, and its covariance is finite."""

@@ -1,8 +1,8 @@
 """Nonlinear model predictive control to convergence, by CasADi: the reference of the real-time iterations.
 
-Multiple shooting, stage by stage: ``(u_k, s_k, r_k)`` and the state after it, with the last torque as one more state
-where its changes are bounded or weighed. fatrop exploits the stages (L. Vanroye, A. Sathya, J. De Schutter, W. Decre,
-FATROP, 2023); IPOPT takes the same problem as a sparse one.
+Multiple shooting, stage by stage: ``(u_k, s_k, r_k)`` of all motors and the state after it, with the last torques as
+more states, since their changes are weighed. fatrop exploits the stages (L. Vanroye, A. Sathya, J. De Schutter,
+W. Decre, FATROP, 2023); IPOPT takes the same problem as a sparse one.
 """
 
 from __future__ import annotations
@@ -61,14 +61,14 @@ class FullNmpc(ModelBased):
         The generated step.
     linear : LinearModel
         Of the same step about the target.
-    inertia : float
-        Of hub and arm about the hub, kg m^2, for the safe law.
+    inertia : array, (m,)
+        What each motor turns, kg m^2, for the safe law.
     solver : {"fatrop", "ipopt"}
         What solves it.
     """
 
     def __init__(
-        self, model: StepModel, linear: LinearModel, inertia: float, solver: Solver = "fatrop"
+        self, model: StepModel, linear: LinearModel, inertia: Array, solver: Solver = "fatrop"
     ) -> None:
         self.model, self.linear, self.solver = model, linear, solver
         self._guess: Array | None = None
@@ -79,8 +79,8 @@ class FullNmpc(ModelBased):
 
     @cached_property
     def width(self) -> int:
-        """Variables of a stage: the state with the last torque, then torque and two slacks."""
-        return self.model.size + 1 + 3
+        """Variables of a stage: the state with the last torques, then torques and two slacks of each motor."""
+        return self.model.size + 4 * self.problem.count
 
     @cached_property
     def stages(self) -> _Stages:
@@ -88,48 +88,53 @@ class FullNmpc(ModelBased):
         import casadi as ca
 
         problem, weights, size = self.problem, self.problem.weights, self.model.size
-        count = problem.horizon
-        state = [ca.MX.sym(f"x{k}", size + 1) for k in range(count + 1)]
-        free = [ca.MX.sym(f"u{k}", 3) for k in range(count)]
-        given = ca.MX.sym("given", size + 2)  # state, last torque, disturbance
-        disturbance = given[size + 1]
-        rows: list[Any] = [state[0] - given[: size + 1]]
-        equality, low_rows, high_rows = [True] * (size + 1), [0.0] * (size + 1), [0.0] * (size + 1)
+        count, motors, goal = problem.horizon, problem.count, self.linear.goal
+        wide = size + motors
+        state = [ca.MX.sym(f"x{k}", wide) for k in range(count + 1)]
+        free = [ca.MX.sym(f"u{k}", 3 * motors) for k in range(count)]
+        given = ca.MX.sym("given", wide + motors)  # state, last torques, disturbances
+        disturbance = given[wide:]
+        acting = ca.vertcat(disturbance, disturbance)
+        rows: list[Any] = [state[0] - given[:wide]]
+        equality, low_rows, high_rows = [True] * wide, [0.0] * wide, [0.0] * wide
         cost: Any = 0.0
         for k in range(count):
-            torque, change = free[k][0], free[k][0] - state[k][size]
-            after = self.model.sample(state[k][:size], ca.vertcat(state[k][size], torque) + disturbance)
+            torque, slacks = (
+                free[k][:motors],
+                {"tip": free[k][motors : 2 * motors], "hub": free[k][2 * motors :]},
+            )
+            change = torque - state[k][size:]
+            after = self.model.sample(state[k][:size], ca.vertcat(state[k][size:], torque) + acting)
             rows.append(state[k + 1] - ca.vertcat(after, torque))
-            equality += [True] * (size + 1)
-            low_rows += [0.0] * (size + 1)
-            high_rows += [0.0] * (size + 1)
-            cost += 0.5 * weights.torque * (torque - self.linear.target_torque + disturbance) ** 2
-            cost += 0.5 * weights.torque_step * change**2
-            cost += 0.5 * (weights.overshoot * free[k][1] ** 2 + weights.hub_bound * free[k][2] ** 2)
+            equality += [True] * wide
+            low_rows += [0.0] * wide
+            high_rows += [0.0] * wide
+            cost += 0.5 * _weighed(weights.torque, torque - goal.torque + disturbance)
+            cost += 0.5 * _weighed(weights.torque_step, change)
+            cost += 0.5 * _weighed(weights.overshoot, slacks["tip"])
+            cost += 0.5 * _weighed(weights.hub_bound, slacks["hub"])
             cost += 0.5 * self._stage_cost(after)
-            tip, hub = self._row("tip", after), self._row("hub", after)
-            more = [(tip, free[k][1], problem.tip), (hub, free[k][2], problem.hub)]
-            for value, slack, bounds in more:
-                for side in (0, 1) if bounds is not None else ():
-                    assert bounds is not None
-                    if np.isfinite(bounds[side]):
-                        rows.append(value - slack if side else value + slack)
-                        low_rows.append(-np.inf if side else bounds[0])
-                        high_rows.append(bounds[1] if side else np.inf)
+            for kind in problem.kinds(goal):
+                if kind.what == "rate":
+                    rows.append(change[kind.motor])
+                    equality.append(False)
+                    low_rows.append(kind.low)
+                    high_rows.append(kind.high)
+                    continue
+                value, slack = self._angles(kind.what, after)[kind.motor], slacks[kind.what][kind.motor]
+                for bound, upper in ((kind.low, False), (kind.high, True)):
+                    if np.isfinite(bound):
+                        rows.append(value - slack if upper else value + slack)
+                        low_rows.append(-np.inf if upper else bound)
+                        high_rows.append(bound if upper else np.inf)
                         equality.append(False)
-            if problem.torque_rate is not None:
-                largest = problem.torque_rate * problem.sample_time
-                rows.append(change)
-                equality.append(False)
-                low_rows.append(-largest)
-                high_rows.append(largest)
-        rest = np.append(rest_state(self.model, self.linear), self.linear.target_torque)
+        rest = np.append(rest_state(self.model, self.linear), goal.torque)
         left = state[-1] - rest + ca.vertcat(np.zeros(size), disturbance)
         cost += 0.5 * ca.sumsqr(ca.mtimes(end_rows(self.linear, weights), left))
         variables = [part for pair in zip(state, free, strict=False) for part in pair] + [state[-1]]
         low, high = np.full((count, self.width), -np.inf), np.full((count, self.width), np.inf)
-        low[:, size + 1], high[:, size + 1] = problem.torque
-        unbounded = np.full(size + 1, np.inf)
+        low[:, wide : wide + motors], high[:, wide : wide + motors] = problem.torque
+        unbounded = np.full(wide, np.inf)
         return _Stages(
             {"x": ca.vertcat(*variables), "f": cost, "g": ca.vertcat(*rows), "p": given},
             equality,
@@ -139,21 +144,21 @@ class FullNmpc(ModelBased):
             np.array(high_rows),
         )
 
-    def _row(self, name: str, state: Any) -> Any:
-        """Return an angle or a rate of a state."""
+    def _angles(self, name: str, state: Any) -> Any:
+        """Return the angles of a state's tips or hubs, or their rates, (m,)."""
         import casadi as ca
 
-        quantity = "rate" if name.endswith("rate") else "angle"
-        row = self.model.mean_row(quantity) if name.startswith("tip") else self.model.hub_row(quantity)
-        return ca.dot(ca.DM(row), state)
+        motors = self.model.motors
+        rows = motors.tip if name.startswith("tip") else motors.hub
+        return ca.mtimes(ca.DM(self.model.rows(rows, "rate" if name.endswith("rate") else "angle")), state)
 
     def _stage_cost(self, state: Any) -> Any:
-        weights = self.problem.weights
+        weights, goal = self.problem.weights, self.linear.goal
         return (
-            weights.tip * (self._row("tip", state) - self.problem.reference) ** 2
-            + weights.hub * (self._row("hub", state) - self.linear.target_hub) ** 2
-            + weights.tip_rate * self._row("tip_rate", state) ** 2
-            + weights.hub_rate * self._row("hub_rate", state) ** 2
+            _weighed(weights.tip, self._angles("tip", state) - goal.tip)
+            + _weighed(weights.hub, self._angles("hub", state) - goal.hub)
+            + _weighed(weights.tip_rate, self._angles("tip_rate", state))
+            + _weighed(weights.hub_rate, self._angles("hub_rate", state))
         )
 
     @cached_property
@@ -166,13 +171,14 @@ class FullNmpc(ModelBased):
             options["equality"] = self.stages.equality
         return ca.nlpsol("nmpc", self.solver, self.stages.problem, options)
 
-    def decide(self, state: Array, disturbance: float, last: float) -> Command:
+    def decide(self, state: Array, disturbance: Array, last: Array) -> Command:
         """Solve the nonlinear problem from the last solution shifted; see :class:`ModelBased`."""
-        size, stages = self.model.size, self.stages
+        size, count, stages = self.model.size, self.problem.count, self.stages
+        none = np.zeros(count)
         guess = self._first(state, last) if self._guess is None else self._guess
         found = self.function(
             x0=guess,
-            p=np.concatenate([state, [last, disturbance]]),
+            p=np.concatenate([state, last, disturbance]),
             lbx=stages.low,
             ubx=stages.high,
             lbg=stages.low_rows,
@@ -183,14 +189,22 @@ class FullNmpc(ModelBased):
         iterations = int(statistics.get("iter_count", 0))
         if not np.all(np.isfinite(point)):
             self._guess = None
-            return Command(0.0, Status.NOT_FINITE, iterations)
+            return Command(none, Status.NOT_FINITE, iterations)
         if not statistics["success"]:
             self._guess = None
-            return Command(0.0, Status.ITERATIONS, iterations)
+            return Command(none, Status.ITERATIONS, iterations)
         self._guess = np.concatenate([point[self.width :], point[-self.width :]])[: len(point)]
-        return Command(float(point[size + 1]), Status.OK, iterations)
+        return Command(point[size + count : size + 2 * count], Status.OK, iterations)
 
-    def _first(self, state: Array, last: float) -> Array:
+    def _first(self, state: Array, last: Array) -> Array:
         """Return a first guess: the arm stays where it is."""
-        stage = np.concatenate([state, [last, self.linear.target_torque, 0.0, 0.0]])
-        return np.concatenate([np.tile(stage, self.problem.horizon), stage[: self.model.size + 1]])
+        count = self.problem.count
+        stage = np.concatenate([state, last, self.linear.goal.torque, np.zeros(2 * count)])
+        return np.concatenate([np.tile(stage, self.problem.horizon), stage[: self.model.size + count]])
+
+
+def _weighed(weights: Array, values: Any) -> Any:
+    """Return the weighed sum of squares."""
+    import casadi as ca
+
+    return ca.dot(ca.DM(weights), values**2)

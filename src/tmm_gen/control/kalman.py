@@ -23,17 +23,17 @@ _SETTLED = 1e-10
 
 
 def present_sensors(problem: ControlProblem) -> list[int]:
-    """Return which of encoder, accelerometer and strain gauge there are."""
-    sensors = problem.sensors
+    """Return which sensors there are: m encoders, then accelerometer and strain gauge."""
+    sensors, count = problem.sensors, problem.count
     return [
-        0,
-        *([1] if sensors.accelerometer is not None else []),
-        *([2] if sensors.strain is not None else []),
+        *range(count),
+        *([count] if sensors.accelerometer is not None else []),
+        *([count + 1] if sensors.strain is not None else []),
     ]
 
 
 class KalmanFilter:
-    """Estimates state and disturbance of a linear model from the sensors there are.
+    """Estimates state and disturbances of a linear model from the sensors there are.
 
     ``x+ = A x + B_0 (u_before + d) + B_1 (u_then + d)``, ``d+ = d``, ``y = C x + D (e + d)``,
     torques less the target's.
@@ -51,52 +51,54 @@ class KalmanFilter:
     def __init__(self, model: LinearModel, problem: ControlProblem) -> None:
         self.model = model
         self.sensors = present_sensors(problem)
-        size = model.size
-        self.transition = np.eye(size + 1)
+        size, count = model.size, model.count
+        self.transition = np.eye(size + count)
         self.transition[:size, :size] = model.transition
-        self.transition[:size, size] = model.drive
-        self.drive = np.append(model.drive, 0.0)
+        self.transition[:size, size:] = model.drive
+        self.drive = np.vstack([model.drive, np.zeros((count, count))])
         self.measure = np.column_stack([model.measure, model.feed])[self.sensors]
         self.feed = model.feed[self.sensors]
         self._assumed = problem.estimator
-        spreads = np.array([self._assumed.encoder, self._assumed.accelerometer, self._assumed.strain])
+        spreads = np.array([*self._assumed.encoder, self._assumed.accelerometer, self._assumed.strain])
         self.noise = np.diag(spreads[self.sensors] ** 2)
-        self.home, self.length = model.start_hub, model.length
+        self.home, self.start, self.length = model.start_hub, model.start_torque, model.length
         self.gain, self.covariance = self._stationary(tuple(self.sensors))
         self._gains = {tuple(self.sensors): self.gain}
         self.reset()
 
     def reset(self) -> None:
         """Start from the scene's initial motion."""
-        self.estimate = np.append(self.model.start, 0.0)
-        self._direct = 0.0
+        self.estimate = np.append(self.model.start, np.zeros(self.model.count))
+        self._direct = np.zeros(self.model.count)
 
-    def turn(self, angle: float) -> None:
-        """Turn the whole arm by an angle, rad."""
-        self.estimate[:-1] += angle * self.model.turned
+    def turn(self, angle: Array) -> None:
+        """Turn hubs by angles, (m,), rad, with all they carry."""
+        self.estimate[: self.model.size] += self.model.turned @ angle
 
-    def rest(self, hub: float, rate: float) -> None:
-        """Start anew from an arm of the target's shape: where its hub is, rad, and how fast it turns, rad/s."""
+    def rest(self, hub: Array, rate: Array) -> None:
+        """Start anew from an arm of the target's shape: where its hubs are, rad, how fast they turn, rad/s, (m,)."""
         model = self.model
-        self.estimate = np.append((hub - model.target_hub) * model.turned + rate * model.turn, 0.0)
+        turned = model.turned @ (hub - model.goal.hub)
+        self.estimate = np.append(turned + model.turn @ rate, np.zeros(model.count))
 
     def surprise(self, measured: Array) -> Array:
-        """Return how far a measurement is off what is expected, (3,), NaN where there is no sensor."""
-        model, state = self.model, self.estimate[:-1]
+        """Return how far a measurement is off what is expected, (m + 2,), NaN where there is no sensor."""
+        model, (state, disturbance) = self.model, self._parts(self.estimate)
         seen = (
             measured
             - model.target_sensors
             - model.measure @ state
-            - model.feed * (self._direct + self.estimate[-1])
+            - model.feed @ (self._direct + disturbance)
         )
-        rate = float(model.tip_rate @ state)
-        seen[1] -= rate * rate * float(model.whirl @ state)
+        rate = float(model.tip_rate[-1] @ state)
+        seen[-2] -= rate * rate * float(model.whirl @ state)
         return np.asarray(seen, float)
 
-    def correct(self, surprise: Array, sensors: tuple[int, ...], most: float) -> None:
-        """Take in what some sensors are off, (3,); the disturbance stays within ``most`` N m either way."""
+    def correct(self, surprise: Array, sensors: tuple[int, ...], most: Array) -> None:
+        """Take in what some sensors are off, (m + 2,); disturbances stay within ``most`` N m, (m,), either way."""
         self.estimate = self.estimate + self.gain_of(sensors) @ surprise[list(sensors)]
-        self.estimate[-1] = np.clip(self.estimate[-1], -most, most)
+        _, disturbance = self._parts(self.estimate)
+        np.clip(disturbance, -most, most, out=disturbance)
 
     def noise_of(self, sensors: tuple[int, ...]) -> Array:
         """Return the covariance of the noise of some sensors."""
@@ -104,27 +106,31 @@ class KalmanFilter:
         return self.noise[np.ix_(places, places)]
 
     def gain_of(self, sensors: tuple[int, ...]) -> Array:
-        """Return the stationary gain of a filter that reads some of the sensors only, (m + 1, those)."""
+        """Return the stationary gain of a filter that reads some of the sensors only, (s + m, those)."""
         if sensors not in self._gains:
             self._gains[sensors] = self._stationary(sensors)[0]
         return self._gains[sensors]
 
-    def advance(self, torques: Pair, end: float) -> None:
-        """Predict a sample with the torques that act in it, and the one at its end, N m."""
+    def advance(self, torques: Pair, end: Array) -> None:
+        """Predict a sample with the torques that act in it, and those at its end, N m."""
         self.estimate = self._after(self.estimate, torques)
-        self._direct = end - self.model.target_torque
+        self._direct = end - self.model.goal.torque
 
-    def ahead(self, torques: list[Pair]) -> tuple[Array, float]:
-        """Return state, (m,), and disturbance, N m, after some more samples."""
+    def ahead(self, torques: list[Pair]) -> tuple[Array, Array]:
+        """Return state, (s,), and disturbances, (m,), N m, after some more samples."""
         estimate = self.estimate
         for pair in torques:
             estimate = self._after(estimate, pair)
-        return estimate[:-1], float(estimate[-1])
+        return self._parts(estimate)
+
+    def _parts(self, estimate: Array) -> tuple[Array, Array]:
+        """Return state and disturbances of an estimate, as views of it."""
+        return estimate[: self.model.size], estimate[self.model.size :]
 
     def _after(self, estimate: Array, torques: Pair) -> Array:
-        before, then = (torque - self.model.target_torque for torque in torques)
+        before, then = (torque - self.model.goal.torque for torque in torques)
         after = self.transition @ estimate
-        after[:-1] += self.model.before * before + self.model.then * then
+        after[: self.model.size] += self.model.before @ before + self.model.then @ then
         return np.asarray(after, float)
 
     def usable(self, limits: Credible) -> bool:
@@ -132,11 +138,12 @@ class KalmanFilter:
         return bool(np.all(np.isfinite(self.estimate)))
 
     def driven(self, drive: Array) -> Array:
-        """Return what the state's covariance grows by per sample, (m + 1, m + 1), for a column of the torque."""
-        found = self._assumed.torque**2 * (np.outer(drive, drive) + _TINY * np.eye(len(drive)))
-        turn = np.append(self.model.turn, 0.0)
-        found += self._assumed.rate**2 * np.outer(turn, turn)
-        found[-1, -1] += self._assumed.disturbance**2
+        """Return what the state's covariance grows by per sample, (s + m, s + m), for columns of the torques."""
+        size, assumed = self.model.size, self._assumed
+        found = (drive * assumed.torque**2) @ drive.T
+        found += np.max(assumed.torque) ** 2 * _TINY * np.eye(len(drive))
+        found[:size, :size] += (self.model.turn * assumed.rate**2) @ self.model.turn.T
+        found[size:, size:] += np.diag(assumed.disturbance**2)
         return np.asarray(found, float)
 
     def _stationary(self, sensors: tuple[int, ...]) -> tuple[Array, Array]:

@@ -12,7 +12,9 @@ from tmm_gen.scene import Scene
 Array = NDArray[np.float64]
 
 
-def input_lag(scene: Scene, places: dict[str, list[int]], transition: Array, drive: Array) -> float:
+def input_lag(
+    scene: Scene, turned: Array, places: dict[str, list[int]], transition: Array, drive: Array
+) -> float:
     """Return the share of a step by which an input comes late.
 
     Integrators whose state holds the last acceleration average it with the new one: part of the momentum a torque
@@ -23,14 +25,16 @@ def input_lag(scene: Scene, places: dict[str, list[int]], transition: Array, dri
     ----------
     scene : Scene
         Whose step it is.
+    turned : array, (d,)
+        What the angles grow by where the motor turns and nothing bends.
     places : dict from str to list of int
         Where in the state rates and accelerations of hub and links are.
-    transition, drive : array, (m, m) and (m,)
-        Of one step of the straight arm.
+    transition, drive : array, (s, s) and (s,)
+        Of one step of the straight arm, by the state and by the motor's torque.
     """
     kept = np.zeros(len(drive))
     kept[places["acceleration"]] = drive[places["acceleration"]]
-    inertia = np.asarray(matrices(linear_arm(scene)).mass.sum(axis=0), float)
+    inertia = np.asarray(turned @ matrices(linear_arm(scene)).mass, float)
     given = float(inertia @ drive[places["rate"]])
     coming = float(inertia @ (transition @ kept)[places["rate"]])
     share = coming / (given + coming)

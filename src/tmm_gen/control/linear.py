@@ -8,46 +8,49 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.control.delay import Delay
+from tmm_gen.control.problem import Goal
 
 Array = NDArray[np.float64]
-
-SENSORS = ("encoder", "accelerometer", "strain")
-"""Hub angle; acceleration across the last link at the tip; bending moment at the root."""
 
 
 @dataclass(frozen=True, eq=False)
 class LinearModel:
     """``x+ = A x + B_0 u_before + B_1 u_then``, measured ``y = C x + D e``; all off the target.
 
-    Torques are those that act in a sample, ``e`` at its end; see :class:`~tmm_gen.control.delay.Delay`.
+    Torques are those that act in a sample, ``e`` at its end; see :class:`~tmm_gen.control.delay.Delay`. The m motors
+    have hubs and tips (:mod:`tmm_gen.control.motors`).
 
     Parameters
     ----------
-    transition : array, (m, m)
+    transition : array, (s, s)
         A, over a sample.
-    before, then : array, (m,)
+    before, then : array, (s, m)
         ``B_0`` and ``B_1``.
-    tip, tip_rate, hub, hub_rate : array, (m,)
+    tip, tip_rate, hub, hub_rate : array, (m, s)
         Rows that give angles and their rates.
-    measure : array, (3, m)
-        C, rows as `SENSORS`.
-    feed : array, (3,)
+    measure : array, (m + 2, s)
+        C: the hubs' angles; acceleration across the last link at the tip; bending moment at the root.
+    feed : array, (m + 2, m)
         D.
-    target_sensors : array, (3,)
+    target_sensors : array, (m + 2,)
         What the sensors show at the target.
-    target_hub, target_torque : float
-        ``hub_s`` (rad) and ``u_s`` (N m).
-    whirl : array, (m,)
+    goal : Goal
+        Angles (rad) and torques (N m) at the target.
+    whirl : array, (s,)
         Row of what a rate of 1 rad/s throughout adds to the accelerometer: ``L (q_n - tip)``, since the tip, bent out
         of the line of the last link, is pulled inward across it.
-    turn : array, (m,)
-        What all rates grown by 1 rad/s are in the state.
-    turned : array, (m,)
-        What all angles grown by 1 rad are in the state.
-    start_hub, length : float
-        Hub angle at time zero, rad; from hub to tip, m.
-    start : array, (m,)
+    turn : array, (s, m)
+        What is in the state of a hub that turns by 1 rad/s, and all behind it as well.
+    turned : array, (s, m)
+        What is in the state of a hub turned by 1 rad, and all behind it as well.
+    start_hub : array, (m,)
+        Hub angles at time zero, rad.
+    length : float
+        From base to tip, m.
+    start : array, (s,)
         State at time zero.
+    start_torque : array, (m,)
+        Torques before any is chosen, N m.
     delay : Delay
         Which torques are meant.
     """
@@ -62,34 +65,40 @@ class LinearModel:
     measure: Array
     feed: Array
     target_sensors: Array
-    target_hub: float
-    target_torque: float
+    goal: Goal
     whirl: Array
     turn: Array
     turned: Array
-    start_hub: float
+    start_hub: Array
     length: float
     start: Array
+    start_torque: Array
     delay: Delay
 
     @property
     def size(self) -> int:
-        """Entries of the state, m."""
+        """Entries of the state, s."""
         return len(self.then)
 
-    def weighed(self, tip: float, hub: float, tip_rate: float, hub_rate: float) -> Array:
-        """Return Q of ``x'Q x``, (m, m): the weighed squares of both angles and their rates."""
+    @property
+    def count(self) -> int:
+        """Number of motors, m."""
+        return int(self.then.shape[1])
+
+    def weighed(self, tip: Array, hub: Array, tip_rate: Array, hub_rate: Array) -> Array:
+        """Return Q of ``x'Q x``, (s, s): the weighed squares of all angles and their rates; weights are (m,) each."""
         found = np.zeros((self.size, self.size))
-        for weight, row in (
+        for weights, rows in (
             (tip, self.tip),
             (hub, self.hub),
             (tip_rate, self.tip_rate),
             (hub_rate, self.hub_rate),
         ):
-            found += weight * np.outer(row, row)
+            for weight, row in zip(weights, rows, strict=True):
+                found += weight * np.outer(row, row)
         return found
 
     @property
     def drive(self) -> Array:
-        """What a torque does that acts throughout a sample, (m,)."""
+        """What torques do that act throughout a sample, (s, m)."""
         return self.before + self.then

@@ -27,34 +27,38 @@ class LinearMpc(ModelBased):
         By links or by modes.
     problem : ControlProblem
         What is to be solved at each sample.
-    inertia : float
-        Of hub and arm about the hub, kg m^2, for the safe law.
+    inertia : array, (m,)
+        What each motor turns, kg m^2, for the safe law.
     """
 
-    def __init__(self, model: LinearModel, problem: ControlProblem, inertia: float) -> None:
+    def __init__(self, model: LinearModel, problem: ControlProblem, inertia: Array) -> None:
         self.model = model
         self.response = response(model, problem.horizon, end_rows(model, problem.weights))
-        self.condensed = Condensed(problem, self.response.slopes, model.target_hub, model.target_torque)
-        targets = np.repeat([problem.reference, 0.0, model.target_hub, 0.0], problem.horizon)
+        self.condensed = Condensed(problem, self.response.slopes, model.goal)
+        still = np.zeros(problem.count)
+        targets = np.repeat(np.concatenate([model.goal.tip, still, model.goal.hub, still]), problem.horizon)
         self.offsets = np.concatenate([targets, np.zeros(len(self.response.slopes.end))])
-        self._program = QuadraticProgram(self.condensed.hessian, self.condensed.rows, problem.horizon)
+        self._program = QuadraticProgram(self.condensed.hessian, self.condensed.rows, self.condensed.inputs)
         super().__init__(problem, KalmanFilter(model, problem), model.delay, inertia)
 
     def _forget(self) -> None:
         self._program.forget()
 
-    def decide(self, state: Array, disturbance: float, last: float) -> Command:
+    def decide(self, state: Array, disturbance: Array, last: Array) -> Command:
         """Solve the quadratic program about no torque at all; see :class:`ModelBased`."""
         solution = self.planned(state, disturbance, last)
-        torque = float(solution.point[0]) if solution.status.optimal else 0.0
-        return Command(torque, solution.status, solution.iterations)
+        if not solution.status.optimal:
+            return Command(np.zeros(self.problem.count), solution.status, solution.iterations)
+        first = solution.point[: self.condensed.inputs : self.problem.horizon]
+        return Command(first, solution.status, solution.iterations)
 
-    def planned(self, state: Array, disturbance: float, last: float) -> Solution:
+    def planned(self, state: Array, disturbance: Array, last: Array) -> Solution:
         """Return the torques over the horizon, and the slacks behind them, with arguments as for :meth:`decide`."""
-        pushed = disturbance - self.model.target_torque
-        found = self.response.by_state @ state + self.response.by_constant * pushed
-        along = self.response.outputs(found + self.response.by_last * last + self.offsets)
-        nothing = np.zeros(self.problem.horizon)
+        made = self.response
+        pushed = disturbance - self.model.goal.torque
+        found = made.by_state @ state + made.by_constant @ pushed + made.by_last @ last
+        along = made.outputs(found + self.offsets)
+        nothing = np.zeros((self.problem.count, self.problem.horizon))
         return self._program.solve_softly(
             self.condensed.gradient(along, nothing, last, disturbance),
             *self.condensed.bounds(along, nothing, last),

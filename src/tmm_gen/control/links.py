@@ -30,37 +30,34 @@ def links_model(model: StepModel) -> LinearModel:
     Raises
     ------
     UserError
-        If the motor cannot hold the target.
+        If the motors cannot hold the target, or the start.
     """
     target = find_target(model.scene, model.problem)
     state = target_state(model, target)
-    transition, drives = model.jacobian(state, target.torque)
+    motors, count = model.motors, model.motors.count
+    transition, drives = model.jacobian(state, target.goal.torque)
     seen, slopes = (np.array(item) for item in model.sensor_slopes(state))
-    whirl = -model.mean_row("angle")
+    whirl = -model.rows(motors.tip, "angle")[-1]
     whirl[model.places("angle")[-1]] += 1.0
     whirl *= model.lengths.sum()
-    turn = np.zeros(model.size)
-    turn[model.places("rate")] = 1.0
-    turned = np.zeros(model.size)
-    turned[model.places("angle")] = 1.0
     return LinearModel(
         transition=transition,
-        before=drives[:, 0],
-        then=drives[:, 1],
-        tip=model.mean_row("angle"),
-        tip_rate=model.mean_row("rate"),
-        hub=model.hub_row("angle"),
-        hub_rate=model.hub_row("rate"),
+        before=drives[:, :count],
+        then=drives[:, count:],
+        tip=model.rows(motors.tip, "angle"),
+        tip_rate=model.rows(motors.tip, "rate"),
+        hub=model.rows(motors.hub, "angle"),
+        hub_rate=model.rows(motors.hub, "rate"),
         measure=slopes,
-        feed=np.zeros(3),  # the hub's torque reaches the arm through a spring
+        feed=np.zeros((count + 2, count)),  # torques reach what is measured through springs
         target_sensors=seen.ravel(),
-        target_hub=float(target.angles[0]),
-        target_torque=target.torque,
+        goal=target.goal,
         whirl=whirl,
-        turn=turn,
-        turned=turned,
-        start_hub=float(model.initial()[model.places("angle")[0]]),
+        turn=model.rows(motors.turned.T, "rate").T,
+        turned=model.rows(motors.turned.T, "angle").T,
+        start_hub=motors.hub @ model.start.angles,
         length=float(model.lengths.sum()),
         start=model.initial() - state,
+        start_torque=model.start.torque,
         delay=model.delay,
     )

@@ -11,6 +11,7 @@ from tmm_gen.control.linear import LinearModel
 from tmm_gen.control.model_based import ModelBased
 from tmm_gen.control.problem import ControlProblem
 from tmm_gen.scene.control import RegulatorWeights
+from tmm_gen.scene.each import by_names
 
 Array = NDArray[np.float64]
 
@@ -26,26 +27,30 @@ class Regulator(ModelBased):
         Sample time, sensors, bounds.
     weights : RegulatorWeights
         Of the infinite-horizon cost.
-    inertia : float
-        Of hub and arm about the hub, kg m^2, for the safe law.
+    inertia : array, (m,)
+        What each motor turns, kg m^2, for the safe law.
     """
 
     def __init__(
-        self, model: LinearModel, problem: ControlProblem, weights: RegulatorWeights, inertia: float
+        self, model: LinearModel, problem: ControlProblem, weights: RegulatorWeights, inertia: Array
     ) -> None:
         from scipy.linalg import solve_discrete_are  # slow to import
 
         self.model = model
-        cost = model.weighed(1.0, weights.hub, weights.tip_rate, weights.hub_rate)
-        a, b = model.transition, model.drive[:, None]
-        price = np.array([[weights.torque]])
+        hub, tip_rate, hub_rate, torque = (
+            np.array(by_names(value, problem.motors.names))
+            for value in (weights.hub, weights.tip_rate, weights.hub_rate, weights.torque)
+        )
+        cost = model.weighed(np.ones(model.count), hub, tip_rate, hub_rate)
+        a, b = model.transition, model.drive
+        price = np.diag(torque)
         value = solve_discrete_are(a, b, cost, price)
-        self.gain = np.linalg.solve(price + b.T @ value @ b, b.T @ value @ a)[0]
+        self.gain = np.linalg.solve(price + b.T @ value @ b, b.T @ value @ a)
         super().__init__(problem, KalmanFilter(model, problem), model.delay, inertia)
 
     def _forget(self) -> None:
         """Do nothing: this one plans nothing."""
 
-    def decide(self, state: Array, disturbance: float, last: float) -> Command:
-        """Return the torque of the linear law; see :class:`ModelBased`."""
-        return Command(self.model.target_torque - disturbance - float(self.gain @ state))
+    def decide(self, state: Array, disturbance: Array, last: Array) -> Command:
+        """Return the torques of the linear law; see :class:`ModelBased`."""
+        return Command(self.model.goal.torque - disturbance - self.gain @ state)

@@ -7,9 +7,10 @@ from numpy.typing import NDArray
 
 from tmm_gen.control.delay import delay_of
 from tmm_gen.control.linear import LinearModel
+from tmm_gen.control.motors import motors_of
 from tmm_gen.control.prediction import fine_scene
 from tmm_gen.control.problem import ControlProblem
-from tmm_gen.control.target import find_target
+from tmm_gen.control.target import find_start, find_target
 from tmm_gen.scene import Scene
 
 Array = NDArray[np.float64]
@@ -18,8 +19,8 @@ Array = NDArray[np.float64]
 def modes_model(scene: Scene, problem: ControlProblem) -> LinearModel:
     """Return the first modes of the fine arm about its target, exact over a sample.
 
-    Modes are those of undamped small motion about the target, the turning of the arm as a whole the first of them.
-    The state is modal coordinates and their rates.
+    Modes are those of undamped small motion about the target, the slowest first: where nothing but motors holds the
+    arm, the first ones turn it about them. The state is modal coordinates and their rates.
 
     Parameters
     ----------
@@ -31,71 +32,77 @@ def modes_model(scene: Scene, problem: ControlProblem) -> LinearModel:
     Raises
     ------
     UserError
-        If the motor cannot hold the target.
+        If the motors cannot hold the target, or the start.
     """
     from scipy.linalg import eigh, expm  # slow to import
 
     fine = fine_scene(scene)
-    target = find_target(fine, problem)
+    motors = motors_of(fine)
+    target, initial = find_target(fine, problem), find_start(fine, problem)
     mass, damping, stiffness = target.matrices.mass, target.matrices.damping, target.matrices.stiffness
     _, shapes = eigh(stiffness, mass)
     count = min(problem.modes, len(mass))
     shapes = shapes[:, :count]
-    system = np.zeros((2 * count + 1, 2 * count + 1))
-    system[:count, count:-1] = np.eye(count)
-    system[count:-1, :count] = -shapes.T @ stiffness @ shapes
-    system[count:-1, count:-1] = -shapes.T @ damping @ shapes
-    system[count:-1, -1] = shapes[0]
+    size = 2 * count
+    system = np.zeros((size + motors.count, size + motors.count))
+    system[:count, count:size] = np.eye(count)
+    system[count:size, :count] = -shapes.T @ stiffness @ shapes
+    system[count:size, count:size] = -shapes.T @ damping @ shapes
+    system[count:size, size:] = shapes.T @ motors.drive
     delay = delay_of(problem, 0.0)
     late = delay.part * problem.sample_time
     sampled = np.asarray(expm(system * problem.sample_time), float)
-    then = np.asarray(expm(system * (problem.sample_time - late)), float)[:-1, -1]
+    then = np.asarray(expm(system * (problem.sample_time - late)), float)[:size, size:]
 
-    lengths = np.array([0.0, *(link.length for link in fine.links)])
-    tip = lengths / lengths.sum() @ shapes
-    still: Array = np.zeros(count)
-    measure, feed, seen = _sensors(fine, target.angles, shapes, system[count:-1])
+    tip, hub = motors.tip @ shapes, motors.hub @ shapes
+    still: Array = np.zeros((motors.count, count))
+    measure, feed = np.zeros((motors.count + 2, size)), np.zeros((motors.count + 2, motors.count))
+    seen = np.zeros(motors.count + 2)
+    measure[:-2, :count], seen[:-2] = hub, target.goal.hub
+    if motors.on_hub:
+        measure[-2:], feed[-2:], seen[-2:] = _sensors(fine, target.angles, shapes, system[count:size])
     coordinates = shapes.T @ mass
-    start = np.array([0.0, *fine.initial.angles]) - target.angles
-    rates = np.array([0.0, *fine.initial.rates])
+    turned = (coordinates @ motors.turned).T
+    start = coordinates @ (initial.angles - target.angles)
+    length = float(motors.lengths.sum())
     return LinearModel(
-        transition=sampled[:-1, :-1],
-        before=sampled[:-1, -1] - then,
+        transition=sampled[:size, :size],
+        before=sampled[:size, size:] - then,
         then=then,
-        tip=np.concatenate([tip, still]),
-        tip_rate=np.concatenate([still, tip]),
-        hub=np.concatenate([shapes[0], still]),
-        hub_rate=np.concatenate([still, shapes[0]]),
+        tip=np.hstack([tip, still]),
+        tip_rate=np.hstack([still, tip]),
+        hub=np.hstack([hub, still]),
+        hub_rate=np.hstack([still, hub]),
         measure=measure,
         feed=feed,
         target_sensors=seen,
-        target_hub=float(target.angles[0]),
-        target_torque=target.torque,
-        whirl=np.concatenate([lengths.sum() * (shapes[-1] - tip), still]),
-        turn=np.concatenate([still, coordinates @ np.ones(len(mass))]),
-        turned=np.concatenate([coordinates @ np.ones(len(mass)), still]),
-        start_hub=float(shapes[0] @ (coordinates @ start)) + float(target.angles[0]),
-        length=float(lengths.sum()),
-        start=np.concatenate([coordinates @ start, coordinates @ rates]),
+        goal=target.goal,
+        whirl=np.concatenate([length * (shapes[-1] - tip[-1]), still[-1]]),
+        turn=np.hstack([still, turned]).T,
+        turned=np.hstack([turned, still]).T,
+        start_hub=hub @ start + target.goal.hub,
+        length=length,
+        start=np.concatenate([start, coordinates @ initial.rates]),
+        start_torque=initial.torque,
         delay=delay,
     )
 
 
 def _sensors(scene: Scene, angles: Array, shapes: Array, accelerations: Array) -> tuple[Array, Array, Array]:
-    """Return C, (3, 2 r), D, (3,), and what the sensors show at the target, from modal accelerations' rows."""
+    """Return C, (2, 2 r), D, (2, 1), and what accelerometer and strain gauge of an arm on a hub show at the target.
+
+    From the rows of the modal accelerations.
+    """
     count = shapes.shape[1]
     gravity = scene.model.gravity or 0.0
     lengths = np.array([0.0, *(link.length for link in scene.links)])
     across = (lengths * np.cos(angles - angles[-1])) @ shapes
     joint = scene.joints[0]
     bend = shapes[1] - shapes[0]
-    measure, feed = np.zeros((3, 2 * count)), np.zeros(3)
-    measure[0, :count] = shapes[0]
-    measure[1] = across @ accelerations[:, :-1]
-    measure[1, :count] -= gravity * np.sin(angles[-1]) * shapes[-1]
-    measure[2] = np.concatenate([joint.stiffness * bend, joint.damping * bend])
-    feed[1] = float(across @ accelerations[:, -1])
-    seen = np.array(
-        [angles[0], gravity * np.cos(angles[-1]), joint.stiffness * (angles[1] - angles[0])], dtype=float
-    )
+    measure, feed = np.zeros((2, 2 * count)), np.zeros((2, 1))
+    measure[0] = across @ accelerations[:, :-1]
+    measure[0, :count] -= gravity * np.sin(angles[-1]) * shapes[-1]
+    measure[1] = np.concatenate([joint.stiffness * bend, joint.damping * bend])
+    feed[0] = across @ accelerations[:, -1:]
+    seen = np.array([gravity * np.cos(angles[-1]), joint.stiffness * (angles[1] - angles[0])], dtype=float)
     return measure, feed, seen

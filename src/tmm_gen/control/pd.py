@@ -1,79 +1,88 @@
-"""Proportional-derivative control of the hub, with or without a shaped reference: the baseline without a model."""
+"""Proportional-derivative control of the hubs, with or without shaped references: the baseline without a model."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.control.command import Command, Status
 from tmm_gen.control.credible import FARTHEST, JUMP, PATIENCE
-from tmm_gen.control.problem import ControlProblem
+from tmm_gen.control.problem import ControlProblem, Goal
 from tmm_gen.control.safe import safe_torque
 
 Array = NDArray[np.float64]
 
 
 class PdController:
-    """``u = u_s + p (reference_k - hub) - d hub'``, clipped; the rate is the encoder's difference.
+    """``u = u_s + p (reference_k - hub) - d hub'`` for each motor, clipped; rates are the encoders' differences.
 
     Parameters
     ----------
     problem : ControlProblem
         Sample time, bounds, start.
-    proportional, derivative : float
+    proportional, derivative : array, (m,)
         N m/rad, N m s/rad.
-    target_hub, target_torque : float
-        Where the hub is to go, rad, and the torque that holds the arm there, N m.
-    shaper : array, (k,), optional
-        Impulses, one per sample, whose sum is 1: the reference is a step convolved with them.
-    inertia : float
-        Of hub and arm about the hub, kg m^2, for the safe law.
+    goal : Goal
+        Where the hubs are to go, rad, and the torques that hold the arm there, N m.
+    shapers : sequence of array, (k,), optional
+        For each motor impulses, one per sample, whose sum is 1: its reference is a step convolved with them.
+    inertia : array, (m,)
+        What each motor turns, kg m^2, for the safe law.
+    start : array, (m,), optional
+        Torques that act before the first, N m; by default none.
     """
 
     def __init__(
         self,
         problem: ControlProblem,
-        proportional: float,
-        derivative: float,
-        target_hub: float,
-        target_torque: float,
-        shaper: Array | None = None,
-        inertia: float = 0.0,
+        proportional: Array,
+        derivative: Array,
+        goal: Goal,
+        shapers: Sequence[Array] | None,
+        inertia: Array,
+        start: Array | None = None,
     ) -> None:
-        self.problem, self.inertia = problem, inertia
+        self.problem, self.inertia, self.goal = problem, inertia, goal
         self.proportional, self.derivative = proportional, derivative
-        self.target_hub, self.target_torque = target_hub, target_torque
-        self.steps = np.cumsum(np.ones(1) if shaper is None else shaper)
+        self.steps = [np.cumsum(each) for each in shapers or [np.ones(1)] * problem.count]
+        self.start = np.zeros(problem.count) if start is None else start
         self.reset()
 
     def reset(self) -> None:
         """Forget all measurements."""
-        self._sample, self._hub, self._last, self._start = 0, math.nan, 0.0, math.nan
+        nowhere = np.full(self.problem.count, math.nan)
+        self._sample, self._hub, self._last, self._start = 0, nowhere, self.start, nowhere
         self._wrong, self._gap = PATIENCE, False
 
     def command(self, measured: Array) -> Command:
-        """Return the torque for a measurement; see :class:`~tmm_gen.control.command.Controller`."""
-        hub = float(measured[0])
+        """Return the torques for a measurement; see :class:`~tmm_gen.control.command.Controller`."""
+        with np.errstate(all="ignore"):  # what is not finite is not believed
+            return self._command(np.asarray(measured, float)[: self.problem.count])
+
+    def _command(self, hub: Array) -> Command:
         if not self._believed(hub):
             self._gap = True
-            self._last = safe_torque(self.problem, self.inertia, math.nan, self._last)
+            unknown = np.full(len(hub), math.nan)
+            self._last = safe_torque(self.problem, self.inertia, unknown, self._last)
             return Command(self._last, Status.MEASUREMENT)
-        rate = 0.0 if self._gap or math.isnan(self._hub) else (hub - self._hub) / self.problem.sample_time
+        unknown_rate = self._gap or bool(np.any(np.isnan(self._hub)))
+        rate = np.zeros(len(hub)) if unknown_rate else (hub - self._hub) / self.problem.sample_time
         self._hub, self._gap = hub, False
-        share = float(self.steps[min(self._sample, len(self.steps) - 1)])
-        wanted = self._start + share * (self.target_hub - self._start)
+        share = np.array([steps[min(self._sample, len(steps) - 1)] for steps in self.steps])
+        wanted = self._start + share * (self.goal.hub - self._start)
         self._sample += 1
-        torque = self.target_torque + self.proportional * (wanted - hub) - self.derivative * rate
+        torque = self.goal.torque + self.proportional * (wanted - hub) - self.derivative * rate
         self._last = self.problem.allowed(torque, self._last)
         return Command(self._last)
 
-    def _believed(self, hub: float) -> bool:
-        """Return whether the hub can be there; what jumped is believed if it stays, and the reference starts anew."""
-        if not (math.isfinite(hub) and abs(hub - self.target_hub) <= FARTHEST):
+    def _believed(self, hub: Array) -> bool:
+        """Return whether hubs can be there; what jumped is believed if it stays, and the reference starts anew."""
+        if not np.all(np.isfinite(hub) & (np.abs(hub - self.goal.hub) <= FARTHEST)):
             return False
-        if math.isnan(self._hub) or abs(hub - self._hub) > JUMP:
+        if np.any(np.isnan(self._hub)) or np.any(np.abs(hub - self._hub) > JUMP):
             if self._wrong < PATIENCE:
                 self._wrong += 1
                 return False

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from tmm_gen.control.motors import motors_of
 from tmm_gen.control.stepped_frequency import model_frequency
 from tmm_gen.scene import Scene
 from tmm_gen.scene.beam import beam_links
@@ -22,7 +24,7 @@ SENSORS = [
     {"name": "tip_acceleration", "at": "tip", "of": "acceleration"},
     {"name": "root", "at": "base", "of": "torque"},
 ]
-"""Outputs of every kernel that predicts."""
+"""Outputs of every kernel that predicts an arm on a hub."""
 
 
 def prediction_scene(scene: Scene, calibrate: bool = True) -> Scene:
@@ -43,7 +45,12 @@ def prediction_scene(scene: Scene, calibrate: bool = True) -> Scene:
     control = scene.control
     assert control is not None
     step = control.sample_time / control.substeps
-    changes: dict[str, object] = {"output": SENSORS, "integrator.step": step, "emit.sensitivities": True}
+    outputs = (
+        SENSORS
+        if not scene.parts
+        else [{"name": f"{name}_angle", "at": name, "of": "angle"} for name in motors_of(scene).names]
+    )
+    changes: dict[str, object] = {"output": outputs, "integrator.step": step, "emit.sensitivities": True}
     changes["emit.compensated"] = False  # derivatives are not
     changes["model.corrections"] = None
     if calibrate and scene.beam is not None:
@@ -101,7 +108,13 @@ def spring_factors(scene: Scene, step: float) -> tuple[float, float]:
 
 
 def fine_scene(scene: Scene, links: int = FINE_LINKS) -> Scene:
-    """Return the scene with its beam cut into at least so many links; a scene without beam as it is."""
+    """Return the scene with its beams cut into at least so many links together; a scene without beam as it is."""
+    beams = [part.name for part in scene.parts if part.kind == "beam"]
+    if beams:
+        entries: Any = scene.source.data["beam"]
+        own = {entry["name"]: entry.get("links", 0) for entry in entries}
+        each = -(-links // len(beams))
+        return scene.replace(**{f"beam.{name}.links": max(own[name], each) for name in beams})
     if scene.beam is None or scene.beam.links >= links:
         return scene
     changes: dict[str, object] = {"beam.links": links}

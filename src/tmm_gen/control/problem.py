@@ -1,12 +1,14 @@
 r"""The optimal control problem every predictive controller here solves, stated once.
 
-**Model.** ``x`` is the state of the generated kernel (angles, rates, accelerations, the hub's first), and one
-sample is ``M`` of its steps of ``T/M``:
+**Model.** ``x`` is the state of the generated kernel (angles, rates, accelerations, a hub's first), ``u`` are the
+torques of the m motors, each with a hub and a tip (:mod:`tmm_gen.control.motors`), and one sample is ``M`` of its steps
+of ``T/M``:
 
-    x[k+1] = F(x[k], u_before + d[k], u_then + d[k]),   d[k+1] = d[k],   tip = c x = sum_i l_i q_i / L,   hub = q_0.
+    x[k+1] = F(x[k], u_before + d[k], u_then + d[k]),   d[k+1] = d[k],   tip = c x,   hub = h x,
 
-``d`` is the disturbance state, a torque at the hub nobody commanded; it makes the control free of offset. ``tip``
-is linear in the angles and differs from the polar angle of the tip by the third power of the bending.
+with for an arm on a hub ``tip = sum_i l_i q_i / L`` and ``hub = q_0``. ``d`` are the disturbance states, torques of the
+motors nobody commanded; they make the control free of offset. ``tip`` is linear in the angles and differs from the
+polar angle of the tip by the third power of the bending.
 
 **Delay.** The torque ``u[k]`` computed from the measurement at ``k T`` acts from ``k T + delay`` on. A model's step
 may answer an input late by itself (Newmark's by half a step, as it averages the accelerations at both ends): by
@@ -19,12 +21,15 @@ for a ``part`` of it and ``u_then = u[k - whole]`` for the rest: step ``j`` of `
 The state is first predicted over ``whole`` samples with torques already chosen; the horizon starts there, and
 ``u[-1]`` below is the last torque chosen.
 
-**Target.** ``(x_s, u_s)``: the arm at rest with ``tip = reference``; ``hub_s`` is its hub angle. Without gravity
-``u_s = 0`` and ``hub_s = reference``.
+**Target.** ``(x_s, u_s)``: the arm at rest with ``tip = reference`` on a hub, ``hub = reference`` where motors are
+parts by name; ``hub_s`` and ``tip_s`` are its angles. Without gravity ``u_s = 0`` and all of them are the reference. An
+arm on a hub starts as its scene says; one whose motors are parts by name at rest, held by them at the joint angles its
+scene says.
 
-**Problem.** Over ``u = (u[0], ..., u[N-1])`` and one slack per stage and soft bound,
+**Problem.** Over ``u = (u[0], ..., u[N-1])`` and one slack per stage and soft bound, all terms and rows once for each
+motor, with its own numbers,
 
-    minimise    1/2 sum_{i=1..N} ( W.tip (tip_i - reference)^2 + W.hub (hub_i - hub_s)^2
+    minimise    1/2 sum_{i=1..N} ( W.tip (tip_i - tip_s)^2       + W.hub (hub_i - hub_s)^2
                                    + W.tip_rate tip'_i^2 + W.hub_rate hub'_i^2 )
               + 1/2 sum_{i=0..N-1} ( W.torque (u_i - u_s + d)^2 + W.torque_step (u_i - u_{i-1})^2 )
               + 1/2 sum_{i=1..N} ( W.overshoot s_i^2 + W.hub_bound r_i^2 )  +  1/2 |G (x_N - x_s, u_{N-1} - u_s + d)|^2
@@ -37,8 +42,8 @@ A soft bound gives way, at all i, where the arm is more than 0.1 rad beyond it a
 (:meth:`tmm_gen.control.condensed.Condensed.bounds`): it would be passed at nearly every sample, whatever the torques.
 
 The last term is the cost to go: what the first two sums would come to beyond the horizon, without bounds, for the model
-linearised about the target (:mod:`tmm_gen.control.terminal`). Of the tip only the side beyond the reference is bounded,
-by ``reference + overshoot (reference - start)``, where ``start`` is the tip angle of the scene's initial state.
+linearised about the target (:mod:`tmm_gen.control.terminal`). Of the tip only the side beyond the target is bounded,
+by ``tip_s + overshoot (reference - start)``, where ``start`` is what the reference is of in the scene's initial state.
 
 **Condensed QP.** Predictions are affine in the inputs about a trajectory ``u^``:
 
@@ -50,7 +55,9 @@ by ``reference + overshoot (reference - start)``, where ``start`` is the tip ang
 - *Zero-order real-time iteration*: the same rollout, but ``S`` is that of the linear MPC, prepared once.
 
 Decision variables are ``z = (u - u^, s, r)``; slacks of absent bounds are absent. The Hessian is the Gauss-Newton
-one. Rows in order: bounds of the torques (N), then rates of change (N), tip (N), hub (N), those present.
+one. Rows in order: bounds of the torques (N), then rates of change (N), tip (N), hub (N), those present. What there is
+of each motor stands motor by motor, so that N after N belong together: ``u`` is all torques of the first, then all of
+the next.
 
 **Safe law.** If the QP is not solved, it is once more without its soft bounds. If that fails too, the controller
 applies :func:`tmm_gen.control.safe.safe_torque` and says so. Every torque that leaves a controller is within its
@@ -60,16 +67,101 @@ bounds.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+from typing import Literal
 
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.control.motors import Motors, motors_of
 from tmm_gen.errors import UserError
 from tmm_gen.resources import scenes_dir
 from tmm_gen.scene import Scene
-from tmm_gen.scene.control import Control, Estimator, Sensors, Weights
+from tmm_gen.scene.control import Control, Sensors, Weights
+from tmm_gen.scene.each import by_names
 from tmm_gen.scene.flat import require_flat
+
+Array = NDArray[np.float64]
+Pair = tuple[float, float]
+
+
+@dataclass(frozen=True, eq=False)
+class MotorWeights:
+    """Weights of the cost, (m,) each; see :class:`~tmm_gen.scene.control.Weights`."""
+
+    tip: Array
+    hub: Array
+    tip_rate: Array
+    hub_rate: Array
+    torque: Array
+    torque_step: Array
+    overshoot: Array
+    hub_bound: Array
+
+    @classmethod
+    def of(cls, weights: Weights, names: tuple[str, ...]) -> MotorWeights:
+        """Return the weights of some motors."""
+        return cls(*(np.array(by_names(getattr(weights, item.name), names)) for item in fields(cls)))
+
+
+@dataclass(frozen=True, eq=False)
+class Assumed:
+    """What the Kalman filter assumes; see :class:`~tmm_gen.scene.control.Estimator`.
+
+    Parameters
+    ----------
+    encoder, torque, disturbance, rate : array, (m,)
+        Of each motor: rad, N m, N m, rad/s.
+    accelerometer, strain : float
+        m/s^2, N m.
+    """
+
+    encoder: Array
+    torque: Array
+    disturbance: Array
+    rate: Array
+    accelerometer: float
+    strain: float
+
+
+@dataclass(frozen=True, eq=False)
+class Goal:
+    """What the arm is to come to, (m,) each: angles of tips and hubs, rad, and the torques that hold it, N m."""
+
+    tip: Array
+    hub: Array
+    torque: Array
 
 
 @dataclass(frozen=True)
+class Kind:
+    """N rows of the quadratic program, one per sample.
+
+    Parameters
+    ----------
+    what : {"rate", "tip", "hub"}
+        Change of a torque, or an angle.
+    motor : int
+        Whose.
+    low, high : float
+        N m or rad.
+    weight : float
+        Of passing it; infinite where it is hard.
+    """
+
+    what: Literal["rate", "tip", "hub"]
+    motor: int
+    low: float
+    high: float
+    weight: float = math.inf
+
+    @property
+    def soft(self) -> bool:
+        """Whether it may be passed."""
+        return math.isfinite(self.weight)
+
+
+@dataclass(frozen=True, eq=False)
 class ControlProblem:
     """The numbers of the problem; see the module for its statement.
 
@@ -83,66 +175,96 @@ class ControlProblem:
         M, kernel steps per sample.
     modes : int
         Of a prediction by modes.
-    reference : float
-        Tip angle to reach, rad.
-    start : float
-        Tip angle at time zero, rad.
+    motors : Motors
+        What turns the arm of the scene, m of them.
+    reference : array, (m,)
+        Angles to reach, rad: of the tip of an arm on a hub, else of the hubs.
+    start : array, (m,)
+        The same at time zero, rad.
     delay : float
         From measurement to torque, s.
-    torque : (low, high)
+    torque : (low, high), arrays, (m,)
         N m.
-    torque_rate : float or None
-        N m/s.
-    hub : (low, high) or None
+    torque_rate : array, (m,)
+        N m/s; infinite where there is none.
+    hub : tuple of ((low, high) or None), length m
         rad.
-    tip : (low, high) or None
-        rad; one side is infinite.
-    weights : Weights
+    tip : tuple of ((low, high) or None), length m
+        Off the target, rad; one side is infinite.
+    weights : MotorWeights
         Of the cost.
     sensors : Sensors
         What is measured.
-    estimator : Estimator
+    estimator : Assumed
         What the Kalman filter assumes.
-    input_name : str
-        The scene's input that is the hub's torque.
     """
 
     horizon: int
     sample_time: float
     substeps: int
     modes: int
-    reference: float
-    start: float
+    motors: Motors
+    reference: Array
+    start: Array
     delay: float
-    torque: tuple[float, float]
-    torque_rate: float | None
-    hub: tuple[float, float] | None
-    tip: tuple[float, float] | None
-    weights: Weights
+    torque: tuple[Array, Array]
+    torque_rate: Array
+    hub: tuple[Pair | None, ...]
+    tip: tuple[Pair | None, ...]
+    weights: MotorWeights
     sensors: Sensors
-    estimator: Estimator
-    input_name: str
+    estimator: Assumed
 
     @property
     def step(self) -> float:
         """Step of the kernel, s."""
         return self.sample_time / self.substeps
 
-    def allowed(self, torque: float, last: float) -> float:
-        """Return the torque nearest to a given one within the bounds, NaN counted as zero, N m.
+    @property
+    def count(self) -> int:
+        """Number of motors, m."""
+        return self.motors.count
+
+    @property
+    def encoders(self) -> Array:
+        """Counts per revolution of each hub's encoder, (m,)."""
+        return np.array(by_names(self.sensors.encoder, self.motors.names), float)
+
+    def kinds(self, goal: Goal) -> tuple[Kind, ...]:
+        """Return the rows of the quadratic program, N for each kind, in their order.
 
         Parameters
         ----------
-        torque : float
-            Wanted, N m.
-        last : float
-            Last torque commanded, N m; within the bounds.
+        goal : Goal
+            From which the tips' bounds count.
         """
-        low, high = self.torque
-        if self.torque_rate is not None:
-            change = self.torque_rate * self.sample_time
-            low, high = max(low, last - change), min(high, last + change)
-        return min(max(0.0 if math.isnan(torque) else torque, low), high)
+        found: list[Kind] = []
+        for motor, change in enumerate(self.torque_rate * self.sample_time):
+            if math.isfinite(change):
+                found.append(Kind("rate", motor, -float(change), float(change)))
+        for motor, bounds in enumerate(self.tip):
+            if bounds is not None:
+                low, high = (float(goal.tip[motor]) + bound for bound in bounds)
+                found.append(Kind("tip", motor, low, high, float(self.weights.overshoot[motor])))
+        for motor, bounds in enumerate(self.hub):
+            if bounds is not None:
+                found.append(Kind("hub", motor, *bounds, float(self.weights.hub_bound[motor])))
+        return tuple(found)
+
+    def allowed(self, torque: Array, last: Array) -> Array:
+        """Return the torques nearest to given ones within the bounds, NaN counted as zero, (m,), N m.
+
+        Parameters
+        ----------
+        torque : array, (m,)
+            Wanted, N m.
+        last : array, (m,)
+            Last torques commanded, N m; within the bounds.
+        """
+        change = self.torque_rate * self.sample_time
+        low = np.maximum(self.torque[0], last - change)
+        high = np.minimum(self.torque[1], last + change)
+        return np.minimum(np.maximum(np.where(np.isnan(torque), 0.0, torque), low), high)
 
 
 def control_problem(scene: Scene) -> ControlProblem:
@@ -155,53 +277,58 @@ def control_problem(scene: Scene) -> ControlProblem:
     """
     require_flat(scene, "controllers do not")
     control = scene.control
-    if control is None and scene.parts:
+    controlled = scene.model.kind == "planar" and (scene.base.kind == "motor" or _driven(scene))
+    if control is None and not controlled:
         raise UserError(
-            f"{scene.source.origin}: predictive control turns a hub, and knows no arms of parts by name yet. Write the "
-            f'arm with base.kind = "motor" and [beam], as {scenes_dir() / "swing.toml"} does.'
-        )
-    # the sentence asks for just these two words
-    if control is None and (scene.model.kind != "planar" or scene.base.kind != "motor"):
-        raise UserError(
-            f"{scene.source.origin}: only planar arms are controlled, by a torque at a hub that turns. Take one with "
-            f'kind = "planar" under [model] and kind = "motor" under [base], such as {scenes_dir() / "swing.toml"}.'
+            f"{scene.source.origin}: only planar arms are controlled, by a torque at a hub that turns or by those of "
+            f'motors on a clamp. Take one with kind = "planar" under [model] and kind = "motor" under [base], such '
+            f"as {scenes_dir() / 'swing.toml'}, or with [[motor]], such as {scenes_dir() / 'elbow.toml'}."
         )
     if control is None:
         raise UserError(
             f"{scene.source.origin}: has no [control]. Add it, with for example `reference = 1.0` and "
             f"[control.bounds] with `torque = 3.0`; {scenes_dir() / 'swing.toml'} has all of it."
         )
-    start = tip_angle(scene, scene.initial.angles)
-    name = next(item.name for item in scene.inputs if item.at == "base" and item.acts == "torque")
+    motors = motors_of(scene)
+    names = motors.names
+    start = motors.prescribed @ np.array([*np.zeros(scene.hub), *scene.initial.angles])
+    reference = np.array(by_names(control.reference, names))
+    bounds, assumed = control.bounds, control.estimator
+    rate = bounds.torque_rate
+    low, high = np.array(by_names(bounds.torque, names)).T
     return ControlProblem(
         horizon=control.horizon,
         sample_time=control.sample_time,
         substeps=control.substeps,
         modes=control.modes,
-        reference=control.reference,
+        motors=motors,
+        reference=reference,
         start=start,
         delay=control.delay,
-        torque=control.bounds.torque,
-        torque_rate=control.bounds.torque_rate,
-        hub=control.bounds.hub,
-        tip=_tip_bound(control, start),
-        weights=control.weights,
+        torque=(low, high),
+        torque_rate=np.array(by_names(math.inf if rate is None else rate, names)),
+        hub=(None,) * motors.count if bounds.hub is None else by_names(bounds.hub, names),
+        tip=tuple(_tip_bound(control, float(way)) for way in reference - start),
+        weights=MotorWeights.of(control.weights, names),
         sensors=control.sensors,
-        estimator=control.estimator,
-        input_name=name,
+        estimator=Assumed(
+            encoder=np.array(by_names(assumed.encoder, names)),
+            torque=np.array(by_names(assumed.torque, names)),
+            disturbance=np.array(by_names(assumed.disturbance, names)),
+            rate=np.array(by_names(assumed.rate, names)),
+            accelerometer=assumed.accelerometer,
+            strain=assumed.strain,
+        ),
     )
 
 
-def tip_angle(scene: Scene, angles: tuple[float, ...]) -> float:
-    """Return the length-weighted mean of the links' angles, ``sum l_i q_i / L``, rad."""
-    lengths = [link.length for link in scene.links]
-    return sum(length * angle for length, angle in zip(lengths, angles, strict=True)) / sum(lengths)
+def _driven(scene: Scene) -> bool:
+    return bool(scene.parts) and any(item.acts == "drive" for item in scene.inputs)
 
 
-def _tip_bound(control: Control, start: float) -> tuple[float, float] | None:
-    """Return the interval of the tip angle: bounded beyond the reference, as seen from the start."""
-    if control.bounds.overshoot is None or control.reference == start:
+def _tip_bound(control: Control, way: float) -> Pair | None:
+    """Return the interval of a tip's angle off its target: bounded beyond it, as seen from the start."""
+    if control.bounds.overshoot is None or way == 0.0:
         return None
-    way = control.reference - start
-    edge = control.reference + control.bounds.overshoot * way
+    edge = control.bounds.overshoot * way
     return (-math.inf, edge) if way > 0.0 else (edge, math.inf)

@@ -15,18 +15,18 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class Response:
-    """Of tip, tip rate, hub, hub rate over N samples, off their targets, and of what is left at the end.
+    """Of tips, their rates, hubs, their rates over N samples, off their targets, and of what is left at the end.
 
     Parameters
     ----------
-    by_state : array, (4 N + r, m)
-        By the state at the start: N rows for each output, then those of the end.
-    by_constant : array, (4 N + r,)
-        By a torque of 1 N m throughout.
-    by_last : array, (4 N + r,)
-        By the torque chosen before the horizon.
+    by_state : array, (4 m N + r, s)
+        By the state at the start: N rows for each output of each motor, then those of the end.
+    by_constant : array, (4 m N + r, m)
+        By torques of 1 N m throughout.
+    by_last : array, (4 m N + r, m)
+        By the torques chosen before the horizon.
     slopes : Outputs
-        By the torques of the horizon, (N, N) each, (r, N) at the end.
+        By the torques of the horizon, (m, N, m N) each, (r, m N) at the end.
     """
 
     by_state: Array
@@ -36,8 +36,7 @@ class Response:
 
     def outputs(self, stacked: Array) -> Outputs:
         """Return outputs that are stacked as the rows above."""
-        count = len(self.slopes.tip)
-        return Outputs(*np.split(stacked, [count, 2 * count, 3 * count, 4 * count]))
+        return _split(stacked, self.slopes.tip.shape[:2])
 
 
 def response(model: LinearModel, horizon: int, end: Array) -> Response:
@@ -49,31 +48,43 @@ def response(model: LinearModel, horizon: int, end: Array) -> Response:
         By links or by modes.
     horizon : int
         N, samples.
-    end : array, (r, m + 1)
-        G, of the state off the target and the last torque (:func:`~tmm_gen.control.terminal.end_rows`).
+    end : array, (r, s + m)
+        G, of the state off the target and the last torques (:func:`~tmm_gen.control.terminal.end_rows`).
     """
-    size = model.size
-    outputs = np.array([model.tip, model.tip_rate, model.hub, model.hub_rate])
-    state, last, constant = np.eye(size), np.zeros(size), np.zeros(size)
-    by_torque = np.zeros((size, horizon))
-    rows = np.zeros((4, horizon, size + 2 + horizon))
+    size, count = model.size, model.count
+    outputs = np.vstack([model.tip, model.tip_rate, model.hub, model.hub_rate])
+    state, last, constant = np.eye(size), np.zeros((size, count)), np.zeros((size, count))
+    by_torque = np.zeros((size, count, horizon))
+    rows = np.zeros((len(outputs), horizon, size + 2 * count + count * horizon))
+
+    def together() -> Array:
+        return np.column_stack([state, constant, last, by_torque.reshape(size, -1)])
+
     for stage in range(horizon):
         state = model.transition @ state
         last = model.transition @ last + (model.before if stage == 0 else 0.0)
         constant = model.transition @ constant + model.drive
-        by_torque = model.transition @ by_torque
+        by_torque = np.tensordot(model.transition, by_torque, 1)
         # a torque acts in its own sample, and before the next one's does
         if stage:
-            by_torque[:, stage - 1] += model.before
-        by_torque[:, stage] += model.then
-        rows[:, stage] = outputs @ np.column_stack([state, constant, last, by_torque])
-    left = end[:, :size] @ np.column_stack([state, constant, last, by_torque])
-    left[:, size] += end[:, size]
-    left[:, -1] += end[:, size]
+            by_torque[:, :, stage - 1] += model.before
+        by_torque[:, :, stage] += model.then
+        rows[:, stage] = outputs @ together()
+    left = end[:, :size] @ together()
+    left[:, size : size + count] += end[:, size:]
+    left[:, size + 2 * count :].reshape(len(left), count, horizon)[:, :, -1] += end[:, size:]
     rows = np.vstack([*rows, left])
     return Response(
         by_state=rows[:, :size],
-        by_constant=rows[:, size],
-        by_last=rows[:, size + 1],
-        slopes=Outputs(*np.split(rows[:, size + 2 :], horizon * np.arange(1, 5))),
+        by_constant=rows[:, size : size + count],
+        by_last=rows[:, size + count : size + 2 * count],
+        slopes=_split(rows[:, size + 2 * count :], (count, horizon)),
     )
+
+
+def _split(stacked: Array, shape: tuple[int, ...]) -> Outputs:
+    """Return outputs that are stacked: of each of the four N for each motor, then those of the end."""
+    number = shape[0] * shape[1]
+    *outputs, end = np.split(stacked, number * np.arange(1, 5))
+    tip, tip_rate, hub, hub_rate = (each.reshape(*shape, *stacked.shape[1:]) for each in outputs)
+    return Outputs(tip, tip_rate, hub, hub_rate, end)

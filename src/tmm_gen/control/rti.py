@@ -35,50 +35,55 @@ class RealTimeIteration(ModelBased):
         The generated step.
     linear : LinearModel
         Of the same step about the target.
-    inertia : float
-        Of hub and arm about the hub, kg m^2, for the safe law.
+    inertia : array, (m,)
+        What each motor turns, kg m^2, for the safe law.
     zero_order : bool
         Whether to keep the sensitivities of the linear model, and its filter's gain, instead of computing those
         along the trajectory.
     """
 
     def __init__(
-        self, model: StepModel, linear: LinearModel, inertia: float, zero_order: bool = False
+        self, model: StepModel, linear: LinearModel, inertia: Array, zero_order: bool = False
     ) -> None:
         problem = model.problem
         self.model, self.linear, self.zero_order = model, linear, zero_order
         self.end = end_rows(linear, problem.weights)
         slopes = response(linear, problem.horizon, self.end).slopes
-        self.prepared = Condensed(problem, slopes, linear.target_hub, linear.target_torque)
+        self.prepared = Condensed(problem, slopes, linear.goal)
         kind = NonlinearFilter if zero_order else ExtendedKalmanFilter
-        self._program = QuadraticProgram(self.prepared.hessian, self.prepared.rows, problem.horizon)
+        self._program = QuadraticProgram(self.prepared.hessian, self.prepared.rows, self.prepared.inputs)
         super().__init__(problem, kind(model, linear), model.delay, inertia)
 
     @cached_property
     def rows(self) -> Array:
-        """Rows that give tip, tip rate, hub, hub rate from the state, (4, m)."""
-        model = self.model
-        return np.array(
-            [model.mean_row("angle"), model.mean_row("rate"), model.hub_row("angle"), model.hub_row("rate")]
+        """Rows that give tips, tip rates, hubs, hub rates from the state, (4 m, s)."""
+        model, motors = self.model, self.model.motors
+        return np.vstack(
+            [
+                model.rows(rows, quantity)
+                for rows in (motors.tip, motors.hub)
+                for quantity in ("angle", "rate")
+            ]
         )
 
     @property
     def target(self) -> Array:
-        """The state at the target, (m,)."""
+        """The state at the target, (s,)."""
         return rest_state(self.model, self.linear)
 
     def _forget(self) -> None:
         self._program.forget()
-        self._plan = np.full(self.problem.horizon, self.linear.target_torque)
+        self._plan = np.repeat(self.linear.goal.torque[:, None], self.problem.horizon, axis=1)
 
-    def decide(self, state: Array, disturbance: float, last: float) -> Command:
+    def decide(self, state: Array, disturbance: Array, last: Array) -> Command:
         """Solve one quadratic program about the last plan; see :class:`ModelBased`."""
-        low, high = self.problem.torque
-        plan = np.clip(np.append(self._plan[1:], self._plan[-1]), low, high)
-        inputs = np.vstack([np.append(last, plan[:-1]), plan]) + disturbance
+        low, high = (bound[:, None] for bound in self.problem.torque)
+        goal, unknown = self.linear.goal, disturbance[:, None]
+        plan = np.clip(np.hstack([self._plan[:, 1:], self._plan[:, -1:]]), low, high)
+        inputs = np.vstack([np.hstack([last[:, None], plan[:, :-1]]) + unknown, plan + unknown])
         states = np.array(self.model.rollout(state, inputs))
-        left = np.append(states[:, -1] - self.target, inputs[1, -1] - self.linear.target_torque)
-        tip, tip_rate, hub, hub_rate = self.rows @ states
+        left = np.append(states[:, -1] - self.target, plan[:, -1] + disturbance - goal.torque)
+        tip, tip_rate, hub, hub_rate = np.split(self.rows @ states, 4)
         along = Outputs(tip, tip_rate, hub, hub_rate, self.end @ left)
         condensed = self.prepared if self.zero_order else self._linearised(state, states, inputs)
         renewed = condensed is not self.prepared
@@ -90,27 +95,29 @@ class RealTimeIteration(ModelBased):
             rows=condensed.rows if renewed else None,
         )
         if not solution.status.optimal:
-            self._plan = np.full(len(plan), np.clip(self.linear.target_torque - disturbance, low, high))
-            return Command(0.0, solution.status, solution.iterations)
-        self._plan = plan + solution.point[: len(plan)]
-        return Command(float(self._plan[0]), solution.status, solution.iterations)
+            self._plan = np.clip(goal.torque[:, None] - unknown, low, high) + np.zeros_like(plan)
+            return Command(np.zeros(len(plan)), solution.status, solution.iterations)
+        self._plan = plan + solution.point[: plan.size].reshape(plan.shape)
+        return Command(self._plan[:, 0], solution.status, solution.iterations)
 
     def _linearised(self, state: Array, states: Array, inputs: Array) -> Condensed:
         """Return the quadratic program with sensitivities along a trajectory."""
-        count, size = inputs.shape[1], len(state)
+        count, size, motors = inputs.shape[1], len(state), self.problem.count
         points = np.column_stack([state, states[:, :-1]])
         _, by_state, by_torques = self.model.rollout_slopes(points, inputs)
         transitions = np.array(by_state).reshape(size, count, size).transpose(1, 0, 2)
-        drives = np.array(by_torques).reshape(size, count, 2)
-        slopes = np.zeros((4, count, count))
-        carried = np.zeros((size, count))
+        drives = np.array(by_torques).reshape(size, count, 2, motors)
+        slopes = np.zeros((4 * motors, count, motors, count))
+        carried = np.zeros((size, motors, count))
         for stage in range(count):
-            carried = transitions[stage] @ carried
+            carried = np.tensordot(transitions[stage], carried, 1)
             if stage:
-                carried[:, stage - 1] += drives[:, stage, 0]
-            carried[:, stage] += drives[:, stage, 1]
-            slopes[:, stage] = self.rows @ carried
-        left = np.vstack([carried, np.eye(1, count, count - 1)])
-        tip, tip_rate, hub, hub_rate = slopes
+                carried[:, :, stage - 1] += drives[:, stage, 0]
+            carried[:, :, stage] += drives[:, stage, 1]
+            slopes[:, stage] = np.tensordot(self.rows, carried, 1)
+        last = np.zeros((motors, motors, count))
+        last[:, :, -1] = np.eye(motors)
+        left = np.vstack([each.reshape(-1, motors * count) for each in (carried, last)])
+        tip, tip_rate, hub, hub_rate = slopes.reshape(4, motors, count, motors * count)
         found = Outputs(tip, tip_rate, hub, hub_rate, self.end @ left)
-        return Condensed(self.problem, found, self.linear.target_hub, self.linear.target_torque)
+        return Condensed(self.problem, found, self.linear.goal)

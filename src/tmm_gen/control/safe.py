@@ -2,30 +2,33 @@
 
 from __future__ import annotations
 
-import math
+import numpy as np
+from numpy.typing import NDArray
 
 from tmm_gen.control.problem import ControlProblem
+
+Array = NDArray[np.float64]
 
 BRAKE_TIME = 0.1
 """The safe law's torque would stop the rigid arm's rate in this many seconds."""
 
 
-def safe_torque(problem: ControlProblem, inertia: float, rate: float, last: float) -> float:
-    """Return a torque that brakes the hub: ``-inertia rate / BRAKE_TIME``, within all bounds, N m.
+def safe_torque(problem: ControlProblem, inertia: Array, rate: Array, last: Array) -> Array:
+    """Return torques that brake the hubs: ``-inertia rate / BRAKE_TIME`` each, within all bounds, (m,), N m.
 
-    It needs the encoder alone. Where that fails too, ``rate`` is not finite and the torque goes to zero as fast as
+    They need the encoders alone. Where one fails too, its ``rate`` is not finite and its torque goes to zero as fast as
     its bounds allow.
 
     Parameters
     ----------
     problem : ControlProblem
         Gives the bounds.
-    inertia : float
-        Of the hub and the arm behind it, kg m^2.
-    rate : float
-        Of the hub, from the last two encoder values, rad/s.
-    last : float
-        Torque commanded a sample before, N m.
+    inertia : array, (m,)
+        What each motor turns, kg m^2.
+    rate : array, (m,)
+        Of the hubs, from the last two encoder values, rad/s.
+    last : array, (m,)
+        Torques commanded a sample before, N m.
     """
-    wanted = -inertia * rate / BRAKE_TIME if math.isfinite(rate) else 0.0
+    wanted = np.where(np.isfinite(rate), -inertia * rate / BRAKE_TIME, 0.0)
     return problem.allowed(wanted, last)

@@ -50,7 +50,7 @@ def shaper(kind: Kind, frequency: float, damping: float, sample_time: float) -> 
 
 
 def slowest_vibration(
-    model: LinearModel, problem: ControlProblem, proportional: float, derivative: float
+    model: LinearModel, problem: ControlProblem, proportional: Array, derivative: Array
 ) -> tuple[float, float]:
     """Return natural frequency (rad/s) and damping ratio of the vibration that dies out last under PD control.
 
@@ -62,15 +62,15 @@ def slowest_vibration(
         Of the arm.
     problem : ControlProblem
         Sample time.
-    proportional, derivative : float
-        Gains on the hub's angle and its difference over a sample, N m/rad and N m s/rad.
+    proportional, derivative : array, (m,)
+        Gains on the hubs' angles and their differences over a sample, N m/rad and N m s/rad.
     """
-    size, period = model.size, problem.sample_time
-    closed = np.zeros((size + 1, size + 1))
+    size, count, period = model.size, model.count, problem.sample_time
+    closed = np.zeros((size + count, size + count))
     closed[:size, :size] = model.transition
-    closed[:size, :size] -= np.outer(model.drive, (proportional + derivative / period) * model.hub)
-    closed[:size, size] = derivative / period * model.drive
-    closed[size, :size] = model.hub
+    closed[:size, :size] -= (model.drive * (proportional + derivative / period)) @ model.hub
+    closed[:size, size:] = derivative / period * model.drive
+    closed[size:, :size] = model.hub
     poles = np.linalg.eigvals(closed).astype(complex)
     logarithms = np.log(poles[np.abs(poles) > 1e-6]) / period
     swinging = [pole for pole in logarithms if -pole.real < pole.imag < 0.95 * math.pi / period]

@@ -13,13 +13,12 @@ from numpy.typing import NDArray
 from tmm_gen.control.compiled import compiled
 from tmm_gen.control.delay import Delay, delay_of
 from tmm_gen.control.lag import input_lag
+from tmm_gen.control.motors import Motors, motors_of
 from tmm_gen.control.problem import ControlProblem
+from tmm_gen.control.target import Start, find_start
 from tmm_gen.scene import Scene
 
 Array = NDArray[np.float64]
-
-HUB, ACCELERATION, STRAIN = "hub", "acceleration", "strain"
-"""Names of the sensors: hub angle, acceleration across the last link at the tip, bending moment at the root."""
 
 
 @cache
@@ -32,7 +31,7 @@ def _module(scene: Scene) -> Any:
 
 @dataclass(frozen=True, eq=False)
 class StepModel:
-    """``x[k+1] = F(x[k], w[k])`` over a sample, by the generated step; ``w`` are two torques, see `Delay`.
+    """``x[k+1] = F(x[k], w[k])`` over a sample, by the generated step; ``w`` are twice m torques, see `Delay`.
 
     Parameters
     ----------
@@ -75,25 +74,25 @@ class StepModel:
         quantity : {"angle", "rate", "acceleration"}
             Part of the state.
         """
-        wanted = [f"hub_{quantity}", *(f"{quantity}_{i + 1}" for i in range(self.scene.stations))]
+        hub = [f"hub_{quantity}"] if self.scene.hub else []
+        wanted = [*hub, *(f"{quantity}_{i + 1}" for i in range(self.scene.stations))]
         return [self.names.index(name) for name in wanted]
+
+    @cached_property
+    def motors(self) -> Motors:
+        """What turns the arm."""
+        return motors_of(self.scene)
 
     @cached_property
     def lengths(self) -> Array:
         """Lengths of the links, (n,), m."""
         return np.array([link.length for link in self.scene.links])
 
-    def mean_row(self, quantity: str) -> Array:
-        """Return the row that gives the tip angle, or its derivative, from the state."""
-        row = np.zeros(self.size)
-        row[self.places(quantity)[1:]] = self.lengths / self.lengths.sum()
-        return row
-
-    def hub_row(self, quantity: str) -> Array:
-        """Return the row that gives the hub's angle, or its derivative, from the state."""
-        row = np.zeros(self.size)
-        row[self.places(quantity)[0]] = 1.0
-        return row
+    def rows(self, rows: Array, quantity: str) -> Array:
+        """Return rows of the state, (k, s), for rows of the arm's angles, (k, d), or of their derivatives."""
+        found = np.zeros((len(rows), self.size))
+        found[:, self.places(quantity)] = rows
+        return found
 
     # -- functions ----------------------------------------------------------------------------------------------
 
@@ -109,12 +108,13 @@ class StepModel:
         """By how much one step answers its input late, in steps; see :func:`tmm_gen.control.lag.input_lag`."""
         import casadi as ca
 
-        x, w = ca.SX.sym("x", self.size), ca.SX.sym("w")
+        x, w = ca.SX.sym("x", self.size), ca.SX.sym("w", self.motors.count)
         after = self.module.step_function()(x, self.inputs(w), self.parameters)[0]
         slopes = ca.Function("slopes", [x, w], [ca.densify(ca.jacobian(after, x)), ca.jacobian(after, w)])
-        by_state, by_torque = slopes(self.straight(0.0), 0.0)
+        by_state, by_torques = slopes(self.straight(0.0), np.zeros(self.motors.count))
         places = {name: self.places(name) for name in ("rate", "acceleration")}
-        return input_lag(self.scene, places, np.array(by_state), np.array(by_torque).ravel())
+        turned = self.motors.turned[:, 0]  # it is the integrator's, and so the same for all motors
+        return input_lag(self.scene, turned, places, np.array(by_state), np.array(by_torques)[:, 0])
 
     @cached_property
     def delay(self) -> Delay:
@@ -126,7 +126,7 @@ class StepModel:
         """``F(x, w)``, a CasADi function of SX: the state a sample later; ``w`` are the torques before and then."""
         import casadi as ca
 
-        x, w = ca.SX.sym("x", self.size), ca.SX.sym("w", 2)
+        x, w = ca.SX.sym("x", self.size), ca.SX.sym("w", 2 * self.motors.count)
         return ca.Function("sample", [x, w], [self._after(x, w, self.parameters)], ["x", "w"], ["x_next"])
 
     def _after(self, x: Any, w: Any, p: Any) -> Any:
@@ -136,50 +136,61 @@ class StepModel:
         return x
 
     def _torques(self, w: Any) -> list[Any]:
-        """Return the torque of each step of a sample."""
+        """Return the torques of each step of a sample, m at a time."""
+        count = self.motors.count
+        before, then = w[:count], w[count:]
         shares = self.delay.shares(self.problem.substeps)
-        return [w[1] if share == 0.0 else share * w[0] + (1.0 - share) * w[1] for share in shares]
+        return [then if share == 0.0 else share * before + (1.0 - share) * then for share in shares]
 
-    def inputs(self, torque: Any) -> Any:
-        """Return the inputs of the kernel where only the hub's torque acts."""
+    def inputs(self, torques: Any) -> Any:
+        """Return the inputs of the kernel where only the motors' torques act, m rows."""
         import casadi as ca
 
-        names = self.module.INPUT_NAMES
-        return ca.vertcat(*(torque if name == self.problem.input_name else 0.0 for name in names))
+        return ca.mtimes(ca.sparsify(ca.DM(self._acting)), torques)
+
+    @property
+    def _acting(self) -> Array:
+        """Which input of the kernel is the torque of which motor, (inputs, m)."""
+        wanted = self.motors.inputs
+        return np.array([[float(name == each) for each in wanted] for name in self.module.INPUT_NAMES])
 
     @cached_property
     def sensors(self) -> Any:
-        """``h(x)``, a CasADi function: hub angle, acceleration across the last link at the tip, root moment.
+        """``h(x)``, a CasADi function: the hubs' angles, acceleration across the last link at the tip, root moment.
 
-        The accelerometer measures what gravity does to a proof mass too: at rest, ``g cos(q_n)``.
+        The accelerometer measures what gravity does to a proof mass too: at rest, ``g cos(q_n)``. Arms by parts have
+        encoders alone.
         """
         import casadi as ca
 
-        x = ca.SX.sym("x", self.size)
-        y = self.module.step_function()(x, self.inputs(0.0), self.parameters)[1]
+        x, count = ca.SX.sym("x", self.size), self.motors.count
+        hubs = ca.mtimes(ca.sparsify(ca.DM(self.rows(self.motors.hub, "angle"))), x)
+        if not self.motors.on_hub:
+            return ca.Function("sensors", [x], [ca.vertcat(hubs, 0.0, 0.0)], ["x"], ["hubs_and_others"])
+        y = self.module.step_function()(x, self.inputs(ca.DM.zeros(count)), self.parameters)[1]
         names = self.module.OUTPUT_NAMES
-        hub, across, up, root = (
-            y[names.index(name)] for name in ("hub", "tip_acceleration_x", "tip_acceleration_y", "root")
+        across, up, root = (
+            y[names.index(name)] for name in ("tip_acceleration_x", "tip_acceleration_y", "root")
         )
         angle = x[self.places("angle")[-1]]
         gravity = self.scene.model.gravity or 0.0
         felt = -across * ca.sin(angle) + (up + gravity) * ca.cos(angle)
-        return ca.Function("sensors", [x], [ca.vertcat(hub, felt, root)], ["x"], [HUB + "_and_others"])
+        return ca.Function("sensors", [x], [ca.vertcat(hubs, felt, root)], ["x"], ["hubs_and_others"])
 
     @cached_property
     def sample_slopes(self) -> Any:
         """``(x, w) -> F, dF/dx, dF/dw``, a CasADi function: derivatives by the factors of each step's own sweep."""
         import casadi as ca
 
-        x, w = ca.MX.sym("x", self.size), ca.MX.sym("w", 2)
+        x, w = ca.MX.sym("x", self.size), ca.MX.sym("w", 2 * self.motors.count)
         return ca.Function("sample_slopes", [x, w], self._slopes(x, w, self.parameters))
 
     def _slopes(self, x: Any, w: Any, p: Any) -> list[Any]:
         """Return state and slopes after a sample; of MX, so that code for one step serves all."""
         import casadi as ca
 
-        step, driven = self.module.jacobian_function(), ca.DM(self.inputs(1.0))
-        by_state, by_torques = ca.MX.eye(self.size), ca.MX.zeros(self.size, 2)
+        step, driven = self.module.jacobian_function(), ca.DM(self._acting)
+        by_state, by_torques = ca.MX.eye(self.size), ca.MX.zeros(self.size, 2 * self.motors.count)
         for torque in self._torques(w):
             x, slope, by_inputs = step(x, self.inputs(torque), p)
             by_state = ca.mtimes(slope, by_state)
@@ -198,7 +209,7 @@ class StepModel:
 
     @cached_property
     def rollout(self) -> Callable[[Any, Any], Any]:
-        """``(x, w (2, N)) -> (states after each sample, (size, N))``, compiled."""
+        """``(x, w (2 m, N)) -> (states after each sample, (size, N))``, compiled."""
         import casadi as ca
 
         x, w, p = (ca.SX.sym(name, size) for name, size in self._sizes)
@@ -207,7 +218,7 @@ class StepModel:
 
     @cached_property
     def rollout_slopes(self) -> Callable[[Any, Any], Any]:
-        """``(x (size, N), w (2, N)) -> F, dF/dx side by side, dF/dw likewise`` at each of N points, compiled."""
+        """``(x (size, N), w (2 m, N)) -> F, dF/dx side by side, dF/dw likewise`` at each of N points, compiled."""
         import casadi as ca
 
         x, w, p = (ca.MX.sym(name, size) for name, size in self._sizes)
@@ -216,15 +227,16 @@ class StepModel:
 
     @property
     def _sizes(self) -> list[tuple[str, int]]:
-        return [("x", self.size), ("w", 2), ("p", len(self.parameters))]
+        return [("x", self.size), ("w", 2 * self.motors.count), ("p", len(self.parameters))]
 
     def _along(self, name: str, many: Any, states: int) -> Callable[[Any, Any], Any]:
         """Return a function of states and torques, compiled with parameters open: one library for all arms alike."""
         import casadi as ca
 
-        x, w = ca.MX.sym("x", self.size, states), ca.MX.sym("w", 2, self.problem.horizon)
+        width, horizon = 2 * self.motors.count, self.problem.horizon
+        x, w = ca.MX.sym("x", self.size, states), ca.MX.sym("w", width, horizon)
         p = ca.MX.sym("p", len(self.parameters))
-        results = many(x, w, ca.repmat(p, 1, self.problem.horizon))
+        results = many(x, w, ca.repmat(p, 1, horizon))
         run = compiled(ca.Function(name, [x, w, p], [*results] if states > 1 else [results]))
         parameters = self.parameters
         return lambda states, torques: run(states, torques, parameters)
@@ -237,14 +249,19 @@ class StepModel:
         state[self.places("angle")] = angle
         return state
 
+    @cached_property
+    def start(self) -> Start:
+        """How the arm starts."""
+        return find_start(self.scene, self.problem)
+
     def initial(self) -> Array:
-        """Return the state the scene starts from, at rest in its accelerations."""
+        """Return the state the arm starts from, at rest in its accelerations."""
         state = np.zeros(self.size)
-        for quantity, values in (("angle", self.scene.initial.angles), ("rate", self.scene.initial.rates)):
-            state[self.places(quantity)[1:]] = values
+        for quantity, values in (("angle", self.start.angles), ("rate", self.start.rates)):
+            state[self.places(quantity)] = values
         return state
 
-    def jacobian(self, state: Array, torque: float) -> tuple[Array, Array]:
-        """Return ``dF/dx``, (size, size), and ``dF/dw``, (size, 2), where one torque acts throughout."""
-        _, by_state, by_torques = self.sample_slopes(state, [torque, torque])
+    def jacobian(self, state: Array, torque: Array) -> tuple[Array, Array]:
+        """Return ``dF/dx``, (size, size), and ``dF/dw``, (size, 2 m), where the same torques, (m,), act throughout."""
+        _, by_state, by_torques = self.sample_slopes(state, np.concatenate([torque, torque]))
         return np.array(by_state), np.array(by_torques)

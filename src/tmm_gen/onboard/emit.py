@@ -12,6 +12,8 @@ from tmm_gen.onboard.rti import emit_rti
 
 EMITTED = ("mpc-links", "mpc-modes", "rti-zero", "rti")
 """Names of the controllers that can be written in C."""
+LINEAR = ("mpc-links", "mpc-modes")
+"""Those of them that are linear."""
 
 
 def emit_controller(
@@ -45,6 +47,12 @@ def emit_controller(
     if controller not in EMITTED:
         raise UserError(
             f"the controller '{controller}' cannot be written in C; these can: {', '.join(EMITTED)}"
+        )
+    if controller in LINEAR and not bench.problem.motors.on_hub:
+        others = ", ".join(each for each in EMITTED if each not in LINEAR)
+        raise UserError(
+            f"the controller '{controller}' is written in C for arms on a hub only; for motors by name "
+            f"take one of: {others}"
         )
     name = name or f"{bench.scene.name}_{controller.replace('-', '_')}"
     arm = example_arm(bench)

@@ -25,8 +25,10 @@ class ExampleArm:
     ----------
     model : LinearModel
         By modes.
-    reference : float
-        Tip angle to reach, rad.
+    reference : array, (m,)
+        Tip angles to reach, rad.
+    on_hub : bool
+        Whether the arm stands on one.
     samples : int
         How long the example lasts.
     measure, feed, shown : array, (p, m), (p,) and (p,)
@@ -34,11 +36,16 @@ class ExampleArm:
     """
 
     model: LinearModel
-    reference: float
+    reference: Array
+    on_hub: bool
     samples: int
     measure: Array
     feed: Array
     shown: Array
+
+    def column(self, values: Array) -> Array:
+        """Return the only column alone of an arm on a hub, else all of them."""
+        return values[:, 0] if self.on_hub else values
 
     @property
     def past(self) -> int:
@@ -52,7 +59,8 @@ def example_arm(bench: Bench) -> ExampleArm:
     sensors = present_sensors(problem)
     return ExampleArm(
         model=model,
-        reference=problem.reference,
+        reference=model.goal.tip,
+        on_hub=problem.motors.on_hub,
         samples=round(_DURATION / problem.sample_time),
         measure=model.measure[sensors],
         feed=model.feed[sensors],

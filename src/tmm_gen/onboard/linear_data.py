@@ -25,7 +25,7 @@ _ROUNDING = 1e-13
 
 @dataclass(frozen=True, eq=False)
 class LinearMpcData:
-    """Tables of a linear MPC; ``z = (w, d - u_s, u[-1], 1)`` has ``r + 3`` entries.
+    """Tables of a linear MPC of one motor; ``z = (w, d - u_s, u[-1], 1)`` has ``r + 3`` entries.
 
     ``w`` is what of the state x makes a difference to what comes, r numbers of it: a step that integrates
     accelerations goes on from angles and rates that these have been added to already.
@@ -52,6 +52,8 @@ class LinearMpcData:
         rad.
     start : array, (m + 1,)
         Estimate at time zero.
+    start_torque : array, (1,)
+        Torque before any is chosen, N m.
     tip_rate, whirl : array, (m,)
         The accelerometer feels the tip's rate squared times ``whirl x`` besides what is linear.
     sensors : tuple of int
@@ -92,6 +94,7 @@ class LinearMpcData:
     turning: Array
     target_hub: float
     start: Array
+    start_torque: Array
     tip_rate: Array
     whirl: Array
     sensors: tuple[int, ...]
@@ -125,21 +128,22 @@ def linear_mpc_data(controller: LinearMpc) -> LinearMpcData:
         others=others,
         fold=fold,
         transition=kalman.transition[:size, known[:-2]],
-        before=model.before,
-        then=model.then,
+        before=model.before[:, 0],
+        then=model.then[:, 0],
         measure=kalman.measure,
-        feed=kalman.feed,
+        feed=kalman.feed[:, 0],
         gains=gains_by_sensors(kalman),
         credible=controller.limits,
-        turned=model.turned,
-        turning=model.turn,
-        target_hub=model.target_hub,
+        turned=model.turned[:, 0],
+        turning=model.turn[:, 0],
+        target_hub=float(model.goal.hub[0]),
         start=np.append(model.start, 0.0),
-        tip_rate=model.tip_rate,
+        start_torque=model.start_torque,
+        tip_rate=model.tip_rate[0],
         whirl=model.whirl,
         sensors=tuple(kalman.sensors),
         shown=model.target_sensors[kalman.sensors],
-        target_torque=model.target_torque,
+        target_torque=float(model.goal.torque[0]),
         whole=controller.delay.whole,
         acting=controller.delay.acting,
         memory=controller.delay.memory,
@@ -147,7 +151,7 @@ def linear_mpc_data(controller: LinearMpc) -> LinearMpcData:
         shift=shift[:, known],
         free=free[:, known[:-1]],
         rest=free[:: problem.horizon, -1] if kinds else np.zeros(0),
-        brake=controller.inertia / BRAKE_TIME,
+        brake=float(controller.inertia[0]) / BRAKE_TIME,
         first=_first_active(controller, program, free),
     )
 
@@ -168,14 +172,15 @@ def _folded(columns: Array) -> tuple[tuple[int, ...], tuple[int, ...], Array]:
 
 
 def gains_by_sensors(kalman: KalmanFilter) -> Array:
-    """Return the gains of a filter for each set of its sensors that has the encoder in it, (2^(p - 1), m + 1, p).
+    """Return the gains of a filter for each set of its sensors with all m encoders in it, (2^(p - m), s + m, p).
 
-    Bit ``i`` of a set's number is the sensor ``i + 1``; columns of sensors that are not in it are zero.
+    Bit ``i`` of a set's number is the sensor ``m + i``; columns of sensors that are not in it are zero.
     """
-    sensors = kalman.sensors
-    found = np.zeros((1 << (len(sensors) - 1), len(kalman.estimate), len(sensors)))
+    sensors, encoders = kalman.sensors, kalman.model.count
+    found = np.zeros((1 << (len(sensors) - encoders), len(kalman.estimate), len(sensors)))
     for number, gain in enumerate(found):
-        places = [0, *(i + 1 for i in range(len(sensors) - 1) if number >> i & 1)]
+        more = (encoders + i for i in range(len(sensors) - encoders) if number >> i & 1)
+        places = [*range(encoders), *more]
         gain[:, places] = kalman.gain_of(tuple(sensors[i] for i in places))
     return found
 
@@ -184,13 +189,14 @@ def _first_active(controller: LinearMpc, program: ProgramData, free: Array) -> t
     """Return what is active at the scene's start, a sample later; see :class:`LinearMpcData`."""
     count, delay = program.horizon, controller.delay
     controller.reset()
-    state, disturbance = controller.estimator.ahead(delay.known(np.zeros(delay.memory + 1)))
-    solution = controller.planned(state, disturbance, 0.0)
+    past = np.zeros((delay.memory + 1, 1))
+    state, disturbance = controller.estimator.ahead(delay.known(past))
+    solution = controller.planned(state, disturbance, past[-1])
     controller.reset()
     if solution.status is not Status.OK:
         return ()
     inputs = solution.point[:count]
-    known = np.array([*state, disturbance - controller.model.target_torque, 0.0, 1.0])
+    known = np.array([*state, *(disturbance - controller.model.goal.torque), 0.0, 1.0])
     values = np.concatenate([inputs, program.rows @ inputs + free @ known])
     found = []
     for at in np.flatnonzero((values > program.high - _ACTIVE) | (values < program.low + _ACTIVE)):
@@ -203,24 +209,23 @@ def _affine_maps(controller: LinearMpc) -> tuple[Array, Array]:
     """Return gradient of the inputs, and free motion of the rows, as maps of ``z``: both are affine in it."""
     problem, found, target = controller.problem, controller.response, controller.model
     size = target.size
-    none = np.zeros(problem.horizon)
+    none = np.zeros((1, problem.horizon))
 
     def at(z: Array) -> tuple[Array, Array]:
-        state, pushed, last, one = z[:size], z[size], z[size + 1], z[size + 2]
-        disturbance = pushed + target.target_torque * one
+        state, pushed, last, one = z[:size], z[size : size + 1], z[size + 1 : size + 2], z[size + 2]
+        disturbance = pushed + target.goal.torque * one
         motion = (
             found.by_state @ state
-            + found.by_constant * pushed
-            + found.by_last * last
+            + found.by_constant @ pushed
+            + found.by_last @ last
             + controller.offsets * one
         )
         along = found.outputs(motion)
         gradient = controller.condensed.gradient(along, none, last, disturbance)[: problem.horizon]
-        rows = []
-        if problem.torque_rate is not None:
-            rows.append(np.concatenate([[-last], none[1:]]))
-        rows += [along.tip] if problem.tip is not None else []
-        rows += [along.hub] if problem.hub is not None else []
+        rows = [
+            np.append(-last, none[0, 1:]) if kind.what == "rate" else getattr(along, kind.what)[kind.motor]
+            for kind in controller.condensed.kinds
+        ]
         return gradient, np.concatenate(rows) if rows else np.zeros(0)
 
     units = np.eye(size + 3)

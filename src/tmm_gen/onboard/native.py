@@ -38,7 +38,7 @@ FLAGS = ("-O3", "-ffp-contract=off")
 
 @dataclass(frozen=True, eq=False)
 class Series:
-    """What a controller did with a series of measurements, (samples,) each."""
+    """What a controller did with a series of measurements: torques, (samples, m), all else (samples,)."""
 
     torques: Array
     statuses: tuple[Status, ...]
@@ -56,11 +56,13 @@ class EmittedController:
     files : mapping of str to str
         As emitted.
     sensors : sequence of int
-        Which of encoder, accelerometer and strain gauge it reads.
+        Which it reads: m encoders, accelerometer and strain gauge.
     real : {"float64", "float32"}
         Its number type.
     cc, flags
         Compiler and options.
+    motors : int
+        m.
 
     Raises
     ------
@@ -76,11 +78,12 @@ class EmittedController:
         real: str = "float64",
         cc: str = "gcc",
         flags: Sequence[str] = FLAGS,
+        motors: int = 1,
     ) -> None:
-        self.name, self.sensors = name, list(sensors)
+        self.name, self.sensors, self.motors = name, list(sensors), motors
         self._number: Any = ctypes.c_double if real == "float64" else ctypes.c_float
         with scratch_folder() as folder:
-            self._library = ctypes.CDLL(str(_compiled(folder, name, files, cc, flags)))
+            self._library = ctypes.CDLL(str(_compiled(folder, name, files, cc, flags, motors)))
         self._library.harness_size.restype = ctypes.c_size_t
         self.bytes = int(self._library.harness_size())
         self._memory = ctypes.create_string_buffer(self.bytes + 64)
@@ -91,18 +94,18 @@ class EmittedController:
         getattr(self._library, f"{self.name}_reset")(self._aligned())
 
     def command(self, measured: Array) -> Command:
-        """Return the torque for a measurement; see :class:`~tmm_gen.control.command.Controller`."""
+        """Return the torques for a measurement; see :class:`~tmm_gen.control.command.Controller`."""
         found = self.run(np.asarray(measured, float)[None])
-        return Command(float(found.torques[0]), found.statuses[0], int(found.iterations[0]))
+        return Command(found.torques[0], found.statuses[0], int(found.iterations[0]))
 
     def run(self, measured: Array) -> Series:
-        """Hand in a series of measurements, (samples, 3), and keep what comes out of each.
+        """Hand in a series of measurements, (samples, m + 2), and keep what comes out of each.
 
         Time includes nothing but the controller's own.
         """
         seen = np.ascontiguousarray(np.asarray(measured, float)[:, self.sensors], self._number)
         count = len(seen)
-        torques = np.zeros(count, self._number)
+        torques = np.zeros((count, self.motors), self._number)
         statuses, iterations = np.zeros(count, np.intc), np.zeros(count, np.intc)
         seconds = np.zeros(count)
         self._library.harness_run(
@@ -119,8 +122,12 @@ class EmittedController:
         return ctypes.c_void_p(address + -address % 64)
 
 
-def _compiled(folder: Path, name: str, files: Mapping[str, str], cc: str, flags: Sequence[str]) -> Path:
-    harness = {"harness.c": render("control/harness.c.jinja", name=name, NAME=macro_prefix(name))}
+def _compiled(
+    folder: Path, name: str, files: Mapping[str, str], cc: str, flags: Sequence[str], motors: int
+) -> Path:
+    harness = {
+        "harness.c": render("control/harness.c.jinja", name=name, NAME=macro_prefix(name), motors=motors)
+    }
     for path, text in {**files, **harness}.items():
         (folder / path).parent.mkdir(parents=True, exist_ok=True)
         (folder / path).write_text(text)

@@ -29,73 +29,65 @@ ITERATIONS_PER_INPUT = 5
 
 @dataclass(frozen=True, eq=False)
 class ProgramData:
-    """Tables of a quadratic program of N inputs with bounds and some rows.
+    """Tables of a quadratic program of m N inputs with bounds and some rows.
 
     Parameters
     ----------
-    inverse : array, (N, N)
+    horizon, motors : int
+        N and m.
+    inverse : array, (m N, m N)
         ``R^-1``, upper triangular.
-    rows : array, (r, N)
+    rows : array, (r, m N)
         ``A``.
-    low, high : array, (N + r,)
+    low, high : array, (m N + r,)
         Bounds of inputs and rows, infinite as `INFINITE`.
-    softness : array, (N + r,)
+    softness : array, (m N + r,)
         ``1 / W`` of soft rows, zero of hard ones.
-    stopping : float
+    stopping : array, (m,)
         See :attr:`~tmm_gen.control.condensed.Condensed.stopping`.
     capacity, iteration_limit : int
         How many bounds may be active at once; how many iterations a solution may take.
     """
 
+    horizon: int
+    motors: int
     inverse: Array
     rows: Array
     low: Array
     high: Array
     softness: Array
-    stopping: float
+    stopping: Array
     capacity: int
     iteration_limit: int
 
     @property
-    def horizon(self) -> int:
-        """Number of inputs, N."""
+    def inputs(self) -> int:
+        """Number of inputs, m N."""
         return len(self.inverse)
 
     @property
     def scaling(self) -> Array:
-        """What normalises the rows of ``R^-1`` and ``A R^-1``, (N + r,)."""
+        """What normalises the rows of ``R^-1`` and ``A R^-1``, (m N + r,)."""
         scaling: Array = 1.0 / np.linalg.norm(np.vstack([self.inverse, self.rows @ self.inverse]), axis=1)
         return scaling
 
 
 def program_data(problem: ControlProblem, condensed: Condensed) -> ProgramData:
     """Return the tables of a condensed problem; its slopes must be those of the controller."""
-    count = problem.horizon
+    count, kinds = problem.horizon, condensed.kinds
     upper = np.linalg.cholesky(condensed.input_hessian).T
-    rows, low, high, soft = [], [], [], []
-    if problem.torque_rate is not None:
-        change = problem.torque_rate * problem.sample_time
-        rows.append(condensed.difference)
-        low.append(-change)
-        high.append(change)
-        soft.append(0.0)
-    weights = problem.weights
-    for bounds, slope, weight in (
-        (problem.tip, condensed.slopes.tip, weights.overshoot),
-        (problem.hub, condensed.slopes.hub, weights.hub_bound),
-    ):
-        if bounds is not None:
-            rows.append(slope)
-            low.append(bounds[0])
-            high.append(bounds[1])
-            soft.append(1.0 / weight)
+    low = [*problem.torque[0], *(kind.low for kind in kinds)]
+    high = [*problem.torque[1], *(kind.high for kind in kinds)]
+    soft = [0.0] * problem.count + [1.0 / kind.weight for kind in kinds]
     return ProgramData(
+        horizon=count,
+        motors=problem.count,
         inverse=np.linalg.inv(upper),
-        rows=np.vstack(rows) if rows else np.zeros((0, count)),
-        low=np.maximum(np.repeat([problem.torque[0], *low], count), -INFINITE),
-        high=np.minimum(np.repeat([problem.torque[1], *high], count), INFINITE),
-        softness=np.repeat([0.0, *soft], count),
+        rows=condensed.input_rows,
+        low=np.maximum(np.repeat(low, count), -INFINITE),
+        high=np.minimum(np.repeat(high, count), INFINITE),
+        softness=np.repeat(soft, count),
         stopping=condensed.stopping,
-        capacity=round(ACTIVE_PER_INPUT * count),
-        iteration_limit=ITERATIONS_PER_INPUT * count,
+        capacity=round(ACTIVE_PER_INPUT * condensed.inputs),
+        iteration_limit=ITERATIONS_PER_INPUT * condensed.inputs,
     )

@@ -6,8 +6,13 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from tmm_gen.c_language.names import bare_names
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.c_language.names import bare_names, macros
 from tmm_gen.c_language.real import REALS
+from tmm_gen.control.motors import Motor
+from tmm_gen.control.problem import Kind
 from tmm_gen.control.rti import RealTimeIteration
 from tmm_gen.emit.c import emit_kernel
 from tmm_gen.emit.templates import render
@@ -33,7 +38,7 @@ class RtiText(ControllerText):
         Whether sensitivities are computed along the trajectory.
     stages : int
         Instants of a step at which inputs are read.
-    inputs : tuple of str
+    inputs_of_kernel : tuple of str
         Names of the kernel's, in their order. The C asks for none of them by its name, which a macro may have.
     bare_names : list of str
         Inputs and outputs whose members have no prefix.
@@ -43,13 +48,13 @@ class RtiText(ControllerText):
     model: str
     full: bool
     stages: int
-    inputs: tuple[str, ...]
+    inputs_of_kernel: tuple[str, ...]
     bare_names: list[str]
 
     @property
-    def torque_at(self) -> int:
-        """Where the hub's torque is among the kernel's inputs, in numbers."""
-        return self.stages * self.inputs.index(self.problem.input_name)
+    def torques_at(self) -> list[int]:
+        """Where the motors' torques are among the kernel's inputs, in numbers."""
+        return [self.stages * self.inputs_of_kernel.index(name) for name in self.problem.motors.inputs]
 
     @property
     def needs_tangents(self) -> bool:
@@ -57,14 +62,42 @@ class RtiText(ControllerText):
         return self.full
 
     @property
-    def outputs(self) -> tuple[str, ...]:
-        """What is weighed or bounded."""
+    def problem_motors(self) -> tuple[Motor, ...]:
+        """The motors of the model, with their places among its links."""
+        return self.data.motors.each
+
+    @property
+    def outputs(self) -> tuple[tuple[str, int], ...]:
+        """What is weighed or bounded, of which motor."""
         return self.data.outputs
 
     @property
     def output_names(self) -> str:
         """The same in words."""
-        return ", ".join(name.replace("_", " ") for name in self.outputs)
+        words = [(name.replace("_", " "), motor) for name, motor in self.outputs]
+        names = self.problem.motors.names
+        return ", ".join(f"{word} of {names[motor]}" if self.several else word for word, motor in words)
+
+    def looked(self, output: tuple[str, int], state: str) -> str:
+        """Write an output of a state.
+
+        Parameters
+        ----------
+        output : (str, int)
+            Which, of which motor.
+        state : str
+            What stands before the state's members.
+        """
+        name, motor = output[0], self.problem_motors[output[1]]
+        values = f"{state}{'rate' if name.endswith('rate') else 'angle'}"
+        if not self.several:
+            stations = f"{macros(self.model)}_STATIONS"
+            plain = {"hub": f"{state}hub_angle", "hub_rate": f"{state}hub_rate"}
+            return plain.get(name, f"dot(lengths, {values}, {stations})")
+        place, inner = motor.place, f" - {values}[{motor.host}]" if motor.host >= 0 else ""
+        if name.startswith("hub"):
+            return f"{values}[{place}]{inner}"
+        return f"dot(&lengths[{place}], &{values}[{place}], {motor.end - place}){inner}"
 
     @property
     def output_weights(self) -> str:
@@ -77,10 +110,49 @@ class RtiText(ControllerText):
         return ", ".join(self.number(value) for value in self.data.targets)
 
     @property
-    def row_kinds(self) -> list[str]:
+    def row_kinds(self) -> tuple[Kind, ...]:
         """What the rows of the program bound, N each."""
-        present = (("rate", self.problem.torque_rate), ("tip", self.problem.tip), ("hub", self.problem.hub))
-        return [kind for kind, bound in present if bound is not None]
+        return self.data.kinds
+
+    def place_of(self, kind: Kind) -> int:
+        """Return which of the outputs a kind of rows bounds."""
+        return self.outputs.index((kind.what, kind.motor))
+
+    def now(self, kind: Kind) -> str:
+        """Write what a kind of rows is in sample i of the plan."""
+        if kind.what != "rate":
+            return f"seen[i][{self.place_of(kind)}]"
+        return f"change[{kind.motor} * SAMPLES + i]" if self.several else "change[i]"
+
+    @property
+    def stopping(self) -> list[float]:
+        """Half the angle in which each kind of rows is stopped; see `ProgramData`."""
+        return [float(self.data.program.stopping[kind.motor]) for kind in self.row_kinds]
+
+    @property
+    def answers(self) -> NDArray[np.float64]:
+        """Of each output to all inputs of the program."""
+        return self.data.answers.reshape(len(self.outputs), -1)
+
+    @property
+    def resting(self) -> str:
+        """Torque of a motor at the target."""
+        return "target_torque[j]" if self.several else self.number(self.data.target_torque[0])
+
+    @property
+    def less_target(self) -> str:
+        """Write that the torque at the target is taken away."""
+        return " - target_torque[j]" if self.several else self.less(self.data.target_torque[0])
+
+    def places(self, what: str) -> str:
+        """Return a number of each motor, such as its place, as a list."""
+        return ", ".join(str(getattr(motor, what)) for motor in self.problem_motors)
+
+    def acting(self, two: bool) -> str:
+        """Declare the torques that act in a sample, one pair after the other or the same throughout."""
+        if two:
+            return "real (*torques)[MOTORS]" if self.several else "const real torques[2]"
+        return "const real torque[MOTORS]" if self.several else "real torque"
 
 
 def emit_rti(
@@ -115,6 +187,7 @@ def emit_rti(
         "emit.sensitivities": True,
         "emit.compensated": False,
         "emit.parameters": "free",
+        "emit.trigonometry": None,  # tangents are of the library's
     }
     # a name of its own, so that several controllers are in one program
     scene = replace(plain.replace(**changes), name=kernel_name)
@@ -130,7 +203,7 @@ def emit_rti(
         model=kernel_name,
         full=full,
         stages=max(len(instants) for instants in program.stage_instants),
-        inputs=tuple(item.name for item in scene.inputs),
+        inputs_of_kernel=tuple(item.name for item in scene.inputs),
         bare_names=bare_names(program),
     )
     context = {"mpc": mpc, "name": name, "NAME": mpc.NAME}

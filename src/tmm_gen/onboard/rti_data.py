@@ -9,6 +9,8 @@ from numpy.typing import NDArray
 
 from tmm_gen.control.credible import Credible
 from tmm_gen.control.kalman import KalmanFilter
+from tmm_gen.control.motors import Motors
+from tmm_gen.control.problem import Kind
 from tmm_gen.control.rti import RealTimeIteration
 from tmm_gen.control.safe import BRAKE_TIME
 from tmm_gen.onboard.linear_data import gains_by_sensors
@@ -26,55 +28,65 @@ class RtiData:
     Parameters
     ----------
     size : int
-        Entries of the kernel's state, m.
-    outputs : tuple of str
-        Those of `OUTPUTS` that are weighed or bounded.
+        Entries of the kernel's state, s.
+    motors : Motors
+        What turns the arm, m of them.
+    outputs : tuple of (str, int)
+        Those of `OUTPUTS` that are weighed or bounded, of a motor each.
     weights, targets : tuple of float
         Of each output.
-    gains : array, (2^(p - 1), m + 1, p)
+    gains : array, (2^(p - m), s + m, p)
         Of the filter; see :func:`~tmm_gen.onboard.linear_data.gains_by_sensors`.
-    start : array, (m + 1,)
+    start : array, (s + m,)
         Estimate at time zero.
+    start_torque : array, (m,)
+        Torques before any is chosen, N m.
     credible : Credible
         What can be believed of a measurement.
-    target_hub : float
+    target_hub : array, (m,)
         rad.
     lengths : array, (n,)
-        Of the links, relative to their sum.
+        Of the links, relative to the sum of those that the same motor carries.
     shares : array, (M,)
         Of the earlier torque in the steps of a sample.
     sensors : tuple of int
-        Which of encoder, accelerometer and strain gauge there are.
-    target_torque, gravity, brake : float
-        N m; m/s^2; N m s/rad, of the safe law.
+        Which there are: m encoders, then accelerometer and strain gauge.
+    target_torque, brake : array, (m,)
+        N m; N m s/rad, of the safe law.
+    gravity : float
+        m/s^2.
     whole, memory : int
         Delay in samples; past torques that count.
     program : ProgramData
         The quadratic program at the target.
-    answers : array, (outputs, N)
-        To a torque, sample by sample, at the target.
-    target : array, (m,)
+    answers : array, (outputs, m, N)
+        To each motor's torque, sample by sample, at the target.
+    target : array, (s,)
         The state at rest there.
-    end : array, (r, m + 1)
-        G of the cost to go, by the state off the target and the last torque off the target's.
-    end_gradient : array, (N, m + 1)
+    end : array, (r, s + m)
+        G of the cost to go, by the state off the target and the last torques off the target's.
+    end_gradient : array, (m N, s + m)
         What these make of the gradient, at the target.
+    kinds : tuple of Kind
+        What the rows of the program bound.
     """
 
     size: int
-    outputs: tuple[str, ...]
+    motors: Motors
+    outputs: tuple[tuple[str, int], ...]
     weights: tuple[float, ...]
     targets: tuple[float, ...]
     gains: Array
     credible: Credible
-    target_hub: float
+    target_hub: Array
     start: Array
+    start_torque: Array
     lengths: Array
     shares: Array
     sensors: tuple[int, ...]
-    target_torque: float
+    target_torque: Array
     gravity: float
-    brake: float
+    brake: Array
     whole: int
     memory: int
     program: ProgramData
@@ -82,37 +94,46 @@ class RtiData:
     target: Array
     end: Array
     end_gradient: Array
+    kinds: tuple[Kind, ...]
 
 
 def rti_data(controller: RealTimeIteration) -> RtiData:
     """Return the tables of a controller; of its filter, the gain at the target."""
     model, linear, problem = controller.model, controller.linear, controller.problem
-    weights = {name: float(getattr(problem.weights, name)) for name in OUTPUTS}
-    bounded = {"tip": problem.tip is not None, "hub": problem.hub is not None}
-    outputs = tuple(name for name in OUTPUTS if weights[name] or bounded.get(name, False))
-    targets = {"tip": problem.reference, "tip_rate": 0.0, "hub": linear.target_hub, "hub_rate": 0.0}
+    motors, goal, still = model.motors, linear.goal, np.zeros(problem.count)
+    weights = {name: getattr(problem.weights, name) for name in OUTPUTS}
+    bounded = {(kind.what, kind.motor) for kind in controller.prepared.kinds}
+    every = [(name, motor) for name in OUTPUTS for motor in range(problem.count)]
+    outputs = tuple(each for each in every if weights[each[0]][each[1]] or each in bounded)
+    targets = {"tip": goal.tip, "tip_rate": still, "hub": goal.hub, "hub_rate": still}
     kalman = KalmanFilter(linear, problem)
-    slopes = controller.prepared.slopes
+    slopes, count = controller.prepared.slopes, problem.horizon
+    lengths = motors.lengths.copy()
+    for motor in motors.each:
+        lengths[motor.place : motor.end] /= lengths[motor.place : motor.end].sum()
     return RtiData(
         size=model.size,
+        motors=motors,
         outputs=outputs,
-        weights=tuple(weights[name] for name in outputs),
-        targets=tuple(targets[name] for name in outputs),
+        weights=tuple(float(weights[name][motor]) for name, motor in outputs),
+        targets=tuple(float(targets[name][motor]) for name, motor in outputs),
         gains=gains_by_sensors(kalman),
         credible=controller.limits,
-        target_hub=linear.target_hub,
-        start=np.append(model.initial(), 0.0),
-        lengths=model.lengths / model.lengths.sum(),
+        target_hub=goal.hub,
+        start=np.append(model.initial(), still),
+        start_torque=linear.start_torque,
+        lengths=lengths[model.scene.hub :],
         shares=model.delay.shares(problem.substeps),
         sensors=tuple(kalman.sensors),
-        target_torque=linear.target_torque,
+        target_torque=goal.torque,
         gravity=model.scene.model.gravity or 0.0,
         brake=controller.inertia / BRAKE_TIME,
         whole=controller.delay.whole,
         memory=controller.delay.memory,
         program=program_data(problem, controller.prepared),
-        answers=np.array([getattr(slopes, name)[:, 0] for name in outputs]),
+        answers=np.array([getattr(slopes, name)[motor, :, ::count].T for name, motor in outputs]),
         target=controller.target,
         end=controller.end,
         end_gradient=slopes.end.T @ controller.end,
+        kinds=controller.prepared.kinds,
     )

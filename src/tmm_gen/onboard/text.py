@@ -15,13 +15,12 @@ from tmm_gen.c_language.wrap import WIDTH
 from tmm_gen.control.condensed import BEYOND
 from tmm_gen.control.credible import FARTHEST, JUMP, PATIENCE, Credible
 from tmm_gen.control.problem import ControlProblem
-from tmm_gen.onboard.program_data import ProgramData
+from tmm_gen.onboard.program_data import INFINITE, ProgramData
 from tmm_gen.onboard.tables import number, table
 from tmm_gen.onboard.tolerances import TOLERANCES, Tolerances
 from tmm_gen.version import __version__
 
-_SENSORS = (
-    ("hub encoder", "hub angle [rad]"),
+_MORE_SENSORS = (
     ("tip accelerometer", "acceleration across the last link at the tip [m/s^2]"),
     ("root strain gauge", "bending moment at the root [N m]"),
 )
@@ -37,7 +36,7 @@ class ControllerData(Protocol):
 
     @property
     def sensors(self) -> tuple[int, ...]:
-        """Which of encoder, accelerometer and strain gauge there are."""
+        """Which sensors there are: m encoders, then accelerometer and strain gauge."""
         ...
 
     @property
@@ -48,6 +47,16 @@ class ControllerData(Protocol):
     @property
     def program(self) -> ProgramData:
         """The quadratic program."""
+        ...
+
+    @property
+    def brake(self) -> float | NDArray[np.float64]:
+        """Of the safe law, N m s/rad, of each motor."""
+        ...
+
+    @property
+    def start_torque(self) -> NDArray[np.float64]:
+        """Torques before any is chosen, (m,), N m."""
         ...
 
     @property
@@ -117,6 +126,46 @@ class ControllerText:
         return self.numbers(self.data.credible.surprise[i] for i in self.data.sensors)
 
     @property
+    def motors(self) -> int:
+        """Number of motors, m."""
+        return self.problem.count
+
+    @property
+    def several(self) -> bool:
+        """Whether motors are parts by name, however many: what is of each is then an array."""
+        return not self.problem.motors.on_hub
+
+    @property
+    def at(self) -> str:
+        """What picks motor ``j`` of an array that has something of each."""
+        return "[j]" if self.several else ""
+
+    @property
+    def of_motors(self) -> str:
+        """The dimension of such an array in a declaration, and nothing of a single number."""
+        return f"[{self.NAME}_MOTORS]" if self.several else ""
+
+    @property
+    def width(self) -> str:
+        """What the number of inputs, m N, is called in the header."""
+        return f"{self.NAME}_{'INPUTS' if self.several else 'HORIZON'}"
+
+    @property
+    def inputs(self) -> str:
+        """What the number of inputs, m N, is called in the source."""
+        return "INPUTS" if self.several else "SAMPLES"
+
+    @property
+    def motor_columns(self) -> str:
+        """Names of the example's columns, two for each motor."""
+        return "".join(f"{name}_tip_rad,{name}_torque_Nm," for name in self.problem.motors.names)
+
+    @property
+    def braking(self) -> str:
+        """Torques of the safe law for hubs that turn by 1 rad/s, N m."""
+        return ", ".join(self.number(-value) for value in np.atleast_1d(self.data.brake))
+
+    @property
     def horizon(self) -> int:
         """Samples looked ahead."""
         return self.data.program.horizon
@@ -129,7 +178,7 @@ class ControllerText:
     @property
     def bounds(self) -> int:
         """Bounds and rows."""
-        return self.horizon + self.rows
+        return self.data.program.inputs + self.rows
 
     @property
     def past(self) -> int:
@@ -144,26 +193,56 @@ class ControllerText:
     @property
     def sensor_names(self) -> str:
         """Which sensors there are, in words."""
-        return ", ".join(_SENSORS[i][0] for i in self.data.sensors)
+        return ", ".join(self._sensor(i)[0] for i in self.data.sensors)
 
     @property
     def sensor_units(self) -> str:
         """What they measure, in words."""
-        return ", ".join(_SENSORS[i][1] for i in self.data.sensors)
+        return ", ".join(self._sensor(i)[1] for i in self.data.sensors)
+
+    def _sensor(self, number: int) -> tuple[str, str]:
+        """Return name and unit of a sensor."""
+        names = self.problem.motors.names
+        if number >= len(names):
+            return _MORE_SENSORS[number - len(names)]
+        name = "hub" if self.problem.motors.on_hub else f"'{names[number]}'"
+        return f"{name} encoder", f"{name} angle [rad]"
+
+    @property
+    def _torques(self) -> str:
+        """The bounds of the torques, in words."""
+        told = [f"{low:g} to {high:g} N m" for low, high in zip(*self.problem.torque, strict=True)]
+        if self.problem.motors.on_hub:
+            return f"torque: {told[0]}"
+        return "torques: " + ", ".join(
+            f"{name} {each}" for name, each in zip(self.problem.motors.names, told, strict=True)
+        )
+
+    @property
+    def changes(self) -> NDArray[np.float64]:
+        """Largest changes of the torques in a sample, (m,), N m; infinite as the solver has it."""
+        return np.minimum(self.problem.torque_rate * self.problem.sample_time, INFINITE)
+
+    @property
+    def changes_bounded(self) -> bool:
+        """Whether there is one at all."""
+        return bool(np.any(np.isfinite(self.problem.torque_rate)))
 
     @property
     def packed(self) -> NDArray[np.float64]:
         """``R^-1``, its rows normalised, the upper triangle row by row."""
         program = self.data.program
-        scaled = program.scaling[: self.horizon, None] * program.inverse
-        packed: NDArray[np.float64] = scaled[np.triu_indices(self.horizon)]
+        scaled = program.scaling[: program.inputs, None] * program.inverse
+        packed: NDArray[np.float64] = scaled[np.triu_indices(program.inputs)]
         return packed
 
     @property
     def scaled_rows(self) -> NDArray[np.float64]:
         """``A R^-1``, its rows normalised, row by row."""
         program = self.data.program
-        scaled: NDArray[np.float64] = program.scaling[self.horizon :, None] * (program.rows @ program.inverse)
+        scaled: NDArray[np.float64] = program.scaling[program.inputs :, None] * (
+            program.rows @ program.inverse
+        )
         return scaled.ravel()
 
     @property
@@ -181,14 +260,14 @@ class ControllerText:
         first, last = (int(places[0]), int(places[-1])) if len(places) else (0, 0)
         return first, values[first : last + 1]
 
-    def width(self, values: NDArray[np.float64]) -> int:
+    def columns(self, values: NDArray[np.float64]) -> int:
         """Return how many columns a matrix has up to the last that is not zero; what is behind makes no difference."""
         places = np.flatnonzero(np.any(values, axis=0))
         return int(places[-1]) + 1 if len(places) else 1
 
     def narrowed(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return these columns."""
-        return values[:, : self.width(values)]
+        return values[:, : self.columns(values)]
 
     def number(self, value: float) -> str:
         """Write a number."""
@@ -220,7 +299,7 @@ class ControllerText:
             "",
             f"controller: {self.kind}; {self.horizon} samples of {problem.sample_time:g} s, {self.data.size} states, "
             f"{self.bounds} bounds and rows",
-            f"delay: {problem.delay:g} s, torque: {problem.torque[0]:g} to {problem.torque[1]:g} N m",
+            f"delay: {problem.delay:g} s, {self._torques}",
             f"number type: {self.real.c}",
             "quadratic programs: DAQP (MIT licence), in daqp/",
         ]

@@ -6,6 +6,7 @@ from typing import Annotated
 
 from pydantic import Field, PlainValidator
 
+from tmm_gen.scene.each import Each, OneOrEach
 from tmm_gen.scene.table import Count, Finite, NonNegative, Positive, Table, fault, is_finite_number
 
 
@@ -24,13 +25,18 @@ def _range(value: object) -> tuple[float, float]:
 
 
 Range = Annotated[tuple[float, float], PlainValidator(_range)]
+EachRange = Annotated[Each[tuple[float, float]], PlainValidator(OneOrEach(Range))]
+EachFinite = Annotated[Each[float], PlainValidator(OneOrEach(Finite))]
+EachPositive = Annotated[Each[float], PlainValidator(OneOrEach(Positive))]
+EachNonNegative = Annotated[Each[float], PlainValidator(OneOrEach(NonNegative))]
+EachCount = Annotated[Each[int], PlainValidator(OneOrEach(Count))]
 Horizon = Annotated[int, Field(strict=True, ge=2, le=500)]
 Substeps = Annotated[int, Field(strict=True, ge=1, le=100)]
 Modes = Annotated[int, Field(strict=True, ge=2, le=50)]
 
 
 class Weights(Table):
-    """``[control.weights]``: of the squares in the cost, each per sample.
+    """``[control.weights]``: of the squares in the cost, each per sample; a number for all motors, or one by each name.
 
     Parameters
     ----------
@@ -46,22 +52,22 @@ class Weights(Table):
         Of what the tip angle passes its bound by, and the hub angle its own, 1/rad^2.
     """
 
-    tip: Positive = Field(default=1.0, description="weight of the tip angle", examples=["1.0"])
-    hub: NonNegative = Field(default=0.0, description="weight of the hub angle", examples=["0.1"])
-    tip_rate: NonNegative = Field(default=0.0, description="weight of the tip's rate", examples=["1e-3"])
-    hub_rate: NonNegative = Field(default=0.0, description="weight of the hub's rate", examples=["1e-3"])
-    torque: NonNegative = Field(default=1e-3, description="weight of the torque", examples=["1e-3"])
-    torque_step: Positive = Field(
+    tip: EachPositive = Field(default=1.0, description="weight of the tip angle", examples=["1.0"])
+    hub: EachNonNegative = Field(default=0.0, description="weight of the hub angle", examples=["0.1"])
+    tip_rate: EachNonNegative = Field(default=0.0, description="weight of the tip's rate", examples=["1e-3"])
+    hub_rate: EachNonNegative = Field(default=0.0, description="weight of the hub's rate", examples=["1e-3"])
+    torque: EachNonNegative = Field(default=1e-3, description="weight of the torque", examples=["1e-3"])
+    torque_step: EachPositive = Field(
         default=1e-3, description="weight of the change of torque", examples=["1e-3"]
     )
-    overshoot: Positive = Field(default=1e4, description="weight of overshoot", examples=["1e4"])
-    hub_bound: Positive = Field(
+    overshoot: EachPositive = Field(default=1e4, description="weight of overshoot", examples=["1e4"])
+    hub_bound: EachPositive = Field(
         default=1e4, description="weight of passing the hub's bounds", examples=["1e4"]
     )
 
 
 class Bounds(Table):
-    """``[control.bounds]``.
+    """``[control.bounds]``: for all motors alike, or by each name.
 
     Parameters
     ----------
@@ -75,11 +81,11 @@ class Bounds(Table):
         How far the tip may pass the reference, relative to the way from its start; soft.
     """
 
-    torque: Range = Field(description="bounds of the hub torque in N m", examples=["3.0"])
-    torque_rate: Positive | None = Field(
+    torque: EachRange = Field(description="bounds of the hub torque in N m", examples=["3.0"])
+    torque_rate: EachPositive | None = Field(
         default=None, description="largest change of the torque in N m/s", examples=["100.0"]
     )
-    hub: Range | None = Field(
+    hub: EachRange | None = Field(
         default=None, description="bounds of the hub angle in rad", examples=["[-0.1, 1.02]"]
     )
     overshoot: NonNegative | None = Field(
@@ -102,7 +108,7 @@ class Sensors(Table):
         if absent.
     """
 
-    encoder: Count = Field(default=8192, description="counts per revolution", examples=["8192"])
+    encoder: EachCount = Field(default=8192, description="counts per revolution", examples=["8192"])
     accelerometer: NonNegative | None = Field(
         default=None, description="noise of the tip accelerometer in m/s^2", examples=["0.05"]
     )
@@ -133,16 +139,16 @@ class Estimator(Table):
         an accelerometer from drifting away from the encoder.
     """
 
-    encoder: Positive = Field(default=1e-3, description="error of the encoder in rad", examples=["1e-3"])
+    encoder: EachPositive = Field(default=1e-3, description="error of the encoder in rad", examples=["1e-3"])
     accelerometer: Positive = Field(
         default=1.0, description="error of the accelerometer in m/s^2", examples=["1.0"]
     )
     strain: Positive = Field(default=0.1, description="error of the strain gauge in N m", examples=["0.1"])
-    torque: Positive = Field(default=1e-2, description="unknown torque in N m", examples=["0.01"])
-    disturbance: Positive = Field(
+    torque: EachPositive = Field(default=1e-2, description="unknown torque in N m", examples=["0.01"])
+    disturbance: EachPositive = Field(
         default=1e-2, description="change of the disturbance per sample in N m", examples=["0.01"]
     )
-    rate: NonNegative = Field(
+    rate: EachNonNegative = Field(
         default=0.0, description="unexplained change of rate per sample in rad/s", examples=["0.005"]
     )
 
@@ -156,6 +162,7 @@ def _gains(value: object) -> tuple[float, float]:
 
 
 Gains = Annotated[tuple[float, float], PlainValidator(_gains)]
+EachGains = Annotated[Each[tuple[float, float]], PlainValidator(OneOrEach(Gains))]
 
 
 class RegulatorWeights(Table):
@@ -171,10 +178,10 @@ class RegulatorWeights(Table):
         1/(N m)^2, positive.
     """
 
-    hub: NonNegative = Field(default=0.0, description="weight of the hub angle", examples=["0.1"])
-    tip_rate: NonNegative = Field(default=0.0, description="weight of the tip's rate", examples=["0.01"])
-    hub_rate: NonNegative = Field(default=0.0, description="weight of the hub's rate", examples=["0.01"])
-    torque: Positive = Field(default=0.1, description="weight of the torque", examples=["0.1"])
+    hub: EachNonNegative = Field(default=0.0, description="weight of the hub angle", examples=["0.1"])
+    tip_rate: EachNonNegative = Field(default=0.0, description="weight of the tip's rate", examples=["0.01"])
+    hub_rate: EachNonNegative = Field(default=0.0, description="weight of the hub's rate", examples=["0.01"])
+    torque: EachPositive = Field(default=0.1, description="weight of the torque", examples=["0.1"])
 
 
 class Baselines(Table):
@@ -189,19 +196,21 @@ class Baselines(Table):
         Of a linear-quadratic regulator.
     """
 
-    pd: Gains | None = Field(default=None, description="gains", examples=["[2.0, 0.8]"])
-    pd_zv: Gains | None = Field(default=None, description="gains", examples=["[2.0, 0.8]"])
-    pd_zvd: Gains | None = Field(default=None, description="gains", examples=["[2.0, 0.8]"])
+    pd: EachGains | None = Field(default=None, description="gains", examples=["[2.0, 0.8]"])
+    pd_zv: EachGains | None = Field(default=None, description="gains", examples=["[2.0, 0.8]"])
+    pd_zvd: EachGains | None = Field(default=None, description="gains", examples=["[2.0, 0.8]"])
     lqr: RegulatorWeights = Field(default_factory=RegulatorWeights, description="weights of an LQR")
 
 
 class Control(Table):
-    """``[control]``: a controller that turns the tip of a planar arm by the torque at its hub.
+    """``[control]``: a controller that turns the tip of a planar arm by the torque at its hub, or by several motors.
+
+    What is said of a motor may be a number for all of them, or a table of one by each name.
 
     Parameters
     ----------
-    reference : float
-        Angle of the tip to reach, rad.
+    reference : float, or dict from str to float
+        Angle of the tip to reach, rad; of an arm by parts, the angle of each motor's joint.
     horizon : int
         Samples looked ahead, N.
     sample_time : float
@@ -219,7 +228,7 @@ class Control(Table):
         Tables of their own.
     """
 
-    reference: Finite = Field(description="tip angle to reach in rad", examples=["1.0"])
+    reference: EachFinite = Field(description="angle to reach in rad", examples=["1.0"])
     horizon: Horizon = Field(default=30, description="samples looked ahead", examples=["30"])
     sample_time: Positive = Field(default=0.02, description="time between samples in s", examples=["0.02"])
     substeps: Substeps = Field(default=2, description="steps of the kernel per sample", examples=["2"])

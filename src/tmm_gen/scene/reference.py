@@ -11,6 +11,7 @@ from pydantic.fields import FieldInfo
 from pydantic_core import PydanticUndefined
 
 from tmm_gen.scene.document import Document
+from tmm_gen.scene.each import OneOrEach
 from tmm_gen.scene.integrator import INTEGRATOR_NAMES, METHODS
 from tmm_gen.scene.parts.document import PARTS, ChainDocument, PartsDocument
 from tmm_gen.scene.spatial.document import SPATIAL_PARTS, SpatialDocument
@@ -135,6 +136,9 @@ def _default(field: FieldInfo) -> str | None:
 
 def _value(field: FieldInfo, example: str) -> str:
     """Say what may be written, from the type and its bounds."""
+    for item in (*field.metadata, *_metadata(field.annotation)):
+        if isinstance(of := getattr(item, "func", None), OneOrEach):
+            return f"{_value(FieldInfo.from_annotation(of.kind), example)}, or one by each name"
     words = [w for w in _leaves(field.annotation) if isinstance(w, str)]
     if words:
         choices = ", ".join(f'"{word}"' for word in words)

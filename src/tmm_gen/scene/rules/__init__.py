@@ -10,6 +10,7 @@ from tmm_gen.scene.parts.document import ChainDocument, PartsDocument
 from tmm_gen.scene.problem import Finding
 from tmm_gen.scene.rules.beams import beams_given
 from tmm_gen.scene.rules.control import control_possible
+from tmm_gen.scene.rules.control_motors import motors_controlled
 from tmm_gen.scene.rules.drivetrains import (
     chain_in_range,
     chain_initial,
@@ -102,6 +103,7 @@ PART_RULES: tuple[tuple[PartRule, ...], ...] = (
     (one_tree,),
     (carriers,),
     (newton_keys, floating_base, base_hub, beams_in_range, part_initial, part_inputs, part_outputs, *_ALL),
+    (motors_controlled,),
 )
 """Rules of arms by parts; each group takes those before it for granted."""
 

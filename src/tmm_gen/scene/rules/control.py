@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
+from tmm_gen.scene.control import Control
 from tmm_gen.scene.document import Document
-from tmm_gen.scene.problem import Finding
+from tmm_gen.scene.each import by_names
+from tmm_gen.scene.problem import Finding, Path
+from tmm_gen.scene.table import Table
 
 MOST_DELAY = 10
 """Samples; a longer delay than this is a slip of the unit."""
@@ -30,14 +33,52 @@ def control_possible(document: Document) -> Iterator[Finding]:
             "turns the arm by a torque at its hub, which is not among the inputs",
             'Add [[input]] with `name = "hub_torque"`, `at = "base"`, `acts = "torque"`.',
         )
-    hub = control.bounds.hub
-    if hub is not None and not hub[0] <= control.reference <= hub[1]:
+    for path, _ in told_by_name(control):
         yield Finding(
-            ("control", "bounds", "hub"),
-            f"excludes the reference, {control.reference:g} rad",
-            "Widen the bounds, or set another reference.",
-            list(hub),
+            path,
+            "is told by names of motors, and this arm has its hub alone",
+            "Write the value alone, without a name.",
         )
+        return
+    yield from within_reach(control, ("hub",))
+
+
+def told_by_name(control: Control) -> Iterator[tuple[Path, Mapping[str, object]]]:
+    """Yield what is told of each motor by its name, with its place in the file."""
+
+    def walk(table: Table, path: Path) -> Iterator[tuple[Path, Mapping[str, object]]]:
+        for name in type(table).model_fields:
+            value = getattr(table, name)
+            if isinstance(value, Table):
+                yield from walk(value, (*path, name))
+            elif isinstance(value, Mapping):
+                yield (*path, name), value
+
+    yield from walk(control, ("control",))
+
+
+def within_reach(control: Control, motors: tuple[str, ...]) -> Iterator[Finding]:
+    """Find bounds that exclude the reference, and a delay that is a slip.
+
+    Parameters
+    ----------
+    control : Control
+        Which tells all that is told by name of all of them.
+    motors : tuple of str
+        Their names.
+    """
+    bounds = control.bounds.hub
+    if bounds is not None:
+        for name, reference, hub in zip(
+            motors, by_names(control.reference, motors), by_names(bounds, motors), strict=True
+        ):
+            if not hub[0] <= reference <= hub[1]:
+                yield Finding(
+                    ("control", "bounds", "hub", *([name] if isinstance(bounds, dict) else [])),
+                    f"excludes the reference, {reference:g} rad",
+                    "Widen the bounds, or set another reference.",
+                    list(hub),
+                )
     if control.delay > MOST_DELAY * control.sample_time:
         yield Finding(
             ("control", "delay"),

@@ -225,12 +225,6 @@ def parts_suit(document: PartsDocument) -> Iterator[Finding]:
             "does not go with parts by name",
             "Write a [[body]] on the last part instead.",
         )
-    if document.control is not None:
-        yield Finding(
-            ("control",),
-            "does not control arms by parts yet",
-            'Remove it, or write the arm with base.kind = "motor" and [beam].',
-        )
 
 
 def beams_in_range(document: PartsDocument) -> Iterator[Finding]:

@@ -1,0 +1,46 @@
+"""One value for all motors, or one by each name."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, TypeAlias, TypeVar
+
+from pydantic import TypeAdapter
+
+from tmm_gen.scene.table import fault
+
+Value = TypeVar("Value")
+Each: TypeAlias = Value | dict[str, Value]
+"""What is the same for all, or told of each by its name."""
+
+
+@dataclass(frozen=True)
+class OneOrEach:
+    """Validates a kind's value, or a table of such values.
+
+    Parameters
+    ----------
+    kind : type
+        Of one value, annotated.
+    """
+
+    kind: Any
+
+    @cached_property
+    def _one(self) -> TypeAdapter[Any]:
+        return TypeAdapter(self.kind)
+
+    def __call__(self, value: object) -> Any:
+        """Return the value, each number in its range."""
+        if not isinstance(value, Mapping):
+            return self._one.validate_python(value)
+        if not value:
+            raise fault("names no motor", "Write one value for all, or one by each name.")
+        return {str(name): self._one.validate_python(item) for name, item in value.items()}
+
+
+def by_names(value: Each[Value], names: Sequence[str]) -> tuple[Value, ...]:
+    """Return a value for each name, in their order; every name must be told."""
+    return tuple(value[name] if isinstance(value, dict) else value for name in names)

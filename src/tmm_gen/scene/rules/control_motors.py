@@ -1,0 +1,64 @@
+"""What ``[control]`` asks for can be had of an arm whose motors are parts by name."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from tmm_gen.scene.parts.document import PartsDocument
+from tmm_gen.scene.problem import Finding
+from tmm_gen.scene.rules.control import told_by_name, within_reach
+from tmm_gen.scene.table import closest
+
+
+def motors_controlled(document: PartsDocument) -> Iterator[Finding]:
+    """Find a controller of an arm without driven joints, or one that speaks of motors there are not."""
+    control = document.control
+    if control is None:
+        return
+    if document.base.kind != "clamp":
+        yield Finding(
+            ("control",),
+            f'does not control arms by parts on base.kind = "{document.base.kind}" yet',
+            'Set base.kind = "clamp", or remove the table.',
+        )
+        return
+    made = document.expansion
+    if made.hosts != tuple(range(len(made.hosts))):
+        yield Finding(
+            ("control",), "does not control arms that branch yet", "Remove it, or one of the branches."
+        )
+        return
+    motors = driven(document)
+    if not motors:
+        yield Finding(
+            ("control",),
+            "turns motors by their torques, and no input is one",
+            'Add [[input]] with `name = "..."`, `at = "<motor>"`, `acts = "torque"`.',
+        )
+        return
+    broken = False
+    for path, values in told_by_name(control):
+        for name in (name for name in values if name not in motors):
+            broken = True
+            yield Finding((*path, name), "is not the name of a driven motor", closest(name, motors))
+        if missing := [name for name in motors if name not in values]:
+            broken = True
+            yield Finding(
+                path, f"leaves out {', '.join(missing)}", f"Write one value for each of {', '.join(motors)}."
+            )
+    for sensor in ("accelerometer", "strain"):
+        if getattr(control.sensors, sensor) is not None:
+            yield Finding(
+                ("control", "sensors", sensor),
+                "is read on arms on a hub only: an arm by parts has the encoders of its motors",
+                "Remove the key.",
+                getattr(control.sensors, sensor),
+            )
+    if not broken:
+        yield from within_reach(control, motors)
+
+
+def driven(document: PartsDocument) -> tuple[str, ...]:
+    """Return the names of the joints that inputs turn, from the base outward."""
+    turned = {str(item.at) for item in document.input}
+    return tuple(part.name for part in document.expansion.parts if part.joint and part.name in turned)

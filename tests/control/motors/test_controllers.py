@@ -1,0 +1,114 @@
+"""Several motors: the quadratic program, the nonlinear problem and the filter, held against solvers of others."""
+
+from __future__ import annotations
+
+import casadi as ca
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from tmm_gen.control.bench import Bench
+from tmm_gen.control.command import Status
+from tmm_gen.control.extended_kalman import ExtendedKalmanFilter, NonlinearFilter
+from tmm_gen.control.full_nmpc import FullNmpc
+from tmm_gen.control.linear_mpc import LinearMpc
+from tmm_gen.control.rti import RealTimeIteration
+
+NONE = np.zeros(2)
+
+
+def test_torques_of_the_quadratic_program_are_those_of_a_generic_solver(two: Bench) -> None:
+    """CasADi's qrqp on the condensed program, far from the target, where bounds of both motors bind."""
+    mpc = LinearMpc(two.links, two.problem, two.inertia)
+    state, last = two.links.start, two.links.start_torque
+    solution = mpc.planned(state, NONE, last)
+    assert solution.status is Status.OK
+    made, condensed = mpc.response, mpc.condensed
+    found = made.by_state @ state - made.by_constant @ two.links.goal.torque + made.by_last @ last
+    along, nothing = made.outputs(found + mpc.offsets), np.zeros((2, two.problem.horizon))
+    low, high = condensed.bounds(along, nothing, last)
+    options = {"print_iter": False, "print_header": False, "constr_viol_tol": 1e-11, "dual_inf_tol": 1e-11}
+    structure = {"h": ca.DM(condensed.hessian).sparsity(), "a": ca.DM(condensed.rows).sparsity()}
+    count = condensed.inputs
+    free = np.full(condensed.size - count, np.inf)
+    expected = ca.conic("generic", "qrqp", structure, options)(
+        h=condensed.hessian,
+        g=condensed.gradient(along, nothing, last, NONE),
+        a=condensed.rows,
+        lbx=np.concatenate([low[:count], -free]),
+        ubx=np.concatenate([high[:count], free]),
+        lba=low[count:],
+        uba=high[count:],
+    )
+    torques = np.array(expected["x"]).ravel()[:count]
+    assert_allclose(solution.point[:count], torques, atol=1e-6)
+    at_bound = np.abs(torques.reshape(2, -1)) > 0.999 * np.abs(two.problem.torque[1][:, None])
+    assert np.all(at_bound.any(axis=1))
+
+
+def closed_loop_cost(bench: Bench, controller: RealTimeIteration | FullNmpc, samples: int) -> float:
+    """Return the sum of the stage costs of a loop on the model itself, whose state is known."""
+    step, goal, weights = bench.step, bench.links.goal, bench.problem.weights
+    rows = {
+        f"{name}{more}": step.rows(of, quantity)
+        for name, of in (("tip", step.motors.tip), ("hub", step.motors.hub))
+        for more, quantity in (("", "angle"), ("_rate", "rate"))
+    }
+    targets = {"tip": goal.tip, "hub": goal.hub}
+    state, last, cost = step.initial(), bench.links.start_torque, 0.0
+    for _ in range(samples):
+        command = controller.decide(state, NONE, last)
+        assert command.status is Status.OK
+        state = np.array(step.sample(state, np.concatenate([last, command.torque]))).ravel()
+        for name, of in rows.items():
+            cost += 0.5 * float(getattr(weights, name) @ (of @ state - targets.get(name, NONE)) ** 2)
+        cost += 0.5 * float(weights.torque @ (command.torque - goal.torque) ** 2)
+        cost += 0.5 * float(weights.torque_step @ (command.torque - last) ** 2)
+        last = command.torque
+    return cost
+
+
+def test_an_iteration_a_sample_costs_what_the_solution_does(two: Bench) -> None:
+    """IPOPT to convergence at every sample, on the same model and from the same states."""
+    parts = (two.step, two.links, two.inertia)
+    costs = [
+        closed_loop_cost(two, controller, 15)
+        for controller in (
+            FullNmpc(*parts, "ipopt"),
+            RealTimeIteration(*parts),
+            RealTimeIteration(*parts, True),
+        )
+    ]
+    assert costs[1] == pytest.approx(costs[0], rel=2e-3)
+    assert costs[2] == pytest.approx(costs[0], rel=1e-2)
+
+
+@pytest.mark.parametrize("kind", [NonlinearFilter, ExtendedKalmanFilter])
+def test_torques_nobody_commanded_are_found_motor_by_motor(two: Bench, kind: type[NonlinearFilter]) -> None:
+    """A tenth of what they can give, of opposite signs, against the model itself: to 3 % within 5 s."""
+    filtered, step = kind(two.step, two.links), two.step
+    unknown = np.array([0.015, -0.006])
+    state, acting = step.initial(), two.links.start_torque
+    for _ in range(250):
+        seen = np.append(step.motors.hub @ state[step.places("angle")], [np.nan, np.nan])
+        filtered.correct(filtered.surprise(seen), (0, 1), np.ones(2))
+        # held where it began, or it would fall
+        acting = two.links.start_torque - unknown - 0.05 * (seen[:2] - two.links.start_hub)
+        filtered.advance((acting, acting), acting)
+        state = np.array(step.sample(state, np.tile(acting + unknown, 2))).ravel()
+    _, disturbance = filtered.ahead([])
+    assert_allclose(disturbance, unknown, rtol=0.03)
+
+
+def test_an_encoder_alone_makes_the_estimate_wait(two: Bench) -> None:
+    """What one of them shows is believed only with the other: the arm is where both say."""
+    mpc = LinearMpc(two.links, two.problem, two.inertia)
+    good = np.append(two.links.start_hub, [np.nan, np.nan])
+    assert mpc.command(good).status is Status.OK
+    for spoilt, status in ((np.nan, Status.MEASUREMENT), (0.5, Status.REDUCED)):
+        bad = good.copy()
+        bad[1] += spoilt
+        command = mpc.command(bad)
+        assert command.status is status
+        low, high = two.problem.torque
+        assert np.all((command.torque >= low) & (command.torque <= high))

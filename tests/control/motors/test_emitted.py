@@ -1,0 +1,117 @@
+"""Emitted C for several motors: the torques of Python, silence of compilers, and recovery whatever encoders show."""
+
+from __future__ import annotations
+
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tmm_gen.closed_loop.plant import Plant
+from tmm_gen.control.bench import Bench
+from tmm_gen.control.command import Status
+from tmm_gen.control.condition import CONDITIONS
+from tmm_gen.control.extended_kalman import NonlinearFilter
+from tmm_gen.control.kalman import present_sensors
+from tmm_gen.control.rti import RealTimeIteration
+from tmm_gen.errors import UserError
+from tmm_gen.onboard.emit import emit_controller
+from tmm_gen.onboard.native import EmittedController
+
+pytestmark = pytest.mark.compiler
+
+WARNINGS = (
+    *(
+        "-std=c99",
+        "-pedantic",
+        "-Wall",
+        "-Wextra",
+        "-Wconversion",
+        "-Wdouble-promotion",
+        "-Wshadow",
+        "-Wundef",
+    ),
+    *("-Wstrict-prototypes", "-Wmissing-prototypes", "-Werror", "-O2", "-fsyntax-only", "-I."),
+)
+
+
+@pytest.fixture(scope="module")
+def late(two: Bench) -> Bench:
+    """With a delay of two samples and a half, and a bound of how fast the elbow's torque may change."""
+    rates = {"shoulder": 10.0, "elbow": 1.0}
+    return Bench.of(two.scene.replace(**{"control.delay": 0.05, "control.bounds.torque_rate": rates}))
+
+
+def compiled(bench: Bench, name: str, files: dict[str, str]) -> EmittedController:
+    """Return an emitted controller."""
+    flags, motors = ("-O1", "-ffp-contract=off"), bench.problem.count
+    return EmittedController(name, files, present_sensors(bench.problem), flags=flags, motors=motors)
+
+
+@pytest.mark.parametrize(("kind", "which"), [("rti-zero", "two"), ("rti", "late")])
+def test_torques_are_those_of_python(
+    kind: str, which: str, request: pytest.FixtureRequest, tmp_path: Path
+) -> None:
+    """Closed loops with half as much payload again, twenty samples; warnings are errors."""
+    bench: Bench = request.getfixturevalue(which)
+    name, files = emit_controller(bench, kind)
+    for path, text in files.items():
+        (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / path).write_text(text)
+    sources = [path for path in files if path.endswith(".c") and not path.startswith("daqp/")]
+    done = subprocess.run(
+        ["gcc", *WARNINGS, *sources], cwd=tmp_path, capture_output=True, text=True, check=False
+    )
+    assert done.stderr == ""
+    emitted = compiled(bench, name, files)
+    python = RealTimeIteration(bench.step, bench.links, bench.inertia, kind == "rti-zero")
+    python.estimator = NonlinearFilter(bench.step, bench.links)
+    python.reset()
+    plant = Plant(bench.scene, bench.problem, CONDITIONS[1])
+    before = bench.links.start_torque
+    for _ in range(20):
+        seen = plant.measured()
+        expected, found = python.command(seen), emitted.command(seen)
+        # both solve the same program to DAQP's tolerance; a change of torque that is held hands it on
+        np.testing.assert_allclose(found.torque, expected.torque, rtol=0.0, atol=2e-5)
+        assert found.status is expected.status is Status.OK
+        assert np.all(np.abs(found.torque - before) <= bench.problem.torque_rate * 0.02 + 1e-12)
+        before = found.torque
+        plant.advance(expected.torque)
+
+
+SPELLS = {
+    "all lost": (np.nan, np.nan),
+    "elbow lost": (0.0, np.nan),
+    "shoulder a turn off": (2.0 * np.pi, 0.0),
+    "absurd": (1e300, -1e300),
+    "elbow off": (0.0, 0.7),
+}
+
+
+def test_all_is_well_a_second_after_the_last_wrong_sample(two: Bench) -> None:
+    """Whatever the encoders showed for 15 samples: OK again within a second, the bounds kept throughout."""
+    name, files = emit_controller(two, "rti-zero")
+    controller = compiled(two, name, files)
+    low, high = two.problem.torque
+    for spell, added in SPELLS.items():
+        controller.reset()
+        plant, statuses = Plant(two.scene, two.problem, CONDITIONS[0]), []
+        for k in range(10 + 15 + 150):
+            seen = plant.measured()
+            if 10 <= k < 25:
+                seen[:2] += added
+            command = controller.command(seen)
+            statuses.append(command.status)
+            assert np.all((command.torque >= low) & (command.torque <= high)), spell
+            plant.advance(command.torque)
+        assert set(statuses[10:25]) != {Status.OK}, spell
+        assert Status.OK in statuses[25:75], spell
+        assert set(statuses[75:]) == {Status.OK}, spell
+        np.testing.assert_allclose(plant.angles()[2:], two.problem.reference, atol=0.02, err_msg=spell)
+
+
+def test_linear_controllers_are_refused_in_a_line(two: Bench) -> None:
+    with pytest.raises(UserError, match="arms on a hub only; for motors by name take one of: rti-zero, rti"):
+        emit_controller(two, "mpc-modes")

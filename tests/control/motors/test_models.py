@@ -1,0 +1,84 @@
+"""Several motors: where the arm rests, and its linear models, held against Lagrange's equations of the reference."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from scipy.linalg import expm, solve_discrete_are
+
+from tmm_gen.control.bench import Bench
+from tmm_gen.control.lqr import Regulator
+from tmm_gen.control.modes import modes_model
+from tmm_gen.control.target import find_target
+from tmm_gen.errors import UserError
+from tmm_gen.inputs.signals import Constant
+from tmm_gen.reference.planar_arm import Arm
+from tmm_gen.scene.control import RegulatorWeights
+
+
+def accelerations(bench: Bench, torques: np.ndarray, angles: np.ndarray, rates: np.ndarray) -> np.ndarray:
+    """Return the accelerations of the links under constant torques."""
+    signals = {
+        name: Constant(float(each)) for name, each in zip(bench.problem.motors.inputs, torques, strict=True)
+    }
+    return Arm(bench.scene, signals).accelerations(np.zeros(1), angles[None], rates[None])[0]
+
+
+def test_nothing_moves_at_the_target_nor_at_the_start(two: Bench) -> None:
+    """Joints stand at the reference, beams sag, and motors hold the payload up."""
+    target, start = find_target(two.scene, two.problem), two.step.start
+    for angles, torque in ((target.angles, target.goal.torque), (start.angles, start.torque)):
+        assert_allclose(accelerations(two, torque, angles, np.zeros(4)), 0.0, atol=1e-7)
+        assert np.all(np.abs(torque) > 0.01)
+    assert_allclose(two.problem.motors.hub @ target.angles, two.problem.reference, atol=1e-12)
+    sag = target.goal.tip - target.goal.hub
+    assert np.all(sag < -0.01)
+
+
+def test_motors_that_cannot_hold_the_arm_are_named(two: Bench) -> None:
+    low, high = two.problem.torque
+    weak = dataclasses.replace(two.problem, torque=(0.1 * low, 0.1 * high))
+    with pytest.raises(UserError, match=r"needs 0.0\d+ N m of motor 'shoulder', beyond the bounds"):
+        find_target(two.scene, weak)
+
+
+def test_gains_are_those_of_the_reference_model(two: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
+    """By central differences of Lagrange's equations, with the cost written out anew."""
+    target, motors = find_target(two.scene, two.problem), two.problem.motors
+    size, count, small = 4, 2, 1e-6
+
+    def slope(z: np.ndarray) -> np.ndarray:
+        angles, rates, torques = (
+            target.angles + z[:size],
+            z[size : 2 * size],
+            target.goal.torque + z[2 * size :],
+        )
+        return np.concatenate([rates, accelerations(two, torques, angles, rates)])
+
+    system = np.zeros((2 * size + count, 2 * size + count))
+    for column, change in enumerate(small * np.eye(2 * size + count)):
+        system[: 2 * size, column] = (slope(change) - slope(-change)) / (2.0 * small)
+    sampled = expm(system * two.problem.sample_time)
+    a, b = sampled[: 2 * size, : 2 * size], sampled[: 2 * size, 2 * size :]
+    weights = RegulatorWeights(
+        hub={"shoulder": 3.0, "elbow": 7.0}, tip_rate=0.2, torque={"shoulder": 2.0, "elbow": 9.0}
+    )
+    still = np.zeros((count, size))
+    tips, hubs = np.hstack([motors.tip, still]), np.hstack([motors.hub, still])
+    cost = tips.T @ tips + hubs.T @ np.diag([3.0, 7.0]) @ hubs
+    rates = np.hstack([still, motors.tip])
+    cost += 0.2 * rates.T @ rates
+    price = np.diag([2.0, 9.0])
+    value = solve_discrete_are(a, b, cost, price)
+    expected = np.linalg.solve(price + b.T @ value @ b, b.T @ value @ a)
+
+    monkeypatch.setattr("tmm_gen.control.modes.fine_scene", lambda scene: scene)  # the same few links
+    model = modes_model(two.scene, two.problem)
+    found = Regulator(model, two.problem, weights, two.inertia)
+    assert_allclose(found.gain @ model.turned, expected[:, :size] @ motors.turned, rtol=1e-5)
+    assert_allclose(found.gain @ model.turn, expected[:, size:] @ motors.turned, rtol=1e-5)
+    closed = [np.linalg.eigvals(m) for m in (a - b @ expected, model.transition - model.drive @ found.gain)]
+    assert_allclose(np.sort(np.abs(closed[0])), np.sort(np.abs(closed[1])), rtol=1e-5, atol=1e-9)
