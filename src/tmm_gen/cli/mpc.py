@@ -166,7 +166,7 @@ def mpc(
         require_solvers(kinds)
         emit(bench, [kind.name for kind in kinds], folder, real, name, force, json_mode)
         return
-    kinds = kinds or [kind for kind in CONTROLLERS if kind.default]
+    kinds = kinds or [kind for kind in CONTROLLERS if kind.compared(bench)]
     require_solvers(kinds)
     trials = _trials(loaded, bench, kinds, cases, until, seed, compiled)
     show(loaded, trials, until, write_files(bench, trials, picture, animated), json_mode)

@@ -87,6 +87,11 @@ def tuned(
     from tmm_gen.closed_loop.tuning import TUNABLE, tune
     from tmm_gen.control.controllers import BY_NAME, require_solvers
 
+    if not bench.problem.motors.on_hub:
+        raise UserError(
+            f"--tune: {file}: tunes arms on a hub only, and this one has motors by name. Change the numbers under "
+            "[control] and compare by `tmm-gen mpc`."
+        )
     known = {tunable.name: tunable for tunable in TUNABLE}
     wanted = [*TUNABLE] if EVERYTHING in names else chosen("--tune", names, known)
     require_cma()

@@ -10,12 +10,14 @@ from numpy.typing import NDArray
 
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.command import Controller
+from tmm_gen.control.inverse_dynamics import quintic_way
 from tmm_gen.control.linear_mpc import LinearMpc
 from tmm_gen.control.lqr import Regulator
 from tmm_gen.control.pd import PdController
 from tmm_gen.control.qp import require_daqp
 from tmm_gen.control.rti import RealTimeIteration
 from tmm_gen.control.shaper import Kind, shaper, slowest_vibration
+from tmm_gen.control.way import Way, stepped_way
 from tmm_gen.scene.control import Baselines
 from tmm_gen.scene.each import Each, by_names
 
@@ -38,6 +40,8 @@ class ControllerKind:
         Whether it is compared unless others are chosen.
     quadratic : bool
         Whether it solves quadratic programs, for which an extra is needed.
+    arms_by_parts : bool
+        Whether it is compared by default where motors are parts by name.
     """
 
     name: str
@@ -45,6 +49,11 @@ class ControllerKind:
     make: Callable[[Bench], Controller]
     default: bool = True
     quadratic: bool = False
+    arms_by_parts: bool = False
+
+    def compared(self, bench: Bench) -> bool:
+        """Return whether it is compared on an arm unless others are chosen."""
+        return self.default or (self.arms_by_parts and not bench.problem.motors.on_hub)
 
 
 def _gains(bench: Bench, gains: Each[tuple[float, float]] | None) -> tuple[Array, Array]:
@@ -74,8 +83,20 @@ def make_pd(
     if shaping is not None:
         frequency, damping = slowest_vibration(model, problem, proportional, derivative)
         shapers = [shaper(shaping, frequency, damping, problem.sample_time)] * problem.count
+    return _pd(bench, proportional, derivative, stepped_way(model.goal.torque, shapers))
+
+
+def make_inverse_dynamics(bench: Bench, gains: Each[tuple[float, float]] | None) -> PdController:
+    """Return a PD controller along a quintic, with the torques of the rigid arm given beforehand."""
+    model, problem = bench.modes, bench.problem
+    way = quintic_way(bench.assumed, problem, model.start_hub, model.goal)
+    return _pd(bench, *_gains(bench, gains), way)
+
+
+def _pd(bench: Bench, proportional: Array, derivative: Array, way: Way) -> PdController:
+    model = bench.modes
     inertia = np.where(np.isfinite(bench.inertia), bench.inertia, 0.0)
-    return PdController(problem, proportional, derivative, model.goal, shapers, inertia, model.start_torque)
+    return PdController(bench.problem, proportional, derivative, model.goal, way, inertia, model.start_torque)
 
 
 def _nmpc(bench: Bench) -> Controller:
@@ -88,6 +109,13 @@ CONTROLLERS: tuple[ControllerKind, ...] = (
     ControllerKind("pd", "PD on the hub", lambda b: make_pd(b, _baselines(b).pd)),
     ControllerKind("pd-zv", "PD, ZV shaper", lambda b: make_pd(b, _baselines(b).pd_zv, "zv")),
     ControllerKind("pd-zvd", "PD, ZVD shaper", lambda b: make_pd(b, _baselines(b).pd_zvd, "zvd")),
+    ControllerKind(
+        "pd-id",
+        "PD, inverse dynamics",
+        lambda b: make_inverse_dynamics(b, _baselines(b).pd_id),
+        default=False,
+        arms_by_parts=True,
+    ),
     ControllerKind(
         "lqr", "LQR, modes", lambda b: Regulator(b.modes, b.problem, _baselines(b).lqr, b.inertia)
     ),

@@ -1,9 +1,8 @@
-"""Proportional-derivative control of the hubs, with or without shaped references: the baseline without a model."""
+"""Proportional-derivative control of the hubs, along a step, a shaped one, or a way with torques known beforehand."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,12 +11,15 @@ from tmm_gen.control.command import Command, Status
 from tmm_gen.control.credible import FARTHEST, JUMP, PATIENCE
 from tmm_gen.control.problem import ControlProblem, Goal
 from tmm_gen.control.safe import safe_torque
+from tmm_gen.control.way import Way
 
 Array = NDArray[np.float64]
 
 
 class PdController:
-    """``u = u_s + p (reference_k - hub) - d hub'`` for each motor, clipped; rates are the encoders' differences.
+    """``u = u_k + p (reference_k - hub) + d (reference_k' - hub')`` for each motor, clipped.
+
+    Rates are the encoders' differences.
 
     Parameters
     ----------
@@ -27,8 +29,8 @@ class PdController:
         N m/rad, N m s/rad.
     goal : Goal
         Where the hubs are to go, rad, and the torques that hold the arm there, N m.
-    shapers : sequence of array, (k,), optional
-        For each motor impulses, one per sample, whose sum is 1: its reference is a step convolved with them.
+    way : Way
+        How the reference goes there, and the torques along it.
     inertia : array, (m,)
         What each motor turns, kg m^2, for the safe law.
     start : array, (m,), optional
@@ -41,13 +43,13 @@ class PdController:
         proportional: Array,
         derivative: Array,
         goal: Goal,
-        shapers: Sequence[Array] | None,
+        way: Way,
         inertia: Array,
         start: Array | None = None,
     ) -> None:
         self.problem, self.inertia, self.goal = problem, inertia, goal
         self.proportional, self.derivative = proportional, derivative
-        self.steps = [np.cumsum(each) for each in shapers or [np.ones(1)] * problem.count]
+        self.way = way
         self.start = np.zeros(problem.count) if start is None else start
         self.reset()
 
@@ -71,10 +73,11 @@ class PdController:
         unknown_rate = self._gap or bool(np.any(np.isnan(self._hub)))
         rate = np.zeros(len(hub)) if unknown_rate else (hub - self._hub) / self.problem.sample_time
         self._hub, self._gap = hub, False
-        share = np.array([steps[min(self._sample, len(steps) - 1)] for steps in self.steps])
-        wanted = self._start + share * (self.goal.hub - self._start)
+        share, speed, torque = self.way.at(self._sample)
+        along = self.goal.hub - self._start
         self._sample += 1
-        torque = self.goal.torque + self.proportional * (wanted - hub) - self.derivative * rate
+        torque = torque + self.proportional * (self._start + share * along - hub)
+        torque = torque + self.derivative * (speed * along - rate)
         self._last = self.problem.allowed(torque, self._last)
         return Command(self._last)
 

@@ -294,7 +294,7 @@ def control_problem(scene: Scene) -> ControlProblem:
     start = motors.prescribed @ np.array([*np.zeros(scene.hub), *scene.initial.angles])
     reference = np.array(by_names(control.reference, names))
     bounds, assumed = control.bounds, control.estimator
-    rate = bounds.torque_rate
+    rate, hub = bounds.torque_rate, _hub_bounds(control, names)
     low, high = np.array(by_names(bounds.torque, names)).T
     return ControlProblem(
         horizon=control.horizon,
@@ -307,7 +307,7 @@ def control_problem(scene: Scene) -> ControlProblem:
         delay=control.delay,
         torque=(low, high),
         torque_rate=np.array(by_names(math.inf if rate is None else rate, names)),
-        hub=(None,) * motors.count if bounds.hub is None else by_names(bounds.hub, names),
+        hub=hub,
         tip=tuple(_tip_bound(control, float(way)) for way in reference - start),
         weights=MotorWeights.of(control.weights, names),
         sensors=control.sensors,
@@ -324,6 +324,14 @@ def control_problem(scene: Scene) -> ControlProblem:
 
 def _driven(scene: Scene) -> bool:
     return bool(scene.parts) and any(item.acts == "drive" for item in scene.inputs)
+
+
+def _hub_bounds(control: Control, names: tuple[str, ...]) -> tuple[Pair | None, ...]:
+    """Return the intervals of the hubs' angles."""
+    if control.bounds.hub is None:
+        return (None,) * len(names)
+    found: tuple[Pair, ...] = by_names(control.bounds.hub, names)
+    return found
 
 
 def _tip_bound(control: Control, way: float) -> Pair | None:

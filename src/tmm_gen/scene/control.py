@@ -192,6 +192,8 @@ class Baselines(Table):
     pd, pd_zv, pd_zvd : (proportional, derivative), optional
         Gains on the hub, N m/rad and N m s/rad: alone, and with a reference shaped to leave no vibration. Without
         them: critical damping of the rigid arm at a quarter of its first frequency.
+    pd_id : (proportional, derivative), optional
+        The same beside the torques of the rigid arm along a quintic.
     lqr : RegulatorWeights
         Of a linear-quadratic regulator.
     """
@@ -199,6 +201,9 @@ class Baselines(Table):
     pd: EachGains | None = Field(default=None, description="gains", examples=["[2.0, 0.8]"])
     pd_zv: EachGains | None = Field(default=None, description="gains", examples=["[2.0, 0.8]"])
     pd_zvd: EachGains | None = Field(default=None, description="gains", examples=["[2.0, 0.8]"])
+    pd_id: EachGains | None = Field(
+        default=None, description="gains beside inverse dynamics", examples=["[2.0, 0.8]"]
+    )
     lqr: RegulatorWeights = Field(default_factory=RegulatorWeights, description="weights of an LQR")
 
 

@@ -10,13 +10,33 @@ from numpy.testing import assert_allclose
 from scipy.linalg import expm, solve_discrete_are
 
 from tmm_gen.control.bench import Bench
+from tmm_gen.control.inverse_dynamics import SPARED, quintic_way, rigid_torques
 from tmm_gen.control.lqr import Regulator
 from tmm_gen.control.modes import modes_model
 from tmm_gen.control.target import find_target
 from tmm_gen.errors import UserError
 from tmm_gen.inputs.signals import Constant
 from tmm_gen.reference.planar_arm import Arm
+from tmm_gen.scene import parse_scene
 from tmm_gen.scene.control import RegulatorWeights
+
+PAIR = """\
+name = "pair"
+model = { kind = "planar", gravity = 9.81 }
+integrator = { name = "newmark", step = 1e-3 }
+base = { kind = "clamp" }
+motor = [
+    { name = "first", rotor_inertia = 1e-5, gear = 50 },
+    { name = "second", on = "upper", rotor_inertia = 1e-5, gear = 20 },
+]
+link = [
+    { name = "upper", on = "first", length = 0.5, mass = 1.0, inertia = 0.02 },
+    { name = "fore", on = "second", length = 0.4, mass = 0.5, inertia = 0.01 },
+]
+input = [{ name = "u1", at = "first", acts = "torque" }, { name = "u2", at = "second", acts = "torque" }]
+output = [{ name = "angle", at = "second", of = "angle" }]
+"""
+"""Two rigid links."""
 
 
 def accelerations(bench: Bench, torques: np.ndarray, angles: np.ndarray, rates: np.ndarray) -> np.ndarray:
@@ -82,3 +102,33 @@ def test_gains_are_those_of_the_reference_model(two: Bench, monkeypatch: pytest.
     assert_allclose(found.gain @ model.turn, expected[:, size:] @ motors.turned, rtol=1e-5)
     closed = [np.linalg.eigvals(m) for m in (a - b @ expected, model.transition - model.drive @ found.gain)]
     assert_allclose(np.sort(np.abs(closed[0])), np.sort(np.abs(closed[1])), rtol=1e-5, atol=1e-9)
+
+
+def test_rigid_torques_are_those_of_the_textbooks_two_links() -> None:
+    """Spong, Hutchinson, Vidyasagar, Robot Modeling and Control, with rotors that add their inertia times gear^2."""
+    random = np.random.default_rng(4)
+    q, v, a = (random.uniform(-1.5, 1.5, (5, 2)) for _ in range(3))
+    m1, m2, l1, c1, c2, i1, i2, gravity = 1.0, 0.5, 0.5, 0.25, 0.2, 0.02, 0.01, 9.81
+    cos, sin = np.cos(q[:, 1]), np.sin(q[:, 1])
+    d11 = m1 * c1**2 + m2 * (l1**2 + c2**2 + 2.0 * l1 * c2 * cos) + i1 + i2 + 1e-5 * 50.0**2
+    d12, d22 = m2 * (c2**2 + l1 * c2 * cos) + i2, m2 * c2**2 + i2 + 1e-5 * 20.0**2
+    h = -m2 * l1 * c2 * sin
+    g2 = m2 * c2 * gravity * np.cos(q.sum(axis=1))
+    g1 = (m1 * c1 + m2 * l1) * gravity * np.cos(q[:, 0]) + g2
+    first = d11 * a[:, 0] + d12 * a[:, 1] + h * v[:, 1] * (2.0 * v[:, 0] + v[:, 1]) + g1
+    second = d12 * a[:, 0] + d22 * a[:, 1] - h * v[:, 0] ** 2 + g2
+    assert_allclose(
+        rigid_torques(parse_scene(PAIR), q, v, a), np.column_stack([first / 50.0, second / 20.0]), rtol=1e-9
+    )
+
+
+def test_a_quintic_lasts_as_long_as_the_bounds_make_it(two: Bench) -> None:
+    """The torques it ends with hold the arm; a sample less and one of them would be too large."""
+    model, (low, high) = two.modes, two.problem.torque
+    way = quintic_way(two.assumed, two.problem, model.start_hub, model.goal)
+    assert_allclose(way.share[[0, -1]], [[0.0, 0.0], [1.0, 1.0]], atol=1e-12)
+    assert_allclose(np.sum(way.speed, axis=0) * two.problem.sample_time, 1.0, rtol=1e-2)
+    assert_allclose(way.torque[-1], model.goal.torque)
+    spared = SPARED * (high - low) / 2.0
+    nearest = np.min(np.minimum(way.torque - low, high - way.torque) / spared)
+    assert 1.0 <= nearest < 1.5
