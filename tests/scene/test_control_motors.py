@@ -126,8 +126,8 @@ inertia = 0.001
 def test_arms_that_cannot_be_controlled_are_refused() -> None:
     undriven = ARM.replace('acts = "torque"', 'acts = "force_y"').replace('"first"\nacts', '"upper"\nacts')
     undriven = undriven.replace('"second"\nacts', '"fore"\nacts')
-    turned = ARM.replace('"clamp"', '"prescribed"').replace('[[motor]]\nname = "first"\nrotor_inertia = 1e-5\ngear = 50',
-                                                           '[[joint]]\nname = "first"')  # fmt: skip
+    motor = '[[motor]]\nname = "first"\nrotor_inertia = 1e-5\ngear = 50'
+    turned = ARM.replace('"clamp"', '"prescribed"').replace(motor, '[[joint]]\nname = "first"')
     turned += '[[input]]\nname = "base"\nat = "base"\nacts = "angle"\n'
     for text, words in (
         (undriven, "turns motors by their torques, and no input is one"),

@@ -1,8 +1,8 @@
 """The way of a rigid arm along a quintic, with the torques that take it there: what robots' controllers do as a rule.
 
 The joints go from start to goal together, ``r = start + s (goal - start)`` with ``s = 10 t^3 - 15 t^4 + 6 t^5``, so
-that rates and accelerations vanish at both ends. Torques are those of Lagrange's equations for the arm that does not bend,
-``tau = m(s) s'' + c(s) s'^2 + d(s) s' + g(s)``; the way lasts as long as the motors' bounds make it.
+that rates and accelerations vanish at both ends. Torques are those of Lagrange's equations for the arm that does not
+bend, ``tau = m(s) s'' + c(s) s'^2 + d(s) s' + g(s)``; the way lasts as long as the motors' bounds make it.
 """
 
 from __future__ import annotations

@@ -1,0 +1,126 @@
+"""Closed loops of the arm with two motors: every controller under some conditions, on a finer arm.
+
+    python benchmarks/mpc_motors.py [--seeds 3] [--out out/bench] [--update]
+
+What is shown of each is the worst of several noises; what can be emitted runs as compiled C. `--update` renews
+docs/mpc.md.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+from pathlib import Path
+
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
+import numpy as np
+from marks import renewed
+
+from tmm_gen.cli.console import Column, plain, progress, table
+from tmm_gen.closed_loop.compare import made
+from tmm_gen.closed_loop.figures import loop_figures
+from tmm_gen.closed_loop.loop import run_loop
+from tmm_gen.closed_loop.plant import Plant
+from tmm_gen.control.bench import Bench
+from tmm_gen.control.condition import CONDITIONS
+from tmm_gen.control.controllers import CONTROLLERS
+from tmm_gen.files import write_whole
+from tmm_gen.onboard.emit import EMITTED, LINEAR
+from tmm_gen.scene import load_scene
+
+ROOT = Path(__file__).parents[1]
+SCENE = ROOT / "scenes" / "elbow.toml"
+PAGE = ROOT / "docs" / "mpc.md"
+TRIED = ("nominal", "payload", "friction", "soft")
+DURATION = 2.5
+NOT_COMPARED = ("pd-zv", "pd-zvd")
+"""Shapers are for steps from rest to rest, and here gravity and the other joint vibrate as well."""
+
+Rows = list[dict[str, object]]
+
+
+def trials(bench: Bench, seeds: int) -> Rows:
+    """Return a row for each controller and condition: the worst figures of so many noises."""
+    kinds = [kind for kind in CONTROLLERS if kind.compared(bench) and kind.name not in NOT_COMPARED]
+    cases = [case for case in CONDITIONS if case.name in TRIED]
+    rows: Rows = []
+    with progress("conditions", total=len(kinds) * len(cases)) as advance:
+        for kind in kinds:
+            in_c = kind.name in EMITTED and kind.name not in LINEAR
+            controller = made(kind, bench, in_c)
+            for case in cases:
+                plants = [Plant(bench.scene, bench.problem, case, seed) for seed in range(seeds)]
+                loops = [run_loop(controller, plant, DURATION) for plant in plants]
+                every = [loop_figures(loop) for loop in loops]
+                settling = [each.settling for each in every]
+                used = max(float(np.max(np.abs(loop.torque) / bench.problem.torque[1])) for loop in loops)
+                seconds = np.concatenate([loop.seconds for loop in loops])
+                rows.append(
+                    {
+                        "controller": kind.name,
+                        "condition": case.name,
+                        "compiled": in_c,
+                        "settling_s": None if None in settling else max(filter(None, settling)),
+                        "overshoot_percent": 100.0 * max(each.overshoot for each in every),
+                        "residual_mrad": 1e3 * max(each.residual for each in every),
+                        "torque_percent": 100.0 * used,
+                        "solve_us": 1e6 * float(np.median(seconds)),
+                        "fallbacks": sum(each.fallbacks for each in every),
+                    }
+                )
+                advance(1, f"{kind.title}, {case.title}")
+    return rows
+
+
+def section(rows: Rows) -> str:
+    """Return the page's table."""
+    titles = [case.title for case in CONDITIONS if case.name in TRIED]
+    lines = ["| controller | " + " | ".join(titles) + " | torque used | a sample takes |"]
+    lines.append("|---" * (3 + len(titles)) + "|")
+    for name in dict.fromkeys(row["controller"] for row in rows):
+        own = [row for row in rows if row["controller"] == name]
+        used = max(float(str(row["torque_percent"])) for row in own)
+        solve = float(np.median([float(str(row["solve_us"])) for row in own]))
+        told = f"{solve:.0f} us in C" if own[0]["compiled"] else f"{solve / 1e3:.1f} ms in Python"
+        cells = " | ".join(_cell(row) for row in own)
+        lines.append(f"| `{name}` | {cells} | {used:.0f} % | {told} |")
+    return "\n".join(lines)
+
+
+def _cell(row: dict[str, object]) -> str:
+    """Return settling (s) / overshoot (%) / residual (mrad)."""
+    when = "-" if row["settling_s"] is None else f"{float(str(row['settling_s'])):.2f}"
+    return f"{when} / {float(str(row['overshoot_percent'])):.1f} / {float(str(row['residual_mrad'])):.1f}"
+
+
+def main() -> None:
+    """Print the table, and renew the page if asked to."""
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("--seeds", type=int, default=3, help="noises")
+    parser.add_argument("--out", type=Path, default=Path("out/bench"))
+    parser.add_argument("--update", action="store_true", help=f"renew {PAGE.name}")
+    given = parser.parse_args()
+    rows = trials(Bench.of(load_scene(SCENE)), given.seeds)
+    columns = [
+        "controller",
+        "condition",
+        Column("compiled", "as C"),
+        Column("settling_s", "settles (s)", ".3f"),
+        Column("overshoot_percent", "overshoot (%)", ".2f"),
+        Column("residual_mrad", "residual (mrad)", ".2f"),
+        Column("torque_percent", "torque used (%)", ".0f"),
+        Column("solve_us", "solve (us)", ".0f"),
+        "fallbacks",
+    ]
+    table(rows, columns, title=f"worst of {given.seeds} noises")
+    given.out.mkdir(parents=True, exist_ok=True)
+    write_whole(given.out / "mpc_motors.json", json.dumps(plain(rows), indent=1) + "\n")
+    if given.update:
+        write_whole(PAGE, renewed(PAGE.read_text(), section(rows), Path(__file__).name))
+        print(f"wrote {PAGE}")
+
+
+if __name__ == "__main__":
+    main()
