@@ -51,8 +51,10 @@ def trials(bench: Bench, seeds: int) -> Rows:
             in_c = kind.name in EMITTED and kind.name not in LINEAR
             controller = made(kind, bench, in_c)
             for case in cases:
-                plants = [Plant(bench.scene, bench.problem, case, seed) for seed in range(seeds)]
-                loops = [run_loop(controller, plant, DURATION) for plant in plants]
+                loops = [
+                    run_loop(controller, Plant(bench.scene, bench.problem, case, seed), DURATION)
+                    for seed in range(seeds)
+                ]
                 every = [loop_figures(loop) for loop in loops]
                 settling = [each.settling for each in every]
                 used = max(float(np.max(np.abs(loop.torque) / bench.problem.torque[1])) for loop in loops)

@@ -171,12 +171,17 @@ class Condensed:
         return np.concatenate([found, np.zeros(self.size - len(found))])
 
     def bounds(
-        self, along: Outputs, inputs: Array, last: Array, stopping: Array | None = None
+        self,
+        along: Outputs,
+        inputs: Array,
+        last: Array,
+        stopping: Array | None = None,
+        without: tuple[str, ...] = (),
     ) -> tuple[Array, Array]:
         """Return lower and upper bounds of the inputs and of the rows, with arguments as for :meth:`gradient`.
 
         Soft ones that the arm is far beyond at the first sample, or will be even if it brakes, are infinite;
-        ``stopping`` is that of the target unless it is given.
+        ``stopping`` is that of the target unless it is given. Kinds of rows ``without`` which it is to be are infinite.
         """
         stopping = self.stopping if stopping is None else stopping
         problem, count = self.problem, self.problem.horizon
@@ -191,7 +196,8 @@ class Condensed:
             value = getattr(along, kind.what)[kind.motor]
             way = float(value[1] - value[0]) if count > 1 else 0.0
             ahead = value[0] + np.copysign(stopping[kind.motor] * way**2, way)
-            near = min(value[0], ahead) >= kind.low - BEYOND and max(value[0], ahead) <= kind.high + BEYOND
+            near = kind.what not in without
+            near &= min(value[0], ahead) >= kind.low - BEYOND and max(value[0], ahead) <= kind.high + BEYOND
             if np.isfinite(kind.high):
                 low.append(-none)
                 high.append(kind.high - value if near else none)

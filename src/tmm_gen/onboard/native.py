@@ -93,6 +93,11 @@ class EmittedController:
         """Forget all measurements."""
         getattr(self._library, f"{self.name}_reset")(self._aligned())
 
+    def aim(self, reference: Array) -> Status:
+        """Take another reference, (m,), rad; of a controller that can."""
+        values = (self._number * self.motors)(*map(float, reference))
+        return STATUSES[int(getattr(self._library, f"{self.name}_aim")(self._aligned(), values))]
+
     def command(self, measured: Array) -> Command:
         """Return the torques for a measurement; see :class:`~tmm_gen.control.command.Controller`."""
         found = self.run(np.asarray(measured, float)[None])

@@ -24,6 +24,10 @@ from tmm_gen.onboard.text import ControllerText
 from tmm_gen.program.build import build_program
 
 
+AIM_TURNS = 12
+AIM_TOLERANCE = {"float64": 1e-9, "float32": 1e-4}
+
+
 @dataclass(frozen=True, eq=False)
 class RtiText(ControllerText):
     """What the templates of a real-time iteration ask for.
@@ -55,6 +59,21 @@ class RtiText(ControllerText):
     def torques_at(self) -> list[int]:
         """Where the motors' torques are among the kernel's inputs, in numbers."""
         return [self.stages * self.inputs_of_kernel.index(name) for name in self.problem.motors.inputs]
+
+    @property
+    def moves(self) -> bool:
+        """Whether the reference may be another one at run time."""
+        return self.full and self.several
+
+    @property
+    def aim_turns(self) -> int:
+        """Steps of Newton's method that a new reference may take."""
+        return AIM_TURNS
+
+    @property
+    def aim_tolerance(self) -> float:
+        """Change of angles and torques below which the arm is at rest, rad and N m."""
+        return AIM_TOLERANCE[self.real.name]
 
     @property
     def needs_tangents(self) -> bool:
@@ -125,6 +144,11 @@ class RtiText(ControllerText):
         return f"change[{kind.motor} * SAMPLES + i]" if self.several else "change[i]"
 
     @property
+    def tip_kinds(self) -> list[int]:
+        """Which kinds of bounds are those of tips."""
+        return [self.motors + k for k, kind in enumerate(self.row_kinds) if kind.what == "tip"]
+
+    @property
     def stopping(self) -> list[float]:
         """Half the angle in which each kind of rows is stopped; see `ProgramData`."""
         return [float(self.data.program.stopping[kind.motor]) for kind in self.row_kinds]
@@ -137,12 +161,14 @@ class RtiText(ControllerText):
     @property
     def resting(self) -> str:
         """Torque of a motor at the target."""
+        if self.moves:
+            return "controller->held[j]"
         return "target_torque[j]" if self.several else self.number(self.data.target_torque[0])
 
     @property
     def less_target(self) -> str:
         """Write that the torque at the target is taken away."""
-        return " - target_torque[j]" if self.several else self.less(self.data.target_torque[0])
+        return f" - {self.resting}" if self.several else self.less(self.data.target_torque[0])
 
     def places(self, what: str) -> str:
         """Return a number of each motor, such as its place, as a list."""

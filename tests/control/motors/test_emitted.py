@@ -38,9 +38,14 @@ WARNINGS = (
 
 @pytest.fixture(scope="module")
 def late(two: Bench) -> Bench:
-    """With a delay of two samples and a half, and a bound of how fast the elbow's torque may change."""
-    rates = {"shoulder": 10.0, "elbow": 1.0}
-    return Bench.of(two.scene.replace(**{"control.delay": 0.05, "control.bounds.torque_rate": rates}))
+    """With a delay of two samples and a half, bounds of how fast torques change, and a shoulder that is rather weak."""
+    changes = {
+        "control.delay": 0.05,
+        "control.bounds.torque_rate": {"shoulder": 10.0, "elbow": 1.0},
+        "control.bounds.torque.shoulder": [-0.15, 0.044],
+        "initial.angles": {"upper": 0.5, "forearm": 0.5},
+    }
+    return Bench.of(two.scene.replace(**changes))
 
 
 def compiled(bench: Bench, name: str, files: dict[str, str]) -> EmittedController:
@@ -79,6 +84,27 @@ def test_torques_are_those_of_python(
         assert np.all(np.abs(found.torque - before) <= bench.problem.torque_rate * 0.02 + 1e-12)
         before = found.torque
         plant.advance(expected.torque)
+
+
+def test_a_reference_that_moves_is_that_of_python(late: Bench) -> None:
+    """A step, then a little at a time; what cannot be reached, or held, leaves it as it was."""
+    name, files = emit_controller(late, "rti")
+    emitted = compiled(late, name, files)
+    python = RealTimeIteration(late.step, late.links, late.inertia)
+    python.estimator = NonlinearFilter(late.step, late.links)
+    python.reset()
+    plant, wanted = Plant(late.scene, late.problem, CONDITIONS[0]), late.problem.reference
+    for k in range(16):
+        seen = plant.measured()
+        expected, found = python.command(seen), emitted.command(seen)
+        np.testing.assert_allclose(found.torque, expected.torque, rtol=0.0, atol=2e-5)
+        plant.advance(expected.torque)
+        if k >= 2:
+            wanted = np.array([0.5, -0.3]) if k == 2 else wanted + np.array([0.01, -0.02])
+            assert emitted.aim(wanted) is python.aim(wanted) is Status.OK
+        for reference, status in (([np.nan, 0.0], Status.NOT_FINITE), ([0.0, 0.0], Status.INFEASIBLE)):
+            assert emitted.aim(np.array(reference)) is python.aim(np.array(reference)) is status
+    assert python.goal.hub == pytest.approx(wanted)
 
 
 SPELLS = {
