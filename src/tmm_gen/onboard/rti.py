@@ -23,7 +23,6 @@ from tmm_gen.onboard.solver import solver_files
 from tmm_gen.onboard.text import ControllerText
 from tmm_gen.program.build import build_program
 
-
 AIM_TURNS = 12
 AIM_TOLERANCE = {"float64": 1e-9, "float32": 1e-4}
 
