@@ -11,8 +11,9 @@ from numpy.testing import assert_allclose
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.condensed import Condensed, Outputs
 from tmm_gen.control.linear import LinearModel
-from tmm_gen.control.problem import ControlProblem, Goal
+from tmm_gen.control.problem import ControlProblem
 from tmm_gen.control.response import response
+from tmm_gen.control.terms import Goal
 
 
 def predicted(model: LinearModel, problem: ControlProblem, state: np.ndarray, torques: np.ndarray, last: float,

@@ -11,7 +11,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.control.problem import ControlProblem, Goal, Kind
+from tmm_gen.control.problem import ControlProblem
+from tmm_gen.control.terms import Goal, Kind
 
 Array = NDArray[np.float64]
 

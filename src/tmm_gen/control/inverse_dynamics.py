@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.control.motors import motors_of
-from tmm_gen.control.problem import ControlProblem, Goal
+from tmm_gen.control.problem import ControlProblem
+from tmm_gen.control.terms import Goal
 from tmm_gen.control.way import Way
 from tmm_gen.modal.arm import linear_arm
 from tmm_gen.modal.matrices import matrices

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.control.delay import Delay
-from tmm_gen.control.problem import Goal
+from tmm_gen.control.terms import Goal
 
 Array = NDArray[np.float64]
 

@@ -9,8 +9,9 @@ from numpy.typing import NDArray
 
 from tmm_gen.control.command import Command, Status
 from tmm_gen.control.credible import FARTHEST, JUMP, PATIENCE
-from tmm_gen.control.problem import ControlProblem, Goal
+from tmm_gen.control.problem import ControlProblem
 from tmm_gen.control.safe import safe_torque
+from tmm_gen.control.terms import Goal
 from tmm_gen.control.way import Way
 
 Array = NDArray[np.float64]

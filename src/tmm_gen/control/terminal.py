@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.control.linear import LinearModel
-from tmm_gen.control.problem import MotorWeights
+from tmm_gen.control.terms import MotorWeights
 
 Array = NDArray[np.float64]
 

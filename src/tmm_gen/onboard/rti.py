@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from tmm_gen.c_language.names import bare_names, macros
 from tmm_gen.c_language.real import REALS
 from tmm_gen.control.motors import Motor
-from tmm_gen.control.problem import Kind
 from tmm_gen.control.rti import RealTimeIteration
+from tmm_gen.control.terms import Kind
 from tmm_gen.emit.c import emit_kernel
 from tmm_gen.emit.templates import render
 from tmm_gen.onboard.example_arm import ExampleArm

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 from tmm_gen.control.credible import Credible
 from tmm_gen.control.kalman import KalmanFilter
 from tmm_gen.control.motors import Motors
-from tmm_gen.control.problem import Kind
 from tmm_gen.control.rti import RealTimeIteration
 from tmm_gen.control.safe import BRAKE_TIME
+from tmm_gen.control.terms import Kind
 from tmm_gen.onboard.linear_data import gains_by_sensors
 from tmm_gen.onboard.program_data import ProgramData, program_data
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,9 +12,10 @@ from numpy.typing import ArrayLike, NDArray
 from tmm_gen.c_language.real import Real
 from tmm_gen.c_language.wrap import WIDTH
 from tmm_gen.control.condensed import BEYOND
-from tmm_gen.control.credible import FARTHEST, JUMP, PATIENCE, Credible
+from tmm_gen.control.credible import FARTHEST, JUMP, PATIENCE
 from tmm_gen.control.problem import ControlProblem
-from tmm_gen.onboard.program_data import INFINITE, ProgramData
+from tmm_gen.onboard.controller_data import ControllerData
+from tmm_gen.onboard.program_data import INFINITE
 from tmm_gen.onboard.tables import number, table
 from tmm_gen.onboard.tolerances import TOLERANCES, Tolerances
 from tmm_gen.version import __version__
@@ -24,45 +24,6 @@ _MORE_SENSORS = (
     ("tip accelerometer", "acceleration across the last link at the tip [m/s^2]"),
     ("root strain gauge", "bending moment at the root [N m]"),
 )
-
-
-class ControllerData(Protocol):
-    """What all controllers' tables have."""
-
-    @property
-    def size(self) -> int:
-        """Entries of the state."""
-        ...
-
-    @property
-    def sensors(self) -> tuple[int, ...]:
-        """Which sensors there are: m encoders, then accelerometer and strain gauge."""
-        ...
-
-    @property
-    def memory(self) -> int:
-        """Past torques that count."""
-        ...
-
-    @property
-    def program(self) -> ProgramData:
-        """The quadratic program."""
-        ...
-
-    @property
-    def brake(self) -> float | NDArray[np.float64]:
-        """Of the safe law, N m s/rad, of each motor."""
-        ...
-
-    @property
-    def start_torque(self) -> NDArray[np.float64]:
-        """Torques before any is chosen, (m,), N m."""
-        ...
-
-    @property
-    def credible(self) -> Credible:
-        """What can be believed of a measurement."""
-        ...
 
 
 @dataclass(frozen=True, eq=False)

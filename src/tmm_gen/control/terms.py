@@ -1,0 +1,92 @@
+"""What a control problem is made of: weights, what an estimator assumes, goals, kinds of rows, motor by motor."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, fields
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.scene.control import Weights
+from tmm_gen.scene.each import by_names
+
+Array = NDArray[np.float64]
+Pair = tuple[float, float]
+
+
+@dataclass(frozen=True, eq=False)
+class MotorWeights:
+    """Weights of the cost, (m,) each; see :class:`~tmm_gen.scene.control.Weights`."""
+
+    tip: Array
+    hub: Array
+    tip_rate: Array
+    hub_rate: Array
+    torque: Array
+    torque_step: Array
+    overshoot: Array
+    hub_bound: Array
+
+    @classmethod
+    def of(cls, weights: Weights, names: tuple[str, ...]) -> MotorWeights:
+        """Return the weights of some motors."""
+        return cls(*(np.array(by_names(getattr(weights, item.name), names)) for item in fields(cls)))
+
+
+@dataclass(frozen=True, eq=False)
+class Assumed:
+    """What the Kalman filter assumes; see :class:`~tmm_gen.scene.control.Estimator`.
+
+    Parameters
+    ----------
+    encoder, torque, disturbance, rate : array, (m,)
+        Of each motor: rad, N m, N m, rad/s.
+    accelerometer, strain : float
+        m/s^2, N m.
+    """
+
+    encoder: Array
+    torque: Array
+    disturbance: Array
+    rate: Array
+    accelerometer: float
+    strain: float
+
+
+@dataclass(frozen=True, eq=False)
+class Goal:
+    """What the arm is to come to, (m,) each: angles of tips and hubs, rad, and the torques that hold it, N m."""
+
+    tip: Array
+    hub: Array
+    torque: Array
+
+
+@dataclass(frozen=True)
+class Kind:
+    """N rows of the quadratic program, one per sample.
+
+    Parameters
+    ----------
+    what : {"rate", "tip", "hub"}
+        Change of a torque, or an angle.
+    motor : int
+        Whose.
+    low, high : float
+        N m or rad.
+    weight : float
+        Of passing it; infinite where it is hard.
+    """
+
+    what: Literal["rate", "tip", "hub"]
+    motor: int
+    low: float
+    high: float
+    weight: float = math.inf
+
+    @property
+    def soft(self) -> bool:
+        """Whether it may be passed."""
+        return math.isfinite(self.weight)

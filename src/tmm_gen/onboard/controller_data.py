@@ -1,0 +1,50 @@
+"""What the tables of all controllers in C have."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.control.credible import Credible
+from tmm_gen.onboard.program_data import ProgramData
+
+
+class ControllerData(Protocol):
+    """What all controllers' tables have."""
+
+    @property
+    def size(self) -> int:
+        """Entries of the state."""
+        ...
+
+    @property
+    def sensors(self) -> tuple[int, ...]:
+        """Which sensors there are: m encoders, then accelerometer and strain gauge."""
+        ...
+
+    @property
+    def memory(self) -> int:
+        """Past torques that count."""
+        ...
+
+    @property
+    def program(self) -> ProgramData:
+        """The quadratic program."""
+        ...
+
+    @property
+    def brake(self) -> float | NDArray[np.float64]:
+        """Of the safe law, N m s/rad, of each motor."""
+        ...
+
+    @property
+    def start_torque(self) -> NDArray[np.float64]:
+        """Torques before any is chosen, (m,), N m."""
+        ...
+
+    @property
+    def credible(self) -> Credible:
+        """What can be believed of a measurement."""
+        ...
