@@ -172,7 +172,9 @@ class Plant:
         sensors, noise, out = self.problem.sensors, self.condition.noise, self.kernel.output()
         count = 2.0 * np.pi / self.problem.encoders
         shown = np.full(self.motors.count + 2, np.nan)
-        shown[:-2] = np.round(self._hubs(out) / count) * count
+        # before a gear that gives way, where motors have their encoders
+        hubs = self._hubs(out) if self.motors.on_hub else self.motors.hub @ self.kernel.state["angle"]
+        shown[:-2] = np.round(hubs / count) * count
         rustle = noise * self._random.standard_normal(2)
         if sensors.accelerometer is not None:
             angle = out["last"]

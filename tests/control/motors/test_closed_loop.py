@@ -36,10 +36,10 @@ def test_the_arm_rests_until_its_motors_let_go(two: Bench) -> None:
 
 def test_figures_pictures_and_motion_are_of_both_motors(two: Bench) -> None:
     kinds = [BY_NAME[name] for name in ("pd-id", "rti-zero")]
-    trials = list(compare(two, kinds, [NOMINAL, FRICTION], duration=1.4))
+    trials = list(compare(two, kinds, [NOMINAL, FRICTION], duration=2.0))
     low, high = two.problem.torque
     for trial in trials:
-        assert trial.loop.torque.shape == (70, 2)
+        assert trial.loop.torque.shape == (100, 2)
         assert np.all((trial.loop.torque >= low) & (trial.loop.torque <= high))
         assert trial.figures.fallbacks == 0
     predicted = trials[1]
