@@ -169,9 +169,10 @@ class RtiText(ControllerText):
         """Write that the torque at the target is taken away."""
         return f" - {self.resting}" if self.several else self.less(self.data.target_torque[0])
 
-    def places(self, what: str) -> str:
-        """Return a number of each motor, such as its place, as a list."""
-        return ", ".join(str(getattr(motor, what)) for motor in self.problem_motors)
+    @property
+    def outer(self) -> str:
+        """Where each motor's outer link is, a list."""
+        return ", ".join(str(motor.place) for motor in self.problem_motors)
 
     def acting(self, two: bool) -> str:
         """Declare the torques that act in a sample, one pair after the other or the same throughout."""

@@ -32,7 +32,7 @@ WARNINGS = (
         "-Wshadow",
         "-Wundef",
     ),
-    *("-Wstrict-prototypes", "-Wmissing-prototypes", "-Werror", "-O2", "-fsyntax-only", "-I."),
+    *("-Wstrict-prototypes", "-Wmissing-prototypes", "-Werror", "-O1", "-c", "-I."),
 )
 
 
