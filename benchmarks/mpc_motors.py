@@ -85,7 +85,7 @@ def section(rows: Rows) -> str:
         own = [row for row in rows if row["controller"] == name]
         used = max(float(str(row["torque_percent"])) for row in own)
         solve = float(np.median([float(str(row["solve_us"])) for row in own]))
-        told = f"{solve:.0f} us in C" if own[0]["compiled"] else f"{solve / 1e3:.1f} ms in Python"
+        told = f"{solve:.0f} us in {'C' if own[0]['compiled'] else 'Python'}"
         cells = " | ".join(_cell(row) for row in own)
         lines.append(f"| `{name}` | {cells} | {used:.0f} % | {told} |")
     return "\n".join(lines)

@@ -34,7 +34,8 @@ def swing(settling: float = 0.7, overshoot: float = 0.0, residual: float = 0.0) 
     tip[time == 0.5] = 1.0 + overshoot
     tip += np.where(time >= 1.0, 0.5 * residual * np.sin(100.0 * np.pi * (time - 1.0)), 0.0)
     empty = np.zeros(0)
-    return Loop(time, tip, tip, empty, empty, (), empty, np.zeros(0, int), ())
+    tips = tip[:, None]
+    return Loop(time, tips, tips, empty, empty, (), empty, np.zeros(0, int), (), np.ones(1))
 
 
 def valley(tunable: Tunable) -> Cost:
@@ -54,22 +55,21 @@ def valley(tunable: Tunable) -> Cost:
 
 def test_what_meets_its_aims_costs_less_than_one() -> None:
     for aim in AIMS:
-        assert 0.0 < price(swing(), 1.0, aim) < 0.5
+        assert 0.0 < price(swing(), aim) < 0.5
         on_time, over, trembling = (
             swing(settling=aim.settling),
             swing(overshoot=aim.overshoot),
             swing(residual=aim.residual),
         )
         for edge in (on_time, over, trembling):
-            assert price(edge, 1.0, aim) == pytest.approx(1.0, rel=1e-2)
+            assert price(edge, aim) == pytest.approx(1.0, rel=1e-2)
 
 
 @pytest.mark.parametrize("name", ["settling", "overshoot", "residual"])
 def test_whatever_gets_worse_costs_more_and_not_at_a_jump(name: str) -> None:
     for aim in AIMS:
         prices = [
-            price(swing(**{name: share * getattr(aim, name)}), 1.0, aim)
-            for share in np.linspace(1.0, 1.1, 41)
+            price(swing(**{name: share * getattr(aim, name)}), aim) for share in np.linspace(1.0, 1.1, 41)
         ]
         assert np.all(np.diff(prices) > 0.0)
         assert np.max(np.diff(np.log(prices))) < 0.15
@@ -78,7 +78,7 @@ def test_whatever_gets_worse_costs_more_and_not_at_a_jump(name: str) -> None:
 def test_a_motion_without_end_has_a_price() -> None:
     far = swing()
     far.tip[-500:] = np.nan
-    assert 10.0 < price(far, 1.0, AIMS[0]) < np.inf
+    assert 10.0 < price(far, AIMS[0]) < np.inf
 
 
 def test_the_price_is_near_the_worst_loop_and_no_more_are_run_than_it_takes(bench: Bench) -> None:
