@@ -46,9 +46,10 @@ def _points(stage: Any, seed: int = 0) -> tuple[np.ndarray, np.ndarray, float]:
 def _same(motion: Any, x: np.ndarray, state: np.ndarray, off: float) -> None:
     """Whether coordinates and a state of the kernel show the same tip and hub."""
     seen, step = motion.outputs(ca.DM(x)), motion.step
-    for name, row in (("tip", step.mean_row), ("hub", step.hub_row)):
-        assert float(seen[name]) == pytest.approx(row("angle") @ state, abs=off)
-        assert float(seen[f"{name}_rate"]) == pytest.approx(row("rate") @ state, abs=100.0 * off)
+    for name, rows in (("tip", step.motors.tip), ("hub", step.motors.hub)):
+        angle, rate = (step.rows(rows, quantity)[0] for quantity in ("angle", "rate"))
+        assert float(seen[name]) == pytest.approx(angle @ state, abs=off)
+        assert float(seen[f"{name}_rate"]) == pytest.approx(rate @ state, abs=100.0 * off)
 
 
 def test_smaller_coordinates_make_the_same_step_from_no_acceleration(stage: Any) -> None:

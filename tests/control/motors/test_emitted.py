@@ -18,6 +18,7 @@ from tmm_gen.control.rti import RealTimeIteration
 from tmm_gen.errors import UserError
 from tmm_gen.onboard.emit import emit_controller
 from tmm_gen.onboard.native import EmittedController
+from tmm_gen.scene import Scene
 
 pytestmark = pytest.mark.compiler
 
@@ -116,14 +117,19 @@ SPELLS = {
 }
 
 
-def test_all_is_well_a_second_after_the_last_wrong_sample(two: Bench) -> None:
-    """Whatever the encoders showed for 15 samples: OK again within a second, the bounds kept throughout."""
-    name, files = emit_controller(two, "rti-zero")
-    controller = compiled(two, name, files)
-    low, high = two.problem.torque
+def test_all_is_well_a_second_after_the_last_wrong_sample(elbow: Scene) -> None:
+    """Whatever the encoders showed for 15 samples: OK again within a second, the bounds kept throughout.
+
+    With two springs in each beam, since a model of one lets the arm tremble for long.
+    """
+    changes = {"beam.upper.links": 2, "beam.forearm.links": 2, "control.horizon": 12, "control.substeps": 2}
+    bench = Bench.of(elbow.replace(**changes))
+    name, files = emit_controller(bench, "rti-zero")
+    controller = compiled(bench, name, files)
+    low, high = bench.problem.torque
     for spell, added in SPELLS.items():
         controller.reset()
-        plant, statuses = Plant(two.scene, two.problem, CONDITIONS[0]), []
+        plant, statuses = Plant(bench.scene, bench.problem, CONDITIONS[0]), []
         for k in range(10 + 15 + 150):
             seen = plant.measured()
             if 10 <= k < 25:
@@ -135,7 +141,7 @@ def test_all_is_well_a_second_after_the_last_wrong_sample(two: Bench) -> None:
         assert set(statuses[10:25]) != {Status.OK}, spell
         assert Status.OK in statuses[25:75], spell
         assert set(statuses[75:]) == {Status.OK}, spell
-        np.testing.assert_allclose(plant.angles()[2:], two.problem.reference, atol=0.02, err_msg=spell)
+        np.testing.assert_allclose(plant.angles()[2:], bench.problem.reference, atol=5e-3, err_msg=spell)
 
 
 def test_linear_controllers_are_refused_in_a_line(two: Bench) -> None:
