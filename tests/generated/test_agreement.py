@@ -17,7 +17,7 @@ from tmm_gen.scene import METHODS, Scene
 
 METHOD_NAMES = [method.name for method in METHODS]
 UNKNOWNS = {
-    method.name: ["acceleration"] if method.explicit({}) else ["acceleration", "increment", "displacement"]
+    method.name: ["acceleration"] if method.explicit({}) or method.coupled else ["acceleration", "increment", "displacement"]
     for method in METHODS
 }
 EVERY = [(name, unknown) for name in METHOD_NAMES for unknown in UNKNOWNS[name]]

@@ -23,6 +23,10 @@ def test_names() -> None:
         "zhai",
         "sdirk2",
         "sdirk4",
+        "radau2",
+        "radau3",
+        "gauss2",
+        "gauss3",
     }
     assert len(set(INTEGRATOR_NAMES)) == len(METHODS)
 

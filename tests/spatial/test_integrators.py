@@ -16,6 +16,7 @@ from tmm_gen.native import compile_kernel
 from tmm_gen.native.python_module import casadi_module, numpy_module
 from tmm_gen.program.build import build_program
 from tmm_gen.scene import INTEGRATOR_NAMES, Scene, parse_scene
+from tmm_gen.scene import METHODS as DECLARED
 from tmm_gen.study.excitation import Excitation
 from tmm_gen.study.grid import Axes, configurations
 from tmm_gen.study.study import run_study
@@ -30,7 +31,8 @@ from tmm_gen.verify.agreement import (
 pytestmark = pytest.mark.compiler
 
 TOLERANCE = 1e-12
-METHODS = tuple(name for name in INTEGRATOR_NAMES if name not in ("sdirk2", "sdirk4"))
+COUPLED = tuple(method.name for method in DECLARED if method.coupled)
+METHODS = tuple(name for name in INTEGRATOR_NAMES if name not in ("sdirk2", "sdirk4", *COUPLED))
 """Those of many stages take long to build; tests/spatial/test_order.py holds one."""
 UNTIL = 0.4
 TOP = 3e-3

@@ -59,15 +59,13 @@ def stability(
     the same growth is measured by running the generated kernel over a map of steps and stiffnesses; exit code 1 where
     it differs.
     """
-    from tmm_gen.scene.integrator import INTEGRATOR_NAMES
-
     loaded = require_served("stability", changed_scene(scene, changes))
     start = start_of(loaded, near)
     chosen = _known(mapped or (loaded.integrator.name,))
     claim((picture,), (scene,))
     if picture is not None and cells == 0:
         raise click.UsageError("--plot draws maps: leave out --cells 0.")
-    with progress(f"modes of {loaded.name}", total=len(INTEGRATOR_NAMES)) as advance:
+    with progress(f"modes of {loaded.name}", total=len(loaded.integrators)) as advance:
         from tmm_gen.stability.limits import scene_integrators, standings
         from tmm_gen.stability.motion import small_motion
 

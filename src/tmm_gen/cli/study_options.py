@@ -97,6 +97,10 @@ def axes_of(scene: Scene, options: dict[str, Any]) -> Axes:
             raise UserError(
                 f"--integrators {name}: no such integrator; there are {', '.join(INTEGRATOR_NAMES)}."
             )
+        if name not in scene.integrators:
+            raise UserError(
+                f"--integrators {name}: does not serve this arm yet; there are {', '.join(scene.integrators)}."
+            )
     if options["links"] and not can_be_cut(scene):
         raise UserError("--links: the scene has no [beam] to cut into links; it lists them. Leave it out.")
     given = [f"--{name}" for name in ("linearisations", "iterations", "corrections") if options[name]]

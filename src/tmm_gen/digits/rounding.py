@@ -14,15 +14,17 @@ from __future__ import annotations
 
 import math
 import sys
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
 from tmm_gen.derive.elements.torsion import DAMPING, JOINT, STIFFNESS
-from tmm_gen.derive.integrators.declaration import STEP, Integrator, stage
+from tmm_gen.derive.integrators.declaration import STEP, Integrator, Kind, Scheme, stage
 from tmm_gen.derive.integrators.history import history_depth
 from tmm_gen.derive.integrators.relations import affine_motion
+from tmm_gen.derive.integrators.spectrum import spectrum_of
 from tmm_gen.derive.station.frame import GAINS
 from tmm_gen.derive.station.law import impedance_law
 from tmm_gen.digits.product import DIGITS
@@ -72,8 +74,7 @@ class Rounding:
         law = impedance_law(JOINT)
         shares = []
         for scheme in integrator.schemes:
-            for index in range(1, len(scheme.stages) + 1):
-                gain = affine_motion(scheme, index, "acceleration").gain
+            for gain in _gains(scheme):
                 impedance = law.subs({GAINS[k]: value for k, value in gain.items()})
                 shares.append([impedance.coeff(STIFFNESS), impedance.coeff(DAMPING)])
         self._shares = sp.lambdify(STEP, shares, "math")
@@ -126,6 +127,16 @@ class Rounding:
         )
 
 
+def _gains(scheme: Scheme) -> Iterator[Mapping[Kind, sp.Expr]]:
+    """Yield what displacement, rate and acceleration are per unknown of each sweep, of complex ones the sizes."""
+    if scheme.coupled:
+        for size in spectrum_of(scheme).moduli:
+            yield {"q": STEP**2 * size**2, "v": STEP * size, "a": sp.S.One}
+        return
+    for index in range(1, len(scheme.stages) + 1):
+        yield affine_motion(scheme, index, "acceleration").gain
+
+
 def _keeps_increments(integrator: Integrator) -> bool:
     """Return whether a sweep for increments yields the new angle without a difference of larger numbers.
 
@@ -133,7 +144,7 @@ def _keeps_increments(integrator: Integrator) -> bool:
     angle from accelerations.
     """
     update = integrator.main.update["q"]
-    one_step = not integrator.startup and history_depth(integrator) == 1
+    one_step = not integrator.startup and not integrator.main.coupled and history_depth(integrator) == 1
     return bool(one_step and update == stage("q", len(integrator.main.stages)))
 
 

@@ -49,7 +49,7 @@ def terms_of(scene: Scene) -> list[Term]:
     if scene.model.in_plane:
         found = [_gravity(scene), _iterations(scene), *found, *([] if scene.hosts else _tip(scene))]
         if not scene.emit.sensitivities:  # neither has derivatives
-            if scene.model.iterates:
+            if scene.model.iterates and not scene.coupled:
                 found.insert(2, _corrections(scene))
             found.append(_heat(scene))
     return [*found, _inputs(scene), _outputs(scene)]
@@ -62,7 +62,7 @@ def _gravity(scene: Scene) -> Term:
 
 
 def _iterations(scene: Scene) -> Term:
-    count = scene.model.sweeps
+    count = scene.sweeps
     why = f"model.iterations = {count}"
     changed = 1 if count > 1 else 2
     return Term("a second sweep in each stage", count > 1, why, lambda s: _with_model(s, iterations=changed))

@@ -40,6 +40,7 @@ def build_program(scene: Scene, *, auto: bool = False) -> Program:
         rounding leaves too few digits.
     """
     chosen = integrator(scene.integrator.name, **scene.integrator.parameters)
+    _require_carried(scene, chosen)
     try:
         if scene.spatial is not None:
             return _in_space(scene, scene.spatial, chosen, auto=auto)
@@ -54,6 +55,15 @@ def build_program(scene: Scene, *, auto: bool = False) -> Program:
             f"scene '{scene.name}': model.unknown = '{scene.model.unknown}' with model.sweep = "
             f"'{scene.model.sweep}' and integrator '{scene.integrator.name}': {error}"
         ) from error
+
+
+def _require_carried(scene: Scene, chosen: Integrator) -> None:
+    """Refuse an arm that methods whose stages are coupled do not go with yet."""
+    if chosen.main.coupled and chosen.name not in scene.integrators:
+        raise UserError(
+            f"scene '{scene.name}': {chosen.name} solves all its stages at once, which is not derived yet for arms in "
+            "space, for a base that floats and for elastic gears; use an integrator such as 'sdirk4'"
+        )
 
 
 def _in_space(scene: Scene, arm: SpatialArm, chosen: Integrator, *, auto: bool) -> Program:
@@ -105,7 +115,7 @@ def build_unchecked(scene: Scene, chosen: Integrator, *, auto: bool = False) -> 
         Choices(
             step=scene.integrator.step,
             unknown=scene.model.unknown,
-            iterations=scene.model.sweeps,
+            iterations=scene.sweeps,
             corrections=0 if auto else scene.model.corrections,
             walks=_walks(scene, row, derived=derived),
             places=scene.model.linearisation != "newton",

@@ -111,7 +111,7 @@ def planar_row(scene: Scene, integrator: str) -> Row:
     model = "planar arm, large rotations"
     model += ", gravity" if named["gravity"] else ""
     model += ", tip mass" if named["tip_mass"] else ""
-    rounds = f", {scene.model.sweeps} iterations" if scene.model.sweeps > 1 else ""
+    rounds = f", {scene.sweeps} iterations" if scene.sweeps > 1 else ""
     if corrections := scene.model.corrections:
         rounds += f", {corrections} correction{'s' if corrections > 1 else ''}"
     return Row(

@@ -68,11 +68,17 @@ class Method:
     explicit_at : dict from str to float, optional
         Parameter values at which it is explicit and motion follows from accelerations only; empty where it
         always is, None where it never is.
+    coupled : bool
+        All its stages are solved at once (collocation), by accelerations.
+    sweeps : int
+        What kernels of planar arms take where the scene does not say: what keeps its order.
     """
 
     name: str
     parameters: tuple[Parameter, ...] = ()
     explicit_at: dict[str, float] | None = field(default=None, hash=False)
+    coupled: bool = False
+    sweeps: int = 1
 
     def explicit(self, given: dict[str, float]) -> bool:
         """Return whether the method is explicit with the given parameters, others at their defaults."""
@@ -94,6 +100,10 @@ METHODS: tuple[Method, ...] = (
     Method("zhai", (Parameter("psi", 0.5), Parameter("phi", 0.5)), {}),
     Method("sdirk2"),
     Method("sdirk4"),
+    Method("radau2", coupled=True),
+    Method("radau3", coupled=True),
+    Method("gauss2", coupled=True),
+    Method("gauss3", coupled=True, sweeps=2),
 )
 """All methods a scene may name, in the order tables show them."""
 

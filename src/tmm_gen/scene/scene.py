@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 
+from tmm_gen.scene import integrator as methods
 from tmm_gen.scene.beam import Beam, BeamEntry, Tip
 from tmm_gen.scene.change import changed
 from tmm_gen.scene.control import Control
@@ -108,6 +109,27 @@ class Scene:
     def floats(self) -> bool:
         """Whether nothing holds a planar arm, so that its base moves along x and y too."""
         return isinstance(self.base, FloatingBase)
+
+    @property
+    def sweeps(self) -> int:
+        """Sweeps per stage of a kernel, a sweep and its corrections in space, or iterations of coupled stages."""
+        method = methods.method_named(self.integrator.name)
+        if method is None or not (self.model.auto and self.model.in_plane):
+            return self.model.sweeps
+        return method.sweeps
+
+    @property
+    def coupled(self) -> bool:
+        """Whether its integrator solves all stages at once."""
+        method = methods.method_named(self.integrator.name)
+        return method is not None and method.coupled
+
+    @property
+    def integrators(self) -> tuple[str, ...]:
+        """Names of the integrators that serve it: those whose stages are coupled do not serve all arms yet."""
+        shafts = not self.model.linear and any(link.massless for link in self.links)
+        uncoupled = self.spatial is not None or self.floats or shafts
+        return tuple(method.name for method in methods.METHODS if not (method.coupled and uncoupled))
 
     @property
     def drivetrain(self) -> bool:

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from tmm_gen.derive.integrators.declaration import KINDS, STEP, Kind, Scheme, past, stage
 from tmm_gen.derive.integrators.registry import integrator
 from tmm_gen.derive.integrators.relations import UNKNOWN, affine_motion
+from tmm_gen.derive.integrators.spectrum import spectrum_of
 from tmm_gen.inputs.signals import Signal
 from tmm_gen.reference.energy import elastic_energy, gravitational_energy, kinetic_energy
 from tmm_gen.reference.floating import about_center
@@ -113,7 +114,8 @@ class Unsolved:
             return 0.0
         arm = Arm(self.scene, self.signals)
         times = np.array([index for index, _, _ in self._looks]) * self.scene.integrator.step
-        reached = _stack([_motion(after, arm.first) for _, _, after in self._looks])
+        ends = [_motion(after, arm.first) for _, _, after in self._looks]
+        reached = {kind: np.array([motion[kind] for motion in ends]) for kind in ("q", "v")}
         return step_error(arm, times, reached["q"], reached["v"])
 
     # -- where equations hold -----------------------------------------------------------------------------------
@@ -121,6 +123,10 @@ class Unsolved:
     def _equilibria(self, arm: Arm, indices: Array) -> Iterator[tuple[Array, dict[Kind, Array]]]:
         """Yield times and motions of the coordinates where steps looked at are in balance."""
         step = self.scene.integrator.step
+        coupled = self._coupled_stages(arm)
+        if coupled is not None:
+            yield (indices - 1 + coupled[0]) * step, _stack(coupled[1])
+            return
         ends = ([b for _, b, _ in self._looks], [a for _, _, a in self._looks])
         before, after = ([_motion(state, arm.first) for state in states] for states in ends)
         instant, reached = equilibrium(self.scene)
@@ -131,6 +137,18 @@ class Unsolved:
         # the states themselves; two at a time, since some motions alternate from step to step
         yield np.maximum(indices - 1, 0) * step, _stack(before)
         yield indices * step, _stack(after)
+
+    def _coupled_stages(self, arm: Arm) -> tuple[float, list[dict[Kind, Array]]] | None:
+        """Return instant and motions of the last stages of coupled schemes that end on none; their states keep all."""
+        scheme = integrator(self.scene.integrator.name, **self.scene.integrator.parameters).main
+        if not scheme.coupled or scheme.stages[-1].instant == 1:
+            return None
+        found = []
+        for _, before, after in self._looks:
+            stages = [_of(after, arm.first, f"acceleration_stage{k + 1}") for k in range(len(scheme.stages))]
+            begun = _motion(before, arm.first)
+            found.append(_at_last_stage(scheme, self.scene.integrator.step, begun, np.array(stages)))
+        return float(scheme.stages[-1].instant), found
 
     def _rounded(self, arm: Arm, times: Array, motion: Mapping[Kind, Array]) -> Array:
         """Return the power of what rounding leaves of the equations, (k,), W: a last place of each of their terms."""
@@ -183,9 +201,25 @@ def _collocated(
     return reached
 
 
+def _at_last_stage(
+    scheme: Scheme, step: float, before: Mapping[Kind, Array], stages: Array
+) -> dict[Kind, Array]:
+    """Return the motion at the last stage of a coupled scheme by the accelerations at all of them, (s, k)."""
+    spectrum = spectrum_of(scheme)
+    row = {"q": spectrum.squared.row(-1), "v": spectrum.matrix.row(-1)}
+    weights = {kind: np.array([float(w) for w in found]) for kind, found in row.items()}
+    place = before["q"] + float(spectrum.nodes[-1]) * step * before["v"] + step**2 * weights["q"] @ stages
+    return {"q": place, "v": before["v"] + step * weights["v"] @ stages, "a": stages[-1]}
+
+
 def _motion(state: State, first: int) -> dict[Kind, Array]:
-    hub = {kind: [state[f"hub_{name}"]] if first else [] for kind, name in _KEYS.items()}
-    return {kind: np.array([*hub[kind], *state[name]], float) for kind, name in _KEYS.items()}
+    return {kind: _of(state, first, name) for kind, name in _KEYS.items() if name in state}
+
+
+def _of(state: State, first: int, name: str) -> Array:
+    """Return a variable of the state, the hub's first."""
+    hub = [state[f"hub_{name}"]] if first else []
+    return np.array([*hub, *state[name]], float)
 
 
 def _stack(motions: list[dict[Kind, Any]]) -> dict[Kind, Array]:

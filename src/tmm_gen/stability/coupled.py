@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from tmm_gen.derive.integrators.declaration import KINDS, STEP, Integrator, Kind, Past, past, stage
 from tmm_gen.derive.integrators.history import history_of
 from tmm_gen.derive.integrators.relations import affine_motion
+from tmm_gen.derive.integrators.spectrum import spectrum_of
 from tmm_gen.modal.linear import Linear
 from tmm_gen.modal.undamped import undamped_modes
 from tmm_gen.program.space.assemble import predicts_held
@@ -78,6 +79,8 @@ class CoupledStep:
             return sum((c * rows[symbol] for symbol, c in terms), np.zeros((modes, self.size)))
 
         damping, stiffness = step * self._damping, step**2 * self._stiffness
+        if self._scheme.coupled:
+            return self._at_once(damping, stiffness)
         gains, offsets, update = self._numbers
         for index, (gain, offset) in enumerate(zip(gains, offsets, strict=True), start=1):
             known = {kind: linear(offset[kind]) for kind in KINDS}
@@ -89,6 +92,26 @@ class CoupledStep:
                 rows[stage(kind, index)] = gain[kind] * unknown + known[kind]
         new = [linear(update[p.kind]) if p.lag == 0 else rows[past(p.kind, p.lag - 1)] for p in self._values]
         return np.vstack(new)
+
+    def _at_once(self, damping: Array, stiffness: Array) -> Array:
+        """Return it where all stages are solved at once, from their accelerations by the motion before."""
+        spectrum = spectrum_of(self._scheme)
+        weights, squared, nodes = (
+            np.array(each.tolist(), float)
+            for each in (spectrum.matrix, spectrum.squared, sp.Matrix(spectrum.nodes))
+        )
+        eye, modes = np.eye(len(stiffness)), len(stiffness)
+        system = np.kron(np.eye(len(nodes)), eye) + np.kron(weights, damping)
+        system += np.kron(squared, np.diag(stiffness))
+        still = np.kron(np.ones_like(nodes), np.diag(stiffness))
+        moving = np.kron(nodes, np.diag(stiffness)) + np.kron(np.ones_like(nodes), damping)
+        found = -np.linalg.solve(system, np.hstack([still, moving]))
+        ends = {kind: np.array([float(w) for w in row]) for kind, row in spectrum.ends.items()}
+        place, rate = (np.kron(ends[kind][None, :], eye) @ found for kind in ("q", "v"))
+        place[:, :modes] += eye
+        place[:, modes:] += eye
+        rate[:, modes:] += eye
+        return np.vstack([place, rate])
 
     def _solved(self, effective: Array, missing: Array, turned: float, latest: Array | None) -> Array:
         """Return what solves a stage, or what sweeps make of it, (modes, size).

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from tmm_gen.derive.integrators.declaration import Integrator
 from tmm_gen.derive.integrators.order import order
-from tmm_gen.derive.integrators.registry import integrator, names
+from tmm_gen.derive.integrators.registry import integrator
 from tmm_gen.derive.integrators.stability import stability_limit
 from tmm_gen.scene import Scene
 from tmm_gen.stability.coupled import CoupledStep
@@ -80,7 +80,7 @@ class Standing:
 def scene_integrators(scene: Scene, wanted: Iterable[str] | None = None) -> list[Integrator]:
     """Return integrators by name, all by default; the scene's own with the scene's parameters."""
     found = []
-    for name in wanted or names():
+    for name in wanted or sorted(scene.integrators):
         own = name.replace("-", "_") == scene.integrator.name
         found.append(integrator(name, **(scene.integrator.parameters if own else {})))
     return found

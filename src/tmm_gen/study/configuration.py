@@ -127,7 +127,7 @@ def own(scene: Scene) -> Configuration:
         integrator=underscored(scene.integrator.name),
         links=cut_into(scene),
         linearisation=None if scene.model.linear else scene.model.linearisation,
-        iterations=scene.model.sweeps,
+        iterations=scene.sweeps,
         real=scene.emit.real,
         backend="c",
         corrections=scene.model.corrections,

@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from itertools import product
 
-from tmm_gen.scene import INTEGRATOR_NAMES, Scene
+from tmm_gen.scene import Scene
 from tmm_gen.scene.check import document_of
+from tmm_gen.scene.integrator import Method, method_named
 from tmm_gen.scene.spatial.document import SpatialDocument
 from tmm_gen.study.configuration import Configuration, Family, own
 
@@ -79,7 +80,7 @@ def families(scene: Scene, axes: Axes) -> tuple[Family, ...]:
     mine = own(scene).family
     fixed = axes.iterations or ((mine.iterations,) if _rounds_given(scene) else ())
     choices = product(
-        axes.integrators or INTEGRATOR_NAMES,
+        axes.integrators or scene.integrators,
         axes.links or (mine.links,),
         axes.linearisations or (mine.linearisation,),
         fixed or (None,),
@@ -94,18 +95,29 @@ def families(scene: Scene, axes: Axes) -> tuple[Family, ...]:
         # only Newton's linearisation sweeps again, and that in space corrects; NumPy has one number type
         sweeps = iterations if linearisation in ("newton", "inertial") else 1
         number = real if backend == "c" else "float64"
-        more = corrections if linearisation == "newton" else 0
+        more = corrections if linearisation == "newton" and not _method(integrator).coupled else 0
         found.append(Family(integrator, links, linearisation, sweeps, number, backend, more))
     return tuple(dict.fromkeys(found))
 
 
 def _rounds_given(scene: Scene) -> bool:
-    """Whether the scene says how often a stage sweeps, or is of a kind in which that does not follow from the rest."""
-    return scene.spatial is None or isinstance(document_of(scene.source).model.iterations, int)
+    """Whether the scene says how often a stage sweeps, or is of a kind in which nothing is swept again."""
+    if scene.spatial is None:
+        return scene.model.linear or scene.model.iterations != "auto"
+    return isinstance(document_of(scene.source).model.iterations, int)
+
+
+def _method(integrator: str) -> Method:
+    """Return what a scene may say of an integrator that there is."""
+    found = method_named(integrator)
+    assert found is not None
+    return found
 
 
 def _usual(scene: Scene, integrator: str, linearisation: str | None) -> int:
-    """Return the sweep and corrections, or sweeps, that suit an integrator in space."""
+    """Return the sweep and corrections, or sweeps, that suit an integrator."""
+    if scene.spatial is None:
+        return _method(integrator).sweeps
     document = document_of(scene.source)
     assert isinstance(document, SpatialDocument)
     changes = {"linearisation": linearisation, "iterations": "auto"}

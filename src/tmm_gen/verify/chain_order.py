@@ -14,10 +14,13 @@ from tmm_gen.reference.reference import exact_response
 from tmm_gen.scene import Scene
 from tmm_gen.simulate.metrics import convergence_slope, largest_error
 from tmm_gen.verify.check_row import SLOPE, CheckRow
+from tmm_gen.verify.planar_order import above_rounding
 
 Array = NDArray[np.float64]
 
 _STEPS = (64, 128, 256, 512)
+_ROUNDED = 1e-12
+"""Errors below this share of the peak are of rounding: coarser steps are fitted."""
 _TURN = 0.2
 """Highest natural frequency, or decay rate, times the coarsest step of the slope."""
 
@@ -45,18 +48,21 @@ def chain_slope(scene: Scene, module: ModuleType, facts: dict[str, object]) -> C
     times: Array = coarsest * np.arange(1, _STEPS[0] + 1, dtype=float)
     held = {item.name: Constant(1.0) for item in scene.inputs}
     exact = exact_response(moving, held, times)["tip_angle"]
-    errors = []
-    for steps in _STEPS:
-        stride = steps // _STEPS[0]
-        found = _moving_tip(module, scene, coarsest / stride, steps)
-        errors.append(largest_error(found[stride - 1 :: stride], exact, float(np.max(np.abs(exact)))))
-    fitted = convergence_slope([1.0 / steps for steps in _STEPS], errors).order
+
+    def error(steps: int) -> float:
+        found = _moving_tip(module, scene, coarsest * _STEPS[0] / steps, steps)
+        stride, skip = max(steps // _STEPS[0], 1), max(_STEPS[0] // steps, 1)
+        return largest_error(found[stride - 1 :: stride], exact[skip - 1 :: skip], float(np.max(np.abs(exact))))
+
+    counts, errors = above_rounding(error, _STEPS, [error(steps) for steps in _STEPS], _ROUNDED)
+    fitted = convergence_slope([1.0 / steps for steps in counts], errors).order
     facts |= {"fitted_order": fitted, "derived_order": derived}
     return CheckRow(
         "order_against_derived",
         abs(fitted - derived),
         SLOPE,
-        f"error goes with step^{fitted:.3f}, fitted on {len(_STEPS)} steps from {coarsest:.2g} s down; "
+        f"error goes with step^{fitted:.3f}, fitted on {len(counts)} steps from "
+        f"{coarsest * _STEPS[0] / counts[0]:.2g} s down; "
         f"derived: step^{derived}",
     )
 

@@ -8,12 +8,15 @@ down alike, the same code and the same links make a motion whose every vibration
 from __future__ import annotations
 
 import inspect
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from types import ModuleType
 
 import numpy as np
 from numpy.typing import NDArray
 
+from tmm_gen.native.python_module import numpy_module
+from tmm_gen.program.build import build_program
 from tmm_gen.reference.frequency import fastest_mode
 from tmm_gen.reference.planar_arm import Arm
 from tmm_gen.scene import Scene
@@ -32,6 +35,10 @@ _STEPS = (64, 128, 256, 512)
 _SMALL = 0.01
 """rad; of errors larger than this the order says nothing yet: finer steps are fitted."""
 _HALVINGS = 4
+_ROUNDED, _FEWEST = 1e-13, 8
+"""rad; of errors smaller than this rounding is a part: coarser steps are fitted, down to so few in all."""
+_ITERATIONS = 3
+"""Of coupled stages: as many as leave nothing that the order could be told from."""
 _STEADY = 1e-10
 """rad; a motion this close to constant rates has no order: every integrator steps it exactly."""
 
@@ -51,7 +58,10 @@ def planar_slope(scene: Scene, module: ModuleType, facts: dict[str, object]) -> 
     from tmm_gen.derive.integrators.order import order
     from tmm_gen.derive.integrators.registry import integrator
 
-    derived = order(integrator(scene.integrator.name, **scene.integrator.parameters))
+    method = integrator(scene.integrator.name, **scene.integrator.parameters)
+    derived, solved = order(method), ""
+    if method.main.coupled and scene.sweeps < _ITERATIONS:
+        module, solved = _solved(scene), f" and {_ITERATIONS} iterations"
     soft = softened(scene)
     times: Array = _COARSEST * np.arange(1, _STEPS[0] + 1, dtype=float)
     moving = replace(
@@ -61,9 +71,10 @@ def planar_slope(scene: Scene, module: ModuleType, facts: dict[str, object]) -> 
     exact = arm.trajectory(float(times[-1])).at(times)[0][:, arm.first :]
 
     def error(steps: int) -> float:
-        stride = steps // _STEPS[0]
-        found = _angles(module, soft, _COARSEST / stride, steps)
-        return float(np.max(np.abs(found[stride - 1 :: stride] - exact)))
+        step = _COARSEST * _STEPS[0] / steps
+        found = _angles(module, soft, step, steps)
+        stride, skip = max(steps // _STEPS[0], 1), max(_STEPS[0] // steps, 1)
+        return float(np.max(np.abs(found[stride - 1 :: stride] - exact[skip - 1 :: skip])))
 
     facts["derived_order"] = derived
     counts = list(_STEPS)
@@ -81,6 +92,7 @@ def planar_slope(scene: Scene, module: ModuleType, facts: dict[str, object]) -> 
         if errors[0] > _SMALL:
             counts = [*counts[1:], 2 * counts[-1]]
             errors = [*errors[1:], error(counts[-1])]
+    counts, errors = above_rounding(error, counts, errors, _ROUNDED)
     fitted = convergence_slope([1.0 / steps for steps in counts], errors).order
     facts["fitted_order"] = fitted
     return CheckRow(
@@ -89,8 +101,35 @@ def planar_slope(scene: Scene, module: ModuleType, facts: dict[str, object]) -> 
         SLOPE,
         f"error goes with step^{fitted:.3f}, fitted on {len(counts)} steps from "
         f"{_COARSEST * _STEPS[0] / counts[0]:g} s down on the arm "
-        f"with softened joints; derived: step^{derived}",
+        f"with softened joints{solved}; derived: step^{derived}",
     )
+
+
+def above_rounding(
+    error: Callable[[int], float], counts: Sequence[int], errors: Sequence[float], least: float
+) -> tuple[list[int], list[float]]:
+    """Return numbers of steps and their errors, moved to coarser steps until the last error is above rounding.
+
+    Parameters
+    ----------
+    error : callable
+        From a number of steps to its error.
+    counts : sequence of int
+        Each twice the one before.
+    least : float
+        Errors below this are of rounding.
+    """
+    found, of_found = list(counts), list(errors)
+    while of_found[-1] < least and found[0] > _FEWEST:
+        found = [found[0] // 2, *found[:-1]]
+        of_found = [error(found[0]), *of_found[:-1]]
+    return found, of_found
+
+
+def _solved(scene: Scene) -> ModuleType:
+    """Return the NumPy package of a scene whose coupled stages are solved to the end."""
+    iterated = replace(scene, model=scene.model.model_copy(update={"iterations": _ITERATIONS}))
+    return numpy_module(iterated, build_program(iterated))
 
 
 def softened(scene: Scene) -> Scene:

@@ -86,8 +86,30 @@ def _simulate(integrator: Integrator, oscillator: Oscillator, step: float, count
     return values.T
 
 
+def _at_once(scheme: Scheme, oscillator: Oscillator, step: float) -> Callable[[Array, float], Array]:
+    """Solve the relations of all stages and their equilibria as one system: what stages that are coupled need."""
+    known = [past(kind, lag) for lag in range(MOST_LAGS) for kind in KINDS]
+    motion = [stage(kind, i + 1) for i in range(len(scheme.stages)) for kind in KINDS]
+    relations = [r.subs(STEP, step) for declared in scheme.stages for r in declared.relations]
+    matrix, right = sp.linear_eq_to_matrix(relations, motion)
+    of_oscillator = [oscillator.frequency**2, 2 * oscillator.zeta * oscillator.frequency, 1.0]
+    balances = np.kron(np.eye(len(scheme.stages)), of_oscillator)
+    inverse = np.linalg.inv(np.vstack([np.array(matrix.tolist(), dtype=float), balances]))
+    by_history = _rows([*right], known)
+    update = _rows([sp.sympify(scheme.update[kind]).subs(STEP, step) for kind in KINDS], [*known, *motion])
+
+    def advance(history: Array, time: float) -> Array:
+        loads = [oscillator.load(time + float(declared.instant) * step) for declared in scheme.stages]
+        solved = inverse @ np.concatenate([_times(by_history, history), loads])
+        return _times(update, np.append(history, solved))
+
+    return advance
+
+
 def _compiled(scheme: Scheme, oscillator: Oscillator, step: float) -> Callable[[Array, float], Array]:
     """Solve each stage's relations and its equilibrium as a system of three equations."""
+    if scheme.coupled:
+        return _at_once(scheme, oscillator, step)
     known = [past(kind, lag) for lag in range(MOST_LAGS) for kind in KINDS]
     solved: list[sp.Symbol] = []
     stages = []

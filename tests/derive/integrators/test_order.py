@@ -24,10 +24,14 @@ from tmm_gen.derive.integrators.registry import all_integrators, integrator, nam
 LITERATURE = {
     "bathe": 2,
     "fox_euler": 1,
+    "gauss2": 4,
+    "gauss3": 6,
     "generalized_alpha": 2,
     "houbolt": 2,
     "newmark": 2,
     "park": 2,
+    "radau2": 3,
+    "radau3": 5,
     "sdirk2": 2,
     "sdirk4": 4,
     "wilson": 2,
@@ -73,7 +77,7 @@ def test_derived_order_is_that_of_the_literature_and_of_a_simulation(
 ) -> None:
     """Slopes of the largest error over a time, at five steps: damped free motion, and motion under a load."""
     assert order(method) == expected
-    steps = [0.08 / 2**k for k in range(5)]
+    steps = [(0.08 if expected < 5 else 0.8) / 2**k for k in range(5)]
     for motion in (oscillator(zeta=0.1), oscillator(zeta=0.1, amplitude=0.8)):
         errors = []
         for step in steps:

@@ -15,7 +15,7 @@ from sympy.polys.matrices import DomainMatrix
 
 from tmm_gen.derive.integrators.declaration import KINDS, STEP, Past, Scheme, past, stage
 from tmm_gen.derive.integrators.history import history_of
-from tmm_gen.derive.integrators.relations import affine_motion
+from tmm_gen.derive.integrators.relations import affine_motion, coupled_weights
 
 OMEGA = sp.Symbol("Omega", positive=True)
 """Angular frequency times step."""
@@ -25,6 +25,8 @@ ZETA = sp.Symbol("zeta", nonnegative=True)
 
 LAMBDA = sp.Symbol("lambda")
 """Eigenvalue of the amplification matrix."""
+
+_Z = sp.Symbol("z")
 
 POLYNOMIAL_GENERATORS = (LAMBDA, OMEGA, ZETA)
 
@@ -115,6 +117,8 @@ class Amplification:
 
 def amplification(scheme: Scheme) -> Amplification:
     """Derive the amplification matrix of a scheme, whose own parameters may be symbols."""
+    if scheme.coupled:
+        return _of_coupled(scheme)
     values = history_of([scheme], "acceleration")
     motions = [affine_motion(scheme, index, "acceleration") for index in range(1, len(scheme.stages) + 1)]
     expressions = [*scheme.update.values()]
@@ -152,6 +156,45 @@ def amplification(scheme: Scheme) -> Amplification:
         history=values,
         matrix=whole[:, :size],
         forcing=whole[:, size:],
+        instants=tuple(stage_.instant for stage_ in scheme.stages),
+        roots={symbol: root for root, symbol in named.items()},
+    )
+
+
+def _of_coupled(scheme: Scheme) -> Amplification:
+    """Derive it from ``R(z) = 1 + z b (1 - z A)^-1 1`` at the matrix of the oscillator.
+
+    Numerators and denominator are polynomials, so that irrational abscissae leave what they cancel from.
+    """
+    weights, row = coupled_weights(scheme)
+    size = weights.rows
+    eye = sp.eye(size)
+    denominator = sp.Poly(sp.expand((eye - _Z * weights).det()), _Z)
+    # the adjugate times det is what an inverse would be, without fractions
+    loads = [sp.Poly(sp.expand(entry), _Z) for entry in row * (eye - _Z * weights).adjugate()]
+    numerator = denominator + sp.Poly(sp.expand(_Z * sp.Add(*(p.as_expr() for p in loads))), _Z)
+    polynomials = (denominator, numerator, *loads)
+    coefficients = [[sp.expand(c) for c in polynomial.all_coeffs()] for polynomial in polynomials]
+    field, named = _rational_functions([c for each in coefficients for c in each])
+    omega, zeta = field.from_sympy(OMEGA), field.from_sympy(ZETA)
+    oscillator = DomainMatrix(
+        [[field.zero, field.one], [-(omega**2), -2 * zeta * omega]], (2, 2), field
+    ).to_sparse()
+    unit = DomainMatrix.eye(2, field)
+
+    def at_oscillator(polynomial: list[sp.Expr]) -> DomainMatrix:
+        made = DomainMatrix.zeros((2, 2), field)
+        for coefficient in polynomial:
+            made = made * oscillator + unit * field.from_sympy(coefficient.xreplace(named))
+        return made
+
+    below, above, *through = map(at_oscillator, coefficients)
+    inverse = below.to_dense().inv().to_sparse()
+    push = unit[:, 1]
+    return Amplification(
+        history=history_of([scheme], "acceleration"),
+        matrix=(above * inverse).to_dense(),
+        forcing=DomainMatrix.hstack(*(each * inverse * push for each in through)).to_dense(),
         instants=tuple(stage_.instant for stage_ in scheme.stages),
         roots={symbol: root for root, symbol in named.items()},
     )

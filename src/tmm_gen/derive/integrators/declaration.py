@@ -14,6 +14,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Literal, cast
 
 import sympy as sp
@@ -61,7 +62,8 @@ class Stage:
     instant : sympy.Expr
         Equilibrium is imposed (and inputs are read) at ``t + instant*h``.
     relations : tuple of two sympy.Expr
-        Each vanishes: linear relations among this stage's ``q, v, a``, the history and earlier stages.
+        Each vanishes: linear relations among this stage's ``q, v, a``, the history and earlier stages; where the
+        scheme is coupled, later ones too.
     """
 
     instant: sp.Expr
@@ -83,10 +85,19 @@ class Scheme:
     stages: tuple[Stage, ...]
     update: Mapping[Kind, sp.Expr]
 
+    @cached_property
+    def coupled(self) -> bool:
+        """Whether a stage reads later ones, so that all must be solved at once."""
+        for index, declared in enumerate(self.stages, start=1):
+            later = {stage(kind, i) for kind in KINDS for i in range(index + 1, len(self.stages) + 1)}
+            if any(relation.free_symbols & later for relation in declared.relations):
+                return True
+        return False
+
 
 @dataclass(frozen=True)
 class Tableau:
-    """A diagonally implicit Runge-Kutta method: ``matrix`` (lower triangular), ``weights``, ``nodes``."""
+    """A Runge-Kutta method: ``matrix`` (lower triangular where diagonally implicit), ``weights``, ``nodes``."""
 
     matrix: sp.ImmutableMatrix
     weights: sp.ImmutableMatrix

@@ -13,7 +13,7 @@ from typing import Literal
 
 import sympy as sp
 
-from tmm_gen.derive.integrators.declaration import KINDS, Kind, Scheme, past, stage
+from tmm_gen.derive.integrators.declaration import KINDS, STEP, Kind, Scheme, past, stage
 
 Unknown = Literal["displacement", "increment", "acceleration"]
 
@@ -69,7 +69,24 @@ _KNOWN: dict[tuple[int, int, str], tuple[Scheme, AffineMotion]] = {}
 """What has been solved, with its scheme, so that no other takes its identity."""
 
 
+def _coupled_motion(scheme: Scheme, index: int, unknown: Unknown) -> AffineMotion:
+    """Return motion at a stage whose offsets read all other stages, later ones too."""
+    if unknown != "acceleration":
+        raise UnsuitableUnknownError(
+            "stages that are solved all at once are solved for their accelerations; use unknown = 'acceleration'"
+        )
+    place, speed = scheme.stages[index - 1].relations
+    q, v, a = (stage(kind, index) for kind in KINDS)
+    rate = sp.expand(speed + v)
+    angle = sp.expand((place + q).subs(v, rate))
+    gain: dict[Kind, sp.Expr] = {"q": angle.coeff(a), "v": rate.coeff(a), "a": sp.S.One}
+    offset: dict[Kind, sp.Expr] = {"q": angle.subs(a, 0), "v": rate.subs(a, 0), "a": sp.S.Zero}
+    return AffineMotion(gain, offset)
+
+
 def _affine_motion(scheme: Scheme, index: int, unknown: Unknown) -> AffineMotion:
+    if scheme.coupled:
+        return _coupled_motion(scheme, index, unknown)
     motion = [stage(kind, index) for kind in KINDS]
     q, _, a = motion
     definition = {"displacement": q, "increment": q - past("q"), "acceleration": a}[unknown] - UNKNOWN
@@ -86,6 +103,27 @@ def _affine_motion(scheme: Scheme, index: int, unknown: Unknown) -> AffineMotion
         gain[kind] = _simple(sp.diff(value, UNKNOWN))
         offset[kind] = _collect(value.subs(UNKNOWN, 0))
     return AffineMotion(gain, offset)
+
+
+def coupled_weights(scheme: Scheme) -> tuple[sp.ImmutableMatrix, sp.ImmutableMatrix]:
+    """Return the weights of accelerations in the rates of a coupled scheme's stages, and in the new rate.
+
+    Returns
+    -------
+    matrix : sympy.ImmutableMatrix, (s, s)
+        In steps, as those of the tableau.
+    row : sympy.ImmutableMatrix, (1, s)
+    """
+    accelerations = [stage("a", j + 1) for j in range(len(scheme.stages))]
+
+    def weights(rate: sp.Expr) -> list[sp.Expr]:
+        return [sp.diff(rate, symbol) / STEP for symbol in accelerations]
+
+    matrix = [weights(declared.relations[1]) for declared in scheme.stages]
+    rate = sp.sympify(scheme.update["v"])
+    return sp.ImmutableMatrix(matrix), sp.ImmutableMatrix(
+        [matrix[-1] if rate == stage("v", len(matrix)) else weights(rate)]
+    )
 
 
 def discrete_coefficients(scheme: Scheme, index: int = 1) -> DiscreteCoefficients:

@@ -21,6 +21,8 @@ MOUNT = {kind: sp.Symbol(f"mount_{kind}", real=True) for kind in KINDS}
 GAINS = {kind: sp.Symbol(f"P_{kind}", real=True) for kind in KINDS}
 """Change of that motion per unknown."""
 UNKNOWN = sp.Symbol("unknown", real=True)
+RESIDUAL = sp.Symbol("residual", real=True)
+"""Own force of the element that gives way at a station, less that beyond it: what its equation leaves over."""
 
 
 def of_shaft(symbol: sp.Symbol) -> sp.Symbol:
@@ -80,6 +82,8 @@ class Frame:
         Whether slopes are taken at the forces as predicted, instead of those the sweep has found.
     corrected : bool
         Whether corrections follow the sweep, which read its factors.
+    residual : bool
+        Whether what the equations leave over is given at each station (``RESIDUAL``): forces are changes then.
     """
 
     coordinates: tuple[Coordinate, ...]
@@ -92,6 +96,7 @@ class Frame:
     followed: sp.Expr | None = None
     predicted: bool = False
     corrected: bool = False
+    residual: bool = False
 
     @property
     def gains(self) -> dict[str, sp.Expr]:

@@ -12,11 +12,12 @@ from collections.abc import Mapping
 
 import sympy as sp
 
-from tmm_gen.derive.station.frame import Frame, change, force, impedance, predicted_force
+from tmm_gen.derive.station.frame import RESIDUAL, Frame, change, force, impedance, predicted_force
 from tmm_gen.derive.station.law import KINDS
 from tmm_gen.derive.station.lets import Let, Line, Pivot, Update
 from tmm_gen.derive.station.motion import Outward, Passed
 from tmm_gen.derive.station.shaft import TORQUES, Shaft
+from tmm_gen.errors import UserError
 
 ZERO, ONE = sp.Integer(0), sp.Integer(1)
 
@@ -110,13 +111,16 @@ class Inward:
                             * self._written(frame.settled(frame.slope(passed.at_point(law), kind)))
                             for kind in KINDS
                         )
-                    ).subs(slopes_at)
-                    value += self._constant_named(passed, slope)
+                    )
+                    self._require_known(passed, slope, outside[own])
+                    value += self._constant_named(passed, slope.subs(slopes_at))
                 else:
                     value += self._written(passed.at_point(sp.diff(law, passed.element.inboard.motions[k].a)))
                 if value != self._s[i, k]:
                     impedances[i, k] = cheapest(value, self._levers)
             biased = self._written(frame.settled(passed.at_point(law))).subs(at_bias)
+            if frame.residual:  # what is no change of a force is in what equations leave over
+                biased = sum((through[j] * self._e[j] for j in size), ZERO)
             if biased != self._e[i]:
                 forces[i] = cheapest(biased, self._levers)
         at_predicted = dict(zip(outside, (self._p[i] for i in size), strict=True))
@@ -128,12 +132,23 @@ class Inward:
             ]
         )
 
+    def _require_known(self, passed: Passed, slope: sp.Expr, torque: sp.Symbol) -> None:
+        """Refuse a law whose slopes multiply what is not carried where residuals are given."""
+        if self.frame.residual and slope.has(torque):
+            raise UserError(
+                f"element '{passed.element.name}': slopes of a law that multiplies {torque} are not derived for stages "
+                "that are solved at once. Use an integrator such as 'sdirk4'."
+            )
+
     def _predict(self, forces: list[sp.Expr]) -> None:
         """Carry the force as predicted, where slopes are taken at it."""
         if not self.frame.predicted:
             return
         update: dict[sp.Symbol, sp.Expr] = {}
         for i, (c, value) in enumerate(zip(self.frame.coordinates, forces, strict=True)):
+            if self.frame.residual and c.integrated:  # no slope is taken at it
+                self._p[i] = ZERO
+                continue
             if value != self._p[i] and value != 0:
                 update[predicted_force(c)] = value
             self._p[i] = predicted_force(c) if value != 0 else ZERO
@@ -191,6 +206,7 @@ class Inward:
                 )
             )
             stiffness = STIFFNESS
+        over = (RESIDUAL if frame.residual else known) - bias
         symmetric = sp.expand(of_inner + ratio * of_outer) == 0
         inner_stiffness = ratio * stiffness if symmetric else sign * of_inner
         self.lines += [
@@ -201,7 +217,7 @@ class Inward:
         answers: dict[str, sp.Expr] = {"own": OWN}
         answer = Let(
             OWN,
-            ADMITTANCE * (known - bias if sign > 0 else bias - known),
+            ADMITTANCE * (over if sign > 0 else -over),
             "unknown of a station if its inner side kept its motion",
         )
         self.lines.append(answer)
@@ -264,7 +280,9 @@ class Inward:
         if frame.about == "known":
             forces[own] = self._shares(known, bias, load, stiffness, ratio) + more + more_outer * OWN
         else:
-            forces[own] = ratio * known + more + (more_outer - ratio * sign * stiffness) * OWN
+            forces[own] = (more_outer - ratio * sign * stiffness) * OWN
+            if not frame.residual:
+                forces[own] += ratio * known + more
         self._set(impedances, forces)
         self._predict([ratio * known + more if i == own else self._p[i] for i in range(len(names))])
         return answers

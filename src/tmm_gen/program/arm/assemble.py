@@ -6,12 +6,14 @@ from dataclasses import dataclass, replace
 
 import sympy as sp
 
-from tmm_gen.derive.integrators.declaration import CONSISTENT_START, KINDS, Integrator, past
+from tmm_gen.derive.integrators.declaration import CONSISTENT_START, KINDS, Integrator, Past, Scheme, past
 from tmm_gen.derive.integrators.relations import Unknown
 from tmm_gen.program.arm.auto import LEAST_TURN, SWEEPS, AutoStep
+from tmm_gen.program.arm.collocation import CollocationStep
 from tmm_gen.program.arm.combinations import Combinations
 from tmm_gen.program.arm.heat import heat_after, heat_before
 from tmm_gen.program.arm.layout import Layout, layout_of
+from tmm_gen.program.arm.predicted_collocation import PredictedCollocationStep
 from tmm_gen.program.arm.readings import output_routine
 from tmm_gen.program.arm.step import MakeWalks, StepBuilder
 from tmm_gen.program.arm.thesis import start_places
@@ -26,7 +28,16 @@ from tmm_gen.program.passes.prune import prune
 from tmm_gen.program.passes.rewrite import renamed_scratch
 from tmm_gen.program.sensitivities.step import step_sensitivities
 from tmm_gen.program.sensitivities.twins import linear_sensitivities
-from tmm_gen.program.statements import Assign, Program, Routine, Section, Sensitivities
+from tmm_gen.program.statements import (
+    Assign,
+    Loop,
+    Order,
+    Program,
+    Routine,
+    Section,
+    Sensitivities,
+    Statement,
+)
 from tmm_gen.program.variables import Role, Variable
 from tmm_gen.row.row import Row
 
@@ -102,22 +113,8 @@ class Assembly:
             enumerate(integrator.schemes), key=lambda item: item[1] is not integrator.main
         ):
             main = scheme is integrator.main
-            builder = (AutoStep if self.choices.auto else StepBuilder)(
-                layout=layout,
-                prepared=self.combinations.variables,
-                scheme=scheme,
-                unknown=self.choices.unknown,
-                sources=history_values(layout.state, lambda v: v.at()),
-                hub_sources=history_values(layout.hub, lambda v: v.ref),
-                base_sources={
-                    axis: history_values(kept, lambda v: v.ref) for axis, kept in layout.floating.items()
-                },
-                iterations=self.choices.iterations,
-                corrections=self.choices.corrections,
-                split=self.early.split,
-                walks=self.choices.walks,
-            )
-            if main:
+            builder = self._coupled(scheme) if scheme.coupled else self._builder(scheme)
+            if main and isinstance(builder, StepBuilder):
                 self._main_builder = builder
             name = "step" if main else f"step_start{position + 1}"
             doc = "Advance the state by one step." if main else f"Start-up: take step {position + 1}."
@@ -131,6 +128,37 @@ class Assembly:
         main_routine = routines.pop("step")
         startup = tuple(routines[f"step_start{k + 1}"] for k in range(len(integrator.startup)))
         return self._gathered(main_routine, startup)
+
+    def _builder(self, scheme: Scheme) -> StepBuilder:
+        """Return what builds a step whose stages are solved one after another."""
+        layout = self.layout
+        return (AutoStep if self.choices.auto else StepBuilder)(
+            layout=layout,
+            prepared=self.combinations.variables,
+            scheme=scheme,
+            unknown=self.choices.unknown,
+            sources=history_values(layout.state, lambda v: v.at()),
+            hub_sources=history_values(layout.hub, lambda v: v.ref),
+            base_sources={
+                axis: history_values(kept, lambda v: v.ref) for axis, kept in layout.floating.items()
+            },
+            iterations=self.choices.iterations,
+            corrections=self.choices.corrections,
+            split=self.early.split,
+            walks=self.choices.walks,
+        )
+
+    def _coupled(self, scheme: Scheme) -> CollocationStep:
+        """Return what builds a step whose stages are solved at once."""
+        known = self.row.about == "known"
+        return (CollocationStep if known else PredictedCollocationStep)(
+            layout=self.layout,
+            prepared=self.combinations.variables,
+            scheme=scheme,
+            iterations=self.choices.iterations,
+            auto=self.choices.auto,
+            split=self.early.split,
+        )
 
     def _gathered(self, main: Routine, startup: tuple[Routine, ...]) -> Program:
         layout, row, integrator = self.layout, self.row, self.integrator
@@ -150,7 +178,7 @@ class Assembly:
             initialise = replace(initialise, sections=(*initialise.sections, none))
         wanted = frozenset(state)
         startup = tuple(prune(r, wanted) for r in startup)
-        main, initialise = prune(main, wanted), prune(initialise, wanted)
+        main, initialise = prune(main, wanted), prune(_without(initialise, kept, wanted), wanted)
         sensitivities = self._sensitivities(main, state)
         derivatives = (sensitivities.linearise, sensitivities.tangent) if sensitivities else ()
         used = frozenset().union(*(r.read() for r in (*startup, main, output, *derivatives)))
@@ -238,6 +266,7 @@ class Assembly:
             *lifted(list(builder.sections()), ask=self.row.about == "prediction"),
             *((start_places(layout),) if layout.places else ()),
             Section(f"older history of the {'base' if self.row.floats else 'hub'}", older),
+            *self._first_stages(),
             *hold(layout, 1),
             Section("nothing has turned to heat yet", cold),
         )
@@ -246,6 +275,24 @@ class Assembly:
             "Start from given angles and rates with the acceleration that satisfies the equations of motion.",
             tuple(s for s in sections if s.statements),
         )
+
+    def _first_stages(self) -> tuple[Section, ...]:
+        """Let the first step be predicted by the acceleration at the start."""
+        layout = self.layout
+        kept: list[Statement] = []
+        for stages, history in ((layout.hub_stages, layout.hub), (layout.stages, layout.state)):
+            if not stages:
+                continue
+            newest = history[Past("a", 0)]
+            body = tuple(Assign(v.at(), newest.at()) for v in stages if v != newest)
+            kept += body if newest.length is None else [Loop(Order.OUTWARD, 0, layout.stations, body)]
+        return (Section("the first step is predicted by this acceleration", tuple(kept)),) if kept else ()
+
+
+def _without(initialise: Routine, kept: tuple[Variable, ...], wanted: frozenset[Variable]) -> Routine:
+    """Return the start with scratch in place of state that is not kept, but read there."""
+    names = {v.name: f"first_{v.name}" for v in kept if v not in wanted and v in initialise.read()}
+    return renamed_scratch(initialise, names, roles=(Role.STATE,)) if names else initialise
 
 
 def hold(layout: Layout, stages: int) -> tuple[Section, ...]:

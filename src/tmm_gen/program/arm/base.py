@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from tmm_gen.derive.station.frame import UNKNOWN, Frame, change, force, impedance
+from tmm_gen.derive.station.frame import RESIDUAL, UNKNOWN, Frame, change, force, impedance
 from tmm_gen.derive.station.lets import Coordinate, Let, Line, Pivot, Update, composed
 from tmm_gen.derive.station.station import inward
 from tmm_gen.program.variables import Ref, local
@@ -39,6 +39,8 @@ def turning_base(base: Elements, frame: Frame, at_base: frozenset[sp.Symbol]) ->
     carried = sign * impedance(own, own) if stiffness.has(impedance(own, own)) else sp.Integer(0)
     lines += [Let(pivot, carried + constant, "pivot of the hub"), Pivot(pivot)]
     known = sp.expand(-sign * bias)
+    if frame.residual:
+        known += RESIDUAL
     if frame.about == "known":
         admittance = sp.Symbol("hub_admittance", real=True)
         lines.append(Let(admittance, 1 / pivot, "inverse pivot of the hub"))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from tmm_gen.derive.integrators.declaration import KINDS, Integrator, Past
+from tmm_gen.derive.integrators.declaration import KINDS, Integrator, Past, Scheme
 from tmm_gen.derive.integrators.history import history
 from tmm_gen.derive.integrators.relations import Unknown
 from tmm_gen.program.fields import state_variable
@@ -31,6 +31,9 @@ class Layout:
         Inputs as they last acted, kept where a reading needs them.
     dissipated : Variable or None
         Energy turned to heat, where it is counted.
+    stages, hub_stages : tuple of Variable
+        Accelerations at the stages of the last step, of the stations and of the base, where the next is predicted by
+        them. A stage at the end of the step has those of the history.
     """
 
     row: Row
@@ -45,6 +48,8 @@ class Layout:
     inputs: tuple[Variable, ...]
     outputs: tuple[Variable, ...]
     given: tuple[Variable, ...]
+    stages: tuple[Variable, ...] = ()
+    hub_stages: tuple[Variable, ...] = ()
 
     @property
     def stations(self) -> int:
@@ -56,7 +61,8 @@ class Layout:
         """State variables, hub first."""
         places = (v for kept in (*self.floating.values(), *self.places.values()) for v in kept.values())
         counted = (self.dissipated,) if self.dissipated else ()
-        return (*self.hub.values(), *self.state.values(), *places, *self.held.values(), *counted)
+        moving = (*self.hub.values(), *self.state.values(), *self.hub_stages, *self.stages)
+        return (*dict.fromkeys(moving), *places, *self.held.values(), *counted)
 
 
 def layout_of(row: Row, integrator: Integrator, step: float, unknown: Unknown, *, places: bool) -> Layout:
@@ -77,14 +83,18 @@ def layout_of(row: Row, integrator: Integrator, step: float, unknown: Unknown, *
     if stages > max(len(scheme.stages) for scheme in integrator.schemes):
         also += " and at its end"
     carried = [c.name for c in row.coordinates if not c.integrated]
+    state = {p: state_variable(p, "", n) for p in ordered}
+    hub = (
+        {p: state_variable(p, "hub_", None) for p in ordered if row.boundary == "free" or not p.lag}
+        if row.boundary != "held"
+        else {}
+    )
     return Layout(
         row=row,
         step=Variable("step", Role.STEP, doc="time step", unit="s", default=step),
         parameters={p.name: _parameter(p) for p in row.parameters},
-        state={p: state_variable(p, "", n) for p in ordered},
-        hub={p: state_variable(p, "hub_", None) for p in ordered if row.boundary == "free" or not p.lag}
-        if row.boundary != "held"
-        else {},
+        state=state,
+        hub=hub,
         places={axis: {p: _place(axis, p, n) for p in ordered} for axis in carried} if places else {},
         floating={axis: _floating(axis, integrator) for axis in carried} if row.floats else {},
         held={name: Variable(s.name, Role.STATE, doc=s.doc, unit=s.unit) for name, s in row.held.items()},
@@ -102,7 +112,27 @@ def layout_of(row: Row, integrator: Integrator, step: float, unknown: Unknown, *
             Variable("initial_angle", Role.GIVEN, n, "angles to start from", "rad", row.angles),
             Variable("initial_rate", Role.GIVEN, n, "rates to start from", "rad/s", row.rates),
         ),
+        stages=_stages(row, integrator.main, state, "", n),
+        hub_stages=_stages(row, integrator.main, hub, "hub_", None) if row.boundary == "free" else (),
     )
+
+
+def _stages(
+    row: Row, scheme: Scheme, history: dict[Past, Variable], prefix: str, length: int | None
+) -> tuple[Variable, ...]:
+    """Return where a coupled scheme keeps the accelerations of its stages for the next step's prediction."""
+    if not scheme.coupled or row.about != "prediction":
+        return ()
+    found = [_stage_kept(index + 1, prefix, length) for index in range(len(scheme.stages))]
+    if scheme.stages[-1].instant == 1:
+        found[-1] = history[Past("a", 0)]
+    return tuple(found)
+
+
+def _stage_kept(index: int, prefix: str, length: int | None) -> Variable:
+    of = "of the hub" if prefix else "of each link, base to tip"
+    doc = f"acceleration {of}, at stage {index} of the last step"
+    return Variable(f"{prefix}acceleration_stage{index}", Role.STATE, length, doc, "rad/s^2")
 
 
 def _parameter(found: Parameter) -> Variable:

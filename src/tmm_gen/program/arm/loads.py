@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from copy import copy
 
 import sympy as sp
@@ -23,11 +23,13 @@ class Loads:
         The row's variables.
     stage : int
         Instant of the step, from 0, at which inputs are read: its stages, and its end where a prescribed base asks.
+    inputs : mapping from str to sympy.Expr, optional
+        What inputs are by name, where they are not read at one instant.
     """
 
-    def __init__(self, layout: Layout, stage: int) -> None:
+    def __init__(self, layout: Layout, stage: int = 0, inputs: Mapping[str, sp.Expr] | None = None) -> None:
         self._n = layout.stations
-        self._inputs = {v.name: v.entry(stage) for v in layout.inputs}
+        self._inputs = inputs or {v.name: v.entry(stage) for v in layout.inputs}
         self._loads = layout.row.loads
         names = layout.row.prescribed
         self.prescribed: dict[Kind, sp.Expr] = {

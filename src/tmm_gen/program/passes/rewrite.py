@@ -46,14 +46,24 @@ def map_assigned(routine: Routine, change: Callable[[sp.Expr, Ref | None], sp.Ex
     return replace(routine, sections=sections)
 
 
-def renamed_scratch(routine: Routine, names: Mapping[str, str]) -> Routine:
-    """Return the routine with some of its scratch under other names."""
+def renamed_scratch(
+    routine: Routine, names: Mapping[str, str], *, roles: tuple[Role, ...] = (Role.WORK, Role.LOCAL)
+) -> Routine:
+    """Return the routine with some of its scratch under other names.
+
+    Parameters
+    ----------
+    roles : tuple of Role
+        Of what is renamed; what was no scratch becomes it.
+    """
 
     def other(ref: Ref) -> Ref:
         variable = ref.variable
-        if variable.role not in (Role.WORK, Role.LOCAL) or variable.name not in names:
+        if variable.role not in roles or variable.name not in names:
             return ref
-        return Ref(replace(variable, name=names[variable.name]), ref.offset, ref.entry)
+        scratch = Role.LOCAL if variable.length is None else Role.WORK
+        role = variable.role if variable.role in (Role.WORK, Role.LOCAL) else scratch
+        return Ref(replace(variable, name=names[variable.name], role=role), ref.offset, ref.entry)
 
     def changed(statement: Statement) -> Statement:
         if isinstance(statement, Loop):

@@ -32,6 +32,7 @@ from tmm_gen.scene.rules.emission import (
 from tmm_gen.scene.rules.floating import floating_base
 from tmm_gen.scene.rules.inputs import inputs_possible, prescribed_motion
 from tmm_gen.scene.rules.integration import (
+    coupled_suits,
     explicit_needs_acceleration,
     integrator_parameters,
 )
@@ -60,6 +61,7 @@ RULES: tuple[Rule, ...] = (
     initial_lengths,
     integrator_parameters,
     explicit_needs_acceleration,
+    coupled_suits,
     distinct_names,
     inputs_possible,
     prescribed_motion,
@@ -86,6 +88,7 @@ ChainRule = Callable[[ChainDocument], Iterator[Finding]]
 _ALL: tuple[Rule, ...] = (
     integrator_parameters,
     explicit_needs_acceleration,
+    coupled_suits,
     distinct_names,
     prescribed_motion,
     real_is_used,

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from tmm_gen.scene.document import Document
 from tmm_gen.scene.integrator import INTEGRATOR_NAMES, METHODS, Method, method_named
+from tmm_gen.scene.parts.document import PartsDocument
 from tmm_gen.scene.problem import Finding
 from tmm_gen.scene.table import closest, is_finite_number
 
@@ -49,6 +50,57 @@ def explicit_needs_acceleration(document: Document) -> Iterator[Finding]:
         'Write `unknown = "acceleration"`.',
         unknown,
     )
+
+
+def coupled_suits(document: Document) -> Iterator[Finding]:
+    """Find what a method whose stages are solved all at once does not go with."""
+    method = method_named(document.integrator.name)
+    if method is None or not method.coupled:
+        return
+    model, emit = document.model, document.emit
+    words = f"{method.name} solves all its stages at once"
+    if model.unknown != "acceleration":
+        yield Finding(
+            ("model", "unknown"),
+            f"cannot be solved for: {words}, by their accelerations",
+            'Write `unknown = "acceleration"`.',
+            model.unknown,
+        )
+    if model.sweep != "riccati":
+        yield Finding(
+            ("model", "sweep"), f"is not derived here: {words}", 'Write `sweep = "riccati"`.', model.sweep
+        )
+    if model.corrections and model.kind == "planar":
+        rounds = model.sweeps + model.corrections
+        yield Finding(
+            ("model", "corrections"),
+            f"are not derived here: {words}",
+            f"Write `iterations = {rounds}` in their place.",
+            model.corrections,
+        )
+    beside = 'Write `name = "sdirk4"`, whose stages follow one another.'
+    for where in _not_carried(document):
+        yield Finding(("integrator", "name"), f"{where}: {words}", beside, document.integrator.name)
+    if emit.sensitivities and model.kind == "planar":
+        yield Finding(
+            ("emit", "sensitivities"),
+            f"are not derived here yet: {words}",
+            f"Remove it, or w{beside[1:]}",
+            True,
+        )
+
+
+def _not_carried(document: Document) -> Iterator[str]:
+    """Yield the arms of a document that such methods do not go with."""
+    if document.model.kind == "spatial":
+        yield "does not go with arms in space yet"
+    elif document.model.kind == "planar":
+        if document.base.kind == "free":
+            yield "does not go with a base that floats yet"
+        if isinstance(document, PartsDocument) and any(m.stiffness is not None for m in document.motor):
+            yield "does not go with elastic gears yet"
+        if document.model.linearisation != "newton":
+            yield f'does not go with linearisation = "{document.model.linearisation}"'
 
 
 def _explicit_method(document: Document) -> Method | None:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from tmm_gen.scene.problem import Finding
 from tmm_gen.scene.rules.beams import beams_given
 from tmm_gen.scene.rules.emission import batch_suits, budget_not_empty, compensated_suits, real_is_used
-from tmm_gen.scene.rules.integration import explicit_needs_acceleration, integrator_parameters
+from tmm_gen.scene.rules.integration import coupled_suits, explicit_needs_acceleration, integrator_parameters
 from tmm_gen.scene.rules.spatial.hanging import not_too_many, one_tree, part_names
 from tmm_gen.scene.rules.spatial.inertia import base_to_turn, something_to_turn
 from tmm_gen.scene.rules.spatial.parts import ends, in_range, inertias, rigid_gears, twists
@@ -34,6 +34,7 @@ RULES: tuple[tuple[Rule, ...], ...] = (
         distinct_names,
         integrator_parameters,
         explicit_needs_acceleration,
+        coupled_suits,
         real_is_used,
         budget_not_empty,
         batch_suits,

@@ -1,0 +1,235 @@
+"""A step whose stages are all solved at once: one real or complex sweep for each eigenvalue of its weights.
+
+About known motion (a linear row) the systems of the eigenvalues are solved for the motion itself, as any stage is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import sympy as sp
+
+from tmm_gen.derive.integrators.declaration import KINDS, Kind, Past, Scheme
+from tmm_gen.derive.integrators.relations import AffineMotion
+from tmm_gen.derive.integrators.spectrum import Spectrum, fraction, spectrum_of
+from tmm_gen.derive.station.frame import GAINS, Frame
+from tmm_gen.program.arm.layout import Layout
+from tmm_gen.program.arm.loads import Loads
+from tmm_gen.program.arm.motion import motion_variable
+from tmm_gen.program.arm.walks import BASE, StageOf, Walks, hub_unknown, solved_variable
+from tmm_gen.program.inputs import input_instants
+from tmm_gen.program.motion import update_assignments
+from tmm_gen.program.passes.side_by_side import Lane, Pair, SideBySide
+from tmm_gen.program.statements import Assign, Loop, Order, Section, Statement
+from tmm_gen.program.variables import Ref, Role, Variable, local
+
+ZERO = sp.Integer(0)
+GAIN_OF: dict[Kind, Ref] = {
+    "q": local("angle_gain", "angle per unknown", "s^2"),
+    "v": local("rate_gain", "rate per unknown", "s"),
+}
+"""What stands for the gains of each system while its sweep is written."""
+
+
+@dataclass(frozen=True)
+class CollocationStep:
+    """Builds the sections of a coupled scheme's step for a row about known motion.
+
+    Parameters
+    ----------
+    layout : Layout
+        The row's variables.
+    prepared : mapping from str to Variable
+        Combinations of parameters.
+    scheme : Scheme
+        What to step with.
+    iterations : int
+        Of Newton's method, each with all sweeps.
+    auto : bool
+        Whether to iterate until that changes next to nothing instead.
+    split : callable
+        Takes from a sweep's sections what is bound early.
+    """
+
+    layout: Layout
+    prepared: Mapping[str, Variable]
+    scheme: Scheme
+    iterations: int = 1
+    auto: bool = False
+    split: Callable[[list[Section]], list[Section]] = list
+
+    @cached_property
+    def spectrum(self) -> Spectrum:
+        """Numbers of the scheme."""
+        return spectrum_of(self.scheme)
+
+    @cached_property
+    def systems(self) -> tuple[Lane, ...]:
+        """One for each eigenvalue."""
+        found = []
+        for index, (re, im) in enumerate(self.spectrum.values, start=1):
+            complex_ = im != 0
+            words = f"system of {'complex' if complex_ else 'real'} eigenvalue {index}"
+            found.append(Lane(f"_system{index}", words, (re, im) if complex_ else None))
+        return tuple(found)
+
+    @property
+    def step(self) -> Ref:
+        """The time step."""
+        return self.layout.step.ref
+
+    def sections(self) -> tuple[Section, ...]:
+        """Return the whole step."""
+        known = Section(
+            "motion known before the sweeps, in the system of each eigenvalue", tuple(self._known())
+        )
+        swept = SideBySide(self.systems, self.seeds(), self._differing).sections(self._walks().sections())
+        found = [known, *self.split(swept), self._finish()]
+        return tuple(s for s in found if s.statements)
+
+    # -- systems of the eigenvalues ------------------------------------------------------------------------------
+
+    def seeds(self) -> dict[Ref, list[Pair]]:
+        """Return what differs from system to system: gains, and inputs, each by those of all stages."""
+        values = self.spectrum.values
+        seeds: dict[Ref, list[Pair]] = {
+            GAIN_OF["v"]: [(self.step * re, self.step * im) for re, im in values],
+            GAIN_OF["q"]: [
+                (self.step**2 * fraction(re**2 - im**2), self.step**2 * fraction(2 * re * im))
+                for re, im in values
+            ],
+        }
+        for given in self.layout.inputs:
+            seeds[self.seen[given.name]] = self.combined(
+                [given.entry(i) for i in range(len(self.spectrum.nodes))]
+            )
+        return seeds
+
+    def combined(self, at_stages: Sequence[sp.Expr]) -> list[Pair]:
+        """Return what values at the stages make in each system."""
+        found: list[Pair] = []
+        for row in self.spectrum.into:
+            re, im = (
+                sp.Add(*(weight[part] * value for weight, value in zip(row, at_stages, strict=True)))
+                for part in (0, 1)
+            )
+            found.append((re, im))
+        return found
+
+    def from_systems(self, weights: Sequence[sp.Expr], found: Ref) -> sp.Expr:
+        """Return a weighted sum of the stages by what each system has found.
+
+        Parameters
+        ----------
+        weights : sequence of sympy.Expr
+            Of the stages.
+        found : Ref
+            The unknown that systems solve for.
+        """
+        total = ZERO
+        for index, lane in enumerate(self.systems):
+            re, im = (
+                sp.Add(*(w * row[index][part] for w, row in zip(weights, self.spectrum.back, strict=True)))
+                for part in (0, 1)
+            )
+            of_real, of_imaginary = lane.ref(found)
+            total += fraction(re) * of_real - fraction(im) * of_imaginary
+        return total
+
+    @cached_property
+    def seen(self) -> dict[str, Ref]:
+        """What stands for the inputs while walks are written."""
+        scratch = (replace(v, length=None, role=Role.LOCAL) for v in self.layout.inputs)
+        return {v.name: v.ref for v in scratch}
+
+    def frame(self, *, still: frozenset[str] = frozenset()) -> Frame:
+        """Return what the sweep of each system is derived for."""
+        row = self.layout.row
+        return Frame(row.coordinates, (GAINS["q"], GAINS["v"], sp.S.One), still, row.about, row.sign)
+
+    def gains(self) -> dict[sp.Symbol, sp.Expr]:
+        """Return what stands for the gains of that frame."""
+        return {GAINS["q"]: GAIN_OF["q"], GAINS["v"]: GAIN_OF["v"], GAINS["a"]: sp.S.One}
+
+    def stage_of(self) -> StageOf:
+        """Return what walks are told of the scheme."""
+        nothing = dict.fromkeys(KINDS, ZERO)
+        return StageOf(self.scheme, len(self.scheme.stages), AffineMotion(nothing, nothing), {})
+
+    # -- about known motion ----------------------------------------------------------------------------------------
+
+    def _walks(self) -> Walks:
+        motion = {"q": self._angle(), "v": self._rate()}
+        frame, loads = self.frame(still=frozenset("a")), Loads(self.layout, inputs=self.seen)
+        return Walks(self.layout, self.prepared, frame, self.gains(), motion, loads, self.stage_of())
+
+    def _angle(self) -> Variable:
+        return motion_variable("q", "known", self.layout.stations)
+
+    def _rate(self) -> Variable:
+        return motion_variable("v", "known", self.layout.stations)
+
+    def _known(self) -> list[Statement]:
+        """Write the motion without accelerations: the rate is that of the step's start in each system."""
+        layout, n = self.layout, self.layout.stations
+        angle, rate = (layout.state[Past(kind, 0)].at() for kind in ("q", "v"))
+        body = self._moved((self._angle().at(1), self._rate().at(1)), *self._from(angle, rate))
+        base = (self._angle().entry(BASE), self._rate().entry(BASE))
+        if layout.row.boundary == "free":
+            begun = self._from(*(layout.hub[Past(kind, 0)].ref for kind in ("q", "v")))
+        elif layout.row.boundary == "prescribed":
+            given = [Loads(layout, i).prescribed for i in range(len(self.spectrum.nodes))]
+            begun = [self.combined([each[kind] for each in given]) for kind in ("q", "v")]
+        else:
+            begun = self._from(ZERO, ZERO)
+        return [*self._moved(base, *begun), Loop(Order.OUTWARD, 0, n, tuple(body))]
+
+    def _from(self, angle: sp.Expr, rate: sp.Expr) -> list[list[Pair]]:
+        """Return angle and rate in each system, by those at the start of the step."""
+        angles = [(angle + self.step * re * rate, self.step * im * rate) for re, im in self.spectrum.values]
+        return [angles, [(rate, ZERO)] * len(angles)]
+
+    def _moved(self, targets: tuple[Ref, Ref], angles: Sequence[Pair], rates: Sequence[Pair]) -> list[Assign]:
+        found: list[Assign] = []
+        for target, values in zip(targets, (angles, rates), strict=True):
+            if target.variable not in self._differing:
+                found.append(Assign(target, values[0][0]))
+                continue
+            for lane, pair in zip(self.systems, values, strict=True):
+                places = zip(lane.ref(target), pair, strict=True)
+                found += [Assign(ref, value) for ref, value in places if isinstance(ref, Ref)]
+        return found
+
+    @property
+    def _differing(self) -> list[Variable]:
+        """Known motion that is another one in each system: rates are where a base is moved as prescribed."""
+        prescribed = self.layout.row.boundary == "prescribed"
+        return [self._angle(), self._rate()] if prescribed else [self._angle()]
+
+    def _finish(self) -> Section:
+        n = self.layout.stations
+        statements: list[Statement] = []
+        if self.layout.row.boundary == "free":
+            new = self._new(self.layout.hub, lambda v: v.ref, hub_unknown())
+            statements += update_assignments(self.layout.hub, new, lambda v: v.ref, "")
+        elif self.layout.row.boundary == "prescribed":
+            last = len(input_instants(self.layout.row, self.scheme)) - 1
+            end = Loads(self.layout, last).prescribed
+            statements += [Assign(v.ref, end[p.kind]) for p, v in self.layout.hub.items()]
+        new = self._new(self.layout.state, lambda v: v.at(), solved_variable(n).at())
+        body = tuple(update_assignments(self.layout.state, new, lambda v: v.at(), ""))
+        statements.append(Loop(Order.OUTWARD, 0, n, body))
+        return Section("motion at the end of the step", tuple(statements))
+
+    def _new(
+        self, history: Mapping[Past, Variable], read: Callable[[Variable], Ref], found: Ref
+    ) -> dict[Kind, sp.Expr]:
+        """Return the motion at the end of the step by what the systems have found."""
+        angle, rate = (read(history[Past(kind, 0)]) for kind in ("q", "v"))
+        return {
+            "q": angle + self.step * rate + self.step**2 * self.from_systems(self.spectrum.ends["q"], found),
+            "v": rate + self.step * self.from_systems(self.spectrum.ends["v"], found),
+            "a": self.from_systems(self.spectrum.ends["a"], found),
+        }

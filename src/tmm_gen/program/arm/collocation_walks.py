@@ -1,0 +1,106 @@
+"""Walks of a step whose stages are solved at once: what its equations leave over, and a sweep for what mends that."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from tmm_gen.derive.station.frame import RESIDUAL, force
+from tmm_gen.derive.station.inward import Inward
+from tmm_gen.derive.station.lets import composed
+from tmm_gen.derive.station.residual import residual
+from tmm_gen.program.arm.binding import Binding
+from tmm_gen.program.arm.branches import Gathered
+from tmm_gen.program.arm.walks import BASE, Walks
+from tmm_gen.program.statements import Assign, Order, Section, Statement
+from tmm_gen.program.variables import Role, Variable, local
+
+ZERO = sp.Integer(0)
+LEFT_AT_HUB = local("residual_of_hub", "torque that the equations leave over at the hub", "N m")
+
+
+def left_over(stations: int) -> Variable:
+    """Return the scratch array of what the equations leave over at each joint."""
+    doc = "torque that the equations leave over at each joint"
+    return Variable("residual", Role.WORK, stations, doc, "N m")
+
+
+class ResidualWalks(Walks):
+    """Walks out with motion and in with exact forces, at the motion of a stage."""
+
+    def plain(self) -> list[Section]:
+        """Return both walks, and what they leave over."""
+        return [
+            Section("accelerations of the nodes at the stages", tuple(self.outward_motion())),
+            Section("torques of the joints at the stages", tuple(self.joint_forces())),
+            Section("walk inward: what the equations of the stages leave over", tuple(self.inward_forces())),
+        ]
+
+    def joint_forces(self) -> list[Statement]:
+        """Return the own torques of joints."""
+        here = self.at_station()
+        found: list[Statement] = [s for symbol in self._of_joints for s in self.loads.filled({symbol})]
+        for start, stop, elements in self.runs:
+            known = residual(elements, self.frame).known
+            if known:
+                found.append(self.over(Order.OUTWARD, start, stop, here.lines(known)))
+        return found
+
+    @property
+    def _of_joints(self) -> list[sp.Symbol]:
+        """Loads that stand in the laws of joints."""
+        known = [let for _, _, elements in self.runs for let in residual(elements, self.frame).known]
+        used = {s for let in known for s in let.value.free_symbols}
+        return [s for s in self.loads.values if s in used]
+
+    def inward_forces(self) -> list[Statement]:
+        """Walk in with the exact forces beyond each place."""
+        row, gathered, here = self.layout.row, Gathered(self.layout.row), self.at_station()
+        forces = [force(c) for c in self.frame.coordinates]
+        carried = [self.scratch.ref(s.name) for s in forces]
+        found: list[Statement] = self.loads.filled_besides(self._of_joints)
+        for start, stop, elements in reversed(self.runs):
+            begin = gathered.joined(stop - 1, carried)
+            if not row.carried(stop - 1):
+                at_tip = self._at_tip(forces) if stop == len(row.stations) else [ZERO] * len(forces)
+                begin = dict(zip(carried, at_tip, strict=True))
+            found += [Assign(ref, value) for ref, value in begin.items()]
+            lines = residual(elements, self.frame).lines
+            kept = Binding(self.scratch, {**here.values, RESIDUAL: left_over(self.layout.stations).at()})
+            found.append(self.over(Order.INWARD, start, stop, kept.lines(lines)))
+            found += gathered.leave(start, carried)
+        if row.boundary == "free":
+            at_base = gathered.joined(BASE - 1, carried)
+            found += [Assign(ref, value) for ref, value in at_base.items()]
+            lines = residual(row.base, self.frame, moved=True).lines
+            found += self.at_node(BASE).lines(lines)
+            own = self.scratch.ref(forces[self.frame.own].name)
+            found.append(Assign(LEFT_AT_HUB, -self.frame.sign * own))
+        return found
+
+    def _derive(self) -> list[Inward]:
+        """Derive nothing: no sweep is made."""
+        return []
+
+    def _at_tip(self, forces: list[sp.Symbol]) -> list[sp.Expr]:
+        left = composed(residual(self.layout.row.tail, self.frame, moved=True).lines)
+        at_tip = self.at_node(self.layout.stations)
+        nothing = dict.fromkeys(forces, ZERO)
+        return [at_tip.value(left.get(s, ZERO).subs(nothing)) for s in forces]
+
+
+class MendingWalks(Walks):
+    """The sweep that finds what changes of accelerations make up for what the equations leave over."""
+
+    def at_station(self) -> Binding:
+        """Return what symbols stand for at station j of a loop."""
+        here = super().at_station()
+        return Binding(self.scratch, {**here.values, RESIDUAL: left_over(self.layout.stations).at()})
+
+    def at_node(self, index: int) -> Binding:
+        """Return what symbols stand for at a node, counted from the base."""
+        here = super().at_node(index)
+        return Binding(self.scratch, {**here.values, RESIDUAL: LEFT_AT_HUB})
+
+    def joint_forces(self) -> list[Statement]:
+        """Return nothing: what joints leave over is known."""
+        return self.loads.filled(self._driven)
