@@ -5,7 +5,6 @@ from __future__ import annotations
 import sympy as sp
 
 from tmm_gen.derive.station.frame import RESIDUAL, force
-from tmm_gen.derive.station.inward import Inward
 from tmm_gen.derive.station.lets import composed
 from tmm_gen.derive.station.residual import residual
 from tmm_gen.program.arm.binding import Binding
@@ -76,10 +75,6 @@ class ResidualWalks(Walks):
             own = self.scratch.ref(forces[self.frame.own].name)
             found.append(Assign(LEFT_AT_HUB, -self.frame.sign * own))
         return found
-
-    def _derive(self) -> list[Inward]:
-        """Derive nothing: no sweep is made."""
-        return []
 
     def _at_tip(self, forces: list[sp.Symbol]) -> list[sp.Expr]:
         left = composed(residual(self.layout.row.tail, self.frame, moved=True).lines)
