@@ -72,6 +72,8 @@ def at_random(count: int) -> Iterator[ChainExtreme]:
             kernel = KERNELS[random.integers(len(KERNELS))]
             if method.explicit_at == {}:
                 kernel = {**kernel, "unknown": "acceleration"}
+            if method.coupled:
+                kernel = {**kernel, "unknown": "acceleration", "sweep": "riccati"}
             yield ChainExtreme(
                 links=int(random.choice([1, 2, 3, 10, 30])),
                 stiffness_ratio=float(10.0 ** random.uniform(-12, 12)),

@@ -19,7 +19,7 @@ def test_json_has_every_integrator_and_plot_draws(capsys: pytest.CaptureFixture[
     assert picture.read_bytes().startswith(b"\x89PNG")
     found = json.loads(capsys.readouterr().out)
     rows = {row["integrator"]: row for row in found["rows"]}
-    assert len(rows) == 11
+    assert len(rows) == 15
     assert rows["newmark"]["unconditionally_stable"]
     assert rows["newmark"]["limit"] is None
     assert rows["zhai"]["limit"] == 2.0

@@ -57,6 +57,10 @@ STEPS = {"zhou": (1e-3, 5e-4, 2.5e-4, 1.25e-4), "sdirk4": (5e-3, 2.5e-3, 1.25e-3
 OTHERS = (1e-3, 5e-4, 2.5e-4, 1.25e-4)
 
 
+ONE_AFTER_ANOTHER = [m.name for m in METHODS if m.name not in ("fox_euler", "zhai") and not m.coupled]
+"""Those whose stages are solved at once iterate: test_collocation.py."""
+
+
 @pytest.fixture(scope="module")
 def right(unlike: Callable[..., Scene], swinging: Any) -> dict[str, np.ndarray]:
     """Outputs of three unlike links at the hundredths of 0.3 s: whatever the integrator, they are the same."""
@@ -64,7 +68,7 @@ def right(unlike: Callable[..., Scene], swinging: Any) -> dict[str, np.ndarray]:
     return planar_response(scene, swinging(scene), np.linspace(0.01, 0.3, 30), 1e-13)
 
 
-@pytest.mark.parametrize("name", [m.name for m in METHODS if m.name not in ("fox_euler", "zhai")])
+@pytest.mark.parametrize("name", ONE_AFTER_ANOTHER)
 def test_errors_shrink_with_the_derived_order(
     name: str, right: dict[str, np.ndarray], unlike: Callable[..., Scene], compiled: Any, swinging: Any
 ) -> None:

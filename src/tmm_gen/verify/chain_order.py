@@ -52,7 +52,9 @@ def chain_slope(scene: Scene, module: ModuleType, facts: dict[str, object]) -> C
     def error(steps: int) -> float:
         found = _moving_tip(module, scene, coarsest * _STEPS[0] / steps, steps)
         stride, skip = max(steps // _STEPS[0], 1), max(_STEPS[0] // steps, 1)
-        return largest_error(found[stride - 1 :: stride], exact[skip - 1 :: skip], float(np.max(np.abs(exact))))
+        return largest_error(
+            found[stride - 1 :: stride], exact[skip - 1 :: skip], float(np.max(np.abs(exact)))
+        )
 
     counts, errors = above_rounding(error, _STEPS, [error(steps) for steps in _STEPS], _ROUNDED)
     fitted = convergence_slope([1.0 / steps for steps in counts], errors).order
