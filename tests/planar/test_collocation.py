@@ -8,6 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from tmm_gen.control.prediction import prediction_scene
+from tmm_gen.errors import UserError
 from tmm_gen.inputs.signals import Sine
 from tmm_gen.native import compile_kernel
 from tmm_gen.native.python_module import numpy_module
@@ -18,7 +20,8 @@ from tmm_gen.scene import Scene, SceneError, load_scene, parse_scene
 from tmm_gen.simulate.metrics import convergence_slope
 from tmm_gen.simulate.run import simulate
 
-GRIPPER = Path(__file__).resolve().parents[2] / "scenes" / "gripper.toml"
+ROOT = Path(__file__).resolve().parents[2]
+GRIPPER = ROOT / "scenes" / "gripper.toml"
 ARM = """
 name = "arm"
 model = {{ kind = "planar", gravity = 9.81, iterations = {iterations} }}
@@ -177,3 +180,28 @@ def test_what_does_not_go_with_them_is_told_with_a_remedy(
         radau.replace(**change)
     assert told in str(caught.value)
     assert all(str(value) in str(caught.value) for value in remedy.values())
+
+
+@pytest.mark.parametrize(
+    ("path", "told"),
+    [
+        ("scenes/cube.toml", "does not go with a base that floats yet"),
+        ("examples/space/arm6.toml", "does not go with arms in space yet"),
+        ("scenes/elbow.toml", "does not go with elastic gears yet"),
+    ],
+)
+def test_arms_they_do_not_go_with_are_told_what_to_write(path: str, told: str) -> None:
+    scene = load_scene(ROOT / path)
+    if path.endswith("elbow.toml"):
+        scene = scene.replace(**{"motor.1.stiffness": 100.0})
+    with pytest.raises(SceneError, match=told) as caught:
+        scene.replace(**{"integrator.name": "radau3"})
+    assert '`name = "sdirk4"`' in str(caught.value)
+    assert "radau3" not in scene.integrators
+    assert scene.replace(**{"integrator.name": "sdirk4"}).integrator.name == "sdirk4"
+
+
+def test_controllers_say_that_they_need_derivatives() -> None:
+    scene = load_scene(ROOT / "scenes" / "swing.toml").replace(**{"integrator.name": "gauss2"})
+    with pytest.raises(UserError, match="use an integrator such as 'newmark'"):
+        prediction_scene(scene)

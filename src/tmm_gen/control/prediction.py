@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from tmm_gen.control.motors import motors_of
 from tmm_gen.control.stepped_frequency import model_frequency
+from tmm_gen.errors import UserError
 from tmm_gen.scene import Scene
 from tmm_gen.scene.beam import beam_links
 from tmm_gen.scene.station import Link
@@ -41,9 +42,19 @@ def prediction_scene(scene: Scene, calibrate: bool = True) -> Scene:
         With ``[control]``.
     calibrate : bool
         Whether to set frequencies right.
+
+    Raises
+    ------
+    UserError
+        If the scene's integrator solves all its stages at once.
     """
     control = scene.control
     assert control is not None
+    if scene.coupled:
+        raise UserError(
+            f"scene '{scene.name}': a controller predicts with exact derivatives of a step, which are not derived yet "
+            f"where all stages are solved at once ('{scene.integrator.name}'); use an integrator such as 'newmark'"
+        )
     step = control.sample_time / control.substeps
     outputs = (
         SENSORS
