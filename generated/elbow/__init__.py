@@ -1,8 +1,8 @@
 # elbow: Flexible arm with motors at shoulder and elbow
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: a37910a69b52f238259a20213fd8db76ea0063d6b7948a86cd4625c4f988d405
-# sha256 of the rest of this file: b34cf54593df2be91f129822bbacc979f9cc488e4504550ca8c3f3f7e9ff2dc3
+# scene digest: b7474d2f501b0139799e3f1e1a14aa2a3a455ea0221cabb6918551519b3600d0
+# sha256 of the rest of this file: 031e8d84cd43d8b716229c79cb20244b3424111812862bfb12f2275f2f750509
 """elbow: Flexible arm with motors at shoulder and elbow."""
 
 from .kernel import (

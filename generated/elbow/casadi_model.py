@@ -1,8 +1,8 @@
 # elbow: Flexible arm with motors at shoulder and elbow
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: a37910a69b52f238259a20213fd8db76ea0063d6b7948a86cd4625c4f988d405
-# sha256 of the rest of this file: 17cf4ee20ca8936002a427818721f7cfcaaa99ad78db2feca1598493579ed860
+# scene digest: b7474d2f501b0139799e3f1e1a14aa2a3a455ea0221cabb6918551519b3600d0
+# sha256 of the rest of this file: c7c7982fe4f564a4cff0f5932ec9b02adca0e1198f2928e607b88421c2767064
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 12

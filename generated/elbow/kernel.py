@@ -1,8 +1,8 @@
 # elbow: Flexible arm with motors at shoulder and elbow
 #
 # Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
-# scene digest: a37910a69b52f238259a20213fd8db76ea0063d6b7948a86cd4625c4f988d405
-# sha256 of the rest of this file: beab4d23b10cba75a14c1f9c68755d6bf2887b1a3c0c8ef68d9f217367157787
+# scene digest: b7474d2f501b0139799e3f1e1a14aa2a3a455ea0221cabb6918551519b3600d0
+# sha256 of the rest of this file: 1f00c56756c94adb08f61b87e9aa09518f303e01979e6e85f1f61c34c8be8464
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 12

@@ -2,8 +2,8 @@
  * elbow: Flexible arm with motors at shoulder and elbow
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: a37910a69b52f238259a20213fd8db76ea0063d6b7948a86cd4625c4f988d405
- * sha256 of the rest of this file: f23fcd2e1b0833baab0601c6bd558c70dfa7b23d06b1fe75960bf47a0a2938e5
+ * scene digest: b7474d2f501b0139799e3f1e1a14aa2a3a455ea0221cabb6918551519b3600d0
+ * sha256 of the rest of this file: e64a44f66390d6f0dd79391ecaf8e1a47ba7716225803ba0ce1ad47b4d09fb0e
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 12

@@ -2,8 +2,8 @@
  * elbow: Flexible arm with motors at shoulder and elbow
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: a37910a69b52f238259a20213fd8db76ea0063d6b7948a86cd4625c4f988d405
- * sha256 of the rest of this file: 87a1486a30e1df04abecc751cc7dce26748d47e1d4e9c7f18a95d05947d3a6eb
+ * scene digest: b7474d2f501b0139799e3f1e1a14aa2a3a455ea0221cabb6918551519b3600d0
+ * sha256 of the rest of this file: 278e481394adb1dae29c6016caa784d39e007318ed3f97e2cfb13965b55a44ba
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 12

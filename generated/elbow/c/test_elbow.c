@@ -2,8 +2,8 @@
  * elbow: Flexible arm with motors at shoulder and elbow
  *
  * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
- * scene digest: a37910a69b52f238259a20213fd8db76ea0063d6b7948a86cd4625c4f988d405
- * sha256 of the rest of this file: 8226641f91788d4aac317640b6e96d9e20c5d11c4b078d3a7c767ee76c12b6a0
+ * scene digest: b7474d2f501b0139799e3f1e1a14aa2a3a455ea0221cabb6918551519b3600d0
+ * sha256 of the rest of this file: 96969d59ff5906fc5d59041145b5a5fe5c72bd41afded3783b7113077102af63
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 12
