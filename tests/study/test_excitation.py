@@ -83,7 +83,7 @@ def test_a_force_beyond_a_free_joint_is_of_the_size_of_what_it_carries() -> None
     """However heavy the arm is up to there."""
     push = {"name": "push", "at": "payload", "acts": "force_y"}
     for upper in (None, 50.0):
-        scene = load_scene("scenes/elbow.toml").replace(input=[push])
+        scene = load_scene("scenes/elbow.toml").replace(control=None, input=[push])
         if upper is not None:
             scene = scene.replace(**{"beam.upper.material": None, "beam.upper.section": None})
             scene = scene.replace(

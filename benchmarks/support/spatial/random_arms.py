@@ -52,7 +52,7 @@ def random_arm(
         made.append(joint)
     frames = tuple(
         Frame(f"end_{number}", number, _vector(rng, 0.2), _turn(rng))
-        for number in (count, max(1, count // 2))
+        for number in dict.fromkeys((count, max(1, count // 2)))
     )
     inputs = [ArmInput(f"torque_{number}", "torque", joint=number) for number in range(1, count + 1)]
     if loads:

@@ -39,7 +39,7 @@ LIBRARY = _words(
 
 OWN = _words(
     "SAMPLES ROWS STATES OUTPUTS SUBSTEPS END_ROWS LANES KINDS STEPS PATTERN PAINTED STACK_POINTER TORQUE STAGES "
-    "FUTURE KNOWNS PAST"
+    "FUTURE KNOWNS PAST MOTORS INPUTS UNKNOWNS"
 )
 """Macros of the emitted sources themselves, controllers and test programs included."""
 

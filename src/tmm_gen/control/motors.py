@@ -149,7 +149,7 @@ class Motors:
 def motors_of(scene: Scene) -> Motors:
     """Return the motors of a scene that has ``[control]``."""
     links = [link.length for link in scene.links]
-    if scene.base.kind == "motor":
+    if scene.base.kind == "motor":  # the short form, whose motor is no part with a name
         name = next(item.name for item in scene.inputs if item.at == "base" and item.acts == "torque")
         hub = Motor(HUB, name, place=0, host=-1, end=len(links) + 1, gear=1.0)
         return Motors((hub,), np.array([0.0, *links]), on_hub=True)

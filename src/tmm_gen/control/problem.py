@@ -200,6 +200,7 @@ def control_problem(scene: Scene) -> ControlProblem:
     """
     require_flat(scene, "controllers do not")
     control = scene.control
+    # only to say what is missing: a scene that has [control] was asked for these when it was read
     controlled = scene.model.kind == "planar" and (scene.base.kind == "motor" or _driven(scene))
     if control is None and not controlled:
         raise UserError(

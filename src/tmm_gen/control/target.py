@@ -150,6 +150,7 @@ def _require_within(scene: Scene, problem: ControlProblem, target: Target, key: 
 
 
 def _what(scene: Scene) -> str:
+    # in the short form the reference is of the tip
     return "tip" if scene.base.kind == "motor" else "joints"
 
 

@@ -46,13 +46,14 @@ def terms_of(scene: Scene) -> list[Term]:
         found += [*_gears(scene), *_motors(scene)]
     else:
         found[1:1] = [_alike_joints(scene), _alike_links(scene)]
-    if scene.model.in_plane:
+    planar = scene.model.in_plane
+    if planar:
         found = [_gravity(scene), _iterations(scene), *found, *([] if scene.hosts else _tip(scene))]
         if not scene.emit.sensitivities:  # neither has derivatives
             if scene.model.iterates and not scene.coupled:
                 found.insert(2, _corrections(scene))
             found.append(_heat(scene))
-    return [*found, _inputs(scene), _outputs(scene)]
+    return [*found, _inputs(scene, planar), _outputs(scene, planar)]
 
 
 def _gravity(scene: Scene) -> Term:
@@ -244,11 +245,11 @@ def _heat(scene: Scene) -> Term:
     return Term("counting energy turned to heat", asked and damped, why, other)
 
 
-def _inputs(scene: Scene) -> Term:
+def _inputs(scene: Scene, planar: bool) -> Term:
     n = scene.stations
     taken = {station_of(i.at, n) for i in scene.inputs if i.acts != "drive"}
     missing = [k for k in range(1, n + 1) if k not in taken]
-    acts: tuple[Acts, ...] = ("torque", "force_x", "force_y") if scene.model.in_plane else ("torque",)
+    acts: tuple[Acts, ...] = ("torque", "force_x", "force_y") if planar else ("torque",)
     what = "torques and forces" if len(acts) > 1 else "torques"
 
     def other(s: Scene) -> Scene:
@@ -259,9 +260,8 @@ def _inputs(scene: Scene) -> Term:
     return Term(f"{what} on links without an input", False, why, other)
 
 
-def _outputs(scene: Scene) -> Term:
+def _outputs(scene: Scene, planar: bool) -> Term:
     n = scene.stations
-    planar = scene.model.in_plane
     kinds: tuple[Of, ...] = ("position", "velocity", "torque")
     if not planar:
         kinds = ("angle", "velocity", "acceleration", "torque")

@@ -75,7 +75,7 @@ class GrowthMap:
         """
         with np.errstate(invalid="ignore"):
             found = (self.measured - self.derived) / np.maximum(self.derived, 1.0)
-        wild = np.inf if self.scene.model.linear else _WILD
+        wild = self._bounds[2]
         both = (self.measured >= wild) & (self.derived >= wild)
         difference: Array = np.where(both, 0.0, found)
         return difference
@@ -109,9 +109,9 @@ class GrowthMap:
         return self.derived > 1.0 + self._bounds[1]
 
     @property
-    def _bounds(self) -> tuple[float, float]:
-        """Least difference, and least growth, that count."""
-        return (TOLERANCE, GROWS) if self.scene.model.linear else (TOLERANCE_FAR, GROWS_FAR)
+    def _bounds(self) -> tuple[float, float, float]:
+        """Least difference, and least growth, that count; and growth beyond all that is asked for."""
+        return (TOLERANCE, GROWS, np.inf) if self.scene.model.linear else (TOLERANCE_FAR, GROWS_FAR, _WILD)
 
 
 def growth_map(
