@@ -33,7 +33,7 @@ FEW = settings(max_examples=3, deadline=None, derandomize=True, suppress_health_
 
 @FEW
 @example(seed=3, count=7, branching=True, floating=True)
-@given(seed=st.integers(0, 10_000), count=st.integers(2, 8), branching=st.booleans(), floating=st.booleans())
+@given(seed=st.integers(0, 10_000), count=st.integers(2, 12), branching=st.booleans(), floating=st.booleans())
 def test_backends_agree(
     seed: int, count: int, branching: bool, floating: bool, drawn: Callable[..., Scene]
 ) -> None:
@@ -51,7 +51,7 @@ def test_backends_agree(
 @example(seed=15, count=6, order=4, branching=True, floating=False)  # an elastic gear begins a branch
 @given(
     seed=st.integers(0, 10_000),
-    count=st.integers(2, 8),
+    count=st.integers(2, 12),
     order=st.sampled_from([2, 4]),
     branching=st.booleans(),
     floating=st.booleans(),
