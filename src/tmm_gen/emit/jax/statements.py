@@ -78,7 +78,7 @@ class RoutineText(PythonRoutine):
         """Write a statement for all visits of a loop at once."""
         value = PythonPrinter(lambda ref: self._elements(ref, loop), "jnp").text(statement.value)
         if isinstance(statement, Require):
-            return [f"{indent}good = good & _positive({value})"]
+            return call("good = good & _positive", [value], indent)
         if statement.target.variable.length is None:
             name = self._names[statement.target.variable] + self._types.annotation(statement)
             return assignment(name, value, indent)
@@ -145,7 +145,7 @@ class RoutineText(PythonRoutine):
         for inner in loop.body:
             value = printer.text(inner.value)
             if isinstance(inner, Require):
-                body.append(f"{inner_indent}good = good & _positive({value})")
+                body += call("good = good & _positive", [value], inner_indent)
             else:
                 body += assignment(self._here(inner.target), value, inner_indent)
                 made.add(inner.target)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from tmm_gen.emit.expressions import element
-from tmm_gen.emit.python.lines import assignment, comment
+from tmm_gen.emit.python.lines import assignment, call, comment
 from tmm_gen.emit.python.names import Names
 from tmm_gen.emit.python.printer import PythonPrinter
 from tmm_gen.emit.python.routine import PythonRoutine
@@ -78,7 +78,7 @@ class RoutineText(PythonRoutine):
             at = "j" if indent != _INDENT else "None"
             if place in self._whole:
                 at += ", batch"
-            return [f'{indent}good = _positive_pivot(good, {value}, "{value}", {at})']
+            return call("good = _positive_pivot", ["good", value, f'"{value}"', at], indent)
         target = statement.target
         if self._would_alias(statement, place):
             value = f"np.copy({value})"
