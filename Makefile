@@ -21,7 +21,7 @@ export PYTHONUNBUFFERED := 1
 help:  ## list the targets
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-7s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 
-demo: $(CORE) compiler  ## build, run and compare the example scenes: one table, one picture in out/demo
+demo: $(CORE) compiler  ## an arm lifts its payload: what accuracy costs in C, one table, one picture in out/demo
 	$(TMM) demo --out out/demo
 
 test: $(TEST) compiler  ## drift of generated/, then all tests; ends with what absent tools left out

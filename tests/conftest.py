@@ -179,6 +179,7 @@ def browse(need_tool: Callable[..., str], tmp_path_factory: pytest.TempPathFacto
 
 LONG = (
     "cli/test_demo.py",
+    "cli/test_thesis_demo.py",
     "cli/test_space_motion.py",
     "cli/test_stability.py",
     "control/emitted/test_faults.py",

@@ -1,50 +1,46 @@
-"""`tmm-gen demo`: the thesis's five integrators on its two samples, in one table and one picture."""
+"""`tmm-gen demo`: an arm in motion, and words that agree with its table."""
 
 from __future__ import annotations
 
 import csv
-import json
+import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from tmm_gen.cli import main
+from tmm_gen.report import arm_demo
 
 pytestmark = pytest.mark.compiler
-
-BOUNDS = {"fox_euler": 4e-3, "newmark": 1.6e-5, "wilson": 3.5e-5, "houbolt": 8e-5, "zhou": 5e-8}
 
 
 def test_the_demonstration(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    assert main(["demo", "--out", "shown", "--json"]) == 0
-    found = json.loads(capsys.readouterr().out)
-    rows = {(row["scene"], row["integrator"], row["step"]): row for row in found["rows"]}
-    assert len(rows) == 12
-    for scene in ("thesis2", "thesis10"):
-        for name, bound in BOUNDS.items():
-            row = rows[scene, name, 0.01]
-            assert row["error"] <= bound
-            assert row["c_against_numpy"] <= 1e-12
-            assert row["ns_per_step"] > 0.0
-            assert 0.0 <= row["ns_spread"] < 2.0
-            assert row["operations_per_station"] <= 35
-            assert row["peak"] == pytest.approx(row["exact_peak"], rel=0.01)
-
-    # The proposed method settles far too soon with the coefficients that the thesis prints.
-    derived, printed = rows["thesis2", "zhou", 0.1], rows["thesis2", "zhou as printed", 0.1]
-    assert derived["error"] < 1e-4
-    assert printed["error"] > 0.1
-    assert printed["settling_time"] < 5.0 < 15.0 < derived["settling_time"]
-
-    out = tmp_path / "shown"
-    assert (out / "thesis.png").read_bytes().startswith(b"\x89PNG")
-    with (out / "thesis.csv").open(newline="") as file:
-        assert len(list(csv.DictReader(file))) == 12
-    for name in BOUNDS:
-        kernel = out / "kernels" / name / "thesis10"
-        for path in ("__init__.py", "kernel.py", "casadi_model.py", "c/thesis10.c", "c/thesis10.h"):
-            assert (kernel / path).is_file()
+    monkeypatch.setenv("COLUMNS", "160")
+    assert main(["demo", "--out", "shown"]) == 0
+    told = capsys.readouterr().out
     assert {path.name for path in tmp_path.iterdir()} == {"shown"}
+    out = tmp_path / "shown"
+    assert (out / "arm.png").read_bytes().startswith(b"\x89PNG")
+    for path in ("__init__.py", "kernel.py", "casadi_model.py", "c/elbow.c", "c/elbow.h"):
+        assert (out / "generated" / "elbow" / path).is_file()
+
+    with (out / "arm.csv").open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert len(rows) == sum(len(steps) for steps in arm_demo.STEPS.values())
+    takes = {name: float(time) for time, name in re.findall(r"([\d.]+) ms with (\w+)", told)}
+    assert set(takes) == set(arm_demo.STEPS)
+    assert list(takes.values()) == sorted(takes.values())
+    for name, order in (("newmark", 2), ("sdirk4", 4), ("radau3", 4)):
+        own = [row for row in rows if row["integrator"] == name]
+        steps, errors, times = (
+            np.array([float(row[key]) for row in own]) for key in ("step", "error", "time")
+        )
+        slope = np.polyfit(np.log(steps[-3:]), np.log(errors[-3:]), 1)[0]
+        assert slope == pytest.approx(order, abs=0.25)
+        # what the words say lies between the rows that they come from
+        below, above = times[errors <= 0.01].min(), times[errors >= 0.01].max()
+        assert above - 0.01 <= takes[name] <= below + 0.01

@@ -60,7 +60,7 @@ COMMANDS = {
     "errata": LazyCommand("tmm_gen.cli.errata:errata", "Compare the thesis's coefficients with the derived."),
     "calibrate": LazyCommand("tmm_gen.cli.calibrate:calibrate", "Fit a scene to a recorded response."),
     "mpc": LazyCommand("tmm_gen.cli.mpc:mpc", "Control the arm on a finer plant, and compare controllers."),
-    "demo": LazyCommand("tmm_gen.cli.demo:demo", "Build, run and compare the example scenes."),
+    "demo": LazyCommand("tmm_gen.cli.demo:demo", "Lift an arm's payload; measure what accuracy costs."),
 }
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.report.demo import THESIS_STEP, Curve, Sample
+from tmm_gen.report.thesis_samples import THESIS_STEP, Curve, Sample
 from tmm_gen.style import INK, figure, picture, style, subtitle
 
 if TYPE_CHECKING:
@@ -39,7 +39,7 @@ _WINDOW = 1 / 16
 """Reach of the window of an envelope to each side, as a share of the whole run: a quarter period at least."""
 
 
-def demo_picture(samples: list[Sample]) -> bytes:
+def thesis_picture(samples: list[Sample]) -> bytes:
     """Draw responses and errors at the thesis's step, as a PNG."""
     with style():
         return picture(_drawn(samples), "png")

@@ -79,7 +79,7 @@ class Sample:
 
 
 @dataclass(frozen=True, eq=False)
-class Demo:
+class ThesisSamples:
     """Everything the demonstration shows.
 
     Parameters
@@ -100,7 +100,7 @@ class Demo:
     timers: list[Callable[[], float]] = field(default_factory=list)
 
 
-def run_demo(advance: Callable[[float, str], None]) -> Demo:
+def run_thesis_samples(advance: Callable[[float, str], None]) -> ThesisSamples:
     """Build, run, compile and compare everything.
 
     Parameters
@@ -113,7 +113,7 @@ def run_demo(advance: Callable[[float, str], None]) -> Demo:
     UserError
         If there is no C compiler.
     """
-    demo = Demo([], [], {})
+    demo = ThesisSamples([], [], {})
     for name, duration in SAMPLES.items():
         scene = load_scene(scenes_dir() / f"{name}.toml")
         static = float(assemble(scene).static(np.array([1.0]))[0])
@@ -135,7 +135,7 @@ def run_demo(advance: Callable[[float, str], None]) -> Demo:
     return demo
 
 
-def _one(demo: Demo, sample: Sample, scene: Scene, duration: float) -> None:
+def _one(demo: ThesisSamples, sample: Sample, scene: Scene, duration: float) -> None:
     """Build one kernel, run it in NumPy and in C, add its row, its files and its curve."""
     from tmm_gen.emit.c import emit_c
     from tmm_gen.emit.casadi import emit_casadi
