@@ -40,7 +40,7 @@ INSTANTS = 25
 """At which the payload's place is compared, spread over the motion."""
 
 _TOLERANCE = 1e-7
-"""Of the reference, whose equations are written without the generator; a hundredth of it changes the places in the twelfth digit."""
+"""Of the reference, whose equations are written without the generator; a hundredth of it changes the twelfth digit."""
 
 
 @dataclass(frozen=True)
@@ -141,7 +141,7 @@ def run_arm_demo(advance: Callable[[float, str], None]) -> ArmDemo:
         kernels[method] = compile_kernel(build_program(chosen), chosen)
     advance(1, "simulating")
     simulation = simulate(scene, TORQUES, DURATION, "c", trace=True)
-    instants = DURATION / INSTANTS * np.arange(1, INSTANTS + 1)
+    instants: Array = DURATION / INSTANTS * np.arange(1, INSTANTS + 1)
     found = planar_response(scene, TORQUES, instants, _TOLERANCE)
     truth = np.array([found[f"payload_{axis}"] for axis in "xy"])
     errors = {
@@ -160,6 +160,11 @@ def run_arm_demo(advance: Callable[[float, str], None]) -> ArmDemo:
 
 def _places(kernel: NativeKernel, step: float) -> Array:
     """Return where the payload is at the instants of comparison, (2, INSTANTS), m."""
-    _, outputs = kernel.simulate(DURATION, {name: torque.at for name, torque in TORQUES.items()}, step=step)
+    torques = {name: _called(torque) for name, torque in TORQUES.items()}
+    _, outputs = kernel.simulate(DURATION, torques, step=step)
     every = round(DURATION / INSTANTS / step)
     return np.array([outputs[f"payload_{axis}"][every::every] for axis in "xy"])
+
+
+def _called(torque: Smooth) -> Callable[[float], float]:
+    return lambda time: float(torque.at(time))
