@@ -141,7 +141,7 @@ def run_arm_demo(advance: Callable[[float, str], None]) -> ArmDemo:
         kernels[method] = compile_kernel(build_program(chosen), chosen)
     advance(1, "simulating")
     simulation = simulate(scene, TORQUES, DURATION, "c", trace=True)
-    instants: Array = DURATION / INSTANTS * np.arange(1, INSTANTS + 1)
+    instants: Array = DURATION / INSTANTS * np.arange(1, INSTANTS + 1, dtype=float)
     found = planar_response(scene, TORQUES, instants, _TOLERANCE)
     truth = np.array([found[f"payload_{axis}"] for axis in "xy"])
     errors = {
