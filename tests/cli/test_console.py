@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import os
 import json
 import math
 import sys
@@ -92,6 +93,27 @@ def test_a_table_shows_its_columns_in_their_form(capsys: pytest.CaptureFixture[s
 class Terminal(io.StringIO):
     def isatty(self) -> bool:
         return True
+
+
+def test_a_table_too_wide_for_the_terminal_becomes_records(monkeypatch: pytest.MonkeyPatch) -> None:
+    stream = Terminal()
+    monkeypatch.setattr(sys, "stdout", stream)
+    monkeypatch.setattr("shutil.get_terminal_size", lambda: os.terminal_size((60, 24)))
+    columns: list[Column | str] = ["name", Column("peak", "largest angle (rad)", ".3g"), "a_remark"]
+    rows = [{"name": name, "peak": 1.0, "a_remark": "of some length " * 3} for name in ("first", "second")]
+    table(rows, columns, title="T")
+    lines = stream.getvalue().splitlines()
+    assert lines[:5] == [
+        "T",
+        "",
+        "name                 first",
+        "largest angle (rad)  1",
+        "a remark             " + "of some length " * 3,
+    ]
+    assert "name                 second" in lines
+    stream.truncate(0)
+    table(rows, columns[:2], title="T")
+    assert "┃" in stream.getvalue()
 
 
 def test_progress_is_silent_where_nobody_looks(monkeypatch: pytest.MonkeyPatch) -> None:

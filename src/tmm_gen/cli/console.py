@@ -154,7 +154,26 @@ def table(
     for row in rows:
         # Text: square brackets are to stay themselves.
         grid.add_row(*(Text(column.text(row.get(column.key))) for column in shown))
-    Console(width=None if sys.stdout.isatty() else _WIDE).print(grid)
+    console = Console(width=None if sys.stdout.isatty() else _WIDE)
+    if rows and console.measure(grid, options=console.options.update(width=_WIDE)).maximum > width:
+        _print_records(rows, shown, title)
+    else:
+        console.print(grid)
+
+
+def _print_records(
+    rows: Sequence[Mapping[str, object]], columns: Sequence[Column], title: str | None
+) -> None:
+    """Print a row below the other, a line for each column: cells of a few letters' width could not be read."""
+    headings = [column.heading or column.key.replace("_", " ") for column in columns]
+    reach = max(len(heading) for heading in headings)
+    if title:
+        click.echo(title)
+    for row in rows:
+        click.echo()
+        for heading, column in zip(headings, columns, strict=True):
+            click.echo(f"{heading:<{reach}}  {column.text(row.get(column.key))}")
+    click.echo()
 
 
 def _side(rows: Sequence[Mapping[str, object]], key: str) -> Literal["left", "right"]:

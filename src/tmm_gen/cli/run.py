@@ -46,7 +46,7 @@ _COLUMNS: list[Column | str] = [
     Column("peak", form=".6g"),
     Column("peak_time", "at (s)", ".4g"),
     Column("overshoot_percent", "overshoot (%)", ".1f"),
-    Column("settling_time", "settled after (s)", ".4g"),
+    Column("settling_time", "within 2 % after (s)", ".4g"),
 ]
 
 
