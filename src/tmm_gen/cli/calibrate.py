@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal
 
 import click
 
-from tmm_gen.cli.console import Column, progress, table
+from tmm_gen.cli.console import Column, progress, say_written, table
 from tmm_gen.cli.given import finite, positive
 from tmm_gen.cli.kinds import served_scene
 from tmm_gen.cli.outputs import OutputFile, force_option, require_new, write_outputs
@@ -197,7 +197,4 @@ def _show(scene: Scene, done: Calibration, written: list[Path], json_mode: bool)
         click.echo(f"{done.outliers} of {done.samples} samples are far off and were given less weight")
     if done.start:
         click.echo(f"the arm starts at {done.start:.10g} s of the record's clock")
-    for path in written:
-        click.echo(f"wrote {path}")
-    if not written:
-        click.echo("more: --out FILE writes the calibrated scene")
+    say_written(written, "--out FILE writes the calibrated scene")

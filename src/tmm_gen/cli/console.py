@@ -16,7 +16,7 @@ from typing import Any, Literal, Protocol
 
 import click
 
-__all__ = ["Advance", "Column", "plain", "print_json", "progress", "table"]
+__all__ = ["Advance", "Column", "plain", "print_json", "progress", "say_written", "table"]
 
 # rich is imported inside functions: it costs more than all of `tmm-gen --help`.
 
@@ -182,6 +182,22 @@ def _side(rows: Sequence[Mapping[str, object]], key: str) -> Literal["left", "ri
     present = [value for value in values if value is not None]
     numeric = all(isinstance(value, int | float) and not isinstance(value, bool) for value in present)
     return "right" if present and numeric else "left"
+
+
+def say_written(files: Sequence[PurePath], more: str = "") -> None:
+    """Name the files that a command has written; say what else it does where it wrote none.
+
+    Parameters
+    ----------
+    files
+        What was written.
+    more
+        What to read after "more: "; nothing is said where it is empty.
+    """
+    for path in files:
+        click.echo(f"wrote {path}")
+    if more and not files:
+        click.echo(f"more: {more}")
 
 
 class Advance(Protocol):

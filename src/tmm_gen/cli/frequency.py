@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from tmm_gen.cli.console import Column, progress, table
-from tmm_gen.cli.given import constant_inputs, picture_file, plot_option, positive
+from tmm_gen.cli.console import Column, progress, say_written, table
+from tmm_gen.cli.given import constant_inputs, picture_file, plot_option, positive, resting_input_option
 from tmm_gen.cli.kinds import served_scene
 from tmm_gen.cli.links import show_links
 from tmm_gen.cli.near import near_option, start_of
@@ -48,13 +48,7 @@ _ROUNDING = 1e-12
     show_default=True,
     help="Frequencies, evenly in log.",
 )
-@click.option(
-    "--input",
-    "given",
-    metavar="NAME=VALUE",
-    multiple=True,
-    help="A constant input that an arm rests under. Repeatable; the rest is zero.",
-)
+@resting_input_option
 @near_option
 @click.option("--csv", "csv_file", type=OutputFile(), help="Write the response.")
 @plot_option("magnitude and phase", "-frequency")
@@ -310,9 +304,6 @@ def _show(answer: _Answer, written: list[Path], json_mode: bool) -> None:
     table(answer.rows, columns, json_mode, title=title, more=facts)
     if json_mode:
         return
-    for path in written:
-        click.echo(f"wrote {path}")
-    if not written:
-        click.echo(
-            "more: --plot draws it, --csv FILE writes it, --from and --to choose, --low and --high zoom"
-        )
+    say_written(
+        written, "--plot draws it, --csv FILE writes it, --from and --to choose, --low and --high zoom"
+    )

@@ -44,6 +44,16 @@ def plot_option(what: str, ending: str = "") -> Callable[[_Command], _Command]:
     )
 
 
+resting_input_option = click.option(
+    "--input",
+    "given",
+    metavar="NAME=VALUE",
+    multiple=True,
+    help="A constant input that an arm rests under. Repeatable; the rest is zero.",
+)
+"""The option of commands that look at an arm at rest; gives a command the argument ``given``."""
+
+
 def picture_file(picture: Path, name: str, ending: str = "") -> Path:
     """Return where a picture goes: the file that was named, or one by the scene's name."""
     return Path(f"{name}{ending}.png") if picture == Path(PICTURE) else picture

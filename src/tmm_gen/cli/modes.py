@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from tmm_gen.cli.console import Column, progress, table
-from tmm_gen.cli.given import constant_inputs, picture_file, plot_option
+from tmm_gen.cli.console import Column, progress, say_written, table
+from tmm_gen.cli.given import constant_inputs, picture_file, plot_option, resting_input_option
 from tmm_gen.cli.kinds import served_scene
 from tmm_gen.cli.modes_table import mode_row, say_unsure
 from tmm_gen.cli.near import near_option, start_of
@@ -34,13 +34,7 @@ if TYPE_CHECKING:
     show_default=True,
     help="How many modes; those of a base that floats in space come besides.",
 )
-@click.option(
-    "--input",
-    "given",
-    metavar="NAME=VALUE",
-    multiple=True,
-    help="A constant input that an arm rests under. Repeatable; the rest is zero.",
-)
+@resting_input_option
 @near_option
 @plot_option("the mode shapes", "-modes")
 @click.option("--json", "json_mode", is_flag=True, help="One JSON object instead of a table.")
@@ -170,7 +164,4 @@ def _show(
     if arm.rest is not None and not beside.straight:
         click.echo(f"about the static equilibrium: {_ends_at_rest(scene, arm.rest.angles.tolist())} degrees")
     say_unsure(rows)
-    for path in files:
-        click.echo(f"wrote {path}")
-    if not files:
-        click.echo("more: --plot draws the mode shapes, --count N shows more or fewer")
+    say_written(files, "--plot draws the mode shapes, --count N shows more or fewer")

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from tmm_gen.cli.console import Column, progress, table
+from tmm_gen.cli.console import Column, progress, say_written, table
 from tmm_gen.cli.given import picture_file
 from tmm_gen.cli.outputs import write_outputs
 from tmm_gen.errors import UserError
@@ -61,10 +61,7 @@ def show(scene: Scene, trials: list[Trial], until: float, files: list[Path], jso
     table(rows, columns, json_mode, title=scene.title, more=facts)
     if json_mode:
         return
-    for path in files:
-        click.echo(f"wrote {path}")
-    if not files:
-        click.echo("more: --plot draws it, --animate FILE.gif shows it, --emit DIR writes a controller in C")
+    say_written(files, "--plot draws it, --animate FILE.gif shows it, --emit DIR writes a controller in C")
 
 
 def write_files(bench: Bench, trials: list[Trial], picture: Path | None, animated: Path | None) -> list[Path]:

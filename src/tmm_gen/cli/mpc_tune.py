@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from tmm_gen.cli.console import Column, progress, table
+from tmm_gen.cli.console import Column, progress, say_written, table
 from tmm_gen.cli.outputs import write_outputs
 from tmm_gen.errors import UserError
 from tmm_gen.reading import read_file
@@ -148,10 +148,7 @@ def _show(found: list[Tuned], evaluations: int, seed: int, files: list[Path], js
         click.echo(
             f"{item.tunable.name}: {item.price:.3f}, {item.price_before:.3f} with the numbers the scene had"
         )
-    for path in files:
-        click.echo(f"wrote {path}")
-    if not files:
-        click.echo("more: --out FILE writes the tuned scene")
+    say_written(files, "--out FILE writes the tuned scene")
 
 
 def _written(value: object) -> str:

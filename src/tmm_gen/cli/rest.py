@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from tmm_gen.cli.changes import changed_scene, set_option
-from tmm_gen.cli.console import Column, print_json, progress, table
-from tmm_gen.cli.given import constant_inputs, picture_file, plot_option
+from tmm_gen.cli.console import Column, print_json, progress, say_written, table
+from tmm_gen.cli.given import constant_inputs, picture_file, plot_option, resting_input_option
 from tmm_gen.cli.kinds import require_served
 from tmm_gen.cli.near import FROM_START, near_option, start_of
 from tmm_gen.cli.outputs import claim, write_outputs
+from tmm_gen.cli.rest_table import say_starts, six, title_of
 from tmm_gen.cli.space_rest import show_space_rest
 from tmm_gen.errors import UserError
 
@@ -22,19 +23,10 @@ if TYPE_CHECKING:
 
 # NumPy, SymPy and Matplotlib are imported inside: `tmm-gen --help` has no use for them.
 
-_DECIMALS = 9
-"""Of what the table shows; beyond them an arm that hangs straight would have a tip beside its base."""
-
 
 @click.command("rest")
 @click.argument("scene", metavar="SCENE", type=click.Path(path_type=Path))
-@click.option(
-    "--input",
-    "given",
-    metavar="NAME=VALUE",
-    multiple=True,
-    help="A constant input that the arm rests under. Repeatable; the rest is zero.",
-)
+@resting_input_option
 @near_option
 @set_option
 @plot_option("the arm in each equilibrium", "-rest")
@@ -101,29 +93,19 @@ def _show(
         }
         print_json({**facts, "rows": rows})
         return
-    count = len(rows)
-    title = f"{scene.title}: {count} equilibri{'a' if count > 1 else 'um'}"
     columns = [Column("equilibrium"), Column("state")]
     for end, name in _ends(scene):
-        columns += [Column(f"{axis}{end}", f"{name} {axis} (m)", _six, "right") for axis in "xy"]
+        columns += [Column(f"{axis}{end}", f"{name} {axis} (m)", six, "right") for axis in "xy"]
     for name in [part.name for part in scene.parts if part.joint] or ["joint 1"]:
-        columns.append(Column(f"{name} angle", f"{name} angle (rad)", _six, "right"))
-        columns.append(Column(f"{name} torque", "torque (N m)", _six, "right"))
-    table([_flat(scene, row) for row in rows], columns, title=title)
+        columns.append(Column(f"{name} angle", f"{name} angle (rad)", six, "right"))
+        columns.append(Column(f"{name} torque", "torque (N m)", six, "right"))
+    table([_flat(scene, row) for row in rows], columns, title=title_of(scene, len(rows)))
     if names:
         motors = any(part.kind == "motor" for part in scene.parts) or (scene.hub and not scene.floats)
         turning = f"{', '.join(names.values())} turn{'s' * (len(names) == 1)} freely"
         click.echo(f"{turning}: motors hold no torque but that of --input" if motors else turning)
-    click.echo(f"looked for from {held.starts} start{'s' * (held.starts > 1)}: there may be more")
-    for path in files:
-        click.echo(f"wrote {path}")
-    if not files:
-        click.echo("more: --plot draws them, --json has every node, angle and torque")
-
-
-def _six(value: float) -> str:
-    """Return six digits of what is more than rounding."""
-    return f"{round(value, _DECIMALS) + 0.0:.6g}"
+    say_starts(held.starts)
+    say_written(files, "--plot draws them, --json has every node, angle and torque")
 
 
 def _ends(scene: Scene) -> list[tuple[int, str]]:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from tmm_gen.cli.console import Column, progress, table
+from tmm_gen.cli.console import Column, progress, say_written, table
 from tmm_gen.cli.given import picture_file
 from tmm_gen.cli.modes_table import mode_row, say_unsure
 from tmm_gen.cli.outputs import write_outputs
@@ -108,7 +108,4 @@ def _show(resting: RestingArm, rows: list[dict[str, Any]], files: list[Path], js
         told = ", ".join(f"{name} {round(angle, 3):g}" for name, angle in turned if round(angle, 3))
         click.echo("about the static equilibrium" + (f", in degrees: {told}" if told else ""))
     say_unsure(rows)
-    for path in files:
-        click.echo(f"wrote {path}")
-    if not files:
-        click.echo("more: --plot draws the mode shapes, --count N shows more or fewer")
+    say_written(files, "--plot draws the mode shapes, --count N shows more or fewer")

@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from tmm_gen.cli.console import Column, print_json, progress, table
+from tmm_gen.cli.console import Column, print_json, progress, say_written, table
 from tmm_gen.cli.given import picture_file
 from tmm_gen.cli.near import FROM_START
 from tmm_gen.cli.outputs import write_outputs
+from tmm_gen.cli.rest_table import say_starts, six, title_of
 
 if TYPE_CHECKING:
     import numpy as np
@@ -19,9 +20,6 @@ if TYPE_CHECKING:
     from tmm_gen.modal.space.equilibria import SpaceEquilibria, SpaceEquilibrium
     from tmm_gen.scene import Scene
     from tmm_gen.scene.spatial.arm import SpatialArm
-
-_DECIMALS = 9
-"""Of what the table shows; beyond them an arm that hangs straight would have a tip beside its base."""
 
 _ALL = 4
 """Joints up to which a table shows all angles and torques."""
@@ -89,21 +87,19 @@ def _show(
         print_json({**facts, "rows": rows})
         return
     tips = [tip.name for tip in Skeleton(arm).tips]
-    count = len(rows)
     flat = [_flat(row) for row in rows]
     columns = [Column("equilibrium"), Column("state")]
     for name in tips:
         shown = "tip" if len(tips) == 1 else name
-        columns += [Column(f"{name} {axis}", f"{shown} {axis} (m)", _six, "right") for axis in "xyz"]
+        columns += [Column(f"{name} {axis}", f"{shown} {axis} (m)", six, "right") for axis in "xyz"]
     joints = parts_that_turn(arm)
     for _, name in joints:
         for what, heading in (("angle", f"{name} angle (rad)"), ("torque", f"{name} torque (N m)")):
             key = f"{name} {what}"
             # what is nought throughout is left out where a table would be too wide
-            if len(joints) <= _ALL or any(_six(row[key]) != "0" for row in flat):
-                columns.append(Column(key, heading, _six, "right"))
-    title = f"{scene.title}: {count} equilibri{'a' if count > 1 else 'um'}"
-    table(flat, columns, title=title)
+            if len(joints) <= _ALL or any(six(row[key]) != "0" for row in flat):
+                columns.append(Column(key, heading, six, "right"))
+    table(flat, columns, title=title_of(scene, len(rows)))
     if free:
         turning = f"{', '.join(free)} turn{'s' * (len(free) == 1)} freely"
         driven = {arm.joints[item.joint - 1].name for item in arm.inputs if item.acts == "torque"}
@@ -113,16 +109,8 @@ def _show(
         click.echo(
             "nothing holds the base: it stays where it starts, and falls with all it carries under gravity"
         )
-    click.echo(f"looked for from {held.starts} start{'s' * (held.starts > 1)}: there may be more")
-    for path in files:
-        click.echo(f"wrote {path}")
-    if not files:
-        click.echo("more: --plot draws them, --json has every frame, angle and torque")
-
-
-def _six(value: float) -> str:
-    """Return six digits of what is more than rounding."""
-    return f"{round(value, _DECIMALS) + 0.0:.6g}"
+    say_starts(held.starts)
+    say_written(files, "--plot draws them, --json has every frame, angle and torque")
 
 
 def _row(arm: SpatialArm, number: int, each: SpaceEquilibrium, origin: str) -> dict[str, Any]:

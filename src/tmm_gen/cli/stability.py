@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from tmm_gen.cli.changes import changed_scene, set_option
-from tmm_gen.cli.console import Column, progress, table
+from tmm_gen.cli.console import Column, progress, say_written, table
 from tmm_gen.cli.given import picture_file, plot_option
 from tmm_gen.cli.kinds import require_served
 from tmm_gen.cli.near import near_option, start_of
@@ -170,10 +170,7 @@ def _say(motion: SmallMotion, found: list[Standing], maps: list[GrowthMap], file
         click.echo("the arm itself falls over: it grows in truth, whatever the integrator")
     for each in maps:
         click.echo(_finding(each))
-    for path in files:
-        click.echo(f"wrote {path}")
-    if maps and not files:
-        click.echo("more: --plot draws the map, --map INTEGRATOR measures another")
+    say_written(files, "--plot draws the map, --map INTEGRATOR measures another" if maps else "")
 
 
 def _finding(each: GrowthMap) -> str:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from tmm_gen.cli.console import Column, progress, table
+from tmm_gen.cli.console import Column, progress, say_written, table
 from tmm_gen.cli.given import picture_file, plot_option, positive
 from tmm_gen.cli.kinds import served_scene
 from tmm_gen.cli.outputs import OutputFile, claim, write_outputs
@@ -277,10 +277,7 @@ def _show(study: Study, written: list[Path], show_all: bool, json_mode: bool) ->
     click.echo(f"{len(study.points)} configurations: {others}.")
     for each in found:
         click.echo(each.sentence())
-    for path in written:
-        click.echo(f"wrote {path}")
-    if not written:
-        click.echo("more: --report writes a page, --plot draws it, --csv FILE writes all, --all shows all")
+    say_written(written, "--report writes a page, --plot draws it, --csv FILE writes all, --all shows all")
 
 
 def _finding(finding: Finding) -> dict[str, object]:

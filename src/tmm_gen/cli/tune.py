@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from tmm_gen.cli.console import Column, progress, table
+from tmm_gen.cli.console import Column, progress, say_written, table
 from tmm_gen.cli.given import positive
 from tmm_gen.cli.kinds import served_scene
 from tmm_gen.cli.outputs import OutputFile, force_option, require_new, write_outputs
@@ -198,10 +198,7 @@ def _show(tuning: Tuning, allowed: Allowance | None, written: list[Path], json_m
     click.echo(
         f"All under {tuning.excitation.until:g} s of {told}; the travel is {tuning.travel:.3g} {tuning.unit}."
     )
-    for path in written:
-        click.echo(f"wrote {path}")
-    if tuning.chosen is not None and not written:
-        click.echo("more: --out FILE writes the tuned scene")
+    say_written(written, "--out FILE writes the tuned scene" if tuning.chosen is not None else "")
 
 
 def _row(tuning: Tuning, point: Point) -> dict[str, object]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 from types import ModuleType
@@ -35,9 +36,8 @@ def numpy_module(scene: Scene, program: Any = None) -> ModuleType:
         If the scene asks for something that does not exist.
     """
     from tmm_gen.emit.numpy import emit_numpy  # loads SymPy and Jinja2
-    from tmm_gen.program.build import build_program
 
-    return import_package(emit_numpy(program or build_program(scene), scene), scene.name)
+    return _imported(emit_numpy, scene, program)
 
 
 def casadi_module(scene: Scene, program: Any = None) -> ModuleType:
@@ -61,10 +61,8 @@ def casadi_module(scene: Scene, program: Any = None) -> ModuleType:
         If the scene asks for something that does not exist.
     """
     from tmm_gen.emit.casadi import emit_casadi  # loads SymPy and Jinja2
-    from tmm_gen.program.build import build_program
 
-    (text,) = emit_casadi(program or build_program(scene), scene).values()
-    return import_package({"__init__.py": text}, f"{scene.name}_casadi")
+    return _imported(emit_casadi, scene, program)
 
 
 def jax_module(scene: Scene, program: Any = None) -> ModuleType:
@@ -89,11 +87,23 @@ def jax_module(scene: Scene, program: Any = None) -> ModuleType:
         If JAX is not installed, or the scene asks for something that does not exist.
     """
     from tmm_gen.emit.jax import emit_jax  # loads SymPy and Jinja2
-    from tmm_gen.program.build import build_program
 
     extra("jax", "a kernel in JAX")
-    (text,) = emit_jax(program or build_program(scene), scene).values()
-    return import_package({"__init__.py": text}, f"{scene.name}_jax")
+    return _imported(emit_jax, scene, program)
+
+
+def _imported(emit: Callable[[Any, Scene], dict[str, str]], scene: Scene, program: Any) -> ModuleType:
+    """Import what a backend of Python writes: a package, or a module that stands alone."""
+    from tmm_gen.program.build import build_program
+
+    files = emit(program or build_program(scene), scene)
+    return import_package(files if "__init__.py" in files else _alone(files), scene.name)
+
+
+def _alone(files: dict[str, str]) -> dict[str, str]:
+    """Return a single module as a package of its own."""
+    (text,) = files.values()
+    return {"__init__.py": text}
 
 
 def import_package(files: dict[str, str], name: str) -> ModuleType:
