@@ -9,10 +9,11 @@ import sympy as sp
 
 from tmm_gen.derive.elements.declaration import Element
 from tmm_gen.derive.station.frame import RESIDUAL, Frame, force
-from tmm_gen.derive.station.inward import TORQUE, grouped
+from tmm_gen.derive.station.giving_way import TORQUE
 from tmm_gen.derive.station.law import KINDS
 from tmm_gen.derive.station.lets import Let, Line, Update
 from tmm_gen.derive.station.motion import Outward, Passed
+from tmm_gen.derive.station.written import grouped
 from tmm_gen.errors import UserError
 
 

@@ -15,10 +15,12 @@ from collections.abc import Mapping
 import sympy as sp
 
 from tmm_gen.derive.station.frame import OUTER, Frame, force, node, predicted_force
-from tmm_gen.derive.station.inward import ADMITTANCE, OWN, STIFFNESS, TORQUE, Inward, cheapest
+from tmm_gen.derive.station.giving_way import ADMITTANCE, OWN, STIFFNESS, TORQUE
+from tmm_gen.derive.station.inward import Inward
 from tmm_gen.derive.station.law import KINDS
 from tmm_gen.derive.station.lets import Coordinate, Let, Line, Update
 from tmm_gen.derive.station.motion import Outward, Passed
+from tmm_gen.derive.station.written import cheapest
 from tmm_gen.errors import UserError
 
 SOLVED = sp.Symbol("solved_unknown", real=True)

@@ -9,11 +9,11 @@ import sympy as sp
 
 from tmm_gen.derive.integrators.declaration import KINDS
 from tmm_gen.derive.station.frame import INNER, OUTER, Frame
-from tmm_gen.derive.station.inward import grouped
 from tmm_gen.derive.station.law import law_of
 from tmm_gen.derive.station.lets import Coordinate, Update, composed
 from tmm_gen.derive.station.reading import exact_forces, place, walk
 from tmm_gen.derive.station.station import outward
+from tmm_gen.derive.station.written import grouped
 from tmm_gen.program.arm.at_state import AtState
 from tmm_gen.program.arm.binding import Binding
 from tmm_gen.program.arm.branches import resumed, rooted
