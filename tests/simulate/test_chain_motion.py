@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from tmm_gen.inputs.signals import Constant, Signal, Sine, Table
-from tmm_gen.reference import chain_motion
+from tmm_gen.reference import chain_linear
 from tmm_gen.reference.chain_motion import exact_angles
 from tmm_gen.reference.reference import exact_response
 from tmm_gen.scene import Scene, load_scene, parse_scene
@@ -63,8 +63,8 @@ def test_long_chains_are_looked_at_in_their_slowest_modes(monkeypatch: pytest.Mo
     signals: dict[str, Signal] = {i.name: Sine(1.0, 2.0) for i in scene.inputs}
     indices = np.arange(0.0, 400.0, 20.0)
     whole = exact_angles(scene, signals, 0.01, indices)
-    monkeypatch.setattr(chain_motion, "DENSE", 0)
-    monkeypatch.setattr(chain_motion, "MODES", 10)
+    monkeypatch.setattr(chain_linear, "DENSE", 0)
+    monkeypatch.setattr(chain_linear, "MODES", 10)
     np.testing.assert_allclose(
         exact_angles(scene, signals, 0.01, indices), whole, atol=1e-9 * np.abs(whole).max()
     )
