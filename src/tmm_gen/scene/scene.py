@@ -16,7 +16,7 @@ from tmm_gen.scene.initial import Initial, broadcast
 from tmm_gen.scene.integrator import Integrator, underscored
 from tmm_gen.scene.model import Base, FloatingBase, Model
 from tmm_gen.scene.parts.document import PartsDocument
-from tmm_gen.scene.parts.expansion import PlacedPart
+from tmm_gen.scene.parts.placed import PlacedPart
 from tmm_gen.scene.quantity import Quantity, quantities
 from tmm_gen.scene.signal import Input, Output, station_of
 from tmm_gen.scene.source import Source

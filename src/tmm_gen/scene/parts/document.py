@@ -9,8 +9,9 @@ from pydantic import Field
 
 from tmm_gen.scene.document import Document
 from tmm_gen.scene.parts.drivetrain import drivetrain
-from tmm_gen.scene.parts.expansion import Expansion, expanded
+from tmm_gen.scene.parts.expansion import expanded
 from tmm_gen.scene.parts.order import hanging
+from tmm_gen.scene.parts.placed import Expansion
 from tmm_gen.scene.parts.tables import (
     BeamPart,
     BodyPart,

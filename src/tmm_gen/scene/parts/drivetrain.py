@@ -13,8 +13,8 @@ from fractions import Fraction
 from tmm_gen.scene.exact import exact, nearest
 from tmm_gen.scene.initial import Initial, InitialTable, Values, in_order
 from tmm_gen.scene.model import Base
-from tmm_gen.scene.parts.expansion import Expansion, PlacedPart
 from tmm_gen.scene.parts.order import BASE, Entry, Hanging
+from tmm_gen.scene.parts.placed import Expansion, PlacedPart
 from tmm_gen.scene.parts.tables import ChainJointPart, ChainLinkPart, GearPart, MotorPart
 from tmm_gen.scene.signal import FileInput, FileOutput, Input, Of, Output, Place
 from tmm_gen.scene.station import Joint, Link

@@ -11,11 +11,9 @@ from tmm_gen.scene.problem import Finding
 from tmm_gen.scene.rules.beams import beams_given
 from tmm_gen.scene.rules.control import control_possible
 from tmm_gen.scene.rules.control_motors import motors_controlled
+from tmm_gen.scene.rules.drivetrain_signals import chain_inputs, chain_outputs
 from tmm_gen.scene.rules.drivetrains import (
     chain_in_range,
-    chain_initial,
-    chain_inputs,
-    chain_outputs,
     chain_suits,
     free_base,
     shafts,
@@ -39,12 +37,12 @@ from tmm_gen.scene.rules.integration import (
 from tmm_gen.scene.rules.kinds import base_hub, held, kind_keys, newton_keys
 from tmm_gen.scene.rules.names import distinct_names
 from tmm_gen.scene.rules.outputs import outputs_possible
+from tmm_gen.scene.rules.part_initial import chain_initial, part_initial
 from tmm_gen.scene.rules.part_signals import part_inputs, part_outputs
 from tmm_gen.scene.rules.parts import (
     beams_in_range,
     carriers,
     one_tree,
-    part_initial,
     part_names,
     parts_suit,
 )

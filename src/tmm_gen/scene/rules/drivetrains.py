@@ -6,17 +6,12 @@ import math
 from collections.abc import Iterator
 
 from tmm_gen.scene.parts.document import ChainDocument
-from tmm_gen.scene.parts.drivetrain import OF_LINKS, drivetrain
-from tmm_gen.scene.parts.order import BASE, Entry, Hanging, entries, hanging
+from tmm_gen.scene.parts.drivetrain import drivetrain
+from tmm_gen.scene.parts.order import BASE, Entry, Hanging, hanging
 from tmm_gen.scene.parts.tables import ChainLinkPart, GearPart, MotorPart
-from tmm_gen.scene.problem import Finding, Path
+from tmm_gen.scene.problem import Finding
 from tmm_gen.scene.rules.kinds import kind_keys
-from tmm_gen.scene.rules.part_signals import unknown_place
-from tmm_gen.scene.rules.parts import initial_values
 from tmm_gen.scene.table import STATION_LIMIT
-
-_SAME = 1e-9
-"""Relative difference up to which initial values of parts that turn as one are the same."""
 
 
 def chain_suits(document: ChainDocument) -> Iterator[Finding]:
@@ -52,7 +47,8 @@ def _hung(document: ChainDocument) -> Hanging:
     return hanging(document.parts_by_table())
 
 
-def _gives_way(entry: Entry) -> bool:
+def gives_way(entry: Entry) -> bool:
+    """Return whether what hangs on a part turns against what that hangs on."""
     return entry.table == "joint" or (isinstance(entry.part, GearPart) and entry.part.stiffness is not None)
 
 
@@ -60,7 +56,7 @@ def _spring_before(hung: Hanging, entry: Entry) -> Entry | None:
     """Return what gives way between a part and the next inertia inward, if anything does."""
     host = hung.by_name.get(hung.host(entry))
     while host is not None and host.table in ("joint", "gear"):
-        if _gives_way(host):
+        if gives_way(host):
             return host
         host = hung.by_name.get(hung.host(host))
     return None
@@ -73,7 +69,7 @@ def shafts(document: ChainDocument) -> Iterator[Finding]:
     yield from _on_base(document, hung)
     for entry in every:
         yield from _shaft(hung, entry)
-    if not any(map(_gives_way, every)):
+    if not any(map(gives_way, every)):
         yield Finding(
             every[-1].path,
             "makes a chain that turns as one: nothing in it gives way",
@@ -99,7 +95,7 @@ def _shaft(hung: Hanging, entry: Entry) -> Iterator[Finding]:
             "Add `stiffness` of the teeth, for example `stiffness = 2e4`, or remove it.",
             entry.part.damping,
         )
-    if before is not None and _gives_way(entry):
+    if before is not None and gives_way(entry):
         yield Finding(
             on,
             f"gives way straight behind {before.words}, with no inertia between the two",
@@ -113,7 +109,7 @@ def _shaft(hung: Hanging, entry: Entry) -> Iterator[Finding]:
             f"carries nothing: '{entry.name}' has no [[link]] on it",
             f'Add one with `on = "{entry.name}"`, or remove it.',
         )
-    if len(carried) > 1 and (_gives_way(entry) or (entry.table == "gear" and before is not None)):
+    if len(carried) > 1 and (gives_way(entry) or (entry.table == "gear" and before is not None)):
         yield Finding(
             (*carried[1].path, "on"),
             f"puts a second part on {entry.words}, which carries '{carried[0].name}' and has no inertia",
@@ -175,7 +171,7 @@ def _fixed_to_base(hung: Hanging) -> list[Entry]:
     found: list[Entry] = []
     names = {BASE}
     for entry in hung.outward():
-        if hung.host(entry) in names and not _gives_way(entry):
+        if hung.host(entry) in names and not gives_way(entry):
             names.add(entry.name)
             found += [entry] if isinstance(entry.part, ChainLinkPart) else []
     return found
@@ -214,124 +210,3 @@ def chain_in_range(document: ChainDocument) -> Iterator[Finding]:
         yield Finding(
             ("link",), f"makes {len(made.links)} links, more than {STATION_LIMIT}", "Write fewer links."
         )
-
-
-def chain_initial(document: ChainDocument) -> Iterator[Finding]:
-    """Find initial values that are not one per link, or do not fit the gears between links that turn as one."""
-    made = drivetrain(_hung(document), document.base)
-    solid = made.solid
-    names = ", ".join(part.name for part in solid)
-    for key in ("angles", "rates"):
-        values = yield from initial_values(document, key, solid)
-        if not isinstance(values, tuple):  # of the first link behind each joint: what gears join follows
-            continue
-        if len(values) != len(solid):
-            yield Finding(
-                ("initial", key),
-                f"has {len(values)} numbers for {len(solid)} links",
-                f"Write one number for all, or one each for {names}.",
-                values,
-            )
-            continue
-        for at in dict.fromkeys(part.last for part in solid):
-            group = [(value, part) for value, part in zip(values, solid, strict=True) if part.last == at]
-            (first, _), *others = group
-            if at == 0 and any(value for value, _ in group):
-                yield Finding(
-                    ("initial", key),
-                    f"moves '{group[0][1].name}', which turns with the base: that starts at 0, at rest",
-                    f"Write one number each for {names}, 0 for those on the base.",
-                    values,
-                )
-            elif any(abs(v - made.turns[p.name] * first) > _SAME * abs(v) for v, p in others):
-                turns = ", ".join(f"{made.turns[p.name]:g} of '{p.name}'" for _, p in group)
-                yield Finding(
-                    ("initial", key),
-                    f"does not fit rigid gears: per turn it is {turns}",
-                    f"Write one number each for {names}, in this ratio.",
-                    values,
-                )
-
-
-def chain_inputs(document: ChainDocument) -> Iterator[Finding]:
-    """Find inputs that act nowhere, or not so."""
-    parts = {e.name: e for e in entries(document.parts_by_table())}
-    for index, item in enumerate(document.input):
-        at, path = str(item.at), ("input", index)
-        entry = parts.get(at)
-        if entry is None and at not in (BASE, "tip"):
-            yield unknown_place((*path, "at"), at, [BASE, *parts])
-        elif item.acts.startswith("force"):
-            yield Finding(
-                (*path, "acts"),
-                "cannot be a force in a chain, which turns only",
-                'Write `acts = "torque"`.',
-                item.acts,
-            )
-        elif item.acts == "angle" and (at != BASE or document.base.kind != "prescribed"):
-            yield Finding(
-                (*path, "acts"),
-                'cannot be "angle" here: only a base of kind = "prescribed" has an angle that is given',
-                'Write `acts = "torque"`, or set base.kind = "prescribed" and `at = "base"`.',
-                item.acts,
-            )
-        elif item.acts == "torque" and at == BASE and document.base.kind != "motor":
-            yield Finding(
-                (*path, "at"),
-                f'cannot be "base" for a torque: base.kind = "{document.base.kind}" does not yield to it',
-                "Let it act at a motor or a link: write its name.",
-                item.at,
-            )
-        elif entry is not None and entry.table in ("joint", "gear"):
-            yield Finding(
-                (*path, "at"),
-                f"cannot be {entry.words}, on which no torque acts from outside",
-                "Write the name of a [[motor]] or a [[link]].",
-                item.at,
-            )
-
-
-def chain_outputs(document: ChainDocument) -> Iterator[Finding]:
-    """Find a chain without outputs, and outputs of what does not exist, never changes or is not known."""
-    parts = {e.name: e for e in entries(document.parts_by_table())}
-    if not document.output:
-        last = drivetrain(_hung(document), document.base).solid[-1].name
-        yield Finding(
-            ("output",),
-            "is missing: a scene without outputs reports nothing",
-            f'Add [[output]] with `name = "tip"`, `at = "{last}"`, `of = "angle"`.',
-        )
-    for index, item in enumerate(document.output):
-        yield from _measured(document, item.of, str(item.at), parts, ("output", index))
-
-
-def _measured(
-    document: ChainDocument, of: str, at: str, parts: dict[str, Entry], path: Path
-) -> Iterator[Finding]:
-    entry = parts.get(at)
-    if entry is None and at not in (BASE, "tip"):
-        yield unknown_place((*path, "at"), at, [BASE, *parts])
-    elif entry is not None and entry.table in ("joint", "gear"):
-        if of != "torque":
-            yield Finding(
-                (*path, "of"),
-                f"cannot be {of} at {entry.words}, whose sides turn each for itself: it has a torque",
-                'Write `of = "torque"`, or measure at a [[link]] beside it.',
-                of,
-            )
-        elif not _gives_way(entry):
-            yield Finding(
-                (*path, "at"),
-                f"cannot be {entry.words} for a torque: what a rigid gear passes on has no law of its own",
-                "Give it `stiffness`, or measure the torque in a [[joint]] beside it.",
-                at,
-            )
-    elif of not in OF_LINKS:
-        yield Finding(
-            (*path, "of"),
-            f"cannot be {of} here: what has inertia in a chain has {', '.join(OF_LINKS)}",
-            "Choose one of them; a [[joint]] or a [[gear]] with stiffness has a torque.",
-            of,
-        )
-    elif at == BASE and document.base.kind == "clamp":
-        yield Finding((*path, "at"), 'never moves with base.kind = "clamp"', "Write the name of a part.", at)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from tmm_gen.scene.parts.document import PartsDocument
-from tmm_gen.scene.parts.expansion import OF_JOINTS, PlacedPart
 from tmm_gen.scene.parts.order import BASE
+from tmm_gen.scene.parts.placed import OF_JOINTS, PlacedPart
 from tmm_gen.scene.problem import Finding, Path
 from tmm_gen.scene.quantity import PLANAR
 from tmm_gen.scene.table import closest

@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Generator, Iterator, Sequence
-from itertools import groupby
+from collections.abc import Iterator
 
-from tmm_gen.scene.document import Document
-from tmm_gen.scene.initial import in_order
 from tmm_gen.scene.parts.document import PartsDocument
-from tmm_gen.scene.parts.expansion import PlacedPart, elastic
+from tmm_gen.scene.parts.expansion import elastic
 from tmm_gen.scene.parts.order import BASE, Entry, Hanging, entries, hanging
 from tmm_gen.scene.parts.tables import BeamPart, BodyPart, MotorPart
 from tmm_gen.scene.problem import Finding, Path
@@ -271,50 +268,3 @@ def _out_of_range(path: Path, what: str, value: float, given: object) -> Finding
         "Check the units: SI, N m^2, kg/m, m, kg m^2.",
         given,
     )
-
-
-def initial_values(
-    document: Document, key: str, solid: Sequence[PlacedPart]
-) -> Generator[Finding, None, float | tuple[float, ...] | None]:
-    """Find initial values by name that miss a beam or link, or name none; return good ones in order, else None."""
-    values, names = getattr(document.initial, key), [part.name for part in solid]
-    if not isinstance(values, dict) or values.keys() == set(names):
-        return in_order(values, names)
-    for name in (name for name in values if name not in names):
-        yield Finding(
-            ("initial", key, name), "is not the name of a beam or link", closest(name, names), values[name]
-        )
-    if missing := [name for name in names if name not in values]:
-        yield Finding(
-            ("initial", key),
-            f"leaves out {', '.join(missing)}",
-            f"Write a number for each of {', '.join(names)}.",
-            values,
-        )
-    return None
-
-
-def part_initial(document: PartsDocument) -> Iterator[Finding]:
-    """Find initial values that are neither one number nor one per beam and link, or differ in one rigid body."""
-    solid = document.expansion.solid
-    for key in ("angles", "rates"):
-        values = yield from initial_values(document, key, solid)
-        names = ", ".join(part.name for part in solid)
-        if not isinstance(values, tuple):
-            continue
-        if len(values) != len(solid):
-            yield Finding(
-                ("initial", key),
-                f"has {len(values)} numbers for {len(solid)} beams and links",
-                f"Write one number for all, or one each for {names}, in this order.",
-                values,
-            )
-            continue
-        for _, alike in groupby(zip(values, solid, strict=True), key=lambda pair: pair[1].last):
-            if len({value for value, _ in alike}) > 1:
-                yield Finding(
-                    ("initial", key),
-                    "differs between parts that are fixed to each other",
-                    f"Write the same number for both; the order is {names}.",
-                    values,
-                )
