@@ -8,9 +8,10 @@ from dataclasses import replace
 from tmm_gen.program.arm.step import StepBuilder
 from tmm_gen.program.passes.hoist import Hoister
 from tmm_gen.program.passes.prune import prune
+from tmm_gen.program.sensitivities.changes import TangentWalks
+from tmm_gen.program.sensitivities.linearised import LinearisedWalks
 from tmm_gen.program.sensitivities.point import Point
 from tmm_gen.program.sensitivities.twins import LINEARISE_DOC, TANGENT_DOC, as_tangent, changes_of
-from tmm_gen.program.sensitivities.walks import LinearisedWalks, TangentWalks
 from tmm_gen.program.statements import Routine, Section, Sensitivities
 from tmm_gen.program.variables import Role, Variable
 
