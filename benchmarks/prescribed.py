@@ -14,8 +14,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from tmm_gen.inputs.profiles import Smooth
 from tmm_gen.inputs.signals import Signal, Sine, Table
+from tmm_gen.inputs.waveforms import Smooth
 from tmm_gen.native import compile_kernel
 from tmm_gen.native.series import Series
 from tmm_gen.program.build import build_program

@@ -31,7 +31,8 @@ from tmm_gen.csv_text import csv_text
 from tmm_gen.files import write_whole
 from tmm_gen.modal.beam import BeamArm, natural_frequencies
 from tmm_gen.modal.beam.arm import BeamBase, Body
-from tmm_gen.modal.beam.member import Member, dynamic_stiffness
+from tmm_gen.modal.beam.member import Member
+from tmm_gen.modal.beam.stiffness import dynamic_stiffness
 from tmm_gen.reference.planar_arm import Arm
 from tmm_gen.scene import Initial, parse_scene
 from tmm_gen.scene.beam import Tip

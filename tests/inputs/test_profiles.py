@@ -13,8 +13,9 @@ from hypothesis import strategies as st
 from tmm_gen.cli.run import run
 from tmm_gen.errors import UserError
 from tmm_gen.inputs.given import read_inputs
-from tmm_gen.inputs.profiles import PROFILES, Chirp, Smooth, Step, profile
+from tmm_gen.inputs.profiles import PROFILES, profile
 from tmm_gen.inputs.signals import Signal, Sine
+from tmm_gen.inputs.waveforms import Chirp, Smooth, Step
 
 values = st.floats(-10.0, 10.0)
 times = st.floats(0.1, 3.0)

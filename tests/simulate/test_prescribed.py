@@ -18,8 +18,8 @@ from tmm_gen.derive.integrators.order import order
 from tmm_gen.derive.integrators.registry import integrator, names
 from tmm_gen.errors import UserError
 from tmm_gen.inputs.given import read_inputs
-from tmm_gen.inputs.profiles import Smooth, Step
 from tmm_gen.inputs.signals import Constant, Signal, Sine, Table
+from tmm_gen.inputs.waveforms import Smooth, Step
 from tmm_gen.native import NativeKernel, compile_kernel
 from tmm_gen.native.python_module import numpy_module
 from tmm_gen.native.series import Series

@@ -12,8 +12,8 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.inputs.profiles import Chirp
 from tmm_gen.inputs.signals import Constant, Harmonic, Signal
+from tmm_gen.inputs.waveforms import Chirp
 from tmm_gen.reference.chain_linear import Linear, linear_chain
 from tmm_gen.reference.cubics import DEGREE, projected
 from tmm_gen.scene import Scene

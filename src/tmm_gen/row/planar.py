@@ -6,8 +6,9 @@ import sympy as sp
 
 from tmm_gen.derive.elements import nodes as element
 from tmm_gen.derive.elements.declaration import Element
-from tmm_gen.derive.elements.planar import DAMPING, LENGTH, MASS, STIFFNESS
+from tmm_gen.derive.elements.planar import LENGTH, MASS
 from tmm_gen.derive.station.lets import Coordinate
+from tmm_gen.row.pins import armature_of, at_the_joint, bent_at_rest, drives_of, pin_of
 from tmm_gen.row.row import Combination, Elements, Load, Parameter, Row, Signal
 from tmm_gen.row.words import (
     boundary_of,
@@ -20,7 +21,7 @@ from tmm_gen.row.words import (
     signals_of,
     symbol,
 )
-from tmm_gen.scene import Joint, Scene, station_of
+from tmm_gen.scene import Scene, station_of
 from tmm_gen.scene.model import FloatingBase
 from tmm_gen.scene.quantity import INPUT_UNITS
 
@@ -44,10 +45,10 @@ def planar_row(scene: Scene, integrator: str) -> Row:
     loads = loads_of(scene, COMPONENTS)
     length, mass, inertia, center = (symbol(named[k]) for k in ("length", "mass", "inertia", "center"))
     left_over = inertia - mass * center * (1 - center) * length**2
-    drives = _drives(scene)
+    drives = drives_of(scene)
     pins, pins_in_detail = (
-        tuple(_pin(scene, named, index, drives, armature) for index in range(scene.stations))
-        for armature in (sp.Symbol("armature"), _at_the_joint(scene))
+        tuple(pin_of(scene, named, index, drives, armature) for index in range(scene.stations))
+        for armature in (sp.Symbol("armature"), at_the_joint(scene))
     )
     hub = _body(named["hub_inertia"])
     if named["hub_damping"] is not None:
@@ -128,7 +129,7 @@ def planar_row(scene: Scene, integrator: str) -> Row:
         detail_tail=(*((_mass(tip_mass),) if tip_mass != 0 else ()), *tip_body, *at_tip),
         detail_base=(*hub_mass, *hub, *_load(loads["base"])),
         parameters=tuple(p for p in named.values() if p is not None),
-        combinations=(*combinations, *base_mass, *_armature(scene)),
+        combinations=(*combinations, *base_mass, *armature_of(scene)),
         inputs=signals_of(scene),
         loads=(*(load for group in loads.values() for load in group.values()), *drives),
         prescribed=prescribed_of(scene),
@@ -170,7 +171,7 @@ def _parameters(scene: Scene) -> dict[str, Parameter | None]:
         if any(j.damping for j in joints)
         else None,
         parameter("rest", "angle at which a joint's spring is slack", "rad", [j.rest for j in joints])
-        if any(map(_bent_at_rest, joints))
+        if any(map(bent_at_rest, joints))
         else None,
         parameter(
             "rotor_inertia",
@@ -202,63 +203,6 @@ def _parameters(scene: Scene) -> dict[str, Parameter | None]:
         *("gravity", "hub_inertia", "hub_mass", "hub_damping", "tip_mass", "tip_inertia"),
     )
     return dict(zip(names, found, strict=True))
-
-
-def _bent_at_rest(joint: Joint) -> bool:
-    return joint.rest != 0.0 and joint.stiffness != 0.0
-
-
-def _drives(scene: Scene) -> tuple[Load, ...]:
-    """Return the torques of motors and in joints, which act between both sides."""
-    acting = sorted(
-        (station_of(item.at, scene.stations) - 1, item.name) for item in scene.inputs if item.acts == "drive"
-    )
-    if not acting:
-        return ()
-    return (Load(sp.Symbol("drive_"), "torque of each joint's motor", INPUT_UNITS["drive"], tuple(acting)),)
-
-
-def _armature(scene: Scene) -> tuple[Combination, ...]:
-    if not any(j.rotor_inertia for j in scene.joints):
-        return ()
-    doc = "inertia of a joint's motor at the joint, between both sides"
-    return (Combination("armature", doc, "kg m^2", _at_the_joint(scene)),)
-
-
-def _at_the_joint(scene: Scene) -> sp.Expr:
-    """Return what a rotor's inertia is at its joint, by the parameters."""
-    geared = any(j.gear != 1.0 for j in scene.joints)
-    return sp.Symbol("rotor_inertia") * (sp.Symbol("gear") ** 2 if geared else 1)
-
-
-def _pin(
-    scene: Scene, named: dict[str, Parameter | None], index: int, drives: tuple[Load, ...], armature: sp.Expr
-) -> Element:
-    """Return the pin of a station, with what is in this one joint alone.
-
-    Parameters
-    ----------
-    armature : sympy.Expr
-        How a rotor's inertia at the joint is written.
-    """
-    joint = scene.joints[index]
-    values = {STIFFNESS: symbol(named["stiffness"]), DAMPING: symbol(named["damping"])}
-    driven = any(place == index for load in drives for place, _ in load.places)
-    if not (joint.rotor_inertia or driven or _bent_at_rest(joint)):
-        return element.PIN.with_values(values)
-    gear = symbol(named["gear"]) if joint.gear != 1.0 else sp.Integer(1)
-    values |= {
-        element.REST: symbol(named["rest"]) if _bent_at_rest(joint) else sp.Integer(0),
-        element.ARMATURE: armature if joint.rotor_inertia else sp.Integer(0),
-        element.DRIVE: gear * drives[0].symbol if driven else sp.Integer(0),
-    }
-    if joint.rotor_inertia or driven:
-        values |= {
-            key: sp.Integer(0)
-            for key, at in ((STIFFNESS, joint.stiffness), (DAMPING, joint.damping))
-            if not at
-        }
-    return element.DRIVEN_PIN.with_values(values)
 
 
 def _behind(scene: Scene, pins: Elements, station: Elements) -> tuple[Elements, ...]:

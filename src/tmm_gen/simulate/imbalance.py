@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.inputs.curve import Curve
-from tmm_gen.inputs.profiles import Step
 from tmm_gen.inputs.signals import Signal
+from tmm_gen.inputs.waveforms import Step
 from tmm_gen.reference.energy import energy
 from tmm_gen.scene import Scene
 from tmm_gen.simulate.trace import Trace

@@ -14,8 +14,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from tmm_gen.errors import UserError
 from tmm_gen.inputs.curve import Curve, through
-from tmm_gen.inputs.profiles import Step
 from tmm_gen.inputs.signals import Constant, Signal, Table
+from tmm_gen.inputs.waveforms import Step
 from tmm_gen.reference.duration import default_duration
 from tmm_gen.scene import Input, Scene
 from tmm_gen.scene.signal import kernel_names

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from tmm_gen.export.fmu import FmiVersion
-from tmm_gen.inputs.profiles import Smooth
+from tmm_gen.inputs.waveforms import Smooth
 from tmm_gen.native import NativeKernel
 from tmm_gen.native.python_module import numpy_module
 from tmm_gen.scene import Scene

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from tmm_gen.derive.elements.beam import FREQUENCY, ROTARY, SHEAR, WAVE, system_matrix, waves
 from tmm_gen.modal.beam import BeamArm, BeamBase, Body, Member, clamped_count, dynamic_stiffness, modes_below
-from tmm_gen.modal.beam.member import supported_count
+from tmm_gen.modal.beam.stiffness import supported_count
 
 THICK = Member(1.0, 1.0, 1.0, 1.5e-3, 5e-3)
 

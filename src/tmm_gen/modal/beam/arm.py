@@ -8,7 +8,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from tmm_gen.modal.beam.member import Member, dynamic_stiffness
+from tmm_gen.modal.beam.member import Member
+from tmm_gen.modal.beam.stiffness import dynamic_stiffness
 from tmm_gen.scene import Scene
 
 Complex = NDArray[np.complex128]

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from tmm_gen.modal.beam.arm import BeamArm
-from tmm_gen.modal.beam.member import solutions
+from tmm_gen.modal.beam.motions import solutions
 
 Complex = NDArray[np.complex128]
 
@@ -31,7 +31,7 @@ def conditions(arm: BeamArm, s: ArrayLike) -> Complex:
     Returns
     -------
     array, (f, 4 m, 4 m)
-        Four columns for each member, see :func:`~tmm_gen.modal.beam.member.solutions`.
+        Four columns for each member, see :func:`~tmm_gen.modal.beam.motions.solutions`.
     """
     points = np.atleast_1d(np.asarray(s, complex))
     ends = [solutions(member, points) for member in arm.members]

@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from tmm_gen.modal.beam.arm import BeamArm
-from tmm_gen.modal.beam.member import Hanging, Integers, Member, clamped_count, hanging
+from tmm_gen.modal.beam.member import Member
+from tmm_gen.modal.beam.stiffness import Hanging, Integers, clamped_count, hanging
 
 Array = NDArray[np.float64]
 

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from tmm_gen.modal.beam.arm import BeamArm
 from tmm_gen.modal.beam.conditions import amplitudes
-from tmm_gen.modal.beam.member import inside
+from tmm_gen.modal.beam.motions import inside
 
 Array = NDArray[np.float64]
 
