@@ -194,6 +194,25 @@ def dead_after(variable: Variable, later: tuple[Statement, ...]) -> bool:
     return variable.role in SCRATCH
 
 
+class Uses:
+    """What comes next of each variable, for a pass that goes backward: `dead_after` without asking all that follows."""
+
+    def __init__(self) -> None:
+        self._writes: dict[Variable, bool] = {}
+        self._marked = False
+
+    def before(self, statement: Statement) -> None:
+        """Go before a statement."""
+        if isinstance(statement, Mark):  # what comes next is not only what stands next
+            self._writes, self._marked = {}, True
+        else:
+            self._writes.update(_first_uses(statement))
+
+    def dead(self, variable: Variable) -> bool:
+        """Whether nothing reads a scalar before it is assigned anew."""
+        return self._writes.get(variable, variable.role in SCRATCH and not self._marked)
+
+
 def order_keeping_dependences(first: Loop, second: Loop, later: tuple[Statement, ...]) -> Order | None:
     """Return an order in which one loop may do the work of two, or None.
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from tmm_gen.program.passes.dependence import SCRATCH, carried_scalars, dead_after
+from tmm_gen.program.passes.dependence import SCRATCH, Uses, carried_scalars
 from tmm_gen.program.passes.rewrite import keep_assignments, keep_statements
 from tmm_gen.program.statements import Assign, Loop, Require, Routine, Section, Statement
 from tmm_gen.program.variables import Variable, refs_in
@@ -56,38 +56,35 @@ def _required(routine: Routine) -> list:  # type: ignore[type-arg]
 
 def _without_unread(routine: Routine, wanted: frozenset[Variable]) -> Routine:
     """Remove what a loop sets for itself and never reads, though another loop reads its own of that name."""
-    statements = tuple(routine.statements())
+    then = Uses()
     sections: list[Section] = []
-    place = 0
-    for section in routine.sections:
+    for section in reversed(routine.sections):
         kept: list[Statement] = []
-        for statement in section.statements:
-            place += 1
-            later = statements[place:]
-            if isinstance(statement, Loop):
-                body = tuple(
-                    inner
-                    for number, inner in enumerate(statement.body)
-                    if not (isinstance(inner, Assign) and _unread(inner, number, statement, later, wanted))
-                )
-                if not body:
-                    continue
-                statement = statement if len(body) == len(statement.body) else replace(statement, body=body)
-            kept.append(statement)
+        for statement in reversed(section.statements):
+            if not isinstance(statement, Loop):
+                kept.append(statement)
+            elif body := _read_body(statement, then, wanted):
+                kept.append(statement if len(body) == len(statement.body) else replace(statement, body=body))
+            then.before(statement)
         if kept:
-            sections.append(replace(section, statements=tuple(kept)))
-    return replace(routine, sections=tuple(sections))
+            sections.append(replace(section, statements=tuple(reversed(kept))))
+    return replace(routine, sections=tuple(reversed(sections)))
 
 
-def _unread(
-    assign: Assign, number: int, loop: Loop, later: tuple[Statement, ...], wanted: frozenset[Variable]
-) -> bool:
-    variable = assign.target.variable
-    if variable.length is not None or variable.role not in SCRATCH or variable in wanted:
-        return False
-    for inner in loop.body[number + 1 :]:
-        if any(ref.variable == variable for ref in refs_in(inner.value)):
-            return False
-        if isinstance(inner, Assign) and inner.target.variable == variable:
-            return True
-    return variable not in carried_scalars(loop) and dead_after(variable, later)
+def _read_body(loop: Loop, then: Uses, wanted: frozenset[Variable]) -> tuple[Assign | Require, ...]:
+    """Return a loop's statements without those that set what nothing reads: neither the loop nor what comes then."""
+    carried = carried_scalars(loop)
+    read: dict[Variable, bool] = {}  # whether the next use of a variable, within the visit, reads it
+    kept: list[Assign | Require] = []
+    for inner in reversed(loop.body):
+        if isinstance(inner, Assign):
+            variable = inner.target.variable
+            private = variable.length is None and variable.role in SCRATCH and variable not in wanted
+            if not private or read.get(variable, variable in carried or not then.dead(variable)):
+                kept.append(inner)
+            read[variable] = False
+        else:
+            kept.append(inner)
+        for ref in refs_in(inner.value):
+            read[ref.variable] = True
+    return tuple(reversed(kept))
