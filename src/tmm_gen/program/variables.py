@@ -72,6 +72,18 @@ class Variable:
     unit: str = "1"
     default: float | tuple[float, ...] | None = None
 
+    def __eq__(self, other: object) -> bool:
+        """Compare all there is; what is most often compared is itself, or has another name."""
+        if self is other:
+            return True
+        if not isinstance(other, Variable) or self.name != other.name:
+            return False
+        return self._rest == other._rest
+
+    @property
+    def _rest(self) -> tuple[object, ...]:
+        return self.role, self.length, self.doc, self.unit, self.default
+
     def __hash__(self) -> int:
         """Hash by name, whose hash is known: long defaults would cost more than collisions."""
         return hash(self.name)

@@ -12,7 +12,7 @@ from dataclasses import replace
 
 import sympy as sp
 
-from tmm_gen.program.passes.dependence import SCRATCH, accesses, dead_after
+from tmm_gen.program.passes.dependence import SCRATCH, accesses, dead_after, uses_of
 from tmm_gen.program.passes.prune import prune
 from tmm_gen.program.statements import Assign, Loop, Mark, Require, Routine, Statement
 from tmm_gen.program.variables import Ref, Role, Variable, refs_in
@@ -33,7 +33,12 @@ def _map_blocks(
     """Change every section's statements, and those of every loop."""
 
     def inside(statement: Statement) -> Statement:
-        return replace(statement, body=change(statement.body)) if isinstance(statement, Loop) else statement  # type: ignore[arg-type]
+        if not isinstance(statement, Loop):
+            return statement
+        body = change(statement.body)
+        if all(new is old for new, old in zip(body, statement.body, strict=True)):
+            return statement  # and caches know it at once
+        return replace(statement, body=body)  # type: ignore[arg-type]
 
     sections = (
         replace(s, statements=change(tuple(inside(x) for x in s.statements))) for s in routine.sections
@@ -47,7 +52,7 @@ def _map_blocks(
 def _private_to_stations(routine: Routine, variable: Variable) -> bool:
     """Whether each loop that uses an array sets each element itself, at the station where it reads it."""
     for statement in routine.statements():
-        uses = [a for a in accesses(statement) if a.variable == variable]
+        uses = uses_of(statement).get(variable, ())
         if uses and not (
             uses[0].writes and uses[0].ref.offset is not None and len({a.ref.offset for a in uses}) == 1
         ):
@@ -58,10 +63,9 @@ def _private_to_stations(routine: Routine, variable: Variable) -> bool:
 def _as_scalar(routine: Routine, variable: Variable) -> Routine:
     scalar = replace(variable, role=Role.LOCAL, length=None, doc=variable.doc.replace("each", "this")).ref
     names = {
-        ref: scalar
-        for value in (*routine.values(), *(a.target for a in routine.assignments()))
-        for ref in refs_in(value)
-        if ref.variable == variable
+        access.ref: scalar
+        for statement in routine.statements()
+        for access in uses_of(statement).get(variable, ())
     }
     if not all(_keeps_order(value, names) for value in routine.values()):
         return routine
@@ -130,7 +134,7 @@ def _loop_without_dead_copies(loop: Loop, later: tuple[Statement, ...]) -> Loop:
         ways = [(*loop.body[place + 1 :], *after) for after in (loop.body, later)]
         if not all(dead_after(inner.target.variable, way) for way in ways):  # type: ignore[union-attr]
             body.append(inner)
-    return replace(loop, body=tuple(body))
+    return loop if len(body) == len(loop.body) else replace(loop, body=tuple(body))
 
 
 def _copies_into_scratch(statement: Assign | Require | Mark) -> bool:
@@ -142,6 +146,9 @@ def _copies_into_scratch(statement: Assign | Require | Mark) -> bool:
 
 
 def _rename(statement: Assign | Require, names: Mapping[Ref, Ref], *, target: bool) -> Assign | Require:
+    touched = statement.target in names if target and isinstance(statement, Assign) else False
+    if not touched and names.keys().isdisjoint(refs_in(statement.value)):
+        return statement
     value = statement.value.xreplace(dict(names))
     if isinstance(statement, Require):
         return Require(value)

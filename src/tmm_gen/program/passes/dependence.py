@@ -56,11 +56,11 @@ def accesses(statement: Statement) -> tuple[Access, ...]:
     return tuple(_of(statement, range(1)))
 
 
-@lru_cache(maxsize=1 << 12)
-def _uses(loop: Loop) -> dict[Variable, tuple[Access, ...]]:
-    """Return what a loop does with each variable, in the order of execution."""
+@lru_cache(maxsize=1 << 14)
+def uses_of(statement: Statement) -> dict[Variable, tuple[Access, ...]]:
+    """Return what a statement does with each variable, in the order of execution."""
     found: dict[Variable, list[Access]] = {}
-    for access in accesses(loop):
+    for access in accesses(statement):
         found.setdefault(access.variable, []).append(access)
     return {variable: tuple(used) for variable, used in found.items()}
 
@@ -176,7 +176,7 @@ def reversible(loop: Loop) -> bool:
         return False
     return all(
         not a.meets(b) or (a.ref.offset is not None and a.ref.offset == b.ref.offset)
-        for variable, used in _uses(loop).items()
+        for variable, used in uses_of(loop).items()
         if variable.length is not None
         for a in used
         for b in used
@@ -257,12 +257,12 @@ def _set_before_use(loop: Loop, scalar: Variable) -> bool:
 
 def _scalars_apart(first: Loop, second: Loop) -> bool:
     """Whether scalars that either loop writes are its own, set anew at every station before they are read."""
-    for variable, used in _uses(first).items():
+    for variable, used in uses_of(first).items():
         if variable.length is not None:
             continue
-        if any(a.meets(b) for a in used for b in _uses(second).get(variable, ())) and not (
-            _set_before_use(first, variable) and _set_before_use(second, variable)
-        ):
+        if _set_before_use(first, variable) and _set_before_use(second, variable):
+            continue
+        if any(a.meets(b) for a in used for b in uses_of(second).get(variable, ())):
             return False
     return True
 
@@ -275,7 +275,7 @@ def _elements_in_time(first: Loop, second: Loop, order: Order) -> bool:
     for a in accesses(first):
         if a.variable.length is None:
             continue
-        for b in _uses(second).get(a.variable, ()):
+        for b in uses_of(second).get(a.variable, ()):
             if not a.meets(b):
                 continue
             if a.ref.offset is None or b.ref.offset is None:

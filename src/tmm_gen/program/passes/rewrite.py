@@ -98,8 +98,9 @@ def keep_statements(routine: Routine, keep: Callable[[Statement], bool]) -> Rout
         for statement in section.statements:
             if isinstance(statement, Loop):
                 body = tuple(s for s in statement.body if keep(s))
-                if body:
-                    statements.append(replace(statement, body=body))
+                if body:  # one that stays whole stays itself: caches know it at once
+                    whole = len(body) == len(statement.body)
+                    statements.append(statement if whole else replace(statement, body=body))
             elif keep(statement):
                 statements.append(statement)
         if statements:
