@@ -130,7 +130,7 @@ def _function(value: sp.Expr, modules: Any) -> _Function:
         # statements of unlike stations often differ in names alone
         shape = (plain, len(names), expression[1])
         if shape not in _SHAPES:
-            _SHAPES[shape] = sp.lambdify(names, plain, modules=handed)
+            _SHAPES[shape] = sp.lambdify(names, plain, modules=handed, docstring_limit=0)
         _FUNCTIONS[expression] = [(key(ref.variable), ref) for ref in refs], _SHAPES[shape]
     return _FUNCTIONS[expression]
 

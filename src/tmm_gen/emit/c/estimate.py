@@ -30,9 +30,9 @@ _SIGNS = _signs()
 _NONE = np.zeros(SAMPLES)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(eq=False, slots=True)  # not frozen: to make one takes as long as to multiply two
 class Estimate:
-    """A value and samples of its error.
+    """A value and samples of its error; not to be changed.
 
     Parameters
     ----------
@@ -40,15 +40,25 @@ class Estimate:
         As exact as its precision.
     errors : array, shape (SAMPLES,)
         What a kernel's value may be off, in units of its type's unit roundoff (half its epsilon).
+
+    Attributes
+    ----------
+    plain : float
+        The value, rounded.
     """
 
     value: Any
     errors: NDArray[np.float64] = field(default_factory=lambda: _NONE)
+    plain: float = field(init=False)
+
+    def __post_init__(self) -> None:
+        """Round once: every operation asks."""
+        self.plain = float(self.value)
 
     @property
     def error(self) -> float:
         """The largest of the samples, and one rounding more: that of the value as it is written down."""
-        return float(np.abs(self.errors).max()) + abs(float(self.value))
+        return float(np.abs(self.errors).max()) + abs(self.plain)
 
     def __add__(self, other: object) -> Estimate:
         """Add."""
@@ -71,14 +81,13 @@ class Estimate:
     def __mul__(self, other: object) -> Estimate:
         """Multiply."""
         other = estimate_of(other)
-        errors = float(self.value) * other.errors + float(other.value) * self.errors
-        return _rounded(self.value * other.value, errors)
+        return _rounded(self.value * other.value, self.plain * other.errors + other.plain * self.errors)
 
     def __truediv__(self, other: object) -> Estimate:
         """Divide."""
         other = estimate_of(other)
         quotient = self.value / other.value
-        errors = (self.errors - float(quotient) * other.errors) / float(other.value)
+        errors = (self.errors - float(quotient) * other.errors) / other.plain
         return _rounded(quotient, errors)
 
     def __rtruediv__(self, other: object) -> Estimate:
@@ -131,5 +140,6 @@ def estimate_of(number: object) -> Estimate:
 
 def _rounded(value: Any, errors: NDArray[np.float64], units: float = 1.0) -> Estimate:
     """Return a result with a rounding error of its own, whose signs follow from its digits."""
-    own = units * float(value) * _SIGNS[value.man % _ROWS]
-    return Estimate(value, errors + own)
+    found = Estimate(value)
+    found.errors = errors + units * found.plain * _SIGNS[value.man % _ROWS]
+    return found
