@@ -10,9 +10,9 @@ from support.eigenvalues import spectral_radius
 
 from tmm_gen.derive.integrators.registry import integrator, names
 from tmm_gen.scene import Scene
-from tmm_gen.stability.coupled import CoupledStep
 from tmm_gen.stability.growth import Growth
 from tmm_gen.stability.motion import small_motion
+from tmm_gen.stability.whole_arm import WholeStep
 
 
 @pytest.mark.parametrize("name", names())
@@ -43,9 +43,9 @@ def test_modes_and_the_whole_arm_agree_where_damping_does_not_couple(
     name: str, example: Callable[[str], Scene]
 ) -> None:
     motion = small_motion(example("thesis10"))
-    assert not motion.coupled
+    assert not motion.mixed
     growth = Growth(integrator(name))
-    whole = CoupledStep(growth.integrator, motion.linear)
+    whole = WholeStep(growth.integrator, motion.linear)
     for step in (0.01, 0.3):
         modes = growth.radius(motion.stiffness * step**2, motion.damping * step)
         assert whole.radius(step) == pytest.approx(np.max(modes), rel=1e-9)

@@ -128,7 +128,7 @@ def _show(
         "highest_damping_ratio": highest.damping_ratio,
         "omega_step": highest.frequency * h,
         "falls_over": motion.falling,
-        "coupled_damping": motion.coupled,
+        "coupled_damping": motion.mixed,
         "maps": [_map_facts(each) for each in maps],
         "files": files,
     }
@@ -161,7 +161,7 @@ def _say(motion: SmallMotion, found: list[Standing], maps: list[GrowthMap], file
         click.echo(
             "weight is left to the sweeps' corrections: growth and largest step are those of the kernel's own sweeps"
         )
-    if motion.coupled:
+    if motion.mixed:
         click.echo(
             "damping couples the modes: growth and largest step are those of the "
             + ("whole arm" if exact else "modes by themselves, the arm being too large")

@@ -14,16 +14,16 @@ from tmm_gen.derive.integrators.order import order
 from tmm_gen.derive.integrators.registry import integrator
 from tmm_gen.derive.integrators.stability import stability_limit
 from tmm_gen.scene import Scene
-from tmm_gen.stability.coupled import CoupledStep
 from tmm_gen.stability.growth import Growth
 from tmm_gen.stability.motion import SmallMotion
+from tmm_gen.stability.whole_arm import WholeStep
 
 Array = NDArray[np.float64]
 
-COUPLED_TOLERANCE = 1e-7
+WHOLE_TOLERANCE = 1e-7
 """Growth below this, of matrices in double precision with eigenvalues that meet, is none."""
 
-_MOST_COUPLED = 600
+_MOST_TOGETHER = 600
 """Rows of the largest matrix on the whole arm whose eigenvalues are worth waiting for."""
 
 _DIGITS = 10
@@ -119,13 +119,13 @@ def standing(motion: SmallMotion, growth: Growth) -> Standing:
     largest = _largest_step(motion, growth, undamped, damped)
     exact = not motion.together
     if motion.together:
-        whole = CoupledStep(growth.integrator, motion.linear, motion.rounds)
-        if whole.size <= _MOST_COUPLED:
+        whole = WholeStep(growth.integrator, motion.linear, motion.rounds)
+        if whole.size <= _MOST_TOGETHER:
             exact = True
             found = whole.radius(h) - 1.0
             found = max(found, 0.0) if motion.afloat else found
-            excess = 0.0 if abs(found) <= COUPLED_TOLERANCE else found
-            largest = _coupled_step(whole, largest, motion)
+            excess = 0.0 if abs(found) <= WHOLE_TOLERANCE else found
+            largest = _whole_arm_step(whole, largest, motion)
     return Standing(
         integrator=growth.integrator,
         chosen=growth.integrator.name == scene.integrator.name,
@@ -187,7 +187,7 @@ def _scanned(growth: Growth, stiffness: float, damping: float) -> float:
     )
 
 
-def _coupled_step(whole: CoupledStep, modal: float, motion: SmallMotion) -> float:
+def _whole_arm_step(whole: WholeStep, modal: float, motion: SmallMotion) -> float:
     """Return the largest stable step of the whole arm, sought around that of its modes."""
     if modal == 0.0 and any(mode.damping_ratio == 0.0 for mode in motion.modes):
         return 0.0
@@ -199,7 +199,7 @@ def _coupled_step(whole: CoupledStep, modal: float, motion: SmallMotion) -> floa
         factors = np.logspace(-2, max(4.0, 2.0 + math.log10(fastest / slowest)), 41)
 
     def grows(step: float) -> bool:
-        return whole.radius(step) > 1.0 + COUPLED_TOLERANCE
+        return whole.radius(step) > 1.0 + WHOLE_TOLERANCE
 
     before = 0.0
     for step in (around * factors).tolist():

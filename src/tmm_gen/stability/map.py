@@ -19,11 +19,11 @@ from tmm_gen.modal.situation import rest_of
 from tmm_gen.modal.space.situation import RestingArm, rest_in_space
 from tmm_gen.modal.space.still import Still
 from tmm_gen.scene import Scene
-from tmm_gen.stability.coupled import CoupledStep
 from tmm_gen.stability.growth import Growth
 from tmm_gen.stability.measured import MeasuredStep
 from tmm_gen.stability.motion import SmallMotion, motion_in_space, motion_of
 from tmm_gen.stability.variants import with_integrator, with_stiffness
+from tmm_gen.stability.whole_arm import WholeStep
 
 Array = NDArray[np.float64]
 
@@ -199,7 +199,7 @@ class Rests:
 def derived_radii(motion: SmallMotion, growth: Growth, steps: Array) -> Array:
     """Return the spectral radius of a scene at some steps, the worst over modes, (k,)."""
     if motion.together:
-        whole = CoupledStep(growth.integrator, motion.linear, motion.rounds)
+        whole = WholeStep(growth.integrator, motion.linear, motion.rounds)
         least = 1.0 if motion.afloat else 0.0
         return np.array([max(least, whole.radius(step)) for step in steps.tolist()])
     h = steps[:, None]

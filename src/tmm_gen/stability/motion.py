@@ -15,7 +15,7 @@ from tmm_gen.modal.situation import resting_arm
 from tmm_gen.modal.space.situation import RestingArm, resting_in_space
 from tmm_gen.modal.space.still import Still
 from tmm_gen.scene import Scene
-from tmm_gen.stability.coupled import Rounds
+from tmm_gen.stability.whole_arm import Rounds
 
 Array = NDArray[np.float64]
 
@@ -35,7 +35,7 @@ class SmallMotion:
         About rest.
     modes : tuple of Mode
         Increasing in undamped frequency.
-    coupled : bool
+    mixed : bool
         Whether damping couples the undamped modes, so that a step does not fall apart into modes.
     rounds : Rounds or None
         How an arm in space solves its stages, where its sweeps leave weight to corrections.
@@ -46,14 +46,14 @@ class SmallMotion:
     scene: Scene
     linear: Linear
     modes: tuple[Mode, ...]
-    coupled: bool
+    mixed: bool
     rounds: Rounds | None = None
     start: Array | None = None
 
     @property
     def together(self) -> bool:
         """Whether a step is one of the whole arm, and not of each mode by itself."""
-        return self.coupled or self.rounds is not None
+        return self.mixed or self.rounds is not None
 
     @property
     def afloat(self) -> bool:
@@ -114,8 +114,8 @@ def motion_of(scene: Scene, linear: Linear, start: Array | None = None) -> Small
 def motion_in_space(resting: RestingArm, start: Array | None = None) -> SmallMotion:
     """Return the modes of an arm in space, those in which it moves as a whole among them."""
     scene, linear = resting.scene, resting.linear
-    coupled = linear.damping_time is None
-    return SmallMotion(scene, linear, resting.modes(), coupled, rounds_of(scene, resting.still), start)
+    mixed = linear.damping_time is None
+    return SmallMotion(scene, linear, resting.modes(), mixed, rounds_of(scene, resting.still), start)
 
 
 def rounds_of(scene: Scene, still: Still) -> Rounds | None:

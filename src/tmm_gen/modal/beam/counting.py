@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from tmm_gen.modal.beam.arm import BeamArm
 from tmm_gen.modal.beam.member import Member
-from tmm_gen.modal.beam.stiffness import Hanging, Integers, clamped_count, hanging
+from tmm_gen.modal.beam.stiffness import Integers, SeenInboard, clamped_count, seen_inboard
 
 Array = NDArray[np.float64]
 
@@ -31,7 +31,7 @@ def modes_below(arm: BeamArm, omega: ArrayLike) -> Integers:
     """
     points = np.atleast_1d(np.asarray(omega, float))
     counted = np.zeros(len(points), np.int64)
-    known: dict[Member, tuple[Hanging, Integers]] = {}
+    known: dict[Member, tuple[SeenInboard, Integers]] = {}
     stiffness = np.zeros((len(points), 2, 2))  # of all that is outboard, against w and psi
     for k, (member, body) in reversed(list(enumerate(zip(arm.members, arm.bodies, strict=True)))):
         if body.joint_stiffness is not None and k + 1 < len(arm.members):
@@ -40,7 +40,7 @@ def modes_below(arm: BeamArm, omega: ArrayLike) -> Integers:
         stiffness[:, 0, 0] -= body.mass * points**2
         stiffness[:, 1, 1] -= body.inertia * points**2
         if member not in known:
-            known[member] = hanging(member, points), clamped_count(member, points)
+            known[member] = seen_inboard(member, points), clamped_count(member, points)
         beam, held = known[member]
         stiffness, negative = _through_beam(stiffness, beam)
         counted += held + negative
@@ -80,7 +80,7 @@ def _through_spring(stiffness: Array, spring: float) -> tuple[Array, Integers]:
     return found, negative.astype(np.int64)
 
 
-def _through_beam(stiffness: Array, beam: Hanging) -> tuple[Array, Integers]:
+def _through_beam(stiffness: Array, beam: SeenInboard) -> tuple[Array, Integers]:
     """Return the stiffness at the inboard end from that at the outboard one, and how many eigenvalues are negative.
 
     The outboard motions are eliminated together with the forces there, each of which brings a negative eigenvalue of

@@ -44,7 +44,7 @@ def dynamic_stiffness(member: Member, s: ArrayLike) -> Complex:
 
 
 @dataclass(frozen=True, eq=False)
-class Hanging:
+class SeenInboard:
     """A beam seen from its inboard end, ``f`` times: what it carries, how it gives way.
 
     With motions ``d = (w, psi)`` and forces ``(V, M)`` on the beam,
@@ -65,7 +65,7 @@ class Hanging:
     compliance: Array
 
 
-def hanging(member: Member, omega: Array) -> Hanging:
+def seen_inboard(member: Member, omega: Array) -> SeenInboard:
     """Return an undamped beam as seen from its inboard end, in harmonic motion.
 
     Parameters
@@ -86,7 +86,7 @@ def hanging(member: Member, omega: Array) -> Hanging:
     forces = member.bending_stiffness / member.length / np.array([member.length, 1.0])
     inertia = found[:, :2, :2] * (forces[:, None] / motions)
     compliance = found[:, 2:, 2:] * (motions[:, None] / forces)
-    return Hanging(
+    return SeenInboard(
         0.5 * (inertia + inertia.transpose(0, 2, 1)),  # symmetric but for rounding
         found[:, 2:, :2] * (motions[:, None] / motions),
         0.5 * (compliance + compliance.transpose(0, 2, 1)),

@@ -37,7 +37,7 @@ class Rounds:
     count: int
 
 
-class CoupledStep:
+class WholeStep:
     """The amplification matrix of ``M q'' + C q' + K q = 0`` in modal coordinates.
 
     Parameters
