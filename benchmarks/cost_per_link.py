@@ -11,6 +11,7 @@ import math
 from pathlib import Path
 
 from tmm_gen.native import compile_kernel
+from tmm_gen.native.timing import by_turns
 from tmm_gen.program.build import build_program
 from tmm_gen.program.count import count_routine
 from tmm_gen.scene import Scene, parse_scene
@@ -56,9 +57,8 @@ def measure(links: int) -> tuple[float, float]:
     scene = arm(links)
     program = build_program(scene)
     kernel = compile_kernel(program, scene)
-    kernel.prepare()
-    kernel.initialise()
-    return kernel.time_step({"hub_torque": 0.0}), count_routine(program.main).total / links
+    cost = by_turns({links: kernel.timer({"hub_torque": 0.0})})[links]
+    return cost.ns_per_step, count_routine(program.main).total / links
 
 
 def slope(times: dict[int, float]) -> float:

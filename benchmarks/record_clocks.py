@@ -17,7 +17,7 @@ from tmm_gen.calibration.calibrate import calibrate
 from tmm_gen.cli.console import progress, table
 from tmm_gen.errors import UserError
 from tmm_gen.inputs.signals import Table
-from tmm_gen.native.kernel import compile_kernel
+from tmm_gen.native import compile_kernel
 from tmm_gen.native.series import Series
 from tmm_gen.program.build import build_program
 from tmm_gen.scene import Scene, load_scene

@@ -43,8 +43,8 @@ def timers(scene: Scene) -> dict[str, Timer]:
     single_scene = scene.replace(**{"emit.real": "float32"})
     single = compile_kernel(build_program(single_scene), single_scene)
     return {
-        "c_double": lambda: double.time_step(repeats=1),
-        "c_float": lambda: single.time_step(repeats=1),
+        "c_double": double.timer(),
+        "c_float": single.timer(),
         "casadi": casadi_timer(scene, program),
         "numpy": numpy_timer(scene, program, ()),
         "numpy_batch": numpy_timer(scene, program, (ARMS,)),

@@ -72,10 +72,10 @@ def _quickly_compiled() -> None:
     What is compiled as a user's is: by commands that run in a process of their own, for functional mock-up units and
     batches, whose bits are compared with these kernels', and by the tests of emitted C.
     """
-    kernel = import_module("tmm_gen.native.kernel")
-    for compiling in (kernel.compile_kernel, kernel.load_kernel):
-        assert compiling.__defaults__ == ("gcc", kernel.FLAGS)
-        compiling.__defaults__ = ("gcc", ("-O1", *kernel.FLAGS[1:]))
+    loading = import_module("tmm_gen.native.loading")
+    for compiling in (loading.compile_kernel, loading.load_kernel):
+        assert compiling.__defaults__ == ("gcc", loading.FLAGS)
+        compiling.__defaults__ = ("gcc", ("-O1", *loading.FLAGS[1:]))
 
 
 @pytest.fixture

@@ -138,4 +138,4 @@ def test_a_motion_beyond_all_bounds_says_when() -> None:
 
 def test_time_of_a_step(thesis: NativeKernel) -> None:
     """Positive and not absurd; nothing more can be asked of a clock on a shared machine."""
-    assert 1.0 < thesis.time_step({"tip_torque": 1.0}, repeats=3) < 1e6
+    assert 1.0 < thesis.timer({"tip_torque": 1.0})() < 1e6

@@ -3,68 +3,22 @@
 from __future__ import annotations
 
 import ctypes
-import statistics
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.c_language.real import real_of
-from tmm_gen.emit.c import emit_kernel, free_scene
-from tmm_gen.emit.templates import render
-from tmm_gen.native.compiler import FLAGS, compile_library
 from tmm_gen.native.differences import with_derivatives
 from tmm_gen.native.layout import Value, element_values, read, write
 from tmm_gen.native.library import Library
+from tmm_gen.native.sampling import Signal, stage_inputs, value_at
 from tmm_gen.program.statements import Program
-from tmm_gen.scene import Scene
 
-Signal = float | Callable[[float], float]
-"""An input: constant, or a function of time in s."""
 Array = NDArray[np.float64]
 
 _MEASURED_SECONDS = 5e-3
 """Least duration of one timed repetition."""
-
-
-def compile_kernel(
-    program: Program, scene: Scene, cc: str = "gcc", flags: Sequence[str] = FLAGS
-) -> NativeKernel:
-    """Emit a program as C, compile it and load it; its parameters are free even where the scene binds them.
-
-    A bound kernel gives the same bits.
-
-    Parameters
-    ----------
-    program : Program
-        As built for the scene.
-    scene : Scene
-        Gives the number type.
-    cc : str
-        Compiler.
-    flags : sequence of str
-        Options besides ``-std=c99``.
-
-    Raises
-    ------
-    UserError
-        If there is no such compiler, or it refuses the sources.
-    """
-    return load_kernel(program, scene, emit_kernel(program, free_scene(scene)), cc, flags)
-
-
-def load_kernel(
-    program: Program,
-    scene: Scene,
-    files: Mapping[str, str],
-    cc: str = "gcc",
-    flags: Sequence[str] = FLAGS,
-) -> NativeKernel:
-    """Compile and load what :func:`emit_kernel` has written; see :func:`compile_kernel`."""
-    sources = {**files, "c/kernel-harness.c": render("c/harness.c.jinja", name=program.name)}
-    handle = ctypes.CDLL(str(compile_library(sources, cc, flags)))
-    return NativeKernel(program, Library(program, real_of(scene.emit), handle))
 
 
 class NativeKernel:
@@ -248,7 +202,7 @@ class NativeKernel:
             raise ValueError(f"duration must be a time, not {duration!r}")
         self.prepare(params, step)
         signals = with_derivatives(self.program, signals, self._step)
-        self.initialise({name: _at(signal, 0.0) for name, signal in signals.items()}, **given)
+        self.initialise({name: value_at(signal, 0.0) for name, signal in signals.items()}, **given)
         steps = int(np.floor(duration / self._step * (1.0 + 1e-12)))
         rows = [self.output(), *self.advance(signals, 0, steps)]
         outputs = {v.name: np.array([row[v.name] for row in rows]) for v in self.program.outputs}
@@ -278,37 +232,23 @@ class NativeKernel:
         """
         series, results = ((self._library.types[which] * steps)() for which in ("inputs", "outputs"))
         for index in range(steps):
-            write(series[index], self._library.structs["inputs"], self._sampled(signals, taken + index))
+            write(
+                series[index],
+                self._library.structs["inputs"],
+                stage_inputs(self.program, signals, self._step, taken + index),
+            )
         self._library.run(self._model, self._state, series, results)
         return [read(result, self._library.structs["outputs"]) for result in results]
 
-    def time_step(self, inputs: Mapping[str, Value] | None = None, repeats: int = 9) -> float:
-        """Measure how long a step takes, in a loop of compiled C from the scene's initial motion.
+    def timer(self, inputs: Mapping[str, Value] | None = None) -> Callable[[], float]:
+        """Return a function that measures once how long a step takes, in nanoseconds.
+
+        It is a loop of compiled C from the scene's initial motion. Time is that of the thread: what others get of a busy processor is none of it.
 
         Parameters
         ----------
         inputs : mapping from str, optional
             What acts, constantly.
-        repeats : int
-            Number of measurements; their median counts.
-
-        Returns
-        -------
-        float
-            Nanoseconds per step.
-
-        Raises
-        ------
-        NonFiniteStateError
-            If the motion grows beyond all bounds, so that a step cannot be repeated.
-        """
-        measure = self.timer(inputs)
-        return statistics.median(measure() for _ in range(repeats))
-
-    def timer(self, inputs: Mapping[str, Value] | None = None) -> Callable[[], float]:
-        """Return a function that measures once how long a step takes, as :meth:`time_step` does, in nanoseconds.
-
-        Time is that of the thread: what others get of a busy processor is none of it.
 
         Raises
         ------
@@ -325,17 +265,6 @@ class NativeKernel:
         self.initialise(inputs)
         return self._library.seconds(self._model, self._state, self._inputs, steps)
 
-    def _sampled(self, signals: Mapping[str, Signal], index: int) -> dict[str, Value]:
-        """Return the inputs of a step at the instants of its stages."""
-        instants = self.program.stage_instants[min(index, len(self.program.startup))]
-        values: dict[str, Value] = {}
-        for variable in self.program.inputs:
-            if (signal := signals.get(variable.name)) is not None:
-                found = [_at(signal, self._step * (index + instant)) for instant in instants]
-                missing = (variable.length or 1) - len(found)  # a start-up step may have fewer stages
-                values[variable.name] = [*found, *found[-1:] * missing] if variable.length else found[0]
-        return values
-
     def _apply(self, inputs: Mapping[str, Value] | None) -> None:
         zero: dict[str, Value] = {v.name: 0.0 for v in self.program.inputs}
         write(self._inputs, self._library.structs["inputs"], {**zero, **(inputs or {})})
@@ -344,7 +273,3 @@ class NativeKernel:
     def _default_step(self) -> float:
         assert isinstance(self.program.step.default, float)
         return self.program.step.default
-
-
-def _at(signal: Signal, time: float) -> float:
-    return float(signal(time)) if callable(signal) else float(signal)

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.inputs.waveforms import Smooth
-from tmm_gen.native.kernel import NativeKernel, compile_kernel
+from tmm_gen.native import NativeKernel, compile_kernel
 from tmm_gen.native.timing import by_turns
 from tmm_gen.package.texts import emit_package
 from tmm_gen.program.build import build_program

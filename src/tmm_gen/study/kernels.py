@@ -42,7 +42,7 @@ class Built:
     @cached_property
     def native(self) -> NativeKernel:
         """The compiled C; its model and state are shared."""
-        from tmm_gen.native.kernel import load_kernel
+        from tmm_gen.native.loading import load_kernel
 
         return load_kernel(self.program, self.scene, self.files)
 

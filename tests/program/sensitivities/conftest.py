@@ -10,9 +10,9 @@ from typing import Any
 import casadi as ca
 import numpy as np
 import pytest
+from support.native_sensitivities import NativeSensitivities
 
 from tmm_gen.native.python_module import casadi_module
-from tmm_gen.native.sensitivities import NativeSensitivities
 from tmm_gen.program.build import build_program
 from tmm_gen.program.statements import Program
 from tmm_gen.resources import scenes_dir
