@@ -52,4 +52,4 @@ def test_modes_and_the_whole_arm_agree_where_damping_does_not_couple(
 
 
 def test_damping_that_couples_modes_is_noticed(example: Callable[[str], Scene]) -> None:
-    assert small_motion(example("drivetrain")).coupled
+    assert small_motion(example("drivetrain")).mixed

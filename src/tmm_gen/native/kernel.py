@@ -243,7 +243,8 @@ class NativeKernel:
     def timer(self, inputs: Mapping[str, Value] | None = None) -> Callable[[], float]:
         """Return a function that measures once how long a step takes, in nanoseconds.
 
-        It is a loop of compiled C from the scene's initial motion. Time is that of the thread: what others get of a busy processor is none of it.
+        It is a loop of compiled C from the scene's initial motion. Time is that of the thread: what
+        others get of a busy processor is none of it.
 
         Parameters
         ----------
