@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -19,20 +16,9 @@ from tmm_gen.cli.outputs import OutputFile, claim, write_outputs
 from tmm_gen.errors import UserError
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
-    from tmm_gen.modal.linear import Linear
-    from tmm_gen.scene import Input, Output, Scene
+    from tmm_gen.modal.answer import Answer
 
 # NumPy, SymPy and Matplotlib are imported inside: `tmm-gen --help` has no use for them.
-
-_SHOWN = 8
-"""Modes that fit into the band where none is asked for."""
-
-
-_ROUNDING = 1e-12
-"""Share of the largest component below which another is nothing but rounding."""
 
 
 @click.command("frequency")
@@ -102,7 +88,15 @@ def frequency(
     # what overflows in an arm in space is refused
     quiet = np.errstate(all="ignore" if loaded.spatial else None)
     with progress(f"frequency response of {loaded.name}"), quiet:
-        answer = _respond(_swinging(loaded, inputs, start), (loaded, chosen, read), (low, high), points)
+        from tmm_gen.modal.answer import answer_of, band_of, swinging
+
+        arm = swinging(loaded, inputs, start)
+        lowest, highest = band_of(arm, low, high)
+        if lowest >= highest:
+            raise click.UsageError(
+                f"the band from {lowest:g} to {highest:g} Hz is empty; give both --low and --high."
+            )
+        answer = answer_of(arm, (chosen, read), np.geomspace(lowest, highest, points))
         written = _write(scene, answer, csv_file, picture)
     _show(answer, written, json_mode)
 
@@ -121,116 +115,7 @@ def _chosen(scene: Path, items: tuple[Any, ...], name: str | None, option: str, 
     return items[names.index(name)]
 
 
-@dataclass(frozen=True, eq=False)
-class _Answer:
-    """One output for one input."""
-
-    scene: Scene
-    given: Input
-    read: Output
-    hertz: NDArray[np.float64]
-    parts: dict[str, NDArray[np.complex128]]
-    beam: NDArray[np.complex128] | None
-    rows: list[dict[str, object]]
-
-    @property
-    def unit(self) -> str:
-        """Of the magnitude."""
-        from tmm_gen.scene.quantity import INPUT_UNITS
-
-        numerator = self.scene.quantity(self.read).unit.replace("^2", "²")
-        denominator = INPUT_UNITS[self.given.acts]
-        return f"{numerator} per {denominator}"
-
-
-@dataclass(frozen=True, eq=False)
-class _Swinging:
-    """An arm in small motion.
-
-    Parameters
-    ----------
-    linear : Linear
-        Its matrices.
-    response : callable
-        From s to outputs by their components, each for a unit of all inputs.
-    straight : bool
-        Whether it is a planar arm that rests straight, as the continuous beam does.
-    before : int
-        Modes in which an arm in space moves as a whole; they are counted before the others.
-    """
-
-    linear: Linear
-    response: Callable[[NDArray[np.complex128]], dict[str, NDArray[np.complex128]]]
-    straight: bool = False
-    before: int = 0
-
-
-def _swinging(scene: Scene, inputs: dict[str, float], start: NDArray[np.float64] | None) -> _Swinging:
-    import numpy as np
-
-    if scene.spatial is not None:
-        from tmm_gen.modal.space.response import space_response
-        from tmm_gen.modal.space.situation import resting_in_space
-
-        resting = resting_in_space(scene, inputs, start)
-        return _Swinging(resting.linear, lambda s: space_response(resting.still, s), before=resting.whole)
-    from tmm_gen.modal.matrices import matrices
-    from tmm_gen.modal.response import frequency_response
-    from tmm_gen.modal.situation import resting_arm
-
-    arm = resting_arm(scene, inputs, start)
-    straight = arm.rest is not None and float(np.max(np.abs(arm.rest.angles))) < 1e-9
-    return _Swinging(matrices(arm), lambda s: frequency_response(arm, s), straight)
-
-
-def _respond(
-    arm: _Swinging,
-    about: tuple[Scene, Input, Output],
-    limits: tuple[float | None, float | None],
-    points: int,
-) -> _Answer:
-    import numpy as np
-
-    from tmm_gen.modal.beam.response import beam_response
-    from tmm_gen.modal.modes import find_modes, modes_up_to
-
-    scene, given, read = about
-    swinging = [mode.hertz for mode in find_modes(arm.linear, _SHOWN + 1) if mode.frequency > 0.0][:_SHOWN]
-    low = limits[0] or (0.1 * swinging[0] if swinging else 0.01)
-    high = limits[1] or (2.0 * swinging[-1] if swinging else 100.0 * low)
-    if low >= high:
-        raise click.UsageError(f"the band from {low:g} to {high:g} Hz is empty; give both --low and --high.")
-    hertz = np.geomspace(low, high, points)
-    number = [item.name for item in scene.inputs].index(given.name)
-    names = scene.quantity(read).columns(read.name)
-    modes = modes_up_to(arm.linear, 2.0 * np.pi * high)
-    inside = [(k, mode) for k, mode in enumerate(modes, start=arm.before) if low <= mode.hertz <= high]
-    at_modes = np.array([mode.hertz for _, mode in inside])
-    with np.errstate(all="ignore"):  # without damping a resonance has no bound
-        found = arm.response(2j * np.pi * np.concatenate([hertz, at_modes]))
-        parts = {name: found[name][:, number] for name in names}
-    beam = None
-    if scene.beam is not None and arm.straight:
-        beam = beam_response(scene, np.asarray(2j * np.pi * hertz, complex), given, read)
-    rows: list[dict[str, object]] = []
-    for place, (k, mode) in enumerate(inside, start=points):
-        row: dict[str, object] = {
-            "mode": k + 1,
-            "frequency_hz": mode.hertz,
-            "damping_ratio": mode.damping_ratio,
-        }
-        for name, values in parts.items():
-            row[f"magnitude{name.removeprefix(read.name)}"] = (
-                float(abs(values[place])) if mode.damping_ratio else math.inf
-            )
-            row[f"phase{name.removeprefix(read.name)}_deg"] = float(np.degrees(np.angle(values[place])))
-        rows.append(row)
-    return _Answer(
-        scene, given, read, hertz, {name: values[:points] for name, values in parts.items()}, beam, rows
-    )
-
-
-def _write(scene: Path, answer: _Answer, csv_file: Path | None, picture: Path | None) -> list[Path]:
+def _write(scene: Path, answer: Answer, csv_file: Path | None, picture: Path | None) -> list[Path]:
     """Write the files asked for, all or none; return them."""
     import numpy as np
 
@@ -247,30 +132,14 @@ def _write(scene: Path, answer: _Answer, csv_file: Path | None, picture: Path | 
         from tmm_gen.modal.picture import bode_picture
 
         target = picture_file(picture, answer.scene.name, "-frequency")
-        name = _shown(answer)
+        name = answer.largest
         texts = (answer.scene.title, f"{name} for a unit of {answer.given.name}")
         drawn = (answer.hertz, answer.parts[name], answer.beam)
         files[target] = bode_picture(answer.scene, *drawn, texts, answer.unit, target.suffix[1:].lower())
     return write_outputs(files, (scene,))
 
 
-def _told(answer: _Answer) -> list[str]:
-    """Return the components that are more than rounding beside the largest."""
-    import numpy as np
-
-    peaks = {name: float(np.max(np.abs(values))) for name, values in answer.parts.items()}
-    largest = max(peaks.values())
-    return [name for name, peak in peaks.items() if peak >= _ROUNDING * largest]
-
-
-def _shown(answer: _Answer) -> str:
-    """Return the component that is drawn: the larger one."""
-    import numpy as np
-
-    return max(answer.parts, key=lambda name: float(np.max(np.abs(answer.parts[name]))))
-
-
-def _show(answer: _Answer, written: list[Path], json_mode: bool) -> None:
+def _show(answer: Answer, written: list[Path], json_mode: bool) -> None:
     import numpy as np
 
     columns = [
@@ -278,7 +147,7 @@ def _show(answer: _Answer, written: list[Path], json_mode: bool) -> None:
         Column("frequency_hz", "resonance (Hz)", ".6g"),
         Column("damping_ratio", form=".4g"),
     ]
-    for name in _told(answer):
+    for name in answer.told:
         suffix = name.removeprefix(answer.read.name)
         text = f" {suffix[1:]}" if suffix else ""
         columns.append(Column(f"magnitude{suffix}", f"magnitude{text} ({answer.unit})", ".5g"))
