@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from functools import cached_property, reduce
+from functools import cached_property, lru_cache, reduce
 
 import sympy as sp
 from sympy.polys.fields import FracElement
@@ -31,7 +31,7 @@ _Z = sp.Symbol("z")
 POLYNOMIAL_GENERATORS = (LAMBDA, OMEGA, ZETA)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)  # one of each scheme: what follows from it is remembered by it
 class Amplification:
     """One step as a linear map of its scaled history, ``x_new = matrix x + forcing (h^2 f at each stage)``.
 
@@ -115,6 +115,7 @@ class Amplification:
         return made
 
 
+@lru_cache(maxsize=256)
 def amplification(scheme: Scheme) -> Amplification:
     """Derive the amplification matrix of a scheme, whose own parameters may be symbols."""
     if scheme.coupled:

@@ -85,6 +85,10 @@ class Scheme:
     stages: tuple[Stage, ...]
     update: Mapping[Kind, sp.Expr]
 
+    def __hash__(self) -> int:
+        """Hash by the stages: a mapping has no hash, and what follows from a scheme is remembered by it."""
+        return hash(self.stages)
+
     @cached_property
     def coupled(self) -> bool:
         """Whether a stage reads later ones, so that all must be solved at once."""

@@ -6,6 +6,7 @@ Three things must be: free motion ``exp(s w t)``, motion under a load ``exp(s w 
 
 from __future__ import annotations
 
+from functools import lru_cache
 from itertools import count
 from math import factorial
 from typing import Any
@@ -41,6 +42,7 @@ def order(integrator: Integrator, linear: Amplification | None = None) -> int:
     return min(found)
 
 
+@lru_cache(maxsize=256)
 def free_order(linear: Amplification) -> int:
     """Return the order for free motion of the damped oscillator.
 
@@ -51,6 +53,7 @@ def free_order(linear: Amplification) -> int:
     return test.lowest_power(test.insert(linear.characteristic), free=True) - 2
 
 
+@lru_cache(maxsize=256)
 def forced_order(linear: Amplification) -> int:
     """Return the order of displacement and velocity for the motion under a load ``exp(s w t)``."""
     test = _TestMotion(linear)

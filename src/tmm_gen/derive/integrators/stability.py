@@ -8,6 +8,7 @@ real roots nothing changes, and one sample decides.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import lru_cache
 
 import mpmath
 import sympy as sp
@@ -25,6 +26,7 @@ _ON_CIRCLE = mpmath.mpf(10) ** -30
 """Eigenvalues that exceed 1 by less are on the circle: rounding is at 1e-50, a true excess far above."""
 
 
+@lru_cache(maxsize=1024, typed=True)  # asked for every arm that has no damping, and twice for its fastest mode
 def stability_limit(linear: Amplification, zeta: Number = 0) -> sp.Expr:
     """Return the largest ``Omega`` below which no motion grows, at a physical damping ratio.
 
