@@ -231,6 +231,16 @@ class Row:
             and passes_on(self.stations[k + 1][0])
         )
 
+    @cached_property
+    def reads_inner_acceleration(self) -> bool:
+        """Whether a station's law reads the acceleration at its inner side, which may be the base's."""
+        (own,) = [i for i, c in enumerate(self.coordinates) if c.integrated]
+        return any(
+            equation.has(elements[0].inboard.motions[own].a)
+            for _, _, elements in self.runs()
+            for equation in elements[0].equations
+        )
+
     def swept(self) -> tuple[Elements, ...]:
         """Return the stations as sweeps cross them: what turns a shaft stands in the station that the shaft turns."""
         found = list(self.stations)

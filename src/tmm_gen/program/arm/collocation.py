@@ -17,8 +17,9 @@ from tmm_gen.derive.integrators.spectrum import Spectrum, fraction, spectrum_of
 from tmm_gen.derive.station.frame import GAINS, Frame
 from tmm_gen.program.arm.layout import Layout
 from tmm_gen.program.arm.loads import Loads
-from tmm_gen.program.arm.motion import motion_variable
-from tmm_gen.program.arm.walks import BASE, StageOf, Walks, hub_unknown, solved_variable
+from tmm_gen.program.arm.motion import StageOf, motion_variable
+from tmm_gen.program.arm.places import BASE, hub_unknown, solved_variable
+from tmm_gen.program.arm.walks import Walks
 from tmm_gen.program.inputs import input_instants
 from tmm_gen.program.motion import update_assignments
 from tmm_gen.program.passes.side_by_side import Lane, Pair, SideBySide

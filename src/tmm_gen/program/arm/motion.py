@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from tmm_gen.derive.integrators.declaration import KINDS, Kind, past, stage
+from tmm_gen.derive.integrators.declaration import KINDS, Kind, Scheme, past, stage
 from tmm_gen.derive.integrators.relations import AffineMotion
 from tmm_gen.program.fields import MOTION_NAMES
 from tmm_gen.program.variables import Ref, Role, Variable
@@ -92,3 +92,24 @@ class Held:
 
 Moving = Variable | Held
 """Motion of all nodes, base first: an array of its own, or where it stands already."""
+
+
+@dataclass(frozen=True)
+class StageOf:
+    """A stage of a scheme.
+
+    Parameters
+    ----------
+    scheme : Scheme
+    index : int
+        From 1.
+    motion : AffineMotion
+        By its unknown.
+    sources : mapping from sympy.Symbol to sympy.Expr
+        Where the history of stations is read from.
+    """
+
+    scheme: Scheme
+    index: int
+    motion: AffineMotion
+    sources: Mapping[sp.Symbol, sp.Expr]

@@ -19,7 +19,7 @@ from tmm_gen.program.arm.collocation import CollocationStep
 from tmm_gen.program.arm.collocation_walks import LEFT_AT_HUB, MendingWalks, ResidualWalks, left_over
 from tmm_gen.program.arm.loads import Loads
 from tmm_gen.program.arm.motion import Moving, motion_variable
-from tmm_gen.program.arm.walks import BASE, hub_unknown, solved_variable
+from tmm_gen.program.arm.places import BASE, hub_unknown, solved_variable
 from tmm_gen.program.fields import MOTION_NAMES
 from tmm_gen.program.inputs import input_instants
 from tmm_gen.program.motion import update_assignments

@@ -19,11 +19,13 @@ from tmm_gen.program.arm.motion import (
     KNOWN_RATE,
     Held,
     Moving,
+    StageOf,
     StartingPoint,
     motion_variable,
     starting_point,
 )
-from tmm_gen.program.arm.walks import BASE, StageOf, Walks, hub_unknown, prescribed_unknown, solved_variable
+from tmm_gen.program.arm.places import BASE, hub_unknown, prescribed_unknown, solved_variable
+from tmm_gen.program.arm.walks import Walks
 from tmm_gen.program.inputs import input_instants
 from tmm_gen.program.motion import kept_stage_values, stage_variable, update_assignments
 from tmm_gen.program.statements import Assign, Loop, Order, Section, Statement
@@ -149,7 +151,7 @@ class StepBuilder:
         """Return where the motion of nodes before the sweep is held."""
         still = self._still(point)
         found: dict[Kind, Moving] = {k: self._motion(k) for k in KINDS if k not in still}
-        if not self._stays() or "a" in still or _reads_inner_acceleration(self.layout):
+        if not self._stays() or "a" in still or self.layout.row.reads_inner_acceleration:
             return found
         stands = point.values["a"].xreplace(self._values("", self.layout.stations))
         if isinstance(stands, Ref):
@@ -163,7 +165,7 @@ class StepBuilder:
 
     def _still(self, point: StartingPoint) -> frozenset[str]:
         """Return the kinds of motion that are zero before the sweep, at the base too where stations read it there."""
-        led = self.layout.row.boundary == "prescribed" and _reads_inner_acceleration(self.layout)
+        led = self.layout.row.boundary == "prescribed" and self.layout.row.reads_inner_acceleration
         return frozenset() if led and self.layout.row.about == "prediction" else point.still
 
     def _gain(self, motion: AffineMotion, kind: Kind) -> sp.Expr:
@@ -221,7 +223,7 @@ class StepBuilder:
             body.append(Assign(ref, (0 if began else ref) + gain * solved.at()))
             base.append(Assign(entry, (0 if began else entry) + gain * hub))
         moved: list[Statement] = [*self._floating.improve(), *base] if self._free else []
-        if self._held and _reads_inner_acceleration(self.layout):
+        if self._held and self.layout.row.reads_inner_acceleration:
             moved = [Assign(self._motion(kind).entry(BASE), sp.Integer(0)) for kind in KINDS if kind in still]
         return [*moved, Loop(Order.OUTWARD, 0, n, tuple(a for a in body if a.value != a.target))]
 
@@ -297,13 +299,3 @@ class StepBuilder:
     ) -> dict[Kind, sp.Expr]:
         own = {stage(k, index): values[k] for k in KINDS}
         return {k: sp.expand(sp.sympify(self.scheme.update[k]).xreplace({**own, **at})) for k in KINDS}
-
-
-def _reads_inner_acceleration(layout: Layout) -> bool:
-    """Whether a station's law reads the acceleration at its inner side, which may be the base's."""
-    (own,) = [i for i, c in enumerate(layout.row.coordinates) if c.integrated]
-    return any(
-        equation.has(elements[0].inboard.motions[own].a)
-        for _, _, elements in layout.row.runs()
-        for equation in elements[0].equations
-    )

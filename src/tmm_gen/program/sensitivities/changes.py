@@ -21,7 +21,7 @@ from tmm_gen.derive.station.tangent import beyond, solved_node
 from tmm_gen.program.arm.base import base_acceleration
 from tmm_gen.program.arm.binding import Binding
 from tmm_gen.program.arm.branches import resumed
-from tmm_gen.program.arm.walks import BASE, hub_unknown
+from tmm_gen.program.arm.places import BASE, hub_unknown
 from tmm_gen.program.sensitivities.kept import kept_symbols, solved_acceleration
 from tmm_gen.program.sensitivities.point import Point
 from tmm_gen.program.sensitivities.walks import TangentableWalks

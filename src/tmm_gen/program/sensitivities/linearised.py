@@ -17,7 +17,7 @@ from tmm_gen.derive.station.tangent import SOLVED, beyond, solved_force, solved_
 from tmm_gen.program.arm.base import Balance, base_change
 from tmm_gen.program.arm.binding import Binding
 from tmm_gen.program.arm.branches import resumed
-from tmm_gen.program.arm.walks import BASE
+from tmm_gen.program.arm.places import BASE
 from tmm_gen.program.sensitivities.kept import kept_symbols, solved_acceleration
 from tmm_gen.program.sensitivities.point import Point
 from tmm_gen.program.sensitivities.walks import TangentableWalks

@@ -18,7 +18,8 @@ from tmm_gen.derive.station.tangent import Tangent
 from tmm_gen.program.arm.base import Balance, floating_base
 from tmm_gen.program.arm.branches import Gathered
 from tmm_gen.program.arm.layout import Layout
-from tmm_gen.program.arm.walks import BASE, Walks
+from tmm_gen.program.arm.places import BASE
+from tmm_gen.program.arm.walks import Walks
 from tmm_gen.program.statements import Assign, Order, Require, Statement
 from tmm_gen.program.variables import Variable
 
