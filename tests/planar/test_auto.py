@@ -11,10 +11,10 @@ import pytest
 from tmm_gen.inputs.signals import Constant
 from tmm_gen.native import compile_kernel
 from tmm_gen.native.python_module import numpy_module
-from tmm_gen.program.arm.auto import MOST_SWEEPS
 from tmm_gen.program.build import build_program
 from tmm_gen.program.evaluate import allocate, execute, key
 from tmm_gen.program.statements import Until
+from tmm_gen.program.sweeps import MOST_SWEEPS
 from tmm_gen.reference.planar_reference import planar_response
 from tmm_gen.scene import Scene, parse_scene
 from tmm_gen.simulate.run import simulate

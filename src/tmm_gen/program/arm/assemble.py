@@ -8,7 +8,7 @@ import sympy as sp
 
 from tmm_gen.derive.integrators.declaration import CONSISTENT_START, KINDS, Integrator, Past, Scheme, past
 from tmm_gen.derive.integrators.relations import Unknown
-from tmm_gen.program.arm.auto import LEAST_TURN, SWEEPS, AutoStep
+from tmm_gen.program.arm.auto import AutoStep
 from tmm_gen.program.arm.collocation import CollocationStep
 from tmm_gen.program.arm.combinations import Combinations
 from tmm_gen.program.arm.heat import heat_after, heat_before
@@ -19,13 +19,12 @@ from tmm_gen.program.arm.step import MakeWalks, StepBuilder
 from tmm_gen.program.arm.thesis import start_places
 from tmm_gen.program.arm.turns import TURNED, start_unturned, take_turns_out
 from tmm_gen.program.arm.walks import Walks
-from tmm_gen.program.fields import gain_names, living_state
+from tmm_gen.program.fields import gain_names
+from tmm_gen.program.finish import NOTHING_PREPARED, START_DOC, Factors, living, prepared, stepped
 from tmm_gen.program.inputs import input_instants
 from tmm_gen.program.motion import history_values
 from tmm_gen.program.passes.early import EarlySets, lifted
 from tmm_gen.program.passes.hoist import Hoister
-from tmm_gen.program.passes.prune import prune
-from tmm_gen.program.passes.rewrite import renamed_scratch
 from tmm_gen.program.sensitivities.step import step_sensitivities
 from tmm_gen.program.sensitivities.twins import linear_sensitivities
 from tmm_gen.program.statements import (
@@ -38,7 +37,7 @@ from tmm_gen.program.statements import (
     Sensitivities,
     Statement,
 )
-from tmm_gen.program.variables import Role, Variable
+from tmm_gen.program.variables import Role
 from tmm_gen.row.row import Row
 
 
@@ -91,10 +90,10 @@ def build(row: Row, integrator: Integrator, choices: Choices) -> Program:
     choices : Choices
         How it is solved.
     """
-    return Assembly(row, integrator, choices).program()
+    return _Assembly(row, integrator, choices).program()
 
 
-class Assembly:
+class _Assembly:
     """Gathers the routines of a row's program; see :func:`build`."""
 
     def __init__(self, row: Row, integrator: Integrator, choices: Choices) -> None:
@@ -106,28 +105,50 @@ class Assembly:
 
     def program(self) -> Program:
         """Build the program."""
-        layout, integrator = self.layout, self.integrator
-        routines: dict[str, Routine] = {}
-        # the main scheme first: its factors get the plain names
-        for position, scheme in sorted(
-            enumerate(integrator.schemes), key=lambda item: item[1] is not integrator.main
-        ):
-            main = scheme is integrator.main
-            builder = self._coupled(scheme) if scheme.coupled else self._builder(scheme)
-            if main and isinstance(builder, StepBuilder):
-                self._main_builder = builder
-            name = "step" if main else f"step_start{position + 1}"
-            doc = "Advance the state by one step." if main else f"Start-up: take step {position + 1}."
-            sections = (
-                *heat_before(layout),
-                *builder.sections(),
-                *hold(layout, len(scheme.stages)),
-                *heat_after(layout),
-            )
-            routines[name] = self.hoister.hoist(Routine(name, doc, sections))
-        main_routine = routines.pop("step")
-        startup = tuple(routines[f"step_start{k + 1}"] for k in range(len(integrator.startup)))
-        return self._gathered(main_routine, startup)
+        layout = self.layout
+        main, startup = stepped(self.integrator, self.hoister, self._step)
+        turned = TURNED if self.choices.turns_apart else None
+        output = self.hoister.hoist(output_routine(layout, turned))
+        combined = tuple(self.combinations.variables.values())
+        factors = Factors(self.combinations.section, combined, self.early, self.hoister)
+        initialise = factors.unlike(self._initialise())
+        if turned is not None:
+            main, *others = take_turns_out((main, *startup), layout)
+            startup = tuple(others)
+            initialise = start_unturned(initialise)
+        whole = Program(
+            name=self.row.name,
+            title=self.row.title,
+            stations=layout.stations,
+            step=layout.step,
+            parameters=tuple(layout.parameters.values()),
+            coefficients=factors.coefficients,
+            state=(*((turned,) if turned is not None else ()), *layout.all_state),
+            inputs=layout.inputs,
+            outputs=layout.outputs,
+            given=layout.given,
+            prepare=NOTHING_PREPARED,
+            initialise=initialise,
+            startup=startup,
+            main=main,
+            output=output,
+            stage_instants=tuple(input_instants(self.row, scheme) for scheme in self.integrator.schemes),
+            facts=self._facts(),
+        )
+        alive = living(whole, auto=self.choices.auto)
+        return prepared(replace(alive, sensitivities=self._sensitivities(alive)), factors)
+
+    def _step(self, scheme: Scheme) -> tuple[Section, ...]:
+        """Return the sections of a scheme's step."""
+        builder = self._coupled(scheme) if scheme.coupled else self._builder(scheme)
+        if scheme is self.integrator.main and isinstance(builder, StepBuilder):
+            self._main_builder = builder
+        return (
+            *heat_before(self.layout),
+            *builder.sections(),
+            *hold(self.layout, len(scheme.stages)),
+            *heat_after(self.layout),
+        )
 
     def _builder(self, scheme: Scheme) -> StepBuilder:
         """Return what builds a step whose stages are solved one after another."""
@@ -160,80 +181,19 @@ class Assembly:
             split=self.early.split,
         )
 
-    def _gathered(self, main: Routine, startup: tuple[Routine, ...]) -> Program:
-        layout, row, integrator = self.layout, self.row, self.integrator
-        turned = TURNED if self.choices.turns_apart else None
-        output = self.hoister.hoist(output_routine(layout, turned))
-        initialise = self._unlike_the_model(self._initialise())
-        if turned is not None:
-            main, *others = take_turns_out((main, *startup), layout)
-            startup = tuple(others)
-            initialise = start_unturned(initialise)
-        kept = (*((turned,) if turned is not None else ()), *layout.all_state)
-        state = living_state(kept, (*startup, main), output)
-        parameters = tuple(layout.parameters.values())
-        if self.choices.auto:
-            state, parameters = (*state, SWEEPS), (*parameters, LEAST_TURN)
-            none = Section("no sweep has been taken yet", (Assign(SWEEPS.ref, sp.Integer(0)),))
-            initialise = replace(initialise, sections=(*initialise.sections, none))
-        wanted = frozenset(state)
-        startup = tuple(prune(r, wanted) for r in startup)
-        main, initialise = prune(main, wanted), prune(_without(initialise, kept, wanted), wanted)
-        sensitivities = self._sensitivities(main, state)
-        derivatives = (sensitivities.linearise, sensitivities.tangent) if sensitivities else ()
-        used = frozenset().union(*(r.read() for r in (*startup, main, output, *derivatives)))
-        sections = (self.combinations.section, *self.early.sections, self.hoister.section())
-        doc = "Compute what depends on parameters and step alone."
-        prepare = prune(Routine("prepare", doc, sections), used)
-        coefficients = (
-            *self.hoister.coefficients,
-            *self.combinations.variables.values(),
-            *self.early.coefficients,
-        )
-        read = prepare.read() | used | initialise.read()
-        return Program(
-            name=row.name,
-            title=row.title,
-            stations=layout.stations,
-            step=layout.step,
-            parameters=tuple(p for p in parameters if p in read),
-            coefficients=tuple(c for c in coefficients if c in used),
-            state=state,
-            inputs=layout.inputs,
-            outputs=layout.outputs,
-            given=layout.given,
-            prepare=prepare,
-            initialise=initialise,
-            startup=startup,
-            main=main,
-            output=output,
-            stage_instants=tuple(input_instants(row, scheme) for scheme in integrator.schemes),
-            facts=self._facts(),
-            sensitivities=sensitivities,
-        )
-
-    def _unlike_the_model(self, initialise: Routine) -> Routine:
-        """Call scratch of the start otherwise than what prepare keeps: bound parameters make constants of that."""
-        kept = (
-            *self.hoister.coefficients,
-            *self.combinations.variables.values(),
-            *self.early.coefficients,
-        )
-        return renamed_scratch(initialise, {v.name: f"start_{v.name}" for v in kept})
-
     def _facts(self) -> dict[str, str]:
         facts = dict(self.row.facts)
         if self.choices.auto:
             facts["linearisation"] = "newton, as many iterations as it takes"
         return facts
 
-    def _sensitivities(self, main: Routine, state: tuple[Variable, ...]) -> Sensitivities | None:
+    def _sensitivities(self, program: Program) -> Sensitivities | None:
         if not self.choices.sensitivities:
             return None
         if self.row.about == "known":
-            return linear_sensitivities(main, state, self.layout.inputs)
+            return linear_sensitivities(program.main, program.state, self.layout.inputs)
         held = hold(self.layout, len(self.integrator.main.stages))
-        return step_sensitivities(self._main_builder, held, state, self.layout.inputs, self.hoister)
+        return step_sensitivities(self._main_builder, held, program.state, self.layout.inputs, self.hoister)
 
     def _initialise(self) -> Routine:
         """Build the start: given motion, consistent acceleration, an older history that nothing reads yet."""
@@ -270,11 +230,7 @@ class Assembly:
             *hold(layout, 1),
             Section("nothing has turned to heat yet", cold),
         )
-        return Routine(
-            "initialise",
-            "Start from given angles and rates with the acceleration that satisfies the equations of motion.",
-            tuple(s for s in sections if s.statements),
-        )
+        return Routine("initialise", START_DOC, tuple(s for s in sections if s.statements))
 
     def _first_stages(self) -> tuple[Section, ...]:
         """Let the first step be predicted by the acceleration at the start."""
@@ -287,12 +243,6 @@ class Assembly:
             body = tuple(Assign(v.at(), newest.at()) for v in stages if v != newest)
             kept += body if newest.length is None else [Loop(Order.OUTWARD, 0, layout.stations, body)]
         return (Section("the first step is predicted by this acceleration", tuple(kept)),) if kept else ()
-
-
-def _without(initialise: Routine, kept: tuple[Variable, ...], wanted: frozenset[Variable]) -> Routine:
-    """Return the start with scratch in place of state that is not kept, but read there."""
-    names = {v.name: f"first_{v.name}" for v in kept if v not in wanted and v in initialise.read()}
-    return renamed_scratch(initialise, names, roles=(Role.STATE,)) if names else initialise
 
 
 def hold(layout: Layout, stages: int) -> tuple[Section, ...]:

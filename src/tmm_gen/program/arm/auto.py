@@ -17,22 +17,8 @@ from tmm_gen.program.arm.places import BASE, hub_unknown, solved_variable
 from tmm_gen.program.arm.step import StepBuilder
 from tmm_gen.program.arm.walks import Walks
 from tmm_gen.program.statements import Assign, Loop, Order, Repeat, Section, Statement, Until
-from tmm_gen.program.variables import Role, Variable, local
-
-MOST_SWEEPS = 12
-"""A step that so many sweeps do not solve is not solved by more: what they left is weighed when all is done."""
-
-LEAST_TURN = Variable(
-    "least_turn",
-    Role.PARAMETER,
-    doc="a sweep that turns the links by less in all, squares summed, is the last of a stage",
-    unit="rad",
-    default=1e-4,
-)
-"""May be made smaller where the equations are to be solved better than steps usually need."""
-
-SWEEPS = Variable("sweeps", Role.STATE, doc="sweeps taken so far")
-"""Counted by the step."""
+from tmm_gen.program.sweeps import LEAST_TURN, MOST_SWEEPS, SWEEPS
+from tmm_gen.program.variables import local
 
 _TURNED = local("turned", "sum of squares of what this sweep changes angles by", "rad^2")
 

@@ -14,7 +14,6 @@ import sympy as sp
 
 from tmm_gen.derive.integrators.declaration import KINDS, Kind, Past
 from tmm_gen.derive.station.frame import Frame
-from tmm_gen.program.arm.auto import LEAST_TURN, MOST_SWEEPS, SWEEPS
 from tmm_gen.program.arm.collocation import CollocationStep
 from tmm_gen.program.arm.collocation_walks import LEFT_AT_HUB, MendingWalks, ResidualWalks, left_over
 from tmm_gen.program.arm.loads import Loads
@@ -25,6 +24,7 @@ from tmm_gen.program.inputs import input_instants
 from tmm_gen.program.motion import update_assignments
 from tmm_gen.program.passes.side_by_side import Lane, Pair, SideBySide
 from tmm_gen.program.statements import Assign, Loop, Order, Repeat, Section, Statement, Until
+from tmm_gen.program.sweeps import LEAST_TURN, MOST_SWEEPS, SWEEPS
 from tmm_gen.program.variables import Ref, Role, Variable, local
 
 ZERO = sp.Integer(0)

@@ -7,13 +7,11 @@ from dataclasses import dataclass, replace
 import sympy as sp
 
 from tmm_gen.derive.integrators.declaration import CONSISTENT_START, Integrator, Scheme, past
-from tmm_gen.program.arm.auto import LEAST_TURN, SWEEPS
-from tmm_gen.program.fields import gain_names, living_state
+from tmm_gen.program.fields import gain_names
+from tmm_gen.program.finish import NOTHING_PREPARED, START_DOC, Factors, living, prepared, stepped
 from tmm_gen.program.motion import history_values
 from tmm_gen.program.passes.early import EarlySets, lifted
 from tmm_gen.program.passes.hoist import Hoister
-from tmm_gen.program.passes.prune import prune
-from tmm_gen.program.passes.rewrite import renamed_scratch
 from tmm_gen.program.space.base import BaseStep, earlier, history_sources
 from tmm_gen.program.space.base_start import start_of_base, unit_start
 from tmm_gen.program.space.bodies import Bodies
@@ -106,85 +104,58 @@ class _Assembly:
 
     def program(self) -> Program:
         """Build the program."""
-        layout, integrator = self.layout, self.integrator
-        routines: dict[str, Routine] = {}
-        given = any(joint.given for joint in layout.arm.joints)
-        # the main scheme first: its factors get the plain names
-        for position, scheme in sorted(
-            enumerate(integrator.schemes), key=lambda item: item[1] is not integrator.main
-        ):
-            main = scheme is integrator.main
-            step = SpaceStep(
-                layout,
-                self.bodies,
-                scheme,
-                history_values(layout.state, lambda v: v.at()),
-                iterations=self.choices.iterations,
-                held=self.choices.held,
-                auto=self.choices.auto,
-                exact=self.choices.exact,
-                # what a given joint does not set of an array would be left open in the model
-                split=_whole if given else self.early.split,
-                base=self._base(scheme),
-            )
-            name = "step" if main else f"step_start{position + 1}"
-            doc = "Advance the state by one step." if main else f"Start-up: take step {position + 1}."
-            before = earlier(layout.base) if layout.base else []
-            known = (Section("where the base was before", tuple(before)),) if before else ()
-            sections = (*known, *step.sections(), *self._hold(len(scheme.stages)))
-            routines[name] = self.hoister.hoist(Routine(name, doc, sections))
-        main_routine = routines.pop("step")
-        startup = tuple(routines[f"step_start{k + 1}"] for k in range(len(integrator.startup)))
-        return self._gathered(main_routine, startup)
-
-    def _gathered(self, main: Routine, startup: tuple[Routine, ...]) -> Program:
-        layout = self.layout
+        layout, base = self.layout, self.layout.base
+        main, startup = stepped(self.integrator, self.hoister, self._step)
         output = self.hoister.hoist(output_routine(layout, self.bodies))
-        initialise = self._initialise()
-        base = layout.base
-        kept = (*layout.state.values(), *(base.state if base else ()), *layout.held.values())
-        always = base.always if base else frozenset()
-        state = living_state(kept, (*startup, main), output, always)
-        parameters = (*layout.parameters.values(), *(base.parameters.values() if base else ()))
-        if self.choices.auto:
-            state, parameters = (*state, SWEEPS), (*parameters, LEAST_TURN)
-            none = Section("no sweep has been taken yet", (Assign(SWEEPS.ref, sp.Integer(0)),))
-            initialise = replace(initialise, sections=(*initialise.sections, none))
-        wanted = frozenset(state)
-        startup = tuple(prune(r, wanted) for r in startup)
-        main, initialise = prune(main, wanted), prune(initialise, wanted)
-        used = frozenset().union(*(r.read() for r in (*startup, main, output)))
-        sections = (self.bodies.section, *self.early.sections, self.hoister.section())
-        doc = "Compute what depends on parameters and step alone."
-        prepare = prune(Routine("prepare", doc, sections), used)
-        coefficients = (
-            *self.hoister.coefficients,
-            *self.bodies.variables.values(),
-            *self.early.coefficients,
+        factors = Factors(
+            self.bodies.section, tuple(self.bodies.variables.values()), self.early, self.hoister
         )
-        read = prepare.read() | used | initialise.read()
-        return Program(
+        whole = Program(
             name=layout.name,
             title=layout.title,
             stations=layout.stations,
             step=layout.step,
-            parameters=tuple(p for p in parameters if p in read),
-            coefficients=tuple(c for c in coefficients if c in used),
-            state=state,
+            parameters=(*layout.parameters.values(), *(base.parameters.values() if base else ())),
+            coefficients=factors.coefficients,
+            state=(*layout.state.values(), *(base.state if base else ()), *layout.held.values()),
             inputs=layout.inputs,
             outputs=layout.outputs,
             given=layout.given,
-            prepare=prepare,
-            initialise=initialise,
+            prepare=NOTHING_PREPARED,
+            initialise=factors.unlike(self._initialise()),
             startup=startup,
             main=main,
             output=output,
-            stage_instants=tuple(
-                instants(scheme, given=any(joint.given for joint in layout.arm.joints))
-                for scheme in self.integrator.schemes
-            ),
+            stage_instants=tuple(instants(scheme, given=self._given) for scheme in self.integrator.schemes),
             facts=dict(self.choices.facts),
         )
+        always = base.always if base else frozenset()
+        return prepared(living(whole, auto=self.choices.auto, always=always), factors)
+
+    @property
+    def _given(self) -> bool:
+        """Whether the angle of a joint is an input."""
+        return any(joint.given for joint in self.layout.arm.joints)
+
+    def _step(self, scheme: Scheme) -> tuple[Section, ...]:
+        """Return the sections of a scheme's step."""
+        layout = self.layout
+        step = SpaceStep(
+            layout,
+            self.bodies,
+            scheme,
+            history_values(layout.state, lambda v: v.at()),
+            iterations=self.choices.iterations,
+            held=self.choices.held,
+            auto=self.choices.auto,
+            exact=self.choices.exact,
+            # what a given joint does not set of an array would be left open in the model
+            split=_whole if self._given else self.early.split,
+            base=self._base(scheme),
+        )
+        before = earlier(layout.base) if layout.base else []
+        known = (Section("where the base was before", tuple(before)),) if before else ()
+        return (*known, *step.sections(), *self._hold(len(scheme.stages)))
 
     def _base(self, scheme: Scheme) -> BaseStep | None:
         base = self.layout.base
@@ -216,14 +187,4 @@ class _Assembly:
         before = unit_start(layout.base) if layout.base else []
         given = (Section("where the base starts", tuple(before)),) if before else ()
         sections = (bodies.section, *given, *lifted(list(step.sections()), ask=True), *self._hold(1))
-        routine = Routine(
-            "initialise",
-            "Start from given angles and rates with the acceleration that satisfies the equations of motion.",
-            tuple(s for s in sections if s.statements),
-        )
-        kept = (
-            *self.hoister.coefficients,
-            *self.bodies.variables.values(),
-            *self.early.coefficients,
-        )
-        return renamed_scratch(routine, {v.name: f"start_{v.name}" for v in kept})
+        return Routine("initialise", START_DOC, tuple(s for s in sections if s.statements))

@@ -10,7 +10,6 @@ import sympy as sp
 from tmm_gen.derive.integrators.declaration import KINDS, STEP, Kind, Past, Scheme, stage
 from tmm_gen.derive.integrators.relations import AffineMotion, affine_motion
 from tmm_gen.derive.space.inward import IMPEDANCE, OWN, TORQUE
-from tmm_gen.program.arm.auto import LEAST_TURN, MOST_SWEEPS, SWEEPS
 from tmm_gen.program.arm.motion import KNOWN_RATE, StartingPoint, starting_point
 from tmm_gen.program.fields import MOTION_NAMES
 from tmm_gen.program.motion import kept_stage_values, stage_variable, update_assignments
@@ -20,6 +19,7 @@ from tmm_gen.program.space.layout import SpaceLayout, instants
 from tmm_gen.program.space.loads import loads_on_frames
 from tmm_gen.program.space.walks import MOTION, SpaceWalks
 from tmm_gen.program.statements import Assign, Loop, Order, Repeat, Section, Statement, Until
+from tmm_gen.program.sweeps import LEAST_TURN, MOST_SWEEPS, SWEEPS
 from tmm_gen.program.variables import Role, Variable, local
 from tmm_gen.scene.signal import ACCELERATION, RATE
 from tmm_gen.scene.spatial.arm import ArmInput
