@@ -26,8 +26,9 @@ from tmm_gen.derive.station.lets import Line, Update
 from tmm_gen.program.arm.loads import exactly
 from tmm_gen.program.space.bodies import Bodies
 from tmm_gen.program.space.layout import SpaceLayout
+from tmm_gen.program.space.over_stations import MOTION
 from tmm_gen.program.space.turns import quaternion_of
-from tmm_gen.program.space.walks import MOTION, SpaceWalks
+from tmm_gen.program.space.walks import SpaceWalks
 from tmm_gen.program.statements import Assign, Loop, Order, Routine, Section, Statement
 from tmm_gen.program.variables import Ref, Variable
 from tmm_gen.scene.spatial.arm import ArmOutput, Frame

@@ -15,9 +15,11 @@ from tmm_gen.program.fields import MOTION_NAMES
 from tmm_gen.program.motion import kept_stage_values, stage_variable, update_assignments
 from tmm_gen.program.space.base import BaseStep, gains_of
 from tmm_gen.program.space.bodies import Bodies
+from tmm_gen.program.space.joint_laws import JointLaws
 from tmm_gen.program.space.layout import SpaceLayout, instants
 from tmm_gen.program.space.loads import loads_on_frames
-from tmm_gen.program.space.walks import MOTION, SpaceWalks
+from tmm_gen.program.space.over_stations import MOTION
+from tmm_gen.program.space.walks import SpaceWalks
 from tmm_gen.program.statements import Assign, Loop, Order, Repeat, Section, Statement, Until
 from tmm_gen.program.sweeps import LEAST_TURN, MOST_SWEEPS, SWEEPS
 from tmm_gen.program.variables import Role, Variable, local
@@ -91,12 +93,14 @@ class SpaceStep:
     def _swept(
         self, title: str, index: int, motion: AffineMotion, point: StartingPoint, finish: Section
     ) -> list[Section]:
+        gains = {k: self._gain(motion, k) for k in KINDS}
+        laws = JointLaws(self.layout, gains)
         walks = SpaceWalks(
             self.layout,
             self.bodies,
             {MOTION[k]: self._motion(k) for k in KINDS},
-            tuple(self._gain(motion, k) for k in KINDS),
-            self._absent(motion),
+            tuple(gains.values()),
+            laws.absent,
             exact=self.exact,
             base=self.base.values if self.base else {},
         )
@@ -104,8 +108,8 @@ class SpaceStep:
         begun = self.base.begin(point) if self.base else []
         first = [
             Section("predicted motion", (*begun, self._begin(point), *self._given(index - 1))),
-            self._impedances(motion, walks),
-            self._torques(index, walks, point.still),
+            laws.impedances(walks.array(IMPEDANCE)),
+            self._torques(laws, index, walks, point.still),
             walks.outward(still=still),
             *loads_on_frames(self.layout, walks, index - 1),
             walks.inward(still=still),
@@ -117,20 +121,20 @@ class SpaceStep:
                 *self._cleared(still),
                 *first,
                 Section(rounds, (Repeat(MOST_SWEEPS),)),
-                *self._correction(index, motion, walks, still=False),
+                *self._correction(index, motion, laws, walks, still=False),
                 self._judged(motion, walks),
             ]
         else:
             found = list(first)
             for number in range(1, self.iterations):
-                mine = self._correction(index, motion, walks, still=still and number == 1)
+                mine = self._correction(index, motion, laws, walks, still=still and number == 1)
                 word = f"sweep {number + 1}" if self.exact else f"correction {number}"
                 found += [Section(f"{word}: {s.title}", s.statements) for s in mine]
         # all at once, prediction too: what is bound early shows only where everything that is set is seen
         return [Section(title + s.title, s.statements) for s in self.split(found, finish)]
 
     def _correction(
-        self, index: int, motion: AffineMotion, walks: SpaceWalks, *, still: bool
+        self, index: int, motion: AffineMotion, laws: JointLaws, walks: SpaceWalks, *, still: bool
     ) -> list[Section]:
         """Return one correction; ``still`` where nothing was predicted of accelerations before it."""
         return [
@@ -142,7 +146,7 @@ class SpaceStep:
                     *self._given(index - 1),
                 ),
             ),
-            self._torques(index, walks, frozenset()),
+            self._torques(laws, index, walks, frozenset()),
             walks.outward(still=False),
             *loads_on_frames(self.layout, walks, index - 1),
             walks.inward(still=False) if self.exact else walks.again(),
@@ -162,51 +166,9 @@ class SpaceStep:
         """Take up what a sweep has found a base that floats to do."""
         return self.base.improve(gains_of(motion, self.layout.step), still=still) if self.base else []
 
-    def _impedances(self, motion: AffineMotion, walks: SpaceWalks) -> Section:
-        loop = Loop(
-            Order.OUTWARD,
-            0,
-            self.layout.stations,
-            (Assign(walks.array(IMPEDANCE).at(), self._impedance(motion)),),
-        )
-        return Section("impedances of the joints", () if self._impedance(motion) == 0 else (loop,))
-
-    def _impedance(self, motion: AffineMotion) -> sp.Expr:
-        """Return the torque of a joint's spring, damper and rotor per unknown."""
-        names = ("stiffness", "damping", "armature")
-        terms = (
-            self._gain(motion, kind) * self.layout.at(name, None)
-            for kind, name in zip(KINDS, names, strict=True)
-        )
-        return sp.Add(*terms)
-
-    @property
-    def _driven(self) -> list[ArmInput]:
-        return [item for item in self.layout.arm.inputs if item.acts == "torque"]
-
-    def _absent(self, motion: AffineMotion) -> frozenset[sp.Symbol]:
-        """Return what of the joints' own law is zero everywhere."""
-        impedance = {IMPEDANCE} if self._impedance(motion) == 0 else set()
-        lawless = not {"stiffness", "damping", "armature"} & self.layout.parameters.keys()
-        return frozenset(impedance | ({TORQUE} if lawless and not self._driven else set()))
-
-    def _torques(self, index: int, walks: SpaceWalks, still: frozenset[str]) -> Section:
-        """Return what springs, dampers, rotors and motors ask for."""
-        layout = self.layout
-        angle, rate, acceleration = (sp.Integer(0) if k in still else self._motion(k).at() for k in KINDS)
-        law = (
-            layout.at("stiffness", None) * (angle - layout.at("rest", None))
-            + layout.at("damping", None) * rate
-            + layout.at("armature", None) * acceleration
-        )
-        torque = walks.array(TORQUE)
-        statements: list[Statement] = [Loop(Order.OUTWARD, 0, layout.stations, (Assign(torque.at(), law),))]
-        for item in self._driven:
-            entry = torque.entry(item.joint - 1)
-            geared = layout.parameters.get(f"{item.name}_gear")
-            acting = layout.input(item.name, index - 1) * (geared.ref if geared else 1)
-            statements.append(Assign(entry, entry - acting))
-        return Section("torques of the joints' own", tuple(statements))
+    def _torques(self, laws: JointLaws, index: int, walks: SpaceWalks, still: frozenset[str]) -> Section:
+        moved = {k: sp.Integer(0) if k in still else self._motion(k).at() for k in KINDS}
+        return laws.torques(walks.array(TORQUE), moved, index - 1)
 
     def _given(self, instant: int) -> list[Statement]:
         """Set the motion of joints at an instant of the step, from 0, where it is given."""
