@@ -11,12 +11,14 @@ import pytest
 from tmm_gen.derive.integrators.registry import integrator
 from tmm_gen.native import compile_kernel
 from tmm_gen.program.space.assemble import SpaceChoices, build_in_space
-from tmm_gen.scene import load_scene
+from tmm_gen.scene import parse_scene
 from tmm_gen.scene.spatial.arm import ArmOutput
 
 pytestmark = pytest.mark.compiler
 
-SCENE = load_scene(Path(__file__).resolve().parents[2] / "examples" / "space" / "yaw3.toml")
+YAW3 = Path(__file__).resolve().parents[2] / "examples" / "space" / "yaw3.toml"
+# Beams of three cells are the shortest of which GCC 12 shows it (2e-3 rad off with -U__AVX512F__, which takes the guard out).
+SCENE = parse_scene(YAW3.read_text("utf-8").replace("links = 5", "links = 3"))
 
 
 def test_start_and_steps() -> None:

@@ -26,7 +26,9 @@ _ON_CIRCLE = mpmath.mpf(10) ** -30
 """Eigenvalues that exceed 1 by less are on the circle: rounding is at 1e-50, a true excess far above."""
 
 
-@lru_cache(maxsize=1024, typed=True)  # asked for every arm that has no damping, and twice for its fastest mode
+@lru_cache(
+    maxsize=1024, typed=True
+)  # asked for every arm that has no damping, and twice for its fastest mode
 def stability_limit(linear: Amplification, zeta: Number = 0) -> sp.Expr:
     """Return the largest ``Omega`` below which no motion grows, at a physical damping ratio.
 
@@ -108,7 +110,8 @@ def _boundaries(polynomial: sp.Poly) -> Iterator[sp.Expr]:
     on_circle = reciprocal_part(polynomial)
     rest = polynomial.exquo(on_circle)
     conditions = [polynomial.as_expr().subs(LAMBDA, 1), polynomial.as_expr().subs(LAMBDA, -1)]
-    conditions.append(sp.Poly(polynomial.as_expr(), LAMBDA).LC())
+    degree = polynomial.degree(LAMBDA)
+    conditions.append(sum(c * OMEGA**power for (k, power), c in polynomial.terms() if k == degree))
     if on_circle.degree(LAMBDA) > 1:
         for factor, _ in on_circle.sqf_list()[1]:
             if factor.degree(LAMBDA) > 1:
