@@ -92,6 +92,14 @@ def test_the_price_is_near_the_worst_loop_and_no_more_are_run_than_it_takes(benc
     assert 0.1 * both < objective(bench, ["pd"], 0.1 * both, aims) < both
 
 
+def test_turned_predictive_control_has_a_price(bench: Bench) -> None:
+    """The loops that `--tune mpc` runs: all its controllers, on numbers other than the scene's."""
+    tunable = BY_NAME["mpc"]
+    elsewhere = bench.retuned(turned(bench.scene, tunable, np.full(len(tunable.knobs), 0.4)))
+    here, there = (objective(tried, tunable.controllers, aims=AIMS[2:3]) for tried in (bench, elsewhere))
+    assert 0.0 < here < there < np.inf
+
+
 @pytest.mark.parametrize(("name", "evaluations"), [("pd", 60), ("mpc", 400)])
 def test_the_search_finds_the_valley_wherever_the_scene_stands(
     bench: Bench, name: str, evaluations: int

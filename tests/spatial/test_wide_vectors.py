@@ -17,7 +17,8 @@ from tmm_gen.scene.spatial.arm import ArmOutput
 pytestmark = pytest.mark.compiler
 
 YAW3 = Path(__file__).resolve().parents[2] / "examples" / "space" / "yaw3.toml"
-# Beams of three cells are the shortest of which GCC 12 shows it (2e-3 rad off with -U__AVX512F__, which takes the guard out).
+# Beams of three cells are the shortest by which GCC 12 shows it: 2e-3 rad off with -U__AVX512F__, which takes the
+# guard out of the kernel.
 SCENE = parse_scene(YAW3.read_text("utf-8").replace("links = 5", "links = 3"))
 
 
