@@ -69,7 +69,7 @@ def found() -> list[tuple[Path, int]]:
 
 
 def test_few_places_branch_on_a_kind_or_a_name() -> None:
-    assert len(found()) < 15, found()
+    assert len(found()) < 10, found()
 
 
 def test_questions_about_the_equations_do_not_multiply() -> None:

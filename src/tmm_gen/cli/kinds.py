@@ -30,6 +30,14 @@ SERVED: Mapping[str, tuple[str, ...]] = {
 }
 """Commands by the kinds that not all serve yet; where an option decides, it is part of the name: "export --to fmu"."""
 
+NOT_TO_START_WITH: Mapping[tuple[str, str], str] = {
+    ("--control", "chain"): "a chain has no motor to be controlled. Add --kind planar.",
+    ("--control", "spatial"): "arms in space are not controlled yet. Add --kind planar.",
+    ("--motors", "chain"): "a chain has no motors at its joints. Add --kind planar.",
+    ("--motors", "spatial"): "an arm in space starts with two. Leave it out, or add --kind planar.",
+}
+"""Why a new scene of a kind does not begin with what an option of `new` asks for."""
+
 
 def require_served(command: str, scene: Scene) -> Scene:
     """Return a scene that a command serves.

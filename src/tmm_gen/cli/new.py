@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from tmm_gen.cli.kinds import NOT_TO_START_WITH
 from tmm_gen.cli.outputs import write_outputs
 from tmm_gen.errors import UserError
 
@@ -47,19 +48,9 @@ def new(name: str, kind: Kind, out: Path, control: bool, motors: int | None, for
 
     if fault := scene_name_fault(name):
         raise UserError(f"NAME: {fault[0]} (got {show_value(name)}). {fault[1]}")
-    # nothing is loaded yet: the kind is the word that was typed
-    if control and kind != "planar":
-        raise UserError(
-            f"--control: a {kind} has no motor to be controlled. Add --kind planar."
-            if kind == "chain"  # the same word
-            else "--control: arms in space are not controlled yet. Add --kind planar."
-        )
-    if motors and kind != "planar":  # the same word
-        raise UserError(
-            f"--motors: a {kind} has no motors at its joints. Add --kind planar."
-            if kind == "chain"  # the same word
-            else "--motors: an arm in space starts with two. Leave it out, or add --kind planar."
-        )
+    for option, given in (("--control", control), ("--motors", motors)):
+        if given and (refusal := NOT_TO_START_WITH.get((option, kind))):
+            raise UserError(f"{option}: {refusal}")
     if motors and control:
         raise UserError(
             "--motors and --control exclude each other: `tmm-gen mpc` turns a hub. Remove one of the two."

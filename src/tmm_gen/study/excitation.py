@@ -137,8 +137,7 @@ def _output(scene: Scene, name: str | None) -> Output:
 
 def _farthest(scene: Scene, arm: SpatialArm) -> Output:
     """Return the place of the part that is farthest out, or the first output."""
-    # of what a scene reads, only places lie somewhere
-    places = [k for k, item in enumerate(arm.outputs) if item.of == "position"]
+    places = [k for k, item in enumerate(scene.outputs) if scene.quantity(item).unit == "m"]
     return scene.outputs[max(places, key=lambda k: _station(arm.outputs[k])) if places else 0]
 
 

@@ -10,6 +10,8 @@ from tmm_gen.urdf.placement import Place, Vector
 Kind = Literal["revolute", "continuous", "prismatic", "fixed", "floating", "planar"]
 KINDS: tuple[Kind, ...] = ("revolute", "continuous", "prismatic", "fixed", "floating", "planar")
 TURNING: tuple[Kind, ...] = ("revolute", "continuous")
+ONE_WAY: tuple[Kind, ...] = (*TURNING, "prismatic")
+"""Those that move in one way, so that one number says where they are."""
 
 
 @dataclass(frozen=True)

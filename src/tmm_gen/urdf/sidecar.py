@@ -14,7 +14,7 @@ from tmm_gen.urdf.cross_section import MEASURES, CrossSection, cross_section
 from tmm_gen.urdf.faults import Faults, UrdfError
 from tmm_gen.urdf.flexibility import Flexibility, JointGives, LinkGives
 from tmm_gen.urdf.keys import Keys
-from tmm_gen.urdf.robot import Robot
+from tmm_gen.urdf.robot import ONE_WAY, Robot
 
 OF_JOINTS = ("stiffness", "damping", "rotor_inertia", "gear", "lock")
 OF_LINKS = (
@@ -80,7 +80,7 @@ def _joint(keys: Keys, robot: Robot) -> JointGives:
     kind = robot.joints[str(keys.path[-1])].kind
     if "lock" in keys.values and (others := [key for key in keys.values if key != "lock"]):
         keys.fault("lock", f"leaves nothing for {', '.join(others)} to act on", "Leave out one or the other.")
-    elif "lock" in keys.values and kind in ("fixed", "floating", "planar"):  # kinds of joints in URDF
+    elif "lock" in keys.values and kind not in ONE_WAY:
         keys.fault("lock", f"is for joints of one way to move; this one is {kind}", "Leave it out.")
     elif "lock" not in keys.values and kind == "fixed":
         keys.fault("", "is a fixed joint, which does not turn", 'Make it type="revolute" in the URDF.')
