@@ -15,7 +15,7 @@ from tmm_gen.emit.c import emit_kernel
 from tmm_gen.emit.numpy import emit_numpy
 from tmm_gen.program.build import build_program
 from tmm_gen.scene import parse_scene
-from tmm_gen.scene.beam import Beam, Springs, beam_joints, beam_links, finite_segments, joint_stiffnesses
+from tmm_gen.scene.beam import Beam, Springs, beam_joints, beam_links, finite_segments
 from tmm_gen.scene.station import Link
 
 RULES: tuple[Springs, ...] = ("clamped-segment", "half-clamp", "uniform", "thesis")
@@ -38,11 +38,16 @@ def pieces(links: int, springs: Springs) -> Fraction:
     return links - Fraction(1, 2) if springs == "clamped-segment" else Fraction(links)
 
 
+def stiffnesses_of(made: Beam) -> tuple[float, ...]:
+    """Stiffnesses of a beam's joints, base to tip."""
+    return tuple(joint.stiffness for joint in beam_joints(made))
+
+
 def tip_deflection(made: Beam) -> float:
     """Static deflection of the tip under a unit force across it, small: each joint bends by moment over k."""
     links = beam_links(made)
     arms = [sum(link.length for link in links[i:]) for i in range(len(links))]
-    return sum(arm**2 / k for arm, k in zip(arms, joint_stiffnesses(made), strict=True))
+    return sum(arm**2 / k for arm, k in zip(arms, stiffnesses_of(made), strict=True))
 
 
 @pytest.mark.parametrize(
@@ -63,14 +68,14 @@ def tip_deflection(made: Beam) -> float:
 )
 def test_stiffnesses(springs: Springs, links: int, expected: list[Fraction]) -> None:
     unit = Fraction(3, 2) * pieces(links, springs)
-    assert joint_stiffnesses(beam(links, springs)) == pytest.approx([float(unit * k) for k in expected])
+    assert stiffnesses_of(beam(links, springs)) == pytest.approx([float(unit * k) for k in expected])
 
 
 @given(links=st.integers(1, 200), springs=st.sampled_from(RULES))
 def test_every_rule_gives_positive_springs_that_tend_to_the_continuous_ones(
     links: int, springs: Springs
 ) -> None:
-    stiffnesses = joint_stiffnesses(beam(links, springs))
+    stiffnesses = stiffnesses_of(beam(links, springs))
     assert len(stiffnesses) == links
     unit = float(3 * pieces(links, springs) / 2)
     assert all(0.5 * unit < k <= 2.0 * unit for k in stiffnesses)
@@ -88,7 +93,7 @@ def test_static_deflection_converges_to_the_continuous_beam(springs: Springs) ->
 @given(links=st.integers(1, 100))
 def test_segments_have_all_of_a_beams_flexibility_under_a_moment(links: int) -> None:
     """A torque on the tip turns it by M L/(E I), whatever the number of links."""
-    clamped = joint_stiffnesses(beam(links, "clamped-segment"))
+    clamped = stiffnesses_of(beam(links, "clamped-segment"))
     finite = [joint.stiffness for joint in finite_segments(beam(links))[0]]
     for stiffnesses in (clamped, finite):
         assert sum(1.0 / k for k in stiffnesses) == pytest.approx(2.0 / 3.0)

@@ -133,10 +133,10 @@ def _lowest(linear: Linear, springs: Resistance, turning: Array, count: int) -> 
             return squares, shapes
         number *= 2  # those that fall over fast are not among the slowest
         if 3 * number >= size:
-            return _all(linear, springs, turning, count)
+            return _all(linear, springs, turning)
 
 
-def _all(linear: Linear, springs: Resistance, turning: Array, count: int) -> tuple[Array, Array]:
+def _all(linear: Linear, springs: Resistance, turning: Array) -> tuple[Array, Array]:
     """Find all modes from dense matrices; those of the arm as a whole left out."""
     from scipy.linalg import cholesky, eigh, qr, svd  # slow to import
     from scipy.linalg.lapack import dgejsv

@@ -29,8 +29,6 @@ MOST_FRAMES = 250
 SHAPES = 12
 """Positions of the arm in a still picture."""
 
-FORMS = (".gif", ".html")
-
 
 def link_angles(simulation: Simulation) -> Array:
     """Return the traced angles of the links, (k + 1, n).

@@ -41,7 +41,7 @@ class BeamEntry(Uniform):
     links : int
         n, number of rigid links.
     springs : {"clamped-segment", "half-clamp", "uniform", "thesis"}
-        Where it is cut and how stiff the joints are, see :func:`joint_stiffnesses` and :func:`beam_links`.
+        Where it is cut and how stiff the joints are, see :func:`beam_joints` and :func:`beam_links`.
     damping_time : float
         Stiffness-proportional damping, s, not negative: the damping of a joint is this times its stiffness.
     """
@@ -99,8 +99,8 @@ def by_numbers(written: Uniform, links: int, springs: Springs, damping_time: flo
     )
 
 
-def joint_stiffnesses(beam: Beam) -> tuple[float, ...]:
-    """Return the torsional stiffness of each joint, base to tip.
+def beam_joints(beam: Beam) -> tuple[Joint, ...]:
+    """Return the joints of a beam, base to tip, length n.
 
     With pieces of length ``l`` and ``k = EI/l``, a spring between the middles of two pieces stands for a length ``l``
     of beam, hence ``k``; between clamp or hub and the middle of the first piece there is only ``l/2``, hence
@@ -113,22 +113,7 @@ def joint_stiffnesses(beam: Beam) -> tuple[float, ...]:
     - ``thesis``: ``8/9 k``, then ``(48 n - 72)/(42 n - 71) k``, then ``k`` (eqs. 2-1, 2-2), ``l = L/n``. A single
       link has the first spring only, so the second formula, negative over negative there, is never used at n = 1;
       from n = 2 on it is positive.
-
-    Parameters
-    ----------
-    beam : Beam
-        The beam.
-
-    Returns
-    -------
-    tuple of float, length n
-        N m/rad.
     """
-    return tuple(map(nearest, _exact_stiffnesses(beam)))
-
-
-def beam_joints(beam: Beam) -> tuple[Joint, ...]:
-    """Return the joints of a beam, base to tip, length n; see :func:`joint_stiffnesses`."""
     return _joints(beam, _exact_stiffnesses(beam))
 
 

@@ -43,8 +43,8 @@ def report(study: Study) -> str:
         figures=_figures(study),
         levels=[f"{each.level:g}" for each in found],
         race=_race(found),
-        front=[_row(study, point) for point in study.front()],
-        points=[_row(study, point) for point in study.points],
+        front=[_row(point) for point in study.front()],
+        points=[_row(point) for point in study.points],
         modelling=sorted(study.modelling.values(), key=lambda each: each.links),
         outcomes=[(each.value, study.count(each)) for each in Outcome if study.count(each)],
         failures=_failures(study),
@@ -96,7 +96,7 @@ def _race(found: tuple[Finding, ...]) -> list[dict[str, Any]]:
     return rows
 
 
-def _row(study: Study, point: Point) -> dict[str, str]:
+def _row(point: Point) -> dict[str, str]:
     result = point.result
     return {
         "label": point.configuration.family.label,

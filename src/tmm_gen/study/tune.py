@@ -174,7 +174,7 @@ def _search(
     for family in families(scene, axes):
         advance(1, family.label)
         left = bound - modelling.get(family.links or 0, 0.0)
-        shortest = _operations(family, scene, run, excitation) / (_DEARER * least)
+        shortest = _operations(family, scene, excitation) / (_DEARER * least)
         found = longest_step(family, left, excitation.until, run, shortest)
         if found is None:
             continue
@@ -184,9 +184,7 @@ def _search(
     return searched
 
 
-def _operations(
-    family: Family, scene: Scene, run: Callable[[Configuration], Result], excitation: Excitation
-) -> float:
+def _operations(family: Family, scene: Scene, excitation: Excitation) -> float:
     """Return the operations of a step of a family; none where it is refused."""
     from tmm_gen.study.evaluate import family_scene
     from tmm_gen.study.kernels import build

@@ -13,7 +13,6 @@ import sympy as sp
 
 from tmm_gen.derive.space.declaration import (
     ACCEL,
-    ACCELERATION,
     ALPHA,
     ANGLE,
     OMEGA,
@@ -71,17 +70,6 @@ class BodyEquations:
     spin: sp.Matrix
     force: sp.Matrix
     moment: sp.Matrix
-
-
-def time_derivative(value: sp.Matrix) -> sp.Matrix:
-    """Return the derivative of components by time, where motion goes on by the section's accelerations."""
-    rates = {
-        ANGLE: RATE,
-        RATE: ACCELERATION,
-        **dict(zip(OMEGA, ALPHA, strict=True)),
-        **dict(zip(VELOCITY, ACCEL - OMEGA.cross(VELOCITY), strict=True)),
-    }
-    return sum((value.diff(symbol) * rate for symbol, rate in rates.items()), sp.zeros(*value.shape))
 
 
 def passage_equations(passage: Passage) -> PassageEquations:

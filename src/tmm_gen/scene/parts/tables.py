@@ -8,6 +8,7 @@ from pydantic import AfterValidator, BeforeValidator, Field, PlainValidator
 
 from tmm_gen.scene.beam import Springs
 from tmm_gen.scene.identifier import Name
+from tmm_gen.scene.parts.fields import BeamDamping, Gear, Mass, OutputDamping, Rest, RotorInertia
 from tmm_gen.scene.section import Uniform
 from tmm_gen.scene.signal import FileInput, FileOutput
 from tmm_gen.scene.table import STATION_LIMIT, Finite, Fraction, NonNegative, Positive, Table, fault
@@ -82,17 +83,9 @@ class MotorPart(Part):
         Damping of the gear's spring over its stiffness, s.
     """
 
-    rotor_inertia: NonNegative = Field(
-        default=0.0,
-        description="inertia of the rotor in kg m^2; gear^2 times it acts along the joint",
-        examples=["2e-5"],
-    )
-    gear: Positive = Field(
-        default=1.0, description="turns of the motor per turn of the joint", examples=["100"]
-    )
-    damping: NonNegative = Field(
-        default=0.0, description="damping at the output in N m s/rad", examples=["0.02"]
-    )
+    rotor_inertia: RotorInertia = 0.0
+    gear: Gear = 1.0
+    damping: OutputDamping = 0.0
     stiffness: Positive | None = Field(
         default=None,
         description="stiffness of the gear at the output in N m/rad",
@@ -122,9 +115,7 @@ class JointPart(Part):
         default=0.0, description="torsional stiffness in N m/rad; 0 is a free hinge", examples=["12.0"]
     )
     damping: NonNegative = Field(default=0.0, description="torsional damping in N m s/rad", examples=["0.5"])
-    rest: Annotated[float, Field(strict=True, allow_inf_nan=False)] = Field(
-        default=0.0, description="angle in rad at which the spring is slack", examples=["0.1"]
-    )
+    rest: Rest = 0.0
 
 
 class BeamPart(Uniform, Part):
@@ -139,9 +130,7 @@ class BeamPart(Uniform, Part):
         examples=['"finite-segment"'],
         json_schema_extra={"absent": "finite-segment on a motor or joint, clamped-segment elsewhere"},
     )
-    damping_time: NonNegative = Field(
-        default=0.0, description="damping of a spring over its stiffness in s", examples=["0.002"]
-    )
+    damping_time: BeamDamping = 0.0
 
 
 class LinkPart(Part):
@@ -166,7 +155,7 @@ class BodyPart(Part):
         examples=['"upper"'],
         json_schema_extra={"absent": "the only one"},
     )
-    mass: NonNegative = Field(default=0.0, description="mass in kg", examples=["0.3"])
+    mass: Mass = 0.0
     inertia: NonNegative = Field(
         default=0.0, description="moment of inertia about its own centre in kg m^2", examples=["0.001"]
     )

@@ -6,6 +6,7 @@ from typing import Annotated
 
 from pydantic import Field
 
+from tmm_gen.scene.parts.fields import BeamDamping, Gear, Mass, OutputDamping, Rest, RotorInertia
 from tmm_gen.scene.parts.tables import Part
 from tmm_gen.scene.section import Uniform
 from tmm_gen.scene.spatial.arm import ZERO, Vector
@@ -54,9 +55,7 @@ class TurningPart(SpatialPart):
     axis: AxisVector = Field(
         description='what it turns about, in its own frame: "x", "y", "z" or a vector', examples=['"z"']
     )
-    damping: NonNegative = Field(
-        default=0.0, description="damping at the output in N m s/rad", examples=["0.02"]
-    )
+    damping: OutputDamping = 0.0
     limits: Limits | None = Field(
         default=None,
         description="lowest and highest angle in rad, for control: no stops are simulated",
@@ -78,14 +77,8 @@ class SpatialMotor(TurningPart):
         Of an elastic gear; refused in words of their own.
     """
 
-    rotor_inertia: NonNegative = Field(
-        default=0.0,
-        description="inertia of the rotor in kg m^2; gear^2 times it acts along the joint",
-        examples=["2e-5"],
-    )
-    gear: Positive = Field(
-        default=1.0, description="turns of the motor per turn of the joint", examples=["100"]
-    )
+    rotor_inertia: RotorInertia = 0.0
+    gear: Gear = 1.0
     stiffness: Finite | None = Field(default=None, json_schema_extra={"hidden": True})
     motor_damping: Finite | None = Field(default=None, json_schema_extra={"hidden": True})
     damping_time: Finite | None = Field(default=None, json_schema_extra={"hidden": True})
@@ -105,9 +98,7 @@ class SpatialJoint(TurningPart):
     stiffness: NonNegative = Field(
         default=0.0, description="torsional stiffness in N m/rad; 0 is a free hinge", examples=["4000.0"]
     )
-    rest: Annotated[float, Field(strict=True, allow_inf_nan=False)] = Field(
-        default=0.0, description="angle in rad at which the spring is slack", examples=["0.1"]
-    )
+    rest: Rest = 0.0
 
 
 class SpatialBeam(Uniform, SpatialPart):
@@ -148,9 +139,7 @@ class SpatialBeam(Uniform, SpatialPart):
     links: Annotated[int, Field(strict=True, ge=1, le=STATION_LIMIT)] = Field(
         description="number of cells", examples=["5"]
     )
-    damping_time: NonNegative = Field(
-        default=0.0, description="damping of a spring over its stiffness in s", examples=["0.002"]
-    )
+    damping_time: BeamDamping = 0.0
 
 
 class RigidPart(SpatialPart):
@@ -166,7 +155,7 @@ class RigidPart(SpatialPart):
         About the centre of mass, in the part's axes: xx, yy, zz and maybe xy, xz, yz of the matrix, kg m^2.
     """
 
-    mass: NonNegative = Field(default=0.0, description="mass in kg", examples=["0.3"])
+    mass: Mass = 0.0
     center: Place | None = Field(
         default=None,
         description="centre of mass in its own frame in m",

@@ -6,42 +6,20 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
-from tmm_gen.scene.parts.order import BASE
+from tmm_gen.scene.parts.order import BASE, Entry
 from tmm_gen.scene.spatial.tables import SpatialBeam, SpatialPart, TurningPart
 
 
 @dataclass(frozen=True)
-class Hung:
-    """A part, and where the file has it.
+class Hung(Entry):
+    """A part in space, and where the file has it."""
 
-    Parameters
-    ----------
-    table : str
-        Name of its table.
-    index : int
-        Among those of that table, from 0.
-    part : SpatialPart
-        What it says.
-    """
-
-    table: str
-    index: int
     part: SpatialPart
-
-    @property
-    def name(self) -> str:
-        """Its name."""
-        return self.part.name
 
     @property
     def on(self) -> str:
         """What it hangs on: a part's name, or the base."""
         return self.part.on if self.part.on is not None else BASE
-
-    @property
-    def path(self) -> tuple[str | int, ...]:
-        """Where it stands in the file."""
-        return (self.table, self.index)
 
     @property
     def turns(self) -> bool:
@@ -52,11 +30,6 @@ class Hung:
     def moves(self) -> bool:
         """Whether what hangs on it moves against what it hangs on."""
         return isinstance(self.part, TurningPart | SpatialBeam)
-
-    @property
-    def words(self) -> str:
-        """How to call it in a sentence."""
-        return f"[[{self.table}]] '{self.name}'"
 
 
 @dataclass(frozen=True)
