@@ -75,7 +75,8 @@ def _sorted(linear: Linear, springs: Resistance, turning: Array, sought: int, fe
     """Return the lowest modes, those of the arm as a whole at their place."""
     squares, shapes = np.zeros(0), np.zeros((linear.parts.size, 0))
     if sought > 0:
-        squares, shapes = (_lowest if few else _all)(linear, springs, turning, sought)
+        arm = (linear, springs, turning)
+        squares, shapes = _lowest(*arm, sought) if few else _all(*arm)
         order = np.argsort(squares)[:sought]
         squares, shapes = squares[order], shapes[:, order]
     place = int(np.sum(squares < 0.0))
