@@ -18,7 +18,8 @@ from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
-from extremes_of_arms.arms import Extreme, Verdict, judge
+from extremes_of_arms.arms import Extreme, judge
+from extremes_of_arms.verdict import Verdict
 
 from tmm_gen.cli.console import Column, progress, table
 from tmm_gen.csv_text import csv_text

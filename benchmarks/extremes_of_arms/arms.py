@@ -8,18 +8,18 @@ order explains; beyond the reach of that reference (many links), the energies ba
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any
 
 import numpy as np
 from extremes_of_arms.limit import OutOfTime, limit
+from extremes_of_arms.shared_kernel import SharedKernel, kernel_of
+from extremes_of_arms.verdict import Verdict, checkpoints, honest, off
 
 from tmm_gen.derive.integrators.registry import integrator
 from tmm_gen.errors import CheckFailed, UserError
-from tmm_gen.native import NativeKernel, compile_kernel
-from tmm_gen.program.build import build_program
+from tmm_gen.native import NativeKernel
 from tmm_gen.reference.planar_reference import planar_response
 from tmm_gen.row.scene import row_of
 from tmm_gen.scene import Scene, SceneError, parse_scene
@@ -169,49 +169,6 @@ class Extreme:
         return min(0.5, _SHARE * turn**2 / 12.0 * passed + 1e-6)
 
 
-@dataclass(frozen=True)
-class Verdict:
-    """What became of an extreme.
-
-    Parameters
-    ----------
-    status : str
-        "right", "right by energies" (the reference takes too long), "refused", "out of time" or "wrong".
-    error : float
-        Share of the largest motion, or of the energy that moves; zero where refused.
-    bound : float
-        What the integrator's order explains of it.
-    accuracy, sensitivity, sweeps : float
-        What the run says of its error, and how; zero where refused.
-    unsolved, step_error, imbalance : float
-        What the sweeps left of the equations, what the step leaves by itself (:mod:`tmm_gen.simulate.tolerance`), and
-        of the balance of energies; zero where refused.
-    substeps : int
-        Per step.
-    said : str
-        The refusal, or what was compared.
-    """
-
-    status: str
-    error: float = 0.0
-    bound: float = 0.0
-    accuracy: float = 0.0
-    sensitivity: float = 0.0
-    sweeps: float = 0.0
-    unsolved: float = 0.0
-    step_error: float = 0.0
-    imbalance: float = 0.0
-    substeps: int = 0
-    said: str = ""
-
-
-SAYS = 5.0
-"""How many times larger than a run says its error may be; mostly it is what it says."""
-
-LEAST = 1e-6
-"""Share of the motion below which nothing is promised."""
-
-
 def judge(
     extreme: Extreme, *, refuse: bool = True, substeps: bool = True, seconds: float = math.inf
 ) -> Verdict:
@@ -232,7 +189,7 @@ def judge(
     try:
         scene = extreme.scene()
         until = extreme.steps * scene.integrator.step
-        kernel = _With(
+        kernel: Any = _shared(
             _kernel(replace(extreme, **_SAME, revolutions=float(extreme.revolutions > 0.0))), scene
         )
         with limit(seconds):
@@ -244,7 +201,7 @@ def judge(
     except (UserError, SceneError, CheckFailed) as refusal:
         return Verdict("refused", said=str(refusal))
     assert run.accuracy is not None
-    balanced = (run.imbalance or 0.0) <= SAYS * run.accuracy.error + LEAST
+    balanced = honest(run.imbalance or 0.0, run)
     error = None
     if extreme.links <= MOST_LINKS:
         error = _in_time(run, seconds)
@@ -255,9 +212,8 @@ def judge(
     right, said = "right", "follows Lagrange's equations"
     if error is None:
         right, said, error = "right by energies", "energies balance", run.imbalance or 0.0
-    honest = error <= SAYS * run.accuracy.error + LEAST
     return Verdict(
-        right if honest else "wrong",
+        right if honest(error, run) else "wrong",
         error,
         extreme.bound,
         run.accuracy.error,
@@ -283,36 +239,22 @@ _SAME: dict[str, Any] = {
 
 @cache
 def _kernel(kind: Extreme) -> NativeKernel:
-    scene = kind.scene()
-    return compile_kernel(build_program(scene, auto=scene.model.auto), scene)
+    return kernel_of(kind.scene())
 
 
-class _With:
-    """A kernel that other arms share, with the parameters and the start of one."""
-
-    def __init__(self, kernel: NativeKernel, scene: Scene) -> None:
-        self._kernel = kernel
-        row = row_of(scene, integrator(scene.integrator.name))
-        known = {variable.name: variable for variable in kernel.program.parameters}
-        self._values: dict[str, Any] = {
-            p.name: p.values if known[p.name].length else p.values[0]
-            for p in row.parameters
-            if p.name in known
-        }
-        self._values["tip_mass"] = scene.tip.mass if scene.tip else 0.0
-        self._start = {
-            "initial_angle": np.array(scene.initial.angles),
-            "initial_rate": np.array(scene.initial.rates),
-        }
-
-    def prepare(self, parameters: Mapping[str, float], step: float) -> None:
-        self._kernel.prepare({**self._values, **parameters}, step)
-
-    def initialise(self, inputs: Mapping[str, float], **start: Any) -> None:
-        self._kernel.initialise(inputs, **{**self._start, **start})
-
-    def __getattr__(self, name: str) -> Any:
-        return getattr(self._kernel, name)
+def _shared(kernel: NativeKernel, scene: Scene) -> SharedKernel:
+    """Return a kernel with the parameters and the start of one arm."""
+    row = row_of(scene, integrator(scene.integrator.name))
+    known = {variable.name: variable for variable in kernel.program.parameters}
+    values: dict[str, Any] = {
+        p.name: p.values if known[p.name].length else p.values[0] for p in row.parameters if p.name in known
+    }
+    values["tip_mass"] = scene.tip.mass if scene.tip else 0.0
+    start = {
+        "initial_angle": np.array(scene.initial.angles),
+        "initial_rate": np.array(scene.initial.rates),
+    }
+    return SharedKernel(kernel, values, start)
 
 
 def _in_time(run: Simulation, seconds: float) -> float | None:
@@ -326,9 +268,5 @@ def _in_time(run: Simulation, seconds: float) -> float | None:
 
 def _off(run: Simulation) -> float:
     """Return how far the tip is from where Lagrange's equations have it, as a share of how far it goes."""
-    shown = np.unique(np.round(np.linspace(0, run.steps, _CHECKPOINTS + 1)).astype(int))
-    exact = planar_response(run.scene, {}, run.time[shown], 1e-10)
-    off = np.hypot(*(run.outputs[name][shown] - exact[name] for name in exact))
-    moved = np.hypot(*(values - values[0] for values in exact.values()))
-    # motion below rounding of the length is none
-    return float(np.max(off) / max(np.max(moved), 1e-7))
+    shown = checkpoints(run, _CHECKPOINTS)
+    return off(run, planar_response(run.scene, {}, run.time[shown], 1e-10), shown)

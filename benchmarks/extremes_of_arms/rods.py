@@ -14,15 +14,15 @@ from functools import cache
 from typing import Any
 
 import numpy as np
-from extremes_of_arms.arms import LEAST, SAYS, Verdict
 from extremes_of_arms.limit import OutOfTime, limit
+from extremes_of_arms.shared_kernel import SharedKernel, kernel_of
+from extremes_of_arms.verdict import Verdict, checkpoints, honest, off
 
 from tmm_gen.derive.integrators.registry import integrator
 from tmm_gen.errors import CheckFailed, UserError
-from tmm_gen.native import NativeKernel, compile_kernel
-from tmm_gen.program.arm.auto import LEAST_TURN
-from tmm_gen.program.build import build_program
+from tmm_gen.native import NativeKernel
 from tmm_gen.program.space.layout import layout_of
+from tmm_gen.program.sweeps import LEAST_TURN
 from tmm_gen.reference.spatial_reference import spatial_response
 from tmm_gen.scene import Scene, SceneError, parse_scene
 from tmm_gen.simulate.run import simulate
@@ -190,9 +190,9 @@ def judge(rod: Rod, seconds: float = math.inf) -> Verdict:
                 wanted = _finer(rod, run)
         except (OutOfTime, UserError, CheckFailed):
             return Verdict("out of time", accuracy=run.accuracy.error)
-    error = _off(run, wanted)
+    error = off(run, wanted, checkpoints(run, _CHECKPOINTS))
     return Verdict(
-        right if error <= SAYS * run.accuracy.error + LEAST else "wrong",
+        right if honest(error, run) else "wrong",
         error,
         accuracy=run.accuracy.error,
         sensitivity=run.accuracy.sensitivity or 0.0,
@@ -205,7 +205,7 @@ def judge(rod: Rod, seconds: float = math.inf) -> Verdict:
 def _run(rod: Rod, *, refuse: bool = True, steps: int | None = None) -> Simulation:
     scene = rod.scene()
     kind = replace(rod, **_SAME, revolutions=float(rod.revolutions > 0.0))
-    kernel: Any = _With(_kernel(kind), scene)
+    kernel: Any = _shared(_kernel(kind), scene)
     until = (steps or rod.steps) * scene.integrator.step
     return simulate(scene, {}, until, "c", kernel=kernel, refuse=refuse, judge=refuse, substeps=refuse)
 
@@ -224,43 +224,27 @@ _SAME: dict[str, Any] = {
 
 @cache
 def _kernel(kind: Rod) -> NativeKernel:
-    scene = kind.scene()
-    return compile_kernel(build_program(scene, auto=scene.model.auto), scene)
+    return kernel_of(kind.scene())
 
 
-class _With:
-    """A kernel that other rods share, with the parameters and the start of one."""
-
-    def __init__(self, kernel: NativeKernel, scene: Scene) -> None:
-        self._kernel = kernel
-        arm, rule = scene.spatial, integrator(scene.integrator.name)
-        assert arm is not None
-        own = layout_of(arm, scene.name, "", rule, scene.integrator.step).parameters
-        kind = {v.name: v.length for v in kernel.program.parameters}
-        lengths = {name: length for name, length in kind.items() if name != LEAST_TURN.name}
-        self._values: dict[str, Any] = {}
-        for name, length in lengths.items():
-            value = np.array(own[name].default if name in own else 0.0, float)
-            self._values[name] = value if length is None else np.broadcast_to(value, length).copy()
-        lacking = set(own) - set(lengths)
-        assert not lacking, f"the shared kernel has no {lacking}"
-        self._start = {
-            "initial_angle": np.array([joint.angle for joint in arm.joints]),
-            "initial_rate": np.array([joint.rate for joint in arm.joints]),
-        }
-
-    def prepare(self, parameters: dict[str, float], step: float) -> None:
-        self._kernel.prepare({**self._values, **parameters}, step)
-
-    def initialise(self, inputs: dict[str, float], **start: Any) -> None:
-        self._kernel.initialise(inputs, **{**self._start, **start})
-
-    def __getattr__(self, name: str) -> Any:
-        return getattr(self._kernel, name)
-
-
-def _shown(run: Simulation) -> np.ndarray:
-    return np.unique(np.round(np.linspace(0, run.steps, _CHECKPOINTS + 1)).astype(int))
+def _shared(kernel: NativeKernel, scene: Scene) -> SharedKernel:
+    """Return a kernel with the parameters and the start of one rod."""
+    arm, rule = scene.spatial, integrator(scene.integrator.name)
+    assert arm is not None
+    own = layout_of(arm, scene.name, "", rule, scene.integrator.step).parameters
+    kind = {v.name: v.length for v in kernel.program.parameters}
+    lengths = {name: length for name, length in kind.items() if name != LEAST_TURN.name}
+    values: dict[str, Any] = {}
+    for name, length in lengths.items():
+        value = np.array(own[name].default if name in own else 0.0, float)
+        values[name] = value if length is None else np.broadcast_to(value, length).copy()
+    lacking = set(own) - set(lengths)
+    assert not lacking, f"the shared kernel has no {lacking}"
+    start = {
+        "initial_angle": np.array([joint.angle for joint in arm.joints]),
+        "initial_rate": np.array([joint.rate for joint in arm.joints]),
+    }
+    return SharedKernel(kernel, values, start)
 
 
 def _in_time(run: Simulation, rod: Rod, seconds: float) -> dict[str, np.ndarray] | None:
@@ -271,7 +255,7 @@ def _in_time(run: Simulation, rod: Rod, seconds: float) -> dict[str, np.ndarray]
     assert arm is not None
     try:
         with limit(seconds):
-            return spatial_response(arm, {}, run.time[_shown(run)], 1e-10)
+            return spatial_response(arm, {}, run.time[checkpoints(run, _CHECKPOINTS)], 1e-10)
     except OutOfTime:
         return None
 
@@ -282,13 +266,4 @@ def _finer(rod: Rod, run: Simulation) -> dict[str, np.ndarray]:
     fine = _run(
         replace(rod, step=rod.step / count, integrator="sdirk4"), refuse=False, steps=run.steps * count
     )
-    return {name: values[::count][_shown(run)] for name, values in fine.outputs.items()}
-
-
-def _off(run: Simulation, wanted: dict[str, np.ndarray]) -> float:
-    """Return how far the payload is from where it should be, as a share of how far it goes."""
-    shown = _shown(run)
-    off = np.linalg.norm([run.outputs[name][shown] - wanted[name] for name in wanted], axis=0)
-    moved = np.linalg.norm([values - values[0] for values in wanted.values()], axis=0)
-    # motion below rounding of the length is none
-    return float(np.max(off) / max(np.max(moved), 1e-7))
+    return {name: values[::count][checkpoints(run, _CHECKPOINTS)] for name, values in fine.outputs.items()}

@@ -6,7 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from extremes_of_arms.arms import MOST_LINKS, SAYS, Extreme, judge
+from extremes_of_arms.arms import MOST_LINKS, Extreme, judge
+from extremes_of_arms.verdict import SAYS
 
 pytestmark = pytest.mark.compiler
 

@@ -9,7 +9,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from extremes_of_arms.arms import SAYS, Extreme, judge
+from extremes_of_arms.arms import Extreme, judge
+from extremes_of_arms.verdict import SAYS
 
 from tmm_gen.cli import main
 from tmm_gen.errors import UserError
