@@ -7,6 +7,7 @@ from typing import Literal
 
 from tmm_gen.scene.parts.order import BASE
 from tmm_gen.scene.problem import Finding, Path
+from tmm_gen.scene.rules.inputs import prescribed_motion
 from tmm_gen.scene.spatial.arm import ArmInput, ArmOutput
 from tmm_gen.scene.spatial.document import SpatialDocument
 from tmm_gen.scene.spatial.signals import OF_ARM, OF_FRAMES, OF_JOINTS
@@ -54,28 +55,7 @@ def inputs_possible(document: SpatialDocument) -> Iterator[Finding]:
             )
         elif hung and not document.base.moves and document.tree.mover(hung) is None:
             yield _fixed(document, (*path, "at"), hung)
-    yield from _angle_given(document)
-
-
-def _angle_given(document: SpatialDocument) -> Iterator[Finding]:
-    """Find a prescribed base without its angle, or with two."""
-    if document.base.kind != "prescribed":
-        return
-    angles = [index for index, item in enumerate(document.input) if item.acts == "angle" and item.at == BASE]
-    if not angles:
-        yield Finding(
-            ("base", "kind"),
-            "needs an input that prescribes the angle",
-            'Add [[input]] with `name = "base_angle"`, `at = "base"`, `acts = "angle"`.',
-            document.base.kind,
-        )
-    for index in angles[1:]:
-        yield Finding(
-            ("input", index, "acts"),
-            f"prescribes the angle of the base a second time, after '{document.input[angles[0]].name}'",
-            "Remove one of them.",
-            "angle",
-        )
+    yield from prescribed_motion(document)
 
 
 def outputs_possible(document: SpatialDocument) -> Iterator[Finding]:
