@@ -52,6 +52,25 @@ class Linear:
     begun: Array
 
 
+@dataclass(frozen=True, eq=False)
+class _Referred:
+    """A chain as its base's shaft sees it: hub and links, (m,), joints, (n,), loads of inputs, (m, inputs)."""
+
+    inertia: Array
+    stiffness: Array
+    damping: Array
+    hub_damping: float
+    load: Array
+    base: Array
+    angle: Array
+    rate: Array
+
+    @property
+    def hub(self) -> int:
+        """1 where it stands on a hub, else 0."""
+        return len(self.inertia) - len(self.stiffness)
+
+
 def linear_chain(scene: Scene) -> Linear:
     """Return a chain in coordinates whose squares are energies, or in its slowest modes.
 
@@ -77,33 +96,22 @@ def linear_chain(scene: Scene) -> Linear:
         turns * np.array([0.0] * hub + list(scene.initial.angles)),
         turns * np.array([0.0] * hub + list(scene.initial.rates)),
     )
-    if n + hub <= DENSE or scene.hosts:
-        found = _whole(inertia, stiffness, damping, scene.base.damping, load, base, *start, twists(scene))
-    else:
-        found = _modal(inertia, stiffness, damping, scene.base.damping, load, base, *start)
+    chain = _Referred(inertia, stiffness, damping, scene.base.damping, load, base, *start)
+    found = _whole(chain, twists(scene)) if n + hub <= DENSE or scene.hosts else _modal(chain)
     return replace(found, angles=found.angles / turns[:, None], through=found.through / turns[:, None])
 
 
-def _whole(
-    inertia: Array,
-    stiffness: Array,
-    damping: Array,
-    hub_damping: float,
-    load: Array,
-    base: Array,
-    angle: Array,
-    rate: Array,
-    bend: Array,
-) -> Linear:
+def _whole(chain: _Referred, bend: Array) -> Linear:
     """Return one block: bends of the joints, rates, and the angle of a hub, scaled to roots of energies."""
+    inertia, stiffness, damping = chain.inertia, chain.stiffness, chain.damping
+    load, base, hub = chain.load, chain.base, chain.hub
     m, n = len(inertia), len(stiffness)
-    hub = m - n
     root, scale = np.sqrt(inertia), np.where(stiffness > 0.0, np.sqrt(stiffness), 1.0)
     held = bend.sum(axis=1)[:, None] * base  # of joints on a base that is no coordinate
     spread = bend / root  # from scaled rates to rates of bending
     ground = np.zeros((m, m))
     if hub:
-        ground[0, 0] = hub_damping / inertia[0]
+        ground[0, 0] = chain.hub_damping / inertia[0]
     size = n + m + hub
     system = np.zeros((size, size))
     rates = slice(n, n + m)
@@ -120,28 +128,19 @@ def _whole(
     read[hub:, :n] = np.linalg.inv(bend[:, hub:]) / scale
     if hub:
         read[:, -1] = 1.0
-    first = np.concatenate([scale * (bend @ angle), root * rate, angle[:hub]])
+    first = np.concatenate([scale * (bend @ chain.angle), root * chain.rate, chain.angle[:hub]])
     begun = np.zeros_like(push)
     begun[:n] = -scale[:, None] * held
     through = np.outer(np.ones(m), base)
     return Linear(system[None], push[None], push_rate[None], read[None], through, first[None], begun[None])
 
 
-def _modal(
-    inertia: Array,
-    stiffness: Array,
-    damping: Array,
-    hub_damping: float,
-    load: Array,
-    base: Array,
-    angle: Array,
-    rate: Array,
-) -> Linear:
+def _modal(chain: _Referred) -> Linear:
     """Return the slowest modes, a block each."""
     from scipy.linalg import eigh_tridiagonal
 
-    m, n = len(inertia), len(stiffness)
-    hub = m - n
+    inertia, stiffness, damping = chain.inertia, chain.stiffness, chain.damping
+    load, base, hub, m = chain.load, chain.base, chain.hub, len(inertia)
     root = np.sqrt(inertia)
     squares, shapes = eigh_tridiagonal(
         *_tridiagonal(stiffness, inertia, hub), select="i", select_range=(0, MODES - 1)
@@ -152,7 +151,7 @@ def _modal(
     bends = np.diff(shapes / root[:, None], axis=0, prepend=np.zeros((1 - hub, MODES)))
     damped = np.sum(damping[:, None] * bends**2, axis=0)
     if hub:
-        damped += hub_damping * (shapes[0] / root[0]) ** 2
+        damped += chain.hub_damping * (shapes[0] / root[0]) ** 2
     system = np.zeros((MODES, 2, 2))
     system[:, 0, 1], system[:, 1, 0], system[:, 1, 1] = 1.0, -squares, -damped
     pulled = shapes.T @ (load / root[:, None])
@@ -162,7 +161,7 @@ def _modal(
     push_rate[:, 1] = damping[0] * prescribed
     read = np.zeros((MODES, m, 2))
     read[:, :, 0] = (shapes / root[:, None]).T
-    start = np.stack([shapes.T @ (root * angle), shapes.T @ (root * rate)], axis=1)
+    start = np.stack([shapes.T @ (root * chain.angle), shapes.T @ (root * chain.rate)], axis=1)
     return Linear(system, push, push_rate, read, np.zeros((m, len(base))), start, np.zeros_like(push))
 
 
