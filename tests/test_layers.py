@@ -32,7 +32,7 @@ LAYERS = (
     {"control", "export", "calibration"},
     {"onboard"},
     {"closed_loop"},
-    {"report"},
+    {"report", "playground"},
     {"cli"},
     {"__main__"},
 )

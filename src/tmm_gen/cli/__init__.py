@@ -56,6 +56,9 @@ COMMANDS = {
     "explain": LazyCommand(
         "tmm_gen.cli.explain:explain", "Show what a scene models, what it leaves out, and what that saves."
     ),
+    "playground": LazyCommand(
+        "tmm_gen.cli.playground:playground", "Write a page on which to play with a scene, without a server."
+    ),
     "export": LazyCommand("tmm_gen.cli.export:export", "Write a scene for FMI, MuJoCo or URDF."),
     "errata": LazyCommand("tmm_gen.cli.errata:errata", "Compare the thesis's coefficients with the derived."),
     "calibrate": LazyCommand("tmm_gen.cli.calibrate:calibrate", "Fit a scene to a recorded response."),

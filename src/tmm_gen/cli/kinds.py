@@ -23,6 +23,7 @@ SERVED: Mapping[str, tuple[str, ...]] = {
         "stability",
         "trade",
         "tune",
+        "playground",
         "export --to fmu",
         "export --to mjcf",
         "export --to urdf",
