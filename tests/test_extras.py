@@ -32,6 +32,7 @@ COMMANDS = [
     ("study", "distributed", [*STUDY, "--rounds", "0", "--scheduler", "tcp://127.0.0.1:9"]),
     ("fmu", "fmpy", ["export", str(SCENES / "thesis2.toml"), "--to", "fmu"]),
     ("fmu", "fmpy", ["export", SWING, "--to", "fmu", "--fmi", "3"]),
+    ("playground", "ziglang", ["playground", SWING]),
     ("mpc", "daqp", ["mpc", SWING]),
     ("mpc", "daqp", ["mpc", SWING, "--compiled", "--plot"]),
     *(("mpc", "daqp", ["mpc", SWING, "--controller", "pd", "--controller", name]) for name in EMITTED),

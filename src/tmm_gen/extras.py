@@ -15,7 +15,7 @@ _EXTRAS = {
     "fmu": ("fmpy", "FMPy", ("fmpy",)),
     "mpc": ("daqp", "DAQP", ("cma", "daqp")),
     "jax": ("jax", "JAX", ("jax>=0.10",)),
-    "playground": ("ziglang", "Zig's C compiler", ("ziglang>=0.13",)),
+    "playground": ("ziglang", "Zig", ("ziglang>=0.13",)),
     "cuda": ("nvidia.cuda_nvrtc", "NVRTC", ("nvidia-cuda-nvrtc-cu12>=12.4",)),
 }
 """By extra: a module of it, its name in words, and its packages where tmm-gen's own metadata is not at hand."""

@@ -15,6 +15,12 @@ function decades(values) {
   return [low, Math.max(high, low + 1)];
 }
 
+function pleasant(size) {
+  // 1, 2 or 5 times a power of ten
+  const ten = 10 ** Math.floor(Math.log10(size));
+  return ten * [1, 2, 5, 10].find((step) => step * ten >= size * (1 - 1e-9));
+}
+
 function upright(pen, low, high, top, bottom, wide, left) {
   // lines and labels of powers of ten, not more than fit
   const y = scaleOf(low, high, bottom, top);
@@ -33,7 +39,7 @@ const ERROR_TOP = 4; // no arm is farther off than some reaches: beyond, all are
 
 function drawErrors(found, floor, run, time) {
   const { pen, wide, high } = sized(document.getElementById("errors"));
-  const [left, top, bottom] = [48, 18, high - 30];
+  const [left, top, bottom] = [48, 26, high - 30];
   pen.fillStyle = colours.faint;
   pen.textAlign = "left";
   pen.textBaseline = "top";
@@ -46,9 +52,10 @@ function drawErrors(found, floor, run, time) {
   const x = scaleOf(0, data.until, left, wide - 8);
   pen.textAlign = "center";
   pen.textBaseline = "top";
-  for (let k = 0; k <= 4; k++) {
-    pen.textAlign = k === 4 ? "right" : "center";
-    pen.fillText(`${Number(((k * data.until) / 4).toPrecision(3))}${k === 4 ? " s" : ""}`, x((k * data.until) / 4), bottom + 8);
+  const tick = pleasant(data.until / 5);
+  for (let k = 0; k * tick <= 1.001 * data.until; k++) {
+    const at = Math.min(x(k * tick), wide - 16);
+    pen.fillText(`${Number((k * tick).toPrecision(6))}${k === 1 ? " s" : ""}`, at, bottom + 8);
   }
   pen.setLineDash([5, 4]);
   line(pen, [[left, y(floor)], [wide - 8, y(floor)]], colours["fine-ink"], 1.2);
@@ -68,7 +75,7 @@ const costOf = (method, step) => data.methods[method].operations / step;
 
 function drawCosts(current, floor) {
   const { pen, wide, high } = sized(document.getElementById("costs"));
-  const [left, top, bottom] = [48, 18, high - 34];
+  const [left, top, bottom] = [48, 28, high - 34];
   pen.fillStyle = colours.faint;
   pen.textAlign = "left";
   pen.textBaseline = "top";
@@ -90,15 +97,17 @@ function drawCosts(current, floor) {
   pen.fillText("operations per simulated second", wide - 8, bottom + 19);
   data.methods.forEach((_, method) => {
     const points = [];
+    const colour = colours.lines[method];
     steps.forEach((step, number) => {
       const each = tried.get(`${method}/${number}`);
-      if (!each || !Number.isFinite(each.error)) return;
+      if (!each) return;
       each.x = x(Math.log10(costOf(method, step)));
-      each.y = y(Math.min(Math.max(each.error, floor), most));
-      points.push([each.x, each.y]);
+      each.y = Number.isFinite(each.error) ? y(Math.min(Math.max(each.error, floor), most)) : top - 3;
+      if (Number.isFinite(each.error)) points.push([each.x, each.y]);
+      else for (const side of [3, -3]) line(pen, [[each.x - 3, each.y - side], [each.x + 3, each.y + side]], colour, 1.5);
     });
-    line(pen, points, colours.lines[method], 1.5);
-    for (const point of points) dot(pen, point, 3.5, colours.lines[method]);
+    line(pen, points, colour, 1.5);
+    for (const point of points) dot(pen, point, 3.5, colour);
   });
   const own = tried.get(current);
   if (own?.x) {

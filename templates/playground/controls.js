@@ -67,7 +67,8 @@ function small(element, text, more) {
 function report() {
   const { shown, settings } = now;
   const cost = costOf(settings.method, steps[settings.step]);
-  small(by("cost"), `${digits(cost / 1e6, 3)} million`, "operations per simulated second");
+  const [size, word] = [[1e9, "billion"], [1e6, "million"], [1e3, "thousand"], [1, ""]].find(([least]) => cost >= least);
+  small(by("cost"), `${digits(cost / size, 3)} ${word}`, "operations per simulated second");
   const pace = shown.done ? shown.milliseconds / (shown.done * shown.step) : 0;
   if (pace > 0) small(by("speed"), `${digits(pace)} ms`, `for a simulated second: ${digits(1e3 / pace)} times real time`);
   else small(by("speed"), "at once", "too quick for this clock");
@@ -151,6 +152,7 @@ by("choose").addEventListener("reset", (event) => {
 });
 by("play").addEventListener("click", () => {
   clock.playing = !clock.playing;
+  if (clock.time > data.until) clock.time = 0;
   by("play").textContent = clock.playing ? "Pause" : "Play";
 });
 by("costs").addEventListener("click", (event) => {

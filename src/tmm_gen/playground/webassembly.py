@@ -60,19 +60,8 @@ def compile_module(name: str, sources: Mapping[str, str]) -> bytes:
         exact = ("-std=c99", "-O2", "-ffp-contract=off", "-isystem", "library")
         _zig(name, folder, "cc", *target, *exact, "-c", "arm.c", "-o", "arm.o")
         exported = [f"--export={function}" for function in EXPORTS]
-        limits = ("-z", f"stack-size={STACK}", "--stack-first")
-        _zig(
-            name,
-            folder,
-            "wasm-ld",
-            "--no-entry",
-            "--strip-all",
-            *limits,
-            *exported,
-            "arm.o",
-            "-o",
-            "arm.wasm",
-        )
+        alone = ("--no-entry", "--strip-all", "-z", f"stack-size={STACK}", "--stack-first")
+        _zig(name, folder, "wasm-ld", *alone, *exported, "arm.o", "-o", "arm.wasm")
         return (folder / "arm.wasm").read_bytes()
 
 
