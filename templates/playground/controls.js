@@ -179,7 +179,8 @@ if (figure.kind === "spatial") {
 readColours();
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", readColours);
 scenes();
-// a link may choose: #method=bathe&step=3
+// a link may choose: #method=bathe&step=3; and a page may hold this one in a frame: #embed
+document.body.classList.toggle("embedded", /\bembed\b/.test(location.hash));
 for (const [key, value] of new URLSearchParams(location.hash.slice(1))) {
   const named = key === "method" ? data.methods.findIndex((method) => method.name === value) : Number(value);
   if (["method", "step", "stiffness", "payload", "load"].includes(key) && named >= -1) by(key).value = named;

@@ -1,0 +1,30 @@
+"""Pages from docstrings: what `tmm_gen` offers in Python, and what a generated package does."""
+
+from __future__ import annotations
+
+import inspect
+
+import tmm_gen
+
+GENERATED = "generated.elbow.kernel"
+"""The package that stands for all generated ones."""
+
+
+def python_page() -> str:
+    """Return the page of what `import tmm_gen` offers; empty where that is its version alone."""
+    offered = [getattr(tmm_gen, name) for name in tmm_gen.__all__]
+    documented = [each for each in offered if inspect.isclass(each) or inspect.isfunction(each)]
+    if not documented:
+        return ""
+    blocks = "\n\n".join(f"::: {each.__module__}.{each.__qualname__}" for each in documented)
+    return f"# Python\n\nWhat `import tmm_gen as tg` offers, from its docstrings.\n\n{blocks}\n"
+
+
+def generated_page() -> str:
+    """Return the page of a generated package."""
+    return (
+        "# Generated Python\n\nEvery generated package has these functions and classes; those of `elbow` stand for all. "
+        "Its C has the same phases under the same names: `elbow_prepare`, `elbow_initialise`, `elbow_step`, "
+        "`elbow_output`.\n\n"
+        f"::: {GENERATED}\n    options:\n      show_root_heading: false\n      show_root_toc_entry: false\n"
+    )
