@@ -7,6 +7,7 @@ PY   := $(VENV)/bin/python
 TMM  := $(VENV)/bin/tmm-gen
 CORE := $(VENV)/.installed-core
 TEST := $(VENV)/.installed-test
+SITE := $(VENV)/.installed-site
 # Style and type checkers are pinned, in an environment of their own: they must not change under a user's feet.
 LINT := .venv-lint/.installed
 
@@ -16,7 +17,7 @@ export PYTHONUNBUFFERED := 1
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
-.PHONY: help demo test lint build check bench format clean compiler
+.PHONY: help demo test lint build check site bench format clean compiler
 
 help:  ## list the targets
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-7s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -45,6 +46,21 @@ build: $(CORE)  ## regenerate generated/ from scenes/
 check: $(CORE)  ## fail where generated/ differs from what scenes/ give
 	$(TMM) build --check
 	$(TMM) build examples/firmware/beam5.toml --out examples/firmware/generated --check
+
+PLAYGROUNDS := $(addprefix out/playground/, elbow.html arm10.html thesis10.html yaw3.html)
+
+site: $(SITE) $(PLAYGROUNDS)  ## the documentation as a site in out/site; fails at any warning, broken link or page too wide
+	NO_MKDOCS_2_WARNING=1 $(PY) -m mkdocs build --quiet --strict --config-file website/mkdocs.yml
+	$(PY) website/check.py out/site
+
+out/playground/%.html: scenes/%.toml $(SITE) $(wildcard templates/playground/*)
+	@mkdir -p $(@D)
+	$(TMM) playground $< --out $@
+
+# in space a kernel takes long to compile, and has 70 to 280 kB
+out/playground/%.html: examples/space/%.toml $(SITE) $(wildcard templates/playground/*)
+	@mkdir -p $(@D)
+	$(TMM) playground $< --integrators newmark --out $@
 
 bench: $(CORE) compiler  ## run every script of benchmarks/, results in out/bench
 	@mkdir -p out/bench
@@ -81,6 +97,10 @@ $(CORE): pyproject.toml | $(PY)
 
 $(TEST): pyproject.toml | $(PY)
 	$(PY) -m pip install --quiet --editable '.[test]'
+	@touch $(CORE) $@
+
+$(SITE): pyproject.toml | $(PY)
+	$(PY) -m pip install --quiet --editable '.[site]'
 	@touch $(CORE) $@
 
 $(LINT): pyproject.toml

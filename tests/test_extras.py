@@ -108,7 +108,7 @@ def test_extras_are_those_of_the_project() -> None:
     for_code = {"jax", "cuda"}  # what no command needs, but code that is generated
     for extra in for_code:
         assert sorted(packages(extra)) == sorted(listed[extra])
-    assert {extra for extra, _, _ in COMMANDS} == set(listed) - {"test", "lint", "dev"} - for_code
+    assert {extra for extra, _, _ in COMMANDS} == set(listed) - {"test", "lint", "site", "dev"} - for_code
 
 
 def test_without_metadata_names_are_enough(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -6,6 +6,7 @@ absent it is left out and said, and with ``CI`` set it is a fault.
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import shutil
@@ -19,6 +20,9 @@ from urllib.parse import unquote, urlsplit
 
 WIDTHS = (390, 1280)
 """Pixels: a common telephone, a common desktop."""
+
+WORD = "gripper"
+"""What a search finds on several pages."""
 
 LOADING = {("script", "src"), ("img", "src"), ("iframe", "src"), ("source", "src"), ("object", "data")}
 """What a browser fetches by itself; of links, those of :data:`FETCHED`."""
@@ -91,6 +95,20 @@ HARNESS = """<!doctype html><title>-</title><body style="margin:0"><script>
     if (excess > 0) found.push(`${page}: ${excess} px too wide at ${width}`);
     if (!frame.contentDocument.body.innerText.trim()) found.push(`${page}: empty at ${width}`);
   }
+  // the first page again, to look for a word in all of them
+  const frame = document.createElement("iframe");
+  frame.style = "width:1280px;height:900px";
+  frame.src = START;
+  document.body.replaceChildren(frame);
+  await new Promise((done) => { frame.onload = done; });
+  const query = frame.contentDocument.querySelector(".md-search__input");
+  for (let k = 0; query && k < 50 && !frame.contentDocument.querySelector(".md-search-result__item"); k++) {
+    query.focus();
+    query.value = "WORD";
+    query.dispatchEvent(new Event("keyup"));
+    await new Promise((done) => setTimeout(done, 200));
+  }
+  if (query && !frame.contentDocument.querySelector(".md-search-result__item")) found.push("the search finds nothing");
   document.title = `done ${found.join("; ")}`;
 })();
 </script>"""
@@ -101,7 +119,11 @@ def misshapen(site: Path, program: str) -> Iterator[str]:
     pages = sorted(path.as_uri() for path in site.rglob("*.html") if path.name != "404.html")
     with tempfile.TemporaryDirectory() as folder:
         harness = Path(folder, "harness.html")
-        harness.write_text(HARNESS.replace("PAGES", repr(pages)).replace("WIDTHS", repr(list(WIDTHS))))
+        given = {"PAGES": pages, "WIDTHS": WIDTHS, "START": (site / "index.html").as_uri()}
+        text = HARNESS.replace('"WORD"', json.dumps(WORD))
+        for name, value in given.items():
+            text = text.replace(name, json.dumps(value))
+        harness.write_text(text)
         quiet = ("--no-first-run", "--disable-background-networking", "--disable-component-update")
         command = [program, "--headless", "--no-sandbox", "--disable-gpu", *quiet, "--disable-sync"]
         command += [f"--user-data-dir={folder}/profile", "--proxy-server=127.0.0.1:9"]
@@ -136,4 +158,4 @@ def main(site: Path) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main(Path(sys.argv[1])))
+    sys.exit(main(Path(sys.argv[1]).resolve()))

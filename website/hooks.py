@@ -20,6 +20,9 @@ SOURCES = "source"
 """Folder of the site for files of the repository that pages link to."""
 
 LINK = re.compile(r"(?<=\]\()(\.\./[^)#\s]+)")
+SHIM = re.compile(r'"https://unpkg\.com/iframe-worker/shim[^"]*"')
+"""What the plugin `offline` fetches from elsewhere; `search.js` does the same."""
+
 MARKER = re.compile(r"<!-- (gallery|playground: (\w+)) -->")
 
 
@@ -38,8 +41,8 @@ def on_files(files: Files, config: Any, **_: Any) -> Files:
     """Add playgrounds, the style, pages from docstrings, and the sources that pages link to."""
     for path in sorted(PLAYGROUNDS.glob("*.html")):
         files.append(File.generated(config, f"playground/{path.name}", abs_src_path=str(path)))
-    style = ROOT / "website" / "site.css"
-    files.append(File.generated(config, "site.css", abs_src_path=str(style)))
+    for name in ("site.css", "search.js"):
+        files.append(File.generated(config, name, abs_src_path=str(ROOT / "website" / name)))
     files.append(File.generated(config, "reference/generated.md", content=generated_page()))
     if text := python_page():
         files.append(File.generated(config, "reference/python.md", content=text))
@@ -61,6 +64,16 @@ def on_page_markdown(markdown: str, page: Any, **_: Any) -> str:
     up = posixpath.relpath(".", posixpath.dirname(uri) or ".")
     markdown = LINK.sub(lambda found: posixpath.join(up, _shown(_target(uri, found[1]))), markdown)
     return MARKER.sub(lambda found: _filled(found[1], found[2]), markdown)
+
+
+def on_post_page(output: str, page: Any, **_: Any) -> str:
+    """Fetch nothing from elsewhere."""
+    return SHIM.sub(f'"{posixpath.relpath("search.js", posixpath.dirname(page.file.dest_uri) or ".")}"', output)
+
+
+def on_post_template(output_content: str, **_: Any) -> str:
+    """Do the same on the page for addresses that do not exist."""
+    return SHIM.sub('"/search.js"', output_content)
 
 
 def _filled(marker: str, scene: str | None) -> str:
