@@ -67,8 +67,9 @@ def _drawn(scene: Scene) -> str:
         at = (each - middle) * [scale, -scale] + [WIDE / 2, HIGH / 2]
         drawn.append(f'<polyline points="{" ".join(f"{x:.1f},{y:.1f}" for x, y in at)}"/>')
         drawn += [f'<circle cx="{x:.1f}" cy="{y:.1f}" r="3"/>' for x, y in at if len(at) < 40]
+    told = f'viewBox="0 0 {WIDE:g} {HIGH:g}" role="img" aria-label="{scene.name} at its start"'
     style = 'fill="none" stroke="currentColor" stroke-width="3" stroke-linejoin="round"'
-    return f'<svg viewBox="0 0 {WIDE:g} {HIGH:g}" role="img" aria-label="{scene.name} at its start" {style}>{"".join(drawn)}</svg>'
+    return f"<svg {told} {style}>{''.join(drawn)}</svg>"
 
 
 def _lines(scene: Scene) -> Iterator[np.ndarray]:

@@ -68,7 +68,9 @@ def on_page_markdown(markdown: str, page: Any, **_: Any) -> str:
 
 def on_post_page(output: str, page: Any, **_: Any) -> str:
     """Fetch nothing from elsewhere."""
-    return SHIM.sub(f'"{posixpath.relpath("search.js", posixpath.dirname(page.file.dest_uri) or ".")}"', output)
+    return SHIM.sub(
+        f'"{posixpath.relpath("search.js", posixpath.dirname(page.file.dest_uri) or ".")}"', output
+    )
 
 
 def on_post_template(output_content: str, **_: Any) -> str:

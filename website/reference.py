@@ -23,8 +23,8 @@ def python_page() -> str:
 def generated_page() -> str:
     """Return the page of a generated package."""
     return (
-        "# Generated Python\n\nEvery generated package has these functions and classes; those of `elbow` stand for all. "
-        "Its C has the same phases under the same names: `elbow_prepare`, `elbow_initialise`, `elbow_step`, "
+        "# Generated Python\n\nEvery generated package has these functions and classes; those of `elbow` stand for "
+        "all. Its C has the same phases under the same names: `elbow_prepare`, `elbow_initialise`, `elbow_step`, "
         "`elbow_output`.\n\n"
         f"::: {GENERATED}\n    options:\n      show_root_heading: false\n      show_root_toc_entry: false\n"
     )

@@ -1,4 +1,4 @@
-"""The playground: what a page says of an arm in a browser is what compiled C says of it, and nothing comes from elsewhere."""
+"""The playground: in a browser an arm is off by what compiled C says, and nothing comes from elsewhere."""
 
 from __future__ import annotations
 
@@ -90,7 +90,9 @@ def test_the_browser_finds_the_errors_that_compiled_c_makes(page: Path, browse: 
     data = held(text)
     # heavier, stiffer, pushed harder, at twice the scene's step
     heavier, stiffer, load, step = 2.0, 10**0.3, 1.5, 2 * data["step"]
-    factors = [value / data["payload"]["values"][data["payload"]["own"]] for value in data["payload"]["values"]]
+    factors = [
+        value / data["payload"]["values"][data["payload"]["own"]] for value in data["payload"]["values"]
+    ]
     hash_ = f"#method=newmark&step=2&stiffness=0.3&payload={factors.index(heavier)}&load={load}"
     moved = page.with_name("moved.html")
     # the settings stand in the address, which a path has no room for

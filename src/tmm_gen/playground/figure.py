@@ -16,10 +16,11 @@ def figure_of(scene: Scene) -> dict[str, Any]:
     Returns
     -------
     dict
-        ``kind``, ``reach`` in m, ``unit`` of an error; ``tips``, the points of which the farthest off counts. Of an arm in a
-        plane and of a chain: ``hosts`` (number of the link that each stands on, 0 for the base), ``lengths`` in m, and
-        whether it ``floats``. Of an arm in space: ``joints`` (host, place, turn by rows, axis), ``spots`` (number of the
-        body, place on it), ``lines`` through spots, and the ``axes`` of the view by rows, the third upward.
+        ``kind``, ``reach`` in m, ``unit`` of an error; ``tips``, the points of which the farthest off counts. Of an arm
+        in a plane and of a chain: ``hosts`` (number of the link that each stands on, 0 for the base), ``lengths`` in m,
+        whether it ``floats`` and whether its base ``turns``. Of an arm in space: ``joints`` (host, place, turn by rows,
+        axis), ``spots`` (number of the body, place on it), ``lines`` through spots, and the ``axes`` of the view by
+        rows, the third upward.
     """
     if scene.spatial is not None:
         return {"kind": "spatial", "unit": "m", "reach": scene.reach, **_in_space(scene.spatial)}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import base64
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from tmm_gen.derive.integrators.registry import integrator
@@ -33,11 +33,10 @@ PLAIN = {
 
 def plain(scene: Scene, name: str) -> Scene:
     """Return a scene with another integrator, emitted for a page."""
-    written = scene.source.data.get("emit", {})
+    data: Mapping[str, Any] = scene.source.data
+    written = data.get("emit", {})
     changes = {
-        key: value
-        for key, value in PLAIN.items()
-        if value is not None or key.partition(".")[2] in written
+        key: value for key, value in PLAIN.items() if value is not None or key.partition(".")[2] in written
     }
     return scene.replace(**{"integrator.name": name}, **changes)
 
@@ -48,8 +47,8 @@ def method(scene: Scene, name: str) -> dict[str, Any]:
     Returns
     -------
     dict
-        Ready for JSON: ``name`` and ``title``; ``wasm`` in base 64; ``operations`` of a step; ``stages``, by step from the
-        first on, the last for all others: instants in steps at which inputs act; ``slots``, for how many stages an
+        Ready for JSON: ``name`` and ``title``; ``wasm`` in base 64; ``operations`` of a step; ``stages``, by step from
+        the first on, the last for all others: instants in steps at which inputs act; ``slots``, for how many stages an
         input has room; ``inputs``, names in order; ``angles``, ``count`` and ``base``: where in the state, in numbers,
         those of the links or joints begin, how many they are, and where the base's x and y are; ``parameters``, all in
         order; ``payloads``, for each of `FACTORS` those numbers that differ, as pairs of index and value; ``stiff``:

@@ -55,8 +55,8 @@ def require_played(scene: Scene) -> None:
     """
     if scene.prescribed is not None:
         raise UserError(
-            f"scene '{scene.name}': the input '{scene.prescribed.name}' moves the base, which a playground does not show "
-            'yet. Give the base kind = "motor" and an input that acts = "torque".'
+            f"scene '{scene.name}': the input '{scene.prescribed.name}' moves the base, which a playground does not "
+            'show yet. Give the base kind = "motor" and an input that acts = "torque".'
         )
     if scene.spatial is not None and scene.spatial.base is not None:
         raise UserError(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -38,7 +38,7 @@ def payload_of(scene: Scene) -> Payload | None:
     """Return the payload of a scene; None where it has none."""
     if scene.model.linear:
         return Payload(scene.links[-1].inertia, "kg m^2", {})
-    data = scene.source.data
+    data: Mapping[str, Any] = scene.source.data
     places = [("tip", data["tip"])] if data.get("tip") else []
     places += [(f"body.{k}", body) for k, body in reversed(list(enumerate(data.get("body", ()), start=1)))]
     for place, table in places:
