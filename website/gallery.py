@@ -61,13 +61,14 @@ def _drawn(scene: Scene) -> str:
     points = np.concatenate(lines)
     low, high = points.min(axis=0), points.max(axis=0)
     scale = min((WIDE - 24) / max(high[0] - low[0], 1e-9), (HIGH - 24) / max(high[1] - low[1], 1e-9))
+    tall = scale * (high[1] - low[1]) + 24
     middle = (low + high) / 2
     drawn = []
     for each in lines:
-        at = (each - middle) * [scale, -scale] + [WIDE / 2, HIGH / 2]
+        at = (each - middle) * [scale, -scale] + [WIDE / 2, tall / 2]
         drawn.append(f'<polyline points="{" ".join(f"{x:.1f},{y:.1f}" for x, y in at)}"/>')
         drawn += [f'<circle cx="{x:.1f}" cy="{y:.1f}" r="3"/>' for x, y in at if len(at) < 40]
-    told = f'viewBox="0 0 {WIDE:g} {HIGH:g}" role="img" aria-label="{scene.name} at its start"'
+    told = f'viewBox="0 0 {WIDE:g} {tall:.0f}" role="img" aria-label="{scene.name} at its start"'
     style = 'fill="none" stroke="currentColor" stroke-width="3" stroke-linejoin="round"'
     return f"<svg {told} {style}>{''.join(drawn)}</svg>"
 

@@ -16,7 +16,7 @@ import pytest
 from support.browser import excess_on_a_phone
 
 from tmm_gen.cli import main
-from tmm_gen.native.kernel import compile_kernel
+from tmm_gen.native.loading import compile_kernel
 from tmm_gen.playground.page import REFERENCE, served_names
 from tmm_gen.program.build import build_program
 from tmm_gen.scene import Scene, load_scene
