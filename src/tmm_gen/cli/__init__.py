@@ -37,6 +37,7 @@ COMMANDS = {
         "tmm_gen.cli.import_urdf:import_urdf", "Write the scene that a robot's URDF file makes."
     ),
     "keys": LazyCommand("tmm_gen.cli.keys:keys", "List every key a scene may have."),
+    "schema": LazyCommand("tmm_gen.cli.schema:schema", "Print a JSON schema of scenes, for editors."),
     "build": LazyCommand("tmm_gen.cli.build:build", "Generate the kernels of scenes; --check only compares."),
     "check": LazyCommand("tmm_gen.cli.check:check", "Compile and compare every backend of a scene."),
     "run": LazyCommand("tmm_gen.cli.run:run", "Simulate a scene."),

@@ -44,6 +44,7 @@ def new(name: str, kind: Kind, out: Path, control: bool, motors: int | None, for
     """Write a commented scene NAME.toml to start from."""
     from tmm_gen.scene.identifier import scene_name_fault
     from tmm_gen.scene.problem import show_value
+    from tmm_gen.scene.schema import DIRECTIVE, SCHEMA_FILE
     from tmm_gen.scene.template import template
 
     if fault := scene_name_fault(name):
@@ -61,7 +62,9 @@ def new(name: str, kind: Kind, out: Path, control: bool, motors: int | None, for
             raise UserError(f"{target}: is a directory. Choose another name.")
         if not force:
             raise UserError(f"{target}: exists already. Choose another name, or replace it with --force.")
-    write_outputs({target: template(name, kind, control, motors or 0)}, force=force)
+    # editors look for the schema beside the scene
+    first = DIRECTIVE if (out / SCHEMA_FILE).is_file() else ""
+    write_outputs({target: first + template(name, kind, control, motors or 0)}, force=force)
     click.echo(f"wrote {target}")
     then = "mpc" if control else "run"
     click.echo(f"next: edit it, then `tmm-gen build {target}` and `tmm-gen {then} {target}`")
