@@ -1,4 +1,4 @@
-"""`tmm-gen schema`: an editor's checker accepts every scene by it, marks what is wrong, and finds it beside a new scene."""
+"""`tmm-gen schema`: by it a checker accepts every scene and marks what is wrong; new scenes point to it."""
 
 from __future__ import annotations
 

@@ -21,8 +21,8 @@ from tmm_gen.cli.outputs import OutputFile, write_outputs
 def schema(target: Path | None) -> None:
     """Print a JSON schema of scene files, by which editors complete and check them.
 
-    Write it into the folder of your scenes as tmm-gen.schema.json: scenes that `tmm-gen new` writes there point to it in
-    their first line. Into your own scenes, put `#:schema tmm-gen.schema.json` as the first line.
+    Write it into the folder of your scenes as tmm-gen.schema.json: scenes that `tmm-gen new` writes there point to it
+    in their first line. Into your own scenes, put `#:schema tmm-gen.schema.json` as the first line.
     """
     from tmm_gen.scene.schema import scene_schema
 
