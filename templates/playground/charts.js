@@ -11,7 +11,8 @@ function decades(values) {
   // whole powers of ten around values, as exponents
   const logs = values.filter((value) => value > SMALL && value < 1e30).map(Math.log10);
   if (!logs.length) return [-6, 0];
-  const [low, high] = [Math.floor(Math.min(...logs)), Math.ceil(Math.max(...logs))];
+  const [least, most] = [Math.min, Math.max].map((choose) => logs.reduce((found, value) => choose(found, value)));
+  const [low, high] = [Math.floor(least), Math.ceil(most)];
   return [low, Math.max(high, low + 1)];
 }
 

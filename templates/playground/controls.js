@@ -73,13 +73,13 @@ function report() {
   if (pace > 0) small(by("speed"), `${digits(pace)} ms`, `for a simulated second: ${digits(1e3 / pace)} times real time`);
   else small(by("speed"), "at once", "too quick for this clock");
   if (!now.errors) return small(by("error"), "…", "the fine step is under way");
-  const largest = Math.max(...now.errors);
-  by("error").dataset.value = largest;
+  const most = largest(now.errors);
+  by("error").dataset.value = most;
   by("error").dataset.floor = now.floor;
   if (shown.ended) small(by("error"), "stopped", `after ${seconds(shown.done * shown.step)}: ${shown.ended}`);
-  else if (largest <= now.floor) small(by("error"), `below ${lengthOf(now.floor)}`, "less than the fine step knows");
-  else if (figure.unit === "rad") small(by("error"), lengthOf(largest), "at any instant");
-  else small(by("error"), lengthOf(largest), `${digits((100 * largest) / figure.reach)} % of the reach`);
+  else if (most <= now.floor) small(by("error"), `below ${lengthOf(now.floor)}`, "less than the fine step knows");
+  else if (figure.unit === "rad") small(by("error"), lengthOf(most), "at any instant");
+  else small(by("error"), lengthOf(most), `${digits((100 * most) / figure.reach)} % of the reach`);
 }
 
 async function work() {
@@ -105,19 +105,19 @@ async function work() {
       return;
     }
     // of the fourth order: the step twice as long is wrong by sixteen times as much
-    now.floor = Math.max(SMALL, Math.max(...errors(double, fine)) / 15);
+    now.floor = Math.max(SMALL, largest(errors(double, fine)) / 15);
     now.fine = fine;
     fit(fine);
   } else if (!now.fine) return;
   now.errors = errors(shown, now.fine);
-  tried.set(key, { error: shown.ended ? Infinity : Math.max(...now.errors) });
+  tried.set(key, { error: shown.ended ? Infinity : largest(now.errors) });
   report();
   for (let number = steps.length - 1; number >= 0; number--) {
     for (let method = 0; method < data.methods.length; method++) {
       if (tried.has(`${method}/${number}`)) continue;
       const run = await taken(back[method], steps[number], settings, alive);
       if (!run) return;
-      tried.set(`${method}/${number}`, { error: run.ended ? Infinity : Math.max(...errors(run, now.fine)) });
+      tried.set(`${method}/${number}`, { error: run.ended ? Infinity : largest(errors(run, now.fine)) });
       await pause();
       if (!alive()) return;
     }

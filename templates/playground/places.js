@@ -51,6 +51,9 @@ function tips(run, instant) {
   return run.tips[instant];
 }
 
+// a run may have more instants than a function takes arguments
+const largest = (values) => values.reduce((most, value) => Math.max(most, value), 0);
+
 function errors(run, fine) {
   // distance of the farthest tip at each instant, as far as both went
   const ratio = Math.round(run.step / fine.step);

@@ -19,7 +19,7 @@ from tmm_gen.row.scene import row_of
 from tmm_gen.scene import Scene, parse_scene
 from tmm_gen.scene.template import template
 
-WITHOUT_A_SCENE = {"new", "import", "keys", "integrators", "errata", "demo"}
+WITHOUT_A_SCENE = {"new", "import", "keys", "schema", "integrators", "errata", "demo"}
 """Commands that take none; `demo` brings its own, `import` makes one."""
 
 MORE = {

@@ -68,6 +68,12 @@ def wheel(repository: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return _build("wheel", repository, tmp_path_factory.mktemp("wheel"))
 
 
+def test_an_index_would_take_it(wheel: Path) -> None:
+    if not os.environ.get("CI"):
+        pytest.importorskip("twine")
+    _run([sys.executable, "-m", "twine", "check", "--strict", wheel], wheel.parent)
+
+
 @pytest.fixture(scope="module")
 def installed(
     wheel: Path, tmp_path_factory: pytest.TempPathFactory, borrow_environment: Callable[[Path], Path]

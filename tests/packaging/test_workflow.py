@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-TARGETS = ["help", "demo", "test", "lint", "format", "build", "check", "bench", "clean"]
+TARGETS = ["help", "demo", "test", "lint", "format", "build", "check", "site", "bench", "clean"]
 
 
 def _dry_run(repository: Path, target: str) -> str:
