@@ -31,7 +31,7 @@ def on_config(config: Any, **_: Any) -> Any:
     reference = next(entry["Reference"] for entry in config.nav if "Reference" in entry)
     if (ROOT / "docs" / "python.md").exists():
         howto = next(entry["How to"] for entry in config.nav if "How to" in entry)
-        howto.insert(0, {"Use it from Python": "python.md"})
+        howto.insert(1, {"Use it from Python": "python.md"})
     if python_page():
         reference.insert(0, {"Python": "reference/python.md"})
     return config
