@@ -8,12 +8,12 @@ import pytest
 
 from tmm_gen.c_language.real import DOUBLE, FLOAT
 from tmm_gen.target.bits import compare_bits, numbers
-from tmm_gen.target.run import Run
+from tmm_gen.target.run import HarnessRun
 
 
-def _run(*state: float, last_hash: str = "aa") -> Run:
+def _run(*state: float, last_hash: str = "aa") -> HarnessRun:
     bits = " ".join(struct.pack("<d", value).hex() for value in state)
-    return Run(
+    return HarnessRun(
         {"start": bits, "first": bits, "hash0": "00", "hash1": last_hash, "last": bits, "outputs": ""}, {}
     )
 
@@ -38,7 +38,7 @@ def test_how_far_apart() -> None:
 
 def test_runs_of_other_harnesses_are_no_runs_to_compare() -> None:
     with pytest.raises(ValueError, match="different harnesses"):
-        compare_bits(_run(1.0), Run({"start": ""}, {}), DOUBLE)
+        compare_bits(_run(1.0), HarnessRun({"start": ""}, {}), DOUBLE)
 
 
 def test_numbers_are_read_as_memory_holds_them() -> None:

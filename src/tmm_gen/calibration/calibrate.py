@@ -48,7 +48,7 @@ _ROUNDS = 3
 
 
 @dataclass(frozen=True)
-class Found:
+class Fitted:
     """A fitted number.
 
     Parameters
@@ -83,7 +83,7 @@ class Calibration:
         With the fitted numbers.
     changes : mapping from path to float
         What changed in its file.
-    found : tuple of Found
+    found : tuple of Fitted
         One for each.
     correlation : array, (p, p)
         Of the fitted numbers' logarithms.
@@ -99,7 +99,7 @@ class Calibration:
 
     scene: Scene
     changes: Mapping[Path, float]
-    found: tuple[Found, ...]
+    found: tuple[Fitted, ...]
     correlation: Array
     misfit_before: float
     misfit: float
@@ -188,7 +188,7 @@ def calibrate(
         scene=replaced(scene, changed),
         changes=changed,
         found=tuple(
-            Found(key, float(old), float(new), float(new * deviation))
+            Fitted(key, float(old), float(new), float(new * deviation))
             for key, old, new, deviation in zip(chosen, given, values, spread, strict=True)
         ),
         correlation=correlation,

@@ -23,7 +23,7 @@ Evaluate = Callable[[Configuration], Result]
 
 
 @dataclass(frozen=True)
-class Found:
+class Searched:
     """A family's longest good step, or its best.
 
     Parameters
@@ -46,7 +46,7 @@ class Found:
 
 def longest_step(
     family: Family, bound: float, until: float, evaluate: Evaluate, shortest: float = 0.0
-) -> Found | None:
+) -> Searched | None:
     """Search the longest step of a family that keeps a bound.
 
     Steps are halved until two in a row are good; between the longer of these and the one before, the interval is
@@ -67,7 +67,7 @@ def longest_step(
 
     Returns
     -------
-    Found or None
+    Searched or None
         None where no run finished.
     """
     tried: list[tuple[Configuration, Result]] = []
@@ -82,7 +82,7 @@ def longest_step(
     if not finished:
         return None
     configuration, result = min(finished, key=lambda item: item[1].error or 0.0)
-    return Found(configuration, result, _good(result, bound))
+    return Searched(configuration, result, _good(result, bound))
 
 
 def rounded_down(step: float) -> float:
@@ -94,17 +94,17 @@ def rounded_down(step: float) -> float:
 
 def _refined(
     family: Family, bound: float, tried: list[tuple[Configuration, Result]], evaluate: Evaluate
-) -> Found:
+) -> Searched:
     good = tried[-_SURE]
     if len(tried) == _SURE:  # good from the start
-        return Found(*good, good=True)
+        return Searched(*good, good=True)
     bad = tried[-_SURE - 1]
     for _ in range(_BISECTIONS):
         middle = math.sqrt(good[0].step * bad[0].step)
         candidate = _at(family, middle, evaluate)
         good, bad = (candidate, bad) if _good(candidate[1], bound) else (good, candidate)
     neat = _at(family, rounded_down(good[0].step), evaluate)
-    return Found(*(neat if _good(neat[1], bound) else good), good=True, beyond=bad)
+    return Searched(*(neat if _good(neat[1], bound) else good), good=True, beyond=bad)
 
 
 def _at(family: Family, step: float, evaluate: Evaluate) -> tuple[Configuration, Result]:

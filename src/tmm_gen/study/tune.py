@@ -20,7 +20,7 @@ from tmm_gen.study.link_count import fewest_links
 from tmm_gen.study.outcome import Result
 from tmm_gen.study.point import Point
 from tmm_gen.study.references import References
-from tmm_gen.study.search import Found, longest_step
+from tmm_gen.study.search import Searched, longest_step
 from tmm_gen.study.verify import Verified, verify
 
 Advance = Callable[[float, str], None]
@@ -167,9 +167,9 @@ def _search(
     modelling: Mapping[int, float],
     run: Callable[[Configuration], Result],
     advance: Advance,
-) -> list[Found]:
+) -> list[Searched]:
     """Return each family's longest good step, or its best, in the order of the families."""
-    searched: list[Found] = []
+    searched: list[Searched] = []
     least = math.inf
     for family in families(scene, axes):
         advance(1, family.label)

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from tmm_gen.c_language.real import Real
-from tmm_gen.target.run import Run
+from tmm_gen.target.run import HarnessRun
 
 
 @dataclass(frozen=True)
@@ -34,12 +34,12 @@ class Difference:
         return not self.first
 
 
-def compare_bits(one: Run, other: Run, real: Real) -> Difference:
+def compare_bits(one: HarnessRun, other: HarnessRun, real: Real) -> Difference:
     """Compare what two machines computed.
 
     Parameters
     ----------
-    one, other : Run
+    one, other : HarnessRun
         Of the same harness.
     real : Real
         Number type.

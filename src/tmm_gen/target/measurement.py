@@ -15,7 +15,7 @@ from tmm_gen.target.bits import Difference, compare_bits
 from tmm_gen.target.boards import BOARDS, Board
 from tmm_gen.target.build import build_for, build_here
 from tmm_gen.target.harness import STEPS
-from tmm_gen.target.run import Run, run_here, run_on
+from tmm_gen.target.run import HarnessRun, run_here, run_on
 from tmm_gen.target.sizes import sizes_of
 from tmm_gen.target.stack import worst_stack
 
@@ -124,6 +124,6 @@ def measure(scene: Scene, target: str) -> Measurement:
         )
 
 
-def _instructions(board: Board, run: Run, which: str) -> int:
+def _instructions(board: Board, run: HarnessRun, which: str) -> int:
     around = run.counts["ticks_of_nothing"][-1]
     return round((run.counts[which][0] - around) / board.ticks_per_instruction) + NOTHING

@@ -11,7 +11,7 @@ from tmm_gen.target.tools import attempt, need
 
 
 @dataclass(frozen=True)
-class Run:
+class HarnessRun:
     """What a harness printed.
 
     Parameters
@@ -26,7 +26,7 @@ class Run:
     counts: dict[str, list[int]]
 
 
-def run_on(board: Board, program: Path) -> Run:
+def run_on(board: Board, program: Path) -> HarnessRun:
     """Run a program on an emulated board.
 
     Raises
@@ -38,7 +38,7 @@ def run_on(board: Board, program: Path) -> Run:
     return _run([emulator, *board.emulate, "-kernel", program], program.parent, board.title)
 
 
-def run_here(program: Path) -> Run:
+def run_here(program: Path) -> HarnessRun:
     """Run a program on this machine.
 
     Raises
@@ -49,7 +49,7 @@ def run_here(program: Path) -> Run:
     return _run([program], program.parent, "this machine")
 
 
-def _run(command: list[str | Path], folder: Path, where: str) -> Run:
+def _run(command: list[str | Path], folder: Path, where: str) -> HarnessRun:
     done = attempt(command, folder)
     lines = [line.split(maxsplit=1) for line in done.stdout.splitlines()]
     failed = next((line for line in lines if line[:1] == ["status"]), None)
@@ -66,4 +66,4 @@ def _run(command: list[str | Path], folder: Path, where: str) -> Run:
             bits[what] = rest
         else:
             counts.setdefault(what, []).append(int(rest))
-    return Run(bits, counts)
+    return HarnessRun(bits, counts)

@@ -30,7 +30,7 @@ from tmm_gen.verify.lasting import remedy
 from tmm_gen.verify.planar_order import planar_slope
 from tmm_gen.verify.spatial_order import spatial_slope
 from tmm_gen.verify.unbroken import unless_broken
-from tmm_gen.verify.whole_run import OF_RUN, Run
+from tmm_gen.verify.whole_run import OF_RUN, WholeRun
 
 ONE_STEP = {"float64": 1e-13, "float32": 2e-5}
 """Relative difference allowed between backends after one step, by the number type of the C code."""
@@ -135,7 +135,7 @@ def check_scene(
         advance(0.0, "compiling the JAX kernel")
         rows.append(one_step("jax", jax_step(jax_module(scene, program), program), allowed["float64"]))
     advance(0.2, "simulating")
-    run = Run.of(scene, module, kernel, loads or {})
+    run = WholeRun.of(scene, module, kernel, loads or {})
     rows += run.rows()
     advance(0.3, "refining the step")
     slope = spatial_slope if scene.spatial is not None else chain_slope if linear else planar_slope

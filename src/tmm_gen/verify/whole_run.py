@@ -66,7 +66,7 @@ def _at_base_angle(scene: Scene) -> Scene:
 
 
 @dataclass(frozen=True, eq=False)
-class Run:
+class WholeRun:
     """A run, to be compared with the exact response and with the same run in C."""
 
     scene: Scene
@@ -76,7 +76,7 @@ class Run:
     kernel: Any
 
     @classmethod
-    def of(cls, scene: Scene, module: ModuleType, kernel: Any, loads: Mapping[str, Signal]) -> Run:
+    def of(cls, scene: Scene, module: ModuleType, kernel: Any, loads: Mapping[str, Signal]) -> WholeRun:
         """Return the run of a scene; kernels are made anew where they start elsewhere by themselves."""
         duration = min(default_duration(scene) / 5, _LONGEST_RUN * scene.integrator.step)
         started = _at_base_angle(scene)

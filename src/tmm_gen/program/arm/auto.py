@@ -12,8 +12,8 @@ import sympy as sp
 
 from tmm_gen.derive.integrators.declaration import Kind
 from tmm_gen.derive.integrators.relations import AffineMotion
+from tmm_gen.program.arm.at_places import BASE, hub_unknown, solved_variable
 from tmm_gen.program.arm.motion import Moving, StartingPoint
-from tmm_gen.program.arm.places import BASE, hub_unknown, solved_variable
 from tmm_gen.program.arm.step import StepBuilder
 from tmm_gen.program.arm.walks import Walks
 from tmm_gen.program.statements import Assign, Loop, Order, Repeat, Section, Statement, Until

@@ -15,10 +15,10 @@ from tmm_gen.derive.integrators.declaration import KINDS, Kind, Past, Scheme
 from tmm_gen.derive.integrators.relations import AffineMotion
 from tmm_gen.derive.integrators.spectrum import Spectrum, fraction, spectrum_of
 from tmm_gen.derive.station.frame import GAINS, Frame
+from tmm_gen.program.arm.at_places import BASE, hub_unknown, solved_variable
 from tmm_gen.program.arm.layout import Layout
 from tmm_gen.program.arm.loads import Loads
 from tmm_gen.program.arm.motion import StageOf, motion_variable
-from tmm_gen.program.arm.places import BASE, hub_unknown, solved_variable
 from tmm_gen.program.arm.walks import Walks
 from tmm_gen.program.inputs import input_instants
 from tmm_gen.program.motion import update_assignments

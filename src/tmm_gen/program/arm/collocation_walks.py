@@ -7,9 +7,9 @@ import sympy as sp
 from tmm_gen.derive.station.frame import RESIDUAL, force
 from tmm_gen.derive.station.lets import composed
 from tmm_gen.derive.station.residual import residual
+from tmm_gen.program.arm.at_places import BASE
 from tmm_gen.program.arm.binding import Binding
 from tmm_gen.program.arm.branches import Gathered
-from tmm_gen.program.arm.places import BASE
 from tmm_gen.program.arm.walks import Walks
 from tmm_gen.program.statements import Assign, Order, Section, Statement
 from tmm_gen.program.variables import Role, Variable, local

@@ -14,11 +14,11 @@ import sympy as sp
 
 from tmm_gen.derive.integrators.declaration import KINDS, Kind, Past
 from tmm_gen.derive.station.frame import Frame
+from tmm_gen.program.arm.at_places import BASE, hub_unknown, solved_variable
 from tmm_gen.program.arm.collocation import CollocationStep
 from tmm_gen.program.arm.collocation_walks import LEFT_AT_HUB, MendingWalks, ResidualWalks, left_over
 from tmm_gen.program.arm.loads import Loads
 from tmm_gen.program.arm.motion import Moving, motion_variable
-from tmm_gen.program.arm.places import BASE, hub_unknown, solved_variable
 from tmm_gen.program.fields import MOTION_NAMES
 from tmm_gen.program.inputs import input_instants
 from tmm_gen.program.motion import update_assignments

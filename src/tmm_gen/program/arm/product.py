@@ -10,7 +10,7 @@ from tmm_gen.derive.station import product as derived
 from tmm_gen.derive.station.inward import Inward
 from tmm_gen.derive.station.lets import Let, Line, composed
 from tmm_gen.derive.station.station import outward
-from tmm_gen.program.arm.places import BASE, hub_unknown
+from tmm_gen.program.arm.at_places import BASE, hub_unknown
 from tmm_gen.program.arm.walks import Walks
 from tmm_gen.program.statements import Assign, Loop, Order, Section, Statement
 from tmm_gen.program.variables import Role, Variable

@@ -11,6 +11,7 @@ import sympy as sp
 from tmm_gen.derive.integrators.declaration import KINDS, STEP, Kind, Scheme, stage
 from tmm_gen.derive.integrators.relations import AffineMotion, Unknown, affine_motion
 from tmm_gen.derive.station.frame import GAINS, Frame
+from tmm_gen.program.arm.at_places import BASE, hub_unknown, prescribed_unknown, solved_variable
 from tmm_gen.program.arm.correction import Correction
 from tmm_gen.program.arm.floating import Floating
 from tmm_gen.program.arm.layout import Layout
@@ -24,7 +25,6 @@ from tmm_gen.program.arm.motion import (
     motion_variable,
     starting_point,
 )
-from tmm_gen.program.arm.places import BASE, hub_unknown, prescribed_unknown, solved_variable
 from tmm_gen.program.arm.walks import Walks
 from tmm_gen.program.inputs import input_instants
 from tmm_gen.program.motion import kept_stage_values, stage_variable, update_assignments

@@ -12,19 +12,19 @@ from tmm_gen.derive.station.frame import Frame, change, force, impedance, of_sha
 from tmm_gen.derive.station.inward import Inward, back
 from tmm_gen.derive.station.lets import Coordinate, Let, Line, composed
 from tmm_gen.derive.station.station import ceasing, everything, inward, outward, recurring
+from tmm_gen.program.arm.at_places import BASE, AtPlaces, hub_unknown, prescribed_unknown
 from tmm_gen.program.arm.base import Balance, base_acceleration, base_change, floating_base, turning_base
 from tmm_gen.program.arm.binding import Binding
 from tmm_gen.program.arm.branches import Gathered, from_fork, kept_at_fork, resumed, rooted
 from tmm_gen.program.arm.layout import Layout
 from tmm_gen.program.arm.loads import Loads
 from tmm_gen.program.arm.motion import Moving, StageOf
-from tmm_gen.program.arm.places import BASE, Places, hub_unknown, prescribed_unknown
 from tmm_gen.program.arm.spread import spread
 from tmm_gen.program.statements import Assign, Loop, Order, Require, Section, Statement
 from tmm_gen.program.variables import Ref, Variable
 
 
-class Walks(Places):
+class Walks(AtPlaces):
     """Builds the sections of one sweep.
 
     Parameters

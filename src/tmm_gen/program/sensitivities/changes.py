@@ -18,10 +18,10 @@ from tmm_gen.derive.station.frame import (
 )
 from tmm_gen.derive.station.lets import Let, Line, Update, composed
 from tmm_gen.derive.station.tangent import beyond, solved_node
+from tmm_gen.program.arm.at_places import BASE, hub_unknown
 from tmm_gen.program.arm.base import base_acceleration
 from tmm_gen.program.arm.binding import Binding
 from tmm_gen.program.arm.branches import resumed
-from tmm_gen.program.arm.places import BASE, hub_unknown
 from tmm_gen.program.sensitivities.kept import kept_symbols, solved_acceleration
 from tmm_gen.program.sensitivities.point import Point
 from tmm_gen.program.sensitivities.walks import TangentableWalks

@@ -14,10 +14,10 @@ from tmm_gen.derive.station.frame import (
 )
 from tmm_gen.derive.station.lets import composed
 from tmm_gen.derive.station.tangent import SOLVED, beyond, solved_force, solved_node
+from tmm_gen.program.arm.at_places import BASE
 from tmm_gen.program.arm.base import Balance, base_change
 from tmm_gen.program.arm.binding import Binding
 from tmm_gen.program.arm.branches import resumed
-from tmm_gen.program.arm.places import BASE
 from tmm_gen.program.sensitivities.kept import kept_symbols, solved_acceleration
 from tmm_gen.program.sensitivities.point import Point
 from tmm_gen.program.sensitivities.walks import TangentableWalks

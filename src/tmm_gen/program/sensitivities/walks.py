@@ -15,10 +15,10 @@ from tmm_gen.derive.station.inward import Inward
 from tmm_gen.derive.station.motion import Outward
 from tmm_gen.derive.station.station import outward
 from tmm_gen.derive.station.tangent import Tangent
+from tmm_gen.program.arm.at_places import BASE
 from tmm_gen.program.arm.base import Balance, floating_base
 from tmm_gen.program.arm.branches import Gathered
 from tmm_gen.program.arm.layout import Layout
-from tmm_gen.program.arm.places import BASE
 from tmm_gen.program.arm.walks import Walks
 from tmm_gen.program.statements import Assign, Order, Require, Statement
 from tmm_gen.program.variables import Variable

@@ -12,7 +12,7 @@ from tmm_gen.derive.integrators.history import history
 from tmm_gen.derive.space.declaration import AXES, PAIRS
 from tmm_gen.program.fields import MOTION_NAMES
 from tmm_gen.program.space.base_layout import BaseLayout, base_layout
-from tmm_gen.program.space.runs import Tree
+from tmm_gen.program.space.runs import StationTree
 from tmm_gen.program.variables import Ref, Role, Variable
 from tmm_gen.scene.signal import ACCELERATION, RATE
 from tmm_gen.scene.spatial.arm import ArmInput, Revolute, SpatialArm
@@ -26,7 +26,7 @@ class SpaceLayout:
 
     Parameters
     ----------
-    tree : Tree
+    tree : StationTree
         The arm's stations.
     parameters : dict from str to Variable
         By the names of the symbols that stand for them.
@@ -40,7 +40,7 @@ class SpaceLayout:
 
     name: str
     title: str
-    tree: Tree
+    tree: StationTree
     step: Variable
     parameters: dict[str, Variable]
     state: dict[Past, Variable]
@@ -94,7 +94,7 @@ def layout_of(arm: SpatialArm, name: str, title: str, integrator: Integrator, st
     return SpaceLayout(
         name=name,
         title=title,
-        tree=Tree(arm, _marked(arm)),
+        tree=StationTree(arm, _marked(arm)),
         step=Variable("step", Role.STEP, doc="time step", unit="s", default=step),
         parameters={v.name: v for v in _parameters(arm)},
         state={p: _state(p, n) for p in ordered},

@@ -44,7 +44,7 @@ class Run:
 
 
 @dataclass(frozen=True)
-class Tree:
+class StationTree:
     """The stations of an arm and how they hang together.
 
     Parameters

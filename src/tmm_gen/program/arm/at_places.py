@@ -30,7 +30,7 @@ BASE = 0
 """Index of the base among nodes; station j lies between nodes j and j + 1."""
 
 
-class Places:
+class AtPlaces:
     """Binds symbols to variables at stations and at nodes.
 
     Parameters
