@@ -13,7 +13,7 @@ import sympy as sp
 from tmm_gen.derive.integrators.declaration import Kind
 from tmm_gen.derive.integrators.relations import AffineMotion
 from tmm_gen.program.arm.at_places import BASE, hub_unknown, solved_variable
-from tmm_gen.program.arm.motion import Moving, StartingPoint
+from tmm_gen.program.arm.motion import Moving
 from tmm_gen.program.arm.step import StepBuilder
 from tmm_gen.program.arm.walks import Walks
 from tmm_gen.program.statements import Assign, Loop, Order, Repeat, Section, Statement, Until
@@ -61,8 +61,8 @@ class AutoStep(StepBuilder):
         return []
 
     def _solved_motion(
-        self, motion: AffineMotion, moving: dict[Kind, Moving], point: StartingPoint
+        self, motion: AffineMotion, moving: dict[Kind, Moving]
     ) -> tuple[dict[Kind, sp.Expr], dict[Kind, sp.Expr]]:
         """Return what the last improvement made of the prediction: all increments are in it."""
-        del motion, point
+        del motion
         return {k: v.at(1) for k, v in moving.items()}, {k: v.entry(BASE) for k, v in moving.items()}

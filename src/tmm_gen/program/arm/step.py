@@ -249,7 +249,7 @@ class StepBuilder:
         moving = self._moving(index, point)
         if self.corrections:
             moving = {k: self._motion(k) for k in KINDS}
-        links, hub = self._solved_motion(motion, moving, point)
+        links, hub = self._solved_motion(motion, moving)
         statements: list[Statement] = self._found_of_base()
         if not last:
             statements += self._floating.keep(index)
@@ -279,11 +279,10 @@ class StepBuilder:
         return self._floating.improve()
 
     def _solved_motion(
-        self, motion: AffineMotion, moving: dict[Kind, Moving], point: StartingPoint
+        self, motion: AffineMotion, moving: dict[Kind, Moving]
     ) -> tuple[dict[Kind, sp.Expr], dict[Kind, sp.Expr]]:
         """Return the motion of stations and base at a stage: that before the sweep, and what the sweep found."""
         n, zero = self.layout.stations, sp.Integer(0)
-        del point
         links = {
             k: (moving[k].at(1) if k in moving else zero) + self._gain(motion, k) * solved_variable(n).at()
             for k in KINDS
