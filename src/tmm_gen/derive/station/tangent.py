@@ -149,7 +149,7 @@ class Tangent:
         outside = element.outboard.forces
         as_solved = dict(zip(outside, map(solved_force, c), strict=True))
         as_predicted = dict(zip(outside, map(predicted_force, c), strict=True))
-        solved_nodes = self._at_solved(passed)
+        solved_nodes = self._at_solved()
         forces, predicted = {}, {}
         walked: dict[sp.Symbol, sp.Expr] = {}
         walked_predicted: dict[sp.Symbol, sp.Expr] = {}
@@ -194,9 +194,8 @@ class Tangent:
             if values:
                 self.keep_in.append(Update(values))
 
-    def _at_solved(self, passed: Passed) -> dict[sp.Symbol, sp.Expr]:
-        """Map a node's predicted acceleration at an element to that as solved."""
-        del passed
+    def _at_solved(self) -> dict[sp.Symbol, sp.Expr]:
+        """Map predicted accelerations of nodes to those as solved."""
         found: dict[sp.Symbol, sp.Expr] = {}
         for c in self._carried:
             found[node(c)] = solved_node(c)

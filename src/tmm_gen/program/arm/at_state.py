@@ -75,9 +75,8 @@ class AtState:
         first: list[Statement] = list(self.at_station(start, **more).lines(lines))
         return [*first, *self.loop(lines, start + 1, stop, **more)]
 
-    def summed(self, energy: str, target: Ref, *, loops_only: bool = False) -> list[Statement]:
+    def summed(self, energy: str, target: Ref) -> list[Statement]:
         """Return the statements that add up an energy of the whole row."""
-        del loops_only
         row = self.layout.row
         every: tuple[Element, ...] = (*row.detail_base, *(e for s in row.detail for e in s), *row.detail_tail)
         kinds = kinds_of(every, energy) & frozenset(KINDS)

@@ -73,16 +73,15 @@ class PredictedCollocationStep(CollocationStep):
         ]
         if self.auto:
             title = f"iterations, until one changes next to nothing, {MOST_SWEEPS} at most"
-            found += [Section(title, (Repeat(MOST_SWEEPS),)), *self._iteration(""), self._judged()]
+            found += [Section(title, (Repeat(MOST_SWEEPS),)), *self._iteration(), self._judged()]
         else:
             for index in range(self.iterations):
                 again = f"iteration {index + 1}: " if self.iterations > 1 else ""
-                found += [replace(s, title=again + s.title) for s in self._iteration(again)]
+                found += [replace(s, title=again + s.title) for s in self._iteration()]
         found.append(Section("motion at the end of the step", tuple(self._end())))
         return tuple(s for s in found if s.statements)
 
-    def _iteration(self, again: str) -> list[Section]:
-        del again
+    def _iteration(self) -> list[Section]:
         n = self.layout.stations
         arrays = [self._at_stages(kind) for kind in KINDS]
         seeds = self._inputs_at_stages()

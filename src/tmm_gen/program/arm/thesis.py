@@ -58,7 +58,7 @@ class ThesisWalks(Walks):
 
     def outward_motion(self) -> list[Statement]:
         """Walk out with places by predicted sines, and accelerations by the integrator applied to places."""
-        n, here = self.layout.stations, self.at_station()
+        here = self.at_station()
         sine, cosine = expansions.predicted_trigonometry()
         before = [
             Let(SINE, sine, "predicted sine"),
@@ -83,7 +83,6 @@ class ThesisWalks(Walks):
                 body.append(Assign(at[axis], at[axis] + here.value(steps[axis])))
                 body.append(Assign(variable.at(1), sp.expand(value) + falls[axis]))
             found.append(Loop(Order.OUTWARD, start, stop, tuple(body)))
-        del n
         return found
 
     def _place_steps(self, elements: tuple[Any, ...]) -> dict[str, sp.Expr]:
