@@ -34,17 +34,21 @@ def resting_arm(
     UserError
         If there is no equilibrium.
     """
-    return linear_arm(scene, None if scene.model.linear else rest_of(scene, inputs, start))
+    return linear_arm(scene, rest_of(scene, inputs, start))
 
 
-def rest_of(scene: Scene, inputs: Mapping[str, float] | None = None, start: Array | None = None) -> Rest:
-    """Return where a planar arm comes to rest.
+def rest_of(
+    scene: Scene, inputs: Mapping[str, float] | None = None, start: Array | None = None
+) -> Rest | None:
+    """Return where a planar arm comes to rest; None for a chain, whose small motion is the same about any.
 
     Near the free angles of `start`, rad, where they are given, whether it falls over there or not. Else:
 
     Under gravity or constant inputs that is where no link is out of balance. Without either its springs are slack: it
     lies straight along x, unless joints have a `rest` or turn freely.
     """
+    if scene.model.linear:
+        return None
     held = {name: value for name, value in (inputs or {}).items() if value != 0.0}
     if start is not None:
         return nearest(scene, held, start)

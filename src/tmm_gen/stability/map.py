@@ -193,7 +193,7 @@ class Rests:
         scene = with_stiffness(self._scene, factor)
         if scene.spatial is not None:
             return rest_in_space(scene, start=self._start)
-        return None if scene.model.linear else rest_of(scene, start=self._start)
+        return rest_of(scene, start=self._start)
 
 
 def derived_radii(motion: SmallMotion, growth: Growth, steps: Array) -> Array:
