@@ -77,6 +77,7 @@ function report() {
   by("error").dataset.value = most;
   by("error").dataset.floor = now.floor;
   if (shown.ended) small(by("error"), "stopped", `after ${seconds(shown.done * shown.step)}: ${shown.ended}`);
+  else if (most > 1e3 * figure.reach) small(by("error"), "diverges", "steps are too long for the method");
   else if (most <= now.floor) small(by("error"), `below ${lengthOf(now.floor)}`, "less than the fine step knows");
   else if (figure.unit === "rad") small(by("error"), lengthOf(most), "at any instant");
   else small(by("error"), lengthOf(most), `${digits((100 * most) / figure.reach)} % of the reach`);
