@@ -11,7 +11,6 @@ import os
 import signal
 import sys
 import threading
-import traceback
 import warnings
 from collections.abc import Iterator, Sequence
 
@@ -19,7 +18,7 @@ import click
 from click.shell_completion import shell_complete
 
 from tmm_gen.cli.lazy import LazyCommand, LazyGroup
-from tmm_gen.errors import UserError
+from tmm_gen.errors import UserError, beyond, of_numbers
 from tmm_gen.version import __version__
 
 __all__ = ["COMMANDS", "main", "tmm_gen"]
@@ -27,9 +26,6 @@ __all__ = ["COMMANDS", "main", "tmm_gen"]
 _PROGRAM = "tmm-gen"
 _OF_OUTPUT = (errno.EBADF, errno.EFBIG, errno.EIO, errno.ENOSPC, errno.EDQUOT)
 """What goes wrong with standard output, to which errors give no name."""
-
-_OF_LIBRARIES = ("infs or NaNs", "invalid numeric entries")
-"""In what words NumPy and SciPy refuse numbers that are none."""
 
 COMMANDS = {
     "new": LazyCommand("tmm_gen.cli.new:new", "Write a commented scene to start from."),
@@ -137,12 +133,12 @@ def _code(words: list[str]) -> int:
         return _fail(f"{error.filename}: {error.strerror}", UserError.exit_code)
     except MemoryError:
         return _fail("not enough memory for this. Ask for fewer steps, links or modes.", UserError.exit_code)
+    except UserError as error:
+        return _fail(str(error), error.exit_code)
     except Exception as error:
-        if (mendable := _exit_code(error)) is not None:
-            return _fail(str(error), mendable)
-        if (scene := _scene_in(words)) is None or not _of_numbers(error):
+        if (scene := _scene_in(words)) is None or not of_numbers(error):
             raise
-        return _fail(f"{scene}: {_beyond(error)}", UserError.exit_code)
+        return _fail(f"{scene}: {beyond(error)}", UserError.exit_code)
 
 
 def _invoke(words: list[str]) -> int:
@@ -201,33 +197,6 @@ def _ending_in_order() -> Iterator[None]:
 def _scene_in(words: list[str]) -> str | None:
     """Return the scene that a command line names."""
     return next((word for word in words[1:] if word.endswith(".toml")), None)
-
-
-def _of_numbers(error: Exception) -> bool:
-    """Whether an error is what numbers do that leave the range of floating point."""
-    named = {kind.__name__ for kind in type(error).__mro__}
-    if isinstance(error, ValueError) and any(words in str(error) for words in _OF_LIBRARIES):
-        return True
-    return bool(named & {"ArithmeticError", "LinAlgError"})
-
-
-def _beyond(error: Exception) -> str:
-    place = traceback.extract_tb(error.__traceback__)[-1]
-    return (
-        f"its numbers leave the range of floating point ({type(error).__name__}: {error}, in "
-        f"{place.filename.rpartition(os.sep)[2]}:{place.lineno}). Choose units in which they are nearer to 1; if they "
-        "are ordinary ones, this is a defect of tmm-gen."
-    )
-
-
-def _exit_code(error: Exception) -> int | None:
-    """Return the exit code of an error the user can mend, None for a defect."""
-    if isinstance(error, UserError):
-        return error.exit_code
-    # Known by its shape, so that `scene` is not imported where it is not needed.
-    if hasattr(error, "problems") and type(error).__module__.startswith("tmm_gen.scene"):
-        return UserError.exit_code
-    return None
 
 
 def _fail(message: str, code: int) -> int:

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import shlex
 from collections.abc import Sequence
-from dataclasses import dataclass, fields
-from difflib import get_close_matches, unified_diff
+from difflib import get_close_matches
 from keyword import iskeyword
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -18,30 +17,11 @@ from tmm_gen.cli.kinds import served_scene
 from tmm_gen.errors import CheckFailed, UserError
 
 if TYPE_CHECKING:
-    from tmm_gen.package.write import Changes
     from tmm_gen.scene import Scene
 
 # Scenes are read, and what emits them is imported, inside: a build with nothing to do needs no SymPy.
 
 _SCENES = Path("scenes")
-_BUILT, _UP_TO_DATE, _DRIFT = "built", "up to date", "drift"
-
-
-@dataclass(frozen=True)
-class _Row:
-    """What became of one package."""
-
-    scene: str
-    folder: Path
-    state: str
-    written: tuple[str, ...]
-    removed: tuple[str, ...]
-    unchanged: tuple[str, ...]
-    without_motion: bool
-
-    def as_dict(self) -> dict[str, object]:
-        """Return the row for a table."""
-        return {item.name: getattr(self, item.name) for item in fields(self)}
 
 
 @click.command("build")
@@ -61,16 +41,18 @@ def build(scenes: tuple[str, ...], check: bool, out: Path, force: bool, json_mod
 
     Files that have been edited by hand stop the build, so that no edit is lost.
     """
+    from tmm_gen.package.build import BUILT, DRIFT, Built, built, compared
+
     loaded = _load(scene_files(scenes))
     with progress("comparing" if check else "building", total=len(loaded)) as advance:
-        rows: list[_Row] = []
+        rows: list[Built] = []
         drift: list[str] = []
         hints: list[str] = []
         for scene in loaded:
             advance(0, scene.name)
-            row, found = _compare(scene, out) if check else _build(scene, out, force)
+            row, found = compared(scene, out) if check else (built(scene, out, force), [])
             rows.append(row)
-            if check or row.state == _BUILT:  # as compilers warn of what they compile
+            if check or row.state == BUILT:  # as compilers warn of what they compile
                 hints += hinted(scene, json_mode)
             drift += found
             advance()
@@ -86,7 +68,7 @@ def build(scenes: tuple[str, ...], check: bool, out: Path, force: bool, json_mod
                 click.echo(
                     f"{row.scene}: the C's test holds no motion, as no start leads to steps within range"
                 )
-    if differing := [row.scene for row in rows if row.state == _DRIFT]:
+    if differing := [row.scene for row in rows if row.state == DRIFT]:
         command = " ".join(["tmm-gen build", *scenes])
         raise CheckFailed(f"{out}/ is not what the scenes give: {', '.join(differing)}. Run `{command}`.")
 
@@ -152,66 +134,6 @@ def _load(paths: Sequence[Path]) -> list[Scene]:
             )
         loaded[scene.name] = scene
     return list(loaded.values())
-
-
-def _build(scene: Scene, out: Path, force: bool) -> tuple[_Row, list[str]]:
-    from tmm_gen.package.cache import is_up_to_date, remember
-
-    folder = out / scene.name
-    if is_up_to_date(scene.digest, folder):
-        return _row(scene, folder, _UP_TO_DATE, _nothing(folder)), []
-    from tmm_gen.package.texts import emit_package
-    from tmm_gen.package.write import write_package
-
-    files = emit_package(scene)
-    changes = write_package(files, folder, force=force)
-    remember(scene.digest, files)
-    return _row(scene, folder, _BUILT if changes.written or changes.stale else _UP_TO_DATE, changes), []
-
-
-def _compare(scene: Scene, out: Path) -> tuple[_Row, list[str]]:
-    """Generate anew, whatever is remembered, and compare."""
-    from tmm_gen.package.texts import emit_package
-    from tmm_gen.package.write import compare_package
-
-    folder = out / scene.name
-    changes = compare_package(emit_package(scene), folder)
-    drift = bool(changes.written or changes.stale)
-    wanted = {**changes.written, **dict.fromkeys(changes.stale, "")}
-    lines = [line for path in sorted(wanted) for line in _difference(path, wanted[path])]
-    return _row(scene, folder, _DRIFT if drift else _UP_TO_DATE, changes), lines
-
-
-def _difference(path: Path, wanted: str) -> list[str]:
-    """Return what a build would change in a file."""
-    from tmm_gen.package.write import text_of
-
-    held = text_of(path) if path.is_file() else ""
-    name = path.as_posix()
-    before, after = (name if held else "/dev/null"), (name if wanted else "/dev/null")
-    return list(unified_diff(held.splitlines(), wanted.splitlines(), before, after, lineterm=""))
-
-
-def _nothing(folder: Path) -> Changes:
-    from tmm_gen.package.write import Changes, written_files
-
-    return Changes({}, (), tuple(written_files(folder)))
-
-
-def _row(scene: Scene, folder: Path, state: str, changes: Changes) -> _Row:
-    written, removed, unchanged = (
-        tuple(path.relative_to(folder).as_posix() for path in paths)
-        for paths in (changes.written, changes.stale, changes.unchanged)
-    )
-    return _Row(scene.name, folder, state, written, removed, unchanged, _without_motion(scene, folder))
-
-
-def _without_motion(scene: Scene, folder: Path) -> bool:
-    """Whether the C's test has nothing to compare a motion with."""
-    from tmm_gen.package.write import text_of, without_motion
-
-    test = folder / "c" / f"test_{scene.name}.c"
-    return test.is_file() and without_motion(text_of(test))
 
 
 def _columns(check: bool) -> list[Column | str]:

@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
 from tmm_gen.cli.console import Column, progress, say_written, table
-from tmm_gen.cli.given import constant_inputs, picture_file, plot_option, positive, resting_input_option
+from tmm_gen.cli.given import picture_file, plot_option, positive, resting_input_option
 from tmm_gen.cli.kinds import served_scene
 from tmm_gen.cli.links import show_links
-from tmm_gen.cli.near import near_option, start_of
+from tmm_gen.cli.near import near_option
 from tmm_gen.cli.outputs import OutputFile, claim, write_outputs
-from tmm_gen.errors import UserError
 
 if TYPE_CHECKING:
     from tmm_gen.modal.answer import Answer
@@ -78,64 +77,29 @@ def frequency(
         show_links(loaded, error, band, json_mode)
         return
     claim((csv_file, picture), (scene,))
+    from tmm_gen.inputs.given import constant_inputs
+    from tmm_gen.modal.near import start_of
+
     inputs, start = constant_inputs(loaded, given), start_of(loaded, near)
-    chosen = _chosen(scene, loaded.inputs, source, "--from", "[[input]]")
-    # energies go with the square of the motion
-    readable = tuple(item for item in loaded.outputs if not loaded.quantity(item).of_arm)
-    read = _chosen(scene, readable, target, "--to", "[[output]] of a place")
-    import numpy as np
+    from tmm_gen.modal.answer import answered, asked
 
-    # what overflows in an arm in space is refused
-    quiet = np.errstate(all="ignore" if loaded.spatial else None)
-    with progress(f"frequency response of {loaded.name}"), quiet:
-        from tmm_gen.modal.answer import answer_of, band_of, swinging
-
-        arm = swinging(loaded, inputs, start)
-        lowest, highest = band_of(arm, low, high)
-        if lowest >= highest:
-            raise click.UsageError(
-                f"the band from {lowest:g} to {highest:g} Hz is empty; give both --low and --high."
-            )
-        answer = answer_of(arm, (chosen, read), np.geomspace(lowest, highest, points))
+    about = asked(loaded, source, target)
+    with progress(f"frequency response of {loaded.name}"):
+        answer = answered(loaded, about, (low, high), points, inputs, start)
         written = _write(scene, answer, csv_file, picture)
     _show(answer, written, json_mode)
 
 
-def _chosen(scene: Path, items: tuple[Any, ...], name: str | None, option: str, table_name: str) -> Any:
-    """Return the item of a name, or the first."""
-    if not items:
-        raise UserError(
-            f"{scene}: has no {table_name}, and a frequency response needs one. Add {table_name}."
-        )
-    if name is None:
-        return items[0]
-    names = [item.name for item in items]
-    if name not in names:
-        raise UserError(f"{option} {name}: no such name; choose from {', '.join(names)}.")
-    return items[names.index(name)]
-
-
 def _write(scene: Path, answer: Answer, csv_file: Path | None, picture: Path | None) -> list[Path]:
     """Write the files asked for, all or none; return them."""
-    import numpy as np
-
     files: dict[Path, str | bytes] = {}
     if csv_file is not None:
-        header, columns = ["frequency_hz"], [answer.hertz]
-        for name, values in answer.parts.items():
-            header += [f"{name}_magnitude", f"{name}_phase_deg", f"{name}_real", f"{name}_imaginary"]
-            columns += [np.abs(values), np.degrees(np.angle(values)), values.real, values.imag]
-        lines = [",".join(header)]
-        lines += [",".join(f"{value:.17g}" for value in row) for row in zip(*columns, strict=True)]
-        files[csv_file] = "\n".join(lines) + "\n"
+        files[csv_file] = answer.csv()
     if picture is not None:
         from tmm_gen.modal.picture import bode_picture
 
         target = picture_file(picture, answer.scene.name, "-frequency")
-        name = answer.largest
-        texts = (answer.scene.title, f"{name} for a unit of {answer.given.name}")
-        drawn = (answer.hertz, answer.parts[name], answer.beam)
-        files[target] = bode_picture(answer.scene, *drawn, texts, answer.unit, target.suffix[1:].lower())
+        files[target] = bode_picture(answer, target.suffix[1:].lower())
     return write_outputs(files, (scene,))
 
 

@@ -3,17 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import Any, TypeVar
 
 import click
 
 from tmm_gen.cli.outputs import OutputFile
-from tmm_gen.errors import UserError
-
-if TYPE_CHECKING:
-    from tmm_gen.scene import Scene
 
 _Command = TypeVar("_Command", bound=Callable[..., Any])
 
@@ -77,32 +73,3 @@ def finite(_context: click.Context, parameter: click.Parameter, value: float | N
     if value is not None and not math.isfinite(value):
         raise click.BadParameter("must be a finite number", param=parameter)
     return value
-
-
-def constant_inputs(scene: Scene, given: Sequence[str]) -> dict[str, float]:
-    """Read ``NAME=VALUE`` words.
-
-    Raises
-    ------
-    UserError
-        If a word is none of these, names no input, or the scene is a chain, whose motion no load changes.
-    """
-    names = [item.name for item in scene.inputs]
-    found: dict[str, float] = {}
-    for text in given:
-        name, equals, value = text.partition("=")
-        if scene.model.linear:
-            raise UserError(
-                f"--input {text}: a chain is linear, its modes do not depend on loads. Leave it out."
-            )
-        if not equals or name not in names:
-            listed = f"inputs are {', '.join(names)}" if names else "the scene has no [[input]]"
-            raise UserError(f"--input {text}: write NAME=VALUE; {listed}.")
-        try:
-            number = float(value)
-        except ValueError:
-            number = math.nan
-        if not math.isfinite(number):
-            raise UserError(f"--input {text}: '{value}' is not a number.")
-        found[name] = number
-    return found

@@ -10,15 +10,16 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from tmm_gen.cli.console import Column, progress, say_written, table
-from tmm_gen.cli.given import constant_inputs, picture_file, plot_option, resting_input_option
+from tmm_gen.cli.given import picture_file, plot_option, resting_input_option
 from tmm_gen.cli.kinds import served_scene
-from tmm_gen.cli.modes_table import mode_row, say_unsure
-from tmm_gen.cli.near import near_option, start_of
+from tmm_gen.cli.modes_table import say_unsure
+from tmm_gen.cli.near import near_option
 from tmm_gen.cli.outputs import claim, write_outputs
 from tmm_gen.cli.space_modes import show_space_modes
 
 if TYPE_CHECKING:
     from tmm_gen.modal.arm import LinearArm
+    from tmm_gen.modal.beside import Beside
     from tmm_gen.modal.modes import Mode
     from tmm_gen.scene import Scene
 
@@ -53,58 +54,30 @@ def modes(
     beam, straight and weightless.
     """
     loaded = served_scene("modes", scene)
+    from tmm_gen.inputs.given import constant_inputs
+    from tmm_gen.modal.near import start_of
+
     inputs, start = constant_inputs(loaded, given), start_of(loaded, near)
     claim((picture,), (scene,))
     if loaded.spatial is not None:
         show_space_modes(loaded, count, inputs, start, picture, json_mode)
         return
     with progress(f"finding modes of {loaded.name}"):
+        from tmm_gen.modal.beside import Beside
         from tmm_gen.modal.matrices import matrices
+        from tmm_gen.modal.mode_rows import mode_row
         from tmm_gen.modal.modes import find_modes
         from tmm_gen.modal.situation import resting_arm
 
         arm = resting_arm(loaded, inputs, start)
         found = find_modes(matrices(arm), count)
-        beside = _Beside(loaded, arm, len(found))
+        beside = Beside.of(arm, len(found))
         rows = [mode_row(number, mode) | beside.row(number) for number, mode in enumerate(found)]
         files = _draw(picture, arm, found, beside)
     _show(loaded, arm, rows, beside, files, json_mode)
 
 
-class _Beside:
-    """The continuous beam beside the arm, if there is one."""
-
-    def __init__(self, scene: Scene, arm: LinearArm, count: int) -> None:
-        from tmm_gen.modal.beam import natural_frequencies
-        from tmm_gen.modal.discretised import continuous, relative_errors, straight_frequencies
-
-        self.beam = continuous(scene)
-        self.straight = arm.rest is None or not any(abs(angle) > 1e-9 for angle in arm.rest.angles.tolist())
-        if self.beam is not None:
-            self.exact = natural_frequencies(self.beam, count)
-            self.discretised = straight_frequencies(scene, count=count)
-            self.errors = relative_errors(self.discretised, self.exact)
-
-    def row(self, number: int) -> dict[str, object]:
-        """Return what is known of a mode of the continuous beam."""
-        if self.beam is None:
-            return {}
-        from tmm_gen.modal.beam import damped_pole
-
-        exact, straight = float(self.exact[number]), float(self.discretised[number])
-        pole = damped_pole(self.beam, exact) if exact > 0.0 else None
-        signed = straight / exact - 1.0 if exact > 0.0 else None
-        return {
-            "straight_hz": straight / (2.0 * math.pi),
-            "exact_hz": exact / (2.0 * math.pi),
-            "exact_angular_frequency": exact,
-            "exact_damping_ratio": None if pole is None else (0.0 - pole.real) / abs(pole),
-            "error": signed,
-            "error_percent": None if signed is None else 100.0 * signed,
-        }
-
-
-def _draw(picture: Path | None, arm: LinearArm, found: tuple[Mode, ...], beside: _Beside) -> list[Path]:
+def _draw(picture: Path | None, arm: LinearArm, found: tuple[Mode, ...], beside: Beside) -> list[Path]:
     if picture is None:
         return []
     from tmm_gen.modal.picture import mode_picture
@@ -129,7 +102,7 @@ def _show(
     scene: Scene,
     arm: LinearArm,
     rows: list[dict[str, Any]],
-    beside: _Beside,
+    beside: Beside,
     files: list[Path],
     json_mode: bool,
 ) -> None:

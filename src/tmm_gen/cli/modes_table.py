@@ -3,29 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
-if TYPE_CHECKING:
-    from tmm_gen.modal.modes import Mode
-
 _UNSURE = 1e-6
 """Relative error that a frequency's residual may leave open without a word: the table shows six digits."""
-
-
-def mode_row(number: int, mode: Mode) -> dict[str, object]:
-    """Return what is known of a mode, counted from 0."""
-    return {
-        "mode": number + 1,
-        "frequency_hz": mode.hertz,
-        "angular_frequency": mode.frequency,
-        "damping_ratio": mode.damping_ratio,
-        "poles": [{"real": pole.real, "imaginary": pole.imag} for pole in mode.poles],
-        "motion": mode.motion,
-        "shape": mode.shape,
-        "error_bound": mode.bound,
-    }
 
 
 def say_unsure(rows: Sequence[dict[str, Any]]) -> None:

@@ -9,16 +9,16 @@ import click
 
 from tmm_gen.cli.changes import changed_scene, set_option
 from tmm_gen.cli.console import Column, print_json, progress, say_written, table
-from tmm_gen.cli.given import constant_inputs, picture_file, plot_option, resting_input_option
+from tmm_gen.cli.given import picture_file, plot_option, resting_input_option
 from tmm_gen.cli.kinds import require_served
-from tmm_gen.cli.near import FROM_START, near_option, start_of
+from tmm_gen.cli.near import near_option
 from tmm_gen.cli.outputs import claim, write_outputs
 from tmm_gen.cli.rest_table import say_starts, six, title_of
 from tmm_gen.cli.space_rest import show_space_rest
 from tmm_gen.errors import UserError
 
 if TYPE_CHECKING:
-    from tmm_gen.modal.equilibria import Equilibria, Equilibrium
+    from tmm_gen.modal.equilibria import Equilibria
     from tmm_gen.scene import Scene
 
 # NumPy, SymPy and Matplotlib are imported inside: `tmm-gen --help` has no use for them.
@@ -51,6 +51,9 @@ def rest(
             f"{scene}: a chain has no weight and rests straight, or as its inputs twist it: `tmm-gen run` shows that. "
             "Name a planar scene, or one in space."
         )
+    from tmm_gen.inputs.given import constant_inputs
+    from tmm_gen.modal.near import FROM_START, NEAR, start_of
+
     inputs = constant_inputs(loaded, given)
     start = start_of(loaded, near)
     claim((picture,), (scene,))
@@ -67,7 +70,7 @@ def rest(
 
             target = picture_file(picture, loaded.name, "-rest")
             files = write_outputs({target: rest_picture(loaded, held, target.suffix[1:].lower())})
-    _show(loaded, inputs, held, FROM_START if start is None else "--near", files, json_mode)
+    _show(loaded, inputs, held, FROM_START if start is None else NEAR, files, json_mode)
 
 
 def _show(
@@ -80,9 +83,10 @@ def _show(
 ) -> None:
     from tmm_gen.modal.equilibria import free_joints
     from tmm_gen.modal.near import joint_name
+    from tmm_gen.report.rest_rows import named_ends, rest_row
 
     names = {number: joint_name(scene, number) for number in free_joints(scene)}
-    rows = [_row(scene, number, each, origin) for number, each in enumerate(held.found, start=1)]
+    rows = [rest_row(scene, number, each, origin) for number, each in enumerate(held.found, start=1)]
     if json_mode:
         facts = {
             "scene": scene.name,
@@ -94,7 +98,7 @@ def _show(
         print_json({**facts, "rows": rows})
         return
     columns = [Column("equilibrium"), Column("state")]
-    for end, name in _ends(scene):
+    for end, name in named_ends(scene):
         columns += [Column(f"{axis}{end}", f"{name} {axis} (m)", six, "right") for axis in "xy"]
     for name in [part.name for part in scene.parts if part.joint] or ["joint 1"]:
         columns.append(Column(f"{name} angle", f"{name} angle (rad)", six, "right"))
@@ -108,59 +112,13 @@ def _show(
     say_written(files, "--plot draws them, --json has every node, angle and torque")
 
 
-def _ends(scene: Scene) -> list[tuple[int, str]]:
-    """Return the links that carry nothing, with names: "tip" of an arm without branches, else that of the last part."""
-    from tmm_gen.simulate.places import ends
-
-    names = {part.last: part.name for part in scene.parts}
-    found = ends(scene)
-    return [(end, "tip" if len(found) == 1 else names[end]) for end in found]
-
-
-def _row(scene: Scene, number: int, each: Equilibrium, origin: str) -> dict[str, Any]:
-    import numpy as np
-
-    from tmm_gen.modal.near import joint_name
-    from tmm_gen.simulate.places import node_places
-
-    at = each.rest
-    place = np.concatenate(node_places(scene, at.angles[None]))
-    angles = np.concatenate([[at.hub], at.angles])
-    turned = at.angles - angles[[scene.inner(joint) for joint in range(1, scene.stations + 1)]]
-    return {
-        "equilibrium": number,
-        "state": each.told(origin),
-        "stable": each.stable,
-        "from_start": each.reached and origin == FROM_START,
-        "from_near": each.reached and origin != FROM_START,
-        "falls": each.falls,
-        "idle": each.idle.shape[1],
-        "hub_angle": at.hub,
-        "angles": at.angles,
-        "nodes": place.T,
-        "parts": [
-            {"name": part.name, "x": x, "y": y, "angle": float(at.angles[part.last - 1])}
-            for part in scene.parts
-            if part.last and not part.fixed
-            for x, y in [place[:, part.last].tolist()]
-        ],
-        "joints": [
-            {
-                "name": joint_name(scene, joint),
-                "angle": float(turned[joint - 1]),
-                "torque": float(at.inner[joint - 1, 2]),
-            }
-            for joint, link in enumerate(scene.links, start=1)
-            if not link.massless  # of an elastic gear, whose shaft is in between, the outer side is told
-        ],
-    }
-
-
 def _flat(scene: Scene, row: dict[str, Any]) -> dict[str, object]:
     """Return a row of the table: of joints those that have a column."""
+    from tmm_gen.report.rest_rows import named_ends
+
     places = row["nodes"]
     flat = {"equilibrium": row["equilibrium"], "state": row["state"]}
-    for end, _ in _ends(scene):
+    for end, _ in named_ends(scene):
         flat |= {f"x{end}": places[end][0], f"y{end}": places[end][1]}
     for joint in row["joints"]:
         flat |= {f"{joint['name']} {key}": joint[key] for key in ("angle", "torque")}

@@ -24,9 +24,6 @@ if TYPE_CHECKING:
 # NumPy, SymPy and Matplotlib are imported inside: `tmm-gen --help` has no use for them.
 
 _MOVING = (".gif", ".html")
-_BALANCED = 1e-2
-"""Imbalance of energies, as a share of what moves, that is worth a word on how the step may cause it."""
-
 _PROFILES = """\b
 Profiles; times in s (or 0.8s, 800ms), what is in brackets may be absent:
   step:FROM:TO[:AT]                 a jump, at 0 s or AT
@@ -187,6 +184,8 @@ def _moving(simulation: Simulation, form: str) -> bytes:
 
 def _show(simulation: Simulation, written: list[Path], hints: list[str], json_mode: bool) -> None:
     """Print the figures, what was done, and what could be done next."""
+    from tmm_gen.simulate.trust import divided, trusted
+
     scene, last, accuracy = simulation.scene, float(simulation.time[-1]), simulation.accuracy
     facts = {
         "scene": scene.name,
@@ -213,7 +212,7 @@ def _show(simulation: Simulation, written: list[Path], hints: list[str], json_mo
     if json_mode:
         return
     if simulation.substeps.count > 1:
-        click.echo(_divided(simulation))
+        click.echo(divided(simulation))
     if accuracy is not None and not simulation.still:
         click.echo(trusted(simulation))
     for note in simulation.notes:
@@ -229,58 +228,3 @@ def _show(simulation: Simulation, written: list[Path], hints: list[str], json_mo
 def _telling(rows: list[dict[str, object]]) -> list[Column | str]:
     """Return the columns in which something stands."""
     return [c for c in _COLUMNS if any(row[c if isinstance(c, str) else c.key] is not None for row in rows)]
-
-
-def _divided(simulation: Simulation) -> str:
-    """Say that steps were divided, and why."""
-    substeps, step = simulation.substeps, simulation.scene.integrator.step
-    return (
-        f"took {substeps.count} substeps per step: at the scene's step of {step:g} s {substeps.because} "
-        f"(which --step {step:g} refuses)"
-    )
-
-
-def trusted(simulation: Simulation) -> str:
-    """Say how good a run is, and from what that is known."""
-    from tmm_gen.simulate.accuracy import SENSITIVE
-
-    accuracy = simulation.accuracy
-    assert accuracy is not None
-    said = [f"accurate to about {_share(accuracy.error)} of the motion{_why(simulation)}"]
-    if accuracy.sensitivity is not None and accuracy.sensitivity > SENSITIVE:
-        said.append(
-            f"the motion is sensitive: a small disturbance of its start grows {accuracy.sensitivity:.0e}-fold, so that "
-            "another machine may see another one"
-        )
-    if simulation.imbalance:
-        said.append(
-            _balance(simulation.imbalance, simulation.scene.integrator.step / simulation.substeps.count)
-        )
-    return "\n".join(said)
-
-
-def _why(simulation: Simulation) -> str:
-    """Name the figures behind the accuracy."""
-    if simulation.unsolved is None:
-        return ""
-    left = f"{simulation.unsolved:.0e} of the energy" if simulation.unsolved else "nothing but rounding"
-    sweeps = simulation.sweeps_per_step
-    of = "substep" if simulation.substeps.count > 1 else "step"
-    count = f" ({sweeps:.3g} a {of})" if sweeps is not None else ""
-    return f" (the {of} errs by {simulation.step_error:.0e} per radian; sweeps{count} left {left} unsolved)"
-
-
-def _balance(imbalance: float, step: float) -> str:
-    said = f"work, energy and heat balance to {imbalance:.1e}"
-    if imbalance <= _BALANCED:
-        return said
-    return (
-        f"{said}: the step is long for this arm, or the integrator damps it; --step {step / 10:g} would tell"
-    )
-
-
-def _share(error: float) -> str:
-    """Return a share in words that a reader takes in at once."""
-    return (
-        f"{100.0 * error:.2g} %" if error >= 1e-3 else f"{error:.0e}" if error > 1e-13 else "the last digits"
-    )

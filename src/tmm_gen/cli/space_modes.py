@@ -10,21 +10,16 @@ import click
 
 from tmm_gen.cli.console import Column, progress, say_written, table
 from tmm_gen.cli.given import picture_file
-from tmm_gen.cli.modes_table import mode_row, say_unsure
+from tmm_gen.cli.modes_table import say_unsure
 from tmm_gen.cli.outputs import write_outputs
-from tmm_gen.cli.space_rest import parts_that_turn
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from tmm_gen.modal.modes import Mode
     from tmm_gen.modal.space.situation import RestingArm
     from tmm_gen.scene import Scene
 
-_TOLD = 3
-"""Parts that a table names for a mode, as far as they have a share worth naming."""
-_LEAST = 0.1
 _STRAIGHT = 1e-9
 """rad."""
 
@@ -41,11 +36,12 @@ def show_space_modes(
     import numpy as np
 
     with progress(f"finding modes of {scene.name}"), np.errstate(all="ignore"):  # what overflows is refused
+        from tmm_gen.modal.mode_rows import space_mode_row
         from tmm_gen.modal.space.situation import resting_in_space
 
         resting = resting_in_space(scene, inputs, start)
         found = resting.modes(count)
-        rows = [_row(resting, number, mode) for number, mode in enumerate(found)]
+        rows = [space_mode_row(resting, number, mode) for number, mode in enumerate(found)]
         files: list[Path] = []
         if picture is not None:
             from tmm_gen.report.space_modes import space_mode_picture
@@ -53,30 +49,6 @@ def show_space_modes(
             target = picture_file(picture, scene.name, "-modes")
             files = write_outputs({target: space_mode_picture(resting, found, target.suffix[1:].lower())})
     _show(resting, rows, files, json_mode)
-
-
-def _row(resting: RestingArm, number: int, mode: Mode) -> dict[str, Any]:
-    import numpy as np
-
-    from tmm_gen.modal.space.shares import shares
-
-    parts = shares(resting.still, mode.shape)
-    told = [each for each in parts[:_TOLD] if each.share >= _LEAST]
-    frames = []
-    for frame in resting.arm.frames:
-        moved, turned = resting.still.moved(frame)
-        frames.append({"name": frame.name, "moved": moved @ mode.shape, "turned": turned @ mode.shape})
-    return {
-        **mode_row(number, mode),
-        "shape": mode.shape[6:],
-        "motion": "moves along freely"
-        if np.any(mode.shape[:3]) and not np.any(mode.shape[3:])
-        else mode.motion,
-        "base_shape": mode.shape[:6] if resting.still.numbers.floats else None,
-        "mostly": ", ".join(f"{each.what} {100.0 * each.share:.0f} %" for each in told),
-        "shares": [{"what": each.what, "share": each.share} for each in parts],
-        "frames": frames,
-    }
 
 
 def _show(resting: RestingArm, rows: list[dict[str, Any]], files: list[Path], json_mode: bool) -> None:
@@ -104,6 +76,8 @@ def _show(resting: RestingArm, rows: list[dict[str, Any]], files: list[Path], js
     if json_mode:
         return
     if float(max(abs(rest))) > _STRAIGHT:
+        from tmm_gen.modal.near import parts_that_turn
+
         turned = [(name, math.degrees(rest[number - 1])) for number, name in parts_that_turn(resting.arm)]
         told = ", ".join(f"{name} {round(angle, 3):g}" for name, angle in turned if round(angle, 3))
         click.echo("about the static equilibrium" + (f", in degrees: {told}" if told else ""))

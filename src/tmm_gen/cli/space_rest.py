@@ -9,7 +9,6 @@ import click
 
 from tmm_gen.cli.console import Column, print_json, progress, say_written, table
 from tmm_gen.cli.given import picture_file
-from tmm_gen.cli.near import FROM_START
 from tmm_gen.cli.outputs import write_outputs
 from tmm_gen.cli.rest_table import say_starts, six, title_of
 
@@ -17,7 +16,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from tmm_gen.modal.space.equilibria import SpaceEquilibria, SpaceEquilibrium
+    from tmm_gen.modal.space.equilibria import SpaceEquilibria
     from tmm_gen.scene import Scene
     from tmm_gen.scene.spatial.arm import SpatialArm
 
@@ -39,6 +38,7 @@ def show_space_rest(
         progress(f"balancing {scene.name}") as advance,
         np.errstate(all="ignore"),
     ):  # what overflows is refused
+        from tmm_gen.modal.near import FROM_START, NEAR
         from tmm_gen.modal.space.equilibria import equilibria_in_space
         from tmm_gen.modal.space.situation import arm_numbers
 
@@ -53,13 +53,7 @@ def show_space_rest(
             files = write_outputs(
                 {target: space_rest_picture(arm, scene.title, held, target.suffix[1:].lower())}
             )
-    _show(scene, arm, inputs, held, FROM_START if start is None else "--near", files, json_mode)
-
-
-def parts_that_turn(arm: SpatialArm) -> list[tuple[int, str]]:
-    """Return the joints that are parts by themselves, not a beam's: number, counted from 1, and name."""
-    parts = {frame.name for frame in arm.frames}
-    return [(number, joint.name) for number, joint in enumerate(arm.joints, start=1) if joint.name in parts]
+    _show(scene, arm, inputs, held, FROM_START if start is None else NEAR, files, json_mode)
 
 
 def _show(
@@ -71,10 +65,12 @@ def _show(
     files: list[Path],
     json_mode: bool,
 ) -> None:
+    from tmm_gen.modal.near import parts_that_turn
+    from tmm_gen.report.rest_rows import space_rest_row
     from tmm_gen.simulate.skeleton import Skeleton
 
     free = [joint.name for joint in arm.joints if joint.stiffness == 0.0]
-    rows = [_row(arm, number, each, origin) for number, each in enumerate(held.found, start=1)]
+    rows = [space_rest_row(arm, number, each, origin) for number, each in enumerate(held.found, start=1)]
     if json_mode:
         facts = {
             "scene": scene.name,
@@ -111,28 +107,6 @@ def _show(
         )
     say_starts(held.starts)
     say_written(files, "--plot draws them, --json has every frame, angle and torque")
-
-
-def _row(arm: SpatialArm, number: int, each: SpaceEquilibrium, origin: str) -> dict[str, Any]:
-    rest = each.rest
-    return {
-        "equilibrium": number,
-        "state": each.told(origin),
-        "stable": each.stable,
-        "from_start": each.reached and origin == FROM_START,
-        "from_near": each.reached and origin != FROM_START,
-        "falls": each.falls,
-        "idle": each.idle.shape[1],
-        "angles": rest.angles,
-        "frames": [
-            {"name": frame.name, **dict(zip("xyz", rest.place(frame).tolist(), strict=True))}
-            for frame in arm.frames
-        ],
-        "joints": [
-            {"name": name, "angle": float(rest.angles[k - 1]), "torque": float(rest.passed[k - 1])}
-            for k, name in parts_that_turn(arm)
-        ],
-    }
 
 
 def _flat(row: dict[str, Any]) -> dict[str, Any]:

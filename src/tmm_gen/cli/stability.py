@@ -13,7 +13,7 @@ from tmm_gen.cli.changes import changed_scene, set_option
 from tmm_gen.cli.console import Column, progress, say_written, table
 from tmm_gen.cli.given import picture_file, plot_option
 from tmm_gen.cli.kinds import require_served
-from tmm_gen.cli.near import near_option, start_of
+from tmm_gen.cli.near import near_option
 from tmm_gen.cli.outputs import claim, write_outputs
 
 if TYPE_CHECKING:
@@ -60,6 +60,8 @@ def stability(
     it differs.
     """
     loaded = require_served("stability", changed_scene(scene, changes))
+    from tmm_gen.modal.near import start_of
+
     start = start_of(loaded, near)
     chosen = _known(mapped or (loaded.integrator.name,))
     claim((picture,), (scene,))

@@ -11,7 +11,7 @@ from __future__ import annotations
 import csv
 import math
 import os
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from difflib import get_close_matches
 from pathlib import Path
 
@@ -77,6 +77,35 @@ def read_inputs(
         if not wanted:
             raise UserError(f"--input {text}: every input is given already. Leave it out.")
         found |= read_tables(Path(text), wanted, angles)
+    return found
+
+
+def constant_inputs(scene: Scene, given: Sequence[str]) -> dict[str, float]:
+    """Return the constant inputs that a user gives as ``NAME=VALUE``, by name.
+
+    Raises
+    ------
+    UserError
+        If a word is none of these, names no input, or the scene is a chain, whose motion no load changes.
+    """
+    names = [item.name for item in scene.inputs]
+    found: dict[str, float] = {}
+    for text in given:
+        name, equals, value = text.partition("=")
+        if scene.model.linear:
+            raise UserError(
+                f"--input {text}: a chain is linear, its modes do not depend on loads. Leave it out."
+            )
+        if not equals or name not in names:
+            listed = f"inputs are {', '.join(names)}" if names else "the scene has no [[input]]"
+            raise UserError(f"--input {text}: write NAME=VALUE; {listed}.")
+        try:
+            number = float(value)
+        except ValueError:
+            number = math.nan
+        if not math.isfinite(number):
+            raise UserError(f"--input {text}: '{value}' is not a number.")
+        found[name] = number
     return found
 
 

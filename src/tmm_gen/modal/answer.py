@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from tmm_gen.errors import UserError
 from tmm_gen.modal.beam.response import beam_response
 from tmm_gen.modal.linear import Linear
 from tmm_gen.modal.matrices import matrices
@@ -129,6 +131,86 @@ class Answer:
     def largest(self) -> str:
         """The component whose peak is the largest."""
         return max(self.parts, key=lambda name: float(np.max(np.abs(self.parts[name]))))
+
+    def csv(self) -> str:
+        """Return a table of the answer with 17 significant digits: every bit of a double."""
+        header, columns = ["frequency_hz"], [self.hertz]
+        for name, values in self.parts.items():
+            header += [f"{name}_magnitude", f"{name}_phase_deg", f"{name}_real", f"{name}_imaginary"]
+            columns += [np.abs(values), np.degrees(np.angle(values)), values.real, values.imag]
+        lines = [",".join(header)]
+        lines += [",".join(f"{value:.17g}" for value in row) for row in zip(*columns, strict=True)]
+        return "\n".join(lines) + "\n"
+
+
+_Item = TypeVar("_Item", Input, Output)
+
+
+def asked(scene: Scene, source: str | None, target: str | None) -> tuple[Input, Output]:
+    """Return the input and the output of some names, or the first ones.
+
+    Raises
+    ------
+    UserError
+        If there is none of that name, or none at all.
+    """
+    # energies go with the square of the motion
+    readable = tuple(item for item in scene.outputs if not scene.quantity(item).of_arm)
+    chosen = _chosen(scene, scene.inputs, source, "--from", "[[input]]")
+    return chosen, _chosen(scene, readable, target, "--to", "[[output]] of a place")
+
+
+def _chosen(
+    scene: Scene, items: tuple[_Item, ...], name: str | None, option: str, table_name: str
+) -> _Item:
+    if not items:
+        raise UserError(
+            f"{scene.source.origin}: has no {table_name}, and a frequency response needs one. Add {table_name}."
+        )
+    if name is None:
+        return items[0]
+    names = [item.name for item in items]
+    if name not in names:
+        raise UserError(f"{option} {name}: no such name; choose from {', '.join(names)}.")
+    return items[names.index(name)]
+
+
+def answered(
+    scene: Scene,
+    about: tuple[Input, Output],
+    limits: tuple[float | None, float | None] = (None, None),
+    points: int = 1000,
+    inputs: Mapping[str, float] | None = None,
+    start: Array | None = None,
+) -> Answer:
+    """Return how an output of a scene answers an input over a band.
+
+    Parameters
+    ----------
+    scene : Scene
+        Of any kind.
+    about : tuple of Input and Output
+        As of :func:`asked`.
+    limits : (float or None, float or None)
+        Band, Hz; by default as of :func:`band_of`.
+    points : int
+        Frequencies, evenly in log.
+    inputs : mapping from str to float, optional
+        Constant inputs that an arm rests under.
+    start : array, optional
+        Free angles near which it rests, rad.
+
+    Raises
+    ------
+    UserError
+        If the band is empty, or there is no equilibrium.
+    """
+    with np.errstate(all="ignore" if scene.spatial else None):  # what overflows in space is refused
+        arm = swinging(scene, dict(inputs or {}), start)
+        low, high = band_of(arm, *limits)
+        if low >= high:
+            raise UserError(f"the band from {low:g} to {high:g} Hz is empty. Give both --low and --high.")
+        return answer_of(arm, about, np.geomspace(low, high, points))
 
 
 def answer_of(arm: Swinging, about: tuple[Input, Output], hertz: Array) -> Answer:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,8 +11,18 @@ from numpy.typing import NDArray
 from tmm_gen.errors import UserError
 from tmm_gen.modal.rest import straight
 from tmm_gen.scene import Scene
+from tmm_gen.scene.spatial.arm import SpatialArm
 
 Array = NDArray[np.float64]
+
+_MOST = 1000.0
+"""rad; after so many turns nothing is near."""
+
+FROM_START, NEAR = "the start", "--near"
+"""Where a search begins: without being told where, and told."""
+
+_SHOWN = 8
+"""Names that are listed."""
 
 
 def joint_name(scene: Scene, number: int) -> str:
@@ -40,6 +51,40 @@ def beyond(scene: Scene, joint: int) -> list[int]:
         if scene.host(number) in turning:
             turning.add(number)
     return sorted(turning)
+
+
+def start_of(scene: Scene, near: Sequence[str]) -> Array | None:
+    """Return the free angles from where an equilibrium is looked for; None where nothing is asked for.
+
+    Raises
+    ------
+    UserError
+        If a word is not ``JOINT=ANGLE``, names no joint, or the scene is a chain.
+    """
+    if not near:
+        return None
+    if scene.model.linear:
+        raise UserError(
+            f"--near {near[0]}: a chain is linear, its motion is the same about any rest. Leave it out."
+        )
+    angles: dict[str, float] = {}
+    for text in near:
+        name, _, value = text.partition("=")
+        try:
+            angles[name.strip()] = float(value)
+        except ValueError:
+            angles[name.strip()] = math.nan
+        if not abs(angles[name.strip()]) <= _MOST:  # no number is not either
+            raise UserError(
+                f"--near {text}: write JOINT=ANGLE, the angle in rad, at most {_MOST:g}; for example --near elbow=0.5."
+            )
+    return start_near(scene, angles)
+
+
+def parts_that_turn(arm: SpatialArm) -> list[tuple[int, str]]:
+    """Return the joints that are parts by themselves, not a beam's: number, counted from 1, and name."""
+    parts = {frame.name for frame in arm.frames}
+    return [(number, joint.name) for number, joint in enumerate(arm.joints, start=1) if joint.name in parts]
 
 
 def start_near(scene: Scene, angles: Mapping[str, float]) -> Array:
@@ -88,6 +133,3 @@ def _listed(scene: Scene, numbers: Mapping[str, int]) -> str:
     names = sorted(numbers, key=lambda name: (name not in parts and name != "hub", numbers[name]))
     shown = names[:_SHOWN]
     return ", ".join(shown) + (f" and {len(names) - _SHOWN} more" if len(names) > _SHOWN else "")
-
-
-_SHOWN = 8

@@ -8,16 +8,17 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from tmm_gen.modal.answer import Answer
 from tmm_gen.modal.arm import LinearArm
 from tmm_gen.modal.beam import BeamArm, beam_shape
 from tmm_gen.modal.limbs import limbs_of
 from tmm_gen.modal.modes import Mode
 from tmm_gen.modal.parts import parts_of
-from tmm_gen.scene import Scene
 from tmm_gen.style import FAINT, PALETTE, figure, picture, style, subtitle
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -46,6 +47,11 @@ def mode_picture(
     form : {"png", "svg", "pdf"}
         Format.
     """
+    return picture(mode_figure(arm, modes, exact), form)
+
+
+def mode_figure(arm: LinearArm, modes: Sequence[Mode], exact: tuple[BeamArm, Array] | None) -> Figure:
+    """Return the figure that :func:`mode_picture` writes."""
     shaped = arm.scene.model.in_plane
     with style():
         columns = min(_COLUMNS, len(modes))
@@ -72,7 +78,7 @@ def mode_picture(
         if len(labels) > 1:
             made.legend(handles, labels, loc="outside lower center", ncols=len(labels))
         made.suptitle(arm.scene.title, x=0.01, ha="left", fontweight="bold", fontsize=11)
-        return picture(made, form)
+        return made
 
 
 def _title(panel: Axes, number: int, mode: Mode) -> None:
@@ -144,32 +150,23 @@ def _draw_bent(panel: Axes, arm: LinearArm, mode: Mode) -> None:
     panel.set_aspect("equal", adjustable="datalim")
 
 
-def bode_picture(
-    scene: Scene,
-    hertz: Array,
-    response: Complex,
-    beam: Complex | None,
-    texts: tuple[str, str],
-    unit: str,
-    form: str = "png",
-) -> bytes:
-    """Draw magnitude and phase of one response.
+def bode_picture(answer: Answer, form: str = "png") -> bytes:
+    """Draw magnitude and phase of one response; of a vector its largest component.
 
     Parameters
     ----------
-    scene : Scene
-        Whose response it is.
-    hertz : array, (f,)
-        Hz.
-    response, beam : array, (f,)
-        Of the arm, and of the continuous beam if there is one.
-    texts : (str, str)
-        Title and the line below.
-    unit : str
-        Of the magnitude.
+    answer : Answer
+        What to draw.
     form : {"png", "svg", "pdf"}
         Format.
     """
+    return picture(bode_figure(answer), form)
+
+
+def bode_figure(answer: Answer) -> Figure:
+    """Return the figure that :func:`bode_picture` writes."""
+    scene, hertz, beam, shown = answer.scene, answer.hertz, answer.beam, answer.largest
+    response = answer.parts[shown]
     with style():
         made, axes = figure(8.0, 5.6, nrows=2, sharex=True, gridspec_kw={"height_ratios": [2.0, 1.0]})
         name = _KINDS[scene.model.kind].format(scene.stations)  # what its curve is called
@@ -182,15 +179,15 @@ def bode_picture(
             axes[1].semilogx(hertz, _phase(values), **look)
         if beam is not None:
             axes[0].legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, borderaxespad=0.2)
-        axes[0].set_ylabel(f"magnitude ({unit})")
+        axes[0].set_ylabel(f"magnitude ({answer.unit})")
         axes[1].set_ylabel("phase (°)")
         axes[1].set_yticks(np.arange(-180, 181, 90))
         axes[1].set_ylim(-195, 195)
         axes[1].set_xlabel("frequency (Hz)")
         axes[1].set_xlim(hertz[0], hertz[-1])
-        subtitle(axes[0], *texts)
+        subtitle(axes[0], scene.title, f"{shown} for a unit of {answer.given.name}")
         made.align_ylabels(axes)
-        return picture(made, form)
+        return made
 
 
 def _phase(values: Complex) -> Array:

@@ -35,8 +35,13 @@ def response_picture(simulation: Simulation, form: str = "png") -> bytes:
     form : {"png", "svg", "pdf"}
         Format.
     """
+    return picture(response_figure(simulation), form)
+
+
+def response_figure(simulation: Simulation) -> Figure:
+    """Return the figure that :func:`response_picture` writes."""
     with style():
-        return picture(_drawn(simulation), form)
+        return _drawn(simulation)
 
 
 def _drawn(simulation: Simulation) -> Figure:

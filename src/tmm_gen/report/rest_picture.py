@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from tmm_gen.modal.equilibria import Equilibria
 from tmm_gen.scene import Scene
 from tmm_gen.simulate.places import node_places, outline
 from tmm_gen.style import FAINT, PALETTE, figure, picture, style
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 _COLUMNS = 4
 
@@ -24,6 +27,11 @@ def rest_picture(scene: Scene, held: Equilibria, form: str = "png") -> bytes:
     form : {"png", "svg", "pdf"}
         Format.
     """
+    return picture(rest_figure(scene, held), form)
+
+
+def rest_figure(scene: Scene, held: Equilibria) -> Figure:
+    """Return the figure that :func:`rest_picture` writes."""
     columns = min(_COLUMNS, len(held.found))
     rows = -(-len(held.found) // columns)
     reach = 1.05 * sum(link.length for link in scene.links)
@@ -50,4 +58,4 @@ def rest_picture(scene: Scene, held: Equilibria, form: str = "png") -> bytes:
         for panel in axes[:, 0]:
             panel.set_ylabel("y (m)")
         made.suptitle(scene.title, x=0.01, ha="left", fontweight="bold", fontsize=11)
-        return picture(made, form)
+        return made

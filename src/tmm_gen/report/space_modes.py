@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +17,10 @@ from tmm_gen.report.space_motion import SpaceMotion
 from tmm_gen.report.space_panels import space_panels
 from tmm_gen.report.space_picture import on_ground
 from tmm_gen.scene.spatial.arm import ZERO, SpatialArm, Vector
-from tmm_gen.style import FAINT, PALETTE
+from tmm_gen.style import FAINT, PALETTE, picture
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 Array = NDArray[np.float64]
 
@@ -44,6 +47,11 @@ def space_mode_picture(resting: RestingArm, modes: Sequence[Mode], form: str = "
     form : {"png", "svg", "pdf"}
         Format.
     """
+    return picture(space_mode_figure(resting, modes), form)
+
+
+def space_mode_figure(resting: RestingArm, modes: Sequence[Mode]) -> Figure:
+    """Return the figure that :func:`space_mode_picture` writes."""
     arm, still = resting.arm, resting.still
     motion = SpaceMotion(arm, np.zeros(1), still.posed())
     rungs_of = _rungs_of(motion)
@@ -69,7 +77,7 @@ def space_mode_picture(resting: RestingArm, modes: Sequence[Mode], form: str = "
                     panel.plot(*place[list(line)].T, **look)
                 for rung in across:
                     panel.plot(*rung.T, **{**look, "linewidth": 0.8})
-        return panels.picture(form)
+        return panels.figure
 
 
 def _title(number: int, mode: Mode) -> str:

@@ -10,10 +10,11 @@ from numpy.typing import NDArray
 
 from tmm_gen.report.space_motion import SpaceMotion
 from tmm_gen.report.space_picture import set_out
-from tmm_gen.style import figure, picture, style
+from tmm_gen.style import figure, style
 
 if TYPE_CHECKING:
     import numpy as np
+    from matplotlib.figure import Figure
 
 _SIDE = 3.0
 """Inches."""
@@ -39,7 +40,7 @@ class SpacePanels:
         self._motion = motion
         beside = min(columns, count)
         rows = -(-count // beside)
-        self._made, axes = figure(
+        made, axes = figure(
             max(_SIDE * beside, 5.0),
             0.6 + _SIDE * rows,
             nrows=rows,
@@ -47,6 +48,7 @@ class SpacePanels:
             squeeze=False,
             subplot_kw={"projection": "3d"},
         )
+        self._made: Figure = made
         self.axes = list(axes.flat)[:count]
         for panel in axes.flat[count:]:
             self._made.delaxes(panel)  # an unseen one has no place in the layout
@@ -63,9 +65,10 @@ class SpacePanels:
             axis.set_tick_params(labelsize=6.5, pad=-2.0)
         return ground
 
-    def picture(self, form: str) -> bytes:
-        """Return the picture in a format."""
-        return picture(self._made, form)
+    @property
+    def figure(self) -> Figure:
+        """The whole picture."""
+        return self._made
 
 
 @contextmanager

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from tmm_gen.modal.space.equilibria import SpaceEquilibria
@@ -9,7 +11,10 @@ from tmm_gen.report.space_motion import SpaceMotion
 from tmm_gen.report.space_panels import space_panels
 from tmm_gen.report.space_picture import on_ground
 from tmm_gen.scene.spatial.arm import SpatialArm
-from tmm_gen.style import PALETTE
+from tmm_gen.style import PALETTE, picture
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 _COLUMNS = 4
 
@@ -28,6 +33,11 @@ def space_rest_picture(arm: SpatialArm, title: str, held: SpaceEquilibria, form:
     form : {"png", "svg", "pdf"}
         Format.
     """
+    return picture(space_rest_figure(arm, title, held), form)
+
+
+def space_rest_figure(arm: SpatialArm, title: str, held: SpaceEquilibria) -> Figure:
+    """Return the figure that :func:`space_rest_picture` writes."""
     count = len(held.found)
     poses = np.concatenate([each.rest.posed() for each in held.found])
     motion = SpaceMotion(arm, np.arange(count, dtype=float), poses)
@@ -41,4 +51,4 @@ def space_rest_picture(arm: SpatialArm, title: str, held: SpaceEquilibria, form:
                 on_ground(panel, motion, place[list(line)], ground)
                 panel.plot(*place[list(line)].T, color=colour, linewidth=2.2)
             panel.plot(*place[tips].T, "o", color=colour, markersize=4.0)
-        return panels.picture(form)
+        return panels.figure

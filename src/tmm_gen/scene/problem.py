@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from tmm_gen.errors import UserError
+
 Path = tuple[str | int, ...]
 """Where a value stands: table names, keys and positions from 0, such as ``("link", 2, "inertia")``."""
 
@@ -66,7 +68,7 @@ class Problem:
         return f"{place}: {key}{self.message}{got}. {self.remedy}"
 
 
-class SceneError(ValueError):
+class SceneError(UserError, ValueError):
     """A scene that cannot be used.
 
     Parameters

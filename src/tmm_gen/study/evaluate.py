@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.errors import UserError
-from tmm_gen.scene import Scene, SceneError
+from tmm_gen.scene import Scene
 from tmm_gen.simulate.prescribed import kernel_signals
 from tmm_gen.study.configuration import Configuration
 from tmm_gen.study.excitation import Excitation, columns
@@ -54,7 +54,7 @@ def evaluate(scene: Scene, excitation: Excitation, configuration: Configuration,
         built = build(family_scene(scene, configuration))
         _allowed(built, configuration)
         counts = _counts(built, configuration)
-    except (UserError, SceneError) as error:
+    except UserError as error:
         return Result(Outcome.REFUSED, " ".join(str(error).split()))
     try:
         motion = start(built, configuration, excitation, steps)

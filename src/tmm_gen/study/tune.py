@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 from tmm_gen.errors import UserError
 from tmm_gen.native.timing import ROUNDS, Cost
-from tmm_gen.scene import Scene, SceneError
+from tmm_gen.scene import Scene
 from tmm_gen.study.bounds import ErrorBound
 from tmm_gen.study.budgets import Allowance
 from tmm_gen.study.configuration import Configuration, Family, own
@@ -191,7 +191,7 @@ def _operations(family: Family, scene: Scene, excitation: Excitation) -> float:
 
     try:
         return float(build(family_scene(scene, Configuration(family, excitation.until))).operations.total)
-    except (UserError, SceneError):
+    except UserError:
         return 0.0
 
 
