@@ -33,6 +33,7 @@ LAYERS = (
     {"onboard"},
     {"closed_loop"},
     {"report", "playground"},
+    {"api"},
     {"cli"},
     {"__main__"},
 )

@@ -15,7 +15,6 @@ from tmm_gen.cli.near import near_option
 from tmm_gen.cli.outputs import claim, write_outputs
 from tmm_gen.cli.rest_table import say_starts, six, title_of
 from tmm_gen.cli.space_rest import show_space_rest
-from tmm_gen.errors import UserError
 
 if TYPE_CHECKING:
     from tmm_gen.modal.equilibria import Equilibria
@@ -46,14 +45,11 @@ def rest(
     those of the outer side against the inner one, torques what the inner side exerts on the outer one.
     """
     loaded = require_served("rest", changed_scene(scene, changes))
-    if loaded.model.linear:
-        raise UserError(
-            f"{scene}: a chain has no weight and rests straight, or as its inputs twist it: `tmm-gen run` shows that. "
-            "Name a planar scene, or one in space."
-        )
     from tmm_gen.inputs.given import constant_inputs
     from tmm_gen.modal.near import FROM_START, NEAR, start_of
+    from tmm_gen.modal.situation import require_weight
 
+    require_weight(loaded)
     inputs = constant_inputs(loaded, given)
     start = start_of(loaded, near)
     claim((picture,), (scene,))

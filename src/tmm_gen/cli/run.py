@@ -163,23 +163,10 @@ def _write(
         target = picture_file(picture, simulation.scene.name)
         files[target] = response_picture(simulation, target.suffix[1:].lower())
     if animated is not None:
-        files[animated] = _moving(simulation, animated.suffix[1:].lower())
+        from tmm_gen.report.moving import moving
+
+        files[animated] = moving(simulation, animated.suffix[1:].lower())
     return write_outputs(files, read)
-
-
-def _moving(simulation: Simulation, form: str) -> bytes:
-    """Return an arm in motion, as "gif" or "html"."""
-    if simulation.scene.spatial is None:
-        from tmm_gen.report.animate import animation
-
-        return animation(simulation, form)
-    if form == "gif":
-        from tmm_gen.report.space_picture import space_gif
-
-        return space_gif(simulation)
-    from tmm_gen.report.space_page import space_page
-
-    return space_page(simulation)
 
 
 def _show(simulation: Simulation, written: list[Path], hints: list[str], json_mode: bool) -> None:
@@ -187,25 +174,7 @@ def _show(simulation: Simulation, written: list[Path], hints: list[str], json_mo
     from tmm_gen.simulate.trust import divided, trusted
 
     scene, last, accuracy = simulation.scene, float(simulation.time[-1]), simulation.accuracy
-    facts = {
-        "scene": scene.name,
-        "integrator": scene.integrator.name,
-        "backend": simulation.backend,
-        "step": scene.integrator.step,
-        "steps": simulation.steps,
-        "substeps": simulation.substeps.count,
-        "substeps_since": 0.0,
-        "until": last,
-        "accuracy": accuracy and accuracy.error,
-        "sensitivity": accuracy and accuracy.sensitivity,
-        "sweeps_per_step": simulation.sweeps_per_step,
-        "energy_imbalance": simulation.imbalance,
-        "unsolved": simulation.unsolved,
-        "step_error": simulation.step_error,
-        "notes": list(simulation.notes),
-        "hints": hints,
-        "files": written,
-    }
+    facts = {**simulation.facts(), "hints": hints, "files": written}
     done = f"{last:g} s in {simulation.steps} steps of {scene.integrator.step:g} s by {scene.integrator.name}"
     rows = list(simulation.rows())
     table(rows, _telling(rows), json_mode, title=f"{scene.title}: {done}", more=facts)

@@ -117,7 +117,20 @@ def profile(text: str, given: str) -> Signal:
     if not known.fewest <= len(words) <= len(known.units):
         raise UserError(f"--input {given}: {name} does not take {len(words)} numbers. {form}")
     numbers = [_number(word, unit, given, form) for word, unit in zip(words, known.units, strict=False)]
-    _ordered(known, numbers, given, form)
+    _ordered(known, numbers, f"--input {given}", form)
+    return known.make(*numbers)
+
+
+def made(name: str, numbers: Sequence[float]) -> Signal:
+    """Return the signal of a profile by its numbers, all of them.
+
+    Raises
+    ------
+    UserError
+        If a time or a frequency is none that can be.
+    """
+    known = PROFILES[name]
+    _ordered(known, numbers, name, f"Its numbers are {', '.join(_words(known))}.")
     return known.make(*numbers)
 
 
@@ -141,8 +154,12 @@ def _of(factors: Mapping[str, float]) -> str:
 
 def _ordered(known: Profile, numbers: Sequence[float], given: str, form: str) -> None:
     """Refuse negative times and frequencies, and ways that take no time."""
-    words = known.parameters.replace("[", "").replace("]", "").strip(":").split(":")
-    for word, unit, number in zip(words, known.units, numbers, strict=False):
+    for word, unit, number in zip(_words(known), known.units, numbers, strict=False):
         if (unit in ("s", "Hz") and number < 0.0) or (word == "TIME" and number == 0.0):
             least = "positive" if word == "TIME" else "zero or more"
-            raise UserError(f"--input {given}: {word} must be {least}, not {number:g}. {form}")
+            raise UserError(f"{given}: {word} must be {least}, not {number:g}. {form}")
+
+
+def _words(known: Profile) -> list[str]:
+    """Return what a profile's numbers are called."""
+    return known.parameters.replace("[", "").replace("]", "").strip(":").split(":")

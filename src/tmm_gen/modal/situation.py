@@ -7,6 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from tmm_gen.errors import UserError
 from tmm_gen.modal.arm import LinearArm, linear_arm
 from tmm_gen.modal.equilibrium import equilibrium, nearest
 from tmm_gen.modal.rest import Rest, rest_at, slack
@@ -55,3 +56,19 @@ def rest_of(
     if scene.model.gravity or held:
         return equilibrium(scene, held)
     return rest_at(scene, slack(scene))
+
+
+def require_weight(scene: Scene) -> Scene:
+    """Return a scene whose arm has equilibria to be found.
+
+    Raises
+    ------
+    UserError
+        If it is a chain.
+    """
+    if scene.model.linear:
+        raise UserError(
+            f"{scene.source.origin}: a chain has no weight and rests straight, or as its inputs twist it: "
+            "`tmm-gen run` shows that. Name a planar scene, or one in space."
+        )
+    return scene

@@ -10,7 +10,7 @@ from tmm_gen.scene.beam import Beam, Tip
 from tmm_gen.scene.emit import Budget, Emit
 from tmm_gen.scene.initial import Initial
 from tmm_gen.scene.integrator import INTEGRATOR_NAMES, METHODS, Integrator
-from tmm_gen.scene.load import load_scene, parse_scene
+from tmm_gen.scene.load import load_scene, parse_scene, scene_from
 from tmm_gen.scene.model import Base, Model
 from tmm_gen.scene.problem import Problem, SceneError
 from tmm_gen.scene.scene import Scene
@@ -37,5 +37,6 @@ __all__ = [
     "Tip",
     "load_scene",
     "parse_scene",
+    "scene_from",
     "station_of",
 ]

@@ -9,6 +9,7 @@ from dataclasses import replace
 from typing import Any
 
 from tmm_gen.scene.integrator import underscored
+from tmm_gen.scene.locate import nearest_line
 from tmm_gen.scene.problem import Finding, Path, Problem, SceneError, show_path, show_value
 from tmm_gen.scene.source import Source
 
@@ -30,9 +31,9 @@ def changed(source: Source, changes: Mapping[str, object]) -> Source:
         data["integrator"] = {"name": name, "step": before["step"]}
     for key, value in changes.items():
         path = path_of(data, key)
-        fault = _assign(data, path, _plain(value))
+        fault = _assign(data, path, plain(value))
         if fault:
-            line = source.lines.get(path[:1], 1)
+            line = nearest_line(source.lines, path[:1])
             problem = Problem(origin, line, show_path(path), fault.value, fault.message, fault.remedy)
             raise SceneError([problem])
     return replace(source, origin=origin, data=data)
@@ -88,12 +89,19 @@ def _nowhere(path: Path) -> Finding:
     )
 
 
-def _plain(value: object) -> object:
+def plain(value: Any) -> Any:
     """Turn tuples and NumPy values to lists and numbers, as a TOML file would have them."""
     if isinstance(value, Mapping):
-        return {key: _plain(item) for key, item in value.items()}
+        return {key: plain(item) for key, item in value.items()}
     if isinstance(value, list | tuple):
-        return [_plain(item) for item in value]
+        return [plain(item) for item in value]
     if callable(tolist := getattr(value, "tolist", None)):  # NumPy, without importing it
         return tolist()
     return value
+
+
+def present(value: Any) -> Any:
+    """Leave out keys whose value is None, in tables at any depth."""
+    if isinstance(value, dict):
+        return {key: present(item) for key, item in value.items() if item is not None}
+    return [present(item) for item in value] if isinstance(value, list) else value

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import tomllib
+from collections.abc import Mapping
 from difflib import get_close_matches
 from os import PathLike
 from pathlib import Path
 
 from tmm_gen.reading import read_file
+from tmm_gen.scene.change import plain, present
 from tmm_gen.scene.check import check_data
 from tmm_gen.scene.locate import locate
 from tmm_gen.scene.problem import Problem, SceneError
@@ -87,6 +89,39 @@ def parse_scene(text: str, origin: str = "<string>") -> Scene:
     except ValueError as error:  # syntax, or an integer of thousands of digits
         raise SceneError([syntax_problem(text, origin, error)]) from None
     return check_data(source)
+
+
+def scene_from(tables: Mapping[str, object], origin: str | None = None) -> Scene:
+    """Check what a scene file would hold, given as tables.
+
+    Parameters
+    ----------
+    tables : mapping from str to object
+        Values by key as TOML has them; NumPy's numbers and arrays, and tuples, are taken as numbers and lists. A key
+        whose value is None counts as absent.
+    origin : str, optional
+        Name used in errors; by default that of the arm.
+
+    Returns
+    -------
+    Scene
+        The scene.
+
+    Raises
+    ------
+    SceneError
+        If the tables are not a valid scene.
+    """
+    name = tables.get("name")
+    origin = origin or (f"arm '{name}'" if isinstance(name, str) else "arm")
+    try:
+        source = Source(origin, present(plain(tables)), {(): 0}, check_data)  # no line of any file
+        return check_data(source)
+    except RecursionError:
+        problem = Problem(
+            origin, 0, "", None, "is nested too deeply", "Give tables of numbers, texts and lists."
+        )
+        raise SceneError([problem]) from None
 
 
 def _unreadable(origin: str, message: str, remedy: str) -> SceneError:

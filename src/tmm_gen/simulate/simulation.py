@@ -89,6 +89,27 @@ class Simulation:
         lines += [",".join(f"{value:.17g}" for value in row) for row in zip(*columns, strict=True)]
         return "\n".join(lines) + "\n"
 
+    def facts(self) -> dict[str, object]:
+        """Return what is known of the run as a whole, by key."""
+        accuracy = self.accuracy
+        return {
+            "scene": self.scene.name,
+            "integrator": self.scene.integrator.name,
+            "backend": self.backend,
+            "step": self.scene.integrator.step,
+            "steps": self.steps,
+            "substeps": self.substeps.count,
+            "substeps_since": 0.0,
+            "until": float(self.time[-1]),
+            "accuracy": accuracy and accuracy.error,
+            "sensitivity": accuracy and accuracy.sensitivity,
+            "sweeps_per_step": self.sweeps_per_step,
+            "energy_imbalance": self.imbalance,
+            "unsolved": self.unsolved,
+            "step_error": self.step_error,
+            "notes": list(self.notes),
+        }
+
     def rows(self) -> Iterator[dict[str, object]]:
         """Yield one row of figures for each column of the outputs."""
         for column in output_columns(self.scene):

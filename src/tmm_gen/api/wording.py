@@ -1,0 +1,68 @@
+"""Messages of the command line in the words of Python: ``--step 0.001`` is ``step=0.001`` there."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+__all__ = ["in_python"]
+
+_VALUE = r"([^\s,;]*[^\s,;.:)])"
+"""Ends before a mark that belongs to the sentence."""
+
+_ARGUMENTS = {"from": "source", "to": "target"}
+"""Options whose arguments have another name in Python, as theirs is Python's own."""
+
+
+def _value(text: str) -> str:
+    """Return a value as Python has it."""
+    if text in ("true", "false"):
+        return text.capitalize()
+    try:
+        float(text)
+    except ValueError:
+        return text if re.fullmatch(r"[A-Z]+", text) or text[:1] in "[{\"'" else f'"{text}"'
+    return text
+
+
+def _given(found: re.Match[str]) -> str:
+    return f"{found[1]}={_value(found[2])}"
+
+
+def _near(found: re.Match[str]) -> str:
+    name = found[1] if found[1].isupper() else f'"{found[1]}"'
+    return f"near={{{name}: {_value(found[2])}}}"
+
+
+def _set(found: re.Match[str]) -> str:
+    return f"with_({found[1].replace('.', '__')}={_value(found[2])})"
+
+
+def _option(found: re.Match[str]) -> str:
+    return f"{_ARGUMENTS.get(found[1], found[1])}={_value(found[2])}"
+
+
+def _bare(found: re.Match[str]) -> str:
+    return _ARGUMENTS.get(found[1], found[1])
+
+
+_RULES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
+    (rf"--input ([A-Za-z_]\w*)={_VALUE}", _given),
+    (r"--input: ", ""),
+    (r"--input ", ""),
+    (rf"--near ([^\s=]+)={_VALUE}", _near),
+    (r"write JOINT=ANGLE", "write near={JOINT: ANGLE}"),
+    (rf"--set ([\w.]+)={_VALUE}", _set),
+    (rf"--iterations {_VALUE}", r"with_(model__iterations=\1)"),
+    (r"--force\b", "force=True"),
+    (r"what --input gives", "what is given"),
+    (rf"--(step|until|from|to|low|high|backend) (?!and\b|or\b|is\b|must\b){_VALUE}", _option),
+    (r"--(step|until|from|to|low|high|near|backend|input)\b", _bare),
+)
+
+
+def in_python(message: str) -> str:
+    """Return a message with options of the command line as arguments of Python."""
+    for pattern, words in _RULES:
+        message = re.sub(pattern, words, message)
+    return message
