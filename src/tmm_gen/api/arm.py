@@ -58,15 +58,8 @@ class Arm(Described):
         self._take(scene_from({**_mapping(tables), **more}))
 
     def _take(self, scene: Scene) -> None:
-        self.scene = scene
+        super()._take(scene)
         self._kernels: dict[str, Any] = {}
-
-    @classmethod
-    def of(cls, scene: Scene) -> Arm:
-        """Return the arm of a scene."""
-        made = cls.__new__(cls)
-        made._take(scene)
-        return made
 
     @guarded
     def with_(self, changes: Mapping[str, object] | None = None, /, **more: object) -> Arm:

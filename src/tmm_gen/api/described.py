@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from os import PathLike
 from pathlib import Path
+from typing import Self
 
 from tmm_gen.api.guard import guarded
 from tmm_gen.api.html import html_table
@@ -72,6 +73,20 @@ class Described:
     def _size(self) -> str:
         count = self.scene.stations
         return f"{count} {'joint' if self.scene.spatial else 'link'}{'s' * (count > 1)}"
+
+    def __reduce__(self) -> tuple[object, tuple[Scene]]:
+        """Pickle by the scene: kernels are made anew where they are asked for."""
+        return type(self).of, (self.scene,)
+
+    @classmethod
+    def of(cls, scene: Scene) -> Self:
+        """Return the arm of a scene."""
+        made = cls.__new__(cls)
+        made._take(scene)
+        return made
+
+    def _take(self, scene: Scene) -> None:
+        self.scene = scene
 
     def __eq__(self, other: object) -> bool:
         """Compare what both say, however they are written."""

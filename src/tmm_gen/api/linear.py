@@ -29,9 +29,9 @@ def linearised(
         return linear_model(scene, _fitting(scene, at), {**at.inputs, **held})
     if isinstance(at, Mapping):
         return linear_model(scene, free_angles(scene, at), held)
-    if at == "start":
+    if isinstance(at, str) and at == "start":
         return linear_model(scene, None, held, still=False)
-    if at == "rest":
+    if isinstance(at, str) and at == "rest":
         return linear_model(scene, _resting(scene, held), held)
     raise UserError(
         f"at: must be 'rest', 'start', angles of joints such as {{'elbow': 0.5}}, or one of rest(), not {at!r}."

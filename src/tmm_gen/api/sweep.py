@@ -82,7 +82,6 @@ class Sweep:
         return html_table(f"Sweep of {self.name}", columns, self._rows(), notes)
 
 
-@guarded
 def sweep(
     arm: Arm,
     measure: Callable[[Arm], Any],

@@ -86,10 +86,9 @@ class LinearModel:
 
     def __repr__(self) -> str:
         """Say how large it is."""
-        return (
-            f"<LinearModel of '{self.name}': {len(self.states)} states, {len(self.inputs)} inputs, "
-            f"{len(self.outputs)} outputs>"
-        )
+        counts = {"state": self.states, "input": self.inputs, "output": self.outputs}
+        said = (f"{len(names)} {what}{'s' * (len(names) != 1)}" for what, names in counts.items())
+        return f"<LinearModel of {self.name}: {', '.join(said)}>"
 
     def state_space(self) -> Any:
         """Return it as a ``scipy.signal.StateSpace`` in continuous time."""

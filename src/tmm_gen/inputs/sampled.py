@@ -158,7 +158,7 @@ def _numbers(name: str, values: object, what: str) -> Array:
 
 def _number(value: object) -> float | None:
     """Return a value as a finite float; None for what is none."""
-    if isinstance(value, bool | str | bytes):
+    if isinstance(value, bool | str | bytes) or np.ndim(value):  # type: ignore[arg-type]
         return None
     try:
         number = float(value)  # type: ignore[arg-type]

@@ -20,7 +20,7 @@ from tmm_gen.scene import Scene
 BUILT, UP_TO_DATE, DRIFT = "built", "up to date", "drift"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Built:
     """What became of one package.
 
@@ -45,6 +45,10 @@ class Built:
     removed: tuple[str, ...]
     unchanged: tuple[str, ...]
     without_motion: bool
+
+    def __repr__(self) -> str:
+        """Say what became of it, and where it is."""
+        return f"<{self.folder}: {self.state}, {len(self.written)} files written>"
 
     def as_dict(self) -> dict[str, object]:
         """Return the row for a table."""
