@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from tmm_gen.api.rest import Equilibria, Equilibrium
     from tmm_gen.api.run import Run
     from tmm_gen.control.linear_model import LinearModel
+    from tmm_gen.control.small_motion import SmallMotion
     from tmm_gen.package.build import Built
 
 # SymPy, SciPy, CasADi and Matplotlib are imported inside: an arm is read and changed without them.
@@ -208,7 +209,7 @@ class Arm(Described):
         """
         from tmm_gen.api.linear import linearised
 
-        return linearised(self.scene, at, inputs, more)
+        return linearised(self.scene, self._small, at, inputs, more)
 
     @guarded
     def check(self, *, inputs: Mapping[str, object] | None = None, **more: object) -> Check:
@@ -255,6 +256,15 @@ class Arm(Described):
             self._kernels["casadi"] = casadi_module(self.scene)
         module: ModuleType = self._kernels["casadi"]
         return module
+
+    def _small(self) -> SmallMotion:
+        """Return what its linear models share, derived once."""
+        from tmm_gen.control.small_motion import SmallMotion
+
+        if "small motion" not in self._kernels:
+            self._kernels["small motion"] = SmallMotion.of(self.scene)
+        found: SmallMotion = self._kernels["small motion"]
+        return found
 
     def _kernel(self, backend: Literal["numpy", "c"]) -> Any:
         """Return its kernel, derived once."""

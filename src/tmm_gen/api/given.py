@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from difflib import get_close_matches
 
 import numpy as np
+from numpy.typing import NDArray
 
 from tmm_gen.errors import UserError
 from tmm_gen.inputs.given import constant_inputs, input_names, read_inputs
@@ -15,7 +16,7 @@ from tmm_gen.inputs.signals import Signal
 from tmm_gen.modal.near import start_of
 from tmm_gen.scene import Scene
 
-__all__ = ["constants", "near_words", "positive", "signals"]
+__all__ = ["constants", "free_angles", "named", "number", "positive", "signals"]
 
 
 def named(scene: Scene, given: Mapping[str, object] | None, more: Mapping[str, object]) -> dict[str, object]:
@@ -142,17 +143,20 @@ def constants(
     return constant_inputs(scene, [f"{name}={value!r}" for name, value in found.items()])
 
 
-def near_words(near: Mapping[str, float] | None) -> list[str]:
-    """Return angles of joints in the words of the command line."""
-    if near is None:
-        return []
-    if not isinstance(near, Mapping):
-        raise UserError(
-            f"near: must be a mapping from joints to angles, rad, such as {{'elbow': 0.5}}, not {near!r}."
-        )
-    return [f"{name}={value}" for name, value in near.items()]
+def free_angles(scene: Scene, near: Mapping[str, float] | None) -> NDArray[np.float64] | None:
+    """Return the free angles that joints of some angles stand for; None where none are given.
+
+    Raises
+    ------
+    UserError
+        If there is no such joint, an angle is no number, or the scene is a chain.
+    """
+    return None if near is None else start_of(scene, [f"{name}={angle}" for name, angle in _angles(near)])
 
 
-def free_angles(scene: Scene, near: Mapping[str, float] | None) -> np.ndarray | None:
-    """Return the free angles that joints of some angles stand for; None where none are given."""
-    return start_of(scene, near_words(near))
+def _angles(near: object) -> list[tuple[object, object]]:
+    if isinstance(near, Mapping):
+        return list(near.items())
+    raise UserError(
+        f"near: must be a mapping from joints to angles, rad, such as {{'elbow': 0.5}}, not {near!r}."
+    )

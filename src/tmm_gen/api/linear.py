@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.api.given import free_angles, named, number
 from tmm_gen.api.rest import Equilibrium
-from tmm_gen.control.linear_model import LinearModel, linear_model
+from tmm_gen.control.linear_model import LinearModel
+from tmm_gen.control.small_motion import SmallMotion
 from tmm_gen.errors import UserError
 from tmm_gen.modal.situation import rest_of
 from tmm_gen.modal.space.situation import resting_in_space
@@ -21,18 +22,28 @@ Array = NDArray[np.float64]
 
 
 def linearised(
-    scene: Scene, at: object, given: Mapping[str, object] | None, more: Mapping[str, object]
+    scene: Scene,
+    small: Callable[[], SmallMotion],
+    at: object,
+    given: Mapping[str, object] | None,
+    more: Mapping[str, object],
 ) -> LinearModel:
-    """Return a scene's arm in small motion; arguments as of :meth:`tmm_gen.Arm.linearise`."""
+    """Return a scene's arm in small motion, which is derived if there is a use for it.
+
+    Other arguments are those of :meth:`tmm_gen.Arm.linearise`.
+    """
     held = {name: number(name, value) for name, value in named(scene, given, more).items()}
     if isinstance(at, Equilibrium):
-        return linear_model(scene, _fitting(scene, at), {**at.inputs, **held})
+        angles = _fitting(scene, at)
+        return small().about(angles, {**at.inputs, **held})
     if isinstance(at, Mapping):
-        return linear_model(scene, free_angles(scene, at), held)
+        near = free_angles(scene, at)
+        return small().about(near, held)
     if isinstance(at, str) and at == "start":
-        return linear_model(scene, None, held, still=False)
+        return small().about(None, held, still=False)
     if isinstance(at, str) and at == "rest":
-        return linear_model(scene, _resting(scene, held), held)
+        resting = _resting(scene, held)
+        return small().about(resting, held)
     raise UserError(
         f"at: must be 'rest', 'start', angles of joints such as {{'elbow': 0.5}}, or one of rest(), not {at!r}."
     )

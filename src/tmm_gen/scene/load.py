@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from difflib import get_close_matches
 from os import PathLike
 from pathlib import Path
@@ -12,7 +12,8 @@ from tmm_gen.reading import read_file
 from tmm_gen.scene.change import plain, present
 from tmm_gen.scene.check import check_data
 from tmm_gen.scene.locate import locate
-from tmm_gen.scene.problem import Problem, SceneError
+from tmm_gen.scene.problem import Path as KeyPath
+from tmm_gen.scene.problem import Problem, SceneError, show_path
 from tmm_gen.scene.scene import Scene
 from tmm_gen.scene.source import Source
 from tmm_gen.scene.syntax import syntax_problem
@@ -115,13 +116,29 @@ def scene_from(tables: Mapping[str, object], origin: str | None = None) -> Scene
     name = tables.get("name")
     origin = origin or (f"arm '{name}'" if isinstance(name, str) else "arm")
     try:
-        source = Source(origin, present(plain(tables)), {(): 0}, check_data)  # no line of any file
-        return check_data(source)
+        data = present(plain(tables))
+        faults = [Problem(origin, 0, show_path(path), *told) for path, told in _unlike_toml(data, ())]
+        if faults:
+            raise SceneError(faults)
+        return check_data(Source(origin, data, {(): 0}, check_data))  # no line of any file
     except RecursionError:
-        problem = Problem(
-            origin, 0, "", None, "is nested too deeply", "Give tables of numbers, texts and lists."
-        )
-        raise SceneError([problem]) from None
+        remedy = "Give tables of numbers, texts and lists."
+        raise SceneError([Problem(origin, 0, "", None, "is nested too deeply", remedy)]) from None
+
+
+def _unlike_toml(value: object, path: KeyPath) -> Iterator[tuple[KeyPath, tuple[object, str, str]]]:
+    """Yield value, fault and remedy of what no TOML file could say and the checks of tables would take."""
+    if isinstance(value, dict):
+        for key, item in value.items():
+            if isinstance(key, str):
+                yield from _unlike_toml(item, (*path, key))
+            else:
+                yield path, (key, "has a key that is no text", "Give keys as texts: {'length': 1.0}.")
+    elif isinstance(value, list):
+        for number, item in enumerate(value):
+            yield from _unlike_toml(item, (*path, number))
+    elif isinstance(value, bytes):
+        yield path, (str(value), "must be text, not bytes", "Leave the b before the quotes out.")
 
 
 def _unreadable(origin: str, message: str, remedy: str) -> SceneError:
