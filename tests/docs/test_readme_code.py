@@ -7,18 +7,33 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 REPOSITORY = Path(__file__).parents[2]
 
 
-def block(language: str) -> str:
-    found = re.findall(rf"```{language}\n(.*?)```", (REPOSITORY / "README.md").read_text(), re.DOTALL)
-    assert len(found) == 1
-    return str(found[0])
+def blocks(language: str) -> list[str]:
+    return re.findall(rf"```{language}\n(.*?)```", (REPOSITORY / "README.md").read_text(), re.DOTALL)
 
 
-def test_python_snippet() -> None:
+def test_python_interface(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "scenes").symlink_to(REPOSITORY / "scenes")
+    monkeypatch.chdir(tmp_path)
+    interface, _ = blocks("python")
+    exec(interface, {})
+    assert capsys.readouterr().out.startswith(
+        "<Run of swing, 1 s in 200 steps by newmark: tip_x, tip_y, hub, accurate"
+    )
+    assert (tmp_path / "swing.png").is_file()
+    assert (tmp_path / "packages" / "swing" / "c" / "swing.c").is_file()
+
+
+def test_generated_package() -> None:
+    _, package = blocks("python")
     done = subprocess.run(
-        [sys.executable, "-c", block("python")], cwd=REPOSITORY, capture_output=True, text=True, check=True
+        [sys.executable, "-c", package], cwd=REPOSITORY, capture_output=True, text=True, check=True
     )
     first, last = (float(line) for line in done.stdout.split())
     assert 0 < first < 1e-3
@@ -26,6 +41,7 @@ def test_python_snippet() -> None:
 
 
 def test_c_snippet(tmp_path: Path) -> None:
+    (snippet,) = blocks("c")
     source = f"""
         #include <stdio.h>
         #include "thesis10.h"
@@ -33,7 +49,7 @@ def test_c_snippet(tmp_path: Path) -> None:
         {{
             double angles[10] = {{0}}, rates[10] = {{0}};
             thesis10_outputs out;
-            {block("c")}
+            {snippet}
             thesis10_output(&model, &state, &out);
             printf("%.17g\\n", out.tip);
             return 0;
