@@ -12,10 +12,14 @@ from scipy.spatial.transform import Rotation
 
 import tmm_gen as tg
 from tmm_gen.control.linear_model import LinearModel
+from tmm_gen.inputs.signals import Constant
 from tmm_gen.modal.response import frequency_response
 from tmm_gen.modal.situation import resting_arm
 from tmm_gen.modal.space.response import space_response
 from tmm_gen.modal.space.situation import resting_in_space
+from tmm_gen.reference.planar_arm import Arm
+from tmm_gen.reference.spatial_afloat import AfloatArm
+from tmm_gen.reference.spatial_turns import product
 from tmm_gen.scene.signal import kernel_names
 
 Complex = NDArray[np.complex128]
@@ -104,16 +108,28 @@ def test_small_turns_of_a_base_that_turns_already(probe: tg.Arm) -> None:
     np.testing.assert_array_equal(model.A[np.ix_(turns, rates)], np.eye(3))
 
 
-def test_of_a_moving_arm_slopes_are_differences(probe: tg.Arm) -> None:
-    """A base that turns a little faster: gyroscopic terms, which no arm at rest has."""
-    model, small = probe.linearise("start"), 1e-3
-    rate = np.array([0.3, -0.2, 0.5])
-    ends = [
-        probe.with_({"base.rate": rate + sign * small * np.eye(3)[1]}).linearise("start").drift
-        for sign in (1.0, -1.0)
-    ]
-    column = model.A[:, model.states.index("base_omega_y")]
-    np.testing.assert_allclose((ends[0] - ends[1]) / (2.0 * small), column, atol=1e-9)
+def test_accelerations_are_those_of_independent_equations(probe: tg.Arm, rod: tg.Arm) -> None:
+    """Of arms that move: gyroscopic and centrifugal forces, which no arm at rest has."""
+    assert probe.scene.spatial is not None
+    afloat = AfloatArm(probe.scene.spatial)
+    model = probe.linearise("start", thrust=(1.0, -2.0, 0.5))
+    found = dict(
+        zip(model.states, np.split(model.drift, 2)[1], strict=False)
+    )  # of coordinates, which come first
+    thrust = {f"thrust_{axis}": force for axis, force in zip("xyz", (1.0, -2.0, 0.5), strict=True)}
+    place = afloat.start()[0]
+    curve = afloat.forward_dynamics(*afloat.start(), thrust)
+    alpha = 2.0 * product(place[3:7] * [1.0, -1.0, -1.0, -1.0], curve[3:7])[1:]  # in the base's own axes
+    right = np.concatenate([curve[:3], alpha, curve[7:]])
+    ways = [f"base_place_{axis}" for axis in "xyz"] + [f"base_turn_{axis}" for axis in "xyz"]
+    np.testing.assert_allclose([found[name] for name in (*ways, "angle_1")], right, rtol=1e-10)
+
+    swinging = rod.with_(initial__rates=0.8)
+    scene = swinging.scene
+    still, rate = np.zeros((1, 3)), np.array([[0.0, 0.8, 0.8]])
+    still[0, 1:] = -1.5
+    right = Arm(scene, {"push": Constant(2.0)}).accelerations(np.zeros(1), still, rate)[0]
+    np.testing.assert_allclose(swinging.linearise("start", push=2.0).drift[3:], right, rtol=1e-9)
 
 
 @pytest.mark.parametrize("at", ["here", 3, np.zeros(2), None])

@@ -52,9 +52,16 @@ class SmallMotion:
 
     @classmethod
     def of(cls, scene: Scene) -> SmallMotion:
-        """Derive a scene's arm, of any kind and with any integrator."""
+        """Derive a scene's arm, of any kind, with any integrator and by any linearisation: all have one motion."""
+        changes: dict[str, object] = {}
         if scene.integrator.name != _METHOD:
-            scene = scene.replace(**{"integrator.name": _METHOD})
+            changes["integrator.name"] = _METHOD
+        if scene.model.kind == "planar" and scene.model.linearisation != "newton":
+            changes["model.linearisation"] = (
+                "newton"  # others follow a prediction, and keep more than the motion
+            )
+        if changes:
+            scene = scene.replace(**changes)
         program = build_program(scene)
         return cls(scene, program, casadi_module(scene, program))
 
