@@ -75,6 +75,12 @@ def test_frequency(rod: tg.Arm, told: Callable[..., object], tmp_path: Path) -> 
     assert len(found.plot().figure.axes) == 2
 
 
+def test_how_few_links(rod: tg.Arm, told: Callable[..., dict[str, object]]) -> None:
+    found = rod.links_for(0.05, 8.0)
+    assert found.links == told("frequency", "--links-for", "0.05", "--band", "8")["links"]
+    assert repr(found).startswith(f"<{found.links} links: ")
+
+
 def test_check(shafts: tg.Arm) -> None:
     found = shafts.with_(emit__backends=["numpy", "casadi"]).check(brake=0.5)
     assert found
@@ -144,6 +150,12 @@ def test_sweeps(rod: tg.Arm) -> None:
         (lambda arm: arm.frequency(target="moving"), 'target="moving": no such name; choose from tip, root'),
         (lambda arm: arm.frequency(low=5.0, high=1.0), "low: 5 must be less than high, 1"),
         (lambda arm: arm.frequency(low=1e9), "is empty. Give both low and high"),
+        (lambda arm: arm.links_for(0.0, 1.0), "error: must be a positive number, not 0.0"),
+        (lambda arm: arm.links_for(1e-9, 50.0), r"links_for\(1e-09, 50\): .* are not enough .* Ask for less"),
+        (
+            lambda arm: tg.load("scenes/elbow.toml").links_for(0.1, 5.0),
+            r"links_for\(\) does not cut yet.* modes\(\) says",
+        ),
         (lambda arm: arm.frequency(points=1), "points: must be a whole number from 2"),
     ],
 )

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from tmm_gen.api.changes import keys_of
 from tmm_gen.api.described import Described
-from tmm_gen.api.given import constants, free_angles, named, positive, signals
+from tmm_gen.api.given import constants, free_angles, named, positive, required, signals
 from tmm_gen.api.guard import guarded
 from tmm_gen.api.tables import Tables
 from tmm_gen.api.words import path_of, whole
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from tmm_gen.api.run import Run
     from tmm_gen.control.linear_model import LinearModel
     from tmm_gen.control.small_motion import SmallMotion
+    from tmm_gen.modal.discretised import LinksNeeded
     from tmm_gen.package.build import Built
 
 # SymPy, SciPy, CasADi and Matplotlib are imported inside: an arm is read and changed without them.
@@ -188,6 +189,16 @@ class Arm(Described):
         held, start = constants(self.scene, inputs, more), free_angles(self.scene, near)
         about = asked(self.scene, source, target)
         return Response(answered(*about, limits, whole("points", points, 2), held, start))
+
+    @guarded
+    def links_for(self, error: float, band: float) -> LinksNeeded:
+        """Return how few links keep its natural frequencies within a relative error, up to a frequency in Hz.
+
+        The arm must be planar, of one ``[beam]``; the answer has ``links``, and ``errors`` of each mode.
+        """
+        from tmm_gen.modal.discretised import links_for
+
+        return links_for(self.scene, required("error", error, ""), required("band", band, "hertz"))
 
     @guarded
     def linearise(

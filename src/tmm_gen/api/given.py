@@ -16,7 +16,7 @@ from tmm_gen.inputs.signals import Signal
 from tmm_gen.modal.near import start_of
 from tmm_gen.scene import Scene
 
-__all__ = ["constants", "free_angles", "named", "number", "positive", "signals"]
+__all__ = ["constants", "free_angles", "named", "number", "positive", "required", "signals"]
 
 
 def named(scene: Scene, given: Mapping[str, object] | None, more: Mapping[str, object]) -> dict[str, object]:
@@ -121,11 +121,20 @@ def positive(name: str, value: float | None, what: str) -> float | None:
     UserError
         If it is not positive.
     """
-    if value is None:
-        return None
+    return None if value is None else required(name, value, what)
+
+
+def required(name: str, value: object, what: str) -> float:
+    """Return a positive number.
+
+    Raises
+    ------
+    UserError
+        If it is not positive.
+    """
     found = number(name, value)
     if found <= 0.0:
-        raise UserError(f"{name}: must be a positive number of {what}, not {value!r}.")
+        raise UserError(f"{name}: must be a positive number{f' of {what}' if what else ''}, not {value!r}.")
     return found
 
 

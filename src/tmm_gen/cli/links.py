@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 import click
 
 from tmm_gen.cli.console import Column, progress, table
-from tmm_gen.errors import UserError
 
 if TYPE_CHECKING:
     from tmm_gen.scene import Scene
@@ -33,23 +32,12 @@ def show_links(scene: Scene, error: float, band: float, json_mode: bool) -> None
     UserError
         If the scene has no ``[beam]``, or no number of links is enough.
     """
-    if scene.parts or scene.spatial:
-        raise UserError(
-            f"scene '{scene.name}' is an arm by parts, whose beams --links-for does not cut yet. "
-            "Change `links` of a [[beam]] and compare what `tmm-gen modes` says, or use a planar scene with [beam]."
-        )
-    if scene.beam is None:
-        raise UserError(
-            f"scene '{scene.name}' has no [beam]: only a beam can be cut into more or fewer links. "
-            "Use a planar scene with [beam]."
-        )
     with progress(f"cutting the beam of {scene.name}"):
-        from tmm_gen.modal.discretised import links_needed
+        from tmm_gen.modal.discretised import links_for
 
-        try:
-            found = links_needed(scene, error, 2.0 * math.pi * band)
-        except ValueError as reason:
-            raise UserError(f"--links-for {error:g} --band {band:g}: {reason}. Ask for less.") from reason
+        found = links_for(scene, error, band)
+    beam = scene.beam
+    assert beam is not None  # or it was refused
     rows = [
         {
             "mode": k + 1,
@@ -63,7 +51,7 @@ def show_links(scene: Scene, error: float, band: float, json_mode: bool) -> None
     ]
     facts = {
         "scene": scene.name,
-        "springs": scene.beam.springs,
+        "springs": beam.springs,
         "error": error,
         "band_hz": band,
         "links": found.links,
@@ -87,6 +75,6 @@ def show_links(scene: Scene, error: float, band: float, json_mode: bool) -> None
     if not json_mode:
         click.echo(
             f"{found.links} link{plural} keep{'' if plural else 's'} every natural frequency up to {band:g} Hz "
-            f"within {100.0 * error:g} % of the continuous beam ({scene.beam.springs} springs); "
+            f"within {100.0 * error:g} % of the continuous beam ({beam.springs} springs); "
             f"the scene has {scene.stations}"
         )

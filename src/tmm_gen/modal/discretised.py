@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from tmm_gen.errors import UserError
 from tmm_gen.modal.arm import linear_arm
 from tmm_gen.modal.beam import BeamArm, beam_arm, frequencies_below
 from tmm_gen.modal.matrices import matrices
@@ -60,7 +62,7 @@ def straight_frequencies(
     return np.sqrt(undamped_modes(matrices(linear_arm(chosen)), count).squares)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class LinksNeeded:
     """How few links a scene requires.
 
@@ -84,10 +86,48 @@ class LinksNeeded:
     errors: Array
     errors_below: Array | None
 
+    def __repr__(self) -> str:
+        """Say how many, and what they keep."""
+        count = len(self.exact)
+        return f"<{self.links} links: {count} mode{'s' * (count != 1)} within {100.0 * self.worst:.2g} %>"
+
     @property
     def worst(self) -> float:
         """Largest error."""
         return float(np.max(self.errors, initial=0.0))
+
+
+def links_for(scene: Scene, error: float, band: float) -> LinksNeeded:
+    """Return how few links keep a scene's natural frequencies as the continuous beam has them.
+
+    Parameters
+    ----------
+    scene : Scene
+        With a ``[beam]``.
+    error : float
+        Largest relative error.
+    band : float
+        Upper end of the band, Hz.
+
+    Raises
+    ------
+    UserError
+        If the scene has no ``[beam]``, or no number of links is enough.
+    """
+    if scene.parts or scene.spatial:
+        raise UserError(
+            f"scene '{scene.name}' is an arm by parts, whose beams --links-for does not cut yet. "
+            "Change `links` of a [[beam]] and compare what `tmm-gen modes` says, or use a planar scene with [beam]."
+        )
+    if scene.beam is None:
+        raise UserError(
+            f"scene '{scene.name}' has no [beam]: only a beam can be cut into more or fewer links. "
+            "Use a planar scene with [beam]."
+        )
+    try:
+        return links_needed(scene, error, 2.0 * math.pi * band)
+    except ValueError as reason:
+        raise UserError(f"--links-for {error:g} --band {band:g}: {reason}. Ask for less.") from reason
 
 
 def links_needed(scene: Scene, error: float, band: float) -> LinksNeeded:
