@@ -167,6 +167,15 @@ def test_refusals(rod: tg.Arm, ask: Callable[[tg.Arm], object], words: str) -> N
     assert [path.name for path in inside if "tmm_gen" in path.parts] == ["guard.py"]
 
 
+def test_how_a_function_failed_is_shown(rod: tg.Arm) -> None:
+    with pytest.raises(tg.UserError) as caught:
+        rod.simulate(UNTIL, push=_fails)
+    assert isinstance(caught.value.__cause__, ZeroDivisionError)
+    with pytest.raises(tg.UserError) as caught:
+        rod.links_for(1e-9, 50.0)
+    assert caught.value.__cause__ is None
+
+
 @pytest.mark.parametrize(
     ("ask", "words"),
     [

@@ -8,6 +8,7 @@ from typing import ParamSpec, TypeVar
 
 from tmm_gen.api.wording import in_python
 from tmm_gen.errors import UserError, beyond, of_numbers
+from tmm_gen.inputs.sampled import FunctionError
 
 __all__ = ["guarded"]
 
@@ -28,7 +29,9 @@ def guarded(call: Callable[_Given, _Found]) -> Callable[_Given, _Found]:
             return call(*args, **kwargs)
         except UserError as error:
             error.args = (in_python(str(error)), *error.args[1:])
-            raise error.with_traceback(None) from error.__cause__
+            # how a function that the caller gave failed is the caller's to see
+            cause = error.__cause__ if isinstance(error, FunctionError) else None
+            raise error.with_traceback(None) from cause
         except MemoryError:
             raise UserError("not enough memory for this. Ask for fewer steps, links or modes.") from None
         except OSError as error:

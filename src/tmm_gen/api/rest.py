@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from os import PathLike
@@ -105,9 +106,11 @@ class Equilibria:
         return iter(self.found)
 
     def __repr__(self) -> str:
-        """List the states."""
+        """Say which states there are, that of the first one first."""
         word = "equilibria" if len(self) > 1 else "equilibrium"
-        return f"<{len(self)} {word} of {self.name}: {'; '.join(each.state for each in self)}>"
+        states = Counter(each.state for each in self)
+        said = (f"{count} x {state}" if count > 1 else state for state, count in states.items())
+        return f"<{len(self)} {word} of {self.name}: {'; '.join(said)}>"
 
     def _repr_html_(self) -> str:
         rows: list[dict[str, object]] = []

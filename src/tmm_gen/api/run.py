@@ -22,7 +22,7 @@ from tmm_gen.files import write_whole
 from tmm_gen.scene.columns import output_columns
 from tmm_gen.scene.quantity import INPUT_UNITS
 from tmm_gen.simulate.simulation import Simulation
-from tmm_gen.simulate.trust import divided, trusted
+from tmm_gen.simulate.trust import divided, share, trusted
 
 __all__ = ["Run"]
 
@@ -195,8 +195,9 @@ class Run:
 
     def __repr__(self) -> str:
         """Say what was simulated, and how good it is."""
-        error = "" if self.accuracy is None else f", accurate to {self.accuracy:.0e}"
-        return f"<Run of {self._title}: {', '.join(self.simulation.outputs)}{error}>"
+        known = "" if self.accuracy is None else f", accurate to {share(self.accuracy)}"
+        known = ", nothing moves" if self.simulation.still else known
+        return f"<Run of {self._title}: {', '.join(self.simulation.outputs)}{known}>"
 
     def _repr_html_(self) -> str:
         rows = self.figures

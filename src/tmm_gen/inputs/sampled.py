@@ -17,6 +17,10 @@ _SHARE = 1e-5
 """Of a step: how far apart a function is asked for its slope."""
 
 
+class FunctionError(UserError):
+    """A function that was given as an input fails; its own error is the cause."""
+
+
 @dataclass(frozen=True)
 class Function:
     """A function of time in seconds.
@@ -69,7 +73,7 @@ class Function:
             value = self.function(now)
         except Exception as error:
             said = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
-            raise UserError(
+            raise FunctionError(
                 f"{self.name}: the function fails at t = {now:g} s ({said}). Give one of the time in seconds, a float."
             ) from error
         number = _number(value)

@@ -23,7 +23,7 @@ def trusted(simulation: Simulation) -> str:
     accuracy = simulation.accuracy
     if accuracy is None:
         return ""
-    said = [f"accurate to about {_share(accuracy.error)} of the motion{_why(simulation)}"]
+    said = [f"accurate to about {share(accuracy.error)} of the motion{_why(simulation)}"]
     if accuracy.sensitivity is not None and accuracy.sensitivity > SENSITIVE:
         said.append(
             f"the motion is sensitive: a small disturbance of its start grows {accuracy.sensitivity:.0e}-fold, so that "
@@ -56,7 +56,7 @@ def _balance(imbalance: float, step: float) -> str:
     )
 
 
-def _share(error: float) -> str:
+def share(error: float) -> str:
     """Return a share in words that a reader takes in at once."""
     return (
         f"{100.0 * error:.2g} %" if error >= 1e-3 else f"{error:.0e}" if error > 1e-13 else "the last digits"
