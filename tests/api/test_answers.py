@@ -105,6 +105,19 @@ def test_build_and_casadi(shafts: tg.Arm, tmp_path: Path) -> None:
     assert shafts.casadi() is shafts.casadi()
 
 
+def test_export(rod: tg.Arm, tmp_path: Path) -> None:
+    made = rod.export(tmp_path / "rod.xml")
+    assert "</mujoco>" in made.file.read_text()
+    assert isinstance(made.left_out, tuple)
+    for call, words in (
+        (lambda: rod.export("rod.zip"), "must end in .fmu or .xml or .urdf"),
+        (lambda: rod.export("rod.fmu", fmi=4), "fmi: must be 2 or 3, not 4"),  # type: ignore[arg-type]
+        (lambda: rod.export(tmp_path / "rod.urdf"), "space"),
+    ):
+        with pytest.raises(tg.UserError, match=words):
+            call()
+
+
 def test_a_chain_has_no_rest(shafts: tg.Arm) -> None:
     with pytest.raises(tg.UserError, match=r"a chain has no weight .* simulate\(\) shows that"):
         shafts.rest()

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import cached_property
 from os import PathLike
 from types import ModuleType
-from typing import TYPE_CHECKING, Any, Literal, Unpack
+from typing import TYPE_CHECKING, Literal, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,16 +18,17 @@ from tmm_gen.api.guard import guarded
 from tmm_gen.api.tables import Tables
 from tmm_gen.api.words import path_of, whole
 from tmm_gen.errors import UserError
-from tmm_gen.scene import Scene, scene_from
+from tmm_gen.scene import scene_from
 
 if TYPE_CHECKING:
     from tmm_gen.api.checked import Check
+    from tmm_gen.api.exported import Exported
     from tmm_gen.api.frequency import Response
+    from tmm_gen.api.kernels import Kernels
     from tmm_gen.api.modes import Modes
     from tmm_gen.api.rest import Equilibria, Equilibrium
     from tmm_gen.api.run import Run
     from tmm_gen.control.linear_model import LinearModel
-    from tmm_gen.control.small_motion import SmallMotion
     from tmm_gen.modal.discretised import LinksNeeded
     from tmm_gen.package.build import Built
 
@@ -57,11 +59,13 @@ class Arm(Described):
 
     @guarded
     def __init__(self, tables: Mapping[str, object] | None = None, /, **more: Unpack[Tables]) -> None:
-        self._take(scene_from({**_mapping(tables), **more}))
+        self.scene = scene_from({**_mapping(tables), **more})
 
-    def _take(self, scene: Scene) -> None:
-        super()._take(scene)
-        self._kernels: dict[str, Any] = {}
+    @cached_property
+    def _kernels(self) -> Kernels:
+        from tmm_gen.api.kernels import Kernels
+
+        return Kernels(self.scene)
 
     @guarded
     def with_(self, changes: Mapping[str, object] | None = None, /, **more: object) -> Arm:
@@ -118,7 +122,9 @@ class Arm(Described):
         from tmm_gen.api.run import Run
         from tmm_gen.api.simulating import simulated
 
-        return Run(simulated(self.scene, self._kernel, until, step, backend, named(self.scene, inputs, more)))
+        return Run(
+            simulated(self.scene, self._kernels.of, until, step, backend, named(self.scene, inputs, more))
+        )
 
     @guarded
     def rest(
@@ -220,7 +226,7 @@ class Arm(Described):
         """
         from tmm_gen.api.linear import linearised
 
-        return linearised(self.scene, self._small, at, inputs, more)
+        return linearised(self.scene, lambda: self._kernels.small_motion, at, inputs, more)
 
     @guarded
     def check(self, *, inputs: Mapping[str, object] | None = None, **more: object) -> Check:
@@ -259,31 +265,26 @@ class Arm(Described):
         return built(self.scene, path_of("out", out), force)
 
     @guarded
+    def export(self, file: str | PathLike[str], *, fmi: Literal[2, 3] = 2, cc: str = "gcc") -> Exported:
+        """Write it for another tool, by the file's ending.
+
+        Parameters
+        ----------
+        file : str or path
+            ``.fmu``: a functional mock-up unit. ``.xml``: a model for MuJoCo. ``.urdf``: a robot, of arms in space.
+        fmi : {2, 3}
+            Version of FMI.
+        cc : str
+            Compiler of the unit's binary.
+        """
+        from tmm_gen.api.exported import exported
+
+        return exported(self.scene, file, fmi, cc)
+
+    @guarded
     def casadi(self) -> ModuleType:
         """Return its generated CasADi module: ``step_function()``, ``initial_function()``, ``default_parameters()``."""
-        from tmm_gen.native.python_module import casadi_module
-
-        if "casadi" not in self._kernels:
-            self._kernels["casadi"] = casadi_module(self.scene)
-        module: ModuleType = self._kernels["casadi"]
-        return module
-
-    def _small(self) -> SmallMotion:
-        """Return what its linear models share, derived once."""
-        from tmm_gen.control.small_motion import SmallMotion
-
-        if "small motion" not in self._kernels:
-            self._kernels["small motion"] = SmallMotion.of(self.scene)
-        found: SmallMotion = self._kernels["small motion"]
-        return found
-
-    def _kernel(self, backend: Literal["numpy", "c"]) -> Any:
-        """Return its kernel, derived once."""
-        from tmm_gen.simulate.stepping import Stepper
-
-        if backend not in self._kernels:
-            self._kernels[backend] = Stepper.of(self.scene, backend).kernel
-        return self._kernels[backend]
+        return self._kernels.casadi
 
 
 def _mapping(tables: object) -> Mapping[str, object]:

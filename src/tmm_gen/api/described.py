@@ -82,11 +82,8 @@ class Described:
     def of(cls, scene: Scene) -> Self:
         """Return the arm of a scene."""
         made = cls.__new__(cls)
-        made._take(scene)
+        made.scene = scene
         return made
-
-    def _take(self, scene: Scene) -> None:
-        self.scene = scene
 
     def __eq__(self, other: object) -> bool:
         """Compare what both say, however they are written."""
