@@ -140,6 +140,7 @@ def _fails(now: float) -> float:
         (lambda arm: arm.simulate(UNTIL, push=np.ones((2, 31))), r"shape \(2, 31\)"),
         (lambda arm: arm.simulate(UNTIL, push=[[1], [1, 2]]), "not numbers. Give a list"),
         (lambda arm: arm.simulate(UNTIL, push=[0.0] * 30 + [np.inf]), r"values\[30\] is inf"),
+        (lambda arm: arm.simulate(UNTIL, push=([[0], [0, 1]], [0, 1])), "times are .*, not numbers"),
         (lambda arm: arm.simulate(UNTIL, push=([0, 1], [0, 1, 2])), "2 times and 3 values"),
         (lambda arm: arm.simulate(UNTIL, push=([1, 0], [0, 1])), "time 0 does not follow 1"),
         (

@@ -78,22 +78,33 @@ def signals(scene: Scene, given: Mapping[str, object], steps: int) -> dict[str, 
 
 def _signal(scene: Scene, name: str, value: object, steps: int) -> Signal:
     names, angles = input_names(scene)
-    step = scene.integrator.step
-    instants = step * np.arange(steps + 1, dtype=float)
     if isinstance(value, str):
         return read_inputs([f"{name}={value}"], names, angles)[name]
     if all(hasattr(value, part) for part in ("at", "slope", "curvature", "knots", "ends")):
         signal: Signal = value  # type: ignore[assignment]
         return signal
     if callable(value) and not hasattr(value, "__array__"):
-        function = Function(name, value, step)
+        function = Function(name, value, scene.integrator.step)
+        if name not in angles:
+            return function
         # a base wants a smooth motion: a curve through what the function says at every step
-        return tabled(name, instants, function.at(instants)) if name in angles else function
-    if isinstance(value, tuple) and len(value) == 2 and np.ndim(value[0]):
+        instants = _instants(scene, steps)
+        return tabled(name, instants, function.at(instants))
+    if isinstance(value, tuple) and len(value) == 2 and _is_row(value[0]):
         return tabled(name, *value)
-    if isinstance(value, list | tuple) or np.ndim(value):  # type: ignore[arg-type]
-        return sampled(name, value, instants)
+    if _is_row(value):
+        return sampled(name, value, _instants(scene, steps))
     return read_inputs([f"{name}={number(name, value)!r}"], names, angles)[name]
+
+
+def _is_row(value: object) -> bool:
+    """Whether a value is meant as several."""
+    return isinstance(value, list | tuple) or bool(getattr(value, "ndim", 0))
+
+
+def _instants(scene: Scene, steps: int) -> NDArray[np.float64]:
+    """Return the instants of a simulation, s, (steps + 1,)."""
+    return scene.integrator.step * np.arange(steps + 1, dtype=float)
 
 
 def number(name: str, value: object) -> float:
