@@ -126,7 +126,11 @@ def _fails(now: float) -> float:
         (lambda arm: arm.simulate(UNTIL, psh=1.0), "no input of this name. Did you mean push"),
         (lambda arm: arm.simulate(UNTIL, push=np.nan), "push: nan is not a finite number"),
         (lambda arm: arm.simulate(UNTIL, push=True), "push: True is not a finite number"),
-        (lambda arm: arm.simulate(UNTIL, push=1j), "push: 1j is not a finite number"),
+        (
+            lambda arm: arm.simulate(UNTIL, push=10**5000),
+            "push: an integer of thousands of digits is not a finite",
+        ),
+        (lambda arm: arm.simulate(until=UNTIL, push=1j), "push: 1j is not a finite number"),
         (
             lambda arm: arm.simulate(UNTIL, push="fast"),
             'push="fast": .*for example push=1.5, push="file.csv" or push="smo',

@@ -90,7 +90,6 @@ class Arm(Described):
     def simulate(
         self,
         until: float | None = None,
-        /,
         *,
         step: float | None = None,
         backend: Literal["numpy", "c"] = "numpy",

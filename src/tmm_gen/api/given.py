@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from tmm_gen.errors import UserError
 from tmm_gen.inputs.given import constant_inputs, input_names, read_inputs
-from tmm_gen.inputs.sampled import Function, sampled, tabled
+from tmm_gen.inputs.sampled import Function, sampled, shown, tabled
 from tmm_gen.inputs.signals import Signal
 from tmm_gen.modal.near import start_of
 from tmm_gen.scene import Scene
@@ -120,7 +120,7 @@ def number(name: str, value: object) -> float:
     except (TypeError, ValueError, OverflowError):
         found = math.nan
     if not math.isfinite(found):
-        raise UserError(f"{name}: {value!r} is not a finite number. Write for example {name}=1.5.")
+        raise UserError(f"{name}: {shown(value)} is not a finite number. Write for example {name}=1.5.")
     return found
 
 

@@ -6,6 +6,8 @@ from collections.abc import Callable
 from functools import wraps
 from typing import ParamSpec, TypeVar
 
+import numpy as np
+
 from tmm_gen.api.wording import in_python
 from tmm_gen.errors import UserError, beyond, of_numbers
 from tmm_gen.inputs.sampled import FunctionError
@@ -26,7 +28,8 @@ def guarded(call: Callable[_Given, _Found]) -> Callable[_Given, _Found]:
     @wraps(call)
     def called(*args: _Given.args, **kwargs: _Given.kwargs) -> _Found:
         try:
-            return call(*args, **kwargs)
+            with np.errstate(all="ignore"):  # what overflows is told in words
+                return call(*args, **kwargs)
         except UserError as error:
             error.args = (in_python(str(error)), *error.args[1:])
             # how a function that the caller gave failed is the caller's to see

@@ -13,6 +13,9 @@ from tmm_gen.inputs.signals import Table
 
 Array = NDArray[np.float64]
 
+_WIDE = 40
+"""Characters of a value in messages."""
+
 _SHARE = 1e-5
 """Of a step: how far apart a function is asked for its slope."""
 
@@ -79,7 +82,7 @@ class Function:
         number = _number(value)
         if number is None:
             raise UserError(
-                f"{self.name}: the function returns {_shown(value)} at t = {now:g} s. It must return a finite number."
+                f"{self.name}: the function returns {shown(value)} at t = {now:g} s. It must return a finite number."
             )
         return number
 
@@ -150,7 +153,7 @@ def _numbers(name: str, values: object, what: str) -> Array:
         plain = None
     if plain is None:
         raise UserError(
-            f"{name}: its {what} are {_shown(values)}, not numbers. Give a list or an array of numbers."
+            f"{name}: its {what} are {shown(values)}, not numbers. Give a list or an array of numbers."
         )
     if plain.ndim != 1 or not len(plain):
         raise UserError(f"{name}: its {what} have shape {plain.shape}. Give one row of at least one number.")
@@ -171,6 +174,10 @@ def _number(value: object) -> float | None:
     return number if np.isfinite(number) else None
 
 
-def _shown(value: object) -> str:
-    shown = repr(value)
-    return shown if len(shown) <= 40 else f"{shown[:37]}..."
+def shown(value: object) -> str:
+    """Return a value as Python writes it, shortened."""
+    try:
+        text = repr(value)
+    except ValueError:  # an integer of thousands of digits
+        return "an integer of thousands of digits"
+    return text if len(text) <= _WIDE else f"{text[: _WIDE - 3]}..."
