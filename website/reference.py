@@ -10,13 +10,30 @@ GENERATED = "generated.elbow.kernel"
 """The package that stands for all generated ones."""
 
 
+RETURNED = (
+    "tmm_gen.api.run.Run",
+    "tmm_gen.api.rest.Equilibria",
+    "tmm_gen.api.rest.Equilibrium",
+    "tmm_gen.api.modes.Modes",
+    "tmm_gen.api.frequency.Response",
+    "tmm_gen.control.linear_model.LinearModel",
+    "tmm_gen.api.sweep.Sweep",
+    "tmm_gen.api.checked.Check",
+    "tmm_gen.package.build.Built",
+    "tmm_gen.api.exported.Exported",
+    "tmm_gen.api.picture.Picture",
+)
+"""What calls return."""
+
+
 def python_page() -> str:
     """Return the page of what `import tmm_gen` offers; empty where that is its version alone."""
     offered = [getattr(tmm_gen, name) for name in tmm_gen.__all__]
     documented = [each for each in offered if inspect.isclass(each) or inspect.isfunction(each)]
     if not documented:
         return ""
-    blocks = "\n\n".join(f"::: {each.__module__}.{each.__qualname__}" for each in documented)
+    names = [*(f"{each.__module__}.{each.__qualname__}" for each in documented), *RETURNED]
+    blocks = "\n\n".join(f"::: {name}\n    options:\n      inherited_members: true" for name in names)
     return f"# Python\n\nWhat `import tmm_gen as tg` offers, from its docstrings.\n\n{blocks}\n"
 
 

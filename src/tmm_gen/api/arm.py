@@ -193,7 +193,7 @@ class Arm(Described):
             raise UserError(f"low: {low:g} must be less than high, {high:g}.")
         held, start = constants(self.scene, inputs, more), free_angles(self.scene, near)
         about = asked(self.scene, source, target)
-        return Response(answered(*about, limits, whole("points", points, 2), held, start))
+        return Response(answered(self.scene, about, limits, whole("points", points, 2), held, start))
 
     @guarded
     def links_for(self, error: float, band: float) -> LinksNeeded:

@@ -160,9 +160,7 @@ def asked(scene: Scene, source: str | None, target: str | None) -> tuple[Input, 
     return chosen, _chosen(scene, readable, target, "--to", "[[output]] of a place")
 
 
-def _chosen(
-    scene: Scene, items: tuple[_Item, ...], name: str | None, option: str, table_name: str
-) -> _Item:
+def _chosen(scene: Scene, items: tuple[_Item, ...], name: str | None, option: str, table_name: str) -> _Item:
     if not items:
         raise UserError(
             f"{scene.source.origin}: has no {table_name}, and a frequency response needs one. Add {table_name}."
