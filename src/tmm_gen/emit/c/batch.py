@@ -70,7 +70,7 @@ class BatchBody(Body):
         for variable in scalars:
             yield from self._within(local_name(variable), self.real.literal(share), "<", depth)
 
-    def _turned(self, angle: str, name: str, depth: int) -> Iterator[str]:
+    def _turned(self, angle: str, name: str, depth: int, *, checked: bool) -> Iterator[str]:
         yield from statement(f"const real {name}_angle = {angle};", depth)
         if self.kind != "output":
             bound = f"{macros(self.program.name)}_LARGEST_ANGLE"

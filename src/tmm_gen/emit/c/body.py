@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import count
 
+import sympy as sp
+
 from tmm_gen.c_language.names import local_name, macros, member
 from tmm_gen.c_language.real import Real
 from tmm_gen.c_language.wrap import INDENT, WIDTH, comment, statement
-from tmm_gen.emit.c.circle import Turns, error_of
+from tmm_gen.emit.c.circle import Turns, angles_in, error_of
 from tmm_gen.emit.c.fence import Fence
 from tmm_gen.emit.c.finite import check
 from tmm_gen.emit.c.given import given_element
@@ -93,6 +95,8 @@ class Body:
     bound: bool = False
     judged: bool = False
     """Whether the new state is added up, for :meth:`verdict` to see whether all of it is finite."""
+    apart: bool = False
+    """Whether loops over independent stations are to stay free of anything that leaves them early."""
 
     def reads(self, name: str) -> bool:
         """Whether the function uses one of its pointers."""
@@ -154,10 +158,12 @@ class Body:
         positions = iter(range(len(tuple(self.routine.assignments()))))
         names = (f"turn_{number}" for number in count(1))
 
-        def simple(inner: Assign | Require, depth: int, turns: Turns) -> Iterator[str]:
+        def simple(
+            inner: Assign | Require, depth: int, turns: Turns, checked: Sequence[sp.Expr] = ()
+        ) -> Iterator[str]:
             if self.own_circle:
                 for angle, name in turns.new_in(inner.value):
-                    yield from self._turned(printer.text(angle), name, depth)
+                    yield from self._turned(printer.text(angle), name, depth, checked=angle in checked)
                 printer.turns = dict(turns.known)
             if isinstance(inner, Require):
                 yield from self._required(inner, printer.text(inner.value), depth)
@@ -185,11 +191,17 @@ class Body:
                     straight = Turns(names)
                     depth = 2 if isinstance(top, Repeat) else 1
                 elif isinstance(top, Loop):
+                    checked = self._checked_ahead(top)
+                    if checked:
+                        yield f"{INDENT * depth}{self._loop_head(top)} {{"
+                        for angle in checked:
+                            yield from self._in_range(printer.text(angle), depth + 1)
+                        yield f"{INDENT * depth}}}"
                     yield f"{INDENT * depth}{self._loop_head(top)} {{"
                     turns = Turns(names)
                     handed = handed_at(top, self.fence.handed)
                     for place, inner in enumerate(top.body):
-                        yield from simple(inner, depth + 1, turns)
+                        yield from simple(inner, depth + 1, turns, checked)
                         if place in handed:
                             yield from self._fenced_together(handed[place], depth + 1)
                         straight.forget(inner.target) if isinstance(inner, Assign) else None
@@ -321,12 +333,27 @@ class Body:
         for number in numbers:
             yield f"{INDENT * depth}/*@ admit -{largest!r} < {number} < {largest!r}; */"
 
-    def _turned(self, angle: str, name: str, depth: int) -> Iterator[str]:
+    def _checked_ahead(self, loop: Loop) -> list[sp.Expr]:
+        """Return the angles of a loop that are checked in one of their own before it.
+
+        A compiler does several stations at once only in loops that nothing leaves early.
+        """
+        if not (self.apart and self.own_circle and loop.parallel) or self.kind == "output":
+            return []
+        written = {inner.target.variable for inner in loop.body if isinstance(inner, Assign)}
+        angles = dict.fromkeys(angle for inner in loop.body for angle in angles_in(inner.value))
+        return [angle for angle in angles if not {ref.variable for ref in refs_in(angle)} & written]
+
+    def _in_range(self, angle: str, depth: int) -> list[str]:
+        """Return the check of an angle."""
+        largest = f"{macros(self.program.name)}_LARGEST_ANGLE"
+        size = f"{self.real.function('fabs')}({angle}{self._high})"
+        return self._leave(f"!({size} <= {largest})", "OUT_OF_RANGE", depth)
+
+    def _turned(self, angle: str, name: str, depth: int, *, checked: bool) -> Iterator[str]:
         """Yield sine and cosine of an angle; before them, where the function can refuse, a check of its range."""
-        if self.kind != "output":
-            largest = f"{macros(self.program.name)}_LARGEST_ANGLE"
-            size = f"{self.real.function('fabs')}({angle}{self._high})"
-            yield from self._leave(f"!({size} <= {largest})", "OUT_OF_RANGE", depth)
+        if self.kind != "output" and not checked:
+            yield from self._in_range(angle, depth)
         yield from statement(f"const circle {name} = circle_of({angle});", depth)
         if self.fence.handed and self.kind != "output":
             # the circle is right to its error up to the largest angle; a prover sees polynomials of any angle

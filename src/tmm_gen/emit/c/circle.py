@@ -49,6 +49,13 @@ class Circle:
     """
 
     real: Real
+    by_bits: bool = False
+    """Whether quarter turns are made of bits instead of looked up in a table, which vectors of numbers cannot do."""
+
+    @property
+    def sign_shift(self) -> int:
+        """By how many bits the second lowest one is shifted to become the sign."""
+        return 62 if self.real.name == "float64" else 30
 
     @property
     def word(self) -> str:

@@ -66,7 +66,7 @@ class Kernel:
         sizes = ", ".join(f"{name} {struct.size(real)}" for name, struct in structs.items())
         number = f"sums of two of type {real.c}" if real.pair else real.c
         lines = (*header_lines(program, scene), f"number type: {number}", f"bytes of the structs: {sizes}")
-        lowered = lower(program)
+        lowered = lower(program, apart=scene.emit.favour == "speed")
         if real.pair:
             lowered = replace(lowered, output=rounded_last(lowered.output))
         return cls(program, lowered, real, lines, structs, scene)
@@ -194,7 +194,7 @@ class Kernel:
         own = self.scene.emit.trigonometry == "own" and uses_circle(self.program)
         if not own:
             return None
-        return PairCircle(self.real) if self.real.pair else Circle(self.real)
+        return PairCircle(self.real) if self.real.pair else Circle(self.real, self.scene.emit.favour == "speed")
 
     @cached_property
     def fences(self) -> dict[str, Fence]:
@@ -239,8 +239,8 @@ class Kernel:
         fence = self.fences.get(of, Fence())
         judged = kind in ("initialise", "step", "linearise")
         return Body(
-            self.program, routine, kind, self.real, self.circle is not None, fence, self.bound, judged
-        )
+            self.program, routine, kind, self.real, self.circle is not None, fence, self.bound, judged,
+            apart=self.scene.emit.favour == "speed" )
 
     @cached_property
     def prepare(self) -> Body:

@@ -25,8 +25,15 @@ from tmm_gen.program.statements import (
 from tmm_gen.program.variables import Variable
 
 
-def lower(program: Program) -> Program:
+def lower(program: Program, *, apart: bool = False) -> Program:
     """Return the program in the form in which C is written; every value stays the same bit for bit.
+
+    Parameters
+    ----------
+    program : Program
+        As built.
+    apart : bool
+        Whether the steps' loops over independent stations stay apart from recursions.
 
     Raises
     ------
@@ -37,8 +44,8 @@ def lower(program: Program) -> Program:
         program,
         prepare=_lowered(program.prepare),
         initialise=_lowered(_defining_all_state(program)),
-        startup=tuple(interleave(_lowered(routine)) for routine in program.startup),
-        main=interleave(_lowered(program.main)),
+        startup=tuple(_step(routine, apart) for routine in program.startup),
+        main=_step(program.main, apart),
         output=_lowered(program.output),
         sensitivities=_lowered_sensitivities(program.sensitivities),
     )
@@ -50,10 +57,14 @@ def _lowered_sensitivities(found: Sensitivities | None) -> Sensitivities | None:
     return replace(found, linearise=interleave(_lowered(found.linearise)), tangent=_lowered(found.tangent))
 
 
-def _lowered(routine: Routine) -> Routine:
+def _step(routine: Routine, apart: bool) -> Routine:
+    return _lowered(routine, apart=True) if apart else interleave(_lowered(routine))
+
+
+def _lowered(routine: Routine, *, apart: bool = False) -> Routine:
     if (variable := read_before_written(routine)) is not None:
         raise ValueError(f"{routine.name} reads {variable.name} before it is written")
-    return contract(join(fuse(routine)))
+    return contract(join(fuse(routine, apart=apart)))
 
 
 def _defining_all_state(program: Program) -> Routine:

@@ -9,8 +9,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+import sympy as sp
+
 from tmm_gen.program.passes.dependence import Together, Touched, order_keeping_dependences
-from tmm_gen.program.statements import Loop, Routine, Section, Statement
+from tmm_gen.program.statements import Assign, Loop, Routine, Section, Statement
+from tmm_gen.program.variables import Variable, refs_in
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,16 +29,24 @@ class _Item:
         return cls(titles, statement, Touched.of(statement))
 
 
-def fuse(routine: Routine) -> Routine:
+def fuse(routine: Routine, *, apart: bool = False) -> Routine:
     """Fuse the loops of a routine, from its end backward.
 
     A loop whose stations are independent takes whatever order the other needs. Statements between two loops
     move before or behind them where nothing depends on their place.
+
+    Parameters
+    ----------
+    routine : Routine
+        As built.
+    apart : bool
+        Whether loops whose stations are independent stay apart from recursions, so that a compiler can do several
+        stations at once, and from what computes the angles of their sines, so that these are checked in between.
     """
     items = [_Item.of((section.title,), s) for section in routine.sections for s in section.statements]
     last = len(items) - 1
     while last > 0:
-        fused = _fuse_into(items, last)
+        fused = _fuse_into(items, last, apart)
         if fused is None:
             last -= 1
         else:
@@ -43,7 +54,7 @@ def fuse(routine: Routine) -> Routine:
     return replace(routine, sections=_sections(items))
 
 
-def _fuse_into(items: list[_Item], last: int) -> tuple[list[_Item], int] | None:
+def _fuse_into(items: list[_Item], last: int, apart: bool) -> tuple[list[_Item], int] | None:
     """Fuse the loop at ``last`` with the nearest earlier one it may be fused with; say where it then is."""
     second = items[last].statement
     if not isinstance(second, Loop):
@@ -52,9 +63,21 @@ def _fuse_into(items: list[_Item], last: int) -> tuple[list[_Item], int] | None:
         one = items[first].statement
         if not isinstance(one, Loop) or one.visits != second.visits or one.stride != second.stride:
             continue
+        if apart and (one.parallel != second.parallel or _turns(second) & _written(one)):
+            continue
         if (fused := _fuse_pair(items, first, last)) is not None:
             return fused
     return None
+
+
+def _turns(loop: Loop) -> set[Variable]:
+    """Return what the angles of a loop's sines and cosines are made of."""
+    calls = (call for inner in loop.body for call in inner.value.atoms(sp.sin, sp.cos))
+    return {ref.variable for call in calls for ref in refs_in(call)}
+
+
+def _written(loop: Loop) -> set[Variable]:
+    return {inner.target.variable for inner in loop.body if isinstance(inner, Assign)}
 
 
 def _fuse_pair(items: list[_Item], first: int, last: int) -> tuple[list[_Item], int] | None:
