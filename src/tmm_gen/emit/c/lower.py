@@ -7,7 +7,9 @@ from dataclasses import replace
 
 import sympy as sp
 
+from tmm_gen.emit.c.early_first import early_first
 from tmm_gen.emit.c.interleave import interleave
+from tmm_gen.emit.c.one_ahead import one_ahead
 from tmm_gen.program.passes.contract import contract
 from tmm_gen.program.passes.dependence import read_before_written
 from tmm_gen.program.passes.fuse import fuse
@@ -58,7 +60,7 @@ def _lowered_sensitivities(found: Sensitivities | None) -> Sensitivities | None:
 
 
 def _step(routine: Routine, apart: bool) -> Routine:
-    return _lowered(routine, apart=True) if apart else interleave(_lowered(routine))
+    return early_first(one_ahead(_lowered(routine, apart=True))) if apart else interleave(_lowered(routine))
 
 
 def _lowered(routine: Routine, *, apart: bool = False) -> Routine:
