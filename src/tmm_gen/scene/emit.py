@@ -110,7 +110,9 @@ class Emit(Table):
         default=False, description="float32 only: keep each number as a sum of two", examples=["true"]
     )
     favour: Literal["size", "speed"] = Field(
-        default="size", description="what the C code is to be: small, or fast on a processor with vectors", examples=['"speed"']
+        default="size",
+        description="what the C code is to be: small, or fast on a processor with vectors",
+        examples=['"speed"'],
     )
     batch: Literal[4, 8, 16] | None = Field(
         default=None, description="arms side by side in a second kernel in C", examples=["8"]

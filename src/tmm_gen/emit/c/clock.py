@@ -5,6 +5,7 @@ from __future__ import annotations
 import heapq
 from collections.abc import Iterable
 from itertools import count
+from typing import NamedTuple
 
 import sympy as sp
 
@@ -14,15 +15,19 @@ from tmm_gen.program.statements import Assign, Loop
 from tmm_gen.program.variables import Ref
 
 ADDITION = MULTIPLICATION = 4.0
-"""Cycles until a result can be used, on processors that take several operations at a time: their manuals agree on it."""
+"""Cycles until a result can be used, on processors that do several operations at a time."""
 DIVISION = 13.0
 EARLY = -1e9
 """When what no station hands on is known."""
 _STATIONS = 6
 """After which chains have taken their lead."""
 
-Tree = sp.Expr | tuple["Tree", "Tree"]
-"""A term, or two sums that are added."""
+
+class Pair(NamedTuple):
+    """Two sums or terms that are added."""
+
+    one: sp.Expr | Pair
+    other: sp.Expr | Pair
 
 
 class Clock:
@@ -51,16 +56,16 @@ class Clock:
         found = times[0] if times else EARLY
         for time in times[1:]:
             found = max(found, time) + MULTIPLICATION
-        return found + (MULTIPLICATION if value.is_Pow or len(times) == 1 and not _sign(value) else 0.0)
+        return found + (MULTIPLICATION if value.is_Pow or (len(times) == 1 and not _sign(value)) else 0.0)
 
-    def sum(self, terms: Iterable[sp.Expr]) -> tuple[float, Tree]:
+    def sum(self, terms: Iterable[sp.Expr]) -> tuple[float, sp.Expr | Pair]:
         """Return when a sum is known, and in which order its terms are added: the earliest two again and again."""
         order = count()
-        heap: list[tuple[float, int, Tree]] = [(self.of(t), next(order), t) for t in terms]
+        heap: list[tuple[float, int, sp.Expr | Pair]] = [(self.of(t), next(order), t) for t in terms]
         heapq.heapify(heap)
         while len(heap) > 1:
             one, other = heapq.heappop(heap), heapq.heappop(heap)
-            heapq.heappush(heap, (max(one[0], other[0]) + ADDITION, next(order), (one[2], other[2])))
+            heapq.heappush(heap, (max(one[0], other[0]) + ADDITION, next(order), Pair(one[2], other[2])))
         return heap[0][0], heap[0][2]
 
     def as_written(self, value: sp.Expr) -> float:
@@ -85,7 +90,20 @@ def settled(loop: Loop) -> Clock:
     """Return the clock of a loop at the end of a station, after some of them."""
     clock = Clock(loop)
     for _ in range(_STATIONS):
-        for inner in loop.body:
-            if isinstance(inner, Assign):
-                clock.set(inner.target, inner.value)
+        _take(loop, clock)
     return clock
+
+
+def period(loop: Loop) -> float:
+    """Return how long a loop waits for itself at each station, in cycles."""
+    clock = settled(loop)
+    before = max(clock.known.values())
+    for _ in range(_STATIONS):
+        _take(loop, clock)
+    return (max(clock.known.values()) - before) / _STATIONS
+
+
+def _take(loop: Loop, clock: Clock) -> None:
+    for inner in loop.body:
+        if isinstance(inner, Assign):
+            clock.set(inner.target, inner.value)

@@ -11,7 +11,8 @@ from dataclasses import replace
 
 import sympy as sp
 
-from tmm_gen.emit.c.clock import Clock, Tree, settled
+from tmm_gen.emit.c.clock import Pair, settled
+from tmm_gen.emit.c.late_factor import late_factors_last
 from tmm_gen.program.passes.dependence import carried_scalars, dead_after, written_elements, written_scalars
 from tmm_gen.program.statements import Assign, Loop, Order, Require, Routine, Section, Statement
 from tmm_gen.program.variables import Ref, Role, Variable, refs_in
@@ -31,6 +32,7 @@ def early_first(routine: Routine) -> Routine:
             if isinstance(statement, Loop) and carried_scalars(statement):
                 ahead, statement = _begun_ahead(statement, tuple(later), routine)
                 statements += ahead
+                statement = late_factors_last(statement, lambda variable: _part_of(variable, taken))
                 statement = _sorted(statement, taken)
             statements.append(statement)
         sections.append(Section(section.title, tuple(statements)))
@@ -40,9 +42,7 @@ def early_first(routine: Routine) -> Routine:
 # -- what a station begins with ---------------------------------------------------------------------
 
 
-def _begun_ahead(
-    loop: Loop, later: tuple[Statement, ...], routine: Routine
-) -> tuple[list[Assign], Loop]:
+def _begun_ahead(loop: Loop, later: tuple[Statement, ...], routine: Routine) -> tuple[list[Assign], Loop]:
     """Let each station end with what the next one begins with, where that adds what is known to what is carried.
 
     The addition then need not wait for the end of the chain. The first station's stands before the loop; the last one
@@ -109,8 +109,9 @@ def _sorted(loop: Loop, taken: set[str]) -> Loop:
     for line in loop.body:
         value = line.value
         if isinstance(line, Assign) and value.is_Add and len(value.args) > 2:
-            if clock.sum(value.args)[0] < clock.as_written(value):
-                *parts, line = _parts(clock.sum(value.args)[1], line.target, taken)
+            known, order = clock.sum(value.args)
+            if known < clock.as_written(value):
+                *parts, line = _parts(order, line.target, taken)
                 body += parts
         body.append(line)
         if isinstance(line, Assign):
@@ -118,17 +119,15 @@ def _sorted(loop: Loop, taken: set[str]) -> Loop:
     return replace(loop, body=tuple(body))
 
 
-def _parts(tree: Tree, target: Ref, taken: set[str]) -> list[Assign]:
+def _parts(tree: sp.Expr | Pair, target: Ref, taken: set[str]) -> list[Assign]:
     """Return the assignments that add up a tree, the last one to the target."""
     lines: list[Assign] = []
 
-    def whole(tree: Tree) -> sp.Expr:
-        if not isinstance(tree, tuple):
-            return tree
-        return sp.Add(*(part(branch) for branch in tree))
+    def whole(tree: sp.Expr | Pair) -> sp.Expr:
+        return sp.Add(part(tree.one), part(tree.other)) if isinstance(tree, Pair) else tree
 
-    def part(tree: Tree) -> sp.Expr:
-        if not isinstance(tree, tuple):
+    def part(tree: sp.Expr | Pair) -> sp.Expr:
+        if not isinstance(tree, Pair):
             return tree
         value = whole(tree)
         variable = _part_of(target.variable, taken)

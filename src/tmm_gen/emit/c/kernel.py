@@ -65,8 +65,9 @@ class Kernel:
             structs = {name: struct for name, struct in structs.items() if name not in ("params", "model")}
         sizes = ", ".join(f"{name} {struct.size(real)}" for name, struct in structs.items())
         number = f"sums of two of type {real.c}" if real.pair else real.c
-        lines = (*header_lines(program, scene), f"number type: {number}", f"bytes of the structs: {sizes}")
         lowered = lower(program, apart=scene.emit.favour == "speed")
+        counted = replace(program, startup=lowered.startup, main=lowered.main)
+        lines = (*header_lines(counted, scene), f"number type: {number}", f"bytes of the structs: {sizes}")
         if real.pair:
             lowered = replace(lowered, output=rounded_last(lowered.output))
         return cls(program, lowered, real, lines, structs, scene)
@@ -89,6 +90,11 @@ class Kernel:
     def bound(self) -> bool:
         """Whether parameters and step are bound at generation, so that there are neither params nor model."""
         return self.scene.emit.parameters == "bound"
+
+    @property
+    def fast(self) -> bool:
+        """Whether the kernel is to be fast on processors with vectors, rather than small."""
+        return self.scene.emit.favour == "speed"
 
     @property
     def functions(self) -> tuple[str, ...]:
@@ -194,7 +200,7 @@ class Kernel:
         own = self.scene.emit.trigonometry == "own" and uses_circle(self.program)
         if not own:
             return None
-        return PairCircle(self.real) if self.real.pair else Circle(self.real, self.scene.emit.favour == "speed")
+        return PairCircle(self.real) if self.real.pair else Circle(self.real, self.fast)
 
     @cached_property
     def fences(self) -> dict[str, Fence]:
@@ -239,8 +245,16 @@ class Kernel:
         fence = self.fences.get(of, Fence())
         judged = kind in ("initialise", "step", "linearise")
         return Body(
-            self.program, routine, kind, self.real, self.circle is not None, fence, self.bound, judged,
-            apart=self.scene.emit.favour == "speed" )
+            self.program,
+            routine,
+            kind,
+            self.real,
+            self.circle is not None,
+            fence,
+            self.bound,
+            judged,
+            self.fast,
+        )
 
     @cached_property
     def prepare(self) -> Body:

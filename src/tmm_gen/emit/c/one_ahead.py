@@ -1,10 +1,10 @@
 """A sweep outward that looks one station ahead.
 
-A station's unknown follows from the last one's directly and through the change of motion that all before have brought
-about: ``u = own - a c + t u``, then ``c = c + s u``. Two products and two sums of that second way stand in the chain
-from unknown to unknown. With the last station's part of ``c`` put in, ``u = (own - a c) + (t - a s) u``: what is in
-brackets needs no ``u`` of the last station, and the second is at hand before the sweep begins. The chain from unknown to
-unknown is a product and a sum, at four operations more per station.
+A station's unknown follows from the last one's directly and through the change of motion that all before have
+brought about: ``u = own - a c + t u``, then ``c = c + s u``. That second way is a chain of two products and two sums or
+more from unknown to unknown. With the last station's part of ``c`` put in, ``u = (own - a c) + (t - a s) u``, where the
+first bracket needs nothing of the last station and the second is at hand before the sweep begins: the chain is one
+product and one sum, at four operations more per station of a planar arm.
 """
 
 from __future__ import annotations
@@ -72,7 +72,9 @@ class _Sweep:
         changes = {line.target.variable: sp.expand(line.value - line.target) / unknown for line in updates}
         if unknown.variable not in carried or carried != {unknown.variable, *changes} or not changes:
             return None
-        if len(changes) < len(updates) or any(line.value != unknown or line.target.variable.role is not Role.WORK for line in kept):
+        if len(changes) < len(updates) or any(
+            line.value != unknown or line.target.variable.role is not Role.WORK for line in kept
+        ):
             return None
         own = {v.ref for v in carried}
         if any(refs_in(gain) & own or not _fixed(gain, loop) for gain in changes.values()):
@@ -89,7 +91,9 @@ class _Sweep:
         value = sp.expand(self.unknown.value)
         direct = sp.Add(value.coeff(target), *(value.coeff(v.ref) * gain for v, gain in before.items()))
         without = value.xreplace({target: sp.S.Zero})
-        rest = Variable(_named(f"{target.variable.name}_rest", taken).name, Role.LOCAL, doc="", unit=target.variable.unit)
+        rest = Variable(
+            _named(f"{target.variable.name}_rest", taken).name, Role.LOCAL, doc="", unit=target.variable.unit
+        )
         start = self.loop.start
         factors = Loop(Order.OUTWARD, start + 1, self.loop.stop, (Assign(share.at(), direct),))
         body = (
@@ -134,4 +138,9 @@ def _named(name: str, taken: set[str], length: int | None = None) -> Variable:
     while unique in taken:
         unique, number = f"{name}_{number}", number + 1
     taken.add(unique)
-    return Variable(unique, Role.WORK if length else Role.LOCAL, length, "share of its neighbour's unknown in a station's own")
+    return Variable(
+        unique,
+        Role.WORK if length else Role.LOCAL,
+        length,
+        "share of its neighbour's unknown in a station's own",
+    )
