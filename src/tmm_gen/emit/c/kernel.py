@@ -66,7 +66,9 @@ class Kernel:
         sizes = ", ".join(f"{name} {struct.size(real)}" for name, struct in structs.items())
         number = f"sums of two of type {real.c}" if real.pair else real.c
         lowered = lower(program, apart=scene.emit.favour == "speed")
-        counted = replace(program, startup=lowered.startup, main=lowered.main)
+        counted = program
+        if scene.emit.favour == "speed":  # there, a few operations more make chains shorter
+            counted = replace(program, startup=lowered.startup, main=lowered.main)
         lines = (*header_lines(counted, scene), f"number type: {number}", f"bytes of the structs: {sizes}")
         if real.pair:
             lowered = replace(lowered, output=rounded_last(lowered.output))
