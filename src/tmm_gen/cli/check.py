@@ -30,7 +30,12 @@ _COLUMNS: list[Column | str] = [
     "meaning",
 ]
 
-_COMPENSATED = {"emit.real": "float32", "emit.compensated": True, "emit.trigonometry": "own"}
+_COMPENSATED = {
+    "emit.real": "float32",
+    "emit.compensated": True,
+    "emit.trigonometry": "own",
+    "emit.favour": "size",
+}
 
 
 @click.command("check")

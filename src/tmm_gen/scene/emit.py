@@ -79,6 +79,9 @@ class Emit(Table):
     compensated : bool
         Whether the C code keeps every number as the unevaluated sum of two floats, so that rounding does not add up
         over millions of steps; with ``real = "float32"`` only.
+    favour : {"size", "speed"}
+        What the C code is to be: small, as microcontrollers want it, or fast on processors that do several operations
+        at a time and have vectors. The same to rounding.
     batch : {4, 8, 16}, optional
         How many arms a second kernel in C steps side by side, in the lanes of vector registers.
     budget : Budget, optional
@@ -111,7 +114,7 @@ class Emit(Table):
     )
     favour: Literal["size", "speed"] = Field(
         default="size",
-        description="what the C code is to be: small, or fast on a processor with vectors",
+        description="what the C code is to be: small, or fast where there are vectors",
         examples=['"speed"'],
     )
     batch: Literal[4, 8, 16] | None = Field(

@@ -25,6 +25,7 @@ from tmm_gen.scene.rules.emission import (
     budget_not_empty,
     compensated_suits,
     corrections_without_sensitivities,
+    favour_suits,
     real_is_used,
 )
 from tmm_gen.scene.rules.floating import floating_base
@@ -70,6 +71,7 @@ RULES: tuple[Rule, ...] = (
     budget_not_empty,
     compensated_suits,
     batch_suits,
+    favour_suits,
     box_names,
     control_possible,
 )
@@ -95,6 +97,7 @@ _ALL: tuple[Rule, ...] = (
     budget_not_empty,
     compensated_suits,
     batch_suits,
+    favour_suits,
     box_names,
 )
 """Rules of all arms by parts."""

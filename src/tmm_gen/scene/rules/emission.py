@@ -26,7 +26,7 @@ def real_is_used(document: Document) -> Iterator[Finding]:
     emit = document.emit
     if "c" in emit.backends:
         return
-    for key in ("real", "trigonometry", "parameters", "compensated"):
+    for key in ("real", "trigonometry", "parameters", "compensated", "favour"):
         if (value := getattr(emit, key)) != Emit.model_fields[key].default:
             yield Finding(
                 ("emit", key),
@@ -120,6 +120,29 @@ def batch_suits(document: Document) -> Iterator[Finding]:
             "needs sines for several arms at once, which a C library has not",
             'Write trigonometry = "own" beside it.',
             emit.batch,
+        )
+
+
+def favour_suits(document: Document) -> Iterator[Finding]:
+    """Find fast code asked for where it is not to be had."""
+    emit, key = document.emit, ("emit", "favour")
+    if emit.favour == "size" or "c" not in emit.backends:
+        return
+    if document.model.kind == "spatial":
+        yield Finding(key, "is not for arms in space yet: their code has one form", "Remove it.", emit.favour)
+    if emit.compensated:
+        yield Finding(
+            key,
+            "and emit.compensated exclude each other: no vector register holds sums of two",
+            "Remove one of them.",
+            emit.favour,
+        )
+    if emit.box is not None:
+        yield Finding(
+            key,
+            "and [emit.box] exclude each other: the proof is of the small code",
+            'Write favour = "size", or remove the table.',
+            emit.favour,
         )
 
 

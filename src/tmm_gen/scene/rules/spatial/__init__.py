@@ -6,7 +6,13 @@ from collections.abc import Callable, Iterator
 
 from tmm_gen.scene.problem import Finding
 from tmm_gen.scene.rules.beams import beams_given
-from tmm_gen.scene.rules.emission import batch_suits, budget_not_empty, compensated_suits, real_is_used
+from tmm_gen.scene.rules.emission import (
+    batch_suits,
+    budget_not_empty,
+    compensated_suits,
+    favour_suits,
+    real_is_used,
+)
 from tmm_gen.scene.rules.integration import coupled_suits, explicit_needs_acceleration, integrator_parameters
 from tmm_gen.scene.rules.spatial.hanging import not_too_many, one_tree, part_names
 from tmm_gen.scene.rules.spatial.inertia import base_to_turn, something_to_turn
@@ -38,6 +44,7 @@ RULES: tuple[tuple[Rule, ...], ...] = (
         real_is_used,
         budget_not_empty,
         batch_suits,
+        favour_suits,
         boxed,
         compensated_suits,
     ),
