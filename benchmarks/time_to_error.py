@@ -6,7 +6,8 @@ Arms of 1 m and 1 kg with a first clamped frequency of 2 Hz and a damping time o
 every joint. Gravity: clamped, 0.4 kg at the tip, let go horizontally. Motor: a hub of 0.1 kg m^2 under a torque that
 swings the arm for half a second and takes the swing back. Error: the largest of the tip's place at 0.1, 0.2 ... 1 s
 against Lagrange's equations. For each integrator the fewest steps with the wanted error are sought, and the time of
-that run is taken in turns with the others (thread time, median of ratios; gcc -O3 -march=native, own sines).
+that run is taken in turns with the others (thread time, median of ratios; gcc -O3 -march=native,
+own sines, `favour = "speed"`).
 """
 
 from __future__ import annotations
@@ -42,7 +43,7 @@ ARM = """
 name = "arm"
 model = {{ kind = "planar", gravity = {gravity}, iterations = {iterations} }}
 integrator = {{ name = "{integrator}", step = 1e-3 }}
-emit = {{ backends = ["c"], trigonometry = "own" }}
+emit = {{ backends = ["c"], trigonometry = "own", favour = "{favour}" }}
 base = {base}
 {tip}
 [[joint]]
@@ -63,7 +64,7 @@ of = "position"
 MOTOR = '[[input]]\nname = "motor"\nat = "base"\nacts = "torque"'
 
 
-def arm(kind: str, links: int, integrator: str, iterations: str = '"auto"') -> Scene:
+def arm(kind: str, links: int, integrator: str, iterations: str = '"auto"', favour: str = "speed") -> Scene:
     """Return a scene under "gravity" or under a "motor"."""
     bending = (2.0 * math.pi * 2.0 / FIRST_CLAMPED**2) ** 2
     length, stiffness = 1.0 / links, bending * links
@@ -72,6 +73,7 @@ def arm(kind: str, links: int, integrator: str, iterations: str = '"auto"') -> S
         gravity="9.81" if falls else "0.0",
         iterations=iterations,
         integrator=integrator,
+        favour=favour,
         base='{ kind = "clamp" }' if falls else '{ kind = "motor", inertia = 0.1 }',
         tip="tip = { mass = 0.4 }" if falls else "",
         stiffness=stiffness,
