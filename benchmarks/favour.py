@@ -2,8 +2,8 @@
 
     python benchmarks/favour.py --update
 
-Each arm in turns with itself, one thread, thread time, own sines; ratios are formed within a round, then their median is
-taken. `--update` writes the table into docs/planar.md.
+Each arm in turns with itself, one thread, thread time, own sines; ratios are formed within a round, then their median
+is taken. `--update` writes the table into docs/planar.md.
 """
 
 from __future__ import annotations
@@ -36,7 +36,9 @@ def cases() -> dict[str, Scene]:
         for name in ("arm10", "arm50")
     }
     found |= {
-        f"{links} links, `{name}`": arm("gravity", links, name, "1") for name in INTEGRATORS for links in (10, 50)
+        f"{links} links, `{name}`": arm("gravity", links, name, "1")
+        for name in INTEGRATORS
+        for links in (10, 50)
     }
     return found
 
