@@ -51,12 +51,11 @@ def linearised(
 
 def _resting(scene: Scene, held: Mapping[str, float]) -> Array | None:
     """Return the free angles at which an arm comes to rest; None of a chain, which is the same anywhere."""
-    if scene.model.linear:
-        return None
     if scene.spatial is not None:
         with np.errstate(all="ignore"):  # what overflows is refused
             return resting_in_space(scene, held).still.angles
-    return rest_of(scene, held).free_angles
+    resting = rest_of(scene, held)
+    return None if resting is None else resting.free_angles
 
 
 def _fitting(scene: Scene, at: Equilibrium) -> Array:
