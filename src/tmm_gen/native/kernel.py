@@ -44,6 +44,10 @@ class NativeKernel:
         self._step = self._default_step
         library.call("default_params", self._params)
 
+    def another(self) -> NativeKernel:
+        """Return another arm of the same code, with a model and a state of its own that are not prepared yet."""
+        return NativeKernel(self.program, self._library)
+
     # -- phases -------------------------------------------------------------------------------
 
     def prepare(self, params: Mapping[str, Value] | None = None, step: float | None = None) -> None:

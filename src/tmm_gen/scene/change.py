@@ -28,7 +28,8 @@ def changed(source: Source, changes: Mapping[str, object]) -> Source:
     name = changes.get("integrator.name")
     before: dict[str, Any] = data["integrator"]
     if isinstance(name, str) and underscored(name) != underscored(before["name"]):
-        data["integrator"] = {"name": name, "step": before["step"]}
+        kept = {key: before[key] for key in ("step", "tolerance") if key in before}
+        data["integrator"] = {"name": name, **kept}
     for key, value in changes.items():
         path = path_of(data, key)
         fault = _assign(data, path, plain(value))

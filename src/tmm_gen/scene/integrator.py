@@ -12,7 +12,11 @@ from typing import Annotated
 
 from pydantic import AfterValidator, ConfigDict, Field
 
+from tmm_gen.scene.digest import UNSAID
 from tmm_gen.scene.table import Positive, Table, fault
+
+FINEST, COARSEST = 1e-10, 0.05
+"""Least and largest tolerance: what double precision leaves of a motion, and what any run may be wrong by."""
 
 _SHORTEST = 1e-300
 """s; from there on steps and their parts keep all digits."""
@@ -72,6 +76,8 @@ class Method:
         All its stages are solved at once (collocation), by accelerations.
     sweeps : int
         What kernels of planar arms take where the scene does not say: what keeps its order.
+    multistep : bool
+        It reads instants before the last one, all a step apart, so that its step cannot change on the way.
     """
 
     name: str
@@ -79,6 +85,7 @@ class Method:
     explicit_at: dict[str, float] | None = field(default=None, hash=False)
     coupled: bool = False
     sweeps: int = 1
+    multistep: bool = False
 
     def explicit(self, given: dict[str, float]) -> bool:
         """Return whether the method is explicit with the given parameters, others at their defaults."""
@@ -92,12 +99,12 @@ METHODS: tuple[Method, ...] = (
     Method("fox_euler"),
     Method("newmark", (Parameter("beta", 0.25, 0.0, 1.0), Parameter("gamma", 0.5, 0.0, 1.0)), {"beta": 0.0}),
     Method("wilson", (Parameter("theta", 1.4, 1.0),)),
-    Method("houbolt"),
-    Method("zhou", (Parameter("g1", 1 / 3), Parameter("g2", 1 / 2)), {"g2": 2.0}),
+    Method("houbolt", multistep=True),
+    Method("zhou", (Parameter("g1", 1 / 3), Parameter("g2", 1 / 2)), {"g2": 2.0}, multistep=True),
     Method("generalized_alpha", (Parameter("rho_inf", 0.8, 0.0, 1.0),)),
     Method("bathe", (Parameter("gamma", 0.5, 0.0, 1.0, open=True),)),
-    Method("park"),
-    Method("zhai", (Parameter("psi", 0.5), Parameter("phi", 0.5)), {}),
+    Method("park", multistep=True),
+    Method("zhai", (Parameter("psi", 0.5), Parameter("phi", 0.5)), {}, multistep=True),
     Method("sdirk2"),
     Method("sdirk4"),
     Method("radau2", coupled=True),
@@ -137,6 +144,13 @@ class IntegratorTable(Table):
     step: Annotated[Positive, AfterValidator(_divisible)] = Field(
         description="time step in s", examples=["0.001"]
     )
+    tolerance: Annotated[float, Field(strict=True, allow_inf_nan=False, ge=FINEST, le=COARSEST)] | None = Field(
+        default=None,
+        description="error that a run may have, as a share of how far its motion goes: `run` then chooses its own steps, "
+        "and `step` is how far its rows are apart",
+        examples=["1e-6"],
+        json_schema_extra={"absent": "steps are all alike"},
+    )
 
 
 @dataclass(frozen=True)
@@ -151,8 +165,12 @@ class Integrator:
         Default time step, s, positive.
     parameters : dict from str to float
         Those the scene gives; absent ones have the defaults of the method.
+    tolerance : float, optional
+        Error that a run may have, as a share of the motion; its steps are then chosen by that, and `step` is how far
+        rows are apart.
     """
 
     name: str
     step: float
     parameters: dict[str, float] = field(default_factory=dict, hash=False)
+    tolerance: float | None = field(default=None, metadata=UNSAID)

@@ -274,6 +274,7 @@ def _scene_of(
             name=underscored(table.name),
             step=table.step,
             parameters={key: float(value) for key, value in sorted((table.model_extra or {}).items())},
+            tolerance=table.tolerance,
         ),
         base=document.base,
         joints=document.joints(),

@@ -19,9 +19,8 @@ from tmm_gen.errors import UserError
 from tmm_gen.inputs.signals import Signal
 from tmm_gen.reference.chain_motion import exact_angles
 from tmm_gen.scene import Scene
-from tmm_gen.simulate.places import node_places
+from tmm_gen.simulate.displacement import STILL, extent, lengths, placed
 from tmm_gen.simulate.planar_divergence import free_watch
-from tmm_gen.simulate.points import body_points
 from tmm_gen.simulate.step_error import error_per_radian
 from tmm_gen.simulate.stepping import Course, Stepper
 from tmm_gen.simulate.trace import Trace
@@ -51,12 +50,6 @@ _LEAP = 0.5
 
 _SHORTEST = 4
 """Runs of fewer steps may be evenly accelerated, and cover as much in their last one."""
-
-_STILL = 1e-7
-"""Motion below this share of the arm's length is none: it may be rounding."""
-
-_SPREAD = 0.1
-"""How far from each joint points of a body in space are looked at, as a share of the arm's reach: turns show there."""
 
 _DISTURBED = {"float64": 1e-9, "float32": 1e-4, "compensated": 1e-8}
 """rad; well above rounding, well below what bends an arm."""
@@ -94,7 +87,7 @@ def chain_accuracy(scene: Scene, signals: Mapping[str, Signal], trace: Trace) ->
     exact = exact_angles(scene, signals, scene.integrator.step, indices)
     off = np.max(np.abs(angle - exact), axis=1)
     way = np.max(np.abs(exact - exact[0]), axis=1)
-    return _judged(off, way, indices * scene.integrator.step, 0.0, None)
+    return judged(off, way, indices * scene.integrator.step, 0.0, None)
 
 
 def planar_accuracy(course: Course, stepper: Stepper, unsolved: float) -> Accuracy:
@@ -130,17 +123,17 @@ def _leapt(scene: Scene, trace: Trace) -> float:
     """
     if trace.every > 1 or len(trace.angle) <= _SHORTEST:
         return 0.0
-    places = _places(scene, trace.angle)
-    way = float(np.max(_far(places - places[:, :1])))
-    if way <= _STILL * _extent(scene):
+    places = placed(scene, trace.angle)
+    way = float(np.max(lengths(places - places[:, :1])))
+    if way <= STILL * extent(scene):
         return 0.0
-    return float(np.max(_far(np.diff(places, axis=1)))) / way
+    return float(np.max(lengths(np.diff(places, axis=1)))) / way
 
 
 def _repeated(course: Course, stepper: Stepper) -> Accuracy:
     scene, steps = course.scene, course.steps
     again = _Repetition(course, stepper)
-    order = min(_HIGHEST, _order(scene))
+    order = min(_HIGHEST, order_of(scene))
     coarse = None if steps < _FEW else again(2.0)
     if coarse is not None:
         growth = again.sensitivity(2.0, coarse)
@@ -209,28 +202,28 @@ class _Repetition:
         fine = replace(self, course=replace(self.course, steps=_FIRST))(1.0 / _FINER, every=_FINER)
         if fine is None:
             return 0.0
-        mine, others = (_places(self.scene, x) for x in (self.trace.angle[1 : _FIRST + 1], fine.angle[1:]))
+        mine, others = (placed(self.scene, x) for x in (self.trace.angle[1 : _FIRST + 1], fine.angle[1:]))
         apart = mine - others
         half = _FIRST // 2
         drift = (np.mean(apart[:, half:], axis=1) - np.mean(apart[:, :half], axis=1)) / half
-        places = _places(self.scene, self.trace.angle)
-        way = float(np.max(_far(places - places[:, :1])))
-        least = _STILL * _extent(self.scene)
-        return float(np.max(_far(drift))) * self.course.steps / max(way, least)
+        places = placed(self.scene, self.trace.angle)
+        way = float(np.max(lengths(places - places[:, :1])))
+        least = STILL * extent(self.scene)
+        return float(np.max(lengths(drift))) * self.course.steps / max(way, least)
 
     def judged(self, other: Trace, factor: float, share: float, growth: float | None) -> Accuracy:
         """Return what the difference from another motion says, of which so large a share counts."""
         stride = round(other.every * factor / self.trace.every)
         count = min(len(self.trace.angle[::stride]), len(other.angle))
         mine, others = (
-            _places(self.scene, x) for x in (self.trace.angle[::stride][:count], other.angle[:count])
+            placed(self.scene, x) for x in (self.trace.angle[::stride][:count], other.angle[:count])
         )
         # of a sensitive motion what steps change does not fall with their order
         weight = 1.0 if growth is not None and growth > SENSITIVE else share
-        off = weight * np.max(_far(mine - others), axis=1)
-        way = np.max(_far(others - others[:, :1]), axis=1)
+        off = weight * np.max(lengths(mine - others), axis=1)
+        way = np.max(lengths(others - others[:, :1]), axis=1)
         times = self.scene.integrator.step * self.trace.every * stride * np.arange(count, dtype=float)
-        return _judged(off, way, times, _STILL * _extent(self.scene), growth)
+        return judged(off, way, times, STILL * extent(self.scene), growth)
 
     def sensitivity(self, factor: float, undisturbed: Trace) -> float | None:
         """Return how many times larger a small disturbance of the start becomes."""
@@ -247,7 +240,7 @@ class _Repetition:
         return float(apart)
 
 
-def _judged(off: Array, way: Array, times: Array, least: float, growth: float | None) -> Accuracy:
+def judged(off: Array, way: Array, times: Array, least: float, growth: float | None) -> Accuracy:
     whole = max(float(np.max(way)), least)
     error = float(np.max(off)) / whole if whole > 0.0 else float(np.max(off) > 0.0)
     if not math.isfinite(error):
@@ -259,29 +252,7 @@ def _judged(off: Array, way: Array, times: Array, least: float, growth: float | 
     return Accuracy(error, growth, float(good))
 
 
-def _extent(scene: Scene) -> float:
-    """Return how far an arm reaches, m; 1 where all its parts stand at one point, as those of a gyroscope do.
-
-    There only turns count, and as shares of each other they are the same for any length.
-    """
-    return scene.reach or 1.0
-
-
-def _places(scene: Scene, angle: Array) -> Array:
-    """Return the places of the links' outer ends, (2, k, n), or of points on bodies in space, (3, k, 3 n); m."""
-    if scene.spatial is not None:
-        return body_points(scene.spatial, angle, _SPREAD * _extent(scene))
-    x, y = node_places(scene, angle[:, angle.shape[1] - scene.stations :])
-    return np.stack([x[:, 1:], y[:, 1:]])
-
-
-def _far(along: Array) -> Array:
-    """Return lengths from their components along each axis, which come first."""
-    found: Array = np.sqrt(np.sum(along**2, axis=0))
-    return found
-
-
-def _order(scene: Scene) -> float:
+def order_of(scene: Scene) -> float:
     """Return the order of an integrator: by what power of the step its derived error falls."""
     coarse, fine = (error_per_radian(scene.integrator, angle) for angle in (0.04, 0.02))
     return max(1.0, round(math.log2(coarse / fine))) if fine > 0.0 else 1.0

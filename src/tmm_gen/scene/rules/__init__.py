@@ -34,6 +34,7 @@ from tmm_gen.scene.rules.integration import (
     coupled_suits,
     explicit_needs_acceleration,
     integrator_parameters,
+    steps_may_change,
 )
 from tmm_gen.scene.rules.kinds import base_hub, held, kind_keys, newton_keys
 from tmm_gen.scene.rules.names import distinct_names
@@ -61,6 +62,7 @@ RULES: tuple[Rule, ...] = (
     integrator_parameters,
     explicit_needs_acceleration,
     coupled_suits,
+    steps_may_change,
     distinct_names,
     inputs_possible,
     prescribed_motion,
@@ -89,6 +91,7 @@ _ALL: tuple[Rule, ...] = (
     integrator_parameters,
     explicit_needs_acceleration,
     coupled_suits,
+    steps_may_change,
     distinct_names,
     prescribed_motion,
     real_is_used,

@@ -90,6 +90,29 @@ def coupled_suits(document: Document) -> Iterator[Finding]:
         )
 
 
+def steps_may_change(document: Document) -> Iterator[Finding]:
+    """Find a tolerance beside a step that cannot change on the way."""
+    table, model = document.integrator, document.model
+    method = method_named(table.name)
+    if table.tolerance is None or method is None:
+        return
+    where, beside = ("integrator", "tolerance"), "Or remove it: steps are then all alike."
+    if method.multistep:
+        yield Finding(
+            where,
+            f"does not go with {method.name}, which reads instants a step apart from before",
+            f'Write `name = "newmark"`, or "sdirk4". {beside}',
+            table.tolerance,
+        )
+    if model.kind == "planar" and model.linearisation != "newton":
+        yield Finding(
+            where,
+            f'does not go with linearisation = "{model.linearisation}", whose error does not fall with the step',
+            f'Write `linearisation = "newton"` in [model]. {beside}',
+            table.tolerance,
+        )
+
+
 def _not_carried(document: Document) -> Iterator[str]:
     """Yield the arms of a document that such methods do not go with."""
     if document.model.kind == "spatial":

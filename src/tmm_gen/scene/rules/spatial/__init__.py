@@ -13,7 +13,12 @@ from tmm_gen.scene.rules.emission import (
     favour_suits,
     real_is_used,
 )
-from tmm_gen.scene.rules.integration import coupled_suits, explicit_needs_acceleration, integrator_parameters
+from tmm_gen.scene.rules.integration import (
+    coupled_suits,
+    explicit_needs_acceleration,
+    integrator_parameters,
+    steps_may_change,
+)
 from tmm_gen.scene.rules.spatial.hanging import not_too_many, one_tree, part_names
 from tmm_gen.scene.rules.spatial.inertia import base_to_turn, something_to_turn
 from tmm_gen.scene.rules.spatial.parts import ends, in_range, inertias, rigid_gears, twists
@@ -41,6 +46,7 @@ RULES: tuple[tuple[Rule, ...], ...] = (
         integrator_parameters,
         explicit_needs_acceleration,
         coupled_suits,
+        steps_may_change,
         real_is_used,
         budget_not_empty,
         batch_suits,

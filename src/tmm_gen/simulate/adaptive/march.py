@@ -1,0 +1,233 @@
+"""One run by steps of chosen lengths: each step is taken whole and in two halves, and the halves are kept.
+
+What the two leave between them tells the error of the halves by the order of the integrator (L. F. Richardson). It is
+measured where runs are compared: how far the ends of links are apart, as a share of how far they have come.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.scene import Scene
+from tmm_gen.simulate.adaptive.kernel import AnyLength, State
+from tmm_gen.simulate.adaptive.kinks import Kinks
+from tmm_gen.simulate.adaptive.length import Ladder, landing
+from tmm_gen.simulate.displacement import STILL, extent, lengths, placed
+from tmm_gen.simulate.planar_divergence import TURN
+from tmm_gen.simulate.trace import MOST, Trace
+
+Array = NDArray[np.float64]
+
+_BLOCK = 1000
+"""States between two looks at the room they take."""
+
+_SHORTEST = 1e-12
+"""A step that would be shorter than this share of the run leads nowhere."""
+
+
+class StuckError(ArithmeticError):
+    """No step is short enough: the message says when, and why the last one was refused."""
+
+
+@dataclass(frozen=True)
+class Aim:
+    """What one run is to keep to.
+
+    Parameters
+    ----------
+    error : float
+        Most that a step may be wrong by, as a share of the motion.
+    order : float
+        Of the integrator, as far as that is relied upon.
+    way : float
+        How far the motion goes, as a former run has shown; 0: as far as it has come so far.
+    begin : float
+        Length of a step that follows whatever a blow may start, s.
+    """
+
+    error: float
+    order: float
+    way: float
+    begin: float
+
+
+@dataclass(eq=False)
+class March:
+    """All steps of a run.
+
+    Parameters
+    ----------
+    times : list of float
+        Start, and ends of steps, s; each step is two halves.
+    came : list of float
+        Length of the two halves' steps, s, one for each step.
+    angle : list of array, (m,)
+        At the same instants as `times`, as a trace has them.
+    states : list of mapping
+        At the start and behind each half step.
+    kinked : list of int
+        Numbers of the states at which an input jumps: accelerations are still those before.
+    refused : int
+        Steps that were not kept.
+    """
+
+    times: list[float] = field(default_factory=list)
+    came: list[float] = field(default_factory=list)
+    angle: list[Array] = field(default_factory=list)
+    states: list[State] = field(default_factory=list)
+    kinked: list[int] = field(default_factory=list)
+    refused: int = 0
+
+    @property
+    def halves(self) -> Array:
+        """Instants of the states, s."""
+        ends = np.array(self.times)
+        return np.insert(0.5 * (ends[1:] + ends[:-1]), np.arange(len(ends) - 1), ends[:-1]).tolist() + [ends[-1]]
+
+
+def march(
+    scene: Scene,
+    kernel: AnyLength,
+    kinks: Kinks,
+    given: Mapping[str, Array],
+    aim: Aim,
+    advance: Callable[[float], None],
+) -> March:
+    """Take steps up to the end of the run, each as long as its error allows.
+
+    Parameters
+    ----------
+    scene : Scene
+        What moves.
+    kernel : AnyLength
+        Takes steps.
+    kinks : Kinks
+        Of the inputs, and the end of the run.
+    given : mapping
+        What the arm starts from where that is not the scene's.
+    aim : Aim
+        How long steps may be.
+    advance : callable
+        Told after each step what share of the run that was.
+
+    Raises
+    ------
+    StuckError
+        If no step is short enough.
+    """
+    return _Marching(scene, kernel, kinks, aim, advance).run(given)
+
+
+def again(
+    scene: Scene, kernel: AnyLength, kinks: Kinks, given: Mapping[str, Array], whole: March
+) -> Array | None:
+    """Take the steps of a run whole, and return the angles at their ends, (k + 1, m); None if that fails."""
+    state = kernel.start(kinks.read(np.zeros(1), kinks.next(0.0)), given)
+    states, came = [state], None
+    ends = whole.times
+    try:
+        for begin, end, length in zip(ends[:-1], ends[1:], whole.came, strict=True):
+            inputs = kinks.read(begin + length * kernel.instants, kinks.next(begin))
+            del end
+            state = kernel.step(state, came, length, inputs)
+            came = length
+            states.append(state)
+    except ArithmeticError:
+        return None
+    return angles(scene, states)
+
+
+def angles(scene: Scene, states: list[State]) -> Array:
+    """Return the angles of hub and links, (k, m), as a trace has them."""
+    trace = Trace.empty(scene, len(states))
+    for state in states:
+        trace.add(state)
+    return trace.angle
+
+
+@dataclass(eq=False)
+class _Marching:
+    """A run under way; fields as of :func:`march`."""
+
+    scene: Scene
+    kernel: AnyLength
+    kinks: Kinks
+    aim: Aim
+    advance: Callable[[float], None]
+
+    def run(self, given: Mapping[str, Array]) -> March:
+        kinks, until = self.kinks, self.kinks.until
+        state = self.kernel.start(kinks.read(np.zeros(1), kinks.next(0.0)), given)
+        found = March([0.0], [], [angles(self.scene, [state])[0]], [state])
+        self.start = placed(self.scene, found.angle[0][None])
+        self.way = max(self.aim.way, STILL * extent(self.scene) if not self.scene.model.linear else 0.0)
+        ladder = Ladder(self.scene.integrator.step, self.aim.order)
+        time, came, wanted = 0.0, None, self.aim.begin
+        while time < until:
+            stop = kinks.next(time)
+            length, lands = landing(ladder.rung(wanted), stop - time)
+            error, ends = self._tried(state, came, time, length, stop)
+            if not error <= 1.0:
+                found.refused += 1
+                wanted = ladder.refused(length, error)
+                self._require(wanted, time, error)
+                continue
+            assert ends is not None
+            time = stop if lands else time + length
+            wanted, came, state = ladder.accepted(length, error), 0.5 * length, ends[1]
+            if lands and time < until and kinks.jumps(time):
+                wanted = min(wanted, self.aim.begin)
+                found.kinked.append(len(found.states) + 1)
+            found.times.append(time)
+            found.came.append(length)
+            found.states += ends
+            found.angle.append(self.turned)
+            self._room(found)
+            self.advance(length / until)
+        return found
+
+    def _tried(
+        self, state: State, came: float | None, time: float, length: float, stop: float
+    ) -> tuple[float, list[State] | None]:
+        """Take a step whole and in halves; return its error as a share of what it may be, and the states of the halves."""
+        half, instants = 0.5 * length, self.kernel.instants
+        try:
+            whole = self.kernel.step(state, came, length, self.kinks.read(time + length * instants, stop))
+            first = self.kernel.step(state, came, half, self.kinks.read(time + half * instants, stop))
+            inputs = self.kinks.read(time + half + half * instants, stop)
+            second = self.kernel.step(first, half, half, inputs)
+        except ArithmeticError:
+            return math.inf, None
+        found = angles(self.scene, [state, first, second, whole])
+        if not np.max(np.abs(np.diff(found[:3], axis=0)), initial=0.0) <= TURN:
+            return math.inf, None
+        there = placed(self.scene, found[2:])
+        way = max(self.way, float(np.max(lengths(there[:, :1] - self.start))))
+        apart = float(np.max(lengths(there[:, 0] - there[:, 1])))
+        error = apart / (2.0**self.aim.order - 1.0)
+        if not math.isfinite(error):
+            return math.inf, None
+        share = error / (way * self.aim.error) if error > 0.0 else 0.0
+        if share <= 1.0:
+            self.way, self.turned = way, found[2]
+        return share, [first, second]
+
+    def _require(self, length: float, time: float, error: float) -> None:
+        if length >= _SHORTEST * self.kinks.until:
+            return
+        why = "no step can be solved" if math.isinf(error) else "no step is short enough"
+        raise StuckError(f"at t = {time:.6g} s {why}")
+
+    def _room(self, found: March) -> None:
+        if len(found.states) * self.scene.stations > MOST:
+            raise StuckError(f"at t = {found.times[-1]:.6g} s there were {len(found.states)} steps already")
+
+
+def looser(aim: Aim, factor: float, way: float) -> Aim:
+    """Return an aim with so many times the error, by how far the motion goes."""
+    return replace(aim, error=aim.error * factor, way=way)
