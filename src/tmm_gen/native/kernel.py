@@ -118,6 +118,10 @@ class NativeKernel:
             If the new state is not.
         """
         self._apply(inputs)
+        self.step_as_written()
+
+    def step_as_written(self) -> None:
+        """Advance the state by one step, with whatever stands in :attr:`memory`; raises as :meth:`step`."""
         self._library.call("step", self._model, self._state, self._inputs)
 
     def output(self) -> dict[str, float]:
@@ -142,6 +146,11 @@ class NativeKernel:
     def raise_for(self, status: int) -> None:
         """Raise what a status of :meth:`record` stands for."""
         self._library.raise_for(status, "step")
+
+    @property
+    def memory(self) -> Mapping[str, ctypes.Structure]:
+        """The arm's own "state" and "inputs", to be read and written in place."""
+        return {"state": self._state, "inputs": self._inputs}
 
     @property
     def types(self) -> Mapping[str, type[ctypes.Structure]]:

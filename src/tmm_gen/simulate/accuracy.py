@@ -51,10 +51,10 @@ _LEAP = 0.5
 _SHORTEST = 4
 """Runs of fewer steps may be evenly accelerated, and cover as much in their last one."""
 
-_DISTURBED = {"float64": 1e-9, "float32": 1e-4, "compensated": 1e-8}
+DISTURBED = {"float64": 1e-9, "float32": 1e-4, "compensated": 1e-8}
 """rad; well above rounding, well below what bends an arm."""
 
-_HIGHEST = 3
+HIGHEST = 3
 """Orders above count as this one: stiff arms do not always show more."""
 
 
@@ -133,7 +133,7 @@ def _leapt(scene: Scene, trace: Trace) -> float:
 def _repeated(course: Course, stepper: Stepper) -> Accuracy:
     scene, steps = course.scene, course.steps
     again = _Repetition(course, stepper)
-    order = min(_HIGHEST, order_of(scene))
+    order = min(HIGHEST, order_of(scene))
     coarse = None if steps < _FEW else again(2.0)
     if coarse is not None:
         growth = again.sensitivity(2.0, coarse)
@@ -175,6 +175,7 @@ class _Repetition:
             guard=free_watch(self.scene, step),
             trace=trace,
             checked=None,
+            rows=None,
             moved=moved,
         )
         try:
@@ -227,11 +228,7 @@ class _Repetition:
 
     def sensitivity(self, factor: float, undisturbed: Trace) -> float | None:
         """Return how many times larger a small disturbance of the start becomes."""
-        emit = self.scene.emit
-        real = (
-            "float64" if self.stepper.backend == "numpy" else "compensated" if emit.compensated else emit.real
-        )
-        size = _DISTURBED[real]
+        size = DISTURBED[self.stepper.real(self.scene)]
         signs = np.where(np.arange(self.scene.stations) % 3 == 0, 1.0, 0.5)
         disturbed = self(factor, size * signs)
         if disturbed is None:

@@ -14,16 +14,18 @@ from numpy.typing import NDArray
 from tmm_gen.errors import UserError
 from tmm_gen.inputs.signals import Constant, Signal
 from tmm_gen.scene import Scene
+from tmm_gen.simulate.adaptive.kernel import AnyLength
 from tmm_gen.simulate.divergence import BrokenOffError, DivergedError, Watch, watch
 from tmm_gen.simulate.imbalance import imbalance_of
 from tmm_gen.simulate.planar_divergence import PlanarWatch, more_sweeps, planar_watch
 from tmm_gen.simulate.prescribed import followed, prescribed
+from tmm_gen.simulate.rows import Rows, row_instants
 from tmm_gen.simulate.settled import outputs_at_rest
 from tmm_gen.simulate.simulation import Simulation
 from tmm_gen.simulate.stepping import Backend, Course, Stepper
 from tmm_gen.simulate.substeps import Progress, Substeps, divided
 from tmm_gen.simulate.tolerance import refuse_inaccurate, refuse_unsolved, tolerance
-from tmm_gen.simulate.trace import MOST, room_for
+from tmm_gen.simulate.trace import MOST, Trace, room_for
 
 if TYPE_CHECKING:
     from tmm_gen.simulate.accuracy import Accuracy
@@ -68,8 +70,12 @@ def simulate(
     refuse: bool = True,
     judge: bool = True,
     substeps: bool = False,
+    every: float | None = None,
+    fixed: bool = False,
 ) -> Simulation:
-    """Simulate a scene at its own step; where it leaves open how often to sweep, as often as it takes.
+    """Simulate a scene at its own step, or by steps that its tolerance chooses.
+
+    Where it leaves open how often to sweep, as often as it takes.
 
     Parameters
     ----------
@@ -95,6 +101,10 @@ def simulate(
     substeps : bool
         Divide the steps of a planar arm that are too long for its motion (:mod:`tmm_gen.simulate.substeps`), instead of
         refusing it. Only where it sweeps as often as it takes.
+    every : float, optional
+        How far rows are apart, s, whatever the steps; by default they are the ends of the scene's steps.
+    fixed : bool
+        Take the scene's step even where it has a tolerance.
 
     Raises
     ------
@@ -104,36 +114,52 @@ def simulate(
         If the error is more of the motion than the scene's ``model.accuracy``.
     UnsolvedError
         If sweeps leave more unsolved than the step does, or than the scene's ``model.unsolved``.
+    ToleranceError
+        If no steps keep the scene's tolerance.
     UserError
         If the kernel cannot be made, the steps are too many, a prescribed angle jumps, or a pivot vanishes.
     """
     steps = number_of_steps(until, scene.integrator.step)
     signals = prescribed(scene, signals)
     inputs = {item.name: signals.get(item.name, Constant(0.0)) for item in scene.inputs}
-    task = _Task(scene, inputs, until, steps, backend, kernel, advance or _unseen, trace, refuse, judge)
+    time: Array = scene.integrator.step * np.arange(steps + 1, dtype=float)
+    if every is not None:
+        time = row_instants(until, every)
+    advance = advance or _unseen
+    if scene.integrator.tolerance is not None and not fixed:
+        from tmm_gen.simulate.adaptive.simulation import simulate_to_tolerance
+
+        stepper = Stepper.of(scene, backend, kernel)
+        return simulate_to_tolerance(scene, inputs, time, backend, advance, stepper, trace=trace)
+    rows = None if every is None else time
+    task = _Task(scene, inputs, until, steps, backend, kernel, advance, trace, refuse, judge, rows)
     if substeps and scene.model.auto:
         found, shared = divided(scene, steps, backend, task.attempt, task.again)
     else:
         found, shared = task.attempt(scene, 1), Substeps()
     used, count = found.course.scene, shared.count
     fine: Array = used.integrator.step * np.arange(steps * count + 1, dtype=float)
-    time: Array = scene.integrator.step * np.arange(steps + 1, dtype=float)
     kept = found.course.trace
     whole = kept if kept is not None and kept.every == 1 else None
+    outputs = {name: found.outputs[:, k] for k, name in enumerate(found.course.names)}
+    shown = None if whole is None else whole.thinned(count)
+    if found.course.rows is not None:
+        outputs, shown = _between(found.course, task.stepper)
     return Simulation(
         scene=scene,
         backend=backend,
         time=time,
-        outputs={name: found.outputs[:, k] for k, name in enumerate(found.course.names)},
+        outputs=outputs,
         inputs={name: signal.at(time) for name, signal in inputs.items()},
         rest=outputs_at_rest(scene, inputs, float(time[-1])),
-        trace=None if whole is None else whole.thinned(count),
+        trace=shown,
         imbalance=imbalance_of(used, inputs, fine, whole),
         unsolved=found.unsolved,
         step_error=found.step_error,
         accuracy=found.accuracy,
         sweeps_per_step=found.sweeps,
         substeps=shared,
+        taken=None if every is None else steps,
         notes=tuple(followed(scene, inputs, float(time[-1]))),
     )
 
@@ -156,6 +182,7 @@ class _Task:
     trace: bool
     refuse: bool
     judge: bool
+    rows: Array | None = None
     _taken: list[float] = field(default_factory=list)
 
     @cached_property
@@ -205,6 +232,7 @@ class _Task:
             room_for(used, steps, whole=self.trace) if self.trace or self.judge else None,
             _unsolved(used, self.inputs, steps, self.backend),
             parameters=parameters,
+            rows=None if self.rows is None else Rows(used, self.rows),
         )
         return _Run.of(course, self.stepper, count, advance, judge=self.judge)
 
@@ -255,6 +283,16 @@ class _Run:
         return self.accuracy.from_sweeps > max(_SMALL_SHARE * self.accuracy.error, _SMALLEST)
 
 
+def _between(course: Course, stepper: Stepper) -> tuple[dict[str, Array], Trace]:
+    """Return outputs and motion at the instants of rows."""
+    assert course.rows is not None
+    states = course.rows.states
+    outputs = AnyLength(stepper, course.parameters).prepared(course.step).outputs(states)
+    motion = Trace.empty(course.scene, len(course.rows.instants))
+    motion.extend(states)
+    return outputs, motion
+
+
 def _outputs(course: Course, stepper: Stepper, every: int, advance: Callable[[float], None] | None) -> Array:
     """Take all steps and return the outputs at the start and after every so manieth, (rows, columns)."""
     scene, step, guard = course.scene, course.step, course.guard
@@ -289,5 +327,4 @@ def _unsolved(scene: Scene, signals: Mapping[str, Signal], steps: int, backend: 
         return None
     from tmm_gen.simulate.unsolved import Unsolved  # SymPy comes with it
 
-    real = "compensated" if scene.emit.compensated else scene.emit.real
-    return Unsolved(scene, signals, steps, real if backend == "c" else "float64")
+    return Unsolved(scene, signals, steps, Stepper(backend, None).real(scene))

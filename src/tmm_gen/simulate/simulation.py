@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from tmm_gen.scene import Scene
 from tmm_gen.scene.columns import OutputColumn, output_columns
 from tmm_gen.simulate.accuracy import Accuracy
+from tmm_gen.simulate.adaptive.chosen import Chosen
 from tmm_gen.simulate.metrics import step_figures
 from tmm_gen.simulate.substeps import Substeps
 from tmm_gen.simulate.trace import Trace
@@ -54,6 +55,10 @@ class Simulation:
     substeps : Substeps
         Into how many each step was divided, and why; figures of the error are of the run in substeps, outputs are at
         the ends of steps.
+    chosen : Chosen, optional
+        What steps were chosen, where the scene has a tolerance; rows are between them.
+    taken : int, optional
+        Steps taken, where rows are not at their ends.
     """
 
     scene: Scene
@@ -70,11 +75,15 @@ class Simulation:
     accuracy: Accuracy | None = None
     sweeps_per_step: float | None = None
     substeps: Substeps = field(default_factory=Substeps)
+    chosen: Chosen | None = None
+    taken: int | None = None
 
     @property
     def steps(self) -> int:
         """Number of steps taken."""
-        return len(self.time) - 1
+        if self.chosen is not None:
+            return self.chosen.steps
+        return len(self.time) - 1 if self.taken is None else self.taken
 
     @property
     def still(self) -> bool:

@@ -20,11 +20,15 @@ from tmm_gen.simulate.prescribed import Derivative, kernel_signals
 from tmm_gen.simulate.trace import Trace
 
 if TYPE_CHECKING:
+    from tmm_gen.simulate.rows import Rows
     from tmm_gen.simulate.unsolved import Unsolved
 
 Array = NDArray[np.float64]
 Guard = Watch | PlanarWatch
 Backend = Literal["numpy", "c"]
+
+EPSILON = {"float64": 2.0**-52, "float32": 2.0**-23, "compensated": 2.0**-47}
+"""The last place of one in each number type."""
 
 _CHUNK = 1000
 """Steps between two looks at the motion and the progress bar."""
@@ -57,6 +61,8 @@ class Course:
         Added to the initial angles, rad.
     parameters : mapping from str to float
         Of the kernel, where they differ from the scene's.
+    rows : Rows, optional
+        Finds states between the ends of steps.
     """
 
     scene: Scene
@@ -68,6 +74,7 @@ class Course:
     checked: Unsolved | None = None
     moved: Array | None = None
     parameters: Mapping[str, float] = field(default_factory=dict)
+    rows: Rows | None = None
 
     @property
     def names(self) -> list[str]:
@@ -131,6 +138,20 @@ class Stepper:
 
         return cls(backend, numpy_module(scene, program))
 
+    def default(self, name: str) -> float | None:
+        """Return what a parameter of the kernel is where nothing else is said; None where it has no such parameter."""
+        if self.backend == "c":
+            found = {p.name: p.default for p in self.kernel.program.parameters}
+        else:
+            found = vars(self.kernel.Params())
+        return float(found[name]) if name in found else None
+
+    def real(self, scene: Scene) -> str:
+        """Return the number type it computes in: "float64", "float32" or "compensated"."""
+        if self.backend == "numpy":
+            return "float64"
+        return "compensated" if scene.emit.compensated else scene.emit.real
+
     def take(self, course: Course) -> Iterator[Array]:
         """Take all steps.
 
@@ -170,6 +191,7 @@ class Stepper:
             model = module.prepare(parameters, step=h)
             state = module.initialise(parameters, constant, **course.start)
             rows = [row()]
+            passed = [vars(state)]
             for index in range(course.steps):
                 given = constant
                 if not held:
@@ -182,7 +204,13 @@ class Stepper:
                 if course.checked is not None and index + 1 in looks:
                     course.checked.look(index + 1, vars(before), vars(state))
                 rows.append(row())
+                if course.rows is not None:
+                    passed.append(vars(state))
                 if len(rows) >= _CHUNK or index + 1 == course.steps:
+                    if course.rows is not None:
+                        times = h * np.arange(index + 2 - len(passed), index + 2, dtype=float)
+                        course.rows.extend(times, {k: np.array([s[k] for s in passed]) for k in passed[0]})
+                        passed = passed[-1:]
                     yield np.array(rows)
                     rows = []
         self.sweeps = float(state.sweeps) if hasattr(state, "sweeps") else None
@@ -226,6 +254,8 @@ class Stepper:
                         for k in (-1, 0)
                     )
                     course.checked.look(int(index), *ends)
+            if course.rows is not None:
+                course.rows.extend(h * np.arange(taken, taken + count + 1, dtype=float), together)
             before = {name: values[-1:] for name, values in together.items()}
             taken += count
             yield np.column_stack([found.outputs[name] for name in names]) if names else np.zeros((count, 0))

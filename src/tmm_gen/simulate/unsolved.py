@@ -27,6 +27,7 @@ from tmm_gen.reference.floating import about_center
 from tmm_gen.reference.planar_arm import Arm
 from tmm_gen.scene import Scene
 from tmm_gen.simulate.step_error import step_error
+from tmm_gen.simulate.stepping import EPSILON
 
 Array = NDArray[np.float64]
 State = Mapping[str, Any]
@@ -36,7 +37,6 @@ _FIRST, _LATER, _KINKS = 20, 400, 50
 and as many spread over the whole run."""
 
 _KEYS: dict[Kind, str] = {"q": "angle", "v": "rate", "a": "acceleration"}
-_EPSILON = {"float64": 2.0**-52, "float32": 2.0**-23, "compensated": 2.0**-47}
 
 
 @dataclass(eq=False)
@@ -158,7 +158,7 @@ class Unsolved:
         stiffness[arm.first :] += 2.0 * arm.joints[0]
         inertial = arm.gathered(arm.masses * arm.walked(a + v**2)) + arm.inertias * a
         terms = stiffness * largest + inertial + arm.weight * arm.moments
-        return np.asarray(_EPSILON[self.real] * np.sum(v * terms, axis=1))
+        return np.asarray(EPSILON[self.real] * np.sum(v * terms, axis=1))
 
 
 def equilibrium(

@@ -9,7 +9,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.native.layout import Value
+from tmm_gen.native.members import Members
 from tmm_gen.simulate.stages import StagePolynomial
 from tmm_gen.simulate.stepping import Stepper
 
@@ -27,8 +27,8 @@ class Prepared(Protocol):
     def step(self, state: State, inputs: Mapping[str, Array]) -> State:
         """Return the state a step later; inputs are those at the instants of the stages, (stages,)."""
 
-    def output(self, state: State) -> dict[str, float]:
-        """Return the outputs of a state by name."""
+    def outputs(self, states: Mapping[str, Array]) -> dict[str, Array]:
+        """Return the outputs of many states, (r, ...) by name: (r,) each."""
 
 
 @dataclass(eq=False)
@@ -124,32 +124,34 @@ class _Numpy:
         given = stages if count > 1 else stages[0]
         return vars(module.step(self.model, module.State(**state), given))
 
-    def output(self, state: State) -> dict[str, float]:
-        found = vars(self.module.output(self.model, self.module.State(**state)))
-        return {name: float(value) for name, value in found.items()}
+    def outputs(self, states: Mapping[str, Array]) -> dict[str, Array]:
+        batch = {name: np.moveaxis(values, 0, -1) for name, values in states.items()}
+        count = len(next(iter(states.values())))
+        found = vars(self.module.output(self.model, self.module.State(**batch)))
+        return {name: np.broadcast_to(np.asarray(value, float), (count,)) for name, value in found.items()}
 
 
 @dataclass(frozen=True, eq=False)
 class _Native:
     kernel: Any
+    state: Members
+    inputs: Members
 
     @classmethod
     def of(cls, kernel: Any, parameters: Mapping[str, float], length: float) -> _Native:
         own = kernel.another()
         own.prepare(parameters, step=length)
-        return cls(own)
+        return cls(own, Members(own.memory["state"]), Members(own.memory["inputs"]))
 
     def step(self, state: State, inputs: Mapping[str, Array]) -> State:
-        single = {v.name for v in self.kernel.program.inputs if v.length is None}
-        self.kernel.state = state
-        given: dict[str, Value] = {
-            name: float(values[0]) if name in single else values for name, values in inputs.items()
-        }
-        self.kernel.step(given)
-        found: State = self.kernel.state
-        return found
+        self.state.write(state)
+        self.inputs.write(inputs)
+        self.kernel.step_as_written()
+        return self.state.read()
 
-    def output(self, state: State) -> dict[str, float]:
-        self.kernel.state = state
-        found: dict[str, float] = self.kernel.output()
-        return found
+    def outputs(self, states: Mapping[str, Array]) -> dict[str, Array]:
+        rows = []
+        for k in range(len(next(iter(states.values())))):
+            self.state.write({name: values[k] for name, values in states.items()})
+            rows.append(self.kernel.output())
+        return {name: np.array([row[name] for row in rows]) for name in rows[0]}

@@ -68,6 +68,8 @@ class Kinks:
         stop : float
             The next one, s.
         """
+        if self.steady:
+            return {name: np.full(times.shape, value) for name, value in self._constants.items()}
         found = {}
         for name, signal in self.signals.items():
             left = self._left(name, stop)
@@ -96,6 +98,10 @@ class Kinks:
         beside = np.diff(knots[max(place - 1, 0) : place + 2])
         least = _BEFORE * float(np.min(beside)) if len(beside) else _BEFORE * stop
         return float(min(knots[place], stop) - least)
+
+    @cached_property
+    def _constants(self) -> dict[str, float]:
+        return {name: float(signal.at(0.0)) for name, signal in self.signals.items()}
 
     @cached_property
     def _knots(self) -> dict[str, Array]:

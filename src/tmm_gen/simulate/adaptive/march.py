@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +25,12 @@ Array = NDArray[np.float64]
 
 _BLOCK = 1000
 """States between two looks at the room they take."""
+
+_SEEN = ("angle", "rate", "turned", "hub_angle", "hub_rate", "base_")
+"""What the names of states begin with from which angles are read."""
+
+_ROUNDED = 8.0
+"""Last places that a step may be off by rounding."""
 
 _SHORTEST = 1e-12
 """A step that would be shorter than this share of the run leads nowhere."""
@@ -48,12 +54,15 @@ class Aim:
         How far the motion goes, as a former run has shown; 0: as far as it has come so far.
     begin : float
         Length of a step that follows whatever a blow may start, s.
+    rounding : float
+        The last place of one in the numbers computed with.
     """
 
     error: float
     order: float
     way: float
     begin: float
+    rounding: float = 2.0**-52
 
 
 @dataclass(eq=False)
@@ -84,10 +93,17 @@ class March:
     refused: int = 0
 
     @property
-    def halves(self) -> Array:
-        """Instants of the states, s."""
+    def instants(self) -> Array:
+        """Of the states, s."""
         ends = np.array(self.times)
-        return np.insert(0.5 * (ends[1:] + ends[:-1]), np.arange(len(ends) - 1), ends[:-1]).tolist() + [ends[-1]]
+        found = np.empty(2 * len(ends) - 1)
+        found[::2], found[1::2] = ends, 0.5 * (ends[1:] + ends[:-1])
+        return found
+
+    @property
+    def stacked(self) -> dict[str, Array]:
+        """The states together, (k, ...) by name."""
+        return {name: np.array([state[name] for state in self.states], float) for name in self.states[0]}
 
 
 def march(
@@ -131,9 +147,8 @@ def again(
     states, came = [state], None
     ends = whole.times
     try:
-        for begin, end, length in zip(ends[:-1], ends[1:], whole.came, strict=True):
+        for begin, length in zip(ends, whole.came, strict=False):
             inputs = kinks.read(begin + length * kernel.instants, kinks.next(begin))
-            del end
             state = kernel.step(state, came, length, inputs)
             came = length
             states.append(state)
@@ -145,8 +160,8 @@ def again(
 def angles(scene: Scene, states: list[State]) -> Array:
     """Return the angles of hub and links, (k, m), as a trace has them."""
     trace = Trace.empty(scene, len(states))
-    for state in states:
-        trace.add(state)
+    seen = [name for name in states[0] if name.startswith(_SEEN)]
+    trace.extend({name: np.array([state[name] for state in states]) for name in seen})
     return trace.angle
 
 
@@ -182,7 +197,7 @@ class _Marching:
             wanted, came, state = ladder.accepted(length, error), 0.5 * length, ends[1]
             if lands and time < until and kinks.jumps(time):
                 wanted = min(wanted, self.aim.begin)
-                found.kinked.append(len(found.states) + 1)
+                found.kinked.append(len(found.states) + len(ends) - 1)
             found.times.append(time)
             found.came.append(length)
             found.states += ends
@@ -209,6 +224,7 @@ class _Marching:
         there = placed(self.scene, found[2:])
         way = max(self.way, float(np.max(lengths(there[:, :1] - self.start))))
         apart = float(np.max(lengths(there[:, 0] - there[:, 1])))
+        apart = max(apart - _ROUNDED * self.aim.rounding * float(np.max(np.abs(there))), 0.0)
         error = apart / (2.0**self.aim.order - 1.0)
         if not math.isfinite(error):
             return math.inf, None
@@ -227,7 +243,3 @@ class _Marching:
         if len(found.states) * self.scene.stations > MOST:
             raise StuckError(f"at t = {found.times[-1]:.6g} s there were {len(found.states)} steps already")
 
-
-def looser(aim: Aim, factor: float, way: float) -> Aim:
-    """Return an aim with so many times the error, by how far the motion goes."""
-    return replace(aim, error=aim.error * factor, way=way)

@@ -1,0 +1,1 @@
+"""Steps chosen by a tolerance."""
