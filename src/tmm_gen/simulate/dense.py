@@ -2,34 +2,38 @@
 
 Angle, rate and acceleration at both ends of a step give a polynomial of fifth degree (Hermite). Where a method keeps
 accelerations of its stages instead, as Gauss's methods do, it is the polynomial by which the step itself is defined;
-and where accelerations belong to other instants, or are those before a blow, one of third degree. Quaternions follow
-their rates by third degree and are made units again. Heat climbs through its values and never falls.
+and where accelerations belong to other instants, one of third degree. Steps that were taken in two halves have angles
+and rates at three instants, which give one of fifth degree whatever the method. Quaternions follow their rates in the
+same way and are made units again; heat climbs through its values and never falls.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.scene import Scene
-from tmm_gen.simulate.stages import StagePolynomial, stage_polynomial
+from tmm_gen.simulate.stages import HUB, StagePolynomial, stage_polynomial
 
 Array = NDArray[np.float64]
 States = Mapping[str, Array]
 """By name, (k, ...)."""
 
-_AT_END = 1e-9
-"""An instant nearer than this share of a step to its end is that end."""
+_AT_NODE = 1e-9
+"""An instant nearer than this share of a step to one whose state is known is that instant."""
 
 _PLANES = "xyz"
 _QUATERNION = tuple(f"base_quaternion_{part}" for part in "wxyz")
+_OMEGA = tuple(f"base_omega_{x}" for x in _PLANES)
 _HEAT = "dissipated"
 _MOTIONS = (
     ("angle", "rate", "acceleration"),
-    ("hub_angle", "hub_rate", "hub_acceleration"),
+    (f"{HUB}angle", f"{HUB}rate", f"{HUB}acceleration"),
     *((f"base_place_{x}", f"base_velocity_{x}", f"base_acceleration_{x}") for x in _PLANES),
 )
 
@@ -49,7 +53,7 @@ class Dense:
     settled: bool
     stages: StagePolynomial | None
 
-    def at(self, instants: Array, times: Array, states: States, kinked: Array | None = None) -> dict[str, Array]:
+    def at(self, instants: Array, times: Array, states: States) -> dict[str, Array]:
         """Return the states at some instants.
 
         Parameters
@@ -60,87 +64,135 @@ class Dense:
             Of the states, s, increasing.
         states : mapping from str to array, (k, ...)
             By name.
-        kinked : array of int, optional
-            Numbers of the states from which an input goes on from another value than it had.
 
         Returns
         -------
         dict from str to array, (r, ...)
         """
         first = np.clip(np.searchsorted(times, instants, side="right") - 1, 0, max(len(times) - 2, 0))
-        last = np.minimum(first + 1, len(times) - 1)
-        spans = times[last] - times[first]
-        shares = np.where(spans > 0.0, (instants - times[first]) / np.where(spans > 0.0, spans, 1.0), 0.0)
-        settled = np.full(len(instants), self.settled)
-        if kinked is not None:
-            settled &= ~np.isin(first, kinked)
-        ends = {name: (values[first], values[last]) for name, values in states.items()}
-        if "turned" in ends:  # whole turns that are kept apart: all by those of the end
-            extra = ends["turned"][0] - ends["turned"][1]
-            for name in ("angle", "hub_angle"):
-                if name in ends:
-                    begun, come = ends[name]
-                    ends[name] = (begun + _over(extra, begun), come)
-            ends["turned"] = (ends["turned"][1],) * 2
-        found = self._moving(shares, spans, ends, settled)
-        found |= _turning(shares, spans, ends)
-        if _HEAT in ends:
-            found[_HEAT] = _climbing(instants, times, states[_HEAT])
-        for name, (begun, come) in ends.items():
-            if name not in found:
-                share = _over(shares, begun)
-                found[name] = (1.0 - share) * begun + share * come
-        # at an end of a step its state is known better than any polynomial has it
-        for near, of in ((shares < _AT_END, 0), (shares > 1.0 - _AT_END, 1)):
-            for name, values in found.items():
-                values[near] = ends[name][of][near]
-        return found
-
-    def _moving(
-        self, shares: Array, spans: Array, ends: Mapping[str, tuple[Array, Array]], settled: NDArray[np.bool_]
-    ) -> dict[str, Array]:
-        """Return what has a rate: all three of places, rates and accelerations that states keep."""
-        found: dict[str, Array] = {}
+        step = _Step.of(instants, times, states, [first, np.minimum(first + 1, len(times) - 1)])
+        found = {} if self.stages is None else self._collocated(self.stages, step)
         for names in _MOTIONS:
-            place, rate, acceleration = names
-            if place not in ends or rate not in ends:
-                continue
-            if self.stages is not None and place in ("angle", "hub_angle"):
-                continue
-            cubic = hermite(shares, spans, [ends[place], ends[rate]])
-            values = cubic
-            if acceleration in ends and np.any(settled):
-                quintic = hermite(shares, spans, [ends[name] for name in names])
-                values = [
-                    np.where(_over(settled, five), five, three)
-                    for five, three in zip(quintic, cubic, strict=True)
-                ]
-            found |= {name: v for name, v in zip(names, values, strict=True) if name in ends}
-        if self.stages is not None:
-            found |= self._collocated(self.stages, shares, spans, ends)
-        return found
+            if names[0] in step.values and names[1] in step.values and names[0] not in found:
+                data = names if self.settled and names[2] in step.values else names[:2]
+                moving = step.through(data)
+                found |= {name: v for name, v in zip(names, moving, strict=True) if name in step.values}
+        return step.completed(found, instants, times, states)
 
-    def _collocated(
-        self, stages: StagePolynomial, shares: Array, spans: Array, ends: Mapping[str, tuple[Array, Array]]
-    ) -> dict[str, Array]:
+    def _collocated(self, stages: StagePolynomial, step: _Step) -> dict[str, Array]:
         """Return the motion of the polynomial that meets the equations at all stages of a step."""
         found: dict[str, Array] = {}
-        once, twice = (stages.weights(shares, integrals) for integrals in (1, 2))
-        there = np.stack([stages.weights(shares * node) for node in stages.nodes])
+        once, twice = (stages.weights(step.shares, integrals) for integrals in (1, 2))
+        there = [stages.weights(step.shares * node) for node in stages.nodes]
         for prefix in stages.prefixes:
             names = stages.names(prefix)
-            solved = np.stack([ends[name][1] for name in names], axis=1)
-            angle, rate = ends[f"{prefix}angle"][0], ends[f"{prefix}rate"][0]
-            h = _over(spans, angle)
-            come = np.einsum("rs,rs...->r...", twice, solved)
-            found[f"{prefix}angle"] = angle + _over(shares, angle) * h * rate + h**2 * come
-            found[f"{prefix}rate"] = rate + h * np.einsum("rs,rs...->r...", once, solved)
+            solved = np.stack([step.values[name][-1] for name in names], axis=1)
+            angle, rate = (step.values[prefix + word][0] for word in ("angle", "rate"))
+            h = _over(step.spans, angle)
+            found[f"{prefix}angle"] = angle + _over(step.shares, angle) * h * rate + h**2 * _summed(twice, solved)
+            found[f"{prefix}rate"] = rate + h * _summed(once, solved)
             # stages of a step that ends there, along the same polynomial
-            found |= {
-                name: np.einsum("rs,rs...->r...", weights, solved)
-                for name, weights in zip(names, there, strict=True)
-            }
+            found |= {name: _summed(w, solved) for name, w in zip(names, there, strict=True)}
         return found
+
+
+def halved(instants: Array, times: Array, states: States) -> dict[str, Array]:
+    """Return the states at some instants, by both halves of the steps together.
+
+    Parameters
+    ----------
+    instants : array, (r,)
+        s, within the times.
+    times : array, (2 k + 1,)
+        Of the states, s: a step goes from each even one to the next, the odd ones are in the middle.
+    states : mapping from str to array, (2 k + 1, ...)
+        By name.
+    """
+    first = 2 * np.clip(np.searchsorted(times[::2], instants, side="right") - 1, 0, (len(times) - 3) // 2)
+    step = _Step.of(instants, times, states, [first, first + 1, first + 2])
+    found: dict[str, Array] = {}
+    for names in _MOTIONS:
+        if names[0] not in step.values:
+            continue
+        angle, rate, acceleration = step.through(names[:2])
+        found |= {name: v for name, v in zip(names, (angle, rate, acceleration), strict=True) if name in step.values}
+        if names[0] == "angle" or names[0] == f"{HUB}angle":
+            # what is read off accelerations at stages is then read off one that is the same at all of them
+            prefix = names[0].removesuffix("angle")
+            found |= {n: acceleration for n in step.values if n.startswith(f"{prefix}acceleration_stage")}
+    return step.completed(found, instants, times, states)
+
+
+@dataclass(frozen=True, eq=False)
+class _Step:
+    """The steps in which instants are, all at once.
+
+    Parameters
+    ----------
+    shares, spans : array, (r,)
+        Where in its step each instant is, in steps from the start, and how long that step is, s.
+    values : dict
+        States at two or three nodes of the steps, equally far apart, by name; (r, ...) each.
+    """
+
+    shares: Array
+    spans: Array
+    values: dict[str, list[Array]]
+
+    @classmethod
+    def of(cls, instants: Array, times: Array, states: States, nodes: list[NDArray[np.int_]]) -> _Step:
+        """Gather them by the numbers of the states at their nodes."""
+        spans = times[nodes[-1]] - times[nodes[0]]
+        still = spans <= 0.0
+        shares = np.where(still, 0.0, (instants - times[nodes[0]]) / np.where(still, 1.0, spans))
+        values = {name: [found[node] for node in nodes] for name, found in states.items()}
+        if "turned" in values:  # whole turns that are kept apart: all by those of the end
+            end = values["turned"][-1]
+            for name in ("angle", f"{HUB}angle"):
+                if name in values:
+                    whole = zip(values[name], values["turned"], strict=True)
+                    values[name] = [angle + _over(turned - end, angle) for angle, turned in whole]
+            values["turned"] = [end] * len(nodes)
+        return cls(shares, spans, values)
+
+    def through(self, names: Sequence[str]) -> list[Array]:
+        """Return value, rate and acceleration of the polynomials through a value and its derivatives at all nodes."""
+        return hermite(self.shares, self.spans, [self.values[name] for name in names])
+
+    def completed(
+        self, found: dict[str, Array], instants: Array, times: Array, states: States
+    ) -> dict[str, Array]:
+        """Return the states with all that does not follow from angles and rates, and those at the nodes as they are."""
+        found |= self._turning()
+        if _HEAT in states:
+            found[_HEAT] = _climbing(instants, times, states[_HEAT])
+        for name, values in self.values.items():
+            if name not in found:
+                share = _over(self.shares, values[0])
+                found[name] = (1.0 - share) * values[0] + share * values[-1]
+        # at a node the state is known better than any polynomial has it
+        nodes = np.linspace(0.0, 1.0, len(next(iter(self.values.values()))))
+        for number, node in enumerate(nodes):
+            near = np.abs(self.shares - node) < _AT_NODE
+            for name, array in found.items():
+                array[near] = self.values[name][number][near]
+        return found
+
+    def _turning(self) -> dict[str, Array]:
+        """Return the turn of a base that floats in space."""
+        if _QUATERNION[0] not in self.values:
+            return {}
+        turns = [np.stack(parts, axis=1) for parts in zip(*(self.values[n] for n in _QUATERNION), strict=True)]
+        omegas = [np.stack(parts, axis=1) for parts in zip(*(self.values[n] for n in _OMEGA), strict=True)]
+        signs = [np.where(np.sum(turns[0] * turn, axis=1) < 0.0, -1.0, 1.0)[:, None] for turn in turns]
+        turns = [sign * turn for sign, turn in zip(signs, turns, strict=True)]
+        rates = [_rate(turn, omega) for turn, omega in zip(turns, omegas, strict=True)]
+        turned, turning, _ = hermite(self.shares, self.spans, [turns, rates])
+        size = np.linalg.norm(turned, axis=1, keepdims=True)
+        found = dict(zip(_QUATERNION, (turned / size).T.copy(), strict=True))
+        # the angular velocity that turns it so; what changes its length is none
+        omega = _conjugate_times(turned / size, turning / size)
+        return found | dict(zip(_OMEGA, 2.0 * omega.T, strict=True))
 
 
 def dense(scene: Scene, states: States) -> Dense:
@@ -160,8 +212,8 @@ def dense(scene: Scene, states: States) -> Dense:
     return Dense(instant == 1.0 and between is None, stages)
 
 
-def hermite(shares: Array, spans: Array, ends: list[tuple[Array, Array]]) -> list[Array]:
-    """Return value, rate and acceleration of the polynomials through values and derivatives at both ends of steps.
+def hermite(shares: Array, spans: Array, data: Sequence[Sequence[Array]]) -> list[Array]:
+    """Return value, rate and acceleration of polynomials through values and derivatives at nodes of steps.
 
     Parameters
     ----------
@@ -169,44 +221,35 @@ def hermite(shares: Array, spans: Array, ends: list[tuple[Array, Array]]) -> lis
         Where, in steps from the start of the step.
     spans : array, (r,)
         Lengths of the steps, s.
-    ends : list of (array, array), each (r, ...)
-        Values and first derivatives at start and end, and second ones for the fifth degree.
+    data : sequence of sequence of array, (r, ...)
+        Values at the nodes, which are equally far apart from start to end; then first derivatives, and so on.
     """
-    (q0, q1), (v0, v1), *rest = ends
-    x, h = _over(shares, q0), _over(spans, q0)
-    if rest:
-        ((a0, a1),) = rest
-        d, e, f = q1 - q0 - h * v0 - 0.5 * h**2 * a0, h * (v1 - v0 - h * a0), h**2 * (a1 - a0)
-        c = [q0, h * v0, 0.5 * h**2 * a0, 10.0 * d - 4.0 * e + 0.5 * f, -15.0 * d + 7.0 * e - f, 6.0 * d - 3.0 * e + 0.5 * f]
-    else:
-        d, e = q1 - q0 - h * v0, h * (v1 - v0)
-        c = [q0, h * v0, 3.0 * d - e, e - 2.0 * d]
+    origin = data[0][0]
+    x, h = _over(shares, origin), _over(spans, origin)
+    powers = _by_conditions(len(data[0]), len(data))
+    known = [values - origin for values in data[0]]
+    for derivative, values in enumerate(data[1:], start=1):
+        known += [h**derivative * value for value in values]
+    c = [sum((float(w) * k for w, k in zip(row, known, strict=True)), np.zeros(np.shape(origin))) for row in powers]
     found = []
     for derivative in range(3):
-        value = np.zeros(np.shape(q0))
+        value = np.zeros(np.shape(origin))
         for power in range(len(c) - 1, derivative - 1, -1):
-            factor = float(np.prod(np.arange(power - derivative + 1, power + 1)))
-            value = value * x + factor * c[power]
-        found.append(value / h**derivative)
+            value = value * x + math.perm(power, derivative) * c[power]
+        found.append(value / np.where(h > 0.0, h, 1.0) ** derivative)
+    found[0] = found[0] + origin
     return found
 
 
-def _turning(shares: Array, spans: Array, ends: Mapping[str, tuple[Array, Array]]) -> dict[str, Array]:
-    """Return the turn of a base that floats in space."""
-    if _QUATERNION[0] not in ends:
-        return {}
-    quaternion = [np.stack([ends[name][of] for name in _QUATERNION], axis=1) for of in (0, 1)]
-    omega = [np.stack([ends[f"base_omega_{x}"][of] for x in _PLANES], axis=1) for of in (0, 1)]
-    facing = np.where(np.sum(quaternion[0] * quaternion[1], axis=1) < 0.0, -1.0, 1.0)[:, None]
-    quaternion[1] = facing * quaternion[1]
-    rates = [_rate(q, w) for q, w in zip(quaternion, omega, strict=True)]
-    turned, _, _ = hermite(shares, spans, [(quaternion[0], quaternion[1]), (rates[0], rates[1])])
-    turned = turned / np.linalg.norm(turned, axis=1, keepdims=True)
-    found = dict(zip(_QUATERNION, turned.T.copy(), strict=True))
-    for x in _PLANES:
-        name, rate = f"base_omega_{x}", f"base_alpha_{x}"
-        if rate in ends:
-            found[name] = hermite(shares, spans, [ends[name], ends[rate]])[0]
+@cache
+def _by_conditions(nodes: int, derivatives: int) -> Array:
+    """Return coefficients in powers of the share, lowest first, by values at nodes, then their derivatives."""
+    count = nodes * derivatives
+    rows = []
+    for derivative in range(derivatives):
+        for node in np.linspace(0.0, 1.0, nodes):
+            rows.append([math.perm(p, derivative) * node ** max(p - derivative, 0) for p in range(count)])
+    found: Array = np.linalg.inv(np.array(rows))
     return found
 
 
@@ -225,6 +268,20 @@ def _rate(quaternion: Array, omega: Array) -> Array:
     scalar, vector = quaternion[:, :1], quaternion[:, 1:]
     along = -np.sum(vector * omega, axis=1, keepdims=True)
     found: Array = 0.5 * np.concatenate([along, scalar * omega + np.cross(vector, omega)], axis=1)
+    return found
+
+
+def _conjugate_times(left: Array, right: Array) -> Array:
+    """Return the vector part, (r, 3), of the product of a conjugate quaternion with another, (r, 4) each."""
+    found: Array = (
+        left[:, :1] * right[:, 1:] - right[:, :1] * left[:, 1:] - np.cross(left[:, 1:], right[:, 1:])
+    )
+    return found
+
+
+def _summed(weights: Array, values: Array) -> Array:
+    """Return sums over stages, (r, ...), by weights, (r, s), of values, (r, s, ...)."""
+    found: Array = np.einsum("rs,rs...->r...", weights, values)
     return found
 
 

@@ -17,6 +17,12 @@ Array = NDArray[np.float64]
 State = Mapping[str, Any]
 """Numbers and arrays over stations by name, as kernels have them."""
 
+_ACCELERATIONS = ("acceleration", "hub_acceleration", "base_acceleration", "base_alpha")
+"""What the names of accelerations in a state begin with."""
+
+_MOST_MIXED = 0.5
+"""Of old accelerations in new ones; methods that settle at all have no more."""
+
 _DIGITS = 12
 """Lengths that agree in so many digits share what is prepared for them."""
 
@@ -97,6 +103,25 @@ class AnyLength:
             ratio = length / came
             state = {**state, **self.stages.over(state, 1.0 - ratio, ratio)}
         return self.prepared(length).step(state, inputs)
+
+    def settled(self, state: State, came: float | None, brief: float, inputs: Mapping[str, Array]) -> State:
+        """Return a state with the accelerations that inputs ask for which have just jumped.
+
+        A step next to nothing long does not move the arm, and leaves new accelerations. Where it mixes them with the old
+        ones, a second step shows by how much.
+        """
+        first = self.step(state, came, brief, inputs)
+        second = self.step(first, brief, brief, inputs)
+        moved = [name for name in state if name.startswith(_ACCELERATIONS)]
+        apart, again = (
+            np.concatenate([np.ravel(np.subtract(b[name], a[name])) for name in moved] or [np.zeros(0)])
+            for a, b in ((state, first), (first, second))
+        )
+        square = float(apart @ apart)
+        mixed = float(apart @ again) / square if square > 0.0 else 0.0
+        share = 1.0 / (1.0 - min(mixed, _MOST_MIXED))
+        there = {name: np.add(state[name], share * np.subtract(first[name], state[name])) for name in moved}
+        return {**state, **there}
 
     def prepared(self, length: float) -> Prepared:
         """Return what is kept for a length of steps."""

@@ -51,14 +51,26 @@ class Ladder:
         half, odd = divmod(number, 2)
         return math.ldexp(self.first * (RATIO if odd else 1.0), half)
 
-    def accepted(self, length: float, error: float) -> float:
-        """Return how long the next step is to be, by the error of one that was kept, as a share of what it may be."""
+    def accepted(self, length: float, wanted: float, error: float) -> float:
+        """Return how long the next step is to be.
+
+        Parameters
+        ----------
+        length, wanted : float
+            Of the step that was kept, and as long as it was to be before a rung or a stop was looked for, s.
+        error : float
+            Of that step, as a share of what it may be.
+        """
+        if length * RATIO < wanted * (1.0 - 1e-9):  # cut short by a stop: says little of the steps behind it
+            self._refused = 0
+            return wanted
         k = self.order + 1.0
         error = max(error, _LEAST_ERROR)
         factor = _SAFETY * error ** (-_I / k) * self._before ** (_P / k)
         most = 1.0 if self._refused else _GROW
         self._before, self._refused = error, 0
-        return length * min(max(factor, _SHRINK), most)
+        # not from the rung: small changes have to add up to the next one
+        return wanted * min(max(factor, _SHRINK), most)
 
     def refused(self, length: float, error: float) -> float:
         """Return how long to try it next, by the error of a step that was not kept; infinite where it failed."""

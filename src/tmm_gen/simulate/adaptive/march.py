@@ -29,6 +29,9 @@ _BLOCK = 1000
 _SEEN = ("angle", "rate", "turned", "hub_angle", "hub_rate", "base_")
 """What the names of states begin with from which angles are read."""
 
+_BRIEF = 1e-4
+"""Length of a step that does not move the arm, by that of one that follows whatever a blow may start."""
+
 _ROUNDED = 8.0
 """Last places that a step may be off by rounding."""
 
@@ -79,8 +82,6 @@ class March:
         At the same instants as `times`, as a trace has them.
     states : list of mapping
         At the start and behind each half step.
-    kinked : list of int
-        Numbers of the states at which an input jumps: accelerations are still those before.
     refused : int
         Steps that were not kept.
     """
@@ -89,7 +90,6 @@ class March:
     came: list[float] = field(default_factory=list)
     angle: list[Array] = field(default_factory=list)
     states: list[State] = field(default_factory=list)
-    kinked: list[int] = field(default_factory=list)
     refused: int = 0
 
     @property
@@ -194,10 +194,10 @@ class _Marching:
                 continue
             assert ends is not None
             time = stop if lands else time + length
-            wanted, came, state = ladder.accepted(length, error), 0.5 * length, ends[1]
+            wanted, came, state = ladder.accepted(length, wanted, error), 0.5 * length, ends[1]
             if lands and time < until and kinks.jumps(time):
                 wanted = min(wanted, self.aim.begin)
-                found.kinked.append(len(found.states) + len(ends) - 1)
+                state = ends[1] = self._settled(state, came, time)
             found.times.append(time)
             found.came.append(length)
             found.states += ends
@@ -232,6 +232,14 @@ class _Marching:
         if share <= 1.0:
             self.way, self.turned = way, found[2]
         return share, [first, second]
+
+    def _settled(self, state: State, came: float, time: float) -> State:
+        """Return a state where an input jumps, with the accelerations behind."""
+        inputs = self.kinks.read(np.full(len(self.kernel.instants), time), self.kinks.next(time))
+        try:
+            return self.kernel.settled(state, came, _BRIEF * self.aim.begin, inputs)
+        except ArithmeticError:  # the next step tells
+            return state
 
     def _require(self, length: float, time: float, error: float) -> None:
         if length >= _SHORTEST * self.kinks.until:

@@ -38,8 +38,9 @@ _ROUGH = 1e-4
 _MOST_RUNS = 6
 """If so many do not keep the tolerance, rounding or the motion itself is in the way."""
 
-_MARGIN = 0.5
-"""Share of the tolerance that the next run is to keep, since the way from steps to it is not quite known."""
+_MARGIN, _FIRST_MARGIN = 0.5, 0.3
+"""Share of the tolerance that the next run is to keep, since the way from steps to it is not quite known; least of all
+behind the rough run."""
 
 _START = 0.1
 """Radians of the fastest vibration that a step may pass which begins with whatever a blow may start."""
@@ -139,7 +140,8 @@ class _Passes:
             if accuracy.error <= tolerance:
                 return Kept(run, accuracy, self._chosen(run, kernel, number), kernel)
             if math.isfinite(accuracy.error):
-                fall = (_MARGIN * tolerance / accuracy.error) ** ((order + 1.0) / order)
+                margin = _FIRST_MARGIN if number == 1 else _MARGIN
+                fall = (margin * tolerance / accuracy.error) ** ((order + 1.0) / order)
                 better, reached = accuracy.error < 0.7 * reached, min(reached, accuracy.error)
                 if not better and number > 2:  # shorter steps do not mend it
                     break

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from tmm_gen.inputs.signals import Signal
 from tmm_gen.scene import Scene
 from tmm_gen.simulate.adaptive.passes import Kept, kept
-from tmm_gen.simulate.dense import dense
+from tmm_gen.simulate.dense import halved
 from tmm_gen.simulate.prescribed import followed
 from tmm_gen.simulate.settled import outputs_at_rest
 from tmm_gen.simulate.simulation import Simulation
@@ -67,7 +67,7 @@ def simulate_to_tolerance(
         advance(count)
 
     found = kept(scene, inputs, until, stepper, show)
-    states = _rows(scene, found, time)
+    states = _rows(found, time)
     outputs = found.kernel.prepared(scene.integrator.step).outputs(states)
     motion = None
     if trace:
@@ -89,8 +89,6 @@ def simulate_to_tolerance(
     )
 
 
-def _rows(scene: Scene, found: Kept, time: Array) -> dict[str, Array]:
+def _rows(found: Kept, time: Array) -> dict[str, Array]:
     """Return the states at the instants of the rows."""
-    run = found.march
-    states = run.stacked
-    return dense(scene, states).at(time, run.instants, states, np.array(run.kinked, int))
+    return halved(time, found.march.instants, found.march.stacked)
