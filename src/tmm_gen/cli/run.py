@@ -18,6 +18,7 @@ from tmm_gen.cli.outputs import OutputFile, claim, write_outputs
 from tmm_gen.errors import UserError
 
 if TYPE_CHECKING:
+    from tmm_gen.simulate.adaptive.chosen import Chosen
     from tmm_gen.simulate.simulation import Simulation
     from tmm_gen.simulate.stepping import Backend
 
@@ -53,6 +54,27 @@ def _time(_context: click.Context, parameter: click.Parameter, value: float | No
     return value
 
 
+def _interval(_context: click.Context, parameter: click.Parameter, value: str | None) -> float | None:
+    if value is None:
+        return None
+    number, factor = (value[:-2], 1e-3) if value.endswith("ms") else (value.removesuffix("s"), 1.0)
+    try:
+        seconds = float(number) * factor
+    except ValueError:
+        seconds = math.nan
+    if not 0.0 < seconds < math.inf:
+        raise click.BadParameter("must be a positive time, such as 1ms, 0.001s or 0.001", param=parameter)
+    return seconds
+
+
+def _tolerance(_context: click.Context, parameter: click.Parameter, value: float | None) -> float | None:
+    from tmm_gen.scene.integrator import COARSEST, FINEST
+
+    if value is not None and not FINEST <= value <= COARSEST:
+        raise click.BadParameter(f"must be between {FINEST:g} and {COARSEST:g}", param=parameter)
+    return value
+
+
 def _sweeps(_context: click.Context, parameter: click.Parameter, value: str | None) -> str | int | None:
     if value is None or value == "auto":
         return value
@@ -67,6 +89,18 @@ def _sweeps(_context: click.Context, parameter: click.Parameter, value: str | No
     "--until", type=float, callback=_time, help="Time to simulate, s; by default five slow periods."
 )
 @click.option("--step", type=float, callback=_time, help="Time step, s; by default the scene's.")
+@click.option(
+    "--tolerance",
+    type=float,
+    callback=_tolerance,
+    help="Choose steps so that the error is no more than this share of the motion (1e-10 to 0.05); rows stay as they are.",
+)
+@click.option(
+    "--every",
+    metavar="TIME",
+    callback=_interval,
+    help="How far rows are apart, such as 1ms, whatever the steps; by default a step.",
+)
 @click.option(
     "--input",
     "given",
@@ -97,6 +131,8 @@ def run(
     scene: Path,
     until: float | None,
     step: float | None,
+    tolerance: float | None,
+    every: float | None,
     given: tuple[str, ...],
     changes: tuple[str, ...],
     iterations: str | int | None,
@@ -112,14 +148,20 @@ def run(
     last one stays. The angle of a prescribed base goes smoothly through its rows, with its rate and acceleration;
     where the rows have a corner its rate jumps. Columns NAME_rate and NAME_acceleration tell them exactly.
 
+    With --tolerance, or `tolerance` in [integrator], steps are as long as the error allows and end where inputs have
+    kinks. Rows are then, as with --every, between the ends of steps.
+
     A profile is for example --input base_angle=smooth:0:1.5:0.8s; a prescribed base cannot jump.
     """
     from tmm_gen.inputs.clock import refuse_other_clock
     from tmm_gen.inputs.given import input_names, read_inputs, table_files
     from tmm_gen.reference.duration import default_duration
+    from tmm_gen.simulate.rows import row_instants
     from tmm_gen.simulate.run import number_of_steps, simulate
 
     chosen = require_served("run", changed_scene(scene, changes, step))
+    if tolerance is not None:
+        chosen = chosen.replace(**{"integrator.tolerance": tolerance})
     if iterations is not None:
         chosen = chosen.replace(**{"model.iterations": iterations})
     read = (scene, *table_files(given))
@@ -132,10 +174,19 @@ def run(
     duration = until or default_duration(chosen)
     refuse_other_clock(signals, duration)
     steps = number_of_steps(duration, chosen.integrator.step)
+    if every is not None and chosen.integrator.tolerance is not None:
+        steps = len(row_instants(duration, every)) - 1
     with progress(f"simulating {chosen.name}", total=steps) as advance:
         drawn = shaped and (picture is not None or animated is not None)
         simulation = simulate(
-            chosen, signals, duration, backend, advance, trace=drawn, substeps=not _step_given(step, changes)
+            chosen,
+            signals,
+            duration,
+            backend,
+            advance,
+            trace=drawn,
+            substeps=not _step_given(step, changes),
+            every=every,
         )
     written = _write(simulation, csv_file, picture, animated, read)
     _show(simulation, written, hints, json_mode)
@@ -174,12 +225,16 @@ def _show(simulation: Simulation, written: list[Path], hints: list[str], json_mo
     from tmm_gen.simulate.trust import divided, trusted
 
     scene, last, accuracy = simulation.scene, float(simulation.time[-1]), simulation.accuracy
+    chosen = simulation.chosen
     facts = {**simulation.facts(), "hints": hints, "files": written}
-    done = f"{last:g} s in {simulation.steps} steps of {scene.integrator.step:g} s by {scene.integrator.name}"
+    of = f"of {scene.integrator.step:g} s" if chosen is None else "as its tolerance asks"
+    done = f"{last:g} s in {simulation.steps} steps {of} by {scene.integrator.name}"
     rows = list(simulation.rows())
     table(rows, _telling(rows), json_mode, title=f"{scene.title}: {done}", more=facts)
     if json_mode:
         return
+    if chosen is not None and not simulation.still:
+        click.echo(_chosen(chosen))
     if simulation.substeps.count > 1:
         click.echo(divided(simulation))
     if accuracy is not None and not simulation.still:
@@ -192,6 +247,16 @@ def _show(simulation: Simulation, written: list[Path], hints: list[str], json_mo
         click.echo(f"nothing moves, as all inputs are zero: try --input {scene.inputs[0].name}=1")
     elif not written:
         click.echo("more: --plot draws it, --csv FILE writes it, --until and --step change it")
+
+
+def _chosen(chosen: Chosen) -> str:
+    """Say what steps a tolerance has chosen."""
+    runs = f"; run {chosen.runs} times, each by what the last one had shown" if chosen.runs > 1 else ""
+    again = f"{chosen.refused} taken again shorter" if chosen.refused else "none taken again"
+    return (
+        f"chose {chosen.steps} steps for a tolerance of {chosen.tolerance:g}: from {chosen.smallest:.3g} to "
+        f"{chosen.largest:.3g} s, {again}{runs}"
+    )
 
 
 def _telling(rows: list[dict[str, object]]) -> list[Column | str]:

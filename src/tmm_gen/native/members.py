@@ -24,12 +24,11 @@ class Members:
     """
 
     def __init__(self, instance: ctypes.Structure) -> None:
-        whole: Any = np.frombuffer(instance, np.dtype(type(instance)))
+        memory: Any = instance
+        whole: Any = np.frombuffer(memory, np.dtype(type(instance)))
         self._views: dict[str, Any] = {name: whole[name] for name in whole.dtype.names or ()}
         fields: Any = type(instance)._fields_
-        self._pairs = {
-            name for name, member in fields if getattr(member, "_type_", member) is PairStructure
-        }
+        self._pairs = {name for name, member in fields if getattr(member, "_type_", member) is PairStructure}
 
     def read(self) -> dict[str, Array]:
         """Return copies of all members as doubles, numbers and (n,); sums of two are summed up."""

@@ -144,12 +144,14 @@ class IntegratorTable(Table):
     step: Annotated[Positive, AfterValidator(_divisible)] = Field(
         description="time step in s", examples=["0.001"]
     )
-    tolerance: Annotated[float, Field(strict=True, allow_inf_nan=False, ge=FINEST, le=COARSEST)] | None = Field(
-        default=None,
-        description="error that a run may have, as a share of how far its motion goes: `run` then chooses its own steps, "
-        "and `step` is how far its rows are apart",
-        examples=["1e-6"],
-        json_schema_extra={"absent": "steps are all alike"},
+    tolerance: Annotated[float, Field(strict=True, allow_inf_nan=False, ge=FINEST, le=COARSEST)] | None = (
+        Field(
+            default=None,
+            description="largest error of a run, as a share of its motion: `run` then chooses its steps, and `step` is how "
+            "far rows are apart",
+            examples=["1e-6"],
+            json_schema_extra={"absent": "steps are all alike"},
+        )
     )
 
 

@@ -238,6 +238,19 @@ class _Repetition:
 
 
 def judged(off: Array, way: Array, times: Array, least: float, growth: float | None) -> Accuracy:
+    """Return what errors over time, (k,), say of a run, by how far the motion has come then, (k,).
+
+    Parameters
+    ----------
+    off, way : array, (k,)
+        In the same unit.
+    times : array, (k,)
+        s.
+    least : float
+        A way that is none.
+    growth : float or None
+        The sensitivity of the motion.
+    """
     whole = max(float(np.max(way)), least)
     error = float(np.max(off)) / whole if whole > 0.0 else float(np.max(off) > 0.0)
     if not math.isfinite(error):

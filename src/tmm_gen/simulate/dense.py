@@ -89,7 +89,9 @@ class Dense:
             solved = np.stack([step.values[name][-1] for name in names], axis=1)
             angle, rate = (step.values[prefix + word][0] for word in ("angle", "rate"))
             h = _over(step.spans, angle)
-            found[f"{prefix}angle"] = angle + _over(step.shares, angle) * h * rate + h**2 * _summed(twice, solved)
+            found[f"{prefix}angle"] = (
+                angle + _over(step.shares, angle) * h * rate + h**2 * _summed(twice, solved)
+            )
             found[f"{prefix}rate"] = rate + h * _summed(once, solved)
             # stages of a step that ends there, along the same polynomial
             found |= {name: _summed(w, solved) for name, w in zip(names, there, strict=True)}
@@ -115,7 +117,9 @@ def halved(instants: Array, times: Array, states: States) -> dict[str, Array]:
         if names[0] not in step.values:
             continue
         angle, rate, acceleration = step.through(names[:2])
-        found |= {name: v for name, v in zip(names, (angle, rate, acceleration), strict=True) if name in step.values}
+        found |= {
+            name: v for name, v in zip(names, (angle, rate, acceleration), strict=True) if name in step.values
+        }
         if names[0] == "angle" or names[0] == f"{HUB}angle":
             # what is read off accelerations at stages is then read off one that is the same at all of them
             prefix = names[0].removesuffix("angle")
@@ -182,7 +186,9 @@ class _Step:
         """Return the turn of a base that floats in space."""
         if _QUATERNION[0] not in self.values:
             return {}
-        turns = [np.stack(parts, axis=1) for parts in zip(*(self.values[n] for n in _QUATERNION), strict=True)]
+        turns = [
+            np.stack(parts, axis=1) for parts in zip(*(self.values[n] for n in _QUATERNION), strict=True)
+        ]
         omegas = [np.stack(parts, axis=1) for parts in zip(*(self.values[n] for n in _OMEGA), strict=True)]
         signs = [np.where(np.sum(turns[0] * turn, axis=1) < 0.0, -1.0, 1.0)[:, None] for turn in turns]
         turns = [sign * turn for sign, turn in zip(signs, turns, strict=True)]
@@ -230,7 +236,10 @@ def hermite(shares: Array, spans: Array, data: Sequence[Sequence[Array]]) -> lis
     known = [values - origin for values in data[0]]
     for derivative, values in enumerate(data[1:], start=1):
         known += [h**derivative * value for value in values]
-    c = [sum((float(w) * k for w, k in zip(row, known, strict=True)), np.zeros(np.shape(origin))) for row in powers]
+    c = [
+        sum((float(w) * k for w, k in zip(row, known, strict=True)), np.zeros(np.shape(origin)))
+        for row in powers
+    ]
     found = []
     for derivative in range(3):
         value = np.zeros(np.shape(origin))
@@ -285,6 +294,6 @@ def _summed(weights: Array, values: Array) -> Array:
     return found
 
 
-def _over(values: NDArray[np.generic], like: Array) -> NDArray[np.generic]:
+def _over(values: Array, like: Array) -> Array:
     """Give numbers for each instant as many axes as arrays of them have."""
     return values.reshape(values.shape + (1,) * (np.ndim(like) - 1))

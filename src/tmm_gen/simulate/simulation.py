@@ -100,7 +100,7 @@ class Simulation:
 
     def facts(self) -> dict[str, object]:
         """Return what is known of the run as a whole, by key."""
-        accuracy = self.accuracy
+        accuracy, chosen = self.accuracy, self.chosen
         return {
             "scene": self.scene.name,
             "integrator": self.scene.integrator.name,
@@ -109,6 +109,13 @@ class Simulation:
             "steps": self.steps,
             "substeps": self.substeps.count,
             "substeps_since": 0.0,
+            "every": float(self.time[1]),
+            "tolerance": chosen and chosen.tolerance,
+            "refused_steps": chosen and chosen.refused,
+            "smallest_step": chosen and chosen.smallest,
+            "largest_step": chosen and chosen.largest,
+            "prepared": chosen and chosen.prepared,
+            "runs": chosen and chosen.runs,
             "until": float(self.time[-1]),
             "accuracy": accuracy and accuracy.error,
             "sensitivity": accuracy and accuracy.sensitivity,

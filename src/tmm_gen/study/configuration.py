@@ -107,14 +107,16 @@ class Configuration:
     step: float
 
     def apply(self, scene: Scene) -> Scene:
-        """Return the scene so configured, with steps all alike; the integrator's own parameters stay where the integrator does.
+        """Return the scene so configured, steps all alike; the integrator's own parameters stay where the integrator does.
 
         Raises
         ------
         SceneError
             If that is no valid scene.
         """
-        steady: dict[str, object] = {} if scene.integrator.tolerance is None else {"integrator.tolerance": None}
+        steady: dict[str, object] = (
+            {} if scene.integrator.tolerance is None else {"integrator.tolerance": None}
+        )
         return scene.replace(**self.family.changes(scene), **steady, **{"integrator.step": self.step})
 
     def values(self) -> dict[str, object]:

@@ -59,7 +59,14 @@ def verify(
     chosen = configuration.apply(scene)
     kernel = compile_kernel(build_program(chosen), chosen)
     simulation = simulate(
-        chosen, excitation.signals, excitation.until, "c", kernel=kernel, refuse=False, judge=False, fixed=True
+        chosen,
+        excitation.signals,
+        excitation.until,
+        "c",
+        kernel=kernel,
+        refuse=False,
+        judge=False,
+        fixed=True,
     )
     names = columns(chosen, excitation.output)
     found = np.array([simulation.outputs[name] for name in names])

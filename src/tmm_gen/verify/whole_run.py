@@ -151,7 +151,9 @@ class WholeRun:
         return found, exact, {name: float(np.max(np.abs(values))) or 1.0 for name, values in exact.items()}
 
     def _native(self, check: str, bound: float, found: Simulation, scale: Mapping[str, float]) -> CheckRow:
-        native = simulate(self.scene, self.loads, self.duration, "c", kernel=self.kernel, judge=False, fixed=True)
+        native = simulate(
+            self.scene, self.loads, self.duration, "c", kernel=self.kernel, judge=False, fixed=True
+        )
         return CheckRow(
             check,
             max(largest_error(native.outputs[k], found.outputs[k], scale[k]) for k in scale),

@@ -74,11 +74,12 @@ class AnyLength:
             kernel = self.stepper.kernel
             kernel.prepare(self.parameters)
             kernel.initialise({name: float(values[0]) for name, values in inputs.items()}, **given)
-            found: State = kernel.state
-            return found
+            begun: dict[str, Any] = kernel.state
+            return begun
         module = self.stepper.kernel
         values = module.Input(**{name: float(found[0]) for name, found in inputs.items()})
-        return vars(module.initialise(module.Params(**self.parameters), values, **given))
+        started: dict[str, Any] = vars(module.initialise(module.Params(**self.parameters), values, **given))
+        return started
 
     def step(self, state: State, came: float | None, length: float, inputs: Mapping[str, Array]) -> State:
         """Return the state a step later.
@@ -107,8 +108,8 @@ class AnyLength:
     def settled(self, state: State, came: float | None, brief: float, inputs: Mapping[str, Array]) -> State:
         """Return a state with the accelerations that inputs ask for which have just jumped.
 
-        A step next to nothing long does not move the arm, and leaves new accelerations. Where it mixes them with the old
-        ones, a second step shows by how much.
+        A step next to nothing long does not move the arm, and leaves new accelerations. Where it mixes them with the
+        old ones, a second step shows by how much.
         """
         first = self.step(state, came, brief, inputs)
         second = self.step(first, brief, brief, inputs)
@@ -147,7 +148,8 @@ class _Numpy:
         count = len(module.STAGE_INSTANTS[-1])
         stages = [module.Input(**{name: values[k] for name, values in columns.items()}) for k in range(count)]
         given = stages if count > 1 else stages[0]
-        return vars(module.step(self.model, module.State(**state), given))
+        found: dict[str, Any] = vars(module.step(self.model, module.State(**state), given))
+        return found
 
     def outputs(self, states: Mapping[str, Array]) -> dict[str, Array]:
         batch = {name: np.moveaxis(values, 0, -1) for name, values in states.items()}

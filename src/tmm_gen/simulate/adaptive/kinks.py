@@ -21,7 +21,8 @@ _APART = 1e-12
 """Kinks closer together than this share of the run are one: between them is no room for a step."""
 
 _JUMP = 1e-9
-"""A change at a kink by more than this share of an input's size is a jump: what was read just before is not the limit."""
+"""A change at a kink by more than this share of an input's size is a jump; what is read just before is not quite the
+limit."""
 
 
 @dataclass(frozen=True, eq=False)

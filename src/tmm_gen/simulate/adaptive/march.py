@@ -82,6 +82,8 @@ class March:
         At the same instants as `times`, as a trace has them.
     states : list of mapping
         At the start and behind each half step.
+    jumps : list of float
+        Instants within the run at which an input jumps, s.
     refused : int
         Steps that were not kept.
     """
@@ -90,6 +92,7 @@ class March:
     came: list[float] = field(default_factory=list)
     angle: list[Array] = field(default_factory=list)
     states: list[State] = field(default_factory=list)
+    jumps: list[float] = field(default_factory=list)
     refused: int = 0
 
     @property
@@ -140,21 +143,31 @@ def march(
 
 
 def again(
-    scene: Scene, kernel: AnyLength, kinks: Kinks, given: Mapping[str, Array], whole: March
+    scene: Scene, kernel: AnyLength, kinks: Kinks, given: Mapping[str, Array], aim: Aim, whole: March
 ) -> Array | None:
     """Take the steps of a run whole, and return the angles at their ends, (k + 1, m); None if that fails."""
     state = kernel.start(kinks.read(np.zeros(1), kinks.next(0.0)), given)
-    states, came = [state], None
-    ends = whole.times
+    states = [state]
+    came: float | None = None
     try:
-        for begin, length in zip(ends, whole.came, strict=False):
+        for begin, end, length in zip(whole.times[:-1], whole.times[1:], whole.came, strict=True):
             inputs = kinks.read(begin + length * kernel.instants, kinks.next(begin))
-            state = kernel.step(state, came, length, inputs)
-            came = length
+            state, came = kernel.step(state, came, length, inputs), length
+            if end in whole.jumps:
+                state = _settled(kernel, kinks, aim, state, came, end)
             states.append(state)
     except ArithmeticError:
         return None
     return angles(scene, states)
+
+
+def _settled(kernel: AnyLength, kinks: Kinks, aim: Aim, state: State, came: float, time: float) -> State:
+    """Return a state where an input jumps, with the accelerations behind."""
+    inputs = kinks.read(np.full(len(kernel.instants), time), kinks.next(time))
+    try:
+        return kernel.settled(state, came, _BRIEF * aim.begin, inputs)
+    except ArithmeticError:  # the next step tells
+        return state
 
 
 def angles(scene: Scene, states: list[State]) -> Array:
@@ -197,7 +210,8 @@ class _Marching:
             wanted, came, state = ladder.accepted(length, wanted, error), 0.5 * length, ends[1]
             if lands and time < until and kinks.jumps(time):
                 wanted = min(wanted, self.aim.begin)
-                state = ends[1] = self._settled(state, came, time)
+                state = ends[1] = _settled(self.kernel, kinks, self.aim, state, came, time)
+                found.jumps.append(time)
             found.times.append(time)
             found.came.append(length)
             found.states += ends
@@ -209,7 +223,7 @@ class _Marching:
     def _tried(
         self, state: State, came: float | None, time: float, length: float, stop: float
     ) -> tuple[float, list[State] | None]:
-        """Take a step whole and in halves; return its error as a share of what it may be, and the states of the halves."""
+        """Take a step whole and in halves; return its error by what it may be, and the states of the halves."""
         half, instants = 0.5 * length, self.kernel.instants
         try:
             whole = self.kernel.step(state, came, length, self.kinks.read(time + length * instants, stop))
@@ -233,14 +247,6 @@ class _Marching:
             self.way, self.turned = way, found[2]
         return share, [first, second]
 
-    def _settled(self, state: State, came: float, time: float) -> State:
-        """Return a state where an input jumps, with the accelerations behind."""
-        inputs = self.kinks.read(np.full(len(self.kernel.instants), time), self.kinks.next(time))
-        try:
-            return self.kernel.settled(state, came, _BRIEF * self.aim.begin, inputs)
-        except ArithmeticError:  # the next step tells
-            return state
-
     def _require(self, length: float, time: float, error: float) -> None:
         if length >= _SHORTEST * self.kinks.until:
             return
@@ -250,4 +256,3 @@ class _Marching:
     def _room(self, found: March) -> None:
         if len(found.states) * self.scene.stations > MOST:
             raise StuckError(f"at t = {found.times[-1]:.6g} s there were {len(found.states)} steps already")
-

@@ -1,9 +1,8 @@
 """Runs until one keeps its tolerance: what is wrong with a run is measured, and the next one's steps follow from that.
 
 Errors of steps do not simply add up: how they do is the motion's affair. So a rough run comes first. Its steps are
-taken once more, each whole instead of in halves; what that changes tells the error at the end of all steps by the order of
-the integrator, and how far the next run's steps may err. The last run is measured in the same way, and is not accepted on
-trust.
+taken once more, each whole instead of in halves; what that changes tells the error of the run by the order of the
+integrator, and how far the next run's steps may err. The last run is measured in the same way: none is trusted.
 """
 
 from __future__ import annotations
@@ -11,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -129,14 +129,16 @@ class _Passes:
             kernel = self._kernel(error)
             aim = Aim(error, self.relied, way, begin, EPSILON[self.stepper.real(scene)])
             try:
-                run = march(scene, kernel, self.kinks, {}, aim, lambda share, n=number: self.advance(share, n))
+                run = march(
+                    scene, kernel, self.kinks, {}, aim, partial(self._advanced, number)
+                )
             except StuckError as failed:
                 stuck = failed
                 error *= 1e-2
                 continue
-            accuracy, way = self._judged(kernel, run)
+            accuracy, way = self._judged(kernel, aim, run)
             if accuracy.error <= tolerance:
-                accuracy = self._sensitivity(kernel, run, accuracy)
+                accuracy = self._sensitivity(kernel, aim, run, accuracy)
             if accuracy.error <= tolerance:
                 return Kept(run, accuracy, self._chosen(run, kernel, number), kernel)
             if math.isfinite(accuracy.error):
@@ -160,11 +162,14 @@ class _Passes:
         kernel.stages = stage_polynomial(self.scene, state)
         return kernel
 
-    def _judged(self, kernel: AnyLength, run: March) -> tuple[Accuracy, float]:
+    def _advanced(self, number: int, share: float) -> None:
+        self.advance(share, number)
+
+    def _judged(self, kernel: AnyLength, aim: Aim, run: March) -> tuple[Accuracy, float]:
         """Return what taking all steps whole tells of the error, and how far the motion goes."""
         mine = placed(self.scene, np.array(run.angle))
         far = np.max(lengths(mine - mine[:, :1]), axis=1)
-        coarse = again(self.scene, kernel, self.kinks, {}, run)
+        coarse = again(self.scene, kernel, self.kinks, {}, aim, run)
         if coarse is None:
             return Accuracy(math.inf, None, 0.0), float(np.max(far))
         self.coarse = coarse
@@ -173,14 +178,14 @@ class _Passes:
         share = 1.0 / (2.0**self.relied - 1.0)
         return judged(share * off, far, np.array(run.times), self._least, None), float(np.max(far))
 
-    def _sensitivity(self, kernel: AnyLength, run: March, accuracy: Accuracy) -> Accuracy:
+    def _sensitivity(self, kernel: AnyLength, aim: Aim, run: March, accuracy: Accuracy) -> Accuracy:
         """Return the accuracy with what the motion makes of a small disturbance of its start."""
         if self.scene.model.linear:
             return accuracy
         size = DISTURBED[self.stepper.real(self.scene)]
         moved = size * np.where(np.arange(self.scene.stations) % 3 == 0, 1.0, 0.5)
         given = {"initial_angle": np.array(self.scene.initial.angles) + moved}
-        disturbed = again(self.scene, kernel, self.kinks, given, run)
+        disturbed = again(self.scene, kernel, self.kinks, given, aim, run)
         if disturbed is None:
             return accuracy
         growth = float(np.max(np.abs(disturbed - self.coarse)) / size)
@@ -206,17 +211,16 @@ class _Passes:
         )
 
     def _refusal(self, tolerance: float, reached: float, stuck: StuckError | None) -> ToleranceError:
-        what = f"scene '{self.scene.name}': no run by {self.scene.integrator.name} keeps integrator.tolerance = {tolerance:g}"
+        scene = self.scene
+        what = f"scene '{scene.name}': no run by {scene.integrator.name} keeps integrator.tolerance = {tolerance:g}"
         if not math.isfinite(reached):
             why = f": {stuck}" if stuck is not None else ": steps of twice the length fail"
             return ToleranceError(f"{what}{why}. Look for numbers that are far too large or small; or end sooner, --until.")
         larger = float(f"{3.0 * reached:.1g}")
-        remedies = ["End sooner, --until"]
+        remedy = "End sooner, --until."
         if tolerance < larger <= COARSEST:
-            remedies.insert(0, f"Ask for no more, --tolerance {larger:g}")
-        return ToleranceError(
-            f"{what}: the error stays at {reached:.1g} of the motion, however short steps are.\n{'; or '.join(remedies)}."
-        )
+            remedy = f"Ask for no more, --tolerance {larger:g}; or end sooner, --until."
+        return ToleranceError(f"{what}: the error stays at {reached:.1g} of the motion, however short steps are.\n{remedy}")
 
 
 def least_turn(scene: Scene, error: float) -> float:
@@ -230,5 +234,5 @@ def least_turn(scene: Scene, error: float) -> float:
         Most that a step may be wrong by, as a share of the motion.
     """
     quadratic = scene.spatial is None and not scene.coupled
-    # Newton's iteration squares what is wrong; where slopes are those of the step's middle it is made several times less
+    # Newton's iteration squares what is wrong; with slopes of the step's middle it makes that several times less
     return 0.1 * math.sqrt(error) if quadratic else 0.3 * error
