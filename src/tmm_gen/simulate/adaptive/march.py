@@ -54,7 +54,7 @@ class Aim:
     order : float
         Of the integrator, as far as that is relied upon.
     way : float
-        How far the motion goes, as a former run has shown; 0: as far as it has come so far.
+        How far the motion goes, as a former run has shown; 0: as far as it has come so far, in a rough run.
     begin : float
         Length of a step that follows whatever a blow may start, s.
     rounding : float
@@ -200,7 +200,7 @@ class _Marching:
             stop = kinks.next(time)
             length, lands = landing(ladder.rung(wanted), stop - time)
             error, ends = self._tried(state, came, time, length, stop)
-            if not error <= 1.0:
+            if not (error <= 1.0 or (math.isfinite(error) and self._rough(length))):
                 found.refused += 1
                 wanted = ladder.refused(length, error)
                 self._require(wanted, time, error)
@@ -243,9 +243,16 @@ class _Marching:
         if not math.isfinite(error):
             return math.inf, None
         share = error / (way * self.aim.error) if error > 0.0 else 0.0
-        if share <= 1.0:
+        if share <= 1.0 or self._rough(length):
             self.way, self.turned = way, found[2]
         return share, [first, second]
+
+    def _rough(self, length: float) -> bool:
+        """Return whether a step follows all that vibrates, and no more is asked.
+
+        Whoever has hardly moved yet is wrong by a large share of that, be steps as short as they may.
+        """
+        return self.aim.way == 0.0 and length <= self.aim.begin * (1.0 + 1e-9)
 
     def _require(self, length: float, time: float, error: float) -> None:
         if length >= _SHORTEST * self.kinks.until:
