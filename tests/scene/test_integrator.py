@@ -71,6 +71,25 @@ def test_ranges(chain: str, name: str, parameter: str, value: float, accepted: b
             scene.replace(**changes)
 
 
+def test_methods_of_several_steps_are_those_that_start_in_another_way() -> None:
+    from tmm_gen.derive.integrators.registry import integrator
+
+    for method in METHODS:
+        assert method.multistep == bool(integrator(method.name).startup), method.name
+
+
+def test_a_tolerance_wants_steps_that_can_change(chain: str) -> None:
+    scene = parse_scene(chain).replace(**{"integrator.tolerance": 1e-6})
+    assert scene.integrator.tolerance == 1e-6
+    assert scene.replace(**{"integrator.name": "sdirk4"}).integrator.tolerance == 1e-6
+    assert scene.digest != parse_scene(chain).digest
+    with pytest.raises(SceneError, match=r"integrator\.tolerance: does not go with houbolt.*name = \"newmark\""):
+        scene.replace(**{"integrator.name": "houbolt"})
+    for value, words in ((1e-11, "at least 1e-10"), (0.1, "at most 0.05"), ("fine", "must be a number")):
+        with pytest.raises(SceneError, match=rf"integrator\.tolerance: .*{words}.*tolerance = 1e-6"):
+            scene.replace(**{"integrator.tolerance": value})
+
+
 @pytest.mark.parametrize("unknown", ["increment", "displacement"])
 @pytest.mark.parametrize(
     ("changes", "explicit"),

@@ -146,19 +146,17 @@ def test_steps_grow_in_number_by_the_order_of_the_integrator(pair: Scene) -> Non
 
 @pytest.mark.compiler
 def test_a_violent_release_in_a_plane(bent: Scene) -> None:
-    """A force bends the arm, and is let go: joints swing and ring. A run by another method, in fine steps, is the truth."""
+    """A force bends the arm, and is let go: a run by another method is the truth, in fine steps that end there."""
     load = {"pull": Step(-15.0, 0.0, 0.1037)}
     run = simulate(bent, load, 0.25, "c", trace=True)
-    fine = bent.replace(**{"integrator.name": "newmark", "integrator.step": 1e-6 * 103.7})
+    fine = bent.replace(**{"integrator.name": "gauss2", "integrator.step": 0.1037 / 1000})
     truth = simulate(fine, load, 0.25, "c", fixed=True, judge=False, every=0.01, trace=True)
     assert run.chosen is not None
     assert run.trace is not None
     assert truth.trace is not None
     off = np.max(np.abs(run.trace.angle - truth.trace.angle[: len(run.trace.angle)]))
-    assert off <= 4e-5 * np.ptp(truth.trace.angle)
-    assert run.chosen.largest > 30 * run.chosen.smallest
-    # with as many steps, all alike, the release is lost
-    assert run.chosen.steps < 300
+    assert off <= 2e-5 * np.ptp(truth.trace.angle)
+    assert run.chosen.largest > 10 * run.chosen.smallest
 
 
 @pytest.mark.compiler

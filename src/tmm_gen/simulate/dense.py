@@ -93,9 +93,10 @@ class Dense:
                 angle + _over(step.shares, angle) * h * rate + h**2 * _summed(twice, solved)
             )
             found[f"{prefix}rate"] = rate + h * _summed(once, solved)
+            found[f"{prefix}acceleration"] = _summed(stages.weights(step.shares), solved)
             # stages of a step that ends there, along the same polynomial
             found |= {name: _summed(w, solved) for name, w in zip(names, there, strict=True)}
-        return found
+        return {name: values for name, values in found.items() if name in step.values}
 
 
 def halved(instants: Array, times: Array, states: States) -> dict[str, Array]:
@@ -214,8 +215,8 @@ def dense(scene: Scene, states: States) -> Dense:
     from tmm_gen.simulate.unsolved import equilibrium  # SymPy comes with it
 
     instant, between = equilibrium(scene)
-    stages = None if "acceleration" in states else stage_polynomial(scene, states)
-    return Dense(instant == 1.0 and between is None, stages)
+    settled = instant == 1.0 and between is None
+    return Dense(settled, None if settled else stage_polynomial(scene, states))
 
 
 def hermite(shares: Array, spans: Array, data: Sequence[Sequence[Array]]) -> list[Array]:
