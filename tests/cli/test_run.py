@@ -348,3 +348,42 @@ def test_an_input_without_a_value(capsys: pytest.CaptureFixture[str]) -> None:
     said = capsys.readouterr().err
     assert "--input tip_torque: has no value. Write for example --input tip_torque=1.5." in said
     assert main(["run", str(SCENES / "thesis2.toml"), "--until", "1", "--input", "tip_torque=1.5"]) == 0
+
+
+def test_steps_by_a_tolerance(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (folder / "torque.csv").write_text("time,tip_torque\n0,0\n1,2\n1.237,-1\n")
+    words = [THESIS2, "--until", "2", "--input", "torque.csv", "--tolerance", "1e-4", "--every", "20ms"]
+    found = json.loads(succeed(*words, "--csv", "out.csv", "--json", capsys=capsys))
+    assert found["tolerance"] == 1e-4
+    assert found["every"] == pytest.approx(0.02)
+    assert 0.0 < found["smallest_step"] <= found["largest_step"]
+    assert found["steps"] * found["smallest_step"] <= 2.0 <= found["steps"] * found["largest_step"]
+    assert found["refused_steps"] >= 0
+    assert found["accuracy"] <= 1e-4
+    rows = read_csv(folder / "out.csv")
+    np.testing.assert_allclose(rows["time"], 0.02 * np.arange(101), atol=1e-15)
+    load = {"tip_torque": Table(np.array([0.0, 1.0, 1.237]), np.array([0.0, 2.0, -1.0]))}
+    exact = exact_response(load_scene(THESIS2), load, rows["time"])
+    assert np.max(np.abs(rows["tip"] - exact["tip"])) <= 1.5e-4 * np.max(np.abs(exact["tip"]))
+    shown = " ".join(succeed(*words, capsys=capsys).split())
+    assert "steps as its tolerance asks by newmark" in shown
+    assert (
+        f"chose {found['steps']} steps for a tolerance of 0.0001: from {found['smallest_step']:.3g} to"
+        in shown
+    )
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["--tolerance", "1"], "must be between 1e-10 and 0.05"),
+        (["--every", "soon"], "must be a positive time, such as 1ms"),
+        (["--every", "-1s"], "must be a positive time, such as 1ms"),
+        (["--every", "2s"], "leave none within 1 s"),
+        (["--tolerance", "1e-4", "--set", "integrator.name=houbolt"], "does not go with houbolt"),
+    ],
+)
+def test_tolerances_and_rows_that_cannot_be(
+    words: list[str], said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert said in refuse(THESIS2, "--until", "1", *words, capsys=capsys)

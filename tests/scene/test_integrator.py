@@ -83,7 +83,9 @@ def test_a_tolerance_wants_steps_that_can_change(chain: str) -> None:
     assert scene.integrator.tolerance == 1e-6
     assert scene.replace(**{"integrator.name": "sdirk4"}).integrator.tolerance == 1e-6
     assert scene.digest != parse_scene(chain).digest
-    with pytest.raises(SceneError, match=r"integrator\.tolerance: does not go with houbolt.*name = \"newmark\""):
+    with pytest.raises(
+        SceneError, match=r"integrator\.tolerance: does not go with houbolt.*name = \"newmark\""
+    ):
         scene.replace(**{"integrator.name": "houbolt"})
     for value, words in ((1e-11, "at least 1e-10"), (0.1, "at most 0.05"), ("fine", "must be a number")):
         with pytest.raises(SceneError, match=rf"integrator\.tolerance: .*{words}.*tolerance = 1e-6"):

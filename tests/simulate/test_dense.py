@@ -79,7 +79,9 @@ def test_both_halves_of_a_step() -> None:
         assert slope(find, name) == pytest.approx(order, abs=0.5), name
     rows = find(0.1, np.linspace(0.0, 1.2, 1000))
     assert np.all(np.diff(rows["dissipated"]) >= 0.0)
-    np.testing.assert_allclose(np.hypot(rows["base_quaternion_w"], rows["base_quaternion_x"]), 1.0, rtol=1e-14)
+    np.testing.assert_allclose(
+        np.hypot(rows["base_quaternion_w"], rows["base_quaternion_x"]), 1.0, rtol=1e-14
+    )
 
 
 @pytest.mark.parametrize("stages", [(0.2113248654051871, 0.7886751345948129), (0.1, 0.5, 0.9)])
@@ -182,7 +184,12 @@ def test_rows_at_any_instants_lie_on_the_motion(integrator: str, backend: str) -
 
 def test_which_polynomial_a_scene_has() -> None:
     kept = {"angle", "rate", "acceleration", "acceleration_stage1", "acceleration_stage2"}
-    for name, settled in (("newmark", True), ("sdirk4", True), ("generalized_alpha", False), ("wilson", False)):
+    for name, settled in (
+        ("newmark", True),
+        ("sdirk4", True),
+        ("generalized_alpha", False),
+        ("wilson", False),
+    ):
         assert dense(swing(name, 0.01), dict.fromkeys(kept, np.zeros(1))).settled is settled, name
     between = dense(swing("gauss2", 0.01), dict.fromkeys(kept - {"acceleration"}, np.zeros(1)))
     assert between.stages is not None

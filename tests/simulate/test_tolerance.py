@@ -235,7 +235,9 @@ def test_accelerations_settle_behind_a_jump(pair: Scene, rho: float | None) -> N
     still, pushed = ({"push": np.array([value])} for value in (0.0, 2.0))
     found = kernel.settled(kernel.start(still, {}), None, 1e-7, pushed)
     wanted = kernel.start(pushed, {})
-    np.testing.assert_allclose(found["acceleration"], wanted["acceleration"], atol=1e-6 * np.max(wanted["acceleration"]))
+    np.testing.assert_allclose(
+        found["acceleration"], wanted["acceleration"], atol=1e-6 * np.max(wanted["acceleration"])
+    )
     assert np.all(found["angle"] == 0.0)
 
 

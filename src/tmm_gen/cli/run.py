@@ -93,7 +93,7 @@ def _sweeps(_context: click.Context, parameter: click.Parameter, value: str | No
     "--tolerance",
     type=float,
     callback=_tolerance,
-    help="Choose steps so that the error is no more than this share of the motion (1e-10 to 0.05); rows stay as they are.",
+    help="Choose steps so that the error is at most this share of the motion (1e-10 to 0.05); rows stay as they are.",
 )
 @click.option(
     "--every",

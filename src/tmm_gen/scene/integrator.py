@@ -147,8 +147,8 @@ class IntegratorTable(Table):
     tolerance: Annotated[float, Field(strict=True, allow_inf_nan=False, ge=FINEST, le=COARSEST)] | None = (
         Field(
             default=None,
-            description="largest error of a run, as a share of its motion: `run` then chooses its steps, and `step` is how "
-            "far rows are apart",
+            description="largest error of a run, as a share of its motion: `run` then chooses its steps, and `step` is "
+            "how far rows are apart",
             examples=["1e-6"],
             json_schema_extra={"absent": "steps are all alike"},
         )

@@ -213,7 +213,9 @@ def _at_last_stage(
 
 
 def _motion(state: State, first: int) -> dict[Kind, Array]:
-    kept = {kind: name for kind, name in _KEYS.items() if name in state and f"{'hub_' * first}{name}" in state}
+    kept = {
+        kind: name for kind, name in _KEYS.items() if name in state and f"{'hub_' * first}{name}" in state
+    }
     return {kind: _of(state, first, name) for kind, name in kept.items()}
 
 

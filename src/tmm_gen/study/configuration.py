@@ -107,7 +107,7 @@ class Configuration:
     step: float
 
     def apply(self, scene: Scene) -> Scene:
-        """Return the scene so configured, steps all alike; the integrator's own parameters stay where the integrator does.
+        """Return the scene so configured, steps all alike; an integrator's own parameters stay where it does.
 
         Raises
         ------

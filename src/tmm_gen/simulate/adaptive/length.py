@@ -49,8 +49,7 @@ class Ladder:
         number = math.floor(math.log(length / self.first) / math.log(RATIO) + 1e-9)
         # half a step has to be exactly a rung: powers of two are exact, and odd rungs are multiples of one root
         half, odd = divmod(number, 2)
-        longest: float = math.ldexp(self.first * (RATIO if odd else 1.0), half)
-        return longest
+        return float(math.ldexp(self.first * (RATIO if odd else 1.0), half))
 
     def accepted(self, length: float, wanted: float, error: float) -> float:
         """Return how long the next step is to be.

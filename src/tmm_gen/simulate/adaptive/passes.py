@@ -129,9 +129,7 @@ class _Passes:
             kernel = self._kernel(error)
             aim = Aim(error, self.relied, way, begin, EPSILON[self.stepper.real(scene)])
             try:
-                run = march(
-                    scene, kernel, self.kinks, {}, aim, partial(self._advanced, number)
-                )
+                run = march(scene, kernel, self.kinks, {}, aim, partial(self._advanced, number))
             except StuckError as failed:
                 stuck = failed
                 error *= 1e-2
@@ -215,12 +213,16 @@ class _Passes:
         what = f"scene '{scene.name}': no run by {scene.integrator.name} keeps integrator.tolerance = {tolerance:g}"
         if not math.isfinite(reached):
             why = f": {stuck}" if stuck is not None else ": steps of twice the length fail"
-            return ToleranceError(f"{what}{why}. Look for numbers that are far too large or small; or end sooner, --until.")
+            return ToleranceError(
+                f"{what}{why}. Look for numbers that are far too large or small; or end sooner, --until."
+            )
         larger = float(f"{3.0 * reached:.1g}")
         remedy = "End sooner, --until."
         if tolerance < larger <= COARSEST:
             remedy = f"Ask for no more, --tolerance {larger:g}; or end sooner, --until."
-        return ToleranceError(f"{what}: the error stays at {reached:.1g} of the motion, however short steps are.\n{remedy}")
+        return ToleranceError(
+            f"{what}: the error stays at {reached:.1g} of the motion, however short steps are.\n{remedy}"
+        )
 
 
 def least_turn(scene: Scene, error: float) -> float:
