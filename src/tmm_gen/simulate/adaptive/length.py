@@ -66,7 +66,7 @@ class Ladder:
             return wanted
         k = self.order + 1.0
         error = max(error, _LEAST_ERROR)
-        factor = _SAFETY * error ** (-_I / k) * self._before ** (_P / k)
+        factor: float = _SAFETY * error ** (-_I / k) * self._before ** (_P / k)
         most = 1.0 if self._refused else _GROW
         self._before, self._refused = error, 0
         # not from the rung: small changes have to add up to the next one

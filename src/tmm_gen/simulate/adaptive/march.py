@@ -19,12 +19,10 @@ from tmm_gen.simulate.adaptive.kinks import Kinks
 from tmm_gen.simulate.adaptive.length import Ladder, landing
 from tmm_gen.simulate.displacement import STILL, extent, lengths, placed
 from tmm_gen.simulate.planar_divergence import TURN
-from tmm_gen.simulate.trace import MOST, Trace
+from tmm_gen.simulate.substeps import MOST_TO_TAKE
+from tmm_gen.simulate.trace import Trace
 
 Array = NDArray[np.float64]
-
-_BLOCK = 1000
-"""States between two looks at the room they take."""
 
 _SEEN = ("angle", "rate", "turned", "hub_angle", "hub_rate", "base_")
 """What the names of states begin with from which angles are read."""
@@ -194,6 +192,7 @@ class _Marching:
         found = March([0.0], [], [angles(self.scene, [state])[0]], [state])
         self.start = placed(self.scene, found.angle[0][None])
         self.way = max(self.aim.way, STILL * extent(self.scene) if not self.scene.model.linear else 0.0)
+        self.most = MOST_TO_TAKE[self.kernel.stepper.backend] // self.scene.stations
         ladder = Ladder(self.scene.integrator.step, self.aim.order)
         time, came, wanted = 0.0, None, self.aim.begin
         while time < until:
@@ -261,5 +260,6 @@ class _Marching:
         raise StuckError(f"at t = {time:.6g} s {why}")
 
     def _room(self, found: March) -> None:
-        if len(found.states) * self.scene.stations > MOST:
-            raise StuckError(f"at t = {found.times[-1]:.6g} s there were {len(found.states)} steps already")
+        if len(found.states) > self.most:
+            faster = "; --backend c takes more" if self.kernel.stepper.backend == "numpy" else ""
+            raise StuckError(f"at t = {found.times[-1]:.6g} s it has taken {self.most} steps already{faster}")

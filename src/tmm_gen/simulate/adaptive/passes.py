@@ -131,9 +131,8 @@ class _Passes:
             try:
                 run = march(scene, kernel, self.kinks, {}, aim, partial(self._advanced, number))
             except StuckError as failed:
-                stuck = failed
-                error *= 1e-2
-                continue
+                stuck = failed  # shorter steps are no way out
+                break
             accuracy, way = self._judged(kernel, aim, run)
             if accuracy.error <= tolerance:
                 accuracy = self._sensitivity(kernel, aim, run, accuracy)
