@@ -48,3 +48,15 @@ def test_a_step_that_is_too_long_is_divided() -> None:
     assert run.accuracy is not None
     assert np.max(off) < 2.0 * run.accuracy.error * np.max(way)
     assert np.max(off) < 0.05 * np.max(way)
+
+
+def test_steps_by_a_tolerance_keep_it() -> None:
+    scene = parse_scene(ROD).replace(**{"integrator.tolerance": 1e-3, "integrator.step": 0.05})
+    assert scene.spatial is not None
+    run = simulate(scene, {}, 1.0)
+    exact = spatial_response(scene.spatial, {}, run.time)
+    off = np.linalg.norm([run.outputs[name] - exact[name] for name in exact], axis=0)
+    way = np.linalg.norm([values - values[0] for values in exact.values()], axis=0)
+    assert run.chosen is not None
+    assert run.chosen.largest > run.chosen.smallest
+    assert 2e-5 * np.max(way) < np.max(off) < 1.2e-3 * np.max(way)

@@ -58,3 +58,9 @@ def test_parameters_stay_with_the_scenes_own_integrator(chain: Scene) -> None:
     grid = configurations(scene, Axes(integrators=("newmark", "wilson"), steps=(0.1,)), 1.0)
     assert grid[0].apply(scene).integrator.parameters == {"beta": 0.3}
     assert grid[1].apply(scene).integrator.parameters == {}
+
+
+def test_steps_of_a_configuration_are_all_alike(chain: Scene) -> None:
+    scene = chain.replace(**{"integrator.tolerance": 1e-6})
+    for configuration in configurations(scene, Axes(integrators=("newmark", "houbolt"), steps=(0.1,)), 1.0):
+        assert configuration.apply(scene).integrator.tolerance is None
