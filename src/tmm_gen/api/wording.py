@@ -57,6 +57,7 @@ _RULES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (r"what `tmm-gen modes` says", "what modes() says"),
     (rf"--set ([\w.]+)={_VALUE}", _set),
     (rf"--iterations {_VALUE}", r"with_(model__iterations=\1)"),
+    (rf"--tolerance {_VALUE}", r"with_(integrator__tolerance=\1)"),
     (r"`tmm-gen run` shows", "simulate() shows"),
     (r"--force\b", "force=True"),
     (r"what --input gives", "what is given"),
