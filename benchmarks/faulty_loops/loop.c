@@ -89,7 +89,7 @@ int run_loop(const loop_case *given, const int kinds[][3], const double values[]
         for (int i = 0; i < CONTROLLER_SENSORS; ++i) {
             measured[i] = (CONTROLLER__real)shown[sensors[i]];
         }
-        status = (int)CONTROLLER__command(&controller, measured, &torque);
+        status = (int)CONTROLLER__command(&controller, measured, NULL, &torque);
         ++found->counts[status];
         found->outside += !((double)torque >= given->low && (double)torque <= given->high);
         if (at >= given->faults) {

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
 
 
 class Status(Enum):
@@ -60,7 +61,10 @@ class Controller(Protocol):
     def reset(self) -> None:
         """Forget all measurements."""
 
-    def command(self, measured: Array) -> Command:
+    def prepare(self) -> None:
+        """Do what needs no measurement, once a sample's torques are out; :meth:`command` does it where nobody did."""
+
+    def command(self, measured: Array, valid: Flags | None = None) -> Command:
         """Return the torques for a measurement.
 
         Parameters
@@ -68,5 +72,13 @@ class Controller(Protocol):
         measured : array, (m + 2,)
             Hub angles (rad), acceleration across the last link at the tip (m/s^2), bending moment at the root
             (N m); NaN where there is no such sensor.
+        valid : array of bool, (m + 2,), optional
+            Which of them to look at; by default all. What is not valid is as good as NaN.
         """
         ...
+
+
+def shown(measured: Array, valid: Flags | None) -> Array:
+    """Return a measurement, NaN where it is not valid; with arguments as for :meth:`Controller.command`."""
+    measured = np.asarray(measured, float)
+    return measured if valid is None else np.where(valid, measured, np.nan)

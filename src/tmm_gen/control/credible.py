@@ -1,8 +1,11 @@
 """What of a measurement is believed: sensors fail, and one wrong number must not spoil what comes after it.
 
-A sensor is left out of a sample if it shows no finite number, or is further off what was expected than the arm can
-be. If it is an encoder that stays off, the estimate is wrong and not the sensor: it starts anew from where the
-encoders say that the arm is. So whatever was shown before, a few samples after the last wrong one all is well again.
+A sensor is left out of a sample if it is not valid, shows no finite number, or is further off what was expected than
+the arm can be. If it is an encoder that stays off, the estimate is wrong and not the sensor: it starts anew from where
+the encoders say that the arm is. So whatever was shown before, a few samples after the last wrong one all is well again.
+
+Where one of several encoders shows nothing, the others go on for a few samples: what it would be off is inferred from
+what they are off. With none left, or for longer, nobody knows where the arm is.
 """
 
 from __future__ import annotations
@@ -60,9 +63,9 @@ class Credible:
     rate: float
     bend: float = _LARGEST_BEND
 
-    def is_place(self, hub: Array) -> bool:
-        """Return whether hubs, (m,), can be there."""
-        return bool(np.all(np.isfinite(hub) & (np.abs(hub - self.home) <= FARTHEST)))
+    def is_place(self, hub: Array) -> NDArray[np.bool_]:
+        """Return which hubs, (m,), can be there."""
+        return np.asarray(np.isfinite(hub) & (np.abs(hub - self.home) <= FARTHEST))
 
     def is_move(self, before: Array, now: Array) -> NDArray[np.bool_]:
         """Return which hubs, (m,), can go from there to here in a sample."""

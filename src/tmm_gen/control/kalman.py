@@ -106,10 +106,27 @@ class KalmanFilter:
         return self.noise[np.ix_(places, places)]
 
     def gain_of(self, sensors: tuple[int, ...]) -> Array:
-        """Return the stationary gain of a filter that reads some of the sensors only, (s + m, those)."""
+        """Return the gain of a filter that reads some of the sensors only, (s + m, those).
+
+        It is stationary where all encoders are among them. Where one shows nothing, not every disturbance can be told,
+        so that there is no such gain: it is that of the first sample without it.
+        """
         if sensors not in self._gains:
-            self._gains[sensors] = self._stationary(sensors)[0]
+            lost = set(range(self.model.count)) - set(sensors)
+            self._gains[sensors] = self._without(sensors) if lost else self._stationary(sensors)[0]
         return self._gains[sensors]
+
+    def spread_of(self, sensors: tuple[int, ...]) -> Array:
+        """Return the covariance of what some sensors, all encoders among them, are off what is expected."""
+        measure = self.measure[[self.sensors.index(sensor) for sensor in sensors]]
+        return np.asarray(measure @ self._stationary(sensors)[1] @ measure.T + self.noise_of(sensors), float)
+
+    def _without(self, sensors: tuple[int, ...]) -> Array:
+        """Return the gain for the first sample in which some encoders show nothing, (s + m, those that do)."""
+        every = tuple(sorted({*range(self.model.count), *sensors}))
+        spread, places = self.spread_of(every), [every.index(sensor) for sensor in sensors]
+        inferred = np.linalg.solve(spread[np.ix_(places, places)], spread[places]).T
+        return np.asarray(self.gain_of(every) @ inferred, float)
 
     def advance(self, torques: Pair, end: Array) -> None:
         """Predict a sample with the torques that act in it, and those at its end, N m."""

@@ -8,7 +8,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.control.command import Command, Status
+from tmm_gen.control.command import Command, Flags, Status, shown
 from tmm_gen.control.credible import PATIENCE, Credible, credible
 from tmm_gen.control.delay import Delay, Pair
 from tmm_gen.control.problem import ControlProblem
@@ -83,11 +83,22 @@ class ModelBased(ABC):
         self.estimator.reset()
         self._past = np.tile(self.estimator.start, (self.delay.memory + 1, 1))
         self._hub, self._fresh, self._wrong = np.full(self.problem.count, np.nan), True, 0
+        self._due = False
+        self._read = self.limits.sensors[self.problem.count :]
         self._forget()
 
     @abstractmethod
     def _forget(self) -> None:
         """Forget what was planned."""
+
+    def _shift(self) -> None:  # noqa: B027  most plan nothing
+        """Let what was planned move on by a sample."""
+
+    def _look(self) -> None:  # noqa: B027  most prepare nothing
+        """Prepare what can be for an estimate that is still to be corrected."""
+
+    def _turned(self) -> None:  # noqa: B027
+        """Take note that the estimate is elsewhere than what was prepared is for."""
 
     @abstractmethod
     def decide(self, state: Array, disturbance: Array, last: Array) -> Command:
@@ -103,10 +114,23 @@ class ModelBased(ABC):
             Torques chosen a sample before, N m.
         """
 
-    def command(self, measured: Array) -> Command:
-        """Return the torques for a measurement; see :class:`~tmm_gen.control.command.Controller`."""
+    def prepare(self) -> None:
+        """Predict the next sample; see :class:`~tmm_gen.control.command.Controller`."""
         with np.errstate(all="ignore"):  # what overflows is found by its result
-            return self._command(np.asarray(measured, float))
+            if self._due:
+                self.estimator.advance(self.delay.pair(self._past), self.delay.end(self._past))
+                if not self.estimator.usable(self.limits):
+                    self.estimator.reset()
+                    self._wrong = PATIENCE
+                self._due = False
+                self._shift()
+            self._look()
+
+    def command(self, measured: Array, valid: Flags | None = None) -> Command:
+        """Return the torques for a measurement; see :class:`~tmm_gen.control.command.Controller`."""
+        self.prepare()
+        with np.errstate(all="ignore"):
+            return self._command(shown(measured, valid))
 
     def _command(self, measured: Array) -> Command:
         last, hub = self._past[-1], measured[: self.problem.count]
@@ -119,24 +143,26 @@ class ModelBased(ABC):
         self._hub = hub
         command = Command(self.problem.allowed(torque, last), command.status, command.iterations)
         self._past = np.vstack([self._past[1:], command.torque])
-        self.estimator.advance(self.delay.pair(self._past), self.delay.end(self._past))
-        if not self.estimator.usable(self.limits):
-            self.estimator.reset()
-            self._wrong = PATIENCE
+        self._due = True
         return command
 
     def _decided(self, measured: Array, rate: Array, last: Array) -> Command:
         """Return the torques, by what can be believed of a measurement."""
         count, none = self.problem.count, np.zeros(self.problem.count)
         hub = measured[:count]
-        if not self.limits.is_place(hub):
+        there = self.limits.is_place(hub)
+        lost = not np.all(there)
+        if not np.any(there) or (lost and (self._fresh or self._wrong >= PATIENCE)):
             return Command(none, Status.MEASUREMENT)
-        self._settle(hub, rate)
+        if not lost:
+            self._settle(hub, rate)
         surprise = self.estimator.surprise(measured)
         believed = self.limits.believed(surprise)
-        placed = believed[:count] == tuple(range(count))  # no encoder is off
-        if placed:
+        encoders = [sensor for sensor in believed if sensor < count]
+        placed = len(encoders) == count
+        if encoders == list(np.flatnonzero(there)):  # no encoder is off
             self.estimator.correct(surprise, believed, self.limits.disturbance)
+            self._read = believed[len(encoders) :]
         elif self._wrong >= PATIENCE:  # and an encoder jumps, so that nobody knows where the arm is
             return Command(none, Status.MEASUREMENT)
         command = self._solved(last)
@@ -150,9 +176,11 @@ class ModelBased(ABC):
         """Start where the encoders say: at first, and when too much went wrong, as soon as they move as hubs do."""
         if self._fresh:
             self.estimator.turn(hub - self.estimator.home)
+            self._turned()
             self._fresh = False
         elif self._wrong >= PATIENCE and np.all(np.isfinite(rate)):
             self.estimator.rest(hub, rate)
+            self._turned()
             self._forget()
             self._wrong = 0
 

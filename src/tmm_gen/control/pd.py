@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.control.command import Command, Status
+from tmm_gen.control.command import Command, Flags, Status, shown
 from tmm_gen.control.credible import FARTHEST, JUMP, PATIENCE
 from tmm_gen.control.problem import ControlProblem
 from tmm_gen.control.safe import safe_torque
@@ -60,10 +60,13 @@ class PdController:
         self._sample, self._hub, self._last, self._start = 0, nowhere, self.start, nowhere
         self._wrong, self._gap = PATIENCE, False
 
-    def command(self, measured: Array) -> Command:
+    def prepare(self) -> None:
+        """Do nothing: there is nothing to prepare."""
+
+    def command(self, measured: Array, valid: Flags | None = None) -> Command:
         """Return the torques for a measurement; see :class:`~tmm_gen.control.command.Controller`."""
         with np.errstate(all="ignore"):  # what is not finite is not believed
-            return self._command(np.asarray(measured, float)[: self.problem.count])
+            return self._command(shown(measured, valid)[: self.problem.count])
 
     def _command(self, hub: Array) -> Command:
         if not self._believed(hub):

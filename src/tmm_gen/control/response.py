@@ -36,7 +36,7 @@ class Response:
 
     def outputs(self, stacked: Array) -> Outputs:
         """Return outputs that are stacked as the rows above."""
-        return _split(stacked, self.slopes.tip.shape[:2])
+        return split_outputs(stacked, self.slopes.tip.shape[:2])
 
 
 def response(model: LinearModel, horizon: int, end: Array) -> Response:
@@ -78,12 +78,12 @@ def response(model: LinearModel, horizon: int, end: Array) -> Response:
         by_state=rows[:, :size],
         by_constant=rows[:, size : size + count],
         by_last=rows[:, size + count : size + 2 * count],
-        slopes=_split(rows[:, size + 2 * count :], (count, horizon)),
+        slopes=split_outputs(rows[:, size + 2 * count :], (count, horizon)),
     )
 
 
-def _split(stacked: Array, shape: tuple[int, ...]) -> Outputs:
-    """Return outputs that are stacked: of each of the four N for each motor, then those of the end."""
+def split_outputs(stacked: Array, shape: tuple[int, ...]) -> Outputs:
+    """Return outputs that are stacked: of each of the four N for each motor, then those of the end; shape is (m, N)."""
     number = shape[0] * shape[1]
     *outputs, end = np.split(stacked, number * np.arange(1, 5))
     tip, tip_rate, hub, hub_rate = (each.reshape(*shape, *stacked.shape[1:]) for each in outputs)

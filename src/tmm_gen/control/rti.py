@@ -7,6 +7,7 @@ optimal feedback control of systems governed by large differential algebraic equ
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -14,12 +15,13 @@ from numpy.typing import NDArray
 
 from tmm_gen.control.command import Command, Status
 from tmm_gen.control.condensed import Condensed, Outputs
+from tmm_gen.control.delay import Pair
 from tmm_gen.control.extended_kalman import ExtendedKalmanFilter, NonlinearFilter
 from tmm_gen.control.linear import LinearModel
 from tmm_gen.control.links import rest_state, target_state
 from tmm_gen.control.model_based import ModelBased
 from tmm_gen.control.qp import QuadraticProgram
-from tmm_gen.control.response import response
+from tmm_gen.control.response import response, split_outputs
 from tmm_gen.control.step_model import StepModel
 from tmm_gen.control.target import rest_with
 from tmm_gen.control.terminal import end_rows
@@ -28,8 +30,38 @@ from tmm_gen.errors import UserError
 Array = NDArray[np.float64]
 
 
+@dataclass(frozen=True, eq=False)
+class Prepared:
+    """What a sample's quadratic program needs, before its measurement.
+
+    Parameters
+    ----------
+    estimate : array, (s + m,)
+        State and disturbances that the motion below starts from, before the look over the delay.
+    read : tuple of int
+        Which sensors besides the encoders were read in the sample before.
+    along : array, (4 m N + r,)
+        Outputs along the last plan, stacked as :class:`~tmm_gen.control.response.Response` has them.
+    by_estimate : array, (4 m N + r, s + m)
+        What changes of the estimate make of them.
+    condensed : Condensed
+        With the sensitivities by the torques.
+    """
+
+    estimate: Array
+    read: tuple[int, ...]
+    along: Array
+    by_estimate: Array
+    condensed: Condensed
+
+
 class RealTimeIteration(ModelBased):
     """Nonlinear MPC, one iteration per sample, warm-started by the last solution shifted.
+
+    All but a few sums and the quadratic program comes before the measurement, about the motion that the predicted
+    estimate makes along the last plan. What the measurement changes of the estimate is then taken in by its
+    sensitivities: those along that motion, or of zero order those of the linear model. Where the estimate starts anew,
+    reads other sensors than before or is at its limits, the motion is rolled out once more.
 
     Parameters
     ----------
@@ -50,8 +82,8 @@ class RealTimeIteration(ModelBased):
         problem = model.problem
         self.model, self.linear, self.zero_order = model, linear, zero_order
         self.end = end_rows(linear, problem.weights)
-        slopes = response(linear, problem.horizon, self.end).slopes
-        self.prepared = Condensed(problem, slopes, linear.goal)
+        self.response = response(linear, problem.horizon, self.end)
+        self.prepared = Condensed(problem, self.response.slopes, linear.goal)
         kind = NonlinearFilter if zero_order else ExtendedKalmanFilter
         self._program = QuadraticProgram(self.prepared.hessian, self.prepared.rows, self.prepared.inputs)
         super().__init__(problem, kind(model, linear), model.delay, inertia)
@@ -115,23 +147,77 @@ class RealTimeIteration(ModelBased):
         if not np.all((found.goal.torque >= low) & (found.goal.torque <= high)):
             return Status.INFEASIBLE
         self.goal, self.rest, self.moved = found.goal, target_state(self.model, found), True
+        self._turned()
         return Status.OK
 
     def _forget(self) -> None:
         self._program.forget()
         self._plan = np.repeat(self.goal.torque[:, None], self.problem.horizon, axis=1)
+        self._turned()
+
+    def _turned(self) -> None:
+        self._about: Prepared | None = None
+
+    def _shift(self) -> None:
+        low, high = (bound[:, None] for bound in self.problem.torque)
+        self._plan = np.clip(np.hstack([self._plan[:, 1:], self._plan[:, -1:]]), low, high)
+        self._turned()
+
+    def _look(self) -> None:
+        if self._about is None:
+            self._about = self._rolled_out()
+
+    def _rolled_out(self) -> Prepared:
+        """Return what the program needs, about the motion from the estimate as it is."""
+        known = self.delay.known(self._past)
+        along, by_start, condensed = self._along(*self.estimator.ahead(known), self._past[-1])
+        by_estimate = self.by_estimate if by_start is None else by_start @ self._until(known)
+        return Prepared(np.append(*self.estimator.ahead([])), self._read, along, by_estimate, condensed)
+
+    @cached_property
+    def by_estimate(self) -> Array:
+        """What changes of the estimate make of the outputs, at the target, (4 m N + r, s + m)."""
+        linear, answer = self.linear, self.response
+        one = np.eye(linear.size + linear.count)
+        one[: linear.size] = np.column_stack([linear.transition, linear.drive])
+        until = np.linalg.matrix_power(one, self.delay.whole)
+        return np.asarray(np.column_stack([answer.by_state, answer.by_constant]) @ until, float)
+
+    def _until(self, known: list[Pair]) -> Array:
+        """Return what changes of the estimate make of it until the plan begins to act, (s + m, s + m)."""
+        size, count = self.model.size, self.problem.count
+        found = np.eye(size + count)
+        for number, pair in enumerate(known):
+            state, disturbance = self.estimator.ahead(known[:number])
+            acting = np.concatenate([torque + disturbance for torque in pair])
+            _, by_state, by_torques = (np.array(item) for item in self.model.sample_slopes(state, acting))
+            one = np.eye(size + count)
+            one[:size] = np.column_stack([by_state, by_torques[:, :count] + by_torques[:, count:]])
+            found = one @ found
+        return found
+
+    def _solved(self, last: Array) -> Command:
+        state, disturbance = self.estimator.ahead([])
+        now = np.append(state, disturbance)
+        if not np.all(np.isfinite(now)):
+            return Command(np.zeros(self.problem.count), Status.ESTIMATE)
+        about = self._about
+        at_limit = np.any(np.abs(disturbance) >= self.limits.disturbance)
+        if about is None or at_limit or about.read != self._read or not np.all(np.isfinite(about.along)):
+            about = self._about = self._rolled_out()
+        along = about.along + about.by_estimate @ (now - about.estimate)
+        return self._optimal(about.condensed, along, disturbance, last)
 
     def decide(self, state: Array, disturbance: Array, last: Array) -> Command:
         """Solve one quadratic program about the last plan; see :class:`ModelBased`."""
+        self._shift()
+        along, _, condensed = self._along(state, disturbance, last)
+        return self._optimal(condensed, along, disturbance, last)
+
+    def _optimal(self, condensed: Condensed, stacked: Array, disturbance: Array, last: Array) -> Command:
+        """Solve a quadratic program about the plan, along which the outputs are these."""
         low, high = (bound[:, None] for bound in self.problem.torque)
-        goal, unknown = self.goal, disturbance[:, None]
-        plan = np.clip(np.hstack([self._plan[:, 1:], self._plan[:, -1:]]), low, high)
-        inputs = np.vstack([np.hstack([last[:, None], plan[:, :-1]]) + unknown, plan + unknown])
-        states = np.array(self.model.rollout(state, inputs))
-        left = np.append(states[:, -1] - self.rest, plan[:, -1] + disturbance - goal.torque)
-        tip, tip_rate, hub, hub_rate = np.split(self.rows @ states, 4)
-        along = Outputs(tip, tip_rate, hub, hub_rate, self.end @ left)
-        condensed = self.prepared if self.zero_order else self._linearised(state, states, inputs)
+        plan, along = self._plan, split_outputs(stacked, self._plan.shape)
         renewed = condensed is not self.prepared
         solution = self._program.solve_softly(
             condensed.gradient(along, plan, last, disturbance),
@@ -143,29 +229,56 @@ class RealTimeIteration(ModelBased):
             rows=condensed.rows if renewed else None,
         )
         if not solution.status.optimal:
-            self._plan = np.clip(goal.torque[:, None] - unknown, low, high) + np.zeros_like(plan)
+            held = self.goal.torque - disturbance
+            self._plan = np.clip(held[:, None], low, high) + np.zeros_like(plan)
             return Command(np.zeros(len(plan)), solution.status, solution.iterations)
         self._plan = plan + solution.point[: plan.size].reshape(plan.shape)
         return Command(self._plan[:, 0], solution.status, solution.iterations)
 
-    def _linearised(self, state: Array, states: Array, inputs: Array) -> Condensed:
-        """Return the quadratic program with sensitivities along a trajectory."""
+    def _along(self, state: Array, disturbance: Array, last: Array) -> tuple[Array, Array | None, Condensed]:
+        """Roll out along the plan from a state at which it begins to act; with arguments as for :meth:`decide`.
+
+        Returns
+        -------
+        along : array, (4 m N + r,)
+            Outputs, stacked.
+        by_start : array, (4 m N + r, s + m)
+            What changes of state and disturbance make of them; nothing of zero order.
+        condensed : Condensed
+            With the sensitivities by the torques.
+        """
+        plan, unknown = self._plan, disturbance[:, None]
+        inputs = np.vstack([np.hstack([last[:, None], plan[:, :-1]]) + unknown, plan + unknown])
+        states = np.array(self.model.rollout(state, inputs))
+        left = np.append(states[:, -1] - self.rest, plan[:, -1] + disturbance - self.goal.torque)
+        along = np.append((self.rows @ states).ravel(), self.end @ left)
+        if self.zero_order:
+            return along, None, self.prepared
+        return along, *self._linearised(state, states, inputs)
+
+    def _linearised(self, state: Array, states: Array, inputs: Array) -> tuple[Array, Condensed]:
+        """Return sensitivities along a trajectory: by state and disturbance, and the program with those by torques."""
         count, size, motors = inputs.shape[1], len(state), self.problem.count
         points = np.column_stack([state, states[:, :-1]])
         _, by_state, by_torques = self.model.rollout_slopes(points, inputs)
         transitions = np.array(by_state).reshape(size, count, size).transpose(1, 0, 2)
         drives = np.array(by_torques).reshape(size, count, 2, motors)
-        slopes = np.zeros((4 * motors, count, motors, count))
-        carried = np.zeros((size, motors, count))
+        width = motors * count + size + motors
+        slopes = np.zeros((4 * motors, count, width))
+        carried = np.zeros((size, width))
+        by_plan = carried[:, : motors * count].reshape(size, motors, count)
+        by_start, by_unknown = carried[:, motors * count : -motors], carried[:, -motors:]
+        by_start[:] = np.eye(size)
         for stage in range(count):
-            carried = np.tensordot(transitions[stage], carried, 1)
+            carried[:] = transitions[stage] @ carried
+            before, then = drives[:, stage, 0], drives[:, stage, 1]
             if stage:
-                carried[:, :, stage - 1] += drives[:, stage, 0]
-            carried[:, :, stage] += drives[:, stage, 1]
-            slopes[:, stage] = np.tensordot(self.rows, carried, 1)
-        last = np.zeros((motors, motors, count))
-        last[:, :, -1] = np.eye(motors)
-        left = np.vstack([each.reshape(-1, motors * count) for each in (carried, last)])
-        tip, tip_rate, hub, hub_rate = slopes.reshape(4, motors, count, motors * count)
-        found = Outputs(tip, tip_rate, hub, hub_rate, self.end @ left)
-        return Condensed(self.problem, found, self.goal)
+                by_plan[:, :, stage - 1] += before
+            by_plan[:, :, stage] += then
+            by_unknown += before + then
+            slopes[:, stage] = self.rows @ carried
+        last = np.zeros((motors, width))
+        last[:, count - 1 : motors * count : count] = last[:, -motors:] = np.eye(motors)
+        every = np.vstack([slopes.reshape(-1, width), self.end @ np.vstack([carried, last])])
+        found = split_outputs(every[:, : motors * count], (motors, count))
+        return every[:, motors * count :], Condensed(self.problem, found, self.goal)

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.control.command import Command, Status
+from tmm_gen.control.command import Command, Flags, Status
 from tmm_gen.emit.templates import render
 from tmm_gen.errors import UserError
 from tmm_gen.onboard.folder import library_sources
@@ -38,12 +38,21 @@ FLAGS = ("-O3", "-ffp-contract=off")
 
 @dataclass(frozen=True, eq=False)
 class Series:
-    """What a controller did with a series of measurements: torques, (samples, m), all else (samples,)."""
+    """What a controller did with a series of measurements: torques, (samples, m), all else (samples,).
+
+    Processor times are those before each measurement and from it to the torques, s.
+    """
 
     torques: Array
     statuses: tuple[Status, ...]
     iterations: NDArray[np.int64]
-    seconds: Array
+    prepared: Array
+    commanded: Array
+
+    @property
+    def seconds(self) -> Array:
+        """Processor time of whole samples, s."""
+        return self.prepared + self.commanded
 
 
 class EmittedController:
@@ -98,29 +107,38 @@ class EmittedController:
         values = (self._number * self.motors)(*map(float, reference))
         return STATUSES[int(getattr(self._library, f"{self.name}_aim")(self._aligned(), values))]
 
-    def command(self, measured: Array) -> Command:
+    def prepare(self) -> None:
+        """Do what needs no measurement; see :class:`~tmm_gen.control.command.Controller`."""
+        getattr(self._library, f"{self.name}_prepare")(self._aligned())
+
+    def command(self, measured: Array, valid: Flags | None = None) -> Command:
         """Return the torques for a measurement; see :class:`~tmm_gen.control.command.Controller`."""
-        found = self.run(np.asarray(measured, float)[None])
+        found = self.run(np.asarray(measured, float)[None], None if valid is None else np.asarray(valid)[None])
         return Command(found.torques[0], found.statuses[0], int(found.iterations[0]))
 
-    def run(self, measured: Array) -> Series:
+    def run(self, measured: Array, valid: Flags | None = None) -> Series:
         """Hand in a series of measurements, (samples, m + 2), and keep what comes out of each.
 
-        Time includes nothing but the controller's own.
+        Time includes nothing but the controller's own. Which are valid is said in the same shape, or all are.
         """
         seen = np.ascontiguousarray(np.asarray(measured, float)[:, self.sensors], self._number)
         count = len(seen)
         torques = np.zeros((count, self.motors), self._number)
         statuses, iterations = np.zeros(count, np.intc), np.zeros(count, np.intc)
-        seconds = np.zeros(count)
+        prepared, commanded = np.zeros(count), np.zeros(count)
+        flags = None if valid is None else np.ascontiguousarray(valid[:, self.sensors], np.intc)
         self._library.harness_run(
             self._aligned(),
             seen.ctypes.data_as(ctypes.c_void_p),
+            None if flags is None else flags.ctypes.data_as(ctypes.c_void_p),
             ctypes.c_long(count),
-            *(array.ctypes.data_as(ctypes.c_void_p) for array in (torques, statuses, iterations, seconds)),
+            *(
+                array.ctypes.data_as(ctypes.c_void_p)
+                for array in (torques, statuses, iterations, prepared, commanded)
+            ),
         )
         kinds = tuple(STATUSES[int(status)] for status in statuses)
-        return Series(torques.astype(float), kinds, iterations.astype(np.int64), seconds)
+        return Series(torques.astype(float), kinds, iterations.astype(np.int64), prepared, commanded)
 
     def _aligned(self) -> Any:
         address = ctypes.addressof(self._memory)

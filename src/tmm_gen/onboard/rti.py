@@ -65,6 +65,21 @@ class RtiText(ControllerText):
         return self.full and self.several
 
     @property
+    def rolls_out(self) -> bool:
+        """Whether a motion along the last plan is prepared."""
+        return True
+
+    @property
+    def sets(self) -> int:
+        """How many sets there are of sensors behind the encoders."""
+        return len(self.data.gains)
+
+    @property
+    def bounds_angles(self) -> bool:
+        """Whether some rows bound more than changes of torques."""
+        return any(kind.what != "rate" for kind in self.row_kinds)
+
+    @property
     def aim_turns(self) -> int:
         """Steps of Newton's method that a new reference may take."""
         return AIM_TURNS

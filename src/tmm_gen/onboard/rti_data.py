@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from tmm_gen.control.credible import Credible
 from tmm_gen.control.kalman import KalmanFilter
 from tmm_gen.control.motors import Motors
+from tmm_gen.control.response import split_outputs
 from tmm_gen.control.rti import RealTimeIteration
 from tmm_gen.control.safe import BRAKE_TIME
 from tmm_gen.control.terms import Kind
@@ -37,6 +38,10 @@ class RtiData:
         Of each output.
     gains : array, (2^(p - m), s + m, p)
         Of the filter; see :func:`~tmm_gen.onboard.linear_data.gains_by_sensors`.
+    spread : array, (m, m)
+        Covariance of what encoders are off, rad^2.
+    ahead_by, moved_by, now_by : array, (2^(p - m) p, m N), (2^(p - m) p, m N + r) and (2^(p - m) p, r)
+        What each sensor's being off makes, at the target, of ``v = R^-T f``, of the bounds by that and of the rows.
     start : array, (s + m,)
         Estimate at time zero.
     start_torque : array, (m,)
@@ -77,6 +82,10 @@ class RtiData:
     weights: tuple[float, ...]
     targets: tuple[float, ...]
     gains: Array
+    spread: Array
+    ahead_by: Array
+    moved_by: Array
+    now_by: Array
     credible: Credible
     target_hub: Array
     start: Array
@@ -107,6 +116,9 @@ def rti_data(controller: RealTimeIteration) -> RtiData:
     outputs = tuple(each for each in every if weights[each[0]][each[1]] or each in bounded)
     targets = {"tip": goal.tip, "tip_rate": still, "hub": goal.hub, "hub_rate": still}
     kalman = KalmanFilter(linear, problem)
+    gains, program = gains_by_sensors(kalman), program_data(problem, controller.prepared)
+    ahead_by, now_by = _by_sensors(controller, gains, program)
+    bounded = program.scaling[:, None] * np.vstack([program.inverse, program.rows @ program.inverse])
     slopes, count = controller.prepared.slopes, problem.horizon
     lengths = motors.lengths.copy()
     for motor in motors.each:
@@ -117,7 +129,11 @@ def rti_data(controller: RealTimeIteration) -> RtiData:
         outputs=outputs,
         weights=tuple(float(weights[name][motor]) for name, motor in outputs),
         targets=tuple(float(targets[name][motor]) for name, motor in outputs),
-        gains=gains_by_sensors(kalman),
+        gains=gains,
+        spread=kalman.spread_of(tuple(kalman.sensors))[: problem.count, : problem.count],
+        ahead_by=ahead_by,
+        moved_by=ahead_by @ bounded.T,
+        now_by=now_by,
         credible=controller.limits,
         target_hub=goal.hub,
         start=np.append(model.initial(), still),
@@ -130,10 +146,27 @@ def rti_data(controller: RealTimeIteration) -> RtiData:
         brake=controller.inertia / BRAKE_TIME,
         whole=controller.delay.whole,
         memory=controller.delay.memory,
-        program=program_data(problem, controller.prepared),
+        program=program,
         answers=np.array([getattr(slopes, name)[motor, :, ::count].T for name, motor in outputs]),
         target=controller.target,
         end=controller.end,
         end_gradient=slopes.end.T @ controller.end,
         kinds=controller.prepared.kinds,
     )
+
+
+def _by_sensors(controller: RealTimeIteration, gains: Array, program: ProgramData) -> tuple[Array, Array]:
+    """Return what each sensor's being off makes of ``v = R^-T f`` and of the rows; see :class:`RtiData`."""
+    problem, size, condensed = controller.problem, controller.model.size, controller.prepared
+    shape = (problem.count, problem.horizon)
+    still, none = np.zeros(shape), np.zeros(problem.count)
+
+    def program_of(change: Array) -> tuple[Array, Array]:
+        along = split_outputs(controller.by_estimate @ change, shape)
+        gradient = condensed.gradient(along, still, none, change[size:])[: program.inputs]
+        rows = [still[0] if k.what == "rate" else getattr(along, k.what)[k.motor] for k in condensed.kinds]
+        return program.inverse.T @ gradient, np.concatenate(rows) if rows else np.zeros(0)
+
+    shift, _ = program_of(np.zeros(size + problem.count))  # the target's own
+    found = [program_of(column) for gain in gains for column in gain.T]
+    return np.array([each[0] - shift for each in found]), np.array([each[1] for each in found])

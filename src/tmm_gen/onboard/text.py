@@ -87,6 +87,11 @@ class ControllerText:
         return self.numbers(self.data.credible.surprise[i] for i in self.data.sensors)
 
     @property
+    def rolls_out(self) -> bool:
+        """Whether a motion along the last plan is prepared."""
+        return False
+
+    @property
     def motors(self) -> int:
         """Number of motors, m."""
         return self.problem.count
