@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 LONGEST = 50
 """Samples that may be wrong in a row."""
-TRUE, STUCK, VALUE, ADDED = range(4)
+TRUE, STUCK, VALUE, ADDED, INVALID = range(5)
 _ABSURD = (math.nan, math.inf, -math.inf, 0.0, 1e6, -1e6, 1e30, -1e30, 1e300)
 
 
@@ -55,6 +55,7 @@ def _fault(turning: bool) -> st.SearchStrategy[tuple[int, float]]:
         st.just((STUCK, 0.0)),
         st.tuples(st.just(VALUE), st.sampled_from(_ABSURD) | st.floats(-10.0, 10.0)),
         st.tuples(st.just(ADDED), added),
+        st.tuples(st.just(INVALID), st.sampled_from(_ABSURD)),
     )
 
 

@@ -37,7 +37,8 @@ static double tip_of(const plant_state *state)
     return sum / PLANT_STATIONS;
 }
 
-/* kinds: 0 true, 1 as before the fault, 2 the value, 3 the value added; of all three sensors at each sample. */
+/* kinds: 0 true, 1 as before the fault, 2 the value, 3 the value added, 4 the value and not valid; of all three sensors at
+ * each sample. Half of the samples are prepared. */
 int run_loop(const loop_case *given, const int kinds[][3], const double values[][3], const int sensors[], loop_result *found)
 {
     plant_params params;
@@ -68,6 +69,7 @@ int run_loop(const loop_case *given, const int kinds[][3], const double values[]
         const double turn = 6.283185307179586;
         double shown[3];
         CONTROLLER__real measured[CONTROLLER_SENSORS];
+        int valid[CONTROLLER_SENSORS];
         CONTROLLER__real torque = 0;
         plant_outputs out;
         int status;
@@ -82,14 +84,18 @@ int run_loop(const loop_case *given, const int kinds[][3], const double values[]
                 held[i] = shown[i];
             }
             if (at >= 0 && at < given->faults) {
-                shown[i] = kinds[at][i] == 1 ? held[i] : kinds[at][i] == 2 ? values[at][i]
+                shown[i] = kinds[at][i] == 1 ? held[i] : kinds[at][i] == 2 || kinds[at][i] == 4 ? values[at][i]
                     : kinds[at][i] == 3 ? shown[i] + values[at][i] : shown[i];
             }
         }
         for (int i = 0; i < CONTROLLER_SENSORS; ++i) {
             measured[i] = (CONTROLLER__real)shown[sensors[i]];
+            valid[i] = !(at >= 0 && at < given->faults && kinds[at][sensors[i]] == 4);
         }
-        status = (int)CONTROLLER__command(&controller, measured, NULL, &torque);
+        if ((unsigned)k * 2654435761u >> 31) {
+            (void)CONTROLLER__prepare(&controller);
+        }
+        status = (int)CONTROLLER__command(&controller, measured, valid, &torque);
         ++found->counts[status];
         found->outside += !((double)torque >= given->low && (double)torque <= given->high);
         if (at >= given->faults) {

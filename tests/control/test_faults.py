@@ -22,7 +22,7 @@ ROOT = Path(__file__).resolve().parents[2]
 SOME = {
     **dict.fromkeys(("pd", "pd-zv", "pd-zvd"), (0, 2, 4)),
     **dict.fromkeys(("lqr", "mpc-links"), (0, 1, 4)),
-    **dict.fromkeys(("mpc-modes", "rti-zero"), range(7)),
+    **dict.fromkeys(("mpc-modes", "rti-zero"), range(8)),
     "rti": (2,),
 }
 """Which kinds of faults a controller is tried with; in C all are, with many more."""
@@ -50,6 +50,7 @@ def spells(cases: Any) -> list[Any]:
         cases.Case(0.0, 0, (cases.Spell(3, (cases.VALUE,) * 3, (1e300, -1e300, 0.0)),)),
         cases.Case(0.5, 0, (cases.Spell(50, (cases.VALUE,) * 3, (np.nan,) * 3),)),
         cases.Case(0.0, 30, (cases.Spell(50, (cases.ADDED, cases.STUCK, 0), (-4.0 * np.pi, 0.0, 0.0)),)),
+        cases.Case(0.0, 20, (cases.Spell(50, (cases.INVALID,) * 3, (3.0, 1e6, 0.0)),)),
     ]
 
 
@@ -67,11 +68,13 @@ def follow(
     for k in range(case.before + len(kinds) + LATER):
         seen = plant.measured()
         at = k - case.before
-        held = seen if at <= 0 else held
+        held, valid = seen if at <= 0 else held, None
         if 0 <= at < len(kinds):
-            shown = [held, np.array(kinds[at].values), seen + kinds[at].values]
+            value = np.array(kinds[at].values)
+            shown = [held, value, seen + value, value]
+            valid = np.array(kinds[at].kinds) != cases.INVALID
             seen = np.array([[seen, *shown][kind][i] for i, kind in enumerate(kinds[at].kinds)])
-        command = controller.command(seen)
+        command = controller.command(seen, valid)
         torques.append(command.torque[0])
         angles = plant.advance(command.torque)
         if at >= len(kinds):
