@@ -58,7 +58,9 @@ def trials(bench: Bench, seeds: int) -> Rows:
                 every = [loop_figures(loop) for loop in loops]
                 settling = [each.settling for each in every]
                 used = max(float(np.max(np.abs(loop.torque) / bench.problem.torque[1])) for loop in loops)
-                seconds = np.concatenate([loop.seconds for loop in loops])
+                seconds, feedback = (
+                    np.concatenate([getattr(loop, name) for loop in loops]) for name in ("seconds", "feedback")
+                )
                 rows.append(
                     {
                         "controller": kind.name,
@@ -69,6 +71,7 @@ def trials(bench: Bench, seeds: int) -> Rows:
                         "residual_mrad": 1e3 * max(each.residual for each in every),
                         "torque_percent": 100.0 * used,
                         "solve_us": 1e6 * float(np.median(seconds)),
+                        "feedback_us": 1e6 * float(np.median(feedback)),
                         "fallbacks": sum(each.fallbacks for each in every),
                     }
                 )
@@ -79,13 +82,15 @@ def trials(bench: Bench, seeds: int) -> Rows:
 def section(rows: Rows) -> str:
     """Return the page's table."""
     titles = [case.title for case in CONDITIONS if case.name in TRIED]
-    lines = ["| controller | " + " | ".join(titles) + " | torque used | a sample takes |"]
-    lines.append("|---" * (3 + len(titles)) + "|")
+    lines = ["| controller | " + " | ".join(titles) + " | torque used | a sample takes | of that from measurement to torque |"]
+    lines.append("|---" * (4 + len(titles)) + "|")
     for name in dict.fromkeys(row["controller"] for row in rows):
         own = [row for row in rows if row["controller"] == name]
         used = max(float(str(row["torque_percent"])) for row in own)
-        solve = float(np.median([float(str(row["solve_us"])) for row in own]))
-        told = f"{solve:.0f} us in {'C' if own[0]['compiled'] else 'Python'}"
+        solve, feedback = (
+            f"{np.median([float(str(row[key])) for row in own]):.0f} us" for key in ("solve_us", "feedback_us")
+        )
+        told = f"{solve} in {'C' if own[0]['compiled'] else 'Python'} | {feedback}"
         cells = " | ".join(_cell(row) for row in own)
         lines.append(f"| `{name}` | {cells} | {used:.0f} % | {told} |")
     return "\n".join(lines)
@@ -114,6 +119,7 @@ def main() -> None:
         Column("residual_mrad", "residual (mrad)", ".2f"),
         Column("torque_percent", "torque used (%)", ".0f"),
         Column("solve_us", "solve (us)", ".0f"),
+        Column("feedback_us", "from measurement (us)", ".0f"),
         "fallbacks",
     ]
     table(rows, columns, title=f"worst of {given.seeds} noises")

@@ -224,14 +224,14 @@ def compile_all(counts: Sequence[int], compared: Sequence[int]) -> None:
 class Converged(RealTimeIteration):
     """Sequential quadratic programming to convergence at every sample: the same iteration, repeated."""
 
-    def decide(self, state: np.ndarray, disturbance: np.ndarray, last: np.ndarray) -> Command:
-        command = super().decide(state, disturbance, last)
-        for _ in range(MOST_ITERATIONS):
+    def _solved(self, last: np.ndarray) -> Command:
+        state, disturbance = self.estimator.ahead(self.delay.known(self._past))
+        for _ in range(MOST_ITERATIONS + 1):
             before = self._plan.copy()
             self._plan = np.hstack(
                 [before[:, :1], before[:, :-1]]
             )  # what is shifted again becomes the plan as it is
-            command = super().decide(state, disturbance, last)
+            command = self.decide(state, disturbance, last)
             if np.abs(self._plan - before).max() < 1e-7:
                 break
         return command

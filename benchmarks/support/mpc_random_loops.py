@@ -11,7 +11,7 @@ from tmm_gen.closed_loop.figures import Figures, loop_figures
 from tmm_gen.closed_loop.loop import Loop, run_loop
 from tmm_gen.closed_loop.plant import Plant
 from tmm_gen.control.bench import Bench
-from tmm_gen.control.command import Command, Controller
+from tmm_gen.control.command import Command, Controller, Flags
 from tmm_gen.control.condition import Condition
 from tmm_gen.control.controllers import BY_NAME
 
@@ -162,9 +162,12 @@ class _Faulty:
         self._random = np.random.default_rng(self._seed)
         self._controller.reset()
 
-    def command(self, measured: Array) -> Command:
+    def prepare(self) -> None:
+        self._controller.prepare()
+
+    def command(self, measured: Array, valid: Flags | None = None) -> Command:
         if self._random.random() < self._share:
             spoilt = [np.nan, np.inf, -np.inf, 1e300, 1e6][int(self._random.integers(5))]
             measured = measured.copy()
             measured[int(self._random.integers(2))] = spoilt
-        return self._controller.command(measured)
+        return self._controller.command(measured, valid)

@@ -31,8 +31,8 @@ class Loop:
         N m.
     statuses : tuple of Status
         One for each torque.
-    seconds : array, (samples,)
-        Processor time the controller took.
+    seconds, feedback : array, (samples,)
+        Processor time the controller took for a sample, and of that from the measurement to the torques.
     iterations : array of int, (samples,)
         Of its solver.
     states : tuple of dict
@@ -48,6 +48,7 @@ class Loop:
     torque: Array
     statuses: tuple[Status, ...]
     seconds: Array
+    feedback: Array
     iterations: NDArray[np.int64]
     states: tuple[dict[str, Any], ...]
     goal: Array
@@ -79,12 +80,15 @@ def run_loop(controller: Controller, plant: Plant, duration: float, timed: bool 
     controller.reset()
     samples = max(1, round(duration / plant.problem.sample_time))
     seen, count = [plant.angles()[None]], plant.problem.count
-    commands, seconds = [], np.zeros(samples)
+    commands, seconds, feedback = [], np.zeros(samples), np.zeros(samples)
     for sample in range(samples):
         measured = plant.measured()
         begin = clock()
+        controller.prepare()
+        between = clock()
         command = controller.command(measured)
-        seconds[sample] = clock() - begin
+        end = clock()
+        seconds[sample], feedback[sample] = end - begin, end - between
         commands.append(command)
         seen.append(plant.advance(command.torque))
     angles = np.vstack(seen)
@@ -96,6 +100,7 @@ def run_loop(controller: Controller, plant: Plant, duration: float, timed: bool 
         torque=np.array([command.torque for command in commands]),
         statuses=tuple(command.status for command in commands),
         seconds=seconds,
+        feedback=feedback,
         iterations=np.array([command.iterations for command in commands]),
         states=tuple(plant.states[-samples:]),
         goal=plant.goal,

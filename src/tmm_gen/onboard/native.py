@@ -113,13 +113,15 @@ class EmittedController:
 
     def command(self, measured: Array, valid: Flags | None = None) -> Command:
         """Return the torques for a measurement; see :class:`~tmm_gen.control.command.Controller`."""
-        found = self.run(np.asarray(measured, float)[None], None if valid is None else np.asarray(valid)[None])
+        flags = None if valid is None else np.asarray(valid)[None]
+        found = self.run(np.asarray(measured, float)[None], flags, prepare=False)
         return Command(found.torques[0], found.statuses[0], int(found.iterations[0]))
 
-    def run(self, measured: Array, valid: Flags | None = None) -> Series:
+    def run(self, measured: Array, valid: Flags | None = None, prepare: bool = True) -> Series:
         """Hand in a series of measurements, (samples, m + 2), and keep what comes out of each.
 
-        Time includes nothing but the controller's own. Which are valid is said in the same shape, or all are.
+        Time includes nothing but the controller's own. Which are valid is said in the same shape, or all are. Samples
+        are prepared before their measurements, or left to themselves.
         """
         seen = np.ascontiguousarray(np.asarray(measured, float)[:, self.sensors], self._number)
         count = len(seen)
@@ -132,6 +134,7 @@ class EmittedController:
             seen.ctypes.data_as(ctypes.c_void_p),
             None if flags is None else flags.ctypes.data_as(ctypes.c_void_p),
             ctypes.c_long(count),
+            ctypes.c_int(prepare),
             *(
                 array.ctypes.data_as(ctypes.c_void_p)
                 for array in (torques, statuses, iterations, prepared, commanded)

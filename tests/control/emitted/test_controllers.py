@@ -122,6 +122,33 @@ def test_torques_are_finite_and_within_bounds_whatever_is_measured(
     assert Status.MISSING not in found.statuses
 
 
+@pytest.mark.parametrize("kind", ["mpc-modes", "rti-zero", "rti"])
+def test_prepared_or_not_torques_are_the_same(
+    kind: str, emitted: Callable[..., EmittedController], recorded: Callable[..., object]
+) -> None:
+    """To the last bit, with sensors that come and go, and one that lies for long enough to start anew."""
+    random, controller = np.random.default_rng(23), emitted(kind)
+    measured = np.tile(recorded("mpc-modes", 60).measured, (1 if kind == "rti" else 3, 1))
+    measured[20:28, 0] += 0.5
+    valid = random.random(measured.shape) < 0.9
+    runs = []
+    for prepare in (True, False):
+        controller.reset()
+        runs.append(controller.run(measured, valid, prepare))
+    controller.reset()
+    torques, statuses = [], []
+    for seen, flags in zip(measured, valid, strict=True):
+        for _ in range(random.integers(3)):
+            controller.prepare()
+        command = controller.command(seen, flags)
+        torques.append(command.torque)
+        statuses.append(command.status)
+    assert np.array_equal(runs[0].torques, runs[1].torques)
+    assert np.array_equal(runs[0].torques, np.array(torques))
+    assert runs[0].statuses == runs[1].statuses == tuple(statuses)
+    assert {Status.OK, Status.REDUCED, Status.MEASUREMENT} <= set(statuses)
+
+
 def test_it_recovers_from_a_bad_measurement(bench: Bench, emitted: Callable[..., EmittedController]) -> None:
     controller = emitted("mpc-modes")
     controller.reset()

@@ -9,8 +9,10 @@ from numpy.testing import assert_allclose
 
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.command import Status
+from tmm_gen.control.credible import PATIENCE
 from tmm_gen.control.extended_kalman import ExtendedKalmanFilter, NonlinearFilter
 from tmm_gen.control.full_nmpc import FullNmpc
+from tmm_gen.control.kalman import KalmanFilter
 from tmm_gen.control.linear_mpc import LinearMpc
 from tmm_gen.control.rti import RealTimeIteration
 
@@ -100,15 +102,61 @@ def test_torques_nobody_commanded_are_found_motor_by_motor(two: Bench, kind: typ
     assert_allclose(disturbance, unknown, rtol=0.03)
 
 
-def test_an_encoder_alone_makes_the_estimate_wait(two: Bench) -> None:
+def test_an_encoder_that_is_off_makes_the_estimate_wait(two: Bench) -> None:
     """What one of them shows is believed only with the other: the arm is where both say."""
     mpc = LinearMpc(two.links, two.problem, two.inertia)
     good = np.append(two.links.start_hub, [np.nan, np.nan])
     assert mpc.command(good).status is Status.OK
-    for spoilt, status in ((np.nan, Status.MEASUREMENT), (0.5, Status.REDUCED)):
-        bad = good.copy()
-        bad[1] += spoilt
-        command = mpc.command(bad)
-        assert command.status is status
-        low, high = two.problem.torque
+    mpc.prepare()
+    before = mpc.estimator.ahead([])[0].copy()
+    assert mpc.command(good + [0.001, 0.5, 0.0, 0.0]).status is Status.REDUCED
+    assert_allclose(mpc.estimator.ahead([])[0], before, atol=0.0)
+
+
+def test_encoders_go_on_without_one_that_is_not_valid_for_five_samples(two: Bench) -> None:
+    """What it shows is not looked at; back again it is believed at once, where the arm is as it was foreseen."""
+    rti = RealTimeIteration(two.step, two.links, two.inertia, zero_order=True)
+    good, low, high = np.append(two.links.start_hub, [np.nan, np.nan]), *two.problem.torque
+    flags = np.array([True, False, True, True])
+    assert rti.command(good, flags).status is Status.MEASUREMENT  # nobody knows yet where the arm starts
+    assert rti.command(good).status is Status.OK
+    statuses = []
+    for k in range(PATIENCE + 2):
+        shown = np.append(rti.estimator.ahead([])[0][two.step.places("angle")] @ two.step.motors.hub.T, [0, 0])
+        command = rti.command(shown + [0.0, 1e6, 0.0, 0.0], flags)
+        statuses.append(command.status)
         assert np.all((command.torque >= low) & (command.torque <= high))
+    assert statuses == [Status.REDUCED] * PATIENCE + [Status.MEASUREMENT] * 2
+    rti.prepare()
+    shown = two.step.motors.hub @ rti.estimator.ahead([])[0][two.step.places("angle")]
+    assert rti.command(np.append(shown, [np.nan, np.nan])).status is Status.OK
+
+
+def test_without_an_encoder_the_gain_is_that_of_the_covariance(two: Bench) -> None:
+    """Of the first sample without it; with all of them it is the stationary one."""
+    found = KalmanFilter(two.links, two.problem)
+    row, noise = found.measure[1], found.noise[1, 1]
+    expected = found.covariance @ row / (row @ found.covariance @ row + noise)
+    assert_allclose(found.gain_of((1,))[:, 0], expected, rtol=1e-6, atol=1e-9)
+
+
+def test_what_a_measurement_changes_is_what_rolling_out_anew_gives(two: Bench) -> None:
+    """To first order, two samples late, on the way to the target; there zero order has the same sensitivities."""
+    bench = Bench.of(two.scene.replace(**{"control.delay": 0.04}))
+    rti = RealTimeIteration(bench.step, bench.links, bench.inertia)
+    rti.command(np.append(bench.links.start_hub, [np.nan, np.nan]))
+    rti.prepare()
+    about, start = rti._about, rti.estimator.estimate.copy()
+    assert about is not None
+    change = np.random.default_rng(1).normal(size=len(start))
+    ends = []
+    for small in (-1e-6, 1e-6):
+        rti.estimator.estimate = start + small * change
+        ends.append(rti._rolled_out().along)
+    slope = (ends[1] - ends[0]) / 2e-6
+    assert_allclose(about.by_estimate @ change, slope, rtol=1e-4, atol=1e-5 * np.abs(slope).max())
+    rti.estimator.estimate = np.append(rti.target, NONE)
+    rti._past[:] = bench.links.goal.torque
+    rti._forget()
+    scale = np.abs(rti.by_estimate).max()
+    assert_allclose(rti._rolled_out().by_estimate, rti.by_estimate, atol=1e-6 * scale)

@@ -108,6 +108,28 @@ def test_a_reference_that_moves_is_that_of_python(late: Bench) -> None:
     assert python.goal.hub == pytest.approx(wanted)
 
 
+def test_encoders_that_come_and_go_are_those_of_python(two: Bench) -> None:
+    """Flags at random, prepared or not at random: torques, statuses and bounds."""
+    name, files = emit_controller(two, "rti-zero")
+    emitted = compiled(two, name, files)
+    python = RealTimeIteration(two.step, two.links, two.inertia, zero_order=True)
+    plant, random = Plant(two.scene, two.problem, CONDITIONS[1]), np.random.default_rng(5)
+    low, high = two.problem.torque
+    statuses = []
+    for _ in range(60):
+        seen, valid = plant.measured(), random.random(4) < 0.75
+        for each in (emitted, python):
+            for _ in range(random.integers(3)):
+                each.prepare()
+        expected, found = python.command(seen, valid), emitted.command(np.where(valid, seen, 7.0), valid)
+        np.testing.assert_allclose(found.torque, expected.torque, rtol=0.0, atol=2e-5)
+        assert found.status is expected.status
+        assert np.all((found.torque >= low) & (found.torque <= high))
+        statuses.append(found.status)
+        plant.advance(expected.torque)
+    assert {Status.OK, Status.REDUCED, Status.MEASUREMENT} <= set(statuses)
+
+
 SPELLS = {
     "all lost": (np.nan, np.nan),
     "elbow lost": (0.0, np.nan),
