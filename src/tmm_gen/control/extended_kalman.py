@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from tmm_gen.control.credible import Credible
 from tmm_gen.control.delay import Pair
+from tmm_gen.control.holding import held
 from tmm_gen.control.kalman import KalmanFilter
 from tmm_gen.control.linear import LinearModel
 from tmm_gen.control.links import rest_state
@@ -48,6 +49,15 @@ class NonlinearFilter:
         self.estimate = np.append(state, np.zeros(self._linear.count))
         self.estimate[self._angles] += self._motors.turned @ (hub - self._linear.goal.hub)
         self.estimate[self._rates] = self._motors.turned @ rate
+
+    def hubs(self) -> tuple[Array, Array]:
+        """Return angles and rates of the hubs, (m,) each, rad and rad/s."""
+        rows = self._motors.hub
+        return rows @ self.estimate[self._angles], rows @ self.estimate[self._rates]
+
+    def holds(self, hub: Array) -> Array:
+        """Return the torques that hold an arm with its hubs there, rad, (m,), N m."""
+        return held(self._linear.holds, self._linear.goal, hub) - self._parts(self.estimate)[1]
 
     def surprise(self, measured: Array) -> Array:
         """Return how far a measurement is off what is expected, (m + 2,), NaN where there is no sensor."""

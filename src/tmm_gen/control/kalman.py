@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.control.delay import Pair
+from tmm_gen.control.holding import held
 from tmm_gen.control.linear import LinearModel
 from tmm_gen.control.problem import ControlProblem
 
@@ -80,6 +81,15 @@ class KalmanFilter:
         model = self.model
         turned = model.turned @ (hub - model.goal.hub)
         self.estimate = np.append(turned + model.turn @ rate, np.zeros(model.count))
+
+    def hubs(self) -> tuple[Array, Array]:
+        """Return angles and rates of the hubs, (m,) each, rad and rad/s."""
+        model, (state, _) = self.model, self._parts(self.estimate)
+        return model.hub @ state + model.goal.hub, model.hub_rate @ state
+
+    def holds(self, hub: Array) -> Array:
+        """Return the torques that hold an arm with its hubs there, rad, (m,), N m."""
+        return held(self.model.holds, self.model.goal, hub) - self._parts(self.estimate)[1]
 
     def surprise(self, measured: Array) -> Array:
         """Return how far a measurement is off what is expected, (m + 2,), NaN where there is no sensor."""

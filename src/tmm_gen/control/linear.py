@@ -51,6 +51,8 @@ class LinearModel:
         State at time zero.
     start_torque : array, (m,)
         Torques before any is chosen, N m.
+    holds : array, (m, m)
+        What holds the arm up; see :func:`tmm_gen.control.holding.holding`.
     delay : Delay
         Which torques are meant.
     """
@@ -73,6 +75,7 @@ class LinearModel:
     length: float
     start: Array
     start_torque: Array
+    holds: Array
     delay: Delay
 
     @property

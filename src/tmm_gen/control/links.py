@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from tmm_gen.control.holding import holding
 from tmm_gen.control.linear import LinearModel
 from tmm_gen.control.step_model import StepModel
 from tmm_gen.control.target import Target, find_target
@@ -59,5 +60,6 @@ def links_model(model: StepModel) -> LinearModel:
         length=float(model.lengths.sum()),
         start=model.initial() - state,
         start_torque=model.start.torque,
+        holds=holding(model.scene),
         delay=model.delay,
     )

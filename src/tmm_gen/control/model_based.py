@@ -36,6 +36,14 @@ class Estimator(Protocol):
     def rest(self, hub: Array, rate: Array) -> None:
         """Start anew from an arm of the target's shape: where its hubs are, rad, how fast they turn, rad/s, (m,)."""
 
+    def hubs(self) -> tuple[Array, Array]:
+        """Return angles and rates of the hubs, (m,) each, rad and rad/s."""
+        ...
+
+    def holds(self, hub: Array) -> Array:
+        """Return the torques that hold an arm with its hubs there, rad, (m,), N m."""
+        ...
+
     def surprise(self, measured: Array) -> Array:
         """Return how far a measurement is off what is expected, (m + 2,)."""
         ...
@@ -139,12 +147,24 @@ class ModelBased(ABC):
         command = self._decided(measured, rate, last)
         torque = command.torque
         if not command.status.optimal:
-            torque = safe_torque(self.problem, self.inertia, rate, last)
+            torque = self._safe(hub, rate, last)
         self._hub = hub
         command = Command(self.problem.allowed(torque, last), command.status, command.iterations)
         self._past = np.vstack([self._past[1:], command.torque])
         self._due = True
         return command
+
+    def _safe(self, hub: Array, rate: Array, last: Array) -> Array:
+        """Return the torques of the safe law.
+
+        That of an arm on a hub brakes by the encoder alone. Motors by name hold the arm up as well, and where an
+        encoder shows nothing the estimate stands in for it.
+        """
+        if self.problem.motors.on_hub:
+            return safe_torque(self.problem, self.inertia, rate, last)
+        (angles, rates), there = self.estimator.hubs(), self.limits.is_place(hub)
+        held = self.estimator.holds(np.where(there, hub, angles))
+        return safe_torque(self.problem, self.inertia, np.where(there, rate, rates), last, held)
 
     def _decided(self, measured: Array, rate: Array, last: Array) -> Command:
         """Return the torques, by what can be believed of a measurement."""

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.control.delay import delay_of
+from tmm_gen.control.holding import holding
 from tmm_gen.control.linear import LinearModel
 from tmm_gen.control.motors import motors_of
 from tmm_gen.control.prediction import fine_scene
@@ -84,6 +85,7 @@ def modes_model(scene: Scene, problem: ControlProblem) -> LinearModel:
         length=length,
         start=np.concatenate([start, coordinates @ initial.rates]),
         start_torque=initial.torque,
+        holds=holding(fine),
         delay=delay,
     )
 

@@ -13,11 +13,13 @@ BRAKE_TIME = 0.1
 """The safe law's torque would stop the rigid arm's rate in this many seconds."""
 
 
-def safe_torque(problem: ControlProblem, inertia: Array, rate: Array, last: Array) -> Array:
-    """Return torques that brake the hubs: ``-inertia rate / BRAKE_TIME`` each, within all bounds, (m,), N m.
+def safe_torque(
+    problem: ControlProblem, inertia: Array, rate: Array, last: Array, held: Array | None = None
+) -> Array:
+    """Return torques that brake the hubs: ``held - inertia rate / BRAKE_TIME`` each, within all bounds, (m,), N m.
 
-    They need the encoders alone. Where one fails too, its ``rate`` is not finite and its torque goes to zero as fast as
-    its bounds allow.
+    They need the encoders alone. Where one fails too, its ``rate`` is not finite and its torque goes to what holds the
+    arm as fast as its bounds allow.
 
     Parameters
     ----------
@@ -29,6 +31,8 @@ def safe_torque(problem: ControlProblem, inertia: Array, rate: Array, last: Arra
         Of the hubs, from the last two encoder values, rad/s.
     last : array, (m,)
         Torques commanded a sample before, N m.
+    held : array, (m,), optional
+        Torques that hold the arm, N m; by default none.
     """
-    wanted = np.where(np.isfinite(rate), -inertia * rate / BRAKE_TIME, 0.0)
-    return problem.allowed(wanted, last)
+    brakes = np.where(np.isfinite(rate), -inertia * rate / BRAKE_TIME, 0.0)
+    return problem.allowed(brakes if held is None else held + brakes, last)

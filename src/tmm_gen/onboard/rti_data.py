@@ -56,6 +56,8 @@ class RtiData:
         Of the earlier torque in the steps of a sample.
     sensors : tuple of int
         Which there are: m encoders, then accelerometer and strain gauge.
+    holds : array, (m, m)
+        What holds the arm up, N m; see :func:`tmm_gen.control.holding.holding`.
     target_torque, brake : array, (m,)
         N m; N m s/rad, of the safe law.
     gravity : float
@@ -93,6 +95,7 @@ class RtiData:
     lengths: Array
     shares: Array
     sensors: tuple[int, ...]
+    holds: Array
     target_torque: Array
     gravity: float
     brake: Array
@@ -141,6 +144,7 @@ def rti_data(controller: RealTimeIteration) -> RtiData:
         lengths=lengths[model.scene.hub :],
         shares=model.delay.shares(problem.substeps),
         sensors=tuple(kalman.sensors),
+        holds=linear.holds,
         target_torque=goal.torque,
         gravity=model.scene.model.gravity or 0.0,
         brake=controller.inertia / BRAKE_TIME,
