@@ -11,7 +11,7 @@ import pytest
 from tmm_gen.closed_loop.plant import Plant
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.command import Status
-from tmm_gen.control.condition import CONDITIONS
+from tmm_gen.control.condition import CONDITIONS, Condition
 from tmm_gen.control.extended_kalman import NonlinearFilter
 from tmm_gen.control.kalman import present_sensors
 from tmm_gen.control.rti import RealTimeIteration
@@ -139,15 +139,38 @@ SPELLS = {
 }
 
 
-def test_all_is_well_a_second_after_the_last_wrong_sample(elbow: Scene) -> None:
-    """Whatever the encoders showed for 15 samples: OK again within a second, the bounds kept throughout.
-
-    With two springs in each beam, since a model of one lets the arm tremble for long.
-    """
+@pytest.fixture(scope="module")
+def firm(elbow: Scene) -> tuple[Bench, EmittedController]:
+    """With two springs in each beam, since a model of one lets the arm tremble for long."""
     changes = {"beam.upper.links": 2, "beam.forearm.links": 2, "control.horizon": 12, "control.substeps": 2}
     bench = Bench.of(elbow.replace(**changes))
-    name, files = emit_controller(bench, "rti-zero")
-    controller = compiled(bench, name, files)
+    return bench, compiled(bench, *emit_controller(bench, "rti-zero"))
+
+
+@pytest.mark.parametrize(("case", "most"), [(CONDITIONS[0], 0.005), (CONDITIONS[1], 0.03)])
+def test_the_arm_does_not_sink_while_encoders_are_lost(
+    case: Condition, most: float, firm: tuple[Bench, EmittedController]
+) -> None:
+    """In a vertical plane, for a second, by more than this angle (rad); a law that only brakes lets it fall by 2."""
+    bench, controller = firm
+    for lost in ([1], [0], [0, 1]):
+        controller.reset()
+        plant, flags, statuses = Plant(bench.scene, bench.problem, case), np.ones(4, bool), []
+        for k in range(80 + 50 + 25):
+            if k == 80:
+                rested = plant.angles()
+            flags[lost] = not 80 <= k < 130
+            command = controller.command(plant.measured(), flags)
+            statuses.append(command.status)
+            plant.advance(command.torque)
+            assert k < 80 or np.abs(plant.angles() - rested).max() < most, (lost, k)
+        assert set(statuses[86:130]) == {Status.MEASUREMENT}
+        assert statuses[-1] is Status.OK
+
+
+def test_all_is_well_a_second_after_the_last_wrong_sample(firm: tuple[Bench, EmittedController]) -> None:
+    """Whatever the encoders showed for 15 samples: OK again within a second, the bounds kept throughout."""
+    bench, controller = firm
     low, high = bench.problem.torque
     for spell, added in SPELLS.items():
         controller.reset()

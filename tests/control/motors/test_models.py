@@ -10,10 +10,12 @@ from numpy.testing import assert_allclose
 from scipy.linalg import expm, solve_discrete_are
 
 from tmm_gen.control.bench import Bench
+from tmm_gen.control.holding import held, holding
 from tmm_gen.control.inverse_dynamics import SPARED, quintic_way, rigid_torques
 from tmm_gen.control.lqr import Regulator
 from tmm_gen.control.modes import modes_model
 from tmm_gen.control.target import find_target
+from tmm_gen.control.terms import Goal
 from tmm_gen.errors import UserError
 from tmm_gen.inputs.signals import Constant
 from tmm_gen.reference.planar_arm import Arm
@@ -120,6 +122,16 @@ def test_rigid_torques_are_those_of_the_textbooks_two_links() -> None:
     assert_allclose(
         rigid_torques(parse_scene(PAIR), q, v, a), np.column_stack([first / 50.0, second / 20.0]), rtol=1e-9
     )
+
+
+def test_what_holds_the_arm_up_is_what_a_rigid_one_needs() -> None:
+    """Against Lagrange's equations at rest, wherever its joints are; and at the goal the torques there."""
+    scene, random = parse_scene(PAIR), np.random.default_rng(8)
+    hub = random.uniform(-3.0, 3.0, (4, 2))
+    still, goal = np.zeros_like(hub), Goal(tip=hub[0], hub=hub[0], torque=np.array([0.2, 0.1]))
+    rigid = rigid_torques(scene, hub, still, still)
+    for k in range(4):
+        assert_allclose(held(holding(scene), goal, hub[k]), goal.torque + rigid[k] - rigid[0], atol=1e-12)
 
 
 def test_a_quintic_lasts_as_long_as_the_bounds_make_it(two: Bench) -> None:
