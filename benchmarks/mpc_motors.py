@@ -59,7 +59,8 @@ def trials(bench: Bench, seeds: int) -> Rows:
                 settling = [each.settling for each in every]
                 used = max(float(np.max(np.abs(loop.torque) / bench.problem.torque[1])) for loop in loops)
                 seconds, feedback = (
-                    np.concatenate([getattr(loop, name) for loop in loops]) for name in ("seconds", "feedback")
+                    np.concatenate([getattr(loop, name) for loop in loops])
+                    for name in ("seconds", "feedback")
                 )
                 rows.append(
                     {
@@ -82,13 +83,18 @@ def trials(bench: Bench, seeds: int) -> Rows:
 def section(rows: Rows) -> str:
     """Return the page's table."""
     titles = [case.title for case in CONDITIONS if case.name in TRIED]
-    lines = ["| controller | " + " | ".join(titles) + " | torque used | a sample takes | of that from measurement to torque |"]
+    lines = [
+        "| controller | "
+        + " | ".join(titles)
+        + " | torque used | a sample takes | of that from measurement to torque |"
+    ]
     lines.append("|---" * (4 + len(titles)) + "|")
     for name in dict.fromkeys(row["controller"] for row in rows):
         own = [row for row in rows if row["controller"] == name]
         used = max(float(str(row["torque_percent"])) for row in own)
         solve, feedback = (
-            f"{np.median([float(str(row[key])) for row in own]):.0f} us" for key in ("solve_us", "feedback_us")
+            f"{np.median([float(str(row[key])) for row in own]):.0f} us"
+            for key in ("solve_us", "feedback_us")
         )
         told = f"{solve} in {'C' if own[0]['compiled'] else 'Python'} | {feedback}"
         cells = " | ".join(_cell(row) for row in own)

@@ -2,7 +2,8 @@
 
 A sensor is left out of a sample if it is not valid, shows no finite number, or is further off what was expected than
 the arm can be. If it is an encoder that stays off, the estimate is wrong and not the sensor: it starts anew from where
-the encoders say that the arm is. So whatever was shown before, a few samples after the last wrong one all is well again.
+the encoders say that the arm is. So whatever was shown before, all is well again a few samples after the last wrong
+one.
 
 Where one of several encoders shows nothing, the others go on for a few samples: what it would be off is inferred from
 what they are off. With none left, or for longer, nobody knows where the arm is.

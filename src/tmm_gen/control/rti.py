@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.control.command import Command, Status
-from tmm_gen.control.condensed import Condensed, Outputs
+from tmm_gen.control.condensed import Condensed
 from tmm_gen.control.delay import Pair
 from tmm_gen.control.extended_kalman import ExtendedKalmanFilter, NonlinearFilter
 from tmm_gen.control.linear import LinearModel

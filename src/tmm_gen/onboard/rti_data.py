@@ -121,7 +121,7 @@ def rti_data(controller: RealTimeIteration) -> RtiData:
     kalman = KalmanFilter(linear, problem)
     gains, program = gains_by_sensors(kalman), program_data(problem, controller.prepared)
     ahead_by, now_by = _by_sensors(controller, gains, program)
-    bounded = program.scaling[:, None] * np.vstack([program.inverse, program.rows @ program.inverse])
+    scaled = program.scaling[:, None] * np.vstack([program.inverse, program.rows @ program.inverse])
     slopes, count = controller.prepared.slopes, problem.horizon
     lengths = motors.lengths.copy()
     for motor in motors.each:
@@ -135,7 +135,7 @@ def rti_data(controller: RealTimeIteration) -> RtiData:
         gains=gains,
         spread=kalman.spread_of(tuple(kalman.sensors))[: problem.count, : problem.count],
         ahead_by=ahead_by,
-        moved_by=ahead_by @ bounded.T,
+        moved_by=ahead_by @ scaled.T,
         now_by=now_by,
         credible=controller.limits,
         target_hub=goal.hub,

@@ -109,8 +109,13 @@ def test_an_encoder_that_is_off_makes_the_estimate_wait(two: Bench) -> None:
     assert mpc.command(good).status is Status.OK
     mpc.prepare()
     before = mpc.estimator.ahead([])[0].copy()
-    assert mpc.command(good + [0.001, 0.5, 0.0, 0.0]).status is Status.REDUCED
+    assert mpc.command(good + np.array([0.001, 0.5, 0.0, 0.0])).status is Status.REDUCED
     assert_allclose(mpc.estimator.ahead([])[0], before, atol=0.0)
+
+
+def hubs(rti: RealTimeIteration) -> np.ndarray:
+    """Return where an estimate has the hubs."""
+    return rti.estimator.hubs()[0]
 
 
 def test_encoders_go_on_without_one_that_is_not_valid_for_five_samples(two: Bench) -> None:
@@ -121,15 +126,14 @@ def test_encoders_go_on_without_one_that_is_not_valid_for_five_samples(two: Benc
     assert rti.command(good, flags).status is Status.MEASUREMENT  # nobody knows yet where the arm starts
     assert rti.command(good).status is Status.OK
     statuses = []
-    for k in range(PATIENCE + 2):
-        shown = np.append(rti.estimator.ahead([])[0][two.step.places("angle")] @ two.step.motors.hub.T, [0, 0])
-        command = rti.command(shown + [0.0, 1e6, 0.0, 0.0], flags)
+    off = np.array([0.0, 1e6, 0.0, 0.0])
+    for _ in range(PATIENCE + 2):
+        command = rti.command(np.append(hubs(rti), [0.0, 0.0]) + off, flags)
         statuses.append(command.status)
         assert np.all((command.torque >= low) & (command.torque <= high))
     assert statuses == [Status.REDUCED] * PATIENCE + [Status.MEASUREMENT] * 2
     rti.prepare()
-    shown = two.step.motors.hub @ rti.estimator.ahead([])[0][two.step.places("angle")]
-    assert rti.command(np.append(shown, [np.nan, np.nan])).status is Status.OK
+    assert rti.command(np.append(hubs(rti), [np.nan, np.nan])).status is Status.OK
 
 
 def test_without_an_encoder_the_gain_is_that_of_the_covariance(two: Bench) -> None:
