@@ -42,6 +42,7 @@ HEADINGS = (
     "number type",
     "instructions, longest sample",
     "median",
+    "from measurement to torque, longest",
     "flash",
     "memory",
     "stack",
@@ -63,7 +64,7 @@ def measured(bench: Bench, kind: str, condition: str = "payload") -> np.ndarray:
 def line(kind: str, run: BoardRun) -> str:
     """Return a row of the page's table."""
     sizes = " | ".join(f"{size} B" for size in (run.code_bytes, run.ram_bytes, run.stack_bytes))
-    counts = f"{run.instructions_per_sample} | {run.instructions_median}"
+    counts = f"{run.instructions_per_sample} | {run.instructions_median} | {run.instructions_feedback}"
     title = BY_NAME[kind].title
     bits = "equal" if run.bits_equal else "differ"
     return f"| {title} | {run.title} | {run.real} | {counts} | {sizes} | {bits} |"
@@ -83,7 +84,14 @@ def main() -> int:
             runs.append((kind, run_on_board(target, name, files, measured(bench, kind), real)))
             advance()
     rows = [{"controller": kind, **asdict(run)} for kind, run in runs]
-    shown = ["controller", "title", "real", "instructions_per_sample", "instructions_median"]
+    shown = [
+        "controller",
+        "title",
+        "real",
+        "instructions_per_sample",
+        "instructions_median",
+        "instructions_feedback",
+    ]
     table(rows, [*shown, "code_bytes", "ram_bytes", "stack_bytes", "bits_equal", "fallbacks"])
     given.out.mkdir(parents=True, exist_ok=True)
     write_whole(given.out / "mpc_board.json", json.dumps(plain(rows), indent=1) + "\n")

@@ -37,6 +37,8 @@ class BoardRun:
         Of the longest sample of the closed loop.
     instructions_median : int
         Of half of its samples at most.
+    instructions_feedback : int
+        From a measurement to its torque, of the longest sample.
     code_bytes : int
         Flash: functions and tables of controller and solver, and of the C library what they call.
     ram_bytes : int
@@ -56,6 +58,7 @@ class BoardRun:
     real: str
     instructions_per_sample: int
     instructions_median: int
+    instructions_feedback: int
     code_bytes: int
     ram_bytes: int
     stack_bytes: int
@@ -98,16 +101,17 @@ def run_on_board(
         there = _lines([emulator, *board.emulate, "-kernel", program], folder, board.title)
         here = _here(Path(scratch, "host"), name, files, measured, real)
         samples = [words[1:] for words in there if words[0] == "torque"]
-        around = int([words[1] for words in there if words[0] == "nothing"][-1])
-        counts = [
-            round((int(ticks) - around) / board.ticks_per_instruction) + NOTHING for *_, ticks in samples
-        ]
+        around = np.array([words[1:] for words in there if words[0] == "nothing"][-1], int)
+        ticks = np.array([words[-2:] for words in samples], int) - around
+        phases = np.rint(ticks / board.ticks_per_instruction).astype(int) + NOTHING
+        counts = phases.sum(axis=1)
         return BoardRun(
             target=target,
             title=board.title,
             real=real,
-            instructions_per_sample=max(counts),
+            instructions_per_sample=int(counts.max()),
             instructions_median=int(np.median(counts)),
+            instructions_feedback=int(phases[:, 1].max()),
             code_bytes=sizes_of(board, alone).flash,
             ram_bytes=_number(there, "ram") + static,
             stack_bytes=_number(there, "stack"),

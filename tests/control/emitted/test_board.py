@@ -46,3 +46,4 @@ def test_bits_and_budget(
     if target == "cortex-m7":
         assert found.instructions_per_sample <= INSTRUCTIONS
     assert 0 < found.instructions_median <= found.instructions_per_sample
+    assert 0 < found.instructions_feedback < found.instructions_per_sample
