@@ -1,8 +1,8 @@
 """Robots drawn at random as URDF, imported, built and run, against Pinocchio: its reader, its ``aba``, SciPy's DOP853.
 
 ``python benchmarks/urdf_runs.py [--robots 200]``. From rest, under its weight and a torque in each joint, each robot
-runs at a step of Newmark and at half of it. A robot is wrong if its error is more than a thousandth of its way, or if half
-the step does not leave about a quarter of it. Exits with 1 if any is. Pinocchio is no dependency: where it cannot be
+runs at a step of Newmark and at half of it. A robot is wrong if its error is more than a thousandth of its way, or if
+half the step does not leave about a quarter of it. Exits with 1 if any is. Pinocchio is no dependency: where it cannot be
 imported, this says how to get it.
 """
 
@@ -92,7 +92,9 @@ def main() -> int:
 
 def judged(pin: ModuleType, seed: int, folder: Path) -> dict[str, object]:
     """Return a row about a robot; what is wrong is `said`."""
-    row: dict[str, object] = dict.fromkeys(("seed", "joints", "way", "error", "error_at_half", "order", "said"), "")
+    row: dict[str, object] = dict.fromkeys(
+        ("seed", "joints", "way", "error", "error_at_half", "order", "said"), ""
+    )
     row["seed"] = seed
     try:
         run = urdf_run(seed, folder)

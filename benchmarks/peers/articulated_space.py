@@ -11,7 +11,9 @@ from tmm_gen.scene.spatial.arm import Revolute, SpatialArm
 Array = NDArray[np.float64]
 
 
-def accelerations(arm: SpatialArm, angles: ca.SX, rates: ca.SX, torques: ca.SX, armature: Array) -> ca.SX:
+def accelerations(
+    arm: SpatialArm, angles: ca.SX, rates: ca.SX, torques: ca.SX, armature: Array | ca.SX
+) -> ca.SX:
     """Return accelerations of the joints (rad/s^2): Featherstone's recursion in axes of the links."""
     joints = arm.joints
     across, spin, spatial, bias, inertia, force = [], [], [], [], [], []
@@ -52,18 +54,23 @@ def accelerations(arm: SpatialArm, angles: ca.SX, rates: ca.SX, torques: ca.SX, 
     return ca.vertcat(*found)
 
 
-def step_function(arm: SpatialArm, step: float) -> ca.Function:
-    """Return one step of Newmark (1/4, 1/2) as ``x_next = step(x, u)``; as in `peers.articulated`, u of the joints."""
-    n, h = len(arm.joints), step
-    x, u = ca.SX.sym("x", 3 * n), ca.SX.sym("u", n)
+def step_function(arm: SpatialArm, step: float | None) -> ca.Function:
+    """Return one step of Newmark (1/4, 1/2) as ``x_next = step(x, u)``; as in `peers.articulated`, u of the joints.
+
+    Without a step, in s, that is read from behind the torques in u.
+    """
+    n = len(arm.joints)
+    x, u = ca.SX.sym("x", 3 * n), ca.SX.sym("u", n + (step is None))
+    h = u[n] if step is None else step
     stiffness, damping, slack, rotors = numbers(arm)
     angle, rate, last = ca.vertsplit(x, n)
     rate_ahead = rate + h * last
     angle_ahead = angle + h * (rate + 0.5 * h * last)
     without_angle = angle_ahead - 0.25 * h**2 * last
     without_rate = rate_ahead - 0.5 * h * last
-    torque = u - _times(stiffness, without_angle - slack) - _times(damping, without_rate)
-    implicit = rotors + 0.5 * h * damping + 0.25 * h**2 * stiffness
+    torque = u[:n] - _times(stiffness, without_angle - slack) - _times(damping, without_rate)
+    implicit = ca.SX(ca.sparsify(ca.DM(rotors)))
+    implicit += 0.5 * h * ca.sparsify(ca.DM(damping)) + 0.25 * h**2 * ca.sparsify(ca.DM(stiffness))
     new = accelerations(arm, angle_ahead, rate_ahead, torque, implicit)
     found = ca.vertcat(without_angle + 0.25 * h**2 * new, without_rate + 0.5 * h * new, new)
     return ca.Function("arm_step", [x, u], [ca.cse(found)])

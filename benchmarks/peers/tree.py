@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import ctypes
 import subprocess
+from copy import copy
 from dataclasses import replace
 from pathlib import Path
-from typing import Protocol
+from typing import Protocol, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,6 +28,10 @@ class Peer(Protocol):
 
     joints: int
 
+    def at_step(self, step: float) -> Self:
+        """Return it at a step, s."""
+        ...
+
     def started(self, angles: Array, rates: Array) -> Array:
         """Return angles, rates and accelerations of the joints at the start, (3 n,)."""
         ...
@@ -44,16 +49,22 @@ class ArticulatedTree:
     arm : SpatialArm
     torques : array, (n,)
         In the joints, constant, N m.
-    step : float
-        s.
+    step : float or None
+        s; None where it is to be read when the step is taken: :meth:`at_step` tells.
     """
 
-    def __init__(self, arm: SpatialArm, torques: Array, step: float) -> None:
+    def __init__(self, arm: SpatialArm, torques: Array, step: float | None) -> None:
         self.joints = len(arm.joints)
-        self._arm, self._torques = arm, torques
+        self._arm, self._torques, self._given = arm, torques, torques
         sources = {"arm_step.c": c_text(step_function(arm, step)), "loop.c": LOOP.read_text()}
         self._handle = ctypes.CDLL(str(compile_library(sources, "gcc", FLAGS)))
         self._handle.peer_seconds.restype = ctypes.c_double
+
+    def at_step(self, step: float) -> Self:
+        """Return it at a step, s."""
+        other = copy(self)
+        other._given = np.append(self._torques, step)
+        return other
 
     def started(self, angles: Array, rates: Array) -> Array:
         """Return angles, rates and accelerations of the joints at the start, (3 n,)."""
@@ -68,7 +79,7 @@ class ArticulatedTree:
         """Take so many steps; return the motion then, and the seconds they took."""
         final = np.empty_like(motion)
         seconds = self._handle.peer_seconds(
-            pointer(motion), pointer(final), pointer(self._torques), len(motion), ctypes.c_long(steps)
+            pointer(motion), pointer(final), pointer(self._given), len(motion), ctypes.c_long(steps)
         )
         return final, seconds
 
@@ -93,6 +104,12 @@ class PinocchioTree:
         self._torques, self._step, self._in_world = torques, step, in_world
         self._handle = ctypes.CDLL(str(library))
         self._handle.peer_seconds.restype = ctypes.c_double
+
+    def at_step(self, step: float) -> Self:
+        """Return it at a step, s."""
+        other = copy(self)
+        other._step = step
+        return other
 
     def started(self, angles: Array, rates: Array) -> Array:
         """Return angles, rates and accelerations of the joints at the start, (3 n,)."""
