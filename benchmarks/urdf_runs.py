@@ -2,8 +2,8 @@
 
 ``python benchmarks/urdf_runs.py [--robots 200]``. From rest, under its weight and a torque in each joint, each robot
 runs at a step of Newmark and at half of it. A robot is wrong if its error is more than a thousandth of its way, or if
-half the step does not leave about a quarter of it. Exits with 1 if any is. Pinocchio is no dependency: where it cannot be
-imported, this says how to get it.
+half the step does not leave about a quarter of it. Exits with 1 if any is. Pinocchio is no dependency: where it
+cannot be imported, this says how to get it.
 """
 
 from __future__ import annotations

@@ -17,6 +17,7 @@ from tmm_gen.program.count import count_routine
 from tmm_gen.program.space.assemble import SpaceChoices
 from tmm_gen.reference.spatial_motion import motion
 from tmm_gen.reference.spatial_places import Tree
+from tmm_gen.reference.spatial_reference import outputs
 from tmm_gen.scene import SceneError, parse_scene
 from tmm_gen.scene.spatial.arm import ArmInput, SpatialArm
 from tmm_gen.simulate.run import simulate
@@ -69,7 +70,10 @@ center = [-0.1, 0.2, 0.01]
 inertia = [1e-3, 1e-3, 5e-4]
 """ + "".join(
     f'[[output]]\nname = "{at}_{of}"\nat = "{at}"\nof = "{of}"\n'
-    for at, of in (("load", "position"), ("base", "angle"), ("base", "orientation"), ("load", "velocity"))
+    for at, of in (
+        *(("load", "position"), ("base", "angle"), ("base", "orientation"), ("load", "velocity")),
+        ("base", "torque"),
+    )
 )
 
 
@@ -114,15 +118,20 @@ def test_scene() -> None:
     vectors = list(reached_vectors(module, program, 2, relative=True))
     assert largest_difference(numpy_step(module, program), native_step(kernel, program), vectors) < 1e-12
     signals = {"table": Sine(0.7, 5.0, 0.4)}
+    signals |= {f"push_{axis}": Sine(amplitude, 9.0) for axis, amplitude in zip("xyz", (3.0, -2.0, 1.0))}
     found = simulate(scene, signals, 0.5, "c", kernel=kernel)
     arm = scene.spatial
     assert arm is not None
-    q, _, _ = motion(arm, signals, found.time[1:])
+    q, v, a = motion(arm, signals, found.time[1:])
     frame = next(f for f in arm.frames if f.name == "load")
     _, point = Tree(arm).places(q).frame(frame)
     for k, axis in enumerate("xyz"):
         assert np.abs(found.outputs[f"load_position_{axis}"][1:] - point[:, k]).max() < 3e-5
     assert np.abs(found.outputs["base_angle"] - signals["table"].at(found.time)).max() < 1e-14
+    # what turns the table: pushes, weights and all inertias about its axis
+    drive = outputs(arm, q, v, a, {name: signal.at(found.time[1:]) for name, signal in signals.items()})
+    wanted = drive["base_torque"]
+    assert np.abs(found.outputs["base_torque"][1:] - wanted).max() < 2e-4 * np.abs(wanted).max()
     axis = np.array([0.5, 0.6, 1.0]) / np.linalg.norm([0.5, 0.6, 1.0])
     half = 0.5 * signals["table"].at(found.time)
     for k, letter in enumerate("xyz"):
@@ -136,7 +145,6 @@ FAULTS = {
     "twice": (SECOND, f'[[input]]\nname = "b"\nat = "base"\nacts = "angle"\n{SECOND}', "a second time"),
     "elsewhere": (ANGLE, ANGLE.replace("base", "hinge"), 'cannot be "angle" here'),
     "pushed": ('at = "load"\nacts = "force"', 'at = "base"\nacts = "force"', "which moves as its angle says"),
-    "torque": ('of = "angle"', 'of = "torque"', "cannot be torque at the base"),
     "starts": (
         'kind = "prescribed"',
         'kind = "prescribed"\nrate = [0, 0, 1]',

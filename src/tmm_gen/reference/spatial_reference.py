@@ -68,6 +68,8 @@ def _values(world: WorldArm, output: ArmOutput, q: Array, v: Array, a: Array, in
     if quantity.read == "bend":
         moving: Array = (q, v, a)[quantity.order][:, output.joint - 1]
         return moving
+    if quantity.read == "through" and world.arm.joints[output.joint - 1].given:  # what drives it
+        return np.asarray(world.inverse_dynamics(q, v, a, inputs)[:, output.joint - 1])
     if quantity.read == "through":
         return np.asarray(world.torque(q, v, inputs)[:, output.joint - 1])
     if quantity.read == "energy":

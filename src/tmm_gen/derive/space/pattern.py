@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import sympy as sp
 
@@ -71,6 +71,11 @@ class Pattern:
     def acted(self) -> bool:
         """Whether there is any force to be passed on: what its body takes, or what acts on it."""
         return self.massive or self.loaded
+
+    @property
+    def freed(self) -> Pattern:
+        """Itself where no motion is given: all of its motion and of its forces is asked for."""
+        return replace(self, given=False, driven=False)
 
     @property
     def rooted(self) -> bool:

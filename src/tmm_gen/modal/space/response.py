@@ -40,7 +40,7 @@ def space_response(still: Still, s: ArrayLike) -> dict[str, Complex]:
     """
     points = np.atleast_1d(np.asarray(s, complex))
     inputs = inputs_of(still)
-    outputs = [item for item in still.numbers.arm.outputs if item.quantity.read != "energy"]
+    outputs = [item for item in still.numbers.arm.outputs if answers(item)]
     numbers = still.numbers.size * (42 + 14 * max(1, len(inputs.columns)))
     chunk = max(1, _AT_ONCE // numbers)
     parts: list[dict[str, Complex]] = []
@@ -52,6 +52,11 @@ def space_response(still: Still, s: ArrayLike) -> dict[str, Complex]:
             read |= _read(still, inputs, some, whole, item)
         parts.append(read)
     return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+
+
+def answers(output: ArmOutput) -> bool:
+    """Whether an output is read off small motion: no energy, which goes with its square, nor what drives a held base."""
+    return output.quantity.read != "energy" and (output.quantity.read != "through" or output.joint > 0)
 
 
 def _read(still: Still, inputs: Inputs, s: Complex, whole: Complex, output: ArmOutput) -> dict[str, Complex]:

@@ -155,7 +155,7 @@ class _Assembly:
         )
         before = earlier(layout.base) if layout.base else []
         known = (Section("where the base was before", tuple(before)),) if before else ()
-        return (*known, *step.sections(), *self._hold(len(scheme.stages)))
+        return (*known, *step.sections(), *self._hold(len(instants(scheme, given=self._given))))
 
     def _base(self, scheme: Scheme) -> BaseStep | None:
         base = self.layout.base
@@ -164,12 +164,12 @@ class _Assembly:
         return BaseStep(base, self.layout.step, scheme, history_sources(base), base.start)
 
     def _hold(self, stages: int) -> tuple[Section, ...]:
-        """Remember torques for outputs that need them."""
+        """Remember inputs for outputs that need them."""
         assigns = tuple(
             Assign(variable.ref, self.layout.input(name, stages - 1))
             for name, variable in self.layout.held.items()
         )
-        return (Section("torques as they last acted", assigns),) if assigns else ()
+        return (Section("inputs as they last acted", assigns),) if assigns else ()
 
     def _initialise(self) -> Routine:
         """Build the start: given motion, and the acceleration that satisfies the equations of motion."""

@@ -14,6 +14,7 @@ from tmm_gen.program.fields import MOTION_NAMES
 from tmm_gen.program.space.base_layout import BaseLayout, base_layout
 from tmm_gen.program.space.runs import StationTree
 from tmm_gen.program.variables import Ref, Role, Variable
+from tmm_gen.scene.quantity import INPUT_UNITS
 from tmm_gen.scene.signal import ACCELERATION, RATE
 from tmm_gen.scene.spatial.arm import ArmInput, Revolute, SpatialArm
 
@@ -99,10 +100,8 @@ def layout_of(arm: SpatialArm, name: str, title: str, integrator: Integrator, st
         parameters={v.name: v for v in _parameters(arm)},
         state={p: _state(p, n) for p in ordered},
         held={
-            item.name: Variable(
-                f"held_{item.name}", Role.STATE, doc=f"{item.name} as it last acted", unit="N m"
-            )
-            for item in dict.fromkeys(read)
+            column: Variable(f"held_{column}", Role.STATE, doc=f"{column} as it last acted", unit=unit)
+            for column, unit in ({item.name: "N m" for item in read} | _loads_held(arm)).items()
         },
         inputs=tuple(
             Variable(column, Role.INPUT, stages if stages > 1 else None, doc + also, unit)
@@ -142,6 +141,13 @@ def instants(scheme: Scheme, *, given: bool) -> tuple[float, ...]:
     stages = tuple(float(stage.instant) for stage in scheme.stages)
     ends = scheme is CONSISTENT_START or stages[-1] == 1.0 or not given
     return stages if ends else (*stages, 1.0)
+
+
+def _loads_held(arm: SpatialArm) -> dict[str, str]:
+    """Return the columns of forces and moments, with units, where an output is what drives a base that moves as told."""
+    asked = any(o.quantity.read == "through" and arm.joints[o.joint - 1].given for o in arm.outputs)
+    loads = [item for item in arm.inputs if asked and item.frame is not None and item.frame.joint]
+    return {column: INPUT_UNITS[f"{item.acts}_x"] for item in loads for column in item.columns}
 
 
 def _marked(arm: SpatialArm) -> frozenset[int]:

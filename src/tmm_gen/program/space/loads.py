@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import sympy as sp
 
@@ -18,7 +18,9 @@ from tmm_gen.program.statements import Order, Section
 from tmm_gen.scene.spatial.arm import ArmInput
 
 
-def loads_on_frames(layout: SpaceLayout, walks: SpaceWalks, stage: int) -> list[Section]:
+def loads_on_frames(
+    layout: SpaceLayout, walks: SpaceWalks, value: Callable[[str], sp.Expr], *, whole: bool = False
+) -> list[Section]:
     """Return what forces and moments on frames take off what bodies take.
 
     Parameters
@@ -27,15 +29,17 @@ def loads_on_frames(layout: SpaceLayout, walks: SpaceWalks, stage: int) -> list[
         The arm's variables.
     walks : SpaceWalks
         Of the sweep, whose way out stands before.
-    stage : int
-        Instant of the step, from 0, at which inputs are read.
+    value : callable
+        Returns an input by its column.
+    whole : bool
+        Whether all forces on joints that are given are asked for, not only what others' motion takes of them.
     """
     floats = layout.base is not None
     loads = [i for i in layout.arm.inputs if i.frame is not None and (i.frame.joint or floats)]
     sections = []
     for item in loads:
         assert item.frame is not None
-        vector = sp.Matrix([layout.input(column, stage) for column in item.columns])
+        vector = sp.Matrix([value(column) for column in item.columns])
         station = item.frame.joint - 1
         title = load_title(item)
         turn = sp.Matrix(3, 3, lambda i, j, rows=item.frame.turn: exactly(rows[i][j]))
@@ -44,7 +48,8 @@ def loads_on_frames(layout: SpaceLayout, walks: SpaceWalks, stage: int) -> list[
             names = (base_motion.OWN_FORCE, base_motion.OWN_MOMENT)
             sections.append(Section(title, tuple(walks.base_lines(_taken_off(item, acting, names)))))
             continue
-        wanted = wanted_forces(layout.tree.pattern(station))
+        pattern = layout.tree.pattern(station)
+        wanted = wanted_forces(pattern.freed if whole else pattern)
         if not wanted:
             continue
         if item.axes == "body":

@@ -9,7 +9,8 @@ import sympy as sp
 from tmm_gen.derive.integrators.declaration import KINDS, Kind, Past
 from tmm_gen.derive.space.base_pose import AT, GOES, SPINS, STANDS, facing_line, quaternion_line
 from tmm_gen.derive.space.base_pose import velocity_lines as base_velocity
-from tmm_gen.derive.space.declaration import AXES, OMEGA, VELOCITY
+from tmm_gen.derive.space.declaration import ACCEL, ALPHA, AXES, OMEGA, VELOCITY
+from tmm_gen.derive.space.inward import BIAS
 from tmm_gen.derive.space.pattern import Pattern
 from tmm_gen.derive.space.pose import (
     FACING,
@@ -22,13 +23,15 @@ from tmm_gen.derive.space.pose import (
     quaternion_product,
     velocity_lines,
 )
+from tmm_gen.derive.space.reaction import axis_lines, passed_lines
 from tmm_gen.derive.station.lets import Line, Update
 from tmm_gen.program.arm.loads import exactly
 from tmm_gen.program.space.bodies import Bodies
 from tmm_gen.program.space.layout import SpaceLayout
+from tmm_gen.program.space.loads import loads_on_frames
 from tmm_gen.program.space.over_stations import MOTION
 from tmm_gen.program.space.turns import quaternion_of
-from tmm_gen.program.space.walks import SpaceWalks
+from tmm_gen.program.space.walks import SpaceWalks, outward
 from tmm_gen.program.statements import Assign, Loop, Order, Routine, Section, Statement
 from tmm_gen.program.variables import Ref, Variable
 from tmm_gen.scene.spatial.arm import ArmOutput, Frame
@@ -99,8 +102,10 @@ class _Readings:
         return [Assign(targets[0], self._state(KINDS[output.quantity.order]).entry(output.joint - 1))]
 
     def _torque(self, output: ArmOutput, targets: list[Ref]) -> list[Statement]:
-        """Return what spring, damper and motor exert on the outer side."""
+        """Return what spring, damper and motor exert on the outer side; of a joint whose motion is given, what drives it."""
         layout, k = self._layout, output.joint - 1
+        if layout.arm.joints[k].given:
+            return self._driving(targets[0])
         stretched = self._state("q").entry(k) - layout.at("rest", k)
         resisting = layout.at("stiffness", k) * stretched + layout.at("damping", k) * self._state("v").entry(
             k
@@ -111,6 +116,25 @@ class _Readings:
                 gear = layout.parameters.get(f"{item.name}_gear")
                 driving += layout.held[item.name].ref * (gear.ref if gear else 1)
         return [Assign(targets[0], driving - resisting)]
+
+    def _driving(self, target: Ref) -> list[Statement]:
+        """Return the moment about the axis of what moves as given: all forces, by the motion that the state has."""
+        walks = self._walks()
+        total = walks.scalar(_TOTAL, "about the axis of what moves as given", "N m")
+
+        def inward(pattern: Pattern) -> Sequence[Line]:
+            out = outward(pattern.freed, False)
+            return axis_lines(out, _TOTAL) if pattern.given else passed_lines(out)
+
+        loads = loads_on_frames(self._layout, walks, lambda column: self._layout.held[column].ref, whole=True)
+        return [
+            *walks.walk(
+                Order.OUTWARD, lambda p: outward(p.freed, False).lines, (*OMEGA, *ALPHA, *ACCEL), whole=True
+            ),
+            *(statement for section in loads for statement in section.statements),
+            *walks.walk(Order.INWARD, inward, tuple(BIAS), whole=True),
+            Assign(target, total),
+        ]
 
     # -- frames ------------------------------------------------------------------------------------------------
 

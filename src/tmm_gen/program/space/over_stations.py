@@ -136,6 +136,8 @@ class OverStations:
         read: Callable[[int], Sequence[Line]] = lambda _: (),
         within: frozenset[int] | None = None,
         base: Sequence[Line] = (),
+        *,
+        whole: bool = False,
     ) -> list[Statement]:
         """Return loops over the stations.
 
@@ -151,6 +153,8 @@ class OverStations:
             Stations to be visited, with all of their run; all if left out.
         base : sequence of Line
             Of a base that floats: before the stations outward, behind them inward.
+        whole : bool
+            Whether what is handed inward is passed on to joints that move as given too.
         """
         runs = [r for r in self._runs if within is None or within & set(range(r.start, r.stop))]
         found: list[Statement] = []
@@ -164,7 +168,7 @@ class OverStations:
                 body += self._lines(lines_of(pattern), slot, suffix, carried, run)
             if run.single:
                 body += self._lines(read(run.start), 0, "", carried, run)
-                body = self._joined(run.start, body, order, carried)
+                body = self._joined(run.start, body, order, carried, whole)
             if body:
                 found.append(Loop(order, run.start, run.stop, tuple(body), len(slots)))
         if order is Order.INWARD:
@@ -186,7 +190,12 @@ class OverStations:
         return [*(Assign(own, own + fork) for own, fork in here), *body]
 
     def _joined(
-        self, index: int, body: list[Assign | Require], order: Order, carried: tuple[sp.Symbol, ...]
+        self,
+        index: int,
+        body: list[Assign | Require],
+        order: Order,
+        carried: tuple[sp.Symbol, ...],
+        whole: bool,
     ) -> list[Assign | Require]:
         """Add what a station takes over from where its branch begins, or leaves there."""
         tree, host = self.layout.tree, self.layout.tree.host(index)
@@ -195,7 +204,8 @@ class OverStations:
             taken = [Assign(self._here(s), self._fork(host, s)) for s in carried] if branch else []
             left = [Assign(self._fork(index, s), self._here(s)) for s in carried] if tree.forks(index) else []
             return [*taken, *body, *left]
-        if tree.given(index) or tree.given(host):  # nothing is passed on to what moves as given
+        # else nothing is passed on to what moves as given
+        if not whole and (tree.given(index) or tree.given(host)):
             return body
         added = (
             [Assign(self._here(s), self._here(s) + self._fork(index, s)) for s in carried]

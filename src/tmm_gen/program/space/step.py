@@ -111,7 +111,7 @@ class SpaceStep:
             laws.impedances(walks.array(IMPEDANCE)),
             self._torques(laws, index, walks, point.still),
             walks.outward(still=still),
-            *loads_on_frames(self.layout, walks, index - 1),
+            *loads_on_frames(self.layout, walks, lambda column: self.layout.input(column, index - 1)),
             walks.inward(still=still),
             walks.back(still=still),
         ]
@@ -148,7 +148,7 @@ class SpaceStep:
             ),
             self._torques(laws, index, walks, frozenset()),
             walks.outward(still=False),
-            *loads_on_frames(self.layout, walks, index - 1),
+            *loads_on_frames(self.layout, walks, lambda column: self.layout.input(column, index - 1)),
             walks.inward(still=False) if self.exact else walks.again(),
             walks.back(still=False),
         ]

@@ -85,13 +85,7 @@ def outputs_possible(document: SpatialDocument) -> Iterator[Finding]:
         elif hung is None and item.at != BASE:
             yield _unknown(document, (*path, "at"), item.at)
         elif item.at == BASE and document.base.kind == "prescribed" and item.of in OF_JOINTS:
-            if item.of == "torque":
-                yield Finding(
-                    (*path, "of"),
-                    "cannot be torque at the base: what turns a prescribed base is not found yet",
-                    'Choose "angle", "rate" or "acceleration".',
-                    item.of,
-                )
+            continue
         elif item.of in OF_JOINTS and not (hung and hung.turns):
             words = hung.words if hung else "the base"
             yield Finding(
