@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import ModuleType
 
 import numpy as np
 import pytest
@@ -15,6 +16,7 @@ from tmm_gen.native.python_module import numpy_module
 from tmm_gen.program.build import build_program
 from tmm_gen.program.count import count_routine
 from tmm_gen.program.space.assemble import SpaceChoices
+from tmm_gen.program.statements import Program
 from tmm_gen.reference.spatial_motion import motion
 from tmm_gen.reference.spatial_places import Tree
 from tmm_gen.reference.spatial_reference import outputs
@@ -108,30 +110,44 @@ def test_a_joint_that_is_given_costs_no_elimination() -> None:
     assert costs[0] < 0.75 * costs[1]
 
 
+def assert_driven(module: ModuleType, program: Program, arm: SpatialArm) -> None:
+    """What turns the table is all that bodies and pushes ask for about its axis, whatever the motion."""
+    rng, n = np.random.default_rng(3), len(arm.joints)
+    columns = {v.name: float(value) for v, value in zip(program.inputs, rng.normal(size=6), strict=True)}
+    state = module.initialise(
+        module.Params(),
+        module.Input(**columns),
+        initial_angle=rng.normal(size=n),
+        initial_rate=rng.normal(size=n),
+    )
+    found = module.output(module.prepare(), state).base_torque
+    moving = (state.angle, state.rate, state.acceleration)
+    wanted = outputs(arm, *(x[None] for x in moving), {k: np.array([v]) for k, v in columns.items()})
+    assert abs(found) > 1.0
+    assert found == pytest.approx(wanted["base_torque"][0], rel=1e-12)
+
+
 @pytest.mark.compiler
 def test_scene() -> None:
     """It runs by C as the reference has it, compiles without a warning, and agrees with NumPy."""
     scene = parse_scene(TABLE)
+    assert scene.spatial is not None
     program = build_program(scene)
     kernel = compile_kernel(program, scene, flags=("-O1", "-Wall", "-Wextra", "-Werror"))
     module = numpy_module(scene, program)
     vectors = list(reached_vectors(module, program, 2, relative=True))
     assert largest_difference(numpy_step(module, program), native_step(kernel, program), vectors) < 1e-12
+    assert_driven(module, program, scene.spatial)
     signals = {"table": Sine(0.7, 5.0, 0.4)}
-    signals |= {f"push_{axis}": Sine(amplitude, 9.0) for axis, amplitude in zip("xyz", (3.0, -2.0, 1.0))}
     found = simulate(scene, signals, 0.5, "c", kernel=kernel)
     arm = scene.spatial
     assert arm is not None
-    q, v, a = motion(arm, signals, found.time[1:])
+    q, _, _ = motion(arm, signals, found.time[1:])
     frame = next(f for f in arm.frames if f.name == "load")
     _, point = Tree(arm).places(q).frame(frame)
     for k, axis in enumerate("xyz"):
         assert np.abs(found.outputs[f"load_position_{axis}"][1:] - point[:, k]).max() < 3e-5
     assert np.abs(found.outputs["base_angle"] - signals["table"].at(found.time)).max() < 1e-14
-    # what turns the table: pushes, weights and all inertias about its axis
-    drive = outputs(arm, q, v, a, {name: signal.at(found.time[1:]) for name, signal in signals.items()})
-    wanted = drive["base_torque"]
-    assert np.abs(found.outputs["base_torque"][1:] - wanted).max() < 2e-4 * np.abs(wanted).max()
     axis = np.array([0.5, 0.6, 1.0]) / np.linalg.norm([0.5, 0.6, 1.0])
     half = 0.5 * signals["table"].at(found.time)
     for k, letter in enumerate("xyz"):

@@ -151,12 +151,7 @@ class Inertial:
     def _balanced(self) -> tuple[sp.Matrix, list[Line]]:
         """Return the forces at the joint's outer side, and what torque the joint lacks."""
         sheet = Sheet()
-        own = [*OWN_FORCE, *OWN_MOMENT] if self._out.pattern.acted else [sp.Integer(0)] * 6
-        values = [
-            mine + (0 if self._out.pattern.tip else carried) for mine, carried in zip(own, BIAS, strict=True)
-        ]
-        names = [f"acting_{what}_{axis}" for what in ("force", "moment") for axis in AXES]
-        bias = sp.Matrix([sheet.named(name, value) for name, value in zip(names, values, strict=True)])
+        bias = acting_forces(sheet, self._out)
         imbalance = Let(IMBALANCE, bias[self._axis] + TORQUE, "torque that the joint lacks", "N m")
         return bias, [*sheet.lets, imbalance]
 
@@ -176,7 +171,7 @@ class Inertial:
         )
         *before, first = reversed(self._out.crossings)
         for crossing in before:
-            freed = _named_forces(sheet, crossing.equations.forces * freed)
+            freed = named_forces(sheet, crossing.equations.forces * freed)
         freed = first.equations.forces * freed
         return dict(zip(BIAS, freed, strict=True)), list(sheet.lets)
 
@@ -232,8 +227,18 @@ def _congruent(sheet: Sheet, inertia: sp.Matrix, through: sp.Matrix) -> sp.Matri
     return found
 
 
-def _named_forces(sheet: Sheet, forces: sp.Matrix) -> sp.Matrix:
-    names = [f"passed_{what}_{axis}" for what in ("force", "moment") for axis in AXES]
+def acting_forces(sheet: Sheet, out: Outward) -> sp.Matrix:
+    """Return the forces at the outer side of a station's joint, (6,): its body's own, and what hangs on it."""
+    own = [*OWN_FORCE, *OWN_MOMENT] if out.pattern.acted else [sp.Integer(0)] * 6
+    carried = [0 if out.pattern.tip else symbol for symbol in BIAS]
+    return named_forces(
+        sheet, sp.Matrix([mine + more for mine, more in zip(own, carried, strict=True)]), "acting"
+    )
+
+
+def named_forces(sheet: Sheet, forces: sp.Matrix, stage: str = "passed") -> sp.Matrix:
+    """Return a force and a moment, (6,), by names."""
+    names = [f"{stage}_{what}_{axis}" for what in ("force", "moment") for axis in AXES]
     return sp.Matrix([sheet.named(name, value) for name, value in zip(names, forces, strict=True)])
 
 

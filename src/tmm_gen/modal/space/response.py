@@ -55,7 +55,7 @@ def space_response(still: Still, s: ArrayLike) -> dict[str, Complex]:
 
 
 def answers(output: ArmOutput) -> bool:
-    """Whether an output is read off small motion: no energy, which goes with its square, nor what drives a held base."""
+    """Whether an output is read off small motion: no energy, which goes with its square, nor what drives a base."""
     return output.quantity.read != "energy" and (output.quantity.read != "through" or output.joint > 0)
 
 

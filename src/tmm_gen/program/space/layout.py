@@ -144,7 +144,7 @@ def instants(scheme: Scheme, *, given: bool) -> tuple[float, ...]:
 
 
 def _loads_held(arm: SpatialArm) -> dict[str, str]:
-    """Return the columns of forces and moments, with units, where an output is what drives a base that moves as told."""
+    """Return the columns of forces and moments, with units, where an output is what drives a prescribed base."""
     asked = any(o.quantity.read == "through" and arm.joints[o.joint - 1].given for o in arm.outputs)
     loads = [item for item in arm.inputs if asked and item.frame is not None and item.frame.joint]
     return {column: INPUT_UNITS[f"{item.acts}_x"] for item in loads for column in item.columns}

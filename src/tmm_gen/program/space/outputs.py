@@ -102,7 +102,7 @@ class _Readings:
         return [Assign(targets[0], self._state(KINDS[output.quantity.order]).entry(output.joint - 1))]
 
     def _torque(self, output: ArmOutput, targets: list[Ref]) -> list[Statement]:
-        """Return what spring, damper and motor exert on the outer side; of a joint whose motion is given, what drives it."""
+        """Return what spring, damper and motor exert on the outer side, or what drives a joint that is given."""
         layout, k = self._layout, output.joint - 1
         if layout.arm.joints[k].given:
             return self._driving(targets[0])
