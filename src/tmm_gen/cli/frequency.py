@@ -16,7 +16,6 @@ from tmm_gen.cli.outputs import OutputFile, claim, write_outputs
 
 if TYPE_CHECKING:
     from tmm_gen.modal.answer import Answer
-    from tmm_gen.scene import Output, Scene
 
 # NumPy, SymPy and Matplotlib are imported inside: `tmm-gen --help` has no use for them.
 
