@@ -35,6 +35,8 @@ FILES: dict[tuple[str, str], tuple[list[str], str]] = {
     ("export", "--out"): ([CHAIN, "--to", "fmu"], ".fmu"),
     ("import", "--out"): ([URDF], ".toml"),
     ("calibrate", "--out"): ([CHAIN, "record.csv"], ".toml"),
+    ("playground", "--out"): ([PLANAR], ".html"),
+    ("schema", "--out"): ([], ".json"),
     ("mpc", "--plot"): ([PLANAR], ".png"),
     ("mpc", "--animate"): ([PLANAR], ".html"),
     ("mpc", "--out"): ([PLANAR, "--tune"], ".toml"),
