@@ -14,6 +14,7 @@ import pytest
 from tmm_gen import __version__, cli
 from tmm_gen.cli.lazy import LazyCommand
 from tmm_gen.errors import CheckFailed, UserError
+from tmm_gen.scene.problem import Problem, SceneError
 
 Call = Callable[..., subprocess.CompletedProcess[str]]
 HEAVY = {"sympy", "numpy", "scipy", "casadi", "matplotlib", "mpmath", "pydantic", "rich", "jinja2"}
@@ -92,9 +93,9 @@ def test_bad_usage_is_answered_with_a_remedy(
         (UserError("arm.toml:3: links: 0 is too few"), 2, "error: arm.toml:3: links: 0 is too few\n"),
         (CheckFailed("2 files differ"), 1, "error: 2 files differ\n"),
         (
-            type("SceneError", (Exception,), {"__module__": "tmm_gen.scene.errors", "problems": ()})("bad"),
+            SceneError([Problem("arm.toml", 3, "links", 0, "must be at least 1", "Give one link.")]),
             2,
-            "error: bad\n",
+            "error: arm.toml:3: links: must be at least 1 (got 0). Give one link.\n",
         ),
         (PermissionError(13, "Permission denied", "/a/b"), 2, "error: /a/b: Permission denied\n"),
         (click.FileError("x.toml", "no such file"), 2, "error: Could not open file 'x.toml': no such file\n"),

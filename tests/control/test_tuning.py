@@ -35,7 +35,7 @@ def swing(settling: float = 0.7, overshoot: float = 0.0, residual: float = 0.0) 
     tip += np.where(time >= 1.0, 0.5 * residual * np.sin(100.0 * np.pi * (time - 1.0)), 0.0)
     empty = np.zeros(0)
     tips = tip[:, None]
-    return Loop(time, tips, tips, empty, empty, (), empty, np.zeros(0, int), (), np.ones(1))
+    return Loop(time, tips, tips, empty, empty, (), empty, empty, np.zeros(0, int), (), np.ones(1))
 
 
 def valley(tunable: Tunable) -> Cost:

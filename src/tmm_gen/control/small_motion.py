@@ -56,10 +56,9 @@ class SmallMotion:
         changes: dict[str, object] = {}
         if scene.integrator.name != _METHOD:
             changes["integrator.name"] = _METHOD
+        # in a plane others follow a prediction, and keep more than the motion
         if scene.model.kind == "planar" and scene.model.linearisation != "newton":
-            changes["model.linearisation"] = (
-                "newton"  # others follow a prediction, and keep more than the motion
-            )
+            changes["model.linearisation"] = "newton"
         if changes:
             scene = scene.replace(**changes)
         program = build_program(scene)

@@ -20,8 +20,8 @@ from tmm_gen.program.variables import Ref
 _SUM, _PRODUCT, _ATOM = 1, 2, 3
 
 
-_READABLE = 10**8
-"""Beyond this a fraction's terms say nothing to a reader, and its decimals are the nearest number as well."""
+_WHOLE = 2**1000
+"""Beyond this a fraction's terms are no numbers of their own; what follows of absurd parameters of an integrator."""
 
 
 def _float(value: sp.Expr) -> float:
@@ -97,7 +97,7 @@ class ExpressionPrinter(ABC):
         if (
             isinstance(value, sp.Rational)
             and sp.Rational(nearest) != value
-            and max(value.p, value.q) < _READABLE
+            and max(value.p, value.q) < _WHOLE
         ):
             return f"{sign}({self.literal(float(value.p))} / {self.literal(float(value.q))})", level
         return sign + self.literal(nearest), level

@@ -160,6 +160,7 @@ def asked(scene: Scene, source: str | None, target: str | None) -> tuple[Input, 
     readable = tuple(
         item
         for item in scene.outputs
+        # what drives a prescribed base is no answer of the arm's own
         if not scene.quantity(item).of_arm and not (held and item.at == BASE and item.of == "torque")
     )
     chosen = _chosen(scene, scene.inputs, source, "--from", "[[input]]")

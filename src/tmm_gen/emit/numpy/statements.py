@@ -10,9 +10,11 @@ from tmm_gen.emit.python.routine import PythonRoutine
 from tmm_gen.emit.python.storage import rebound, vectorised, written_later
 from tmm_gen.program.passes.join import join
 from tmm_gen.program.statements import Assign, Loop, Repeat, Require, Routine, Statement, Until
-from tmm_gen.program.variables import Ref, Variable
+from tmm_gen.program.variables import Ref, Variable, refs_in
 
 _INDENT = "    "
+_TOLD = 60
+"""Characters of a pivot that a message names; of a longer one it names what it is made of."""
 
 
 class RoutineText(PythonRoutine):
@@ -78,7 +80,12 @@ class RoutineText(PythonRoutine):
             at = "j" if indent != _INDENT else "None"
             if place in self._whole:
                 at += ", batch"
-            return call("good = _positive_pivot", ["good", value, f'"{value}"', at], indent)
+            told = (
+                value
+                if len(value) <= _TOLD
+                else ", ".join(sorted(map(printer.text, refs_in(statement.value))))
+            )
+            return call("good = _positive_pivot", ["good", value, f'"{told}"', at], indent)
         target = statement.target
         if self._would_alias(statement, place):
             value = f"np.copy({value})"

@@ -38,7 +38,12 @@ def call(head: str, arguments: Sequence[str], indent: str = "", tail: str = "") 
     inner = f"{indent}{_INDENT}{', '.join(arguments)}"
     if len(inner) <= WIDTH:
         return [f"{indent}{head}(", inner, f"{indent}){tail}"]
-    return [f"{indent}{head}(", *(f"{indent}{_INDENT}{item}," for item in arguments), f"{indent}){tail}"]
+    lines: list[str] = []
+    for item in arguments:
+        lines += _operands(item, indent + _INDENT)
+        if len(arguments) > 1 or not _split(item)[1]:
+            lines[-1] += ","
+    return [f"{indent}{head}(", *lines, f"{indent}){tail}"]
 
 
 def listing(head: str, items: Sequence[str], indent: str = "", tail: str = "") -> list[str]:
