@@ -95,7 +95,7 @@ int run_loop(const loop_case *given, const int kinds[][3], const double values[]
         if ((unsigned)k * 2654435761u >> 31) {
             (void)CONTROLLER__prepare(&controller);
         }
-        status = (int)CONTROLLER__command(&controller, measured, valid, &torque);
+        status = (int)CONTROLLER__command_valid(&controller, measured, valid, &torque);
         ++found->counts[status];
         found->outside += !((double)torque >= given->low && (double)torque <= given->high);
         if (at >= given->faults) {

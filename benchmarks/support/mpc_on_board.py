@@ -165,7 +165,7 @@ def _cross_compiled(board: Board, name: str, sources: list[str], folder: Path) -
     link = (*common, *board.link, "-Wl,--gc-sections")
     call([cc, *link, "harness.o", *objects, "-lm", "-o", "run.elf"], folder)
     kept = [f"-Wl,-u,{name}_{function}" for function in ("reset", "command")]
-    alone = ("-nostartfiles", f"-Wl,-e,{name}_command", *kept)
+    alone = ("-nostartfiles", f"-Wl,-e,{name}_command_valid", *kept)
     call([cc, *link, *alone, *objects, "-lm", "-o", "alone.elf"], folder)
     return folder / "run.elf", folder / "alone.elf", static
 

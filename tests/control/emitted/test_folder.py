@@ -59,7 +59,7 @@ def test_all_controllers_in_both_precisions_are_in_one_program(bench: Bench, tmp
             macro = macro_prefix(name)
             calls.append(
                 f"{{ static {name}_controller c; {name}_real y[{macro}_SENSORS] = {{0}}, u = 9; {name}_reset(&c); "
-                f'printf("%d ", (int){name}_command(&c, y, NULL, &u)); printf("%.3f\\n", (double)u); }}'
+                f'printf("%d ", (int){name}_command(&c, y, &u)); printf("%.3f\\n", (double)u); }}'
             )
     text = "\n".join(["#include <stdio.h>", *includes, "int main(void) {", *calls, "return 0; }", ""])
     (tmp_path / "main.c").write_text(text)
@@ -117,12 +117,12 @@ int main(void)
     const int all[{macro}_SENSORS] = {{1, 1}};
     int good = {name}_reset(0) == {macro}_MISSING && {name}_reset(&c) == {macro}_OK;
     good = good && {name}_prepare(0) == {macro}_MISSING && {name}_prepare(&c) == {macro}_OK;
-    good = good && {name}_command(0, y, 0, &u) == {macro}_MISSING && u == 0;
-    good = good && {name}_command(&c, y, all, 0) == {macro}_MISSING;
-    good = good && {name}_command(0, 0, 0, 0) == {macro}_MISSING;
-    good = good && {name}_command(&c, y, 0, &u) == {macro}_OK && u > 1;
-    good = good && {name}_command(&c, 0, all, &u) == {macro}_MISSING && u == 0;
-    return good && {name}_command(&c, y, all, &u) == {macro}_OK ? 0 : 1;
+    good = good && {name}_command_valid(0, y, 0, &u) == {macro}_MISSING && u == 0;
+    good = good && {name}_command_valid(&c, y, all, 0) == {macro}_MISSING;
+    good = good && {name}_command_valid(0, 0, 0, 0) == {macro}_MISSING;
+    good = good && {name}_command_valid(&c, y, 0, &u) == {macro}_OK && u > 1;
+    good = good && {name}_command_valid(&c, 0, all, &u) == {macro}_MISSING && u == 0;
+    return good && {name}_command_valid(&c, y, all, &u) == {macro}_OK ? 0 : 1;
 }}
 """)
     done = shell("gcc -Wall -Wno-nonnull *.c */*.c -lm -fsanitize=undefined -o all && ./all", tmp_path)
