@@ -350,6 +350,24 @@ def test_an_input_without_a_value(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["run", str(SCENES / "thesis2.toml"), "--until", "1", "--input", "tip_torque=1.5"]) == 0
 
 
+def test_rows_at_any_instant_are_drawn(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    words = [
+        str(SCENES / "arm2.toml"),
+        "--until",
+        "0.05",
+        "--plot",
+        "a.png",
+        "--animate",
+        "a.gif",
+        "--csv",
+        "a.csv",
+    ]
+    for more, rows in ((["--every", "20ms"], 3), (["--every", "0.7ms"], 72), (["--tolerance", "1e-3"], None)):
+        assert main(["run", *words, *more]) == 0, capsys.readouterr().err
+        assert rows is None or len((folder / "a.csv").read_text().splitlines()) == rows + 1
+        assert (folder / "a.png").read_bytes().startswith(b"\x89PNG")
+
+
 def test_steps_by_a_tolerance(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (folder / "torque.csv").write_text("time,tip_torque\n0,0\n1,2\n1.237,-1\n")
     words = [THESIS2, "--until", "2", "--input", "torque.csv", "--tolerance", "1e-4", "--every", "20ms"]

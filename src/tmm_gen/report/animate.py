@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from tmm_gen.inputs.signals import Table
 from tmm_gen.reference.floating import base_place
 from tmm_gen.reference.planar_arm import Arm
+from tmm_gen.report.spread import spread
 from tmm_gen.scene import Scene
 from tmm_gen.scratch import scratch_folder
 from tmm_gen.simulate.places import ends, node_places, outline
@@ -55,11 +56,11 @@ def _places(simulation: Simulation) -> tuple[Array, Array]:
     return x, y
 
 
-def frame_instants(simulation: Simulation) -> tuple[Array, float]:
+def frame_instants(simulation: Simulation) -> tuple[NDArray[np.int64], float]:
     """Return which instants are shown, (frames,), and how many times faster than they pass."""
     duration = float(simulation.time[-1])
-    frames = int(min(MOST_FRAMES, max(2, round(duration * FRAMES_PER_SECOND)), simulation.steps + 1))
-    shown = np.unique(np.round(np.linspace(0, simulation.steps, frames)).astype(int))
+    frames = int(min(MOST_FRAMES, max(2, round(duration * FRAMES_PER_SECOND)), len(simulation.time)))
+    shown = spread(simulation.time, frames)
     return shown, duration / ((len(shown) - 1) / FRAMES_PER_SECOND)
 
 
@@ -127,7 +128,7 @@ def draw_shapes(axes: Axes, simulation: Simulation) -> None:
 
     scene = simulation.scene
     x, y = _places(simulation)
-    shown = np.unique(np.round(np.linspace(0, simulation.steps, SHAPES)).astype(int))
+    shown = spread(simulation.time, SHAPES)
     _ground(axes, scene, x, y)
     colours = mpl.colormaps["Blues"](np.linspace(0.25, 1.0, len(shown)))
     tips, line = list(ends(scene)), [outline(scene, places) for places in (x, y)]

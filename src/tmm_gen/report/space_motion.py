@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from tmm_gen.report.spread import spread
 from tmm_gen.scene.spatial.arm import SpatialArm
 from tmm_gen.scene.spatial.reach import longest_way
 from tmm_gen.simulate.simulation import Simulation
@@ -52,7 +53,7 @@ class SpaceMotion:
 
     def thinned(self, most: int) -> SpaceMotion:
         """Return it at so many instants at most, the first and the last among them."""
-        shown = np.unique(np.round(np.linspace(0, len(self.time) - 1, most)).astype(int))
+        shown = spread(self.time, most)
         return SpaceMotion(self.arm, self.time[shown], self.angles[shown])
 
 
