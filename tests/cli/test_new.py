@@ -6,9 +6,15 @@ import subprocess
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from tmm_gen.cli import main
+from tmm_gen.closed_loop.compare import compare
+from tmm_gen.control.bench import Bench
+from tmm_gen.control.condition import CONDITIONS
+from tmm_gen.control.controllers import BY_NAME
+from tmm_gen.onboard.emit import usual_controller
 from tmm_gen.scene import load_scene
 
 Call = Callable[..., subprocess.CompletedProcess[str]]
@@ -61,3 +67,15 @@ def test_a_file_where_the_folder_should_be(tmp_path: Path, capsys: pytest.Captur
     assert "scenes" in capsys.readouterr().err
     assert main(["new", "arm", "--out", str(tmp_path / "scenes" / "below")]) == 2
     assert "Traceback" not in capsys.readouterr().err
+
+
+@pytest.mark.compiler
+def test_an_arm_of_motors_is_controlled_as_it_stands(tmp_path: Path) -> None:
+    """By predictive control, in Python and as C that compiles as it lies; nothing is bounded but torques."""
+    assert main(["new", "arm", "--kind", "planar", "--motors", "2", "--control", "--out", str(tmp_path)]) == 0
+    scene = load_scene(tmp_path / "arm.toml").replace(**{"beam.arm1.links": 1, "beam.arm2.links": 1})
+    bench = Bench.of(scene)
+    for kind, compiled in (("rti", False), (usual_controller(bench), True)):
+        (trial,) = compare(bench, [BY_NAME[kind]], CONDITIONS[:1], 1.5, compiled=compiled)
+        assert trial.figures.fallbacks == 0
+        assert np.allclose(trial.loop.tip[-1], trial.loop.goal, atol=5e-3)

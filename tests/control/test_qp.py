@@ -81,3 +81,17 @@ def test_what_cannot_be_solved_is_said_and_forgotten() -> None:
 def test_an_indefinite_hessian_is_refused() -> None:
     with pytest.raises(ValueError, match="positive definite"):
         QuadraticProgram(np.diag([1.0, -1.0]), np.zeros((1, 2)), 2)
+
+
+def test_no_rows_at_all_are_updated_too() -> None:
+    """As where a scene bounds nothing but its torques."""
+    hessian, _, gradient = random_problem(3)
+    low, high, none = np.full(12, -0.5), np.full(12, 0.5), np.empty((0, 12))
+    program = QuadraticProgram(hessian, none, 12)
+    program.solve(gradient, low, high)
+    other = hessian + np.eye(12)
+    again = program.solve(gradient, low, high, hessian=other, rows=none)
+    assert again.status is Status.OK
+    assert_allclose(
+        again.point, QuadraticProgram(other, none, 12).solve(gradient, low, high).point, atol=1e-7
+    )

@@ -24,8 +24,6 @@ if TYPE_CHECKING:
 # SciPy, CasADi and Matplotlib are imported inside: `tmm-gen --help` has no use for them.
 
 _MOVING = (".gif", ".html")
-_EMITTED = "mpc-modes"
-"""What ``--emit`` writes unless another controller is chosen."""
 
 
 @click.command("mpc")
@@ -67,7 +65,8 @@ _EMITTED = "mpc-modes"
     "folder",
     metavar="DIR",
     type=click.Path(file_okay=False, path_type=Path),
-    help=f"Write the controller as C for a microcontroller, {_EMITTED} unless one is chosen; no comparison.",
+    help="Write the controller as C for a microcontroller, for a hub mpc-modes, for motors by name rti-zero unless "
+    "one is chosen; no comparison.",
 )
 @click.option(
     "--real",
@@ -162,7 +161,9 @@ def mpc(
         tuned(scene, bench, tunables, evaluations, seed, workers, refine, out, force, json_mode)
         return
     if folder is not None:
-        kinds = kinds or [BY_NAME[_EMITTED]]
+        from tmm_gen.onboard.emit import usual_controller
+
+        kinds = kinds or [BY_NAME[usual_controller(bench)]]
         require_solvers(kinds)
         emit(bench, [kind.name for kind in kinds], folder, real, name, force, json_mode)
         return

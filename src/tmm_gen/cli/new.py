@@ -52,10 +52,6 @@ def new(name: str, kind: Kind, out: Path, control: bool, motors: int | None, for
     for option, given in (("--control", control), ("--motors", motors)):
         if given and (refusal := NOT_TO_START_WITH.get((option, kind))):
             raise UserError(f"{option}: {refusal}")
-    if motors and control:
-        raise UserError(
-            "--motors and --control exclude each other: `tmm-gen mpc` turns a hub. Remove one of the two."
-        )
     target = out / f"{name}.toml"
     if target.is_symlink() or target.exists():
         if target.is_dir():

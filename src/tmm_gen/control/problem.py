@@ -208,13 +208,18 @@ def control_problem(scene: Scene) -> ControlProblem:
             f'motors on a clamp. Take one with kind = "planar" under [model] and kind = "motor" under [base], such '
             f"as {scenes_dir() / 'swing.toml'}, or with [[motor]], such as {scenes_dir() / 'elbow.toml'}."
         )
-    if control is None:
-        raise UserError(
-            f"{scene.source.origin}: has no [control]. Add it, with for example `reference = 1.0` and "
-            f"[control.bounds] with `torque = 3.0`; {scenes_dir() / 'swing.toml'} has all of it."
-        )
     motors = motors_of(scene)
     names = motors.names
+    if control is None:
+        example, like = (
+            ("1.0", "swing.toml")
+            if motors.on_hub
+            else ("{ " + ", ".join(f"{name} = 0.5" for name in names) + " }", "elbow.toml")
+        )
+        raise UserError(
+            f"{scene.source.origin}: has no [control]. Add it, with for example `reference = {example}` and "
+            f"[control.bounds] with `torque = 3.0`; {scenes_dir() / like} has all of it."
+        )
     start = motors.prescribed @ np.array([*np.zeros(scene.hub), *scene.initial.angles])
     reference = np.array(by_names(control.reference, names))
     bounds, assumed = control.bounds, control.estimator

@@ -142,7 +142,7 @@ class QuadraticProgram:
         flag = self._solver.update(
             H=None if hessian is None else np.ascontiguousarray(hessian),
             f=gradient,
-            A=None if rows is None else np.ascontiguousarray(rows),
+            A=np.ascontiguousarray(rows) if rows is not None and len(rows) else None,  # DAQP fails at no rows
             bupper=np.minimum(high, INFINITE),
             blower=np.maximum(low, -INFINITE),
             # without it the active set of the last solution stays: a warm start

@@ -16,6 +16,11 @@ LINEAR = ("mpc-links", "mpc-modes")
 """Those of them that are linear."""
 
 
+def usual_controller(bench: Bench) -> str:
+    """Return the controller written in C unless another is chosen: the cheapest there is for the arm."""
+    return "mpc-modes" if bench.problem.motors.on_hub else "rti-zero"
+
+
 def emit_controller(
     bench: Bench, controller: str, real: str = "float64", name: str | None = None
 ) -> tuple[str, dict[str, str]]:
@@ -55,6 +60,11 @@ def emit_controller(
             f"take one of: {others}"
         )
     name = name or f"{bench.scene.name}_{controller.replace('-', '_')}"
+    taken = {"daqp": "the solver's files", bench.scene.name: "the arm's own functions"}
+    if name in taken and (name == "daqp" or controller not in LINEAR):
+        raise UserError(
+            f"--name {name}: is the prefix of {taken[name]}. Take another, such as {name}_control."
+        )
     arm = example_arm(bench)
     title = bench.scene.title
     if controller in ("rti", "rti-zero"):

@@ -221,6 +221,29 @@ hub_rate = 0.000132
 torque = 0.000747
 """
 
+_MOTORS_CONTROL = """
+# What `tmm-gen mpc` has the motors do. Numbers are one for all motors, or one by each name; these are not tuned.
+[control]
+reference = {{ {reference} }}   # joint angles to reach, rad; it starts at rest, held by its motors
+horizon = 30                   # samples looked ahead
+sample_time = 0.02             # s
+substeps = 4                   # steps of the generated kernel per sample
+
+[control.weights]              # of squares, per sample
+tip = 1.0                      # of each beam's end against what carries its motor, 1/rad^2
+hub = 4.5                      # of the motor's joint, 1/rad^2
+tip_rate = 0.15                # s^2/rad^2
+torque = 1.0                   # 1/(N m)^2, beyond what holds the target
+torque_step = 2.0              # 1/(N m)^2, of its change
+
+[control.bounds]
+torque = 0.15                  # of the motors themselves, N m, always kept
+# hub = {{ motor1 = [-1.0, 1.0] }}   # of the joints, rad; passed where there is no other way
+
+[control.sensors]
+encoder = 65536                # counts per revolution of each joint
+"""
+
 _CHAIN_MODEL = """\
 kind = "chain"                 # torsional stations in a row: linear, one angle each
 """
@@ -244,7 +267,7 @@ def template(name: str, kind: Kind = "chain", control: bool = False, motors: int
     kind : {"chain", "planar", "spatial"}
         Family of models.
     control : bool
-        Whether a planar arm, then in a horizontal plane, gets a ``[control]``.
+        Whether a planar arm gets a ``[control]``; one on a hub then lies in a horizontal plane.
     motors : int
         Motors of a planar arm by parts, each with a beam on it; 0 for an arm on a hub.
 
@@ -265,11 +288,12 @@ def template(name: str, kind: Kind = "chain", control: bool = False, motors: int
         else f"Flexible arm with {motors} motor{'s' * (motors > 1)} and a payload"
         if motors
         else "Flexible arm with a payload, swung by a hub motor",
-        model=_CHAIN_MODEL if chain else _FLAT_MODEL if control else _PLANAR_MODEL,
+        model=_CHAIN_MODEL if chain else _FLAT_MODEL if control and not motors else _PLANAR_MODEL,
         step="0.01" if chain else "1e-3",
     )
     body = _CHAIN if chain else _by_parts(motors) if motors else _PLANAR
-    return _named(head, name, "absolute") + body + (_CONTROL if control and not chain else "") + _TAIL
+    controlled = "" if chain or not control else _motors_control(motors) if motors else _CONTROL
+    return _named(head, name, "absolute") + body + controlled + _TAIL
 
 
 def _pad(name: str) -> str:
@@ -278,6 +302,12 @@ def _pad(name: str) -> str:
 
 def _named(head: str, name: str, angles: str) -> str:
     return head.replace("@name@", name).replace("@angles@", angles)
+
+
+def _motors_control(motors: int) -> str:
+    """Return a ``[control]`` that swings every other motor the other way."""
+    names = (f"motor{k} = {-0.5 if k % 2 == 0 else 0.5}" for k in range(1, motors + 1))
+    return _MOTORS_CONTROL.format(reference=", ".join(names))
 
 
 def _by_parts(motors: int) -> str:
