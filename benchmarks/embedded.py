@@ -1,7 +1,7 @@
 """What a step costs on microcontrollers: instructions, code, memory and stack, in emulators, beside committed budgets.
 
-``--update`` commits what is measured: it rewrites benchmarks/embedded.json, the table in docs/embedded.md, and a
-shorter one in README.md if it has a place for it.
+``--update`` commits what is measured: it rewrites benchmarks/embedded.json and the table in docs/embedded.md. The README
+quotes one row, which a test compares.
 """
 
 from __future__ import annotations
@@ -19,7 +19,6 @@ from tmm_gen.target import BOARDS, Measurement, measure
 ROOT = Path(__file__).resolve().parents[1]
 BUDGETS = ROOT / "benchmarks" / "embedded.json"
 PAGE = ROOT / "docs" / "embedded.md"
-README = ROOT / "README.md"
 BEGIN, END = "<!-- written by benchmarks/embedded.py --update -->", "<!-- end -->"
 FIGURES = ("instructions_per_step", "step_bytes", "code_bytes", "ram_bytes", "stack_bytes")
 TOLERANCE = 1.02
@@ -78,15 +77,6 @@ CASES = (
 )
 
 
-SHORT = tuple(
-    case
-    for case in CASES
-    if case.target != "rv32imafdc"
-    and (case.scene, case.real) not in {("thesis10", "float64"), ("arm6", "float64")}
-)
-"""Rows of the README."""
-
-
 def figures(found: Measurement) -> dict[str, int | bool]:
     """Return what is committed of a measurement."""
     return {**{name: getattr(found, name) for name in FIGURES}, "bits_equal": found.bits_equal}
@@ -116,22 +106,8 @@ def table(rows: dict[str, dict[str, int]]) -> str:
     return "\n".join(lines)
 
 
-def short_table(rows: dict[str, dict[str, int]]) -> str:
-    """Write the table of the README."""
-    lines = ["| one step, in an emulator | instructions | code | memory | stack |", "|---|---|---|---|---|"]
-    for case in SHORT:
-        row = rows[str(case)]
-        fixed = ", parameters built in" if case.parameters == "bound" else ""
-        bytes_of = (f"{row[name]} B" for name in ("code_bytes", "ram_bytes", "stack_bytes"))
-        title = f"`{case.scene}`, {case.real}, {BOARDS[case.target].title}{fixed}"
-        lines.append(f"| {title} | {row['instructions_per_step']} | {' | '.join(bytes_of)} |")
-    return "\n".join(lines)
-
-
 def page_with(text: str, written: str) -> str:
-    """Return a page with a table in its place, and as it is where it has no place for one."""
-    if BEGIN not in text:
-        return text
+    """Return a page with a table in its place."""
     before, _, rest = text.partition(BEGIN)
     _, _, after = rest.partition(END)
     return f"{before}{BEGIN}\n{written}\n{END}{after}"
@@ -139,10 +115,7 @@ def page_with(text: str, written: str) -> str:
 
 def pages(rows: dict[str, dict[str, int]]) -> dict[Path, str]:
     """Return all pages with tables, with these figures."""
-    return {
-        PAGE: page_with(PAGE.read_text(), table(rows)),
-        README: page_with(README.read_text(), short_table(rows)),
-    }
+    return {PAGE: page_with(PAGE.read_text(), table(rows))}
 
 
 def main() -> None:

@@ -111,6 +111,8 @@ def test_every_command_of_the_readme_works(
                 assert (ROOT / ".ci" / "run").is_file()
             else:
                 runnable.append(command)
+    (main,) = (fence["body"] for fence in FENCE.finditer(README.read_text()) if fence["language"] == "c")
+    (copy / "main.c").write_text(main)
     # A reader pastes one block after another into one shell.
     done = subprocess.run(
         ["bash", "-exo", "pipefail", "-c", "\n".join(runnable)],
