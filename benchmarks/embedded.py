@@ -1,6 +1,6 @@
 """What a step costs on microcontrollers: instructions, code, memory and stack, in emulators, beside committed budgets.
 
-``--update`` commits what is measured: it rewrites benchmarks/embedded.json and the table in docs/embedded.md. The README
+``--update`` commits what is measured: it rewrites benchmarks/embedded.json and the table in docs/embedded.md. README
 quotes one row, which a test compares.
 """
 
