@@ -1,8 +1,8 @@
 # arm10: Ten-link arm swung by a hub motor
 #
-# Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+# Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: d9d28dc691ae4f0a1d62cb9cfa9f4612d111fa76a756dd286c77eac7f930ab35
-# sha256 of the rest of this file: f0127346a8553b796559a307b5d304fc0bc3aabf03ab092fb803a1405ded4326
+# sha256 of the rest of this file: f678262c3ab8c227c0c0e6d254ed2351e13e9443d0415792a59c7c7cf218ce09
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 10

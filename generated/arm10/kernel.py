@@ -1,8 +1,8 @@
 # arm10: Ten-link arm swung by a hub motor
 #
-# Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+# Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: d9d28dc691ae4f0a1d62cb9cfa9f4612d111fa76a756dd286c77eac7f930ab35
-# sha256 of the rest of this file: b7b0abd954f92f81275e4cf0d257ad11a175c2eaeb34e5815f08e82a58b8808b
+# sha256 of the rest of this file: 783cc7be94cf7a332de63c0677de728af97edc7720bf26030529e9e31e3d0a88
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 10

@@ -1,8 +1,8 @@
 # arm2: Two unlike links swung by a motor
 #
-# Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+# Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: c5e09abbb61734735cef8cfddf39dd959eb5765da3ad6484bed2957b4fdf212c
-# sha256 of the rest of this file: 2bb44dd11245507ff5ca04997249f3091fba816b62f10d9ba2b9ef9f62c8a73e
+# sha256 of the rest of this file: a44215fb5ee86b6d1800dff28bd032265c0b529ae5143a6985579918ffd6f404
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 2

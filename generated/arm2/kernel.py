@@ -1,8 +1,8 @@
 # arm2: Two unlike links swung by a motor
 #
-# Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+# Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: c5e09abbb61734735cef8cfddf39dd959eb5765da3ad6484bed2957b4fdf212c
-# sha256 of the rest of this file: ed644c4bdd4fca669b1050d7f7c1d658e2873b8a73c686af4a4e7bd987a2fcf5
+# sha256 of the rest of this file: 67507e50c4f24eadf71605efe7d48d278345fc39eaecc0a4410381095edea4b9
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 2

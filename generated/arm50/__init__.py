@@ -1,8 +1,8 @@
 # arm50: Stiff arm of fifty links on a servo
 #
-# Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+# Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
-# sha256 of the rest of this file: 2ffb7dba1bc8ed1a8416f7507b0f97671aa837db13330328693d15fe09564e91
+# sha256 of the rest of this file: 7e298a4a385ba9ea1ea74c406b027cef83ea7a07a47b587080c9f6349e7895b2
 """arm50: Stiff arm of fifty links on a servo."""
 
 from .kernel import (

@@ -1,8 +1,8 @@
 # arm50: Stiff arm of fifty links on a servo
 #
-# Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+# Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
-# sha256 of the rest of this file: 89b606d1079352ae7609d6b423b3ba7aa6fe32708914c0509d586077222f5bb5
+# sha256 of the rest of this file: e1a31b5ecb0e26dfb43847a4f4247607675bb4dbed4efd9c5c9d81f5be6fbd78
 #
 # model: planar arm, large rotations, tip mass
 # stations: 50

@@ -1,8 +1,8 @@
 # arm50: Stiff arm of fifty links on a servo
 #
-# Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+# Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
-# sha256 of the rest of this file: 514d35d31960a0196b08d5c8aba00683533170df69fe906fde1e879bf818f537
+# sha256 of the rest of this file: 9fb715c71ad7afc351a1dca1c5d33a778a6b81b71a3cdb9e23c3d8966950758f
 #
 # model: planar arm, large rotations, tip mass
 # stations: 50

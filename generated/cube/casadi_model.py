@@ -1,8 +1,8 @@
 # cube: Satellite with two flexible panels
 #
-# Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+# Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: f046f23ff154c77eb0de6f429bf04f6275910b87af75eea62b4aa0e7be8a3583
-# sha256 of the rest of this file: b903ac2a31731ec09c4afef66f19bd2f756ed58fe4d1ed81d80e8f71f7bdb1e6
+# sha256 of the rest of this file: 35875f4b66cc1e2dfde8291aeb33a463fc6a4e994fba5e549760216bb3935ba6
 #
 # model: planar arm, large rotations
 # stations: 12

@@ -1,8 +1,8 @@
 # cube: Satellite with two flexible panels
 #
-# Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+# Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: f046f23ff154c77eb0de6f429bf04f6275910b87af75eea62b4aa0e7be8a3583
-# sha256 of the rest of this file: 99c61651c65c0e0149d8e282efc16a3f23886ef210bd97ff608d1d073b8e184f
+# sha256 of the rest of this file: ac42fd1006c96e3c0ab194b30247697ade3193bebc9e1a989770dbf795826179
 #
 # model: planar arm, large rotations
 # stations: 12

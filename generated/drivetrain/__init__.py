@@ -1,8 +1,8 @@
 # drivetrain: Servo drive with gearbox, roller, brake and encoder
 #
-# Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+# Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 260c88ca5ffe6b93ea5946fad67187e547942573db1dc2f710bcd9a0610b8738
-# sha256 of the rest of this file: f4f7e293dd3e8053eee8f6a36307ce1596d664ed920e42deb61dd8725af6877a
+# sha256 of the rest of this file: 2144cf53660a4e70ed93900df986b14cd350ea9ec29048f94b77bca7d783b4cf
 """drivetrain: Servo drive with gearbox, roller, brake and encoder."""
 
 from .kernel import (

@@ -1,8 +1,8 @@
 # drivetrain: Servo drive with gearbox, roller, brake and encoder
 #
-# Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+# Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 260c88ca5ffe6b93ea5946fad67187e547942573db1dc2f710bcd9a0610b8738
-# sha256 of the rest of this file: 33e56d8d9f328110dc455e16cb080b70c8d6f527d7de6d0e58cd2569814587e2
+# sha256 of the rest of this file: f52410e4e808bda3d4d9f26db2017181e4152a1cef31ef9083906d882707d434
 #
 # model: torsional chain (linear)
 # stations: 6

@@ -1,8 +1,8 @@
 # drivetrain: Servo drive with gearbox, roller, brake and encoder
 #
-# Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+# Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 260c88ca5ffe6b93ea5946fad67187e547942573db1dc2f710bcd9a0610b8738
-# sha256 of the rest of this file: ae943f1fde30dfebf7676e1c4bee9d93ea7df9891ede24e1513b1b5e46998d22
+# sha256 of the rest of this file: deb160cf07c24f8a804b4a4b0e0c3b65cdd0b72ad1cf0eaa1f406fbebb20b4d9
 #
 # model: torsional chain (linear)
 # stations: 6

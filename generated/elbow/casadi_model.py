@@ -1,8 +1,8 @@
 # elbow: Flexible arm with motors at shoulder and elbow
 #
-# Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+# Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: b7474d2f501b0139799e3f1e1a14aa2a3a455ea0221cabb6918551519b3600d0
-# sha256 of the rest of this file: c7c7982fe4f564a4cff0f5932ec9b02adca0e1198f2928e607b88421c2767064
+# sha256 of the rest of this file: 0a38451ff5ed69e5f630e1985cf0f23781ebc5d4bf68acb60bb2d366da25bffe
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 12

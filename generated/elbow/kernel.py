@@ -1,8 +1,8 @@
 # elbow: Flexible arm with motors at shoulder and elbow
 #
-# Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+# Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: b7474d2f501b0139799e3f1e1a14aa2a3a455ea0221cabb6918551519b3600d0
-# sha256 of the rest of this file: 1f00c56756c94adb08f61b87e9aa09518f303e01979e6e85f1f61c34c8be8464
+# sha256 of the rest of this file: 64a19ad3e5a5e810fe5738fa4e105cc90b0bf1aba75ec7417c7088d7d2972b4d
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 12

@@ -1,8 +1,8 @@
 # fall10: Soft clamped beam falling under its own weight
 #
-# Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+# Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 225557ccb20983327784b6fc8326b9127fb185b183a5e99d150385ab258b9303
-# sha256 of the rest of this file: cb672b0108f086b877e8d8be5455ff5f6bebf901a5bf81ee8586373cbf26cc6b
+# sha256 of the rest of this file: af3c80a4019c3180352988f3939f765dca5695b6ddee93eed4cbf810010fb768
 """fall10: Soft clamped beam falling under its own weight."""
 
 from .kernel import (

@@ -1,8 +1,8 @@
 # fall10: Soft clamped beam falling under its own weight
 #
-# Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+# Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 225557ccb20983327784b6fc8326b9127fb185b183a5e99d150385ab258b9303
-# sha256 of the rest of this file: 4c539ab94e8fb406fc8a43e0aecfa24308a9d1e6cd191efa27be5a0a22f47e54
+# sha256 of the rest of this file: 0cdc0dd3a8f1876b172683d5665439d2ad8a1994986bd9284ebeea1f68846ba8
 #
 # model: planar arm, large rotations, gravity
 # stations: 10

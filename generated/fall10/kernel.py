@@ -1,8 +1,8 @@
 # fall10: Soft clamped beam falling under its own weight
 #
-# Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+# Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 225557ccb20983327784b6fc8326b9127fb185b183a5e99d150385ab258b9303
-# sha256 of the rest of this file: fb5422fdb7f8dcdd68d91a24dae39ed6aaa6e198cb4ffaaf9fa112febcac42a2
+# sha256 of the rest of this file: 84daad6622aa0fac3a499bce9f344a13ecf9e06061c0abde7788b51f8da4a01b
 #
 # model: planar arm, large rotations, gravity
 # stations: 10

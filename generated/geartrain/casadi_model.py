@@ -1,8 +1,8 @@
 # geartrain: Servo with two stages of gears on a table and a feeder
 #
-# Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+# Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 066060c018d378c5aa38f61f583a4ed37c9ee269f8287dfe93f42445474eebe1
-# sha256 of the rest of this file: 93ac92247e5145ad7124774fdf3915ee75c0092dbc4973af9c66164fbf684330
+# sha256 of the rest of this file: 21499ef7f295d771bf98d9f11b93b8a30702a0255cb508c296c5ff1625982c4d
 #
 # model: torsional chain (linear)
 # stations: 4

@@ -1,8 +1,8 @@
 # geartrain: Servo with two stages of gears on a table and a feeder
 #
-# Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+# Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 066060c018d378c5aa38f61f583a4ed37c9ee269f8287dfe93f42445474eebe1
-# sha256 of the rest of this file: 69f8e6ddb78d18e40904f0b1aa4eeedf8dc46e23b9a252a516564f29a5b92a38
+# sha256 of the rest of this file: 27432d76b6251644a1f1fc2ebf4728f0c09146f78322701bcf90ca84a69bf4f1
 #
 # model: torsional chain (linear)
 # stations: 4

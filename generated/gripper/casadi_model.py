@@ -1,8 +1,8 @@
 # gripper: Gripper with two fingers on a flexible wrist
 #
-# Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+# Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: c8f8226e93fd9d4e49ccbb14a6d21dfabaa9c32be55619277914a499c6eae156
-# sha256 of the rest of this file: db625fb7d1d695cdaa9bccd6e2993830ca1c15a241de4033945feddb0fe3098f
+# sha256 of the rest of this file: d47615513d19d4c0f743833dbfa9f4c52c128cc5860b46b75cd1fe978a1e0fa5
 #
 # model: planar arm, large rotations, gravity
 # stations: 8

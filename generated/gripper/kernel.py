@@ -1,8 +1,8 @@
 # gripper: Gripper with two fingers on a flexible wrist
 #
-# Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+# Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: c8f8226e93fd9d4e49ccbb14a6d21dfabaa9c32be55619277914a499c6eae156
-# sha256 of the rest of this file: 0265791e7539880dc35c8d4e84eb79013a9bbf20722e59caa874cd86b63b5516
+# sha256 of the rest of this file: 143727095773d948e61011b3643b1d13073850082f9a0db8c7e071acec11e70e
 #
 # model: planar arm, large rotations, gravity
 # stations: 8

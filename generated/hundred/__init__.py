@@ -1,8 +1,8 @@
 # hundred: Uniform shaft of a hundred stations
 #
-# Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+# Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 1ec2a071f5720229c3b5c9d847fa0a44d6fa112015051ca13c1d73444e6eb10a
-# sha256 of the rest of this file: f2a40e5f38ad618954e08c5c4f66502aca92ee6233c69fc8b8b35bfc2cc344d3
+# sha256 of the rest of this file: b3e4acf0fa9a88ef8fb4d639cff971b09ddd42d51622129ae03f9a1233402286
 """hundred: Uniform shaft of a hundred stations."""
 
 from .kernel import (

@@ -1,8 +1,8 @@
 # hundred: Uniform shaft of a hundred stations
 #
-# Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+# Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 1ec2a071f5720229c3b5c9d847fa0a44d6fa112015051ca13c1d73444e6eb10a
-# sha256 of the rest of this file: b7b50affc138757e26b464ebdd4e6f2d6bcb0a94e06bb426436be1dad687802f
+# sha256 of the rest of this file: c0833c00cb5dac86dd617a2aa9168e21f929997a68ad9e5197b0953f8e453ca9
 #
 # model: torsional chain (linear)
 # stations: 100

@@ -1,8 +1,8 @@
 # hundred: Uniform shaft of a hundred stations
 #
-# Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+# Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 1ec2a071f5720229c3b5c9d847fa0a44d6fa112015051ca13c1d73444e6eb10a
-# sha256 of the rest of this file: 59a4327c79e752884e7d8045d4eb6fe39973b689678f013a3f744ab346e1230b
+# sha256 of the rest of this file: 0e47d5f23a9e83bbba13d5479f3e4e73f8c42b3e1cf113649a8ab0442daad671
 #
 # model: torsional chain (linear)
 # stations: 100

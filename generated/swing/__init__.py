@@ -1,8 +1,8 @@
 # swing: Flexible arm swung by one radian
 #
-# Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+# Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: c9c08efbdc9f2f1b1ddadadab522649e5100f98e9cdabe31fcf56b416283c60f
-# sha256 of the rest of this file: dbf1f0eed54f78e2219438270aee79a071cbf9467f6bcde0131b16cfc87c939c
+# sha256 of the rest of this file: acc30fb555096d102d644fc19046e0bd8819376f33252c7b492e504912ed4d6e
 """swing: Flexible arm swung by one radian."""
 
 from .kernel import (

@@ -1,8 +1,8 @@
 # swing: Flexible arm swung by one radian
 #
-# Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+# Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: c9c08efbdc9f2f1b1ddadadab522649e5100f98e9cdabe31fcf56b416283c60f
-# sha256 of the rest of this file: 731c08c0d8fc823169630c6ae6353f2d5982a86bd334ef4ba3af12a3788d2de0
+# sha256 of the rest of this file: 50c7c322db39f231ea37d0497fba188f97963d50f0ee604363abbf089efc32fe
 #
 # model: planar arm, large rotations, tip mass
 # stations: 5

@@ -1,8 +1,8 @@
 # swing: Flexible arm swung by one radian
 #
-# Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+# Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: c9c08efbdc9f2f1b1ddadadab522649e5100f98e9cdabe31fcf56b416283c60f
-# sha256 of the rest of this file: 6718f0b719466fc25344b6984bc8e7259a2bf49fd1decc8a0f7028283d6503ca
+# sha256 of the rest of this file: 84dd38ec6cbe7cda107b2c5b6e88d3cc20feea4973a9dbc17e1971591f6c52d2
 #
 # model: planar arm, large rotations, tip mass
 # stations: 5

@@ -1,8 +1,8 @@
 # thesis10: Ten-station torsional chain, Gholampour (2018), table 4-1
 #
-# Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+# Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: f0c976d21d4524b79e43b0ef658e9df768725b961ac09b0a12bdaf9596a590df
-# sha256 of the rest of this file: eea6e093ecadde3554168f7d34c7b1ba5e6c6d2400d8c0f86cd56218c26e468e
+# sha256 of the rest of this file: 4b8bbd9bd4418c348ffa9e1055edde6e49ff5eb53d4d8ef503fb67c96fdff8b9
 """thesis10: Ten-station torsional chain, Gholampour (2018), table 4-1."""
 
 from .kernel import (

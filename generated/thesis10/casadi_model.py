@@ -1,8 +1,8 @@
 # thesis10: Ten-station torsional chain, Gholampour (2018), table 4-1
 #
-# Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+# Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: f0c976d21d4524b79e43b0ef658e9df768725b961ac09b0a12bdaf9596a590df
-# sha256 of the rest of this file: 329270429d3e25f48b22a9c4f89ac7add89d325cf7337fc76f42beec3091629e
+# sha256 of the rest of this file: a9d749ce6c55ce6e18eb64e6e70221183a275b3f299ab701f03fbb37d5a6f410
 #
 # model: torsional chain (linear)
 # stations: 10

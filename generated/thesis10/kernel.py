@@ -1,8 +1,8 @@
 # thesis10: Ten-station torsional chain, Gholampour (2018), table 4-1
 #
-# Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+# Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: f0c976d21d4524b79e43b0ef658e9df768725b961ac09b0a12bdaf9596a590df
-# sha256 of the rest of this file: 9d3c83b23f715dcddcfc1cb6fb84e8a388c5794ca3508b1adb190680480743fd
+# sha256 of the rest of this file: 863822d236827ad52e76bc206cc2eebc8347f572809e51b235526600989fdb27
 #
 # model: torsional chain (linear)
 # stations: 10

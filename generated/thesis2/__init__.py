@@ -1,8 +1,8 @@
 # thesis2: Two-station torsional chain, Gholampour (2018), table 3-2
 #
-# Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+# Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 8302c2fdab02afb73919e09c91c3abafc3d83d0760e2c0e63be40bfdc341e62e
-# sha256 of the rest of this file: b9b33522dabe4e161d726bc24cb4f4626183e80341e4413ffadf53197580877e
+# sha256 of the rest of this file: 94acb56631ae78782799ee925c85bc52b9325fe9d85e8cfe71898464b8ec469d
 """thesis2: Two-station torsional chain, Gholampour (2018), table 3-2."""
 
 from .kernel import (

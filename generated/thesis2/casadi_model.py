@@ -1,8 +1,8 @@
 # thesis2: Two-station torsional chain, Gholampour (2018), table 3-2
 #
-# Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+# Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 8302c2fdab02afb73919e09c91c3abafc3d83d0760e2c0e63be40bfdc341e62e
-# sha256 of the rest of this file: 53c134d06d92f72698a53356123aadb90ceacf9ef84fde48289229d96e22893d
+# sha256 of the rest of this file: 7a75ecc1012e838ee37641c1c50e9ab39be3e7b1db3a2fa3b42f173f7b6cd8af
 #
 # model: torsional chain (linear)
 # stations: 2

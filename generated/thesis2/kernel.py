@@ -1,8 +1,8 @@
 # thesis2: Two-station torsional chain, Gholampour (2018), table 3-2
 #
-# Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+# Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 8302c2fdab02afb73919e09c91c3abafc3d83d0760e2c0e63be40bfdc341e62e
-# sha256 of the rest of this file: fd11fe6b5ba8a4bc393da1a90d41f70457408f1e6296fe0c632f0aebbbcf6574
+# sha256 of the rest of this file: ec60166a728199d0e631945842016baab5b514c65b5a73e3504a4e9528918cfd
 #
 # model: torsional chain (linear)
 # stations: 2

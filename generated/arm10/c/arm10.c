@@ -1,9 +1,9 @@
 /**
  * arm10: Ten-link arm swung by a hub motor
  *
- * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: d9d28dc691ae4f0a1d62cb9cfa9f4612d111fa76a756dd286c77eac7f930ab35
- * sha256 of the rest of this file: 913f91ea8b3bdb2f3960575676ac3d7c40f9717c66137beeb41c8295f6117504
+ * sha256 of the rest of this file: e178d9f1113a4ee4ba7751e4ef5de538641d32f07b52c202ab905412f67723c6
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 10

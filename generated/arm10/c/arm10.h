@@ -1,9 +1,9 @@
 /**
  * arm10: Ten-link arm swung by a hub motor
  *
- * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: d9d28dc691ae4f0a1d62cb9cfa9f4612d111fa76a756dd286c77eac7f930ab35
- * sha256 of the rest of this file: aaa8abca0cd5119b0475aa6fc8f2fc796250f90e6bf5eebb43e601d2fc4583a4
+ * sha256 of the rest of this file: f6eddb46010eee9af4b40da924186c7932d5021b8a02564d34490e7ad0aafd3a
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 10

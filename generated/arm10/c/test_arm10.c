@@ -1,9 +1,9 @@
 /**
  * arm10: Ten-link arm swung by a hub motor
  *
- * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: d9d28dc691ae4f0a1d62cb9cfa9f4612d111fa76a756dd286c77eac7f930ab35
- * sha256 of the rest of this file: 29972525becd700f8005ea574be1a5a1ce7ed27d9d8b44971dd134ce95e48c9a
+ * sha256 of the rest of this file: 6487f261760de83ca390ff54bd5c354a561d153bed0730d2c5de7f3e021f7f3e
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 10

@@ -1,9 +1,9 @@
 /**
  * arm2: Two unlike links swung by a motor
  *
- * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: c5e09abbb61734735cef8cfddf39dd959eb5765da3ad6484bed2957b4fdf212c
- * sha256 of the rest of this file: 5e5f30ff3dce473fe2cbffa5c6c28dd507a058dce3332cb5ac093da501e13464
+ * sha256 of the rest of this file: 6d5a55cf77100de562a8a9a0a1f76445ca8149f487a6e29e865d7793326c0af4
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 2

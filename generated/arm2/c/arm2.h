@@ -1,9 +1,9 @@
 /**
  * arm2: Two unlike links swung by a motor
  *
- * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: c5e09abbb61734735cef8cfddf39dd959eb5765da3ad6484bed2957b4fdf212c
- * sha256 of the rest of this file: 35f8f0a80dd462af824f105d00f626209898eddfb4db011f3ff910c50e352aef
+ * sha256 of the rest of this file: e6fbcbacf5d7d31f239f53f525ba9c588c3894294b7fbc2d72c03b6538a415cb
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 2

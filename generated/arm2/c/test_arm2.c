@@ -1,9 +1,9 @@
 /**
  * arm2: Two unlike links swung by a motor
  *
- * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: c5e09abbb61734735cef8cfddf39dd959eb5765da3ad6484bed2957b4fdf212c
- * sha256 of the rest of this file: e9ac7c66e649211fc825780ee6463e887e8c042644d84810903148f49525ddd8
+ * sha256 of the rest of this file: 253792d6c1a2e0baef708d77a9a344e7ad6d841b19616aa2518ac20453022235
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 2

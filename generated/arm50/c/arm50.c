@@ -1,9 +1,9 @@
 /**
  * arm50: Stiff arm of fifty links on a servo
  *
- * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
- * sha256 of the rest of this file: 136e230a3e2170508469a52add55a5337fdaad5aad71efe49cc10f7f4ba680da
+ * sha256 of the rest of this file: 39f0e50a5f9ccb9bc5a15d421c8089d5312120dd4ff69111e5d081771bdd96c7
  *
  * model: planar arm, large rotations, tip mass
  * stations: 50

@@ -1,9 +1,9 @@
 /**
  * arm50: Stiff arm of fifty links on a servo
  *
- * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
- * sha256 of the rest of this file: 19947f254d7191181ae863aaee5f73e63d3bce1c34deb8905f09921c659ed641
+ * sha256 of the rest of this file: fca2406edd8b153de1c0a43e93bb73ed9cc6676d799633036a823b97f550cee6
  *
  * model: planar arm, large rotations, tip mass
  * stations: 50

@@ -1,9 +1,9 @@
 /**
  * arm50: Stiff arm of fifty links on a servo
  *
- * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
- * sha256 of the rest of this file: 51962db9113d4664b714d325265f3f8d33dc7a806a5ba6bd97ed3f43d922cd67
+ * sha256 of the rest of this file: 2098ae153ce9b2c421d88a7aac7a51581c50462150a3068838a214671a9511c5
  *
  * model: planar arm, large rotations, tip mass
  * stations: 50

@@ -1,9 +1,9 @@
 /**
  * cube: Satellite with two flexible panels
  *
- * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: f046f23ff154c77eb0de6f429bf04f6275910b87af75eea62b4aa0e7be8a3583
- * sha256 of the rest of this file: 9713ed4fc9f1d923c3abf292c4e08c16561767cee6c7793d35d00379585a2c66
+ * sha256 of the rest of this file: 71fda624c0faf67ff10aeb2c1d4ce314893f43cabab58389c655ff57b8d6e9e4
  *
  * model: planar arm, large rotations
  * stations: 12

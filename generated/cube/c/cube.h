@@ -1,9 +1,9 @@
 /**
  * cube: Satellite with two flexible panels
  *
- * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: f046f23ff154c77eb0de6f429bf04f6275910b87af75eea62b4aa0e7be8a3583
- * sha256 of the rest of this file: 3902426743ea36e651177353e0b99007b61f60782e13537380936425b11ce3d9
+ * sha256 of the rest of this file: 0974bfecc799121e3b1a904bb680c0f1a3e5b208eb4db91cfb3cd94e6c0e6b8e
  *
  * model: planar arm, large rotations
  * stations: 12

@@ -1,9 +1,9 @@
 /**
  * cube: Satellite with two flexible panels
  *
- * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: f046f23ff154c77eb0de6f429bf04f6275910b87af75eea62b4aa0e7be8a3583
- * sha256 of the rest of this file: e516346bafc5bf817eb4c1e7c71d8cf34d000fabda3f6c650fb00aa5a0437168
+ * sha256 of the rest of this file: 2484888777344a6e94f6bd97de53fe42fec77a77252c877cdb381a1ad679eac7
  *
  * model: planar arm, large rotations
  * stations: 12

@@ -1,9 +1,9 @@
 /**
  * drivetrain: Servo drive with gearbox, roller, brake and encoder
  *
- * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 260c88ca5ffe6b93ea5946fad67187e547942573db1dc2f710bcd9a0610b8738
- * sha256 of the rest of this file: bebd8225da87b00d64608f32f4f90bce77899dcd335c7eaa7f635e49350d0b49
+ * sha256 of the rest of this file: c48654090ffa00cbdbe4eaa47b9a117c635377f090a796f73475107512396fac
  *
  * model: torsional chain (linear)
  * stations: 6

@@ -1,9 +1,9 @@
 /**
  * drivetrain: Servo drive with gearbox, roller, brake and encoder
  *
- * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 260c88ca5ffe6b93ea5946fad67187e547942573db1dc2f710bcd9a0610b8738
- * sha256 of the rest of this file: d6a1a346359a040b8c1d199406c6e04833728ad478fb1becf368d80eedb72038
+ * sha256 of the rest of this file: bb17b055cac29e44ebdce3fa2958ce2431140414578e478f1297e25102fe9e34
  *
  * model: torsional chain (linear)
  * stations: 6

@@ -1,9 +1,9 @@
 /**
  * drivetrain: Servo drive with gearbox, roller, brake and encoder
  *
- * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 260c88ca5ffe6b93ea5946fad67187e547942573db1dc2f710bcd9a0610b8738
- * sha256 of the rest of this file: 33e86fa79453a8bd63d424911ba3f0b143a8a7d4614c2fd3f652b243b58a7145
+ * sha256 of the rest of this file: ad88648cc951cf1b59d1472bee40673ee94d812072fc16b9e11c734d10d8c4b1
  *
  * model: torsional chain (linear)
  * stations: 6

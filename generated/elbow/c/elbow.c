@@ -1,9 +1,9 @@
 /**
  * elbow: Flexible arm with motors at shoulder and elbow
  *
- * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: b7474d2f501b0139799e3f1e1a14aa2a3a455ea0221cabb6918551519b3600d0
- * sha256 of the rest of this file: e64a44f66390d6f0dd79391ecaf8e1a47ba7716225803ba0ce1ad47b4d09fb0e
+ * sha256 of the rest of this file: 067e29a8896c850e9b99f1afb7489a4b3dcd8546e6618f2bd98c07dfa24c6f32
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 12

@@ -1,9 +1,9 @@
 /**
  * elbow: Flexible arm with motors at shoulder and elbow
  *
- * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: b7474d2f501b0139799e3f1e1a14aa2a3a455ea0221cabb6918551519b3600d0
- * sha256 of the rest of this file: 278e481394adb1dae29c6016caa784d39e007318ed3f97e2cfb13965b55a44ba
+ * sha256 of the rest of this file: e9736d750d8beed8b96405b5c17e0cf12664fe98644ca819e38b54ceae9419f5
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 12

@@ -1,9 +1,9 @@
 /**
  * elbow: Flexible arm with motors at shoulder and elbow
  *
- * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: b7474d2f501b0139799e3f1e1a14aa2a3a455ea0221cabb6918551519b3600d0
- * sha256 of the rest of this file: 96969d59ff5906fc5d59041145b5a5fe5c72bd41afded3783b7113077102af63
+ * sha256 of the rest of this file: 4244e782608e6107e12b38c6639eed460f6881691e341f0784ac947caabc3d51
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 12

@@ -1,9 +1,9 @@
 /**
  * fall10: Soft clamped beam falling under its own weight
  *
- * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 225557ccb20983327784b6fc8326b9127fb185b183a5e99d150385ab258b9303
- * sha256 of the rest of this file: 9a4b332449e7a39c16af42cb65bb8431891ff2401a11b53c105e63a62b4abae8
+ * sha256 of the rest of this file: 4f74cc4af9c0febc8fd598084bffc1882d46411a7ea1c0710b072e205d6f4a04
  *
  * model: planar arm, large rotations, gravity
  * stations: 10

@@ -1,9 +1,9 @@
 /**
  * fall10: Soft clamped beam falling under its own weight
  *
- * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 225557ccb20983327784b6fc8326b9127fb185b183a5e99d150385ab258b9303
- * sha256 of the rest of this file: 10c403fe61462b56c5a6b92dc98f67babc0acba4d4ded5509001e391011954a4
+ * sha256 of the rest of this file: edb7d409af738929a2f952dc0c22313bfdde75f13f22a32dc506868974189704
  *
  * model: planar arm, large rotations, gravity
  * stations: 10

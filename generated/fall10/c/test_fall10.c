@@ -1,9 +1,9 @@
 /**
  * fall10: Soft clamped beam falling under its own weight
  *
- * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 225557ccb20983327784b6fc8326b9127fb185b183a5e99d150385ab258b9303
- * sha256 of the rest of this file: 742a837871a1c52d7f61201e44d2c03be277e3540f8ed966f512c16c36ca0091
+ * sha256 of the rest of this file: 3d3449ba7c44b944c84e8dcf467f46d895e774daa64d428e5d2668c2b4b3a284
  *
  * model: planar arm, large rotations, gravity
  * stations: 10

@@ -1,9 +1,9 @@
 /**
  * geartrain: Servo with two stages of gears on a table and a feeder
  *
- * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 066060c018d378c5aa38f61f583a4ed37c9ee269f8287dfe93f42445474eebe1
- * sha256 of the rest of this file: e27b3b7114fbdb09424c842815a4f310e0ebedb3019ddc7b19e9a3fb675be932
+ * sha256 of the rest of this file: 7ca4530a34884b2b755fccd24f881af917a50c2828f79badd31c1a76d52e460f
  *
  * model: torsional chain (linear)
  * stations: 4

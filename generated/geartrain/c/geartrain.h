@@ -1,9 +1,9 @@
 /**
  * geartrain: Servo with two stages of gears on a table and a feeder
  *
- * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 066060c018d378c5aa38f61f583a4ed37c9ee269f8287dfe93f42445474eebe1
- * sha256 of the rest of this file: 7c29e33dc98863edf6f5d4580183dbc80640eb00f0802029bd11c0a89a98b7e6
+ * sha256 of the rest of this file: 5c99275bb678ef22008fefab4de0eb2e54d35367ebf40cc2eb2ae6dd56f98b73
  *
  * model: torsional chain (linear)
  * stations: 4

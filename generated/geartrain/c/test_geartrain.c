@@ -1,9 +1,9 @@
 /**
  * geartrain: Servo with two stages of gears on a table and a feeder
  *
- * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 066060c018d378c5aa38f61f583a4ed37c9ee269f8287dfe93f42445474eebe1
- * sha256 of the rest of this file: ae52f3b349d1ddcf37c387d262d39226ac39e25c15198a67361c812358e6933c
+ * sha256 of the rest of this file: 078e627fb815b1d453612374c725d743910b91656a91b627c3251da63954fcd0
  *
  * model: torsional chain (linear)
  * stations: 4

@@ -1,9 +1,9 @@
 /**
  * gripper: Gripper with two fingers on a flexible wrist
  *
- * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: c8f8226e93fd9d4e49ccbb14a6d21dfabaa9c32be55619277914a499c6eae156
- * sha256 of the rest of this file: 7c13ef4fd22223198cd07b4aa082ff78deb1d1a9927d488a696998aa2cdf5237
+ * sha256 of the rest of this file: bc942aec24d061c6192c84fa8591a9505491db098183c1e1735fc60df1c27df8
  *
  * model: planar arm, large rotations, gravity
  * stations: 8

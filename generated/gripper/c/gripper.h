@@ -1,9 +1,9 @@
 /**
  * gripper: Gripper with two fingers on a flexible wrist
  *
- * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: c8f8226e93fd9d4e49ccbb14a6d21dfabaa9c32be55619277914a499c6eae156
- * sha256 of the rest of this file: 0881782ed87126220b444b5a3e9d342d59f4e4f5f940378db512f113368a1f98
+ * sha256 of the rest of this file: 1c17b4dc603dcd3bb2a4067ce082a273f4f75226f18d6b4aec7f97cde4d25ead
  *
  * model: planar arm, large rotations, gravity
  * stations: 8

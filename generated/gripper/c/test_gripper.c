@@ -1,9 +1,9 @@
 /**
  * gripper: Gripper with two fingers on a flexible wrist
  *
- * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: c8f8226e93fd9d4e49ccbb14a6d21dfabaa9c32be55619277914a499c6eae156
- * sha256 of the rest of this file: 3e6defd0830fb30a8ca7eb5329c06af458eb58efeecd52e41d58d1bf4390c79e
+ * sha256 of the rest of this file: 7846223b81ae52e8f429da823f5910ef024eb6ad488224653051fc83d836f30a
  *
  * model: planar arm, large rotations, gravity
  * stations: 8

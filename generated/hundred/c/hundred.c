@@ -1,9 +1,9 @@
 /**
  * hundred: Uniform shaft of a hundred stations
  *
- * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 1ec2a071f5720229c3b5c9d847fa0a44d6fa112015051ca13c1d73444e6eb10a
- * sha256 of the rest of this file: ec267e9875cbade005d264739e272ff1a0023d269cc795eff1b4354b8dc79466
+ * sha256 of the rest of this file: 73796b22c670e53a8f40f0ecd91490e639220d87f9eddbbc486d90595fb665ba
  *
  * model: torsional chain (linear)
  * stations: 100

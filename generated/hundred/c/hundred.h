@@ -1,9 +1,9 @@
 /**
  * hundred: Uniform shaft of a hundred stations
  *
- * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 1ec2a071f5720229c3b5c9d847fa0a44d6fa112015051ca13c1d73444e6eb10a
- * sha256 of the rest of this file: bea88def2303132e95a080d870f1f6253d44f7e415df09cfe027e4c0892dfdd9
+ * sha256 of the rest of this file: a2007c7a886ef5228623d246e475f45840c000c0d8a1da233f894bc8255f6aa9
  *
  * model: torsional chain (linear)
  * stations: 100

@@ -1,9 +1,9 @@
 /**
  * hundred: Uniform shaft of a hundred stations
  *
- * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 1ec2a071f5720229c3b5c9d847fa0a44d6fa112015051ca13c1d73444e6eb10a
- * sha256 of the rest of this file: 675058798380af73c02a7d5847fd2b5138669476daa01859d00541d9a4e46914
+ * sha256 of the rest of this file: 77870c8f439c705b458b91309e0e9a17bcd745d7e49623e0370678600f50fa44
  *
  * model: torsional chain (linear)
  * stations: 100

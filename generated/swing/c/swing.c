@@ -1,9 +1,9 @@
 /**
  * swing: Flexible arm swung by one radian
  *
- * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: c9c08efbdc9f2f1b1ddadadab522649e5100f98e9cdabe31fcf56b416283c60f
- * sha256 of the rest of this file: 7c7864a75aceecade8e2fae18d23d89092a01eb269ca013fe48a883e5d142fb2
+ * sha256 of the rest of this file: 90360bbb2b608adb831f856b959fa396bd7c7d20cd8020e73bea647e9df75798
  *
  * model: planar arm, large rotations, tip mass
  * stations: 5

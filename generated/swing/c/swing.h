@@ -1,9 +1,9 @@
 /**
  * swing: Flexible arm swung by one radian
  *
- * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: c9c08efbdc9f2f1b1ddadadab522649e5100f98e9cdabe31fcf56b416283c60f
- * sha256 of the rest of this file: ff5980e2f49dd4ca74b88b5b990987ffaf1029a2604e11140c30fee805439be9
+ * sha256 of the rest of this file: 6b1aa5f89491e21aa57d6e70b1a60406e811b63b1086057be71fb51d8dc4c25d
  *
  * model: planar arm, large rotations, tip mass
  * stations: 5

@@ -1,9 +1,9 @@
 /**
  * swing: Flexible arm swung by one radian
  *
- * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: c9c08efbdc9f2f1b1ddadadab522649e5100f98e9cdabe31fcf56b416283c60f
- * sha256 of the rest of this file: 4d00f6966a07f1d052902b8f76c258c9d54f8fe249af001702d31085748f96a3
+ * sha256 of the rest of this file: 7f2d89c978a99dccf8d087dc0a513b56a668bd7528f6e79c6731a6331840a699
  *
  * model: planar arm, large rotations, tip mass
  * stations: 5

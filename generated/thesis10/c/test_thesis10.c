@@ -1,9 +1,9 @@
 /**
  * thesis10: Ten-station torsional chain, Gholampour (2018), table 4-1
  *
- * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: f0c976d21d4524b79e43b0ef658e9df768725b961ac09b0a12bdaf9596a590df
- * sha256 of the rest of this file: f55b3b078e76467e76469698305cb8b0c02f2ef9448fdc35f3c817e441d1cc5c
+ * sha256 of the rest of this file: 23b2378b21f483334a4bf91d7a616a810bd5505c2f2ca7f73faa91084c8120bf
  *
  * model: torsional chain (linear)
  * stations: 10

@@ -1,9 +1,9 @@
 /**
  * thesis10: Ten-station torsional chain, Gholampour (2018), table 4-1
  *
- * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: f0c976d21d4524b79e43b0ef658e9df768725b961ac09b0a12bdaf9596a590df
- * sha256 of the rest of this file: 7c4277d2c775682808a6acca89badeadefa41231c95080c339bcbc892a0d01fc
+ * sha256 of the rest of this file: 39c9279b65084540092b5d8d0c4abe4dffb0a198d412bfaae8dd3cc2a02401b1
  *
  * model: torsional chain (linear)
  * stations: 10

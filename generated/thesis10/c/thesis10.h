@@ -1,9 +1,9 @@
 /**
  * thesis10: Ten-station torsional chain, Gholampour (2018), table 4-1
  *
- * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: f0c976d21d4524b79e43b0ef658e9df768725b961ac09b0a12bdaf9596a590df
- * sha256 of the rest of this file: 8d33427a762483a38de034a873db6257b9fc2ce61a88b91c55b07fb08c40a5af
+ * sha256 of the rest of this file: 5d605a858b58ca8d09f4722b65b89d890f2cf6d1495b1d9794a2aafa8f93c692
  *
  * model: torsional chain (linear)
  * stations: 10

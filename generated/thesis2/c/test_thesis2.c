@@ -1,9 +1,9 @@
 /**
  * thesis2: Two-station torsional chain, Gholampour (2018), table 3-2
  *
- * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 8302c2fdab02afb73919e09c91c3abafc3d83d0760e2c0e63be40bfdc341e62e
- * sha256 of the rest of this file: b5844bfd0ab3c6ede92b8b054ce3e3f2389636aa960a5f771cb38dd646423776
+ * sha256 of the rest of this file: 24fe207ac8af5b63e5f1a890787fd6c13e74200f1c208a069f80f89586269f73
  *
  * model: torsional chain (linear)
  * stations: 2

@@ -1,9 +1,9 @@
 /**
  * thesis2: Two-station torsional chain, Gholampour (2018), table 3-2
  *
- * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 8302c2fdab02afb73919e09c91c3abafc3d83d0760e2c0e63be40bfdc341e62e
- * sha256 of the rest of this file: 8ac4faed6728e059c804bc5604f3e90bedf0ac47a58f2c43b5a9bc2185edcf3f
+ * sha256 of the rest of this file: 06b9cb7d0b8d2d7030dc1777acca870233187fe1f855756bbbf62a159a97c514
  *
  * model: torsional chain (linear)
  * stations: 2

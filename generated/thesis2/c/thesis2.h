@@ -1,9 +1,9 @@
 /**
  * thesis2: Two-station torsional chain, Gholampour (2018), table 3-2
  *
- * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 8302c2fdab02afb73919e09c91c3abafc3d83d0760e2c0e63be40bfdc341e62e
- * sha256 of the rest of this file: 007c2539d40127b17d75d20b68ab468c1c132d04d381dd3ffd02e1bc20c2fa9a
+ * sha256 of the rest of this file: a67aebda964d6cfd730b9a51eb1356a4477de8c9ac9ef67db65b2dccce941e65
  *
  * model: torsional chain (linear)
  * stations: 2

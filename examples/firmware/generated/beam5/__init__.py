@@ -1,8 +1,8 @@
 # beam5: Five-link arm on a hub, the model of an observer
 #
-# Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+# Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 7cda6afdfe9f28eb257c67670c83631d86f159a73ec0c14225ebe1e38843e797
-# sha256 of the rest of this file: c92158d435c04d88482e9c20e7cdde0050d301aed934dc8c417df637b6d26224
+# sha256 of the rest of this file: 81e5bf91ca150552fe9cba30abdf643d232732e93048d9b9140fb2d893f75fef
 """beam5: Five-link arm on a hub, the model of an observer."""
 
 from .kernel import (

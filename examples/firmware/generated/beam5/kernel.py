@@ -1,8 +1,8 @@
 # beam5: Five-link arm on a hub, the model of an observer
 #
-# Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+# Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 7cda6afdfe9f28eb257c67670c83631d86f159a73ec0c14225ebe1e38843e797
-# sha256 of the rest of this file: da8bb94d37906e7838b6426aee2c7c1bd93f3c3718500b2a81fe73c58a10126f
+# sha256 of the rest of this file: 61dc2840377828c78c019b8e83ff17a0abd084d4d407e2a2ad1652b3bbad2eb5
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 5

@@ -1,9 +1,9 @@
 /**
  * beam5: Five-link arm on a hub, the model of an observer
  *
- * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 7cda6afdfe9f28eb257c67670c83631d86f159a73ec0c14225ebe1e38843e797
- * sha256 of the rest of this file: b3adc73e5329bdf43531d082f423cdcea6e494ea245fc733c2f401ea8d4454c7
+ * sha256 of the rest of this file: 3e7bcd80c49259132731cd6afca36a74168a55e93341b31500624692e982212a
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 5

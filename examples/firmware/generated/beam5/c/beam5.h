@@ -1,9 +1,9 @@
 /**
  * beam5: Five-link arm on a hub, the model of an observer
  *
- * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 7cda6afdfe9f28eb257c67670c83631d86f159a73ec0c14225ebe1e38843e797
- * sha256 of the rest of this file: 607d21d5838502701786f13e51fec4195eff3ea0c332aaf278f66aa531d65ac1
+ * sha256 of the rest of this file: 444532c380df1aa7efddd0a0a9b056a8a7aec0b3d2e60e19d703cec66890bf42
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 5

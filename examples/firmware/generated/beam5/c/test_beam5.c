@@ -1,9 +1,9 @@
 /**
  * beam5: Five-link arm on a hub, the model of an observer
  *
- * Written by tmm-gen 0.1.0. Do not edit: change the scene and run `tmm-gen build`.
+ * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 7cda6afdfe9f28eb257c67670c83631d86f159a73ec0c14225ebe1e38843e797
- * sha256 of the rest of this file: 9ea25d8d0bac60a5f7668e6bc536109cda1ff4f45992654dc1cf3adb51101f49
+ * sha256 of the rest of this file: c48aa445d1841df93aaf20a973ca6bbda1db8dd7413ff73efc47bd187f5668f7
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 5
