@@ -1,61 +1,87 @@
-"""The page of tasks: every command is one that the command line takes, the C compiles, the target of CMake exists."""
+"""The page of tasks is run: every command and all its Python in one folder; its C compiles; its links lead on."""
 
 from __future__ import annotations
 
 import re
 import shlex
+import shutil
 import subprocess
-from collections.abc import Iterator
+import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
-from tmm_gen.cli import COMMANDS
+from tmm_gen.cli import main
 
 ROOT = Path(__file__).resolve().parents[2]
 TEXT = (ROOT / "docs" / "tasks.md").read_text()
+TOOLS = {"--target": (("arm-none-eabi-gcc", "gcc-arm-none-eabi"), ("qemu-system-arm", "qemu-system-arm"))}
+ELSEWHERE = re.findall(r"^\$ (.*)$", (ROOT / "docs" / "trade.md").read_text(), re.MULTILINE)
+"""Long commands that the test of another page runs, word for word."""
+
+BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+SECTIONS = {part.split("\n", 1)[0]: part for part in TEXT.split("\n## ")[1:]}
+
+pytestmark = pytest.mark.xdist_group("tasks")  # what one builds, the next uses
 
 
-def blocks(language: str) -> Iterator[str]:
-    return iter(re.findall(rf"^```{language}\n(.*?)^```$", TEXT, re.M | re.S))
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    made = tmp_path_factory.mktemp("tasks")
+    for name in ("scenes", "examples"):
+        (made / name).symlink_to(ROOT / name)
+    shutil.copytree(ROOT / "generated" / "arm10", made / "generated" / "arm10")
+    return made
 
 
-LINES = [line[2:] for block in blocks("console") for line in block.splitlines()]
+@pytest.mark.parametrize("title", [title for title, text in SECTIONS.items() if BLOCK.search(text)])
+def test_it_works(
+    title: str,
+    folder: Path,
+    need_tool: Callable[[str, str], str],
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(folder)
+    for language, body in BLOCK.findall(SECTIONS[title]):
+        if language == "console":
+            command, _, shown = body.partition("\n") if "\nerror" in body else (body.strip(), "", "")
+            for line in (line.removeprefix("$ ") for line in command.splitlines()):
+                program, *words = shlex.split(line)
+                assert program == "tmm-gen"
+                for tool in (tool for word in words for tool in TOOLS.get(word, ())):
+                    need_tool(*tool)
+                if line not in ELSEWHERE:
+                    assert main(words) == bool(shown), line
+                    assert shown in capsys.readouterr().err
+        elif language == "python":
+            for place in (folder, folder / "out" / "batch"):
+                monkeypatch.syspath_prepend(str(place))
+            for name in [name for name in sys.modules if name.partition(".")[0] in ("generated", "scatter")]:
+                monkeypatch.delitem(sys.modules, name)  # another test's
+            exec(body, {})
 
 
-@pytest.mark.parametrize("line", LINES)
-def test_the_command_line_takes_it(line: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(ROOT)
-    program, name, *words = shlex.split(line)
-    assert program == "tmm-gen"
-    context = COMMANDS[name].load().make_context(name, words)  # which checks words, and runs nothing
-    for value in context.params.values():
-        if isinstance(value, Path) and str(value).startswith(("scenes/", "examples/")):
-            assert value.exists()
+def test_no_task_takes_more_than_ten_lines() -> None:
+    """Of code at a time, so that nobody has to look for what matters."""
+    assert len(SECTIONS) == 14
+    for title, text in SECTIONS.items():
+        for _, body in BLOCK.findall(text):
+            assert body.count("\n") <= 10, title
 
 
 def test_the_c_compiles_and_cmake_has_the_target(tmp_path: Path) -> None:
-    (body,) = blocks("c")
+    blocks = dict(BLOCK.findall(TEXT))
     source = (
         '#include "arm10.h"\nvoid change(void);\nvoid change(void)\n{\n'
-        f"static arm10_params params;\nstatic arm10_model model;\n{body}}}\n"
+        f"static arm10_params params;\nstatic arm10_model model;\n{blocks['c']}}}\n"
     )
     (tmp_path / "change.c").write_text(source)
     folder = ROOT / "generated" / "arm10" / "c"
-    command = [
-        "gcc",
-        "-std=c99",
-        "-Wall",
-        "-Wextra",
-        "-Werror",
-        "-fsyntax-only",
-        "-I",
-        str(folder),
-        "change.c",
-    ]
-    subprocess.run(command, cwd=tmp_path, check=True)
-    (cmake,) = blocks("cmake")
-    (target,) = re.findall(r"PRIVATE (\w+)\)", cmake)
+    flags = ["-std=c99", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", "-I", str(folder)]
+    subprocess.run(["gcc", *flags, "change.c"], cwd=tmp_path, check=True)
+    (target,) = re.findall(r"PRIVATE (\w+)\)", blocks["cmake"])
     assert f"add_library({target} " in (folder / "CMakeLists.txt").read_text()
 
 
