@@ -81,6 +81,17 @@ def test_an_environment_of_arms_no_two_of_which_are_alike() -> None:
     assert len({round(float(x), 9) for x in (*seen[3][:, 2], *seen[6][:, 2])}) == 6
 
 
+def test_the_page_on_learning(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.syspath_prepend(str(ROOT / "examples" / "rl"))
+    (snippet,) = re.findall(r"```python\n(.*?)```", (ROOT / "docs" / "learning.md").read_text(), re.DOTALL)
+    names: dict[str, Any] = {}
+    exec(snippet, names)
+    assert capsys.readouterr().out.startswith("(1000, 6) -")
+    hub = names["seen"][:, 0]
+    assert hub.min() > 0.1  # all arms are on their way
+    assert np.ptp(hub) > 1e-3  # and no two alike
+
+
 def test_check_compares_it_with_numpy(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     scene = tmp_path / "thesis2.toml"
     text = (ROOT / "scenes" / "thesis2.toml").read_text()
