@@ -10,6 +10,7 @@ import mujoco
 import numpy as np
 import pytest
 from scipy.linalg import eigh
+from support.spatial.about_rest import stiffness
 from support.spatial.afloat import random_afloat
 from support.spatial.kernels import HEADED
 from support.spatial.moving import AFLOAT, TABLE
@@ -24,7 +25,6 @@ from tmm_gen.modal.space.still import Still
 from tmm_gen.modal.space.sweep import inputs_of, swept
 from tmm_gen.reference.spatial_afloat import BASE, AfloatArm
 from tmm_gen.reference.spatial_arm import WorldArm
-from tmm_gen.reference.spatial_linear import stiffness
 from tmm_gen.reference.spatial_turns import product
 from tmm_gen.scene import parse_scene
 from tmm_gen.scene.spatial.arm import ArmOutput, SpatialArm

@@ -7,6 +7,7 @@ from dataclasses import replace
 import mujoco
 import numpy as np
 import pytest
+from support.spatial.about_rest import stiffness
 from support.spatial.mujoco_model import mjcf
 from support.spatial.random_arms import random_arm
 
@@ -16,7 +17,6 @@ from tmm_gen.modal.space.response import space_response
 from tmm_gen.modal.space.still import Still
 from tmm_gen.modal.space.sweep import inputs_of, swept
 from tmm_gen.reference.spatial_arm import WorldArm
-from tmm_gen.reference.spatial_linear import stiffness
 from tmm_gen.reference.spatial_reference import outputs
 from tmm_gen.scene.spatial.arm import ArmOutput, SpatialArm
 

@@ -7,12 +7,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from support.spatial.about_rest import equilibrium, stiffness
 from support.spatial.mujoco_model import mjcf
 from support.spatial.random_arms import random_arm, undamped
 
 from tmm_gen.inputs.signals import Sine, Table
 from tmm_gen.reference.spatial_arm import WorldArm
-from tmm_gen.reference.spatial_linear import equilibrium, stiffness
 from tmm_gen.reference.spatial_motion import given, motion
 from tmm_gen.reference.spatial_reference import outputs
 from tmm_gen.scene.spatial.arm import SpatialArm

@@ -7,12 +7,12 @@ from functools import cache
 
 import numpy as np
 import pytest
+from support.spatial.about_rest import stiffness
 from support.spatial.beams import Beam, End, add_beam, add_body
 from support.spatial.kernels import angles_of, package_of, stepped
 from support.spatial.yardsticks import STRIP, strip, strip_force, strip_tip
 
 from tmm_gen.program.space.assemble import SpaceChoices
-from tmm_gen.reference.spatial_linear import stiffness
 from tmm_gen.reference.spatial_motion import motion
 from tmm_gen.scene.spatial.arm import Revolute, RigidBody, SpatialArm
 

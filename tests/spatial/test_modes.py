@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from scipy.linalg import eigh
+from support.spatial.about_rest import frequencies, stiffness
 from support.spatial.beams import End, add_beam
 from support.spatial.random_arms import random_arm
 from support.spatial.yardsticks import (
@@ -31,7 +32,6 @@ from tmm_gen.modal.space.numbers import ArmNumbers
 from tmm_gen.modal.space.situation import resting_in_space
 from tmm_gen.modal.space.still import Still
 from tmm_gen.reference.spatial_arm import WorldArm
-from tmm_gen.reference.spatial_linear import frequencies, stiffness
 from tmm_gen.scene import Scene, parse_scene
 from tmm_gen.scene.spatial.arm import Revolute, RigidBody, SpatialArm, Turn
 

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from support.spatial.about_rest import equilibrium
 from support.spatial.random_arms import random_arm
 from support.spatial.yardsticks import cantilever
 
@@ -16,7 +17,6 @@ from tmm_gen.modal.space.equilibria import SpaceEquilibria, equilibria_in_space
 from tmm_gen.modal.space.equilibrium import descended
 from tmm_gen.modal.space.numbers import ArmNumbers
 from tmm_gen.reference.spatial_arm import WorldArm
-from tmm_gen.reference.spatial_linear import equilibrium
 from tmm_gen.scene import parse_scene
 from tmm_gen.scene.spatial.arm import ArmInput, Frame, Revolute, RigidBody, SpatialArm
 

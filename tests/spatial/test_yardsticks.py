@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from support.spatial.about_rest import equilibrium, frequencies
 from support.spatial.yardsticks import (
     STRIP,
     Top,
@@ -17,7 +18,6 @@ from support.spatial.yardsticks import (
 )
 
 from tmm_gen.reference.spatial_arm import WorldArm
-from tmm_gen.reference.spatial_linear import equilibrium, frequencies
 from tmm_gen.reference.spatial_reference import spatial_response
 from tmm_gen.scene.spatial.arm import SpatialArm
 

@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 
 from tmm_gen.inputs.signals import Signal
 from tmm_gen.reference.collocation import Trajectory, integrate
-from tmm_gen.reference.spatial_afloat import AfloatArm, joint_mass
+from tmm_gen.reference.spatial_afloat import AfloatArm
 from tmm_gen.reference.spatial_arm import WorldArm
-from tmm_gen.reference.spatial_given import GivenJoints, free_joints
+from tmm_gen.reference.spatial_given import GivenJoints
 from tmm_gen.scene.spatial.arm import SpatialArm
 
 Array = NDArray[np.float64]
@@ -105,21 +105,6 @@ def trajectory(arm: SpatialArm, signals: Signals, until: float, tolerance: float
 def given(signals: Signals, times: Array) -> dict[str, Array]:
     """Return the values of inputs at instants, by column."""
     return {name: signal.at(times) for name, signal in signals.items()}
-
-
-def pace(arm: SpatialArm) -> float:
-    """Return the fastest rate of the arm where it starts, 1/s: of vibrations, decays or rotations."""
-    world, free = WorldArm(arm), free_joints(arm)
-    n = len(free)
-    mass = joint_mass(arm)[np.ix_(free, free)]
-    if arm.base is None:
-        q, v = start(arm)
-        by_q, by_v = world.tangents(q, v, np.zeros_like(q), {})
-    else:  # it falls, and weighs nothing
-        by_q, by_v = np.diag(world.stiffness), np.diag(world.damping)
-    by_q, by_v = by_q[np.ix_(free, free)], by_v[np.ix_(free, free)]
-    slope = np.block([[np.zeros((n, n)), np.eye(n)], [-np.linalg.solve(mass, np.hstack([by_q, by_v]))]])
-    return float(np.max(np.abs(np.linalg.eigvals(slope))))
 
 
 class _Slopes:

@@ -9,13 +9,9 @@ import sympy as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from support.linear import linear_of
+from support.principal_eigenvalue import numerical_damping, period_error
 
-from tmm_gen.derive.integrators.accuracy import (
-    leading_terms,
-    numerical_damping,
-    period_error,
-    principal_exponent,
-)
+from tmm_gen.derive.integrators.accuracy import leading_terms, principal_exponent
 from tmm_gen.derive.integrators.amplification import OMEGA, amplification
 from tmm_gen.derive.integrators.declaration import Integrator
 from tmm_gen.derive.integrators.order import free_order

@@ -62,17 +62,6 @@ def principal_exponent(linear: Amplification, omega: float, zeta: float = 0.0) -
         return complex(mpmath.log(value))
 
 
-def period_error(linear: Amplification, omega: float, zeta: float = 0.0) -> float:
-    """Return (numerical period - period)/period of free motion at ``Omega = omega``."""
-    return omega * math.sqrt(1 - zeta**2) / principal_exponent(linear, omega, zeta).imag - 1
-
-
-def numerical_damping(linear: Amplification, omega: float, zeta: float = 0.0) -> float:
-    """Return the damping ratio of free motion at ``Omega = omega`` in excess of the physical one."""
-    exponent = principal_exponent(linear, omega, zeta)
-    return -exponent.real / abs(exponent) - zeta
-
-
 def _principal_logarithm(polynomial: sp.Poly, roots: list[sp.Expr]) -> list[sp.Expr]:
     """Return the coefficients of ``log(LAMBDA)/Omega - i`` by powers of ``Omega``, undamped.
 

@@ -23,7 +23,7 @@ from tmm_gen.derive.station.shaft import UNKNOWN as UNKNOWN_OF_SHAFT
 from tmm_gen.program.arm.binding import Binding, Scratch
 from tmm_gen.program.arm.layout import Layout
 from tmm_gen.program.arm.loads import Loads
-from tmm_gen.program.arm.motion import Held, Moving
+from tmm_gen.program.arm.motion import Held, Moving, StageOf
 from tmm_gen.program.variables import Ref, Role, Variable, local
 
 BASE = 0
@@ -47,6 +47,8 @@ class AtPlaces:
         Motion about which it is linearised, base first.
     loads : Loads
         What acts.
+    stage : StageOf
+        Which stage of which scheme it is.
     """
 
     def __init__(
@@ -57,9 +59,10 @@ class AtPlaces:
         gains: Mapping[sp.Symbol, sp.Expr],
         motion: Mapping[str, Moving],
         loads: Loads,
+        stage: StageOf,
     ) -> None:
         self.layout, self.frame, self.motion, self.loads = layout, frame, motion, loads
-        self.gains, self.prepared = gains, prepared
+        self.gains, self.prepared, self.stage = gains, prepared, stage
         self.scratch = Scratch(dict(_described(frame)))
         self._parameters = {sp.Symbol(name): v for name, v in {**layout.parameters, **prepared}.items()}
         self.nodes = {

@@ -49,7 +49,7 @@ class ProductWalks(Walks):
     def _each(self) -> list[tuple[int, int, derived.Product]]:
         return [
             (start, stop, self._product(elements, self._known_of(inner)))
-            for (start, stop, elements), inner in zip(self.runs, self._inwards, strict=True)
+            for (start, stop, elements), inner in zip(self.runs, self._derived.inwards, strict=True)
         ]
 
     def _known_of(self, inner: Inward) -> list[Let]:

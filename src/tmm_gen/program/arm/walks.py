@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import replace
+from functools import cached_property
+from typing import NamedTuple
 
 import sympy as sp
 
 from tmm_gen.derive.elements.declaration import Element
-from tmm_gen.derive.station.frame import Frame, change, force, impedance, of_shaft, predicted_force
+from tmm_gen.derive.station.frame import change, force, impedance, of_shaft, predicted_force
 from tmm_gen.derive.station.inward import Inward, back
 from tmm_gen.derive.station.lets import Coordinate, Let, Line, composed
 from tmm_gen.derive.station.station import ceasing, everything, inward, outward, recurring
@@ -16,49 +18,21 @@ from tmm_gen.program.arm.at_places import BASE, AtPlaces, hub_unknown, prescribe
 from tmm_gen.program.arm.base import Balance, base_acceleration, base_change, floating_base, turning_base
 from tmm_gen.program.arm.binding import Binding
 from tmm_gen.program.arm.branches import Gathered, from_fork, kept_at_fork, resumed, rooted
-from tmm_gen.program.arm.layout import Layout
-from tmm_gen.program.arm.loads import Loads
-from tmm_gen.program.arm.motion import Moving, StageOf
 from tmm_gen.program.arm.spread import spread
 from tmm_gen.program.statements import Assign, Loop, Order, Require, Section, Statement
-from tmm_gen.program.variables import Ref, Variable
+from tmm_gen.program.variables import Ref
+
+
+class _Derived(NamedTuple):
+    tail: Inward
+    at_base: frozenset[sp.Symbol]
+    arriving: list[frozenset[sp.Symbol]]
+    """What is known to be zero beyond each run."""
+    inwards: list[Inward]
 
 
 class Walks(AtPlaces):
-    """Builds the sections of one sweep.
-
-    Parameters
-    ----------
-    layout : Layout
-        The row's variables.
-    prepared : mapping from str to Variable
-        Combinations of parameters.
-    frame : Frame
-        What the recursion is derived for.
-    gains : mapping from sympy.Symbol to sympy.Expr
-        Values of the frame's symbols for gains.
-    motion : mapping from "q", "v", "a" to Variable or Held
-        Motion about which it is linearised, base first.
-    loads : Loads
-        What acts.
-    stage : StageOf
-        Which stage of which scheme it is.
-    """
-
-    def __init__(
-        self,
-        layout: Layout,
-        prepared: Mapping[str, Variable],
-        frame: Frame,
-        gains: Mapping[sp.Symbol, sp.Expr],
-        motion: Mapping[str, Moving],
-        loads: Loads,
-        stage: StageOf,
-    ) -> None:
-        super().__init__(layout, prepared, frame, gains, motion, loads)
-        self.stage = stage
-        self.runs = layout.row.runs(layout.row.swept())
-        self._inwards = self._derive()
+    """Builds the sections of one sweep, from what :class:`AtPlaces` binds."""
 
     def sections(self, then: Callable[[], Iterable[Section]] = tuple) -> list[Section]:
         """Return the whole sweep, and what follows it: that may read what the sweep has named at each station."""
@@ -98,7 +72,7 @@ class Walks(AtPlaces):
         }
         along = Binding(self.scratch, {**here.values, **carried, **moving})
         kept = {ref: v.entry for ref, v in zip(carried.values(), self.nodes.values(), strict=True)}
-        for (start, stop, elements), derived in zip(self.runs, self._inwards, strict=True):
+        for (start, stop, elements), derived in zip(self.runs, self._derived.inwards, strict=True):
             lets = self.ways_out(elements, derived)
             self.scratch.describe(let for let in lets if let.symbol not in moving)
             at_nodes = _depending(lets, set(carried))
@@ -131,7 +105,7 @@ class Walks(AtPlaces):
         """Return the forces of elements that give way, at the motion about which it is linearised."""
         here = self.at_station()
         found: list[Statement] = self.loads.filled(self._driven)
-        for (start, stop, _), derived in zip(self.runs, self._inwards, strict=True):
+        for (start, stop, _), derived in zip(self.runs, self._derived.inwards, strict=True):
             if derived.known:
                 lines = [*self.ways_ahead(derived), *derived.known]
                 found.append(self.over(Order.OUTWARD, start, stop, here.lines(lines)))
@@ -144,7 +118,9 @@ class Walks(AtPlaces):
     @property
     def _driven(self) -> set[sp.Symbol]:
         """What stands in the laws of elements that give way."""
-        found = {s for derived in self._inwards for let in derived.known for s in let.value.free_symbols}
+        found = {
+            s for derived in self._derived.inwards for let in derived.known for s in let.value.free_symbols
+        }
         return found | {s for s in self.loads.values if of_shaft(s) in found}
 
     def inward_forces(self) -> list[Statement]:
@@ -154,7 +130,7 @@ class Walks(AtPlaces):
         unread = set() if self.frame.predicted else set(map(predicted_force, self.frame.coordinates))
         row, gathered = self.layout.row, Gathered(self.layout.row)
         for (start, stop, _), derived, arriving in reversed(
-            list(zip(self.runs, self._inwards, self._arriving, strict=True))
+            list(zip(self.runs, self._derived.inwards, self._derived.arriving, strict=True))
         ):
             begin = self.tail() if stop == len(row.stations) else {}
             begin |= self._joined(gathered, stop - 1, arriving)
@@ -166,7 +142,7 @@ class Walks(AtPlaces):
             found.append(self.over(Order.INWARD, start, stop, here.lines(lines)))
             found += gathered.leave(start, self._carried(derived.zero))
         if row.boundary == "free":
-            at_base = self._joined(gathered, BASE - 1, self._at_base)
+            at_base = self._joined(gathered, BASE - 1, self._derived.at_base)
             found += [Assign(self.scratch.ref(s.name), value) for s, value in at_base.items()]
         return found
 
@@ -196,7 +172,7 @@ class Walks(AtPlaces):
     def tail(self) -> dict[sp.Symbol, sp.Expr]:
         """Return what stands beyond the last station, as forces there."""
         at_tip = self.at_node(self.layout.stations)
-        left = composed(self._tail.lines)
+        left = composed(self._derived.tail.lines)
         return {s: at_tip.value(left[s]) for s in self.carried_inward() if s in left}
 
     def base(self) -> list[Statement]:
@@ -210,7 +186,7 @@ class Walks(AtPlaces):
         return [*here.lines(self._free_base()), Assign(hub_unknown(), unknown)]
 
     def _balance(self) -> Balance:
-        return floating_base(self.layout.row.base, self.frame, self._at_base)
+        return floating_base(self.layout.row.base, self.frame, self._derived.at_base)
 
     def _found_of_base(self) -> list[Statement]:
         """Keep what has been found of a base that floats: the way out changes the same scalars."""
@@ -228,7 +204,7 @@ class Walks(AtPlaces):
         return hub_unknown() if boundary == "free" else prescribed_unknown(self.frame.still, self.loads)
 
     def _free_base(self) -> list[Line]:
-        return turning_base(self.layout.row.base, self.frame, self._at_base)
+        return turning_base(self.layout.row.base, self.frame, self._derived.at_base)
 
     def answers(self) -> list[Statement]:
         """Walk out with the unknowns."""
@@ -238,7 +214,7 @@ class Walks(AtPlaces):
         at_base = [base_change(c) if row.floats else zero for c in self._carried_along]
         found: list[Statement] = [Assign(ref, value) for ref, value in zip(moved, at_base, strict=True)]
         forks = from_fork(moved, at_base)
-        for (start, stop, elements), derived in zip(self.runs, self._inwards, strict=True):
+        for (start, stop, elements), derived in zip(self.runs, self._derived.inwards, strict=True):
             found += resumed(row, start, forks | {unknown: self._solved_at})
             if elements:
                 body = [*here.lines(back(derived)), Assign(self.solved.at(), unknown), *self.after_answer()]
@@ -260,23 +236,29 @@ class Walks(AtPlaces):
 
     # -- derivation ----------------------------------------------------------------------------------------
 
-    def _derive(self) -> list[Inward]:
+    @cached_property
+    def runs(self) -> tuple[tuple[int, int, tuple[Element, ...]], ...]:
+        """Stations of the same elements, from the base outward."""
         row = self.layout.row
-        self._tail = inward(row.tail, self.frame, everything(self.frame), moved=True)
-        self._arriving: list[frozenset[sp.Symbol]] = []
-        """What is known to be zero beyond each run."""
-        found: list[Inward] = []
+        return row.runs(row.swept())
+
+    @cached_property
+    def _derived(self) -> _Derived:
+        row = self.layout.row
+        tail = inward(row.tail, self.frame, everything(self.frame), moved=True)
+        arriving: list[frozenset[sp.Symbol]] = []
+        inwards: list[Inward] = []
         begun: dict[int, frozenset[sp.Symbol]] = {}
         for start, stop, elements in reversed(self.runs):
-            zero = self._tail.zero if stop == len(row.stations) else everything(self.frame)
+            zero = tail.zero if stop == len(row.stations) else everything(self.frame)
             for station in row.carried(stop - 1):
                 zero &= begun[station]
             derived = recurring(elements, self.frame, zero, stop - start)
             begun[start] = derived.zero
-            self._arriving.insert(0, zero)
-            found.insert(0, derived)
-        self._at_base = frozenset.intersection(*(begun[station] for station in row.carried(BASE - 1)))
-        return found
+            arriving.insert(0, zero)
+            inwards.insert(0, derived)
+        at_base = frozenset.intersection(*(begun[station] for station in row.carried(BASE - 1)))
+        return _Derived(tail, at_base, arriving, inwards)
 
 
 def _empty(statement: Statement) -> bool:

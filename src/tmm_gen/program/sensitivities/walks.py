@@ -39,18 +39,18 @@ class TangentableWalks(Walks):
     def tangents(self) -> list[tuple[int, int, Inward, Outward, Tangent]]:
         """Return the derived tangents of all runs."""
         found = []
-        for (start, stop, elements), derived in zip(self.runs, self._inwards, strict=True):
+        for (start, stop, elements), derived in zip(self.runs, self._derived.inwards, strict=True):
             out = outward(elements, self.frame)
             found.append((start, stop, derived, out, Tangent(derived, out)))
         return found
 
     def _tail_tangent(self) -> Tangent:
         """Return the tangent of what stands beyond the last station."""
-        return Tangent(self._tail, outward(self.layout.row.tail, self.frame, moved=True))
+        return Tangent(self._derived.tail, outward(self.layout.row.tail, self.frame, moved=True))
 
     def _named_balance(self) -> Balance:
         """Return how a base that floats is solved for, with names for all that tangents need of it."""
-        return floating_base(self.layout.row.base, self.frame, self._at_base, named=True)
+        return floating_base(self.layout.row.base, self.frame, self._derived.at_base, named=True)
 
     def _walk_in(
         self, at_tip: Mapping[sp.Symbol, sp.Expr], bodies: Sequence[Sequence[Assign | Require]]
