@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 from tmm_gen.derive.integrators.declaration import Integrator
 from tmm_gen.derive.integrators.registry import integrator
 from tmm_gen.derive.integrators.relations import UnsuitableUnknownError, affine_motion
@@ -21,8 +23,9 @@ from tmm_gen.scene import Scene
 from tmm_gen.scene.spatial.arm import SpatialArm
 
 
+@lru_cache(maxsize=8)
 def build_program(scene: Scene, *, auto: bool = False) -> Program:
-    """Build the program of a scene.
+    """Build the program of a scene; the last few are remembered.
 
     Parameters
     ----------

@@ -243,7 +243,7 @@ class Program:
     main: Routine
     output: Routine
     stage_instants: tuple[tuple[float, ...], ...]
-    facts: dict[str, str] = field(default_factory=dict)
+    facts: dict[str, str] = field(default_factory=dict, hash=False)
     sensitivities: Sensitivities | None = None
 
     @property

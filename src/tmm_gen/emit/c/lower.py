@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import lru_cache
 
 import sympy as sp
 
@@ -27,8 +28,9 @@ from tmm_gen.program.statements import (
 from tmm_gen.program.variables import Variable
 
 
+@lru_cache(maxsize=8)
 def lower(program: Program, *, apart: bool = False) -> Program:
-    """Return the program in the form in which C is written; every value stays the same bit for bit.
+    """Return the program in the form in which C is written, the last few as before; values stay the same bit for bit.
 
     Parameters
     ----------
