@@ -12,9 +12,9 @@ from dataclasses import replace
 
 import sympy as sp
 
-from tmm_gen.program.passes.dependence import SCRATCH, accesses, dead_after, uses_of
+from tmm_gen.program.passes.dependence import SCRATCH, Uses, accesses, first_uses, uses_of
 from tmm_gen.program.passes.prune import prune
-from tmm_gen.program.statements import Assign, Loop, Mark, Require, Routine, Statement
+from tmm_gen.program.statements import Assign, Loop, Mark, Require, Routine, Section, Statement
 from tmm_gen.program.variables import Ref, Role, Variable, refs_in
 
 
@@ -110,31 +110,35 @@ def _propagate_copies(block: tuple[Statement, ...]) -> tuple[Statement, ...]:
 
 def _without_dead_copies(routine: Routine) -> Routine:
     """Remove copies into scratch scalars that are set again, or forgotten, before anything reads them."""
-    sections = []
-    later = tuple(routine.statements())
-    for section in routine.sections:
+    sections: list[Section] = []
+    then = Uses()
+    for section in reversed(routine.sections):
         kept: list[Statement] = []
-        for statement in section.statements:
-            later = later[1:]
+        for statement in reversed(section.statements):
             if isinstance(statement, Loop):
-                kept.append(_loop_without_dead_copies(statement, later))
-            elif not (_copies_into_scratch(statement) and dead_after(statement.target.variable, later)):  # type: ignore[union-attr]
+                kept.append(_loop_without_dead_copies(statement, then))
+            elif not (_copies_into_scratch(statement) and then.dead(statement.target.variable)):  # type: ignore[union-attr]
                 kept.append(statement)
-        sections.append(replace(section, statements=tuple(kept)))
-    return replace(routine, sections=tuple(s for s in sections if s.statements))
+            then.before(statement)
+        if kept:
+            sections.append(replace(section, statements=tuple(reversed(kept))))
+    return replace(routine, sections=tuple(reversed(sections)))
 
 
-def _loop_without_dead_copies(loop: Loop, later: tuple[Statement, ...]) -> Loop:
-    """Do the same inside a loop, whose end leads to its beginning and to what comes later."""
+def _loop_without_dead_copies(loop: Loop, then: Uses) -> Loop:
+    """Do the same inside a loop, whose end leads to its beginning and to what comes then."""
     body: list[Assign | Require] = []
-    for place, inner in enumerate(loop.body):
-        if not _copies_into_scratch(inner):
+    again, rest = first_uses(loop), dict[Variable, bool]()
+    for inner in reversed(loop.body):
+        if _copies_into_scratch(inner):
+            variable = inner.target.variable  # type: ignore[union-attr]
+            dead = rest.get(variable, again[variable] and then.dead(variable))
+        else:
+            dead = False
+        if not dead:
             body.append(inner)
-            continue
-        ways = [(*loop.body[place + 1 :], *after) for after in (loop.body, later)]
-        if not all(dead_after(inner.target.variable, way) for way in ways):  # type: ignore[union-attr]
-            body.append(inner)
-    return loop if len(body) == len(loop.body) else replace(loop, body=tuple(body))
+        rest.update(first_uses(inner))
+    return loop if len(body) == len(loop.body) else replace(loop, body=tuple(reversed(body)))
 
 
 def _copies_into_scratch(statement: Assign | Require | Mark) -> bool:

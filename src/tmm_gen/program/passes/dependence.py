@@ -154,7 +154,7 @@ def carried_scalars(loop: Loop) -> frozenset[Variable]:
 
 
 @lru_cache(maxsize=1 << 12)
-def _first_uses(statement: Statement) -> dict[Variable, bool]:
+def first_uses(statement: Statement) -> dict[Variable, bool]:
     """Return whether the first use of each variable writes it."""
     found: dict[Variable, bool] = {}
     for access in accesses(statement):
@@ -188,7 +188,7 @@ def dead_after(variable: Variable, later: tuple[Statement, ...]) -> bool:
     for statement in later:
         if isinstance(statement, Mark):  # what comes next is not only what stands next
             return False
-        uses = _first_uses(statement)
+        uses = first_uses(statement)
         if variable in uses:
             return uses[variable]
     return variable.role in SCRATCH
@@ -206,7 +206,7 @@ class Uses:
         if isinstance(statement, Mark):  # what comes next is not only what stands next
             self._writes, self._marked = {}, True
         else:
-            self._writes.update(_first_uses(statement))
+            self._writes.update(first_uses(statement))
 
     def dead(self, variable: Variable) -> bool:
         """Whether nothing reads a scalar before it is assigned anew."""
@@ -252,7 +252,7 @@ def _access(ref: Ref, writes: bool, visits: range) -> Access:
 
 
 def _set_before_use(loop: Loop, scalar: Variable) -> bool:
-    return _first_uses(loop).get(scalar, False)
+    return first_uses(loop).get(scalar, False)
 
 
 def _scalars_apart(first: Loop, second: Loop) -> bool:

@@ -61,12 +61,11 @@ class Hoister:
             return value
         if _plainly_nonlinear(value):
             return self._inside(value)
-        polynomial = sp.Poly(value, *changing) if value.is_polynomial(*changing) else None
-        if polynomial is None or polynomial.total_degree() > 1:
+        affine = _plainly_affine(value, changing) or _affine(value, changing)
+        if affine is None:
             return self._inside(value)
         by_factor: dict[sp.Expr, list[sp.Expr]] = {}
-        for powers, factor in polynomial.terms():
-            monomial = sp.Mul(*(ref**power for ref, power in zip(changing, powers, strict=True)))
+        for monomial, factor in affine:
             held, sign = self._factor(_factored(factor), monomial if monomial != 1 else None)
             by_factor.setdefault(held, []).append(sign * monomial)
         terms = [
@@ -127,6 +126,33 @@ def _plainly_nonlinear(value: sp.Expr) -> bool:
             return False
         nonlinear = nonlinear or sum(int(n) for base, n in powers if not _bound_early(base)) > 1
     return nonlinear
+
+
+def _affine(value: sp.Expr, changing: list[Ref]) -> list[tuple[sp.Expr, sp.Expr]] | None:
+    """Return an expression as changing things with their factors, and 1 with the rest; None where it is not affine."""
+    polynomial = sp.Poly(value, *changing) if value.is_polynomial(*changing) else None
+    if polynomial is None or polynomial.total_degree() > 1:
+        return None
+    monomials = [sp.Mul(*map(sp.Pow, changing, powers)) for powers in polynomial.monoms()]
+    return list(zip(monomials, polynomial.coeffs(), strict=True))
+
+
+def _plainly_affine(value: sp.Expr, changing: list[Ref]) -> list[tuple[sp.Expr, sp.Expr]] | None:
+    """Return the same of an expanded sum, without the algebra of polynomials; None of any other expression."""
+    found: dict[sp.Expr, list[sp.Expr]] = {}
+    for term in sp.Add.make_args(value):
+        late: list[sp.Expr] = []
+        early: list[sp.Expr] = []
+        for factor in sp.Mul.make_args(term):
+            base, exponent = factor.as_base_exp()
+            whole = factor.is_Rational or (base.is_Symbol and exponent.is_Integer and exponent > 0)
+            if not whole:
+                return None
+            (early if _bound_early(factor) else late).append(factor)
+        if len(late) > 1 or not all(factor.is_Symbol for factor in late):
+            return None
+        found.setdefault(late[0] if late else sp.S.One, []).append(sp.Mul(*early))
+    return [(ref, sp.Add(*found[ref])) for ref in (*changing, sp.S.One) if ref in found]
 
 
 def _factored(value: sp.Expr) -> sp.Expr:
