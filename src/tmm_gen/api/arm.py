@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.api.changes import keys_of
-from tmm_gen.api.described import Described
 from tmm_gen.api.given import constants, free_angles, named, positive, required, signals
 from tmm_gen.api.guard import guarded
+from tmm_gen.api.studied import Studied
 from tmm_gen.api.tables import Tables
 from tmm_gen.api.words import path_of, whole
 from tmm_gen.errors import UserError
@@ -41,7 +41,7 @@ Near = Mapping[str, float]
 """Angles of joints by name, rad."""
 
 
-class Arm(Described):
+class Arm(Studied):
     """An arm, checked. It never changes: :meth:`with_` returns another.
 
     Parameters

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
@@ -17,13 +16,15 @@ from tmm_gen.calibration.fitted_keys import (
     refuse_overlaps,
     replaced,
 )
-from tmm_gen.calibration.uncertainty import SURE, deviations
+from tmm_gen.calibration.outcome import Calibration, Fitted
+from tmm_gen.calibration.uncertainty import deviations
 from tmm_gen.errors import CheckFailed, UserError
 from tmm_gen.inputs.clock import starts_of
 from tmm_gen.inputs.signals import Signal
 from tmm_gen.scene import Scene
 from tmm_gen.scene.flat import require_flat
-from tmm_gen.scene.problem import Path
+
+__all__ = ["MOST_MISFIT", "Calibration", "Fitted", "Loss", "calibrate"]
 
 Array = NDArray[np.float64]
 Loss = Literal["linear", "huber"]
@@ -45,67 +46,6 @@ _HUBER = 1.345
 
 _ROUNDS = 3
 """Fits by Huber's loss, each with the standard deviation that the one before left."""
-
-
-@dataclass(frozen=True)
-class Fitted:
-    """A fitted number.
-
-    Parameters
-    ----------
-    key : str
-        In the scene, dotted.
-    given, value : float
-        Before and after.
-    deviation : float
-        Standard deviation of ``value``, from the covariance of the fit.
-    """
-
-    key: str
-    given: float
-    value: float
-    deviation: float
-
-    @property
-    def interval(self) -> tuple[float, float]:
-        """95 % confidence interval, of a normal distribution of the logarithm."""
-        reach = float(np.exp(min(SURE * self.deviation / self.value, 700.0)))
-        return self.value / reach, self.value * reach
-
-
-@dataclass(frozen=True, eq=False)
-class Calibration:
-    """The outcome of a fit.
-
-    Parameters
-    ----------
-    scene : Scene
-        With the fitted numbers.
-    changes : mapping from path to float
-        What changed in its file.
-    found : tuple of Fitted
-        One for each.
-    correlation : array, (p, p)
-        Of the fitted numbers' logarithms.
-    misfit_before, misfit : float
-        Root mean square of what the model is off, relative to the record's standard deviation.
-    samples : int
-        Numbers compared.
-    outliers : int
-        Of these, given less weight by Huber's loss.
-    start : float
-        When the motion started, on the clock of the record, s.
-    """
-
-    scene: Scene
-    changes: Mapping[Path, float]
-    found: tuple[Fitted, ...]
-    correlation: Array
-    misfit_before: float
-    misfit: float
-    samples: int
-    outliers: int
-    start: float
 
 
 def calibrate(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
@@ -12,8 +11,7 @@ from tmm_gen.cli.console import Column, progress, say_written, table
 from tmm_gen.cli.given import finite, positive
 from tmm_gen.cli.kinds import served_scene
 from tmm_gen.cli.outputs import OutputFile, force_option, require_new, write_outputs
-from tmm_gen.errors import UserError
-from tmm_gen.reading import open_table, read_file
+from tmm_gen.reading import read_file
 
 if TYPE_CHECKING:
     from tmm_gen.calibration.calibrate import Calibration
@@ -96,16 +94,12 @@ def calibrate(
     loaded = served_scene("calibrate", scene)
     with progress(f"fitting {loaded.name}"):
         from tmm_gen.calibration.calibrate import calibrate as fit
+        from tmm_gen.calibration.record import missing_inputs, read_record
         from tmm_gen.inputs.clock import UNITS, from_start
-        from tmm_gen.inputs.given import input_names, read_inputs, read_tables
+        from tmm_gen.inputs.given import input_names, read_inputs
 
-        names = _columns(loaded, record)
-        missing = tuple(item.name for item in loaded.inputs if item.name not in names)
-        _, angles = input_names(loaded)
-        signals = {
-            **read_tables(record, names, angles, gaps=True),
-            **read_inputs(given, missing, angles),
-        }
+        signals = read_record(loaded, record)
+        signals |= read_inputs(given, missing_inputs(loaded, signals), input_names(loaded)[1])
         unit = UNITS[time_unit]
         done = fit(
             loaded,
@@ -119,29 +113,6 @@ def calibrate(
     _show(loaded, done, written, json_mode)
 
 
-def _columns(scene: Scene, record: Path) -> tuple[str, ...]:
-    """Return the columns of the record that the scene knows.
-
-    Raises
-    ------
-    UserError
-        If the file cannot be read, or has none.
-    """
-    from tmm_gen.scene.columns import output_columns
-
-    try:
-        with open_table(record) as file:
-            headings = [cell.strip() for cell in next(csv.reader(file), [])]
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
-        raise UserError(f"{record}: cannot be read: {error}. Save it as CSV in UTF-8.") from None
-    outputs = [column.name for column in output_columns(scene)]
-    known = [*(item.name for item in scene.inputs), *outputs]
-    found = tuple(name for name in known if name in headings)
-    if not set(found) & set(outputs):
-        raise UserError(f"{record}:1: has none of the outputs {', '.join(outputs)}. Name a column after one.")
-    return found
-
-
 def _write(scene: Path, out: Path | None, done: Calibration, force: bool) -> list[Path]:
     """Write the scene's file with the fitted numbers in place of the old ones."""
     if out is None:
@@ -153,20 +124,6 @@ def _write(scene: Path, out: Path | None, done: Calibration, force: bool) -> lis
 
 
 def _show(scene: Scene, done: Calibration, written: list[Path], json_mode: bool) -> None:
-    rows: list[dict[str, object]] = []
-    for found in done.found:
-        low, high = found.interval
-        rows.append(
-            {
-                "key": found.key,
-                "given": found.given,
-                "value": found.value,
-                "deviation": found.deviation,
-                "low": low,
-                "high": high,
-                "change_percent": 100.0 * (found.value / found.given - 1.0),
-            }
-        )
     columns: list[Column | str] = [
         "key",
         Column("given", form=".6g"),
@@ -186,15 +143,15 @@ def _show(scene: Scene, done: Calibration, written: list[Path], json_mode: bool)
         "correlation": done.correlation,
         "files": written,
     }
-    table(rows, columns, json_mode, title=f"{scene.title}: fitted to {done.samples} samples", more=facts)
+    table(
+        list(done.rows()),
+        columns,
+        json_mode,
+        title=f"{scene.title}: fitted to {done.samples} samples",
+        more=facts,
+    )
     if json_mode:
         return
-    click.echo(
-        f"what is left: {100 * done.misfit:.3g} % of the record's standard deviation, "
-        f"{100 * done.misfit_before:.3g} % before"
-    )
-    if done.outliers:
-        click.echo(f"{done.outliers} of {done.samples} samples are far off and were given less weight")
-    if done.start:
-        click.echo(f"the arm starts at {done.start:.10g} s of the record's clock")
+    for line in done.sentences():
+        click.echo(line)
     say_written(written, "--out FILE writes the calibrated scene")

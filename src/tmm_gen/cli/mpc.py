@@ -10,7 +10,7 @@ import click
 from tmm_gen.cli.console import progress
 from tmm_gen.cli.given import plot_option, positive
 from tmm_gen.cli.kinds import served_scene
-from tmm_gen.cli.mpc_tune import EVERYTHING, chosen, tuned
+from tmm_gen.cli.mpc_tune import EVERYTHING, tuned
 from tmm_gen.cli.outputs import OutputFile, claim, force_option, require_new
 from tmm_gen.cli.study_options import one_thread
 
@@ -146,6 +146,7 @@ def mpc(
     loaded = served_scene("mpc", scene)
     claim((picture, animated), (scene,))
     require_new(out, force)
+    from tmm_gen.closed_loop.chosen import chosen
     from tmm_gen.control.condition import CONDITIONS
     from tmm_gen.control.controllers import BY_NAME, CONTROLLERS, require_solvers
 

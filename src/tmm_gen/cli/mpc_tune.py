@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from contextlib import nullcontext
-from difflib import get_close_matches
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
@@ -15,7 +14,7 @@ from tmm_gen.errors import UserError
 from tmm_gen.reading import read_file
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping
+    from collections.abc import Callable, Iterable
 
     from tmm_gen.cli.console import Advance
     from tmm_gen.closed_loop.tuning import Tunable, Tuned
@@ -24,22 +23,6 @@ if TYPE_CHECKING:
 
 EVERYTHING = "all"
 """What is tuned unless something is named."""
-
-
-def chosen(option: str, names: tuple[str, ...], known: Mapping[str, Any]) -> list[Any]:
-    """Return what is meant by names, in the order there is.
-
-    Raises
-    ------
-    UserError
-        If one is unknown; it lists them.
-    """
-    for name in names:
-        if name not in known:
-            near = get_close_matches(name, known, n=1)
-            guess = f"Did you mean {near[0]}? " if near else ""
-            raise UserError(f"{option} {name}: there is none. {guess}There are {', '.join(known)}.")
-    return [item for name, item in known.items() if name in names]
 
 
 def tuned(
@@ -82,6 +65,7 @@ def tuned(
     UserError
         If there is no tunable of that name, or the file has no line for a number that is to be found.
     """
+    from tmm_gen.closed_loop.chosen import chosen
     from tmm_gen.closed_loop.pricing import OneByOne, side_by_side
     from tmm_gen.closed_loop.search import require_cma
     from tmm_gen.closed_loop.tuning import TUNABLE, tune

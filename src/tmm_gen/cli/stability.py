@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
@@ -61,9 +60,10 @@ def stability(
     """
     loaded = require_served("stability", changed_scene(scene, changes))
     from tmm_gen.modal.near import start_of
+    from tmm_gen.stability.rows import mapped_integrators
 
     start = start_of(loaded, near)
-    chosen = _known(mapped or (loaded.integrator.name,))
+    chosen = mapped_integrators(mapped or (loaded.integrator.name,))
     claim((picture,), (scene,))
     if picture is not None and cells == 0:
         raise click.UsageError("--plot draws maps: leave out --cells 0.")
@@ -77,17 +77,6 @@ def stability(
     files = _draw(maps, picture, loaded.name)
     _show(motion, found, maps, files, json_mode)
     return int(any(each.differs.any() for each in maps))
-
-
-def _known(names: Sequence[str]) -> list[str]:
-    from tmm_gen.scene.integrator import INTEGRATOR_NAMES, method_named
-
-    for name in names:
-        if method_named(name) is None:
-            raise click.UsageError(
-                f"--map {name}: no such integrator; there are {', '.join(INTEGRATOR_NAMES)}."
-            )
-    return list(dict.fromkeys(name.replace("-", "_") for name in names))
 
 
 def _measure(motion: SmallMotion, names: list[str], cells: int | None) -> list[GrowthMap]:
@@ -119,6 +108,8 @@ def _draw(maps: list[GrowthMap], file: Path | None, name: str) -> list[Path]:
 def _show(
     motion: SmallMotion, found: list[Standing], maps: list[GrowthMap], files: list[Path], json_mode: bool
 ) -> None:
+    from tmm_gen.stability.rows import standing_row
+
     scene, highest = motion.scene, motion.highest
     h = scene.integrator.step
     zeta = highest.damping_ratio or 0.0
@@ -149,42 +140,17 @@ def _show(
         Column("margin", "margin", _margin, "right"),
         Column("verdict"),
     ]
-    table([_row(each, h) for each in found], columns, json_mode, title=title, more=facts)
+    table([standing_row(each, h) for each in found], columns, json_mode, title=title, more=facts)
     if not json_mode:
         _say(motion, found, maps, files)
 
 
 def _say(motion: SmallMotion, found: list[Standing], maps: list[GrowthMap], files: list[Path]) -> None:
-    click.echo(
-        f"* the scene's own; growth: of the worst of {len(motion.modes)} modes, each with its own damping"
-    )
-    exact = all(each.exact for each in found)
-    if motion.rounds is not None and exact:
-        click.echo(
-            "weight is left to the sweeps' corrections: growth and largest step are those of the kernel's own sweeps"
-        )
-    if motion.mixed:
-        click.echo(
-            "damping couples the modes: growth and largest step are those of the "
-            + ("whole arm" if exact else "modes by themselves, the arm being too large")
-        )
-    if motion.falling:
-        click.echo("the arm itself falls over: it grows in truth, whatever the integrator")
-    for each in maps:
-        click.echo(_finding(each))
+    from tmm_gen.stability.rows import notes_of
+
+    for note in notes_of(motion, found, maps):
+        click.echo(note)
     say_written(files, "--plot draws the map, --map INTEGRATOR measures another" if maps else "")
-
-
-def _finding(each: GrowthMap) -> str:
-    name, count = each.scene.integrator.name, each.differs.size
-    if not each.differs.any():
-        return f"measured: the {name} kernel grows as derived at all {count} steps and stiffnesses of the map"
-    step, factor, measured, derived = each.worst
-    return (
-        f"measured: the {name} kernel DIFFERS from the derived growth at {int(each.differs.sum())} of {count} steps "
-        f"and stiffnesses; most at a step of {step:.3g} s and {factor:.3g} times the stiffness: "
-        f"{measured:.6g} a step instead of {derived:.6g}"
-    )
 
 
 def _map_facts(each: GrowthMap) -> dict[str, object]:
@@ -197,26 +163,6 @@ def _map_facts(each: GrowthMap) -> dict[str, object]:
         "cells": each.differs.size,
         "cells_that_differ": int(each.differs.sum()),
         "largest_difference": float(abs(each.difference[each.worst_cell])),
-    }
-
-
-def _row(standing: Standing, h: float) -> dict[str, Any]:
-    grows = "grows at any step" if standing.largest_step == 0.0 else "grows"
-    return {
-        "integrator": standing.integrator.name,
-        "own": standing.chosen,
-        "parameters": {name: float(value) for name, value in standing.integrator.parameters.items()},
-        "order": standing.order,
-        "unconditionally_stable": math.isinf(standing.limit),
-        "limit": standing.limit,
-        "limit_damped": standing.limit_damped,
-        "growth_per_step": standing.radius_excess,
-        "worst_mode": standing.worst + 1,
-        "largest_step": standing.largest_step,
-        "margin": standing.largest_step / h,
-        "stable": standing.stable,
-        "exact": standing.exact,
-        "verdict": "stable" if standing.stable else grows,
     }
 
 

@@ -6,15 +6,8 @@ import math
 import os
 from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING, Any
 
 import click
-
-from tmm_gen.errors import UserError
-
-if TYPE_CHECKING:
-    from tmm_gen.scene import Scene
-    from tmm_gen.study.grid import Axes
 
 
 def one_thread() -> None:
@@ -77,46 +70,3 @@ def one_of(*choices: str) -> Callable[[click.Context, click.Parameter, str | Non
         return found
 
     return read
-
-
-def axes_of(scene: Scene, options: dict[str, Any]) -> Axes:
-    """Return what is varied.
-
-    Raises
-    ------
-    UserError
-        If an option does not suit the scene, or names no integrator.
-    """
-    from tmm_gen.scene.integrator import INTEGRATOR_NAMES, underscored
-    from tmm_gen.study.cells import can_be_cut
-    from tmm_gen.study.grid import Axes
-
-    names = tuple(underscored(name) for name in options["integrators"])
-    for name in names:
-        if name not in INTEGRATOR_NAMES:
-            raise UserError(
-                f"--integrators {name}: no such integrator; there are {', '.join(INTEGRATOR_NAMES)}."
-            )
-        if name not in scene.integrators:
-            raise UserError(
-                f"--integrators {name}: does not serve this arm yet; there are {', '.join(scene.integrators)}."
-            )
-    if options["links"] and not can_be_cut(scene):
-        raise UserError("--links: the scene has no [beam] to cut into links; it lists them. Leave it out.")
-    given = [f"--{name}" for name in ("linearisations", "iterations", "corrections") if options[name]]
-    if given and scene.model.linear:
-        raise UserError(f"{', '.join(given)}: a chain is linear, nothing is iterated. Leave that out.")
-    if options["corrections"] and scene.spatial is not None:
-        raise UserError(
-            "--corrections: in space --iterations counts a sweep and its corrections. Write --iterations 1,2."
-        )
-    return Axes(
-        integrators=names,
-        steps=options["steps"],
-        links=options["links"],
-        linearisations=options["linearisations"],
-        iterations=options["iterations"],
-        corrections=options["corrections"],
-        reals=options["reals"],
-        backends=options["backends"],
-    )

@@ -12,13 +12,11 @@ from tmm_gen.cli.given import picture_file, plot_option
 from tmm_gen.cli.grid_options import grid_options
 from tmm_gen.cli.kinds import served_scene
 from tmm_gen.cli.outputs import OutputFile, claim, write_outputs
-from tmm_gen.cli.study_options import axes_of, one_of, one_thread, whole_numbers
-from tmm_gen.errors import CheckFailed
+from tmm_gen.cli.study_options import one_of, one_thread, whole_numbers
 
 if TYPE_CHECKING:
     from tmm_gen.study.findings import Finding
     from tmm_gen.study.study import Study
-    from tmm_gen.study.tasks import Executor
 
 # NumPy, SymPy, Dask and Matplotlib are imported inside: `tmm-gen --help` has no use for them.
 
@@ -75,10 +73,10 @@ def trade(
     claim((csv_file, picture, report_file), (scene,))
     one_thread()
     study = run(scene, {"links": links, "backends": backends, **common})
-    if (picture or report_file) and not any(point.finished for point in study.points):
-        raise CheckFailed(
-            f"{scene}: no configuration finished, so that there is nothing to draw. Try shorter --steps."
-        )
+    if picture or report_file:
+        from tmm_gen.study.figures import require_finished
+
+        require_finished(study)
     written = _write(scene, study, csv_file, picture, report_file)
     _show(study, written, show_all, json_mode)
 
@@ -86,12 +84,14 @@ def trade(
 def run(path: Path, options: dict[str, Any]) -> Study:
     """Read a scene and study it."""
     from tmm_gen.inputs.given import input_names, read_inputs
+    from tmm_gen.study.axes import axes_of
     from tmm_gen.study.excitation import excitation
+    from tmm_gen.study.executors import executor
     from tmm_gen.study.grid import configurations
     from tmm_gen.study.study import run_study
 
     scene = served_scene("trade", path)
-    computes = executor(options)
+    computes = executor(options["workers"], options["scheduler"])
     given = read_inputs(options["given"], *input_names(scene))
     went = excitation(scene, given, options["until"], options["output"])
     grid = configurations(scene, axes_of(scene, options), went.until)
@@ -106,24 +106,6 @@ def run(path: Path, options: dict[str, Any]) -> Study:
             rounds,
             advance=lambda n, doing: advance(n, doing),
         )
-
-
-def executor(options: dict[str, Any]) -> Executor | None:
-    """Return who computes the errors; None for this process.
-
-    Raises
-    ------
-    UserError
-        If Dask is asked for and not installed.
-    """
-    if options["workers"] is None and options["scheduler"] is None:
-        return None
-    if options["workers"] is not None and options["scheduler"] is not None:
-        raise click.UsageError("--workers starts a cluster, --scheduler names one: give one of them.")
-    from tmm_gen.study.cluster import Cluster, require_dask
-
-    require_dask()
-    return Cluster(options["workers"] or 0, options["scheduler"])
 
 
 def _write(
@@ -166,24 +148,18 @@ _COLUMNS: list[Column | str] = [
 
 def _show(study: Study, written: list[Path], show_all: bool, json_mode: bool) -> None:
     from tmm_gen.study.excitation import unit
-    from tmm_gen.study.findings import findings
-    from tmm_gen.study.outcome import Outcome
+    from tmm_gen.study.findings import findings, summary
 
     scene, went = study.scene, study.excitation
-    front = study.front()
-    best = set(front)
-    shown = list(study.points) if show_all or json_mode else front
-    rows = [{"configuration": p.configuration.family.label, **p.values(), "pareto": p in best} for p in shown]
-    found = findings(study)
-    told = went.told(scene)
+    rows = study.rows(study.points if show_all or json_mode else study.front())
     more = {
         "scene": scene.name,
         "output": went.output,
         "unit": unit(scene, went.output),
         "travel": study.travel,
         "until": went.until,
-        "excitation": told,
-        "findings": [_finding(each) for each in found],
+        "excitation": went.told(scene),
+        "findings": [_finding(each) for each in findings(study)],
         "modelling": [
             {"links": each.links, "error": each.error, "order": each.order}
             for each in study.modelling.values()
@@ -196,12 +172,8 @@ def _show(study: Study, written: list[Path], show_all: bool, json_mode: bool) ->
     table(rows, columns, json_mode, title=f"{scene.title}: error of '{went.output}' against cost", more=more)
     if json_mode:
         return
-    travelled = f"{study.travel:.3g} {unit(scene, went.output)}"
-    click.echo(f"{went.until:g} s of {'; '.join(told)}. Errors are relative to the travel of {travelled}.")
-    others = ", ".join(f"{study.count(each)} {each.value}" for each in Outcome if study.count(each))
-    click.echo(f"{len(study.points)} configurations: {others}.")
-    for each in found:
-        click.echo(each.sentence())
+    for sentence in summary(study):
+        click.echo(sentence)
     say_written(written, "--report writes a page, --plot draws it, --csv FILE writes all, --all shows all")
 
 

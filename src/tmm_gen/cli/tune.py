@@ -11,12 +11,10 @@ from tmm_gen.cli.console import Column, progress, say_written, table
 from tmm_gen.cli.given import positive
 from tmm_gen.cli.kinds import served_scene
 from tmm_gen.cli.outputs import OutputFile, force_option, require_new, write_outputs
-from tmm_gen.cli.study_options import axes_of, corrections_option, one_of, one_thread, whole_numbers, words
-from tmm_gen.errors import UserError
+from tmm_gen.cli.study_options import corrections_option, one_of, one_thread, whole_numbers, words
 
 if TYPE_CHECKING:
     from tmm_gen.study.budgets import Allowance
-    from tmm_gen.study.point import Point
     from tmm_gen.study.tune import Tuning
 
 # NumPy, SymPy and tomlkit are imported inside: `tmm-gen --help` has no use for them.
@@ -110,8 +108,9 @@ def _search(
     path: Path, max_error: str, max_time: str, options: dict[str, Any]
 ) -> tuple[Tuning, Allowance | None]:
     from tmm_gen.inputs.given import input_names, read_inputs
+    from tmm_gen.study.axes import axes_of
     from tmm_gen.study.bounds import read_error, read_time
-    from tmm_gen.study.budgets import allowance
+    from tmm_gen.study.budgets import allowance, require_target
     from tmm_gen.study.excitation import excitation
     from tmm_gen.study.grid import families
     from tmm_gen.study.tune import tune as search
@@ -121,7 +120,7 @@ def _search(
     auto = options["links"] == "auto"
     links = () if auto or options["links"] is None else _links(options["links"])
     axes = axes_of(scene, {**options, "links": links, "steps": (), "backends": ("c",)})
-    _known_target(options["target"])
+    require_target(options["target"])
     given = read_inputs(options["given"], *input_names(scene))
     went = excitation(scene, given, options["until"], options["output"])
     allowed = allowance(scene, options["target"])
@@ -141,25 +140,11 @@ def _links(text: str) -> tuple[int, ...]:
     return tuple(map(int, numbers))
 
 
-def _known_target(name: str | None) -> None:
-    if name is None:
-        return
-    from tmm_gen.target import BOARDS
-
-    if name not in BOARDS:
-        raise UserError(f"--target {name}: no such microcontroller; there are {', '.join(BOARDS)}.")
-
-
 def _write(scene: Path, target: Path, tuning: Tuning, force: bool) -> Path:
     from tmm_gen.reading import read_file
-    from tmm_gen.study.explain import remarks
-    from tmm_gen.study.rewrite import rewritten
+    from tmm_gen.study.explain import tuned_text
 
-    assert tuning.chosen is not None
-    text = read_file(scene).decode("utf-8-sig")
-    accepted = tuning.verified.accepted if tuning.verified is not None else None
-    chosen = rewritten(text, tuning.scene, tuning.chosen.configuration, remarks(tuning), accepted)
-    write_outputs({target: chosen}, force=force)
+    write_outputs({target: tuned_text(tuning, read_file(scene).decode("utf-8-sig"))}, force=force)
     return target
 
 
@@ -176,41 +161,22 @@ _COLUMNS: list[Column | str] = [
 
 
 def _show(tuning: Tuning, allowed: Allowance | None, written: list[Path], json_mode: bool) -> None:
-    from tmm_gen.study.explain import explained
+    from tmm_gen.study.explain import bounds_of, explained, under
 
-    lines = explained(tuning)
-    if allowed is not None and allowed.unchecked:
-        lines.append(f"The budget of the scene was not checked: {allowed.unchecked}")
-    rows = [_row(tuning, point) for point in (*tuning.candidates, *tuning.nearest)]
-    bounds = f"error {tuning.max_error:.3g} of the travel, {tuning.max_time:.3g} s for a simulated second"
+    lines = explained(tuning, allowed)
     table(
-        rows,
+        list(tuning.rows()),
         _COLUMNS,
         json_mode,
-        title=f"{tuning.scene.title}: {bounds}",
+        title=f"{tuning.scene.title}: {bounds_of(tuning)}",
         more=_facts(tuning, lines, written),
     )
     if json_mode:
         return
     for line in lines:
         click.echo(line)
-    told = "; ".join(tuning.excitation.told(tuning.scene))
-    click.echo(
-        f"All under {tuning.excitation.until:g} s of {told}; the travel is {tuning.travel:.3g} {tuning.unit}."
-    )
+    click.echo(under(tuning))
     say_written(written, "--out FILE writes the tuned scene" if tuning.chosen is not None else "")
-
-
-def _row(tuning: Tuning, point: Point) -> dict[str, object]:
-    ns = point.ns_per_second
-    good = point.error <= tuning.max_error and ns is not None and ns <= 1e9 * tuning.max_time
-    family = point.configuration.family
-    return {
-        "configuration": family.label,
-        **point.values(),
-        "fits": good and family not in tuning.over_budget,
-        "over_budget": tuning.over_budget.get(family),
-    }
 
 
 def _facts(tuning: Tuning, lines: list[str], written: list[Path]) -> dict[str, object]:

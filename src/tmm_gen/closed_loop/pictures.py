@@ -15,6 +15,7 @@ from tmm_gen.style import FAINT, PALETTE, figure, picture, style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 _LINES = ("-", "--", ":", "-.")
 _WIDTH = 4.2
@@ -22,7 +23,12 @@ _WIDTH = 4.2
 
 
 def comparison_picture(trials: Sequence[Trial], problem: ControlProblem, form: str = "png") -> bytes:
-    """Draw trials.
+    """Draw :func:`comparison_figure` into a file's bytes, in a format: "png", "svg" or "pdf"."""
+    return picture(comparison_figure(trials, problem), form)
+
+
+def comparison_figure(trials: Sequence[Trial], problem: ControlProblem) -> Figure:
+    """Draw trials: a column for each condition, tip angle and torque of each motor.
 
     Parameters
     ----------
@@ -30,8 +36,6 @@ def comparison_picture(trials: Sequence[Trial], problem: ControlProblem, form: s
         At least one.
     problem : ControlProblem
         Gives motors and bounds.
-    form : {"png", "svg", "pdf"}
-        Format.
     """
     conditions = list(dict.fromkeys(trial.condition for trial in trials))
     kinds = list(dict.fromkeys(trial.kind.name for trial in trials))
@@ -64,7 +68,7 @@ def comparison_picture(trials: Sequence[Trial], problem: ControlProblem, form: s
             axes[2 * k, 0].set_ylabel(f"tip angle{whose} (rad)")
             axes[2 * k + 1, 0].set_ylabel(f"torque{whose} (N m)")
         axes[0, 0].legend(loc="lower right")
-        return picture(made, form)
+        return made
 
 
 def _targets(upper: Axes, lower: Axes, problem: ControlProblem, loop: Loop, k: int) -> None:

@@ -24,17 +24,20 @@ _TICKS = (-10.0, -1.0, -0.1, -0.01, -0.001, 0.0, 0.001, 0.01, 0.1, 1.0, 10.0)
 
 
 def map_picture(maps: Sequence[GrowthMap], form: str = "png") -> bytes:
+    """Draw :func:`map_figure` into a file's bytes, in a format: "png", "svg" or "pdf"."""
+    return picture(map_figure(maps), form)
+
+
+def map_figure(maps: Sequence[GrowthMap]) -> Figure:
     """Draw maps, a row for each: measured on the left, derived on the right.
 
     Parameters
     ----------
     maps : sequence of GrowthMap
         Of one scene.
-    form : {"png", "svg", "pdf"}
-        Format.
     """
     with style():
-        return picture(_drawn(maps), form)
+        return _drawn(maps)
 
 
 def _drawn(maps: Sequence[GrowthMap]) -> Figure:

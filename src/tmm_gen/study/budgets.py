@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from tmm_gen.errors import UserError
 from tmm_gen.scene import Scene
 from tmm_gen.study.configuration import Configuration, Family
+from tmm_gen.target.boards import BOARDS
 
 DEFAULT_TARGET = "cortex-m7"
 """It knows both number types."""
@@ -60,6 +61,18 @@ class Allowance:
         rows = against_budget(found, self.scene.emit.budget)
         excesses = [row.excess for row in rows if not row.passed]
         return "; ".join(excesses) or None
+
+
+def require_target(name: str | None) -> None:
+    """Refuse a microcontroller that is not known.
+
+    Raises
+    ------
+    UserError
+        If it is named and there is none of its name.
+    """
+    if name is not None and name not in BOARDS:
+        raise UserError(f"--target {name}: no such microcontroller; there are {', '.join(BOARDS)}.")
 
 
 def allowance(scene: Scene, target: str | None) -> Allowance | None:

@@ -4,15 +4,40 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from tmm_gen.study.budgets import Allowance
 from tmm_gen.study.configuration import own
 from tmm_gen.study.findings import time_text
 from tmm_gen.study.point import Point
+from tmm_gen.study.rewrite import rewritten
 from tmm_gen.study.tune import Tuning
 
 
-def explained(tuning: Tuning) -> list[str]:
-    """Return sentences, the most important first."""
-    return _chosen(tuning) if tuning.chosen is not None else _none(tuning)
+def explained(tuning: Tuning, allowed: Allowance | None = None) -> list[str]:
+    """Return sentences, the most important first; last, why a budget could not be looked after."""
+    lines = _chosen(tuning) if tuning.chosen is not None else _none(tuning)
+    if allowed is not None and allowed.unchecked:
+        lines.append(f"The budget of the scene was not checked: {allowed.unchecked}")
+    return lines
+
+
+def bounds_of(tuning: Tuning) -> str:
+    """Return the bounds in words."""
+    return f"error {tuning.max_error:.3g} of the travel, {tuning.max_time:.3g} s for a simulated second"
+
+
+def under(tuning: Tuning) -> str:
+    """Say what the arm went through."""
+    told = "; ".join(tuning.excitation.told(tuning.scene))
+    return (
+        f"All under {tuning.excitation.until:g} s of {told}; the travel is {tuning.travel:.3g} {tuning.unit}."
+    )
+
+
+def tuned_text(tuning: Tuning, text: str) -> str:
+    """Return the text of a scene file with the configuration that was chosen, and remarks on where it comes from."""
+    assert tuning.chosen is not None
+    accepted = tuning.verified.accepted if tuning.verified is not None else None
+    return rewritten(text, tuning.scene, tuning.chosen.configuration, remarks(tuning), accepted)
 
 
 def remarks(tuning: Tuning) -> list[str]:

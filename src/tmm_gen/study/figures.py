@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Literal
 
+from tmm_gen.errors import CheckFailed
 from tmm_gen.study.configuration import Family
 from tmm_gen.study.findings import by_family
 from tmm_gen.study.point import Point
@@ -33,29 +34,57 @@ _SIZE = (4.4, 4.6)
 Price = Callable[[Point], float | None]
 
 
+def require_finished(study: Study) -> None:
+    """Refuse a study of which nothing can be drawn.
+
+    Raises
+    ------
+    CheckFailed
+        If no configuration finished.
+    """
+    if not any(point.finished for point in study.points):
+        raise CheckFailed(
+            f"{study.scene.source.origin}: no configuration finished, so that there is nothing to draw. "
+            "Try shorter --steps."
+        )
+
+
 def trade_picture(study: Study, form: str = "png") -> bytes:
+    """Draw :func:`trade_figure` into a file's bytes, in a format: "png", "svg" or "pdf"."""
+    return picture(trade_figure(study), form)
+
+
+def trade_figure(study: Study, wide: bool = True) -> Figure:
     """Draw error against time, or against operations where no times were measured.
 
     Parameters
     ----------
     study : Study
         With one finished point at least.
-    form : {"png", "svg", "pdf"}
-        Format.
+    wide : bool
+        Whether the legend stands beside.
     """
-    return time_picture(study, form) if study.timed else operations_picture(study, form)
+    return _time_figure(study, wide) if study.timed else _operations_figure(study, wide)
 
 
 def time_picture(study: Study, form: str = "svg", wide: bool = True) -> bytes:
     """Draw error against microseconds for a simulated second, the unit of tables and sentences."""
-    title, what = "What accuracy costs in time", "µs of computing for a simulated second"
-    return _picture(study, _microseconds, title, what, form, wide)
+    return picture(_time_figure(study, wide), form)
 
 
 def operations_picture(study: Study, form: str = "svg", wide: bool = True) -> bytes:
     """Draw error against floating-point operations for a simulated second."""
+    return picture(_operations_figure(study, wide), form)
+
+
+def _time_figure(study: Study, wide: bool) -> Figure:
+    title, what = "What accuracy costs in time", "µs of computing for a simulated second"
+    return _cost_figure(study, _microseconds, title, what, wide)
+
+
+def _operations_figure(study: Study, wide: bool) -> Figure:
     title, what = "What accuracy costs in operations", "floating-point operations for a simulated second"
-    return _picture(study, lambda p: p.operations_per_second, title, what, form, wide)
+    return _cost_figure(study, lambda p: p.operations_per_second, title, what, wide)
 
 
 def _microseconds(point: Point) -> float | None:
@@ -91,7 +120,7 @@ def modelling_picture(study: Study, form: str = "svg", wide: bool = True) -> byt
         return picture(made, form)
 
 
-def _picture(study: Study, price: Price, title: str, what: str, form: str, wide: bool) -> bytes:
+def _cost_figure(study: Study, price: Price, title: str, what: str, wide: bool) -> Figure:
     with style():
         made, axes = figure(*_size(wide))
         shown = _drawn_families(study)
@@ -104,7 +133,7 @@ def _picture(study: Study, price: Price, title: str, what: str, form: str, wide:
         _logarithmic(axes, study, what, f"{whole}, relative to the travel")
         subtitle(axes, title, study.scene.name)
         _legend(made, shown, wide, rings=True)
-        return picture(made, form)
+        return made
 
 
 def _drawn_families(study: Study) -> list[tuple[Family, list[Point]]]:

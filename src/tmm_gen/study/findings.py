@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from tmm_gen.study.configuration import Family, own
+from tmm_gen.study.excitation import unit
 from tmm_gen.study.outcome import Outcome
 from tmm_gen.study.point import Point
 from tmm_gen.study.study import Study
@@ -172,6 +173,18 @@ def findings(study: Study, levels: Sequence[float] = LEVELS) -> tuple[Finding, .
     return tuple(found)
 
 
+def summary(study: Study) -> list[str]:
+    """Say in sentences what was tried, under what, and who wins."""
+    scene, went = study.scene, study.excitation
+    travelled = f"{study.travel:.3g} {unit(scene, went.output)}"
+    others = ", ".join(f"{study.count(each)} {each.value}" for each in Outcome if study.count(each))
+    return [
+        f"{went.until:g} s of {'; '.join(went.told(scene))}. Errors are relative to the travel of {travelled}.",
+        f"{len(study.points)} configurations: {others}.",
+        *(each.sentence() for each in findings(study)),
+    ]
+
+
 def by_family(points: Sequence[Point]) -> Iterator[tuple[Family, list[Point]]]:
     """Yield each family with its finished points, longest step first."""
     for family in dict.fromkeys(point.configuration.family for point in points):
@@ -225,7 +238,7 @@ def plain_number(value: float) -> str:
 
 def time_text(ns: float) -> str:
     """Return a time with the unit that suits it."""
-    for size, unit in ((1e9, "s"), (1e6, "ms"), (1e3, "µs")):
+    for size, name in ((1e9, "s"), (1e6, "ms"), (1e3, "µs")):
         if ns >= size:
-            return f"{ns / size:.3g} {unit}"
+            return f"{ns / size:.3g} {name}"
     return f"{ns:.3g} ns"

@@ -74,6 +74,14 @@ class Study:
         chosen = pareto_front([(self.error(point), value) for point, value in shown])
         return [shown[k][0] for k in chosen]
 
+    def rows(self, points: Sequence[Point]) -> list[dict[str, object]]:
+        """Return figures of some points by key, and whether no other beats them."""
+        best = set(self.front())
+        return [
+            {"configuration": each.configuration.family.label, **each.values(), "pareto": each in best}
+            for each in points
+        ]
+
     def count(self, outcome: Outcome) -> int:
         """Return how many points have an outcome."""
         return sum(point.result.outcome is outcome for point in self.points)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from tmm_gen.errors import UserError
@@ -79,6 +79,18 @@ class Tuning:
     def unit(self) -> str:
         """Of the output."""
         return unit(self.scene, self.excitation.output)
+
+    def rows(self) -> Iterator[dict[str, object]]:
+        """Yield a row of figures for each family: the good ones, cheapest first, then the others."""
+        for point in (*self.candidates, *self.nearest):
+            ns, family = point.ns_per_second, point.configuration.family
+            good = point.error <= self.max_error and ns is not None and ns <= 1e9 * self.max_time
+            yield {
+                "configuration": family.label,
+                **point.values(),
+                "fits": good and family not in self.over_budget,
+                "over_budget": self.over_budget.get(family),
+            }
 
 
 def tune(
