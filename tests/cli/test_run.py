@@ -89,6 +89,25 @@ def test_csv_has_17_digits_and_follows_the_exact_response(
     assert all(f"{float(cell):.17g}" == cell for line in text[1:] for cell in line.split(","))
 
 
+@pytest.mark.compiler
+def test_a_run_with_its_inputs_is_a_record(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """The stiffness that made it is found again, from the file alone."""
+    arm = [str(SCENES / "swing.toml"), "--set", "beam.links=1"]
+    words = ["--until", "0.4", "--input", "hub_torque=sine:1:2", "--set", "beam.bending_stiffness=15"]
+    succeed(*arm, *words, "--csv", "record.csv", "--with-inputs", capsys=capsys)
+    columns = read_csv(folder / "record.csv")
+    assert list(columns) == ["time", "hub_torque", "tip_x", "tip_y", "hub"]
+    np.testing.assert_allclose(columns["hub_torque"], np.sin(4.0 * np.pi * columns["time"]), atol=1e-15)
+    (folder / "one.toml").write_text(Path(arm[0]).read_text().replace("links = 5", "links = 1"))
+    assert load_scene(folder / "one.toml").stations == 1
+    assert main(["calibrate", "one.toml", "record.csv", "--fit", "beam.bending_stiffness", "--json"]) == 0
+    (found,) = json.loads(capsys.readouterr().out)["rows"]
+    assert found["given"] == 12.0
+    assert found["value"] == pytest.approx(15.0, rel=1e-6)
+    said = refuse(*arm, "--with-inputs", capsys=capsys)
+    assert "--with-inputs: adds columns to what --csv writes. Add --csv FILE." in said
+
+
 def test_the_last_step_reaches_the_end(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     succeed(THESIS2, "--until", "0.025", "--csv", "out.csv", capsys=capsys)
     np.testing.assert_allclose(read_csv(folder / "out.csv")["time"], [0, 0.01, 0.02, 0.03])

@@ -135,9 +135,12 @@ class Run:
         return target
 
     @guarded
-    def csv(self, file: str | PathLike[str] | None = None) -> str:
-        """Return outputs over time as CSV, with every digit; write it if a file is named."""
-        text = self.simulation.csv()
+    def csv(self, file: str | PathLike[str] | None = None, *, inputs: bool = False) -> str:
+        """Return outputs over time as CSV, with every digit; write it if a file is named.
+
+        With `inputs` these are columns too, before the outputs: a record that :meth:`tmm_gen.Arm.calibrate` reads.
+        """
+        text = self.simulation.csv(inputs)
         if file is not None:
             write_whole(target_of(file, (".csv",)), text)
         return text

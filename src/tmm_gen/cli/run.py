@@ -118,6 +118,11 @@ def _sweeps(_context: click.Context, parameter: click.Parameter, value: str | No
 )
 @click.option("--backend", type=click.Choice(["numpy", "c"]), default="numpy", show_default=True)
 @click.option("--csv", "csv_file", type=OutputFile(), help="Write the outputs over time.")
+@click.option(
+    "--with-inputs",
+    is_flag=True,
+    help="Let --csv hold the inputs too, as columns before the outputs: a record that `calibrate` reads.",
+)
 @plot_option("inputs and outputs")
 @click.option(
     "--animate",
@@ -138,6 +143,7 @@ def run(
     iterations: str | int | None,
     backend: Backend,
     csv_file: Path | None,
+    with_inputs: bool,
     picture: Path | None,
     animated: Path | None,
     json_mode: bool,
@@ -169,6 +175,8 @@ def run(
     shaped = not chosen.model.linear
     if animated is not None and not shaped:
         raise UserError(f"--animate {animated}: a chain has no shape to show. Use --plot.")
+    if with_inputs and csv_file is None:
+        raise UserError("--with-inputs: adds columns to what --csv writes. Add --csv FILE.")
     claim((csv_file, picture, animated), read)
     hints = hinted(chosen, json_mode)
     duration = until or default_duration(chosen)
@@ -188,7 +196,7 @@ def run(
             substeps=not _step_given(step, changes),
             every=every,
         )
-    written = _write(simulation, csv_file, picture, animated, read)
+    written = _write(simulation, csv_file, with_inputs, picture, animated, read)
     _show(simulation, written, hints, json_mode)
 
 
@@ -200,6 +208,7 @@ def _step_given(step: float | None, changes: Sequence[str]) -> bool:
 def _write(
     simulation: Simulation,
     csv_file: Path | None,
+    with_inputs: bool,
     picture: Path | None,
     animated: Path | None,
     read: Sequence[Path],
@@ -207,7 +216,7 @@ def _write(
     """Write the files asked for, all or none; return them."""
     files: dict[Path, str | bytes] = {}
     if csv_file is not None:
-        files[csv_file] = simulation.csv()
+        files[csv_file] = simulation.csv(with_inputs)
     if picture is not None:
         from tmm_gen.report.plots import response_picture
 

@@ -91,10 +91,17 @@ class Simulation:
         acts = any(np.any(values) for values in self.inputs.values()) or any(self.scene.initial.rates)
         return not acts and not any(np.any(values != values[0]) for values in self.outputs.values())
 
-    def csv(self) -> str:
-        """Return a table of outputs over time with 17 significant digits: every bit of a double."""
-        lines = [",".join(("time", *self.outputs))]
-        columns = [self.time.tolist(), *(values.tolist() for values in self.outputs.values())]
+    def csv(self, inputs: bool = False) -> str:
+        """Return a table of outputs over time with 17 significant digits: every bit of a double.
+
+        Parameters
+        ----------
+        inputs : bool
+            Whether inputs are columns too, before the outputs: then it is a record that a calibration reads.
+        """
+        columns_by_name = {"time": self.time, **(self.inputs if inputs else {}), **self.outputs}
+        lines = [",".join(columns_by_name)]
+        columns = [values.tolist() for values in columns_by_name.values()]
         lines += [",".join(f"{value:.17g}" for value in row) for row in zip(*columns, strict=True)]
         return "\n".join(lines) + "\n"
 
