@@ -19,6 +19,7 @@ SERVED: Mapping[str, tuple[str, ...]] = {
         "explain",
         "rest",
         "modes",
+        "mpc",
         "frequency",
         "stability",
         "trade",
@@ -33,7 +34,7 @@ SERVED: Mapping[str, tuple[str, ...]] = {
 
 NOT_TO_START_WITH: Mapping[tuple[str, str], str] = {
     ("--control", "chain"): "a chain has no motor to be controlled. Add --kind planar.",
-    ("--control", "spatial"): "arms in space are not controlled yet. Add --kind planar.",
+    ("--control", "spatial"): "a new arm in space is not controlled yet. Add --kind planar, or start from examples/space/reach3.toml.",
     ("--motors", "chain"): "a chain has no motors at its joints. Add --kind planar.",
     ("--motors", "spatial"): "an arm in space starts with two. Leave it out, or add --kind planar.",
 }

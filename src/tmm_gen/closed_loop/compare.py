@@ -9,7 +9,7 @@ import numpy as np
 
 from tmm_gen.closed_loop.figures import Figures, loop_figures
 from tmm_gen.closed_loop.loop import Loop, run_loop
-from tmm_gen.closed_loop.plant import Plant
+from tmm_gen.closed_loop.space_plant import plant_of
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.command import Controller
 from tmm_gen.control.condition import Condition
@@ -101,7 +101,7 @@ def compare(
             told[known] = bench.told(condition)
         for kind in kinds:
             controller = made(kind, told[known], compiled)
-            plant = Plant(bench.scene, bench.problem, condition, seed)
+            plant = plant_of(bench.scene, bench.problem, condition, seed)
             loop = run_loop(controller, plant, duration)
             figures = loop_figures(loop)
             yield Trial(kind, condition, loop, figures, compiled and kind.name in EMITTED)
@@ -135,7 +135,7 @@ def worst(
     controller = made(kind, bench.told(condition), compiled)
     every = []
     for seed in seeds:
-        loop = run_loop(controller, Plant(bench.scene, bench.problem, condition, seed), duration)
+        loop = run_loop(controller, plant_of(bench.scene, bench.problem, condition, seed), duration)
         every.append(loop_figures(loop))
     settling = [figures.settling for figures in every if figures.settling is not None]
     return Figures(

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from tmm_gen.control.arm import arm_of
 from tmm_gen.control.condition import Condition
 from tmm_gen.control.motors import motors_of
 from tmm_gen.control.prediction import fine_scene
@@ -40,22 +41,23 @@ OUTPUTS: list[dict[str, object]] = [
 
 def plant_scene(scene: Scene, condition: Condition) -> Scene:
     """Return the arm of a condition, finer than the scene's and integrated by another method."""
-    gravity = (scene.model.gravity or 0.0) + condition.gravity
     changes: dict[str, object] = {
         "name": "plant",
-        "output": _outputs(scene) if scene.parts else OUTPUTS,
+        "output": OUTPUTS if scene.base.turns else _outputs(scene),
         "integrator.name": PLANT_INTEGRATOR,
         "integrator.step": PLANT_STEP,
         "control": None,
         "emit": {"backends": ["c"]},
     }
-    if gravity:
-        changes["model.gravity"] = gravity
+    if condition.gravity:
+        changes["model.gravity"] = arm_of(scene).falling(condition.gravity)
     return fine_scene(scene.replace(**changes), PLANT_LINKS)
 
 
 def _outputs(scene: Scene) -> list[dict[str, object]]:
     """Return for each motor of an arm by parts its angle, where and how it stands, and where what it carries ends."""
+    if scene.spatial is not None:  # the kernel's state has all angles
+        return [{"name": f"hub_{name}", "at": name, "of": "angle"} for name in motors_of(scene).names]
     solid = {part.last: part.name for part in scene.parts if part.kind in ("beam", "link")}
     found: list[dict[str, object]] = []
     for motor in motors_of(scene).each:
@@ -198,15 +200,20 @@ class Plant:
         array, (substeps, 2 m)
             Polar angles of the tips against what carries their motors, then hub angles, after each step, rad.
         """
-        self.states.append(self.kernel.state)
-        self._torques += [torque] * self.substeps
-        acting, self._torques = self._torques[: self.substeps], self._torques[self.substeps :]
+        acting = self._acting(torque)
         if self.condition.friction:
             return np.array([self._rubbed(each) for each in acting])
         for driven, each in zip(self._driven, np.array(acting).T, strict=True):
             driven[:] = each[:, None]  # one number for each of a step's stages
         self.kernel.run(self._inputs, self._outputs)
         return self._angles(dict(zip(self._names, self._seen.T, strict=True)))
+
+    def _acting(self, torque: Array) -> list[Array]:
+        """Begin a sample in which torques are chosen; return those that act in its steps."""
+        self.states.append(self.kernel.state)
+        self._torques += [torque] * self.substeps
+        acting, self._torques = self._torques[: self.substeps], self._torques[self.substeps :]
+        return acting
 
     def _rubbed(self, torque: Array) -> Array:
         """Take one step under torques, less friction; return the angles after it."""

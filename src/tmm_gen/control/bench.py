@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from tmm_gen.control.arm import arm_of
 from tmm_gen.control.condition import Condition
 from tmm_gen.control.linear import LinearModel
 from tmm_gen.control.links import links_model
@@ -17,8 +17,6 @@ from tmm_gen.control.motors import motors_of
 from tmm_gen.control.prediction import prediction_scene
 from tmm_gen.control.problem import ControlProblem, control_problem
 from tmm_gen.control.step_model import StepModel
-from tmm_gen.modal.arm import linear_arm
-from tmm_gen.modal.matrices import matrices
 from tmm_gen.scene import Scene
 
 Array = NDArray[np.float64]
@@ -56,7 +54,7 @@ class Bench:
         """Return the bench of those who know a condition's gravity and delay, which are no secrets."""
         scene = self.scene
         if condition.gravity:
-            scene = scene.replace(**{"model.gravity": (scene.model.gravity or 0.0) + condition.gravity})
+            scene = scene.replace(**{"model.gravity": arm_of(scene).falling(condition.gravity)})
         if scene is self.scene and not condition.delay:
             return self
         return Bench(scene, replace(self.problem, delay=self.problem.delay + condition.delay))
@@ -91,15 +89,10 @@ class Bench:
     def assumed(self) -> Scene:
         """The scene controllers reckon with: with the payload of ``[control]``."""
         scene = self.scene
-        if scene.control is None or scene.tip is None or scene.control.payload == 1.0:
+        if scene.control is None or scene.control.payload == 1.0:
             return scene
         factor = scene.control.payload
-        if not scene.parts:
-            return scene.replace(**{"tip.mass": factor * scene.tip.mass})
-        bodies = [part.name for part in scene.parts if part.kind == "body" and part.last == scene.stations]
-        entries: Any = scene.source.data["body"]
-        masses = {entry["name"]: entry["mass"] for entry in entries}
-        return scene.replace(**{f"body.{name}.mass": factor * masses[name] for name in bodies})
+        return scene.replace(**{key: factor * mass for key, mass in arm_of(scene).payloads().items()})
 
     @cached_property
     def step(self) -> StepModel:
@@ -119,4 +112,4 @@ class Bench:
     @cached_property
     def inertia(self) -> Array:
         """What each motor turns, (m,), by its own torque, kg m^2: the arm as its scene starts, straight on a hub."""
-        return motors_of(self.assumed).inertia(matrices(linear_arm(self.assumed)).mass)
+        return motors_of(self.assumed).inertia(arm_of(self.assumed).mass())

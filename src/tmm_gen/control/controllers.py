@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from tmm_gen.control.arm import arm_of
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.command import Controller
 from tmm_gen.control.inverse_dynamics import quintic_way
@@ -61,10 +62,7 @@ def _gains(bench: Bench, gains: Each[tuple[float, float]] | None) -> tuple[Array
     if gains is not None:
         proportional, derivative = np.array(by_names(gains, bench.problem.motors.names)).T
         return proportional, derivative
-    from tmm_gen.reference.planar_linear import vibration
-
-    frequencies = vibration(bench.scene).frequencies
-    slow = 0.25 * float(frequencies[frequencies > 0.0][0])
+    slow = 0.25 * arm_of(bench.scene).slowest()
     return bench.inertia * slow**2, 2.0 * bench.inertia * slow
 
 

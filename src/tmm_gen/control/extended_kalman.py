@@ -7,7 +7,6 @@ from numpy.typing import NDArray
 
 from tmm_gen.control.credible import Credible
 from tmm_gen.control.delay import Pair
-from tmm_gen.control.holding import held
 from tmm_gen.control.kalman import KalmanFilter
 from tmm_gen.control.linear import LinearModel
 from tmm_gen.control.links import rest_state
@@ -57,7 +56,7 @@ class NonlinearFilter:
 
     def holds(self, hub: Array) -> Array:
         """Return the torques that hold an arm with its hubs there, rad, (m,), N m."""
-        return held(self._linear.holds, self._linear.goal, hub) - self._parts(self.estimate)[1]
+        return self._linear.holds.torque(self._linear.goal, hub) - self._parts(self.estimate)[1]
 
     def surprise(self, measured: Array) -> Array:
         """Return how far a measurement is off what is expected, (m + 2,), NaN where there is no sensor."""
@@ -91,10 +90,9 @@ class NonlinearFilter:
     def usable(self, limits: Credible) -> bool:
         """Return whether the estimate can be that of an arm: finite, no link far out of line, none too fast."""
         angles = self.estimate[self._angles]
-        bent = [np.max(np.abs(angles[m.place : m.end] - angles[m.place])) for m in self._motors.each]
         return bool(
             np.all(np.isfinite(self.estimate))
-            and max(bent) <= limits.bend
+            and self._motors.bent(angles) <= limits.bend
             and np.max(np.abs(self.estimate[self._rates])) <= limits.rate
         )
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -31,6 +33,23 @@ def holding(scene: Scene) -> Array:
     weights = rest_at(scene, level, gravity=0.0).unbalanced - rest_at(scene, level).unbalanced
     carried = np.array([weights[motor.place : motor.end].sum() for motor in motors.each])
     return np.asarray(np.triu(found + carried) / motors.gears[:, None], float)
+
+
+@dataclass(frozen=True, eq=False)
+class LevelHolding:
+    """What holds up an arm in a plane.
+
+    Parameters
+    ----------
+    rows : array, (m, m)
+        Of :func:`holding`.
+    """
+
+    rows: Array
+
+    def torque(self, goal: Goal, hub: Array) -> Array:
+        """Return the torques that hold an arm whose hubs are elsewhere than at the goal; see :func:`held`."""
+        return held(self.rows, goal, hub)
 
 
 def held(holds: Array, goal: Goal, hub: Array) -> Array:

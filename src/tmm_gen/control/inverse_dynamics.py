@@ -10,13 +10,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.control.motors import motors_of
+from tmm_gen.control.arm import arm_of
 from tmm_gen.control.problem import ControlProblem
 from tmm_gen.control.terms import Goal
 from tmm_gen.control.way import Way
-from tmm_gen.modal.arm import linear_arm
-from tmm_gen.modal.matrices import matrices
-from tmm_gen.modal.rest import rest_at
 from tmm_gen.scene import Scene
 
 Array = NDArray[np.float64]
@@ -25,24 +22,6 @@ SPARED = 0.1
 """Share of a motor's range that the way leaves for what it does not know."""
 MOST_SAMPLES = 500
 _PLACES = 33
-
-
-def rigid_torques(scene: Scene, hub: Array, rate: Array, acceleration: Array) -> Array:
-    """Return the torques of motors for a motion in which nothing bends, (k, m), N m.
-
-    Parameters
-    ----------
-    hub, rate, acceleration : array, (k, m)
-        Of the hubs: rad, rad/s, rad/s^2.
-    """
-    from tmm_gen.reference.planar_arm import Arm
-
-    motors = motors_of(scene)
-    angles, rates, wanted = (each @ motors.turned.T for each in (hub, rate, acceleration))
-    left = wanted - Arm(scene, {}).accelerations(np.zeros(len(hub)), angles, rates)
-    masses = [matrices(linear_arm(scene, rest_at(scene, each))).mass for each in angles]
-    forces = np.einsum("kij,kj->ki", np.array(masses), left)
-    return np.asarray(forces @ motors.turned / motors.gears, float)
 
 
 def quintic_way(scene: Scene, problem: ControlProblem, start: Array, goal: Goal) -> Way:
@@ -59,12 +38,13 @@ def quintic_way(scene: Scene, problem: ControlProblem, start: Array, goal: Goal)
     goal : Goal
         Hub angles to go to, and the torques that hold the arm there.
     """
+    arm = arm_of(scene)
     places = np.linspace(0.0, 1.0, _PLACES)
     along = goal.hub - start
     hub, none = start + places[:, None] * along, np.zeros((_PLACES, len(along)))
     ones = none + along
     still, pushed, ahead, back = (
-        rigid_torques(scene, hub, rate, acceleration)
+        arm.rigid_torques(hub, rate, acceleration)
         for rate, acceleration in ((none, none), (none, ones), (ones, none), (-ones, none))
     )
     terms = (still, pushed - still, 0.5 * (ahead - back), 0.5 * (ahead + back) - still)

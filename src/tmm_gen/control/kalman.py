@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.control.delay import Pair
-from tmm_gen.control.holding import held
 from tmm_gen.control.linear import LinearModel
 from tmm_gen.control.problem import ControlProblem
 
@@ -89,7 +88,7 @@ class KalmanFilter:
 
     def holds(self, hub: Array) -> Array:
         """Return the torques that hold an arm with its hubs there, rad, (m,), N m."""
-        return held(self.model.holds, self.model.goal, hub) - self._parts(self.estimate)[1]
+        return self.model.holds.torque(self.model.goal, hub) - self._parts(self.estimate)[1]
 
     def surprise(self, measured: Array) -> Array:
         """Return how far a measurement is off what is expected, (m + 2,), NaN where there is no sensor."""

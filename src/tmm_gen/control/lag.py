@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.modal.arm import linear_arm
-from tmm_gen.modal.matrices import matrices
+from tmm_gen.control.arm import arm_of
 from tmm_gen.scene import Scene
 
 Array = NDArray[np.float64]
@@ -34,7 +33,7 @@ def input_lag(
     """
     kept = np.zeros(len(drive))
     kept[places["acceleration"]] = drive[places["acceleration"]]
-    inertia = np.asarray(turned @ matrices(linear_arm(scene)).mass, float)
+    inertia = np.asarray(turned @ arm_of(scene).level_mass(), float)
     given = float(inertia @ drive[places["rate"]])
     coming = float(inertia @ (transition @ kept)[places["rate"]])
     share = coming / (given + coming)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from tmm_gen.control.arm import Holding
 from tmm_gen.control.delay import Delay
 from tmm_gen.control.terms import Goal
 
@@ -51,8 +52,8 @@ class LinearModel:
         State at time zero.
     start_torque : array, (m,)
         Torques before any is chosen, N m.
-    holds : array, (m, m)
-        What holds the arm up; see :func:`tmm_gen.control.holding.holding`.
+    holds : Holding
+        What holds the arm up.
     delay : Delay
         Which torques are meant.
     """
@@ -75,7 +76,7 @@ class LinearModel:
     length: float
     start: Array
     start_torque: Array
-    holds: Array
+    holds: Holding
     delay: Delay
 
     @property

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.control.holding import holding
+from tmm_gen.control.arm import arm_of
 from tmm_gen.control.linear import LinearModel
 from tmm_gen.control.step_model import StepModel
 from tmm_gen.control.target import Target, find_target
@@ -40,7 +40,7 @@ def links_model(model: StepModel) -> LinearModel:
     seen, slopes = (np.array(item) for item in model.sensor_slopes(state))
     whirl = -model.rows(motors.tip, "angle")[-1]
     whirl[model.places("angle")[-1]] += 1.0
-    whirl *= model.lengths.sum()
+    whirl *= motors.lengths.sum()
     return LinearModel(
         transition=transition,
         before=drives[:, :count],
@@ -57,9 +57,9 @@ def links_model(model: StepModel) -> LinearModel:
         turn=model.rows(motors.turned.T, "rate").T,
         turned=model.rows(motors.turned.T, "angle").T,
         start_hub=motors.hub @ model.start.angles,
-        length=float(model.lengths.sum()),
+        length=float(motors.lengths.sum()),
         start=model.initial() - state,
         start_torque=model.start.torque,
-        holds=holding(model.scene),
+        holds=arm_of(model.scene).holding(),
         delay=model.delay,
     )

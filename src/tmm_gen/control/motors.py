@@ -141,6 +141,11 @@ class Motors:
         carried = [mass[motor.place :, motor.place :].sum() for motor in self.each]
         return np.array(carried) / self.gears
 
+    def bent(self, angles: Array) -> float:
+        """Return the largest angle between a link and the hub of the motor that carries it, rad; angles are (d,)."""
+        bent = [np.max(np.abs(angles[m.place : m.end] - angles[m.place])) for m in self.each]
+        return float(max(bent))
+
     def torques(self, values: Array) -> dict[str, float]:
         """Return torques, (m,), by the names of their inputs."""
         return dict(zip(self.inputs, map(float, values), strict=True))
@@ -148,6 +153,10 @@ class Motors:
 
 def motors_of(scene: Scene) -> Motors:
     """Return the motors of a scene that has ``[control]``."""
+    if scene.spatial is not None:
+        from tmm_gen.control.space_motors import space_motors
+
+        return space_motors(scene)
     links = [link.length for link in scene.links]
     if scene.base.kind == "motor":  # the short form, whose motor is no part with a name
         name = next(item.name for item in scene.inputs if item.at == "base" and item.acts == "torque")

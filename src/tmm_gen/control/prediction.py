@@ -34,7 +34,7 @@ def prediction_scene(scene: Scene, calibrate: bool = True) -> Scene:
     A beam cut into few links vibrates too slowly, and a long step slows it down further. The spring at the hub and
     the others are scaled, each by a factor, so that the first two natural frequencies of the straight arm on its
     free hub are those of the continuous beam *when stepped*. Damping stays proportional to stiffness.
-    A step with corrections has no exact derivatives: predictions sweep alone.
+    A step with corrections has no exact derivatives: predictions sweep alone. Neither is done in space.
 
     Parameters
     ----------
@@ -58,11 +58,15 @@ def prediction_scene(scene: Scene, calibrate: bool = True) -> Scene:
     step = control.sample_time / control.substeps
     outputs = (
         SENSORS
-        if not scene.parts
+        if scene.base.turns
         else [{"name": f"{name}_angle", "at": name, "of": "angle"} for name in motors_of(scene).names]
     )
-    changes: dict[str, object] = {"output": outputs, "integrator.step": step, "emit.sensitivities": True}
+    changes: dict[str, object] = {"output": outputs, "integrator.step": step}
     changes["emit.compensated"] = False  # derivatives are not
+    if scene.spatial is not None:
+        # CasADi differentiates a step as it is, corrections and all
+        return scene.replace(**changes)
+    changes["emit.sensitivities"] = True
     changes["model.corrections"] = None
     if calibrate and scene.beam is not None:
         first, others = spring_factors(scene, step)
@@ -120,13 +124,15 @@ def spring_factors(scene: Scene, step: float) -> tuple[float, float]:
 
 def fine_scene(scene: Scene, links: int = FINE_LINKS) -> Scene:
     """Return the scene with its beams cut into at least so many links together; a scene without beam as it is."""
-    beams = [part.name for part in scene.parts if part.kind == "beam"]
-    if beams:
-        entries: Any = scene.source.data["beam"]
+    if scene.beam is None:
+        entries: Any = scene.source.data.get("beam", [])
         own = {entry["name"]: entry.get("links", 0) for entry in entries}
+        beams = list(own)
+        if not beams:
+            return scene
         each = -(-links // len(beams))
         return scene.replace(**{f"beam.{name}.links": max(own[name], each) for name in beams})
-    if scene.beam is None or scene.beam.links >= links:
+    if scene.beam.links >= links:
         return scene
     changes: dict[str, object] = {"beam.links": links}
     for key in ("angles", "rates"):

@@ -79,7 +79,6 @@ from tmm_gen.resources import scenes_dir
 from tmm_gen.scene import Scene
 from tmm_gen.scene.control import Control, Sensors
 from tmm_gen.scene.each import by_names
-from tmm_gen.scene.flat import require_flat
 
 Array = NDArray[np.float64]
 
@@ -198,10 +197,9 @@ def control_problem(scene: Scene) -> ControlProblem:
     UserError
         If the scene has no ``[control]``, or is of a kind that cannot have it.
     """
-    require_flat(scene, "controllers do not")
     control = scene.control
     # only to say what is missing: a scene that has [control] was asked for these when it was read
-    controlled = scene.model.kind == "planar" and (scene.base.kind == "motor" or _driven(scene))
+    controlled = scene.model.in_plane and (scene.base.kind == "motor" or _driven(scene))
     if control is None and not controlled:
         raise UserError(
             f"{scene.source.origin}: only planar arms are controlled, by a torque at a hub that turns or by those of "

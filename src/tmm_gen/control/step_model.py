@@ -15,6 +15,7 @@ from tmm_gen.control.delay import Delay, delay_of
 from tmm_gen.control.lag import input_lag
 from tmm_gen.control.motors import Motors, motors_of
 from tmm_gen.control.problem import ControlProblem
+from tmm_gen.control.step_slopes import step_slopes
 from tmm_gen.control.target import Start, find_start
 from tmm_gen.scene import Scene
 
@@ -82,11 +83,6 @@ class StepModel:
     def motors(self) -> Motors:
         """What turns the arm."""
         return motors_of(self.scene)
-
-    @cached_property
-    def lengths(self) -> Array:
-        """Lengths of the links, (n,), m."""
-        return np.array([link.length for link in self.scene.links])
 
     def rows(self, rows: Array, quantity: str) -> Array:
         """Return rows of the state, (k, s), for rows of the arm's angles, (k, d), or of their derivatives."""
@@ -189,7 +185,7 @@ class StepModel:
         """Return state and slopes after a sample; of MX, so that code for one step serves all."""
         import casadi as ca
 
-        step, driven = self.module.jacobian_function(), ca.DM(self._acting)
+        step, driven = step_slopes(self.module), ca.DM(self._acting)
         by_state, by_torques = ca.MX.eye(self.size), ca.MX.zeros(self.size, 2 * self.motors.count)
         for torque in self._torques(w):
             x, slope, by_inputs = step(x, self.inputs(torque), p)

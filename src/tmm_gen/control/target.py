@@ -8,13 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from tmm_gen.control.arm import SmallMotions, arm_of
 from tmm_gen.control.motors import motors_of
 from tmm_gen.control.problem import ControlProblem
 from tmm_gen.control.terms import Goal
 from tmm_gen.errors import UserError
-from tmm_gen.modal.arm import linear_arm
-from tmm_gen.modal.matrices import Matrices, matrices
-from tmm_gen.modal.rest import rest_at
 from tmm_gen.scene import Scene
 
 Array = NDArray[np.float64]
@@ -33,13 +31,13 @@ class Target:
         Of a hub and the links, rad.
     goal : Goal
         Angles of tips and hubs, torques.
-    matrices : Matrices
+    matrices : SmallMotions
         Of small motion about it.
     """
 
     angles: Array
     goal: Goal
-    matrices: Matrices
+    matrices: SmallMotions
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,16 +103,15 @@ def rest_with(scene: Scene, reference: Array, key: str) -> Target:
     UserError
         If there is no such position.
     """
-    motors = motors_of(scene)
+    motors, arm = motors_of(scene), arm_of(scene)
     size, count = len(motors.lengths), motors.count
     angles, torque = motors.turned @ reference, np.zeros(count)
     slope = np.zeros((size + count, size + count))
     slope[:size, size:], slope[size:, :size] = -motors.drive, motors.prescribed
     for _ in range(_ITERATIONS):
-        rest = rest_at(scene, angles, inputs=motors.torques(torque))
-        linear = matrices(linear_arm(scene, rest))
-        slope[:size, :size] = linear.stiffness
-        left = np.concatenate([rest.unbalanced, reference - motors.prescribed @ angles])
+        held = arm.held(angles, motors.torques(torque))
+        slope[:size, :size] = held.matrices.stiffness
+        left = np.concatenate([held.unbalanced, reference - motors.prescribed @ angles])
         try:
             change = np.linalg.solve(slope, left)
         except np.linalg.LinAlgError:
@@ -127,7 +124,7 @@ def rest_with(scene: Scene, reference: Array, key: str) -> Target:
             tip, hub = (
                 reference if row is motors.prescribed else row @ angles for row in (motors.tip, motors.hub)
             )
-            return Target(angles, Goal(tip, hub, torque), linear)
+            return Target(angles, Goal(tip, hub, torque), held.matrices)
     raise UserError(
         f"{scene.source.origin}: the arm finds no rest with its {_what(scene)} at {_told(reference)} rad. "
         f"Check gravity, stiffness and {key}."

@@ -53,6 +53,11 @@ def emit_controller(
         raise UserError(
             f"the controller '{controller}' cannot be written in C; these can: {', '.join(EMITTED)}"
         )
+    if bench.scene.spatial is not None:
+        raise UserError(
+            f"{bench.scene.source.origin}: controllers are not written in C for arms in space yet; leave out --emit and "
+            "--compiled, which runs them in Python: tmm_gen.control.controllers has them for programs of your own"
+        )
     if controller in LINEAR and not bench.problem.motors.on_hub:
         others = ", ".join(each for each in EMITTED if each not in LINEAR)
         raise UserError(

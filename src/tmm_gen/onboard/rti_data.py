@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.control.credible import Credible
+from tmm_gen.control.holding import holding
 from tmm_gen.control.kalman import KalmanFilter
 from tmm_gen.control.motors import Motors
 from tmm_gen.control.response import split_outputs
@@ -144,7 +145,7 @@ def rti_data(controller: RealTimeIteration) -> RtiData:
         lengths=lengths[model.scene.hub :],
         shares=model.delay.shares(problem.substeps),
         sensors=tuple(kalman.sensors),
-        holds=linear.holds,
+        holds=holding(model.scene),
         target_torque=goal.torque,
         gravity=model.scene.model.gravity or 0.0,
         brake=controller.inertia / BRAKE_TIME,

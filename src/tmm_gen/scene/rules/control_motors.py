@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from tmm_gen.scene.control import Control
 from tmm_gen.scene.parts.document import PartsDocument
 from tmm_gen.scene.problem import Finding
 from tmm_gen.scene.rules.control import told_by_name, within_reach
@@ -28,7 +29,17 @@ def motors_controlled(document: PartsDocument) -> Iterator[Finding]:
             ("control",), "does not control arms that branch yet", "Remove it, or one of the branches."
         )
         return
-    motors = driven(document)
+    yield from motors_told(control, driven(document))
+
+
+def motors_told(control: Control, motors: tuple[str, ...]) -> Iterator[Finding]:
+    """Find a controller of no motor, of motors there are not, or of sensors that only an arm on a hub has.
+
+    Parameters
+    ----------
+    motors : tuple of str
+        Names of the joints that inputs turn.
+    """
     if not motors:
         yield Finding(
             ("control",),

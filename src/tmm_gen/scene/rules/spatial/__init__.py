@@ -19,6 +19,7 @@ from tmm_gen.scene.rules.integration import (
     integrator_parameters,
     steps_may_change,
 )
+from tmm_gen.scene.rules.spatial.control import motors_in_space_controlled
 from tmm_gen.scene.rules.spatial.hanging import not_too_many, one_tree, part_names
 from tmm_gen.scene.rules.spatial.inertia import base_to_turn, something_to_turn
 from tmm_gen.scene.rules.spatial.parts import ends, in_range, inertias, rigid_gears, twists
@@ -54,6 +55,7 @@ RULES: tuple[tuple[Rule, ...], ...] = (
         boxed,
         compensated_suits,
     ),
+    (motors_in_space_controlled,),
 )
 """Each group takes those before it for granted."""
 

@@ -50,12 +50,6 @@ def own_tables(document: SpatialDocument) -> Iterator[Finding]:
         yield Finding(
             ("tip",), "does not go with parts by name", "Write a [[body]] on the last part instead."
         )
-    if document.control is not None:
-        yield Finding(
-            ("control",),
-            "does not control arms in space yet",
-            "Remove it and its tables, [control.weights] and so on.",
-        )
 
 
 def emitted(document: SpatialDocument) -> Iterator[Finding]:

@@ -1,0 +1,112 @@
+"""An arm in space as controllers see it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.control.arm import Held, Holding
+from tmm_gen.control.motors import Motors, motors_of
+from tmm_gen.control.space_motors import outer_bodies
+from tmm_gen.control.terms import Goal
+from tmm_gen.modal.space.matrices import space_matrices
+from tmm_gen.modal.space.numbers import ArmNumbers
+from tmm_gen.modal.space.still import Still
+from tmm_gen.reference.spatial_arm import WorldArm
+from tmm_gen.scene import Scene
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class SpaceArm:
+    """See :class:`tmm_gen.control.arm.ControlledArm`; angles are those of its joints.
+
+    Parameters
+    ----------
+    scene : Scene
+        On a clamp.
+    """
+
+    scene: Scene
+
+    @cached_property
+    def _numbers(self) -> ArmNumbers:
+        assert self.scene.spatial is not None
+        return ArmNumbers(self.scene.spatial)
+
+    @cached_property
+    def _world(self) -> WorldArm:
+        return WorldArm(self._numbers.arm)
+
+    @cached_property
+    def _motors(self) -> Motors:
+        return motors_of(self.scene)
+
+    def held(self, angles: Array, torques: Mapping[str, float]) -> Held:
+        """Return it held still at some angles by torques."""
+        still = Still(self._numbers, angles, torques)
+        return Held(still.unbalanced, space_matrices(still))
+
+    def mass(self) -> Array:
+        """Return the mass matrix where the scene starts."""
+        return Still(self._numbers, self._numbers.start, {}).mass
+
+    def level_mass(self) -> Array:
+        """Return the mass matrix with all angles zero."""
+        return Still(self._numbers, np.zeros(self._numbers.size), {}).mass
+
+    def slowest(self) -> float:
+        """Return its slowest natural frequency that is not zero, with nothing but its springs to hold it."""
+        from scipy.linalg import eigh  # slow to import
+
+        squares = eigh(np.diag(self._numbers.stiffness), self.mass(), eigvals_only=True)
+        springs = int(np.count_nonzero(self._numbers.stiffness))
+        first = squares[len(squares) - springs] if springs else 1.0  # of a rigid arm, at 1 rad/s
+        return float(np.sqrt(first))
+
+    def holding(self) -> Holding:
+        """Return what holds it up: what its motors would, were it rigid."""
+        return _RigidHolding(self)
+
+    def rigid_torques(self, hub: Array, rate: Array, acceleration: Array) -> Array:
+        """Return the torques of motors for a motion in which nothing bends."""
+        angles = self._world.rest + (hub - self._motors.hub @ self._world.rest) @ self._motors.turned.T
+        rates, wanted = (each @ self._motors.turned.T for each in (rate, acceleration))
+        lacking = np.asarray(self._world.inverse_dynamics(angles, rates, wanted, {}), float)
+        return np.asarray(lacking @ self._motors.turned / self._motors.gears, float)
+
+    def payloads(self) -> Mapping[str, float]:
+        """Return the masses of the bodies that are outermost on their branches."""
+        entries: Any = self.scene.source.data.get("body", [])
+        masses = {entry["name"]: entry["mass"] for entry in entries}
+        return {f"body.{name}.mass": masses[name] for name in outer_bodies(self.scene)}
+
+    def falling(self, more: float) -> list[float]:
+        """Return gravity with some more of it along -z, m/s^2."""
+        x, y, z = self._numbers.arm.gravity
+        return [x, y, z - more]
+
+
+@dataclass(frozen=True, eq=False)
+class _RigidHolding:
+    """What holds up an arm that does not bend.
+
+    Parameters
+    ----------
+    arm : SpaceArm
+        That bends.
+    """
+
+    arm: SpaceArm
+
+    def torque(self, goal: Goal, hub: Array) -> Array:
+        """Return the torques at the goal, and what those of a rigid arm differ by, (m,), N m."""
+        hubs = np.array([hub, goal.hub])
+        here, there = self.arm.rigid_torques(hubs, np.zeros_like(hubs), np.zeros_like(hubs))
+        return np.asarray(goal.torque + here - there, float)

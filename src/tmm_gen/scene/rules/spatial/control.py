@@ -1,0 +1,26 @@
+"""What ``[control]`` asks for can be had of an arm in space."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from tmm_gen.scene.problem import Finding
+from tmm_gen.scene.rules.control_motors import motors_told
+from tmm_gen.scene.spatial.document import SpatialDocument
+
+
+def motors_in_space_controlled(document: SpatialDocument) -> Iterator[Finding]:
+    """Find a controller of an arm whose base moves, or that speaks of motors there are not."""
+    control = document.control
+    if control is None:
+        return
+    if document.base.kind != "clamp":
+        yield Finding(
+            ("control",),
+            f'does not control arms in space on base.kind = "{document.base.kind}" yet',
+            'Set base.kind = "clamp", or remove the table.',
+        )
+        return
+    numbers = document.expansion.numbers
+    turned = {numbers[item.at] for item in document.input if item.acts == "torque"}
+    yield from motors_told(control, tuple(name for name, number in numbers.items() if number in turned))
