@@ -34,7 +34,10 @@ SERVED: Mapping[str, tuple[str, ...]] = {
 
 NOT_TO_START_WITH: Mapping[tuple[str, str], str] = {
     ("--control", "chain"): "a chain has no motor to be controlled. Add --kind planar.",
-    ("--control", "spatial"): "a new arm in space is not controlled yet. Add --kind planar, or start from examples/space/reach3.toml.",
+    (
+        "--control",
+        "spatial",
+    ): "a new arm in space has no [control] yet. Add --kind planar, or write the table yourself.",
     ("--motors", "chain"): "a chain has no motors at its joints. Add --kind planar.",
     ("--motors", "spatial"): "an arm in space starts with two. Leave it out, or add --kind planar.",
 }

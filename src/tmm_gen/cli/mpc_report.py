@@ -74,9 +74,9 @@ def write_files(bench: Bench, trials: list[Trial], picture: Path | None, animate
         files[target] = comparison_picture(trials, bench.problem, target.suffix[1:].lower())
     if animated is not None:
         from tmm_gen.closed_loop.motion import motion
-        from tmm_gen.report.animate import animation
+        from tmm_gen.report.moving import moving
 
-        files[animated] = animation(motion(bench.scene, trials[-1]), animated.suffix[1:].lower())
+        files[animated] = moving(motion(bench.scene, trials[-1]), animated.suffix[1:].lower())
     return write_outputs(files)
 
 

@@ -24,6 +24,8 @@ Array = NDArray[np.float64]
 
 PLANT_LINKS = 20
 PLANT_INTEGRATOR = "sdirk4"
+SPACE_INTEGRATOR = "sdirk2"
+"""In space; a kernel of more stages takes long to derive and to compile."""
 PLANT_STEP = 1e-3
 """s; rounded down to a whole fraction of the sample time."""
 SLIP = 5e-3
@@ -44,7 +46,7 @@ def plant_scene(scene: Scene, condition: Condition) -> Scene:
     changes: dict[str, object] = {
         "name": "plant",
         "output": OUTPUTS if scene.base.turns else _outputs(scene),
-        "integrator.name": PLANT_INTEGRATOR,
+        "integrator.name": PLANT_INTEGRATOR if scene.spatial is None else SPACE_INTEGRATOR,
         "integrator.step": PLANT_STEP,
         "control": None,
         "emit": {"backends": ["c"]},

@@ -1,8 +1,7 @@
-"""The arm in space that controllers are tried on: more cells, another integrator, friction, delay, rounding encoders."""
+"""The arm in space that controllers are tried on: more cells, another integrator, delay, encoders that round."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -40,10 +39,9 @@ class SpacePlant(Plant):
     def _as_it_is(self) -> Scene:
         """Return the scene of the arm under its condition."""
         scene, stiff, payload = self.scene, self.condition.stiffness, self.condition.payload
-        assert scene.spatial is not None
         if payload != 1.0:
             scene = scene.replace(**{key: payload * mass for key, mass in arm_of(scene).payloads().items()})
-            assert scene.spatial is not None
+        assert scene.spatial is not None
         joints = tuple(
             replace(joint, stiffness=stiff * joint.stiffness, damping=stiff * joint.damping)
             if joint.stiffness
@@ -52,14 +50,18 @@ class SpacePlant(Plant):
         )
         return replace(scene, spatial=replace(scene.spatial, joints=joints))
 
-    def _changes(self, arm: Scene) -> Mapping[str, object]:
+    def _changes(self, arm: Scene) -> dict[str, float | tuple[float, ...]]:
         """Return the kernel's parameters that are other than its defaults, of the arm under its condition."""
         assert arm.spatial is not None
         method = integrator(arm.integrator.name, **arm.integrator.parameters)
         layout = layout_of(arm.spatial, arm.name, arm.title, method, self.step)
         defaults = {variable.name: variable.default for variable in self.kernel.program.parameters}
-        found = {name: variable.default for name, variable in layout.parameters.items()}
-        return {name: value for name, value in found.items() if name in defaults and value != defaults[name]}
+        found = ((name, variable.default) for name, variable in layout.parameters.items())
+        return {
+            name: value
+            for name, value in found
+            if value is not None and name in defaults and value != defaults[name]
+        }
 
     def advance(self, torque: Array) -> Array:
         """Let a sample pass under torques chosen now; return the angles after each step, (substeps, 2 m), rad."""

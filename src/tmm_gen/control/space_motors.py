@@ -1,9 +1,9 @@
 """The motors of an arm in space, and what is weighed of the frames that they carry.
 
 The arm's angles are those of its joints, each against what it stands on, so that a hub's angle is one of them. A
-motor's *tip* is the end of the longest way along what it carries. Its angle is the joint angle at which the arm, were
-it rigid behind the motor, would have its tip as far round the motor's axis: with ``J_j`` the velocity of the tip as joint
-``j`` turns,
+motor's *tip* is the end of the longest way along what it carries. Its angle is that joint angle at which the arm, were
+it rigid behind the motor, would have its tip as far round the motor's axis: with ``J_j`` the velocity of the tip as
+joint ``j`` turns,
 
     tip = hub + sum_j (J_hub . J_j) / (J_hub . J_hub) q_j
 
@@ -124,4 +124,3 @@ def _ways(arm: SpatialArm) -> list[float]:
 
 def _length(vector: tuple[float, float, float]) -> float:
     return float(np.linalg.norm(vector))
-
