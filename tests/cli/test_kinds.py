@@ -10,7 +10,6 @@ import pytest
 from tmm_gen.calibration.calibrate import calibrate
 from tmm_gen.cli import COMMANDS, main
 from tmm_gen.cli.kinds import SERVED
-from tmm_gen.control.problem import control_problem
 from tmm_gen.derive.integrators.registry import integrator
 from tmm_gen.errors import UserError
 from tmm_gen.modal.arm import linear_arm
@@ -88,7 +87,6 @@ FUNCTIONS: dict[str, Callable[[Scene], object]] = {
     "modes": linear_arm,
     "rest": lambda scene: rest_at(scene, straight(scene)),
     "calibrate": lambda scene: calibrate(scene, {}),
-    "control": control_problem,
 }
 
 

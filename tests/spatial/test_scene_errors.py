@@ -296,7 +296,7 @@ def test_the_line_is_that_of_the_key() -> None:
     )
 
 
-def test_a_table_of_control_is_refused() -> None:
+def test_a_table_of_control_of_one_hub_is_refused() -> None:
     from tmm_gen.scene.template import template
 
     control = template("a", "planar", control=True).partition("[control]")[2].partition("[emit]")[0]

@@ -56,7 +56,7 @@ def emit_controller(
     if bench.scene.spatial is not None:
         raise UserError(
             f"{bench.scene.source.origin}: controllers are not written in C for arms in space yet. Leave out --emit "
-            "and --compiled: `tmm-gen mpc` runs them in Python, and tmm_gen.control.controllers has them for your programs."
+            "and --compiled: `tmm-gen mpc` runs them in Python, and your programs can by tmm_gen.control.controllers."
         )
     if controller in LINEAR and not bench.problem.motors.on_hub:
         others = ", ".join(each for each in EMITTED if each not in LINEAR)
