@@ -1,4 +1,4 @@
-"""A base in space that turns as an input says: about any axis, with any integrator and either linearisation."""
+"""A base in space that turns and moves as inputs say: about any axis, with any integrator and either linearisation."""
 
 from __future__ import annotations
 
@@ -43,6 +43,10 @@ name = "table"
 at = "base"
 acts = "angle"
 [[input]]
+name = "cart"
+at = "base"
+acts = "place_y"
+[[input]]
 name = "push"
 at = "load"
 acts = "force"
@@ -80,10 +84,10 @@ inertia = [1e-3, 1e-3, 5e-4]
 
 
 def driven(arm: SpatialArm) -> SpatialArm:
-    """Return an arm whose first joint moves as an input says."""
+    """Return an arm whose first joint moves as an input says, on a base that two others move along."""
     first, *others = arm.joints
     first = replace(first, given="table", stiffness=0.0, damping=0.0, armature=0.0)
-    inputs = (ArmInput("table", "angle", joint=1),)
+    inputs = (ArmInput("table", "angle", joint=1), ArmInput("cart", "place_y"), ArmInput("lift", "place_z"))
     return replace(arm, joints=(first, *others), inputs=inputs, outputs=())
 
 
@@ -113,7 +117,7 @@ def test_a_joint_that_is_given_costs_no_elimination() -> None:
 def assert_driven(module: ModuleType, program: Program, arm: SpatialArm) -> None:
     """What turns the table is all that bodies and pushes ask for about its axis, whatever the motion."""
     rng, n = np.random.default_rng(3), len(arm.joints)
-    columns = {v.name: float(value) for v, value in zip(program.inputs, rng.normal(size=6), strict=True)}
+    columns = {v.name: float(value) for v, value in zip(program.inputs, rng.normal(size=9), strict=True)}
     state = module.initialise(
         module.Params(),
         module.Input(**columns),
@@ -138,7 +142,7 @@ def test_scene() -> None:
     vectors = list(reached_vectors(module, program, 2, relative=True))
     assert largest_difference(numpy_step(module, program), native_step(kernel, program), vectors) < 1e-12
     assert_driven(module, program, scene.spatial)
-    signals = {"table": Sine(0.7, 5.0, 0.4)}
+    signals = {"table": Sine(0.7, 5.0, 0.4), "cart": Sine(0.2, 6.0, 0.1)}
     found = simulate(scene, signals, 0.5, "c", kernel=kernel)
     arm = scene.spatial
     assert arm is not None
@@ -146,7 +150,8 @@ def test_scene() -> None:
     frame = next(f for f in arm.frames if f.name == "load")
     _, point = Tree(arm).places(q).frame(frame)
     for k, axis in enumerate("xyz"):
-        assert np.abs(found.outputs[f"load_position_{axis}"][1:] - point[:, k]).max() < 3e-5
+        own = point[:, k] + (signals["cart"].at(found.time[1:]) if axis == "y" else 0.0)
+        assert np.abs(found.outputs[f"load_position_{axis}"][1:] - own).max() < 3e-5
     assert np.abs(found.outputs["base_angle"] - signals["table"].at(found.time)).max() < 1e-14
     axis = np.array([0.5, 0.6, 1.0]) / np.linalg.norm([0.5, 0.6, 1.0])
     half = 0.5 * signals["table"].at(found.time)
@@ -157,14 +162,14 @@ def test_scene() -> None:
 ANGLE = 'name = "table"\nat = "base"\nacts = "angle"'
 SECOND = '[[joint]]\nname = "other"'
 FAULTS = {
-    "no angle": (ANGLE, 'name = "table"\nat = "hinge"\nacts = "torque"', "needs an input that prescribes"),
+    "no angle": (ANGLE, 'name = "table"\nat = "hinge"\nacts = "torque"', "no input says by how much"),
     "twice": (SECOND, f'[[input]]\nname = "b"\nat = "base"\nacts = "angle"\n{SECOND}', "a second time"),
     "elsewhere": (ANGLE, ANGLE.replace("base", "hinge"), 'cannot be "angle" here'),
-    "pushed": ('at = "load"\nacts = "force"', 'at = "base"\nacts = "force"', "which moves as its angle says"),
+    "pushed": ('at = "load"\nacts = "force"', 'at = "base"\nacts = "force"', "which moves as its inputs say"),
     "starts": (
         'kind = "prescribed"',
         'kind = "prescribed"\nrate = [0, 0, 1]',
-        "a prescribed base moves as its input says",
+        "a prescribed base moves as its inputs say",
     ),
     "axis of a clamp": ('kind = "prescribed"', 'kind = "clamp"', "is that of a prescribed base"),
 }

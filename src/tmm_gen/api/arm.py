@@ -238,12 +238,13 @@ class Arm(Studied):
         """
         from tmm_gen.api.checked import Check
         from tmm_gen.reference.duration import default_duration
+        from tmm_gen.scene.signal import PRESCRIBED
         from tmm_gen.simulate.run import number_of_steps
         from tmm_gen.verify.check import check_scene
 
         scene, acting = self.scene, named(self.scene, inputs, more)
         for item in scene.inputs:
-            if item.acts == "angle" and item.name in acting:
+            if item.acts in PRESCRIBED and item.name in acting:
                 raise UserError(f"{item.name}: a prescribed base is moved by the check itself. Leave it out.")
         steps = number_of_steps(default_duration(scene), scene.integrator.step)
         return Check(self.name, check_scene(scene, lambda share, doing: None, signals(scene, acting, steps)))

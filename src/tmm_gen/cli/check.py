@@ -158,5 +158,6 @@ def _loads(scene: Scene, given: tuple[str, ...]) -> dict[str, Signal]:
     if not given:
         return {}
     from tmm_gen.inputs.given import read_inputs
+    from tmm_gen.scene.signal import PRESCRIBED
 
-    return read_inputs(given, tuple(item.name for item in scene.inputs if item.acts != "angle"))
+    return read_inputs(given, tuple(item.name for item in scene.inputs if item.acts not in PRESCRIBED))

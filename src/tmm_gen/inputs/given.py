@@ -23,7 +23,7 @@ from tmm_gen.inputs.profiles import is_profile, profile
 from tmm_gen.inputs.signals import Constant, Signal, Table
 from tmm_gen.reading import open_table
 from tmm_gen.scene import Scene
-from tmm_gen.scene.signal import ACCELERATION, RATE
+from tmm_gen.scene.signal import ACCELERATION, PRESCRIBED, RATE
 
 _FIT = 1.5
 """Rates that are so many times the slopes of the angles, more or less, are in another unit."""
@@ -36,8 +36,8 @@ _MISSING = ("", "nan")
 
 
 def input_names(scene: Scene) -> tuple[tuple[str, ...], frozenset[str]]:
-    """Return the names of a scene's inputs, and which of them prescribe an angle."""
-    angles = frozenset(item.name for item in scene.inputs if item.acts == "angle")
+    """Return the names of a scene's inputs, and which of them prescribe a motion."""
+    angles = frozenset(item.name for item in scene.inputs if item.acts in PRESCRIBED)
     return tuple(item.name for item in scene.inputs), angles
 
 
@@ -239,8 +239,8 @@ def _motion(name: str, table: Table, rates: list[float] | None, accelerations: l
     fit = rates_fit(made, np.array(rates))
     if not 1.0 / _FIT <= fit <= _FIT:
         raise UserError(
-            f"{table.source}: the column '{name}{RATE}' is {fit:.3g} times the slope of '{name}'. It must be in rad/s, "
-            f"and '{name}' in rad: correct it, or remove the column."
+            f"{table.source}: the column '{name}{RATE}' is {fit:.3g} times the slope of '{name}'. It must be the "
+            f"derivative of '{name}' by seconds: correct it, or remove the column."
         )
     return made
 

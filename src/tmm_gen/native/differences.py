@@ -16,7 +16,7 @@ _FORWARD = {1: (-25.0, 48.0, -36.0, 16.0, -3.0), 2: (35.0, -104.0, 114.0, -56.0,
 
 
 def with_derivatives(program: Program, signals: Mapping[str, Any], step: float) -> dict[str, Any]:
-    """Return signals, with the rate and acceleration of a prescribed angle that is a function, where they are absent.
+    """Return signals, with rate and acceleration of what is prescribed by a function, where they are absent.
 
     Parameters
     ----------
@@ -27,12 +27,12 @@ def with_derivatives(program: Program, signals: Mapping[str, Any], step: float) 
     step : float
         s; differences are taken over quarters of it.
     """
-    names = prescribed_names(program.inputs)
-    if names is None or not callable(angle := signals.get(names[0])):
-        return dict(signals)
-    derived = {name: _difference(angle, order, 0.25 * step) for order, name in enumerate(names) if order}
-    absent = {name: signal for name, signal in derived.items() if name not in signals}
-    return {**signals, **absent}  # behind the angle: what is wrong with it is said of it
+    found = dict(signals)  # derivatives stand behind: what is wrong with a function is said of it
+    for names in prescribed_names(program.inputs):
+        if callable(told := signals.get(names[0])):
+            for order, name in enumerate(names[1:], start=1):
+                found.setdefault(name, _difference(told, order, 0.25 * step))
+    return found
 
 
 def _difference(angle: Callable[[Any], Any], order: int, apart: float) -> Callable[[Any], Any]:

@@ -53,9 +53,9 @@ def require_played(scene: Scene) -> None:
     UserError
         Where the base is moved by an input, or floats in space.
     """
-    if scene.prescribed is not None:
+    if scene.motions:
         raise UserError(
-            f"scene '{scene.name}': the input '{scene.prescribed.name}' moves the base, which a playground does not "
+            f"scene '{scene.name}': the input '{scene.motions[0].name}' moves the base, which a playground does not "
             'show yet. Give the base kind = "motor" and an input that acts = "torque".'
         )
     if scene.spatial is not None and scene.spatial.base is not None:

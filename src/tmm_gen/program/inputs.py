@@ -20,7 +20,7 @@ def input_instants(row: Row, scheme: Scheme) -> tuple[float, ...]:
     return (*stages, 1.0)
 
 
-def prescribed_names(inputs: tuple[Variable, ...]) -> tuple[str, str, str] | None:
-    """Return the names of angle, rate and acceleration of a prescribed base among a kernel's inputs, if it has them."""
-    angle = next((variable.name for variable in inputs if variable.unit == "rad"), None)
-    return None if angle is None else (angle, angle + RATE, angle + ACCELERATION)
+def prescribed_names(inputs: tuple[Variable, ...]) -> tuple[tuple[str, str, str], ...]:
+    """Return the names of what moves a prescribed base among a kernel's inputs, each with rate and acceleration."""
+    told = (variable.name for variable in inputs if variable.unit in ("rad", "m"))
+    return tuple((name, name + RATE, name + ACCELERATION) for name in told)

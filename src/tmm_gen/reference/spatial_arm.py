@@ -20,12 +20,15 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from tmm_gen.reference.spatial_given import moved
 from tmm_gen.reference.spatial_places import Places, Tree, Values, applied, cross
+from tmm_gen.scene.signal import ACCELERATION
 from tmm_gen.scene.spatial.arm import ArmInput, SpatialArm
 
 Array = NDArray[np.float64]
 Inputs = Mapping[str, ArrayLike]
-"""Values of inputs by column, each of the shape of the instants; those not given are zero."""
+"""Values of inputs by column, each of the shape of the instants; those not given are zero. How a base is moved along is
+there with ``_rate`` and ``_acceleration``: see :func:`tmm_gen.reference.spatial_given.given`."""
 
 _STEP = 1e-40
 """Imaginary part of a complex step: its square is lost beside any number, so the derivative has no other error."""
@@ -143,7 +146,9 @@ class WorldArm:
         center, way = self.centers(places)
         pull = motions.carried(way)[1]
         inertia = self.inertias(places)
-        force = self.masses[:, None] * (pull - self.gravity)
+        carried = moved(self.arm, inputs, ACCELERATION)
+        fall = self.gravity if carried is None else self.gravity - carried[..., None, :]
+        force = self.masses[:, None] * (pull - fall)
         moment = applied(inertia, motions.spinning) + cross(motions.spin, applied(inertia, motions.spin))
         moment = moment + cross(center, force)  # from here on about the base
         outer_force, outer_moment = self.loads(places, inputs)

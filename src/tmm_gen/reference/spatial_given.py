@@ -1,18 +1,49 @@
-"""Joints of an arm in space whose motion is given: what of the equations they take part in."""
+"""Joints of an arm in space whose motion is given, and bases that are moved along: what of the equations they are."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from tmm_gen.inputs.signals import Constant, Signal
+from tmm_gen.scene.signal import ACCELERATION, RATE
 from tmm_gen.scene.spatial.arm import SpatialArm
 
 Array = NDArray[np.float64]
+
+
+def given(arm: SpatialArm, signals: Mapping[str, Signal], times: Array) -> dict[str, Array]:
+    """Return the values of inputs at instants, by column; of a base that is moved along, velocity and acceleration too.
+
+    Those are the columns that kernels have: with ``_rate`` and ``_acceleration`` at the end.
+    """
+    found = {name: signal.at(times) for name, signal in signals.items()}
+    for item in arm.along:
+        if item and item.name in signals:
+            found[item.name + RATE] = signals[item.name].slope(times)
+            found[item.name + ACCELERATION] = signals[item.name].curvature(times)
+    return found
+
+
+def moved(arm: SpatialArm, inputs: Mapping[str, ArrayLike], kind: str = "") -> NDArray[Any] | None:
+    """Return how a base is moved along, (..., 3), in world axes, m; None where it is not.
+
+    Parameters
+    ----------
+    inputs : mapping from str to array_like
+        As of :func:`given`.
+    kind : {"", "_rate", "_acceleration"}
+        Its place, velocity (m/s) or acceleration (m/s^2).
+    """
+    values = [inputs.get(item.name + kind, 0.0) if item else 0.0 for item in arm.along]
+    if not any(item and item.name + kind in inputs for item in arm.along):
+        return None
+    return np.stack(np.broadcast_arrays(*values), axis=-1)
 
 
 def free_joints(arm: SpatialArm) -> NDArray[np.intp]:

@@ -15,7 +15,7 @@ from tmm_gen.inputs.signals import Signal
 from tmm_gen.reference.collocation import Trajectory, integrate
 from tmm_gen.reference.spatial_afloat import AfloatArm
 from tmm_gen.reference.spatial_arm import WorldArm
-from tmm_gen.reference.spatial_given import GivenJoints
+from tmm_gen.reference.spatial_given import GivenJoints, given
 from tmm_gen.scene.spatial.arm import SpatialArm
 
 Array = NDArray[np.float64]
@@ -57,10 +57,10 @@ def completed(
     q, v = told.settled(times, q, v)
     world = _world(arm)
     if not told.of:
-        return q, v, world.forward_dynamics(q, v, given(signals, times))
+        return q, v, world.forward_dynamics(q, v, given(arm, signals, times))
     # linear in accelerations: one step of Newton's method from none of them
     a = np.zeros_like(q)
-    inputs = given(signals, times)
+    inputs = given(arm, signals, times)
     lacking = told.lacking(times, a, np.asarray(world.inverse_dynamics(q, v, a, inputs), np.float64))
     tangent = told.slopes(*_Slopes(world, signals, told)(times, q, v, a))[2]
     found = np.linalg.solve(tangent, -lacking[..., None])[..., 0]
@@ -92,7 +92,7 @@ def trajectory(arm: SpatialArm, signals: Signals, until: float, tolerance: float
     world, told = _world(arm), GivenJoints(arm, signals)
 
     def residual(at: Array, q: Array, v: Array, a: Array) -> Array:
-        lacking = np.asarray(world.inverse_dynamics(q, v, a, given(signals, at)), np.float64)
+        lacking = np.asarray(world.inverse_dynamics(q, v, a, given(arm, signals, at)), np.float64)
         return told.lacking(at, a, lacking)
 
     knots = np.unique(np.concatenate([[0.0, until], *(signal.knots for signal in signals.values())]))
@@ -100,11 +100,6 @@ def trajectory(arm: SpatialArm, signals: Signals, until: float, tolerance: float
     slopes = _Slopes(world, signals, told)
     begun = told.settled(np.zeros(()), *start(arm))
     return integrate(residual, slopes, *begun, breaks, tolerance)
-
-
-def given(signals: Signals, times: Array) -> dict[str, Array]:
-    """Return the values of inputs at instants, by column."""
-    return {name: signal.at(times) for name, signal in signals.items()}
 
 
 class _Slopes:
@@ -121,7 +116,7 @@ class _Slopes:
         of = (float(at[0]), float(at[-1]))
         if of != self._of:
             middle = len(at) // 2
-            inputs = given(self._signals, at[middle])
+            inputs = given(self._world.arm, self._signals, at[middle])
             self._of, self._held = of, self._world.tangents(q[middle], v[middle], a[middle], inputs)
         by_q, by_v = (np.broadcast_to(tangent, (len(at), *tangent.shape)) for tangent in self._held)
         if isinstance(self._world, AfloatArm):

@@ -8,9 +8,11 @@ from numpy.typing import NDArray
 from tmm_gen.reference.spatial_afloat import AfloatArm
 from tmm_gen.reference.spatial_afloat_outputs import afloat_values
 from tmm_gen.reference.spatial_arm import Inputs, WorldArm
-from tmm_gen.reference.spatial_motion import Signals, given, motion
+from tmm_gen.reference.spatial_given import given, moved
+from tmm_gen.reference.spatial_motion import Signals, motion
 from tmm_gen.reference.spatial_places import cross
 from tmm_gen.reference.spatial_turns import alike, followed, quaternions
+from tmm_gen.scene.signal import RATE
 from tmm_gen.scene.spatial.arm import ArmOutput, Frame, SpatialArm
 
 Array = NDArray[np.float64]
@@ -42,7 +44,7 @@ def spatial_response(
         If the equations cannot be integrated.
     """
     times = np.asarray(times, float)
-    return outputs(arm, *motion(arm, signals, times, tolerance), given(signals, times))
+    return outputs(arm, *motion(arm, signals, times, tolerance), given(arm, signals, times))
 
 
 def outputs(arm: SpatialArm, q: Array, v: Array, a: Array, inputs: Inputs) -> dict[str, Array]:
@@ -73,22 +75,35 @@ def _values(world: WorldArm, output: ArmOutput, q: Array, v: Array, a: Array, in
     if quantity.read == "through":
         return np.asarray(world.torque(q, v, inputs)[:, output.joint - 1])
     if quantity.read == "energy":
-        return _energy(world, quantity.energy, q, v)
+        return _energy(world, quantity.energy, q, v, inputs)
     assert output.frame is not None
     if quantity.order:
-        return _velocity(world, output.frame, q, v)
+        return _along(_velocity(world, output.frame, q, v), moved(world.arm, inputs, RATE))
     axes, point = world.tree.places(q).frame(output.frame)
     if quantity.components == "xyz":
-        return np.asarray(point)
+        return _along(np.asarray(point), moved(world.arm, inputs))
     return alike(quaternions(axes), followed(world.arm, output.frame, q))
 
 
-def _energy(world: WorldArm, which: str, q: Array, v: Array) -> Array:
+def _along(values: Array, base: Array | None) -> Array:
+    """Return places or velocities seen from a base, (k, 3), as they are in the world."""
+    return values if base is None else values + base
+
+
+def _energy(world: WorldArm, which: str, q: Array, v: Array, inputs: Inputs) -> Array:
     if which == "kinetic":
-        return kinetic_energy(world, q, v)
+        base = moved(world.arm, inputs, RATE)
+        own = kinetic_energy(world, q, v)
+        if base is None:
+            return own
+        moving, _ = world.jacobians(world.tree.places(q))
+        momentum = np.einsum("b,kbij,kj->ki", world.masses, moving, v)
+        return np.asarray(own + np.sum((momentum + 0.5 * np.sum(world.masses) * base) * base, axis=-1))
     if which == "elastic":
         return np.asarray(0.5 * ((q - world.rest) ** 2 @ world.stiffness))
-    return gravitational_energy(world, q)
+    base = moved(world.arm, inputs)
+    lifted = 0.0 if base is None else np.sum(world.masses) * (base @ world.gravity)
+    return gravitational_energy(world, q) - lifted
 
 
 def _velocity(world: WorldArm, frame: Frame, q: Array, v: Array) -> Array:

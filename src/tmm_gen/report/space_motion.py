@@ -28,16 +28,32 @@ class SpaceMotion:
         s, from 0 on.
     angles : array, (k, n)
         Of its joints, rad; (k, 7 + n) where its base floats, its place and quaternion first.
+    carried : array, (k, 3), optional
+        How far the base is moved along as prescribed, m; not at all if left out.
     """
 
     arm: SpatialArm
     time: Array
     angles: Array
+    carried: Array | None = None
 
     @cached_property
     def skeleton(self) -> Skeleton:
         """Its points and lines."""
         return Skeleton(self.arm)
+
+    @property
+    def points(self) -> Array:
+        """Where the spots of its skeleton are, (k, m, 3), m."""
+        return self.places[0]
+
+    @cached_property
+    def places(self) -> tuple[Array, Array]:
+        """Where its spots are and the outer ends of its pins, (k, ..., 3) each, m."""
+        points, ends = self.skeleton.places(self.angles)
+        if self.carried is None:
+            return points, ends
+        return points + self.carried[:, None], ends + self.carried[:, None]
 
     @property
     def reach(self) -> float:
@@ -54,7 +70,8 @@ class SpaceMotion:
     def thinned(self, most: int) -> SpaceMotion:
         """Return it at so many instants at most, the first and the last among them."""
         shown = spread(self.time, most)
-        return SpaceMotion(self.arm, self.time[shown], self.angles[shown])
+        carried = None if self.carried is None else self.carried[shown]
+        return SpaceMotion(self.arm, self.time[shown], self.angles[shown], carried)
 
 
 def space_motion(simulation: Simulation) -> SpaceMotion:
@@ -73,4 +90,10 @@ def space_motion(simulation: Simulation) -> SpaceMotion:
     arm, trace = simulation.scene.spatial, simulation.trace
     if arm is None or trace is None:
         raise ValueError("the motion was not traced" if arm else "this is no arm in space")
-    return SpaceMotion(arm, simulation.time[trace.indices.astype(int)], trace.angle)
+    shown = trace.indices.astype(int)
+    carried = None
+    if any(arm.along):
+        still = np.zeros(len(shown))
+        along = [simulation.inputs[item.name][shown] if item else still for item in arm.along]
+        carried = np.stack(along, axis=1)
+    return SpaceMotion(arm, simulation.time[shown], trace.angle, carried)

@@ -79,7 +79,7 @@ def page_data(motion: SpaceMotion) -> dict[str, Any]:
     spots, pins = len(skeleton.spots), len(skeleton.pins)
     shown = motion.thinned(max(2, min(MOST_INSTANTS, MOST_NUMBERS // (3 * (spots + pins)))))
     unit = 10.0 ** math.floor(math.log10(FINEST * reach))
-    points = np.concatenate(skeleton.places(shown.angles), axis=1)
+    points = np.concatenate(shown.places, axis=1)
     whole = np.rint(points / unit).astype(int)
     return {
         "time": [float(f"{time:.6g}") for time in shown.time],

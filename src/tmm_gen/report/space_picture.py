@@ -43,7 +43,7 @@ def draw_arm(axes: Any, motion: SpaceMotion) -> None:
     from matplotlib.patheffects import withStroke
 
     skeleton, shown, along = motion.skeleton, motion.thinned(SHAPES), motion.thinned(_TRACED)
-    points, way = skeleton.points(shown.angles), skeleton.points(along.angles)
+    points, way = shown.points, along.points
     ground = set_out(axes, motion, way)
     colours = mpl.colormaps["Blues"](np.linspace(0.25, 1.0, len(points)))
     tips = [tip.spot for tip in skeleton.tips]
@@ -85,7 +85,7 @@ def space_gif(simulation: Simulation) -> bytes:
     skeleton = motion.skeleton
     shown, speed = frame_instants(simulation)
     along = motion.thinned(_TRACED)
-    points, way = skeleton.points(motion.angles[shown]), skeleton.points(along.angles)
+    points, way = motion.points[shown], along.points
     passed = np.searchsorted(along.time, motion.time[shown], side="right")
     faster = "" if abs(speed - 1.0) < 0.05 else f", shown {speed:.2g} times as fast"
     with style():

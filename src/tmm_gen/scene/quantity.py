@@ -126,5 +126,6 @@ INPUT_UNITS = {
     **dict.fromkeys(("force_x", "force_y", "force_z"), "N"),
     **dict.fromkeys(("moment_x", "moment_y", "moment_z"), "N m"),
     "angle": "rad",
+    **dict.fromkeys(("place_x", "place_y", "place_z"), "m"),
 }
 """Units of inputs, by what they act as."""

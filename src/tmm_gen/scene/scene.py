@@ -18,7 +18,7 @@ from tmm_gen.scene.model import Base, FloatingBase, Model
 from tmm_gen.scene.parts.document import PartsDocument
 from tmm_gen.scene.parts.placed import PlacedPart
 from tmm_gen.scene.quantity import Quantity, quantities
-from tmm_gen.scene.signal import Input, Output, station_of
+from tmm_gen.scene.signal import PRESCRIBED, Input, Output, station_of
 from tmm_gen.scene.source import Source
 from tmm_gen.scene.spatial.arm import SpatialArm
 from tmm_gen.scene.spatial.document import CLAMP, SpatialDocument
@@ -174,6 +174,11 @@ class Scene:
     def prescribed(self) -> Input | None:
         """The input that is the base's angle, if there is one."""
         return next((item for item in self.inputs if item.acts == "angle"), None)
+
+    @property
+    def motions(self) -> tuple[Input, ...]:
+        """The inputs that say how a prescribed base moves: its angle, and in space its place."""
+        return tuple(item for item in self.inputs if item.acts in PRESCRIBED)
 
     def quantity(self, output: Output) -> Quantity:
         """Return what an output is."""

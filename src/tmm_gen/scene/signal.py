@@ -10,7 +10,8 @@ from tmm_gen.scene.identifier import Name
 from tmm_gen.scene.table import Table, fault
 
 FileActs = Literal["torque", "force_x", "force_y", "angle"]
-Acts = Literal[FileActs, "drive", "force_z", "moment_x", "moment_y", "moment_z"]
+Along = Literal["place_x", "place_y", "place_z"]
+Acts = Literal[FileActs, "drive", "force_z", "moment_x", "moment_y", "moment_z", Along]
 """What inputs are; "drive", the torque of a motor or in a joint, acts between both sides (arms by parts alone); the
 last ones are components in space."""
 Of = Literal[
@@ -89,12 +90,22 @@ class Input(FileInput):
 
 
 RATE, ACCELERATION = "_rate", "_acceleration"
-"""What a prescribed angle's rate and acceleration are called after its name."""
+"""What the rate and the acceleration of what is prescribed are called after its name."""
+
+ALONG: tuple[Along, ...] = ("place_x", "place_y", "place_z")
+"""What moves a prescribed base along the axes of the world, in space."""
+PRESCRIBED = frozenset({"angle", *ALONG})
+"""Inputs that say how a base moves, whatever that takes."""
+
+
+def said(acts: str) -> str:
+    """Return the words for how an input moves a prescribed base: "angle", "place along x"."""
+    return acts.replace("_", " along ")
 
 
 def kernel_names(item: FileInput) -> tuple[str, ...]:
-    """Return the names under which kernels take an input: an angle comes with its rate and its acceleration."""
-    if item.acts != "angle":
+    """Return the names under which kernels take an input: what is prescribed comes with its rate and acceleration."""
+    if item.acts not in PRESCRIBED:
         return (item.name,)
     return (item.name, item.name + RATE, item.name + ACCELERATION)
 

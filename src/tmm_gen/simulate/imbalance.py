@@ -12,6 +12,7 @@ from tmm_gen.inputs.signals import Signal
 from tmm_gen.inputs.waveforms import Step
 from tmm_gen.reference.energy import energy
 from tmm_gen.scene import Scene
+from tmm_gen.scene.signal import PRESCRIBED
 from tmm_gen.simulate.trace import Trace
 
 Array = NDArray[np.float64]
@@ -47,6 +48,6 @@ def imbalance_of(
 def _abrupt(signal: Signal, acts: str, step: float, until: float) -> bool:
     """Whether a load changes within a few steps, or the rate of a prescribed base jumps on the way."""
     knots = signal.knots
-    if acts == "angle":
+    if acts in PRESCRIBED:
         return isinstance(signal, Curve) and any(0.0 < knots[row] < until for row, _ in signal.corners)
     return isinstance(signal, Step) or bool(np.min(np.diff(knots), initial=np.inf) < _FEW * step)

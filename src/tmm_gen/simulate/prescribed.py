@@ -1,7 +1,7 @@
 """A prescribed base: what drives it, what cannot, and what is said of it.
 
-Kernels take angle, rate and acceleration. An angle that jumps is none of a base: its rate would be infinite, and the
-damper of joint 1 with it. A rate that jumps is: the torque in joint 1 is finite.
+Kernels take angle, rate and acceleration, and the same of places in space. An angle that jumps is none of a base: its
+rate would be infinite, and the damper of joint 1 with it. A rate that jumps is: the torque in joint 1 is finite.
 """
 
 from __future__ import annotations
@@ -18,7 +18,8 @@ from tmm_gen.inputs.signals import Constant, Signal, Table
 from tmm_gen.inputs.waveforms import Step
 from tmm_gen.reference.duration import default_duration
 from tmm_gen.scene import Input, Scene
-from tmm_gen.scene.signal import kernel_names
+from tmm_gen.scene.quantity import INPUT_UNITS
+from tmm_gen.scene.signal import PRESCRIBED, kernel_names, said
 
 Array = NDArray[np.float64]
 
@@ -63,7 +64,7 @@ class Derivative:
 
 
 def kernel_signals(scene: Scene, signals: Mapping[str, Signal]) -> dict[str, Signal | Derivative]:
-    """Return what a scene's kernel takes for its inputs: an angle with its rate and acceleration.
+    """Return what a scene's kernel takes for its inputs: what moves a base with rate and acceleration.
 
     Parameters
     ----------
@@ -76,7 +77,7 @@ def kernel_signals(scene: Scene, signals: Mapping[str, Signal]) -> dict[str, Sig
     for item in scene.inputs:
         if item.name not in signals:
             continue
-        signal = _moving(signals[item.name]) if item.acts == "angle" else signals[item.name]
+        signal = _moving(signals[item.name]) if item.acts in PRESCRIBED else signals[item.name]
         for order, name in enumerate(kernel_names(item)):
             if order == 0:
                 found[name] = signal
@@ -90,7 +91,7 @@ def _moving(signal: Signal) -> Signal:
 
 
 def prescribed(scene: Scene, signals: Mapping[str, Signal]) -> dict[str, Signal]:
-    """Return the inputs of a scene, the angle of a prescribed base as a motion that a base can make.
+    """Return the inputs of a scene, those of a prescribed base as motions that a base can make.
 
     Parameters
     ----------
@@ -102,18 +103,19 @@ def prescribed(scene: Scene, signals: Mapping[str, Signal]) -> dict[str, Signal]
     Raises
     ------
     UserError
-        If the angle jumps, on the way or where the arm starts.
+        If one jumps, on the way or where the arm starts.
     """
-    item = scene.prescribed
-    if item is None:
-        return dict(signals)
-    signal = _moving(signals.get(item.name, Constant(0.0)))
-    if isinstance(signal, Step) and signal.before != signal.after and signal.instant > 0.0:
-        raise UserError(_jumps(scene, item, signal.before, signal.after, signal.instant, "", ""))
-    if isinstance(signal, Curve):
-        _refuse_jumps(scene, item, signal)
-    _refuse_start(scene, item, signal)
-    return {**signals, item.name: signal} if item.name in signals else dict(signals)
+    found = dict(signals)
+    for item in scene.motions:
+        signal = _moving(signals.get(item.name, Constant(0.0)))
+        if isinstance(signal, Step) and signal.before != signal.after and signal.instant > 0.0:
+            raise UserError(_jumps(scene, item, signal.before, signal.after, signal.instant, "", ""))
+        if isinstance(signal, Curve):
+            _refuse_jumps(scene, item, signal)
+        _refuse_start(scene, item, signal)
+        if item.name in signals:
+            found[item.name] = signal
+    return found
 
 
 def _refuse_jumps(scene: Scene, item: Input, curve: Curve) -> None:
@@ -148,8 +150,8 @@ def _jumps(
 ) -> str:
     """Say that a base cannot jump, and what it can."""
     return (
-        f"scene '{scene.name}', input '{item.name}'{where}: the angle of the prescribed base jumps from {before:.6g} "
-        f"to {after:.6g} rad{within} at t = {instant:.6g} s, and no base can. "
+        f"scene '{scene.name}', input '{item.name}'{where}: the {said(item.acts)} of the prescribed base jumps from "
+        f"{before:.6g} to {after:.6g} {INPUT_UNITS[item.acts]}{within} at t = {instant:.6g} s, and no base can. "
         f"Use a smooth way, --input {_way(scene, item, before, after, instant)}{others}."
     )
 
@@ -182,10 +184,12 @@ def _refuse_start(scene: Scene, item: Input, signal: Signal) -> None:
 
 def followed(scene: Scene, signals: Mapping[str, Signal], until: float) -> Iterator[str]:
     """Yield what there is to say of how tables of a prescribed base are followed, in sentences."""
-    item = scene.prescribed
-    curve = signals.get(item.name) if item is not None else None
-    if item is None or not isinstance(curve, Curve):
-        return
+    for item in scene.motions:
+        if isinstance(curve := signals.get(item.name), Curve):
+            yield from _followed(item, curve, until)
+
+
+def _followed(item: Input, curve: Curve, until: float) -> Iterator[str]:
     last = len(curve.times) - 1
     corners = [
         (float(curve.times[row]), jump)
@@ -194,7 +198,7 @@ def followed(scene: Scene, signals: Mapping[str, Signal], until: float) -> Itera
     ]
     if not corners:
         return
-    told = [f"{jump:+.3g} rad/s at {time:.4g} s" for time, jump in corners[:_SHOWN]]
+    told = [f"{jump:+.3g} {INPUT_UNITS[item.acts]}/s at {time:.4g} s" for time, jump in corners[:_SHOWN]]
     more = f" and at {len(corners) - _SHOWN} more rows" if len(corners) > _SHOWN else ""
     name = item.name
     yield (

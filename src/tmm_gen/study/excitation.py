@@ -163,10 +163,10 @@ def _default_signals(scene: Scene, until: float) -> dict[str, Signal]:
     frequency = 2.0 * math.pi * _SWINGS / until
     frequencies = {item.name: frequency * (1.0 + 0.5 * k) for k, item in enumerate(scene.inputs)}
     if scene.spatial is not None:
-        turned = scene.prescribed.name if scene.prescribed else None
-        acting = {name: frequency for name, frequency in frequencies.items() if name != turned}
+        given = {item.name: _TURN if item.acts == "angle" else _TURN * scene.reach for item in scene.motions}
+        acting = {name: frequency for name, frequency in frequencies.items() if name not in given}
         sizes = turning_loads(scene.spatial, acting, _TURN)
-        rise: dict[str, Signal] = {turned: Rise(_TURN, 0.5 * until)} if turned else {}
+        rise: dict[str, Signal] = {name: Rise(way, 0.5 * until) for name, way in given.items()}
         return rise | {name: Sine(_rounded(size), acting[name]) for name, size in sizes.items()}
     return {item.name: _signal(scene, item, frequencies[item.name], until) for item in scene.inputs}
 

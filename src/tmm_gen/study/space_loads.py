@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from tmm_gen.reference.spatial_afloat import BASE, AfloatArm
 from tmm_gen.reference.spatial_arm import WorldArm
 from tmm_gen.reference.spatial_given import free_joints
+from tmm_gen.scene.signal import PRESCRIBED
 from tmm_gen.scene.spatial.arm import SpatialArm
 from tmm_gen.scene.spatial.reach import longest_way
 
@@ -41,7 +42,7 @@ def turning_loads(arm: SpatialArm, frequencies: Mapping[str, float], turn: float
     swung = _Standing(arm) if arm.base is None else _Floating(arm)
     turns = {column: swung.turned(column, frequency) for column, frequency in frequencies.items()}
     found: dict[str, float] = {}
-    for item in (each for each in arm.inputs if each.acts != "angle"):
+    for item in (each for each in arm.inputs if each.acts not in PRESCRIBED):
         # what pushes along an arm hardly turns it, however strong: components act as the strongest of them does
         largest = max(turns[column] for column in item.columns)
         found |= dict.fromkeys(item.columns, turn / (len(turns) * largest) if largest > 0.0 else 1.0)

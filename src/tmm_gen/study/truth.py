@@ -17,7 +17,8 @@ from tmm_gen.reference.collocation import Trajectory
 from tmm_gen.reference.planar_arm import Arm
 from tmm_gen.reference.planar_reference import dissipated, read
 from tmm_gen.reference.reference import exact_response
-from tmm_gen.reference.spatial_motion import completed, given, trajectory
+from tmm_gen.reference.spatial_given import given
+from tmm_gen.reference.spatial_motion import completed, trajectory
 from tmm_gen.reference.spatial_reference import outputs
 from tmm_gen.scene import Scene
 from tmm_gen.scene.spatial.arm import SpatialArm
@@ -69,7 +70,7 @@ class Truth:
         signals = self.excitation.signals
         q, v, _ = trajectory.at(times)
         moved = completed(arm, signals, times, q, v)
-        return outputs(replace(arm, outputs=looked_at), *moved, given(signals, times))
+        return outputs(replace(arm, outputs=looked_at), *moved, given(arm, signals, times))
 
     @cached_property
     def travel(self) -> float:

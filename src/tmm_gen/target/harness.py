@@ -76,10 +76,10 @@ def swing(scene: Scene, name: str) -> tuple[float, float]:
     """Return the bounds between which the harness moves an input: those of the scene's box, or 1 either way."""
     if scene.emit.box and name in scene.emit.box:
         return scene.emit.box[name]
-    angle = scene.prescribed
-    if angle is None or name not in kernel_names(angle):
+    names = next((n for item in scene.motions if name in (n := kernel_names(item))), ())
+    if not names:
         return -1.0, 1.0
-    half = _GENTLE * scene.integrator.step ** (2 - kernel_names(angle).index(name))
+    half = _GENTLE * scene.integrator.step ** (2 - names.index(name))
     return -half, half
 
 

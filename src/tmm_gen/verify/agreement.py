@@ -104,7 +104,7 @@ def reached_vectors(
             points = float(random.uniform(-np.pi, np.pi)) if any(map(_of_base, program.inputs)) else 0.0
             inputs = {
                 v.name: points
-                if v.unit == "rad"
+                if v.unit in ("rad", "m")
                 else float(random.normal()) * (_BEND if _of_base(v) else 1.0)
                 for v in program.inputs
             }
@@ -125,8 +125,8 @@ def reached_vectors(
 
 
 def _of_base(variable: Any) -> bool:
-    """Whether an input is of a prescribed base: its angle, rate or acceleration."""
-    return str(variable.unit).startswith("rad")
+    """Whether an input is of a prescribed base: its angle or place, rate or acceleration."""
+    return str(variable.unit).split("/")[0] in ("rad", "m")
 
 
 def largest_difference(one: Step, other: Step, vectors: Iterable[Vector]) -> float:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from tmm_gen.scene import Scene
+from tmm_gen.scene.signal import PRESCRIBED
 from tmm_gen.simulate.divergence import BrokenOffError, integrator_cause
 from tmm_gen.simulate.planar_divergence import PlanarWatch
 from tmm_gen.simulate.tolerance import UnsolvedError
@@ -71,7 +72,7 @@ def remedy(
     passes : callable
         Whether all of its check is: slow.
     """
-    loads = [item.name for item in scene.inputs if item.acts != "angle"]
+    loads = [item.name for item in scene.inputs if item.acts not in PRESCRIBED]
     # in space inputs are sines of their own sizes already, which no option scales
     fixed = scene.model.linear or scene.spatial is not None
     factors = iter(_FACTORS if loads and not fixed else ())

@@ -20,8 +20,9 @@ from tmm_gen.reference.spatial_arm import WorldArm
 from tmm_gen.reference.spatial_given import free_joints
 from tmm_gen.reference.spatial_motion import motion, start
 from tmm_gen.scene import Scene
-from tmm_gen.scene.signal import ACCELERATION, RATE
+from tmm_gen.scene.signal import ACCELERATION, PRESCRIBED, RATE
 from tmm_gen.scene.spatial.arm import SpatialArm
+from tmm_gen.scene.spatial.reach import longest_way
 from tmm_gen.simulate.metrics import convergence_slope
 from tmm_gen.simulate.prescribed import Derivative
 from tmm_gen.simulate.trace import BASE
@@ -146,9 +147,10 @@ def swings(arm: SpatialArm) -> dict[str, Signal]:
     q = start(arm)[0]
     free = world.forward_dynamics(q, 0.0 * q, {})
     found: dict[str, Signal] = {}
-    for item in (item for item in arm.inputs if item.acts == "angle"):
-        found[item.name] = Sine(_TURNED, _SWING / 2.0)
-    for column in (column for item in arm.inputs if item.acts != "angle" for column in item.columns):
+    for item in (item for item in arm.inputs if item.acts in PRESCRIBED):
+        way = _TURNED if item.acts == "angle" else _TURNED * longest_way(arm)
+        found[item.name] = Sine(way, _SWING / 2.0)
+    for column in (column for item in arm.inputs if item.acts not in PRESCRIBED for column in item.columns):
         moved = float(np.max(np.abs(world.forward_dynamics(q, 0.0 * q, {column: 1.0}) - free)))
         found[column] = Sine(_PULL / moved if moved > 0.0 else 1.0, _SWING, 0.3 * len(found))
     return found
@@ -183,7 +185,7 @@ def _angles(
     )
 
     signals: dict[str, Signal | Derivative] = dict(loads)
-    for item in (item for item in arm.inputs if item.acts == "angle"):
+    for item in (item for item in arm.inputs if item.acts in PRESCRIBED):
         for order, word in enumerate((RATE, ACCELERATION), start=1):
             signals[item.name + word] = Derivative(loads[item.name], order)
 

@@ -16,6 +16,7 @@ from tmm_gen.native.python_module import numpy_module
 from tmm_gen.reference.duration import default_duration
 from tmm_gen.reference.reference import exact_response
 from tmm_gen.scene import Input, Scene
+from tmm_gen.scene.signal import PRESCRIBED
 from tmm_gen.simulate.metrics import largest_error, rms_error
 from tmm_gen.simulate.run import simulate
 from tmm_gen.simulate.simulation import Simulation
@@ -50,7 +51,7 @@ def unit_inputs(scene: Scene) -> dict[str, Signal]:
     if scene.spatial is not None:
         return swings(scene.spatial)
     swing = Sine(1.0, _SWING, math.pi / 2.0)
-    return {i.name: swing if i.acts == "angle" else Constant(_unit(scene, i)) for i in scene.inputs}
+    return {i.name: swing if i.acts in PRESCRIBED else Constant(_unit(scene, i)) for i in scene.inputs}
 
 
 def _unit(scene: Scene, item: Input) -> float:
@@ -123,7 +124,7 @@ class WholeRun:
 
     def scaled(self, factor: float) -> dict[str, Signal]:
         """Return the loads, forces and torques multiplied by a factor where they are constant."""
-        angles = {item.name for item in self.scene.inputs if item.acts == "angle"}
+        angles = {item.name for item in self.scene.inputs if item.acts in PRESCRIBED}
         return {
             name: Constant(factor * signal.value)
             if isinstance(signal, Constant) and name not in angles

@@ -27,6 +27,7 @@ ALPHA = vector("alpha")
 ACCEL = vector("accel")
 """Proper acceleration of the frame's origin."""
 BASE_ACCEL = vector("base_accel")
+BASE_PLACE, BASE_VELOCITY = vector("base_place"), vector("base_velocity")
 """The same of a base at rest: gravity with its sign turned."""
 
 ANGLE, RATE, ACCELERATION = sp.symbols("hinge_angle hinge_rate hinge_acceleration", real=True)

@@ -10,6 +10,8 @@ from tmm_gen.derive.space.declaration import (
     ACCEL,
     ALPHA,
     BASE_ACCEL,
+    BASE_PLACE,
+    BASE_VELOCITY,
     FIRST_MOMENT,
     INERTIA,
     MASS,
@@ -39,7 +41,9 @@ class Pattern:
     first_moment : tuple of bool, length 3
     inertia : tuple of bool, length 6
     falls : tuple of bool, length 3
-        On the base: which components gravity has. Empty elsewhere.
+        On the base: along which axes gravity acts or the base is moved. Empty elsewhere.
+    moved : tuple of bool, length 3
+        On the base: along which axes it is moved as given. Empty elsewhere.
     tip : bool
         Whether nothing hangs on it.
     given : bool
@@ -57,6 +61,7 @@ class Pattern:
     first_moment: Flags
     inertia: Flags
     falls: Flags = ()
+    moved: Flags = ()
     tip: bool = False
     given: bool = False
     driven: bool = False
@@ -79,7 +84,7 @@ class Pattern:
 
     @property
     def rooted(self) -> bool:
-        """Whether it stands on the base, which rests."""
+        """Whether it stands on the base, which rests or moves as given."""
         return bool(self.falls)
 
     @property
@@ -116,6 +121,16 @@ class Pattern:
         if not self.rooted:
             return OMEGA, ALPHA, ACCEL
         return sp.zeros(3, 1), sp.zeros(3, 1), _masked(BASE_ACCEL, self.falls)
+
+    @property
+    def base_place(self) -> sp.Matrix:
+        """Where the base is that it stands on, in world axes."""
+        return _masked(BASE_PLACE, self.moved)
+
+    @property
+    def base_velocity(self) -> sp.Matrix:
+        """How fast that is."""
+        return _masked(BASE_VELOCITY, self.moved)
 
 
 def _masked(vector: sp.Matrix, there: Flags) -> sp.Matrix:

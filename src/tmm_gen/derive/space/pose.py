@@ -40,7 +40,7 @@ def pose_lines(pattern: Pattern) -> tuple[Line, ...]:
 def facing_lines(pattern: Pattern, *, place: bool = False) -> tuple[Line, ...]:
     """Return the walk over a station that carries its axes, and its place if asked for; sines are there already."""
     sheet = Sheet()
-    at, facing = (sp.zeros(3, 1), sp.eye(3)) if pattern.rooted else (PLACE, FACING)
+    at, facing = (pattern.base_place, sp.eye(3)) if pattern.rooted else (PLACE, FACING)
     for passage in _passages(pattern):
         if place:
             at = sheet.vector("next_place", at + facing.T * passage.arm, "place", "m")
@@ -57,7 +57,7 @@ def facing_lines(pattern: Pattern, *, place: bool = False) -> tuple[Line, ...]:
 def velocity_lines(pattern: Pattern) -> tuple[Line, ...]:
     """Return the walk over a station that carries velocity and angular velocity, in the section's axes."""
     sheet = Sheet()
-    velocity, omega = (sp.zeros(3, 1),) * 2 if pattern.rooted else (VELOCITY, OMEGA)
+    velocity, omega = (pattern.base_velocity, sp.zeros(3, 1)) if pattern.rooted else (VELOCITY, OMEGA)
     for passage in _passages(pattern):
         here = {
             **_CIRCLE,

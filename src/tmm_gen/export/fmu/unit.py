@@ -94,7 +94,7 @@ def _sources(
 ) -> tuple[dict[str, str], Identity, tuple[FmuVariable, ...]]:
     """Return the C files by name, the identity, and the variables in the order of their numbers."""
     kernel = Kernel.of(program, scene)
-    followed = prescribed_names(program.inputs) or ()
+    followed = [name for names in prescribed_names(program.inputs) for name in names]
     whole = fmu_variables(program, REALS[scene.emit.real], followed)
     variables = tuple(element for v in whole for element in v.elements()) if version == 2 else whole
     files = {path.removeprefix("c/"): text for path, text in emit_kernel(program, scene).items()}

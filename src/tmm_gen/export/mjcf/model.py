@@ -60,7 +60,7 @@ def mujoco_model(scene: Scene) -> MujocoModel:
         If the base's angle is prescribed: MuJoCo has forces and springs, but no motion that is given exactly; or a
         body in space has an inertia that MuJoCo refuses.
     """
-    if scene.prescribed and scene.spatial:
+    if scene.motions and scene.spatial:
         raise UserError(
             f"scene '{scene.name}': base.kind = \"prescribed\" cannot be a MuJoCo model, in which nothing moves "
             'as prescribed. Use base.kind = "clamp" with a [[motor]] on it.'

@@ -15,7 +15,7 @@ from tmm_gen.program.passes.hoist import Hoister
 from tmm_gen.program.space.base import BaseStep, earlier, history_sources
 from tmm_gen.program.space.base_start import start_of_base, unit_start
 from tmm_gen.program.space.bodies import Bodies
-from tmm_gen.program.space.layout import SpaceLayout, instants, layout_of
+from tmm_gen.program.space.layout import SpaceLayout, instants, layout_of, moves_as_given
 from tmm_gen.program.space.outputs import output_routine
 from tmm_gen.program.space.step import SpaceStep
 from tmm_gen.program.statements import Assign, Program, Routine, Section
@@ -129,13 +129,17 @@ class _Assembly:
             stage_instants=tuple(instants(scheme, given=self._given) for scheme in self.integrator.schemes),
             facts=dict(self.choices.facts),
         )
-        always = base.always if base else frozenset()
+        # between steps a base's place follows from its velocity, and pictures show it
+        moved = frozenset(
+            v.name for v in layout.held.values() if v.name.startswith(("base_place", "base_velocity"))
+        )
+        always = base.always if base else moved
         return prepared(living(whole, auto=self.choices.auto, always=always), factors)
 
     @property
     def _given(self) -> bool:
-        """Whether the angle of a joint is an input."""
-        return any(joint.given for joint in self.layout.arm.joints)
+        """Whether inputs say how anything moves."""
+        return moves_as_given(self.layout.arm)
 
     def _step(self, scheme: Scheme) -> tuple[Section, ...]:
         """Return the sections of a scheme's step."""

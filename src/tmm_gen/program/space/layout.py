@@ -15,9 +15,11 @@ from tmm_gen.program.space.base_layout import BaseLayout, base_layout
 from tmm_gen.program.space.runs import StationTree
 from tmm_gen.program.variables import Ref, Role, Variable
 from tmm_gen.scene.quantity import INPUT_UNITS
-from tmm_gen.scene.signal import ACCELERATION, RATE
+from tmm_gen.scene.signal import ACCELERATION, PRESCRIBED, RATE
 from tmm_gen.scene.spatial.arm import ArmInput, Revolute, SpatialArm
 
+BASE_MOTION = (("place", "m"), ("velocity", "m/s"), ("acceleration", "m/s^2"))
+"""What is said of a base that is moved along."""
 _AGO = {1: "one step", 2: "two steps", 3: "three steps"}
 
 
@@ -86,7 +88,7 @@ def layout_of(arm: SpatialArm, name: str, title: str, integrator: Integrator, st
     n = len(arm.joints)
     kept = set(history(integrator, "acceleration")) | {Past(kind, 0) for kind in KINDS}
     ordered = sorted(kept, key=lambda p: (p.lag, KINDS.index(p.kind)))
-    given = any(joint.given for joint in arm.joints)
+    given = moves_as_given(arm)
     stages = max(len(instants(scheme, given=given)) for scheme in integrator.schemes)
     also = ", at each stage of the step" if stages > 1 else ""
     torques = {item.joint: item for item in arm.inputs if item.acts == "torque"}
@@ -102,7 +104,8 @@ def layout_of(arm: SpatialArm, name: str, title: str, integrator: Integrator, st
         held={
             column: Variable(f"held_{column}", Role.STATE, doc=f"{column} as it last acted", unit=unit)
             for column, unit in ({item.name: "N m" for item in read} | _loads_held(arm)).items()
-        },
+        }
+        | dict(_base_held(arm)),
         inputs=tuple(
             Variable(column, Role.INPUT, stages if stages > 1 else None, doc + also, unit)
             for item in arm.inputs
@@ -143,6 +146,24 @@ def instants(scheme: Scheme, *, given: bool) -> tuple[float, ...]:
     return stages if ends else (*stages, 1.0)
 
 
+def moves_as_given(arm: SpatialArm) -> bool:
+    """Whether an input says how anything moves: a joint on the base, or the base itself."""
+    return any(joint.given for joint in arm.joints) or any(arm.along)
+
+
+def _base_held(arm: SpatialArm) -> Iterable[tuple[str, Variable]]:
+    """Yield how a base is moved along, by the columns that say it: what is read between steps, and drawn."""
+    for axis, item in zip(AXES, arm.along, strict=True):
+        for column, (word, unit) in zip(kernel_columns(item), BASE_MOTION, strict=False):
+            name = f"base_{word}_{axis}"
+            yield column, Variable(name, Role.STATE, doc=f"{word} of the base along {axis}", unit=unit)
+
+
+def kernel_columns(item: ArmInput | None) -> tuple[str, ...]:
+    """Return the columns that say how something moves as given, (3,); none where nothing does."""
+    return (item.name, item.name + RATE, item.name + ACCELERATION) if item else ()
+
+
 def _loads_held(arm: SpatialArm) -> dict[str, str]:
     """Return the columns of forces and moments, with units, where an output is what drives a prescribed base."""
     asked = any(o.quantity.read == "through" and arm.joints[o.joint - 1].given for o in arm.outputs)
@@ -156,11 +177,13 @@ def _marked(arm: SpatialArm) -> frozenset[int]:
 
 
 def _columns(arm: SpatialArm, item: ArmInput) -> Iterable[tuple[str, str, str]]:
-    if item.acts == "angle":
-        turned = f"of '{arm.joints[item.joint - 1].name}', which is given"
+    if item.acts in PRESCRIBED:
+        turned = (
+            f"of '{arm.joints[item.joint - 1].name}'" if item.joint else f"of the base along {item.acts[-1]}"
+        )
         words = (("angle", "rad"), ("rate", "rad/s"), ("acceleration", "rad/s^2"))
-        names = (item.name, item.name + RATE, item.name + ACCELERATION)
-        return [(name, f"{word} {turned}", unit) for name, (word, unit) in zip(names, words, strict=True)]
+        told = zip(kernel_columns(item), words if item.joint else BASE_MOTION, strict=True)
+        return [(name, f"{word} {turned}, which is given", unit) for name, (word, unit) in told]
     if item.acts == "torque":
         joint = arm.joints[item.joint - 1]
         geared = f", {joint.gear:g}-fold at the joint" if joint.gear != 1.0 else ""

@@ -9,7 +9,16 @@ import sympy as sp
 from tmm_gen.derive.integrators.declaration import KINDS, Kind, Past
 from tmm_gen.derive.space.base_pose import AT, GOES, SPINS, STANDS, facing_line, quaternion_line
 from tmm_gen.derive.space.base_pose import velocity_lines as base_velocity
-from tmm_gen.derive.space.declaration import ACCEL, ALPHA, AXES, OMEGA, VELOCITY
+from tmm_gen.derive.space.declaration import (
+    ACCEL,
+    ALPHA,
+    AXES,
+    BASE_ACCEL,
+    BASE_PLACE,
+    BASE_VELOCITY,
+    OMEGA,
+    VELOCITY,
+)
 from tmm_gen.derive.space.inward import BIAS
 from tmm_gen.derive.space.pattern import Pattern
 from tmm_gen.derive.space.pose import (
@@ -27,14 +36,14 @@ from tmm_gen.derive.space.reaction import axis_lines, passed_lines
 from tmm_gen.derive.station.lets import Line, Update
 from tmm_gen.program.arm.loads import exactly
 from tmm_gen.program.space.bodies import Bodies
-from tmm_gen.program.space.layout import SpaceLayout
+from tmm_gen.program.space.layout import BASE_MOTION, SpaceLayout, kernel_columns
 from tmm_gen.program.space.loads import loads_on_frames
 from tmm_gen.program.space.over_stations import MOTION
 from tmm_gen.program.space.turns import quaternion_of
 from tmm_gen.program.space.walks import SpaceWalks, outward
 from tmm_gen.program.statements import Assign, Loop, Order, Routine, Section, Statement
 from tmm_gen.program.variables import Ref, Variable
-from tmm_gen.scene.spatial.arm import ArmOutput, Frame
+from tmm_gen.scene.spatial.arm import ArmInput, ArmOutput, Frame
 
 _TOTAL = sp.Symbol("total", real=True)
 
@@ -76,10 +85,18 @@ class _Readings:
 
     @property
     def _base_values(self) -> dict[sp.Symbol, sp.Expr]:
-        """What symbols of a base that floats stand for."""
+        """What symbols of a base that floats, or is moved as given, stand for."""
         base = self._layout.base
         if base is None:
-            return {}
+            told = zip(
+                (BASE_PLACE, BASE_VELOCITY, BASE_ACCEL), ("place", "velocity", "acceleration"), strict=True
+            )
+            return {
+                s: self._moved(word, k)
+                for symbols, word in told
+                for k, s in enumerate(symbols)
+                if self._along[k]
+            }
         symbols = (*AT, *GOES, *STANDS, *SPINS)
         values = (
             *base.newest("q", base.place),
@@ -88,6 +105,18 @@ class _Readings:
             *base.newest("v", base.omega),
         )
         return dict(zip(symbols, values, strict=True))
+
+    @property
+    def _along(self) -> tuple[ArmInput | None, ...]:
+        return self._layout.arm.along
+
+    def _moved(self, word: str, k: int) -> sp.Expr:
+        """Return the place, velocity or acceleration of a base along an axis, as it is moved; zero where it is not."""
+        item = self._along[k]
+        if item is None:
+            return sp.Integer(0)
+        order = [name for name, _ in BASE_MOTION].index(word)
+        return self._layout.held[kernel_columns(item)[order]].ref
 
     def _at_base(self, lines: tuple[Line, ...]) -> tuple[Line, ...]:
         """Return lines that begin a walk at a base that floats; none at one that rests."""
@@ -148,7 +177,10 @@ class _Readings:
         frame = _frame(output)
         at = sp.Matrix([exactly(r) for r in frame.at])
         if self._rests(frame):
-            return [Assign(t, v) for t, v in zip(targets, at, strict=True)]
+            return [
+                Assign(t, v + self._moved("place", k))
+                for k, (t, v) in enumerate(zip(targets, at, strict=True))
+            ]
         begun = facing_line(place=True)
         return self._read(frame, pose_lines, (*PLACE, *FACING), PLACE + FACING.T * at, targets, begun)
 
@@ -163,7 +195,7 @@ class _Readings:
     def _velocity(self, output: ArmOutput, targets: list[Ref]) -> list[Statement]:
         frame = _frame(output)
         if self._rests(frame):
-            return [Assign(t, sp.Integer(0)) for t in targets]
+            return [Assign(t, self._moved("velocity", k)) for k, t in enumerate(targets)]
         at = sp.Matrix([exactly(r) for r in frame.at])
 
         def lines(pattern: Pattern) -> Sequence[Line]:

@@ -14,6 +14,8 @@ from tmm_gen.derive.space.declaration import (
     ANGLE,
     AXES,
     BASE_ACCEL,
+    BASE_PLACE,
+    BASE_VELOCITY,
     OMEGA,
     RATE,
 )
@@ -71,7 +73,7 @@ class OverStations:
     absent : frozenset of sympy.Symbol
         What of the joints' own law is zero everywhere.
     base : mapping from sympy.Symbol to sympy.Expr
-        What symbols of the motion of a base that floats stand for.
+        What symbols of the motion of a base that floats, or is moved as given, stand for.
     """
 
     def __init__(
@@ -237,10 +239,12 @@ class OverStations:
         values |= {s: self._kept(s).at(slot) for s in self.read_later()}
         if pattern.rooted:
             values |= {
-                s: -self.layout.at(f"gravity_{axis}", None)
+                s: self._base_values.get(s, sp.Integer(0)) - self.layout.at(f"gravity_{axis}", None)
                 for s, axis, falls in zip(BASE_ACCEL, AXES, pattern.falls, strict=True)
                 if falls
             }
+            told = (*BASE_PLACE, *BASE_VELOCITY)
+            values |= {s: self._base_values[s] for s in told if s in self._base_values}
         if suffix:
             named = _names_in(lines) - set(values) - set(carried)
             for symbol in named:

@@ -89,11 +89,13 @@ class StationTree:
     def pattern(self, index: int) -> Pattern:
         """Return what of a station is there."""
         joint = self.arm.joints[index]
-        gravity = tuple(g != 0.0 for g in self.arm.gravity)
         rests = joint.host == 0 and self.arm.base is None
-        found = pattern_of(joint, gravity if rests else (), tip=not self.carried(index))
+        moved = tuple(item is not None for item in self.arm.along) if rests else ()
+        falls = tuple(g != 0.0 or m for g, m in zip(self.arm.gravity, moved, strict=True)) if rests else ()
+        found = pattern_of(joint, falls, tip=not self.carried(index))
         loaded = not found.massive and index in self._loaded
-        return replace(found, given=bool(joint.given), driven=self.given(self.host(index)), loaded=loaded)
+        driven = self.given(self.host(index))
+        return replace(found, moved=moved, given=bool(joint.given), driven=driven, loaded=loaded)
 
     @property
     def _loaded(self) -> frozenset[int]:

@@ -9,6 +9,7 @@ import sympy as sp
 
 from tmm_gen.derive.integrators.declaration import KINDS, STEP, Kind, Past, Scheme, stage
 from tmm_gen.derive.integrators.relations import AffineMotion, affine_motion
+from tmm_gen.derive.space.declaration import BASE_ACCEL
 from tmm_gen.derive.space.inward import IMPEDANCE, OWN, TORQUE
 from tmm_gen.program.arm.motion import KNOWN_RATE, StartingPoint, starting_point
 from tmm_gen.program.fields import MOTION_NAMES
@@ -16,15 +17,14 @@ from tmm_gen.program.motion import kept_stage_values, stage_variable, update_ass
 from tmm_gen.program.space.base import BaseStep, gains_of
 from tmm_gen.program.space.bodies import Bodies
 from tmm_gen.program.space.joint_laws import JointLaws
-from tmm_gen.program.space.layout import SpaceLayout, instants
+from tmm_gen.program.space.layout import SpaceLayout, instants, kernel_columns
 from tmm_gen.program.space.loads import loads_on_frames
 from tmm_gen.program.space.over_stations import MOTION
 from tmm_gen.program.space.walks import SpaceWalks
 from tmm_gen.program.statements import Assign, Loop, Order, Repeat, Section, Statement, Until
 from tmm_gen.program.sweeps import LEAST_TURN, MOST_SWEEPS, SWEEPS
 from tmm_gen.program.variables import Role, Variable, local
-from tmm_gen.scene.signal import ACCELERATION, RATE
-from tmm_gen.scene.spatial.arm import ArmInput
+from tmm_gen.scene.signal import ACCELERATION
 
 _TURNED = local("turned", "sum of squares of what this correction changes angles by", "rad^2")
 
@@ -102,7 +102,7 @@ class SpaceStep:
             tuple(gains.values()),
             laws.absent,
             exact=self.exact,
-            base=self.base.values if self.base else {},
+            base=self.base.values if self.base else self._base_moved(index - 1),
         )
         still = "a" in point.still
         begun = self.base.begin(point) if self.base else []
@@ -170,13 +170,21 @@ class SpaceStep:
         moved = {k: sp.Integer(0) if k in still else self._motion(k).at() for k in KINDS}
         return laws.torques(walks.array(TORQUE), moved, index - 1)
 
+    def _base_moved(self, instant: int) -> dict[sp.Symbol, sp.Expr]:
+        """Return how a base is accelerated at an instant of the step, from 0, where that is given."""
+        return {
+            symbol: self.layout.input(item.name + ACCELERATION, instant)
+            for symbol, item in zip(BASE_ACCEL, self.layout.arm.along, strict=True)
+            if item
+        }
+
     def _given(self, instant: int) -> list[Statement]:
         """Set the motion of joints at an instant of the step, from 0, where it is given."""
         return [
             Assign(self._motion(kind).entry(item.joint - 1), self.layout.input(name, instant))
             for item in self.layout.arm.inputs
             if item.acts == "angle"
-            for kind, name in zip(KINDS, _names_of_motion(item), strict=True)
+            for kind, name in zip(KINDS, kernel_columns(item), strict=True)
         ]
 
     def _given_end(self) -> list[Statement]:
@@ -186,7 +194,7 @@ class SpaceStep:
             Assign(self.layout.state[Past(kind, 0)].entry(item.joint - 1), self.layout.input(name, last))
             for item in self.layout.arm.inputs
             if item.acts == "angle"
-            for kind, name in zip(KINDS, _names_of_motion(item), strict=True)
+            for kind, name in zip(KINDS, kernel_columns(item), strict=True)
         ]
 
     # -- motion ---------------------------------------------------------------------------------------------
@@ -275,10 +283,6 @@ class SpaceStep:
             of_base += self.base.finish()
         loop = Loop(Order.OUTWARD, 0, n, tuple(body))
         return Section(title + "motion at the end of the step", (*of_base, loop, *self._given_end()))
-
-
-def _names_of_motion(item: ArmInput) -> tuple[str, str, str]:
-    return item.name, item.name + RATE, item.name + ACCELERATION
 
 
 _OWN_DOC = ("what the sweep finds each joint to do", "rad/s^2")

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from tmm_gen.scene.document import Document
 from tmm_gen.scene.problem import Finding
-from tmm_gen.scene.signal import FileInput
+from tmm_gen.scene.signal import PRESCRIBED, FileInput, said
 
 
 def inputs_possible(document: Document) -> Iterator[Finding]:
@@ -79,21 +79,26 @@ def _force(document: Document, item: FileInput, index: int) -> Iterator[Finding]
 
 
 def prescribed_motion(document: Document) -> Iterator[Finding]:
-    """Find a prescribed base without its angle, or with two."""
+    """Find a prescribed base that nothing moves, or that two inputs move in the same way."""
     if document.base.kind != "prescribed":
         return
-    angles = [i for i, item in enumerate(document.input) if item.acts == "angle" and item.at == "base"]
-    if not angles:
+    moving: dict[str, int] = {}
+    again: list[tuple[int, str, int]] = []
+    for index, item in enumerate(document.input):
+        if item.acts in PRESCRIBED and item.at == "base":
+            first = moving.setdefault(item.acts, index)
+            again += [(index, item.acts, first)] if first != index else []
+    if not moving:
         yield Finding(
             ("base", "kind"),
             "needs an input that prescribes the angle",
             'Add [[input]] with `name = "base_angle"`, `at = "base"`, `acts = "angle"`.',
             document.base.kind,
         )
-    for index in angles[1:]:
+    for index, acts, first in again:
         yield Finding(
             ("input", index, "acts"),
-            f"prescribes the angle of the base a second time, after '{document.input[angles[0]].name}'",
+            f"prescribes the {said(acts)} of the base a second time, after '{document.input[first].name}'",
             "Remove one of them.",
-            "angle",
+            acts,
         )

@@ -10,6 +10,7 @@ from typing import Literal
 
 from tmm_gen.scene.digest import UNSAID
 from tmm_gen.scene.quantity import SPATIAL, Quantity
+from tmm_gen.scene.signal import ALONG, Along
 
 Vector = tuple[float, float, float]
 Turn = tuple[Vector, Vector, Vector]
@@ -144,10 +145,10 @@ class ArmInput:
     Parameters
     ----------
     name : str
-        Columns: itself for a torque or an angle; with ``_x``, ``_y``, ``_z`` for a force or a moment.
-    acts : {"torque", "force", "moment", "angle"}
+        Columns: with ``_x``, ``_y``, ``_z`` for a force or a moment, itself for all else.
+    acts : {"torque", "force", "moment", "angle", "place_x", "place_y", "place_z"}
         Between both sides of a joint (of a motor: on the motor's side of its gear), or on a frame; or the angle of a
-        joint whose motion is given.
+        joint whose motion is given; or how far the base is moved along an axis of the world, m.
     joint : int
         Number of the joint a torque acts in, or whose angle it is; 0 where it is neither.
     frame : Frame or None
@@ -157,7 +158,7 @@ class ArmInput:
     """
 
     name: str
-    acts: Literal["torque", "force", "moment", "angle"]
+    acts: Literal["torque", "force", "moment", "angle", Along]
     joint: int = 0
     frame: Frame | None = None
     axes: Literal["world", "body"] = "body"
@@ -166,9 +167,9 @@ class ArmInput:
     def columns(self) -> tuple[str, ...]:
         """Names of its scalars."""
         return (
-            (self.name,)
-            if self.acts in ("torque", "angle")
-            else tuple(f"{self.name}_{axis}" for axis in "xyz")
+            tuple(f"{self.name}_{axis}" for axis in "xyz")
+            if self.acts in ("force", "moment")
+            else (self.name,)
         )
 
 
@@ -245,3 +246,8 @@ class SpatialArm:
     inputs: tuple[ArmInput, ...] = ()
     outputs: tuple[ArmOutput, ...] = ()
     base: FreeBase | None = field(default=None, metadata=UNSAID)
+
+    @property
+    def along(self) -> tuple[ArmInput | None, ...]:
+        """The inputs that move a prescribed base along x, y and z, (3,); None along which none does."""
+        return tuple(next((i for i in self.inputs if i.acts == acts), None) for acts in ALONG)

@@ -76,6 +76,11 @@ class SpatialDocument(Document):
         )
 
     @property
+    def base_turns(self) -> bool:
+        """Whether an input says the angle of a prescribed base."""
+        return self.base.kind == "prescribed" and any(item.acts == "angle" for item in self.input)
+
+    @property
     def _floating(self) -> FreeBase:
         base = self.base
         turn = floats(turned(base.turn))

@@ -9,6 +9,7 @@ from fractions import Fraction
 from tmm_gen.scene.exact import exact, nearest
 from tmm_gen.scene.initial import Values
 from tmm_gen.scene.parts.order import BASE
+from tmm_gen.scene.signal import ALONG
 from tmm_gen.scene.spatial.arm import ArmInput, ArmOutput, Frame, Revolute, RigidBody, Vector
 from tmm_gen.scene.spatial.beam import cells
 from tmm_gen.scene.spatial.geometry import (
@@ -89,6 +90,8 @@ class SpatialExpansion:
         return tuple(found)
 
     def _input(self, item: SpatialInput) -> ArmInput:
+        if item.acts in ALONG:
+            return ArmInput(item.name, item.acts)
         if item.acts in ("torque", "angle"):
             return ArmInput(item.name, item.acts, joint=self.numbers[item.at])
         return ArmInput(item.name, item.acts, frame=self._frame(item.at), axes=item.axes)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tmm_gen.scene.signal import Input, Output
+from tmm_gen.scene.signal import PRESCRIBED, Input, Output
 from tmm_gen.scene.spatial.arm import SpatialArm
 
 
@@ -10,8 +10,8 @@ def arm_inputs(arm: SpatialArm) -> tuple[Input, ...]:
     """Return an input for each number that acts on an arm, at the part's name."""
     found = []
     for item in arm.inputs:
-        if item.acts == "angle":
-            found.append(Input.model_construct(name=item.name, at="base", acts="angle", part=""))
+        if item.acts in PRESCRIBED:
+            found.append(Input.model_construct(name=item.name, at="base", acts=item.acts, part=""))
             continue
         if item.acts == "torque":
             part = arm.joints[item.joint - 1].name

@@ -114,7 +114,7 @@ class SpatialBase(Table):
     Parameters
     ----------
     kind : {"clamp", "free", "prescribed"}
-        One that never moves, one that floats: the bodies on it; or one that turns as an input says. Others are refused
+        One that never moves, one that floats: the bodies on it; or one that moves as inputs say. Others are refused
         in words of their own.
     axis : tuple of float, length 3
         What a prescribed base turns about; of any length but 0.
@@ -125,7 +125,7 @@ class SpatialBase(Table):
     """
 
     kind: Annotated[Literal["clamp", "free", "prescribed"], BeforeValidator(_kind)] = Field(
-        description='kind of base: "clamp", "free" for one that floats, "prescribed" for one that turns as told',
+        description='kind of base: "clamp", "free" for one that floats, "prescribed" for one that moves as told',
         examples=['"clamp"'],
     )
     axis: AxisVector = Field(

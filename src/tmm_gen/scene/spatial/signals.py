@@ -8,6 +8,7 @@ from pydantic import ConfigDict, Field
 
 from tmm_gen.scene.identifier import Name
 from tmm_gen.scene.parts.tables import Where
+from tmm_gen.scene.signal import Along
 from tmm_gen.scene.spatial.arm import ArmQuantity
 from tmm_gen.scene.table import Table
 
@@ -25,9 +26,9 @@ class SpatialInput(Table):
         Identifier.
     at : str
         Name of a part.
-    acts : {"torque", "force", "moment", "angle"}
+    acts : {"torque", "force", "moment", "angle", "place_x", "place_y", "place_z"}
         N m between both sides of a motor or joint; N or N m, as vectors, on a part's outer end; rad of a prescribed
-        base.
+        base, or m along an axis of the world.
     axes : {"world", "body"}
         ``in``: in whose axes a force or a moment has its components.
     """
@@ -36,9 +37,9 @@ class SpatialInput(Table):
 
     name: Name = Field(description="identifier", examples=['"shoulder_torque"'])
     at: Where = Field(description="name of a part", examples=['"shoulder"'])
-    acts: Literal["torque", "force", "moment", "angle"] = Field(
+    acts: Literal["torque", "force", "moment", "angle", Along] = Field(
         description="torque of a motor or in a joint, force or moment on a part's outer end, "
-        "angle of a prescribed base",
+        "angle of a prescribed base, or its place along an axis of the world",
         examples=['"torque"'],
     )
     axes: Literal["world", "body"] = Field(

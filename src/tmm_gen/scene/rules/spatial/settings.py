@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from tmm_gen.scene.problem import Finding
 from tmm_gen.scene.rules.emission import box_of_names
-from tmm_gen.scene.signal import ACCELERATION, RATE
+from tmm_gen.scene.signal import ACCELERATION, PRESCRIBED, RATE
 from tmm_gen.scene.spatial.document import SpatialDocument
 from tmm_gen.scene.spatial.settings import FLOATING_KEYS
 
@@ -27,7 +27,7 @@ def keys_of_base(document: SpatialDocument) -> Iterator[Finding]:
             )
     for key in FLOATING_KEYS:
         if not base.floats and key in base.model_fields_set:
-            other = "a prescribed base moves as its input says" if base.moves else "a clamp never moves"
+            other = "a prescribed base moves as its inputs say" if base.moves else "a clamp never moves"
             yield Finding(
                 ("base", key),
                 f"is of a base that floats, and {other}: its axes are those of the world at first",
@@ -36,6 +36,14 @@ def keys_of_base(document: SpatialDocument) -> Iterator[Finding]:
             )
     if base.kind != "prescribed" and "axis" in base.model_fields_set:
         yield Finding(("base", "axis"), "is that of a prescribed base", "Remove it.", base.axis)
+    moved = base.kind == "prescribed" and any(item.acts in PRESCRIBED for item in document.input)
+    if moved and not document.base_turns and "axis" in base.model_fields_set:
+        yield Finding(
+            ("base", "axis"),
+            "is what the base turns about, and no input says by how much",
+            'Remove it, or add [[input]] with `name = "base_angle"`, `at = "base"`, `acts = "angle"`.',
+            base.axis,
+        )
 
 
 def own_tables(document: SpatialDocument) -> Iterator[Finding]:
@@ -69,7 +77,7 @@ def boxed(document: SpatialDocument) -> Iterator[Finding]:
     names = [
         tuple(f"{item.name}_{axis}" for axis in "xyz")
         if item.acts in ("force", "moment")
-        else (item.name, *((item.name + RATE, item.name + ACCELERATION) if item.acts == "angle" else ()))
+        else (item.name, *((item.name + RATE, item.name + ACCELERATION) if item.acts in PRESCRIBED else ()))
         for item in document.input
     ]
     yield from box_of_names(document.emit, names)

@@ -8,6 +8,7 @@ from typing import Literal
 from tmm_gen.scene.parts.order import BASE
 from tmm_gen.scene.problem import Finding, Path
 from tmm_gen.scene.rules.inputs import prescribed_motion
+from tmm_gen.scene.signal import PRESCRIBED, said
 from tmm_gen.scene.spatial.arm import ArmInput, ArmOutput
 from tmm_gen.scene.spatial.document import SpatialDocument
 from tmm_gen.scene.spatial.signals import OF_ARM, OF_FRAMES, OF_JOINTS
@@ -33,16 +34,21 @@ def inputs_possible(document: SpatialDocument) -> Iterator[Finding]:
             yield Finding(
                 (*path, "at"), "cannot be all of the arm: an input acts at one place", "Name a part.", item.at
             )
-        elif item.acts == "angle":
+        elif item.acts in PRESCRIBED:
             if item.at != BASE or document.base.kind != "prescribed":
+                given = f"an {said(item.acts)}" if item.acts == "angle" else f"a {said(item.acts)}"
+                other = (
+                    '`acts = "torque"` at a motor or a joint' if item.acts == "angle" else '`acts = "force"`'
+                )
                 yield Finding(
                     (*path, "acts"),
-                    'cannot be "angle" here: only a base of kind = "prescribed" has an angle that is given',
-                    'Write `acts = "torque"` at a motor or a joint, or `at = "base"` and base.kind = "prescribed".',
+                    f'cannot be "{item.acts}" here: only a base of kind = "prescribed" has {given} that is '
+                    "given",
+                    f'Write {other}, or `at = "base"` and base.kind = "prescribed".',
                     item.acts,
                 )
         elif item.at == BASE and not document.base.floats:
-            why = "which moves as its angle says" if document.base.moves else "which never moves"
+            why = "which moves as its inputs say" if document.base.moves else "which never moves"
             yield Finding((*path, "at"), f"cannot be the base, {why}", "Name a part.", item.at)
         elif hung is None and item.at != BASE:
             yield _unknown(document, (*path, "at"), item.at)
@@ -53,7 +59,7 @@ def inputs_possible(document: SpatialDocument) -> Iterator[Finding]:
                 'Write `acts = "moment"` for three components on it, or name a motor or a joint.',
                 item.acts,
             )
-        elif hung and not document.base.moves and document.tree.mover(hung) is None:
+        elif hung and not (document.base.floats or document.base_turns) and document.tree.mover(hung) is None:
             yield _fixed(document, (*path, "at"), hung)
     yield from prescribed_motion(document)
 
@@ -84,7 +90,7 @@ def outputs_possible(document: SpatialDocument) -> Iterator[Finding]:
             yield Finding((*path, "at"), "cannot be the base, which never moves", "Name a part.", item.at)
         elif hung is None and item.at != BASE:
             yield _unknown(document, (*path, "at"), item.at)
-        elif item.at == BASE and document.base.kind == "prescribed" and item.of in OF_JOINTS:
+        elif item.at == BASE and item.of in OF_JOINTS and document.base_turns:
             continue
         elif item.of in OF_JOINTS and not (hung and hung.turns):
             words = hung.words if hung else "the base"
@@ -104,9 +110,10 @@ def _unknown(document: SpatialDocument, path: Path, at: str) -> Finding:
 
 def _fixed(document: SpatialDocument, path: Path, hung: Hung) -> Finding:
     moves = next(other.name for other in document.tree.outward() if document.tree.mover(other))
+    never = "moves as the base does, whatever acts on it" if document.base.moves else "never moves"
     return Finding(
         path,
-        f"never moves: {hung.words} is fixed to the base",
+        f"{never}: {hung.words} is fixed to the base",
         f'Name a part that moves, for example `at = "{moves}"`.',
         hung.name,
     )
