@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+from collections.abc import Callable
 from pathlib import Path
 
 import casadi as ca
@@ -113,11 +114,18 @@ class Articulated:
         Its numbers become part of the code.
     torques : array, (inputs,)
         Of the motors, constant, N m.
+    step : callable
+        Makes the function that is compiled, called ``arm_step``.
     """
 
-    def __init__(self, arm: JointArm, torques: Array) -> None:
+    def __init__(
+        self,
+        arm: JointArm,
+        torques: Array,
+        step: Callable[[JointArm], ca.Function] = step_function,
+    ) -> None:
         self.joints = len(arm.lengths)
-        self.function = step_function(arm)
+        self.function = step(arm)
         self._start = start_function(arm)
         self._torques = np.asarray(torques, float)
         sources = {"arm_step.c": c_text(self.function), "loop.c": LOOP.read_text()}
