@@ -153,7 +153,8 @@ FAULTS = {
     "axis": ('kind = "prescribed"', 'kind = "prescribed"\naxis = "x"', "no input says by how much"),
     "pushed": (
         '[[joint]]\nname = "sway"',
-        '[[link]]\nname = "post"\non = "base"\nend = [1, 0, 0]\n[[input]]\nname = "f"\nat = "post"\nacts = "force"\n[[joint]]\nname = "sway"\non = "base"',
+        '[[link]]\nname = "post"\non = "base"\nend = [1, 0, 0]\n[[input]]\nname = "f"\nat = "post"\nacts = "force"\n'
+        '[[joint]]\nname = "sway"\non = "base"',
         "moves as the base does, whatever acts on it",
     ),
     "read": (
