@@ -61,9 +61,9 @@ def inputs_of(still: Still) -> Inputs:
         on[:, columns.index(load.column)] += load.arm @ load.on_body(facing)
     if numbers.turning is not None:
         base[:, columns.index(numbers.turning.column)] = numbers.turning.coordinates
-    for axis, item in enumerate(numbers.arm.along):
-        if item is not None:
-            base[axis, columns.index(item.name)] = 1.0
+    for axis, push in enumerate(numbers.arm.along):
+        if push is not None:
+            base[axis, columns.index(push.name)] = 1.0
     return Inputs(columns, torque, force, on_base, base)
 
 
