@@ -10,6 +10,7 @@ from tmm_gen.scene.document import Document
 from tmm_gen.scene.problem import Path
 
 Measured = Iterator[tuple[Path, float]]
+Measure = Callable[[Scene, Document], Measured]
 
 
 @dataclass(frozen=True)
@@ -28,8 +29,28 @@ class Hint:
         What to look at.
     """
 
-    measured: Callable[[Scene, Document], Measured]
+    measured: Measure
     low: float
     high: float
     said: str
     look: str
+
+
+def gyration_hint(measured: Measure, length: str) -> Hint:
+    """Return the hint on a radius of gyration as a share of a length."""
+    said = f"the radius of gyration is {{value:.3g}} times the {length}"
+    look = "Inertia is in kg m^2, about the centre of mass: a slender rod has mass * length^2 / 12."
+    return Hint(measured, 0.0, 10.0, said, look)
+
+
+def rotor_hint(measured: Measure) -> Hint:
+    """Return the hint on a rotor's inertia behind its gear as a share of the arm's."""
+    said = "behind its gear the rotor has {value:.3g} times the inertia of the arm"
+    return Hint(
+        measured, 0.0, 1e3, said, "Rotor inertia is in kg m^2, on the motor's side: 200 g cm^2 are 2e-5."
+    )
+
+
+def turns_hint(measured: Measure) -> Hint:
+    """Return the hint on an angle, measured in turns."""
+    return Hint(measured, 0.0, 1.0, "this is {value:.3g} turns", "Angles are in rad: 30 degrees are 0.5236.")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import math
 
-from tmm_gen.explain.hint import Hint, Measured
+from tmm_gen.explain.hint import Hint, Measured, gyration_hint, rotor_hint, turns_hint
 from tmm_gen.explain.space_hints import SPACE_HINTS
 from tmm_gen.scene import Scene
 from tmm_gen.scene.check import document_of
@@ -176,20 +176,8 @@ HINTS = (
         "this weighs {value:.3g} times as much as all beams and links",
         "Mass is in kg: 300 g are 0.3.",
     ),
-    Hint(
-        _gyration,
-        0.0,
-        10.0,
-        "the radius of gyration is {value:.3g} times the link's length",
-        "Inertia is in kg m^2, about the centre of mass: a slender rod has mass * length^2 / 12.",
-    ),
-    Hint(
-        _rotor,
-        0.0,
-        1e3,
-        "behind its gear the rotor has {value:.3g} times the inertia of the arm",
-        "Rotor inertia is in kg m^2, on the motor's side: 200 g cm^2 are 2e-5.",
-    ),
-    Hint(_turns, 0.0, 1.0, "this is {value:.3g} turns", "Angles are in rad: 30 degrees are 0.5236."),
+    gyration_hint(_gyration, "link's length"),
+    rotor_hint(_rotor),
+    turns_hint(_turns),
 )
 """All hints. Bounds are wide: a factor of 1000 may stay within them, but nothing ordinary is to leave them."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from tmm_gen.explain.hint import Hint, Measured
+from tmm_gen.explain.hint import Hint, Measured, gyration_hint, rotor_hint, turns_hint
 from tmm_gen.scene import Scene
 from tmm_gen.scene.document import Document
 from tmm_gen.scene.spatial.document import SpatialDocument
@@ -58,19 +58,7 @@ def _gyration(scene: Scene, document: Document) -> Measured:
 SPACE_HINTS = (
     Hint(_reach, 1e-3, 100.0, "the arm reaches {value:.3g} m", "Lengths are in m: 500 mm are 0.5."),
     Hint(_gravity, 0.0, 100.0, "gravity is {value:.3g} m/s^2", "On earth it is 9.81."),
-    Hint(
-        _gyration,
-        0.0,
-        10.0,
-        "the radius of gyration is {value:.3g} times the arm's reach",
-        "Inertia is in kg m^2, about the centre of mass: a slender rod has mass * length^2 / 12.",
-    ),
-    Hint(
-        _rotor,
-        0.0,
-        1e3,
-        "behind its gear the rotor has {value:.3g} times the inertia of the arm",
-        "Rotor inertia is in kg m^2, on the motor's side: 200 g cm^2 are 2e-5.",
-    ),
-    Hint(_turn, 0.0, 1.0, "this is {value:.3g} turns", "Angles are in rad: 30 degrees are 0.5236."),
+    gyration_hint(_gyration, "arm's reach"),
+    rotor_hint(_rotor),
+    turns_hint(_turn),
 )

@@ -41,24 +41,9 @@ def numpy_module(scene: Scene, program: Any = None) -> ModuleType:
 
 
 def casadi_module(scene: Scene, program: Any = None) -> ModuleType:
-    """Generate a scene's CasADi model and import it.
+    """Generate a scene's CasADi model and import it, as :func:`numpy_module` does.
 
-    Parameters
-    ----------
-    scene : Scene
-        What to generate.
-    program : Program, optional
-        That of the scene, if it is built already.
-
-    Returns
-    -------
-    module
-        With the generated functions ``step_function``, ``start_functions``, ``initial_function``.
-
-    Raises
-    ------
-    UserError
-        If the scene asks for something that does not exist.
+    Its functions are ``step_function``, ``start_functions`` and ``initial_function``.
     """
     from tmm_gen.emit.casadi import emit_casadi  # loads SymPy and Jinja2
 
@@ -66,20 +51,7 @@ def casadi_module(scene: Scene, program: Any = None) -> ModuleType:
 
 
 def jax_module(scene: Scene, program: Any = None) -> ModuleType:
-    """Generate a scene's JAX module and import it.
-
-    Parameters
-    ----------
-    scene : Scene
-        What to generate.
-    program : Program, optional
-        That of the scene, if it is built already.
-
-    Returns
-    -------
-    module
-        With the generated functions ``prepare``, ``initialise``, ``step``, ``output``, ``simulate`` and what
-        they take.
+    """Generate a scene's JAX module, with the functions of :func:`numpy_module`'s, and import it.
 
     Raises
     ------
@@ -97,13 +69,10 @@ def _imported(emit: Callable[[Any, Scene], dict[str, str]], scene: Scene, progra
     from tmm_gen.program.build import build_program
 
     files = emit(program or build_program(scene), scene)
-    return import_package(files if "__init__.py" in files else _alone(files), scene.name)
-
-
-def _alone(files: dict[str, str]) -> dict[str, str]:
-    """Return a single module as a package of its own."""
-    (text,) = files.values()
-    return {"__init__.py": text}
+    if "__init__.py" not in files:
+        (text,) = files.values()
+        files = {"__init__.py": text}
+    return import_package(files, scene.name)
 
 
 def import_package(files: dict[str, str], name: str) -> ModuleType:
