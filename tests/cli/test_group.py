@@ -120,6 +120,15 @@ def test_errors_end_with_their_code(
     assert capsys.readouterr().err == said
 
 
+def test_an_interrupted_study_says_how_to_go_on(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for words in (["--store", "study.sqlite"], ["--store=study.sqlite"]):
+        monkeypatch.setattr(cli, "_invoke", lambda _: (_ for _ in ()).throw(KeyboardInterrupt))
+        assert cli.main(["trade", "arm.toml", *words]) == 130
+        assert "study.sqlite keeps what was computed" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize("defect", [ZeroDivisionError("0/0"), OSError("no file named")])
 def test_a_defect_keeps_its_traceback(defect: Exception, raising: Callable[[BaseException], None]) -> None:
     raising(defect)

@@ -122,7 +122,7 @@ def _code(words: list[str]) -> int:
             return _printing_failed(stop.__context__)
         raise
     except KeyboardInterrupt:
-        return _fail("interrupted", 130)
+        return _fail(_interrupted(words), 130)
     except _ToldToEnd:
         return _fail("told to end", 143)
     except OSError as error:
@@ -166,6 +166,15 @@ def _usage(error: click.ClickException) -> str:
         return said
     ended = said if said.endswith("?") else f"{said.rstrip('.')}."
     return f"{ended} `{context.command_path} --help` shows what there is."
+
+
+def _interrupted(words: list[str]) -> str:
+    """Return what to say of an interruption: a study with a store can go on."""
+    for word, following in zip(words, [*words[1:], ""], strict=True):
+        option, _, value = word.partition("=")
+        if option == "--store" and (store := value or following):
+            return f"interrupted. {store} keeps what was computed: the same command goes on from there."
+    return "interrupted"
 
 
 class _ToldToEnd(BaseException):

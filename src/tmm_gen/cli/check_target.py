@@ -64,7 +64,8 @@ def _bits(found: Measurement) -> str:
     if found.bits_equal:
         return f"all {found.steps} steps give the bits they give on this machine"
     apart = (
-        f"the state differs from this machine's by {found.difference.last_step:.1e} after {found.steps} steps"
+        f"the state differs from this machine's by {found.difference.last_step:.1e} of its largest number after "
+        f"{found.steps} steps"
     )
     libraries = [name for name in found.library_functions if not name.startswith("__aeabi_")]
     if libraries:

@@ -69,7 +69,8 @@ def test_every_integrator_is_in_this_table() -> None:
 
 @pytest.mark.parametrize(
     ("method", "expected"),
-    [*((method, LITERATURE[method.name]) for method in all_integrators()), *VARIANTS],
+    # one that is missing above has no order yet, and fails
+    [*((method, LITERATURE.get(method.name, 0)) for method in all_integrators()), *VARIANTS],
     ids=label,
 )
 def test_derived_order_is_that_of_the_literature_and_of_a_simulation(
