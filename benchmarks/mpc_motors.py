@@ -132,7 +132,7 @@ def section(rows: Rows) -> str:
         own = [row for row in rows if row["controller"] == name]
         used = max(float(str(row["torque_percent"])) for row in own)
         solve, feedback = (
-            f"{np.median([float(str(row[key])) for row in own]):.0f} us"
+            f"{np.median([float(str(row[key])) for row in own]):.0f} µs"
             for key in ("solve_us", "feedback_us")
         )
         told = f"{solve} in {'C' if own[0]['compiled'] else 'Python'} | {feedback}"
@@ -163,8 +163,8 @@ def main() -> None:
         Column("overshoot_percent", "overshoot (%)", ".2f"),
         Column("residual_mrad", "residual (mrad)", ".2f"),
         Column("torque_percent", "torque used (%)", ".0f"),
-        Column("solve_us", "solve (us)", ".0f"),
-        Column("feedback_us", "from measurement (us)", ".0f"),
+        Column("solve_us", "solve (µs)", ".0f"),
+        Column("feedback_us", "from measurement (µs)", ".0f"),
         "fallbacks",
     ]
     table(rows, columns, title=f"worst of {given.seeds} noises")

@@ -76,8 +76,8 @@ def main() -> None:
     columns = [
         "links",
         "controller",
-        Column("whole_us", "whole (us)", ".1f"),
-        Column("feedback_us", "feedback (us)", ".1f"),
+        Column("whole_us", "whole (µs)", ".1f"),
+        Column("feedback_us", "feedback (µs)", ".1f"),
         Column("feedback_p99_us", "99 %", ".1f"),
     ]
     table(rows, columns, title="phases of a sample")

@@ -344,8 +344,8 @@ def main() -> None:
     columns = [
         "links",
         "solver",
-        Column("median_us", "median (us)", ".1f"),
-        Column("p99_us", "99 % (us)", ".1f"),
+        Column("median_us", "median (µs)", ".1f"),
+        Column("p99_us", "99 % (µs)", ".1f"),
         Column("p99_over_median", "99 % / median", ".2f"),
         Column("over_full", "times full RTI", ".1f"),
         Column("over_zero", "times zero order", ".1f"),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 
@@ -116,3 +117,24 @@ def test_terms_can_be_put_in_and_taken_out_of_every_scene(name: str, example: Ca
             if each.name == "counting energy turned to heat" and "nothing turns" in again[each.name].why:
                 expected = False
             assert again[each.name].modelled == expected, each.name
+
+
+def test_it_is_counted_once(
+    example: Callable[[str], Scene], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    """What was counted is remembered, by what the scene says and how; what is damaged is not believed."""
+    monkeypatch.setenv("TMM_GEN_CACHE", str(tmp_path))
+    scene = example("thesis2")
+    first = explain(scene)
+    (entry,) = (tmp_path / "explain").iterdir()
+
+    def refused(scene: Scene, advance: object) -> None:
+        raise AssertionError("counted again")
+
+    with monkeypatch.context() as patched:
+        patched.setattr("tmm_gen.explain.explanation._counted", refused)
+        assert explain(example("thesis2")) == first
+        with pytest.raises(AssertionError):
+            explain(scene.replace(**{"integrator.step": 0.02}))
+    entry.write_text(entry.read_text().replace('"step": ', '"step": 1'))
+    assert explain(scene) == first

@@ -41,9 +41,12 @@ def test_relative_to_the_travel() -> None:
 
 
 def test_times() -> None:
-    assert [read_time(text) for text in ("2", "200us", "200µs", "1 ms", "50ns")] == pytest.approx(
-        [2.0, 2e-4, 2e-4, 1e-3, 5e-8]
+    micro = ("200us", "200µs", "200\N{GREEK SMALL LETTER MU}s")
+    assert [read_time(text) for text in ("2", *micro, "1 ms", "50ns")] == pytest.approx(
+        [2.0, 2e-4, 2e-4, 2e-4, 1e-3, 5e-8]
     )
     for text in ("5 min", "-1s", "soon"):
         with pytest.raises(UserError, match=r"--max-time"):
             read_time(text)
+    with pytest.raises(UserError, match=r"Use s, ms, µs, ns\."):
+        read_time("5 min")

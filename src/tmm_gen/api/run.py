@@ -37,7 +37,7 @@ _COLUMNS = {
     "peak": "peak",
     "peak_time": "at (s)",
     "overshoot_percent": "overshoot (%)",
-    "settling_time": "settled after (s)",
+    "settling_time": "within 2 % after (s)",
 }
 
 

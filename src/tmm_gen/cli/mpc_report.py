@@ -45,8 +45,8 @@ def show(scene: Scene, trials: list[Trial], until: float, files: list[Path], jso
         Column("overshoot_percent", "overshoot (%)", ".2f"),
         Column("residual_mrad", "residual (mrad)", ".2f"),
         Column("offset_mrad", "offset (mrad)", ".2f"),
-        Column("solve_us_median", "solve (us)", ".0f"),
-        Column("solve_us_max", "at most (us)", ".0f"),
+        Column("solve_us_median", "solve (µs)", ".0f"),
+        Column("solve_us_max", "at most (µs)", ".0f"),
     ]
     rows = [trial.row() for trial in trials]
     if any(row["fallbacks"] for row in rows):

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     "--max-time",
     required=True,
     metavar="T",
-    help="Computing time for a simulated second, of this machine, in s or with a unit (200us).",
+    help="Computing time for a simulated second, of this machine, in s or with a unit (200µs, 200us).",
 )
 @click.option(
     "--links",

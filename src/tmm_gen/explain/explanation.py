@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 
 from tmm_gen.c_language.real import Real, real_of
 from tmm_gen.derive.integrators.history import history_depth
@@ -12,6 +13,7 @@ from tmm_gen.explain.footprint import Footprint, footprint, footprint_of
 from tmm_gen.explain.space_shares import shares
 from tmm_gen.explain.space_terms import space_terms
 from tmm_gen.explain.terms import Term, terms_of, up_to
+from tmm_gen.package.cache import keep, kept
 from tmm_gen.program.build import build_program
 from tmm_gen.program.statements import Program
 from tmm_gen.program.variables import Variable
@@ -20,6 +22,9 @@ from tmm_gen.scene.check import document_of
 from tmm_gen.scene.spatial.document import SpatialDocument
 
 NOTHING = Footprint(0, 0, 0, 0, 0)
+
+_KEPT = "explain"
+"""Folder of the cache: counting takes a dozen programs."""
 
 
 @dataclass(frozen=True)
@@ -77,6 +82,18 @@ def explain(scene: Scene, advance: Callable[[str], None] = lambda term: None) ->
     advance : callable, optional
         Called with the name of each term as it is counted.
     """
+    # words about a scene follow from how it is written too
+    key = f"{scene.digest}\n{json.dumps(scene.source.data, sort_keys=True, default=str)}"
+    if (known := kept(_KEPT, key)) is not None:
+        told = tuple(Explained(**{**term, "worth": Footprint(**term["worth"])}) for term in known["terms"])
+        return Explanation(scene, Footprint(**known["own"]), told, Footprint(**known["everything"]))
+    found = _counted(scene, advance)
+    terms = [asdict(each) for each in found.terms]
+    keep(_KEPT, key, {"own": asdict(found.own), "terms": terms, "everything": asdict(found.everything)})
+    return found
+
+
+def _counted(scene: Scene, advance: Callable[[str], None]) -> Explanation:
     program = build_program(scene)
     own = footprint_of(program, real_of(scene.emit))
     advance("the scene")

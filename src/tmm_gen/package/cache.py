@@ -14,6 +14,7 @@ from contextlib import suppress
 from functools import cache
 from importlib.metadata import version
 from pathlib import Path
+from typing import Any
 
 from tmm_gen.files import write_whole
 from tmm_gen.package.write import written_files
@@ -21,6 +22,9 @@ from tmm_gen.reading import read_file
 from tmm_gen.resources import templates_dir
 from tmm_gen.trusted import digest_of, discard, own_content, own_folder
 from tmm_gen.version import __version__
+
+_BUILD = "build"
+"""Folder of what builds are known by."""
 
 _LARGEST = 2**22
 """Bytes of an entry."""
@@ -48,8 +52,8 @@ def is_up_to_date(digest: str, folder: Path) -> bool:
     folder : Path
         Of the package.
     """
-    known = _recorded(digest)
-    if known is None:
+    known: dict[str, str] | None = kept(_BUILD, digest)
+    if not known:
         return False
     wanted = {folder / path: expected for path, expected in known.items()}
     if any(path not in wanted for path in written_files(folder)):
@@ -67,9 +71,23 @@ def remember(digest: str, files: Mapping[str, str]) -> None:
     files : mapping from str to str
         Text by path inside the package.
     """
-    hashes = {path: digest_of(text.encode()) for path, text in files.items()}
-    body = json.dumps(hashes, indent=1, sort_keys=True) + "\n"
-    entry = _entry(digest)
+    keep(_BUILD, digest, {path: digest_of(text.encode()) for path, text in files.items()})
+
+
+def keep(kind: str, digest: str, found: object) -> None:
+    """Keep what was found of a scene, as JSON has it; a cache that cannot be written is no error.
+
+    Parameters
+    ----------
+    kind : str
+        Folder of the cache.
+    digest : str
+        Of the scene.
+    found : object
+        Whatever follows from the scene with this tmm-gen and this SymPy.
+    """
+    body = json.dumps(found, indent=1, sort_keys=True) + "\n"
+    entry = _entry(kind, digest)
     with suppress(OSError):
         own_folder(entry.parent)
         if own_content(entry, _LARGEST) is None:
@@ -97,22 +115,21 @@ def _is_file_with(path: Path, expected: str) -> bool:
         return False
 
 
-def _entry(digest: str) -> Path:
+def _entry(kind: str, digest: str) -> Path:
     key = hashlib.sha256(f"{digest}\n{generator_digest()}".encode()).hexdigest()
-    return cache_folder() / "build" / f"{key}.json"
+    return cache_folder() / kind / f"{key}.json"
 
 
-def _recorded(digest: str) -> dict[str, str] | None:
-    """Return what an entry says; None for one that is damaged, or that somebody else could have written."""
-    entry = _entry(digest)
+def kept(kind: str, digest: str) -> Any:
+    """Return what was kept of a scene; None for what is not there, is damaged, or could be somebody else's."""
+    entry = _entry(kind, digest)
     content = own_content(entry, _LARGEST)
     if content is None:
         return None
     seal, _, body = content.decode(errors="replace").partition("\n")
     if seal != _seal(entry, body):
         return None
-    found: dict[str, str] = json.loads(body)  # as it was written: the seal has told
-    return found or None
+    return json.loads(body)  # as it was written: the seal has told
 
 
 def _seal(entry: Path, body: str) -> str:
