@@ -33,7 +33,7 @@ _THESIS_COLUMNS: list[Column | str] = [
     Column("step", "step (s)", "g"),
     Column("error", "RMS error", ".1e"),
     Column("peak", "peak (rad)", ".4f"),
-    Column("settling_time", "settles (s)", ".2f"),
+    Column("settling_time", "within 2 % after (s)", ".2f"),
     Column("c_against_numpy", "C - NumPy", ".0e"),
     Column("ns_per_step", "C: ns per step", ".0f"),
     Column("ns_spread", "± (%)", lambda share: "" if share is None else f"{100 * share:.0f}"),

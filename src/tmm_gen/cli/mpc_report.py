@@ -71,12 +71,14 @@ def write_files(bench: Bench, trials: list[Trial], picture: Path | None, animate
         from tmm_gen.closed_loop.pictures import comparison_picture
 
         target = picture_file(picture, bench.scene.name, "-mpc")
-        files[target] = comparison_picture(trials, bench.problem, target.suffix[1:].lower())
+        with progress("drawing"):
+            files[target] = comparison_picture(trials, bench.problem, target.suffix[1:].lower())
     if animated is not None:
         from tmm_gen.closed_loop.motion import motion
         from tmm_gen.report.moving import moving
 
-        files[animated] = moving(motion(bench.scene, trials[-1]), animated.suffix[1:].lower())
+        with progress("drawing the arm in motion"):
+            files[animated] = moving(motion(bench.scene, trials[-1]), animated.suffix[1:].lower())
     return write_outputs(files)
 
 

@@ -221,11 +221,13 @@ def _write(
         from tmm_gen.report.plots import response_picture
 
         target = picture_file(picture, simulation.scene.name)
-        files[target] = response_picture(simulation, target.suffix[1:].lower())
+        with progress("drawing"):
+            files[target] = response_picture(simulation, target.suffix[1:].lower())
     if animated is not None:
         from tmm_gen.report.moving import moving
 
-        files[animated] = moving(simulation, animated.suffix[1:].lower())
+        with progress("drawing the arm in motion"):
+            files[animated] = moving(simulation, animated.suffix[1:].lower())
     return write_outputs(files, read)
 
 

@@ -121,12 +121,14 @@ def _write(
         from tmm_gen.study.figures import trade_picture
 
         target = picture_file(picture, study.scene.name, "-trade")
-        files[target] = trade_picture(study, target.suffix[1:].lower())
+        with progress("drawing"):
+            files[target] = trade_picture(study, target.suffix[1:].lower())
     if report_file is not None:
         from tmm_gen.study.report import report
 
         target = Path(f"{study.scene.name}-trade.html") if report_file == Path(REPORT) else report_file
-        files[target] = report(study)
+        with progress("writing the page"):
+            files[target] = report(study)
     return write_outputs(files, (scene,))
 
 

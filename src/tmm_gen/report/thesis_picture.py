@@ -34,6 +34,7 @@ _NAMES = {
     "printed": "proposed method, as printed",
 }
 _BAND = 0.05
+_WITHIN = f"within {100 * _BAND:g} % after"
 _FLOOR = 1e-6
 _WINDOW = 1 / 16
 """Reach of the window of an envelope to each side, as a share of the whole run: a quarter period at least."""
@@ -119,8 +120,8 @@ def _envelope(curve: Curve) -> Array:
 def _point_out(panel: Axes, sample: Sample) -> None:
     """Mark from when on the response stays within the band: as printed, and in truth."""
     for curve, text, colour, weight in (
-        (sample.curves["printed"], "as printed,\nsettled after {:.1f} s", _COLOURS["printed"], "bold"),
-        (sample.exact, "in truth,\nsettled after {:.1f} s", INK, "normal"),
+        (sample.curves["printed"], f"as printed,\n{_WITHIN} {{:.1f}} s", _COLOURS["printed"], "bold"),
+        (sample.exact, f"in truth,\n{_WITHIN} {{:.1f}} s", INK, "normal"),
     ):
         outside = np.flatnonzero(np.abs(curve.tip / sample.static - 1.0) > _BAND)
         settled = float(curve.time[outside[-1] + 1])
