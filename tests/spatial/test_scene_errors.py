@@ -302,7 +302,7 @@ def test_a_table_of_control_of_one_hub_is_refused() -> None:
     control = template("a", "planar", control=True).partition("[control]")[2].partition("[emit]")[0]
     with pytest.raises(SceneError) as caught:
         parse_scene(f"{ARM}\n[control]{control}")
-    assert [problem.key for problem in caught.value.problems] == ["control"]
+    assert [problem.key for problem in caught.value.problems] == ["control.sensors.accelerometer"]
 
 
 def test_kinds_are_not_mixed_up() -> None:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.closed_loop.plant import Plant
-from tmm_gen.control.arm import arm_of
+from tmm_gen.control.arms import arm_of
 from tmm_gen.control.condition import Condition
 from tmm_gen.control.problem import ControlProblem
 from tmm_gen.control.space_motors import space_motors

@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.control.terms import Goal
-from tmm_gen.scene.scene import Scene
 
 Array = NDArray[np.float64]
 
@@ -105,11 +104,3 @@ class ControlledArm(Protocol):
     def falling(self, more: float) -> object:
         """Return the value of ``model.gravity`` with some m/s^2 more of it."""
         ...
-
-
-def arm_of(scene: Scene) -> ControlledArm:
-    """Return the arm of a scene as controllers see it."""
-    from tmm_gen.control.planar_arm import PlanarArm
-    from tmm_gen.control.space_arm import SpaceArm
-
-    return PlanarArm(scene) if scene.spatial is None else SpaceArm(scene)

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.control.arm import arm_of
+from tmm_gen.control.arms import arm_of
 from tmm_gen.control.condition import Condition
 from tmm_gen.control.linear import LinearModel
 from tmm_gen.control.links import links_model

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.control.arm import arm_of
+from tmm_gen.control.arms import arm_of
 from tmm_gen.control.problem import ControlProblem
 from tmm_gen.control.terms import Goal
 from tmm_gen.control.way import Way

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.control.arm import arm_of
+from tmm_gen.control.arms import arm_of
 from tmm_gen.control.delay import delay_of
 from tmm_gen.control.linear import LinearModel
 from tmm_gen.control.motors import motors_of

@@ -72,7 +72,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.control.motors import Motors, motors_of
+from tmm_gen.control.motor_rows import Motors
+from tmm_gen.control.motors import motors_of
 from tmm_gen.control.terms import Assumed, Goal, Kind, MotorWeights, Pair
 from tmm_gen.errors import UserError
 from tmm_gen.resources import scenes_dir
@@ -199,7 +200,8 @@ def control_problem(scene: Scene) -> ControlProblem:
     """
     control = scene.control
     # only to say what is missing: a scene that has [control] was asked for these when it was read
-    controlled = scene.model.in_plane and (scene.base.kind == "motor" or _driven(scene))
+    flat = scene.model.kind == "planar" and (scene.base.kind == "motor" or _driven(scene))
+    controlled = flat or scene.spatial is not None
     if control is None and not controlled:
         raise UserError(
             f"{scene.source.origin}: only planar arms are controlled, by a torque at a hub that turns or by those of "

@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.control.arm import Held, Holding
-from tmm_gen.control.motors import Motors, motors_of
+from tmm_gen.control.motor_rows import Motors
+from tmm_gen.control.motors import motors_of
 from tmm_gen.control.space_motors import outer_bodies
 from tmm_gen.control.terms import Goal
 from tmm_gen.modal.space.matrices import space_matrices

@@ -19,7 +19,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.control.motors import Motor, Motors
+from tmm_gen.control.motor_rows import Motor, Motors
 from tmm_gen.modal.space.numbers import ArmNumbers
 from tmm_gen.modal.space.still import Still
 from tmm_gen.scene.each import by_names

@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 from tmm_gen.control.compiled import compiled
 from tmm_gen.control.delay import Delay, delay_of
 from tmm_gen.control.lag import input_lag
-from tmm_gen.control.motors import Motors, motors_of
+from tmm_gen.control.motor_rows import Motors
+from tmm_gen.control.motors import motors_of
 from tmm_gen.control.problem import ControlProblem
 from tmm_gen.control.step_slopes import step_slopes
 from tmm_gen.control.target import Start, find_start

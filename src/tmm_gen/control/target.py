@@ -8,7 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.control.arm import SmallMotions, arm_of
+from tmm_gen.control.arm import SmallMotions
+from tmm_gen.control.arms import arm_of
 from tmm_gen.control.motors import motors_of
 from tmm_gen.control.problem import ControlProblem
 from tmm_gen.control.terms import Goal

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from tmm_gen.c_language.names import bare_names, macros
 from tmm_gen.c_language.real import REALS
-from tmm_gen.control.motors import Motor
+from tmm_gen.control.motor_rows import Motor
 from tmm_gen.control.rti import RealTimeIteration
 from tmm_gen.control.terms import Kind
 from tmm_gen.emit.c import emit_kernel

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from tmm_gen.control.credible import Credible
 from tmm_gen.control.holding import holding
 from tmm_gen.control.kalman import KalmanFilter
-from tmm_gen.control.motors import Motors
+from tmm_gen.control.motor_rows import Motors
 from tmm_gen.control.response import split_outputs
 from tmm_gen.control.rti import RealTimeIteration
 from tmm_gen.control.safe import BRAKE_TIME

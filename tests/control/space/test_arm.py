@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 from numpy.testing import assert_allclose
 
-from tmm_gen.control.arm import arm_of
+from tmm_gen.control.arms import arm_of
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.motors import motors_of
 from tmm_gen.control.problem import control_problem
