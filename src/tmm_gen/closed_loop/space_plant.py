@@ -24,7 +24,14 @@ class SpacePlant(Plant):
     """An arm in space in motion, sampled; see :class:`~tmm_gen.closed_loop.plant.Plant`.
 
     Tips are what controllers take for them, of the arm as it is (:mod:`tmm_gen.control.space_motors`).
+
+    Attributes
+    ----------
+    resting : array, (d,)
+        Angles of the joints where it rests with its hubs at the reference, rad.
     """
+
+    resting: Array
 
     def _start(self) -> tuple[Array, Array]:
         """Set the arm where it starts; return angles of tips to reach, and the torques that act at first."""
@@ -32,6 +39,7 @@ class SpacePlant(Plant):
         arm = self._as_it_is()
         self.kernel.prepare(self._changes(arm), self.step)
         target = rest_with(arm, self.problem.reference, "control.reference")
+        self.resting = target.angles
         start = rest_with(arm, self.problem.start, "initial.angles")
         self.kernel.initialise(initial_angle=start.angles, inputs=self.motors.torques(start.goal.torque))
         return self.motors.tip @ target.angles, start.goal.torque

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+import pytest
 from numpy.testing import assert_allclose
 
 from tmm_gen.control.arms import arm_of
@@ -93,3 +94,39 @@ def test_slopes_of_a_step_are_its_derivatives(bench: Bench) -> None:
         ahead, back = (np.array(step.sample(*np.split(at + way * one, [step.size]))) for way in (1.0, -1.0))
         columns.append((ahead - back).ravel() / (2.0 * small))
     assert_allclose(found, np.array(columns).T, rtol=1e-6, atol=1e-6 * np.max(np.abs(found)))
+
+
+def test_an_arm_that_branches_rests_with_all_joints_at_the_reference(words: str) -> None:
+    """A second arm on the same yaw motor, without a motor about the first one's axis: each tip is on its own branch."""
+    branch = """
+[[motor]]
+name = "other"
+on = "yaw"
+at = [0, 0.1, 0]
+axis = "x"
+rotor_inertia = 0.1
+[[body]]
+name = "weight"
+on = "other"
+mass = 0.2
+center = [0, 0.3, 0]
+inertia = [1e-3, 1e-3, 1e-3]
+[[input]]
+name = "other_torque"
+at = "other"
+acts = "torque"
+[[output]]
+name = "payload"
+"""
+    text = words.replace('\n[[output]]\nname = "payload"\n', branch)
+    for table in ("reference", "torque_step", "torque", "disturbance"):
+        text = text.replace(f"{table} = {{ yaw", f"{table} = {{ other = 0.7, yaw")
+    scene = parse_scene(text.partition("[control.baselines]")[0], "tree.toml")
+    problem = control_problem(scene)
+    names, motors = problem.motors.names, problem.motors
+    rest = rest_with(scene, problem.reference, "control.reference")
+    assert_allclose(motors.hub @ rest.angles, problem.reference, atol=1e-12)
+    place = names.index("other")
+    assert rest.goal.torque[place] == pytest.approx(0.2 * 9.81 * 0.3 * np.cos(0.7), rel=1e-9)
+    assert np.count_nonzero(motors.tip[place]) == 1
+    assert motors.tip[names.index("lift"), motors.each[place].place] == 0.0
