@@ -57,8 +57,10 @@ def test_table_shows_the_front_and_says_who_wins(capsys: pytest.CaptureFixture[s
         "--rounds",
         "0",
     )
-    assert main(["trade", THESIS2, *words]) == 0
+    assert main(["trade", THESIS2, *words, "--tolerances", "1e-3"]) == 0
     out = capsys.readouterr().out
+    assert "By a tolerance of 0.001 newmark takes " in out
+    assert "By a tolerance of 0.001 zhai has no run: " in out
     assert "At an error of 0.0001, newmark is the cheapest, with steps of 0.012 s." in out
     assert "At an error of 1e-06 nothing gets there." in out
     assert "9 configurations: 8 finished, 1 diverged." in out

@@ -13,9 +13,10 @@ from tmm_gen.reference.assembly import assemble
 from tmm_gen.scene import Scene
 from tmm_gen.simulate.run import simulate
 from tmm_gen.study.excitation import Excitation, excitation
-from tmm_gen.study.findings import by_family, findings
+from tmm_gen.study.findings import by_family, chosen_sentence, equal_steps, findings
 from tmm_gen.study.grid import Axes, configurations
 from tmm_gen.study.outcome import Outcome
+from tmm_gen.study.references import References
 from tmm_gen.study.study import Study, run_study
 
 
@@ -106,6 +107,36 @@ def test_counts_and_costs(chain_study: Study) -> None:
     finished = [p for p in chain_study.points if p.finished]
     by_name = {p.configuration.family.label: p.cost.ns_per_step for p in finished if p.cost}
     assert by_name["sdirk4"] > by_name["newmark"]  # five sweeps against one: more than twice the time
+
+
+def test_steps_of_a_tolerance_stand_beside_equal_ones(chain: Scene) -> None:
+    went = excitation(chain, until=5.0)
+    axes = Axes(integrators=("newmark", "houbolt"), steps=(0.1, 0.01, 0.001))
+    told: list[str] = []
+    study = run_study(
+        chain,
+        went,
+        configurations(chain, axes, 5.0),
+        rounds=0,
+        tolerances=(1e-2, 1e-3),
+        advance=lambda _, doing: told.append(doing),
+    )
+    coarse, fine, none = study.chosen
+    for run in (coarse, fine):
+        assert run.claimed is not None
+        assert run.error is not None
+        assert run.claimed <= run.tolerance
+        assert run.error <= 2.0 * run.tolerance  # of this output, not of all links
+        assert f"newmark by a tolerance of {run.tolerance:g}" in told
+    # second order: the equal steps found by interpolation are as accurate
+    count = equal_steps(study, fine)
+    assert count is not None
+    again = simulate(chain.replace(**{"integrator.step": 5.0 / count}), went.signals, 5.0)
+    exact = References(chain, went).of(None).at(again.time)
+    error = np.max(np.abs(again.outputs["tip"] - exact[0])) / study.travel
+    assert error == pytest.approx(fine.error, rel=0.05)
+    assert (none.family.integrator, none.steps) == ("houbolt", None)
+    assert "reads instants a step apart" in chosen_sentence(study, none)
 
 
 def test_backends_agree_and_links_are_an_error_of_their_own(arm_study: Study) -> None:

@@ -12,7 +12,7 @@ from tmm_gen.reference.reference import exact_response
 from tmm_gen.scene import Scene, load_scene, parse_scene
 from tmm_gen.simulate.run import simulate
 from tmm_gen.study.bounds import ErrorBound
-from tmm_gen.study.configuration import Configuration, Family
+from tmm_gen.study.configuration import Configuration, Family, own
 from tmm_gen.study.excitation import columns, excitation
 from tmm_gen.study.explain import explained, remarks
 from tmm_gen.study.grid import Axes
@@ -185,6 +185,15 @@ def test_a_rewritten_scene_keeps_what_the_user_wrote(chain: Scene) -> None:
     assert '[emit]\nreal = "float32"' in text
     kept = [line for line in CHAIN.splitlines() if not line.startswith(("beta", "step", 'name = "newmark'))]
     assert [line for line in text.splitlines() if line in kept and line] == [line for line in kept if line]
+
+
+def test_a_rewritten_scene_takes_the_steps_that_were_tuned(chain: Scene) -> None:
+    from .conftest import CHAIN
+
+    steady = CHAIN.replace("step = 0.02", "tolerance = 1e-6\nstep = 0.02")
+    text = rewritten(steady, parse_scene(steady), Configuration(own(chain).family, 0.3), ["why"])
+    assert "tolerance" not in text
+    assert "beta = 0.25" in text
 
 
 def test_a_rewritten_scene_accepts_what_its_sweeps_leave(arm: Scene) -> None:

@@ -20,6 +20,12 @@ def grid_options(command: Callable[..., Any]) -> Callable[..., Any]:
             "--steps", metavar="S,S", callback=numbers, help="Steps, s; by default ten, each half the last."
         ),
         click.option(
+            "--tolerances",
+            metavar="T,T",
+            callback=numbers,
+            help="Runs too whose steps each integrator chooses by these, as `run --tolerance` does; by default none.",
+        ),
+        click.option(
             "--iterations",
             metavar="N,N",
             callback=whole_numbers,

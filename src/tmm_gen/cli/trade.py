@@ -95,8 +95,9 @@ def run(path: Path, options: dict[str, Any]) -> Study:
     given = read_inputs(options["given"], *input_names(scene))
     went = excitation(scene, given, options["until"], options["output"])
     grid = configurations(scene, axes_of(scene, options), went.until)
-    rounds = options["rounds"]
-    with progress(f"studying {scene.name}", total=1 + len(grid) + rounds) as advance:
+    rounds, tolerances = options["rounds"], options["tolerances"]
+    more = len(tolerances) * len({each.family.integrator for each in grid})
+    with progress(f"studying {scene.name}", total=1 + len(grid) + rounds + more) as advance:
         return run_study(
             scene,
             went,
@@ -105,6 +106,7 @@ def run(path: Path, options: dict[str, Any]) -> Study:
             options["store"],
             rounds,
             advance=lambda n, doing: advance(n, doing),
+            tolerances=tolerances,
         )
 
 
@@ -150,7 +152,7 @@ _COLUMNS: list[Column | str] = [
 
 def _show(study: Study, written: list[Path], show_all: bool, json_mode: bool) -> None:
     from tmm_gen.study.excitation import unit
-    from tmm_gen.study.findings import findings, summary
+    from tmm_gen.study.findings import equal_steps, findings, summary
 
     scene, went = study.scene, study.excitation
     rows = study.rows(study.points if show_all or json_mode else study.front())
@@ -162,6 +164,7 @@ def _show(study: Study, written: list[Path], show_all: bool, json_mode: bool) ->
         "until": went.until,
         "excitation": went.told(scene),
         "findings": [_finding(each) for each in findings(study)],
+        "by_tolerance": [{**each.values(), "equal_steps": equal_steps(study, each)} for each in study.chosen],
         "modelling": [
             {"links": each.links, "error": each.error, "order": each.order}
             for each in study.modelling.values()

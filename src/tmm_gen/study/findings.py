@@ -10,6 +10,7 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
+from tmm_gen.study.chosen_steps import ChosenSteps
 from tmm_gen.study.configuration import Family, own
 from tmm_gen.study.excitation import unit
 from tmm_gen.study.outcome import Outcome
@@ -174,7 +175,7 @@ def findings(study: Study, levels: Sequence[float] = LEVELS) -> tuple[Finding, .
 
 
 def summary(study: Study) -> list[str]:
-    """Say in sentences what was tried, under what, and who wins."""
+    """Say in sentences what was tried, under what, who wins, and what runs by a tolerance did."""
     scene, went = study.scene, study.excitation
     travelled = f"{study.travel:.3g} {unit(scene, went.output)}"
     others = ", ".join(f"{study.count(each)} {each.value}" for each in Outcome if study.count(each))
@@ -182,7 +183,30 @@ def summary(study: Study) -> list[str]:
         f"{went.until:g} s of {'; '.join(went.told(scene))}. Errors are relative to the travel of {travelled}.",
         f"{len(study.points)} configurations: {others}.",
         *(each.sentence() for each in findings(study)),
+        *(chosen_sentence(study, each) for each in study.chosen),
     ]
+
+
+def equal_steps(study: Study, chosen: ChosenSteps) -> int | None:
+    """Return how many equal steps are as accurate as those of a tolerance; None where the grid does not tell."""
+    if chosen.error is None:
+        return None
+    points = next((found for family, found in by_family(study.points) if family == chosen.family), [])
+    way = _way(study, chosen.family, points, chosen.error) if points else None
+    return None if way is None or not way.known else math.ceil(study.excitation.until / way.step)
+
+
+def chosen_sentence(study: Study, chosen: ChosenSteps) -> str:
+    """Say in words what a run by a tolerance did."""
+    begun = f"By a tolerance of {chosen.tolerance:g} {chosen.family.integrator}"
+    if chosen.reason:
+        return f"{begun} has no run: {chosen.reason}"
+    equal = equal_steps(study, chosen)
+    beside = "" if equal is None else f"; so accurate, {equal} equal steps are"
+    return (
+        f"{begun} takes {chosen.steps} steps, from {chosen.smallest:.2g} to {chosen.largest:.2g} s, and is off by "
+        f"{chosen.error:.2g}{beside}."
+    )
 
 
 def by_family(points: Sequence[Point]) -> Iterator[tuple[Family, list[Point]]]:

@@ -21,7 +21,7 @@ def rewritten(
     scene : Scene
         Read from it.
     configuration : Configuration
-        What it is to say.
+        What it is to say: a step, so that a tolerance that would choose others goes.
     remarks : list of str
         Written as comments on top.
     accepted : float, optional
@@ -44,6 +44,7 @@ def rewritten(
     if underscored(configuration.family.integrator) != scene.integrator.name:
         for key in [key for key in table if key not in ("name", "step")]:
             del table[key]
+    table.pop("tolerance", None)
     for key, value in changes.items():
         place, *part, name = key.split(".")
         if place not in document:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from tmm_gen.native.timing import ROUNDS, Cost
 from tmm_gen.scene import Scene, SceneError
+from tmm_gen.study.chosen_steps import ChosenSteps, runs, serving
 from tmm_gen.study.configuration import Configuration, Family, own
 from tmm_gen.study.cost import measure_costs
 from tmm_gen.study.excitation import Excitation
@@ -40,6 +41,8 @@ class Study:
         In the order of the grid.
     modelling : mapping from int to Modelling
         Of a beam: what its number of links costs in accuracy, by number.
+    chosen : tuple of ChosenSteps
+        Runs by tolerances, where any were asked for.
     """
 
     scene: Scene
@@ -47,6 +50,7 @@ class Study:
     travel: float
     points: tuple[Point, ...]
     modelling: Mapping[int, Modelling] = field(default_factory=dict)
+    chosen: tuple[ChosenSteps, ...] = ()
 
     @property
     def varies_links(self) -> bool:
@@ -95,6 +99,7 @@ def run_study(
     store: Path | None = None,
     rounds: int = ROUNDS,
     advance: Advance = lambda count, doing: None,
+    tolerances: Sequence[float] = (),
 ) -> Study:
     """Evaluate a grid of configurations, then measure what they cost.
 
@@ -117,7 +122,9 @@ def run_study(
         Measurements of each time; none with 0.
     advance : callable
         Called with the units of work done and what is being done: one unit a configuration, one a round, one for
-        the references.
+        the references, one a run by a tolerance.
+    tolerances : sequence of float
+        By each of which every integrator of the grid chooses steps too, beside the grid.
 
     Raises
     ------
@@ -145,9 +152,13 @@ def run_study(
     ):
         results[task.configuration] = _modelled(result, task.configuration, modelling)
         advance(1, task.configuration.family.label)
+    chosen: tuple[ChosenSteps, ...] = ()
+    if tolerances:
+        truth = references.of(own(scene).family.links)
+        chosen = tuple(runs(scene, excitation, serving(scene, grid), tolerances, truth, advance))
     costs = _costs(scene, excitation, results, rounds, advance) if rounds else {}
     points = tuple(Point(each, results[each], costs.get(each.family)) for each in grid)
-    return Study(scene, excitation, travel, points, modelling)
+    return Study(scene, excitation, travel, points, modelling, chosen)
 
 
 def _truths(
