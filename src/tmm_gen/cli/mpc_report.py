@@ -18,6 +18,14 @@ if TYPE_CHECKING:
     from tmm_gen.scene import Scene
 
 
+_ALONG = (
+    Column("off_rms_mm", "off, rms (mm)", ".2f"),
+    Column("off_most_mm", "at most (mm)", ".2f"),
+    Column("at_stops_mm", "trembles at stops (mm)", ".2f"),
+)
+"""Of a trajectory."""
+
+
 def list_all(json_mode: bool) -> None:
     """Print controllers, conditions, and what can be tuned."""
     from tmm_gen.closed_loop.tuning import TUNABLE
@@ -38,13 +46,16 @@ def show(scene: Scene, trials: list[Trial], until: float, files: list[Path], jso
     """Print the figures, and what could be done next."""
     from tmm_gen.closed_loop.figures import BAND, RESIDUAL_FROM
 
-    columns: list[Column | str] = [
-        "controller",
-        "condition",
+    reached = (
         Column("settling_s", f"settles to {100 * BAND:g} % (s)", ".3f"),
         Column("overshoot_percent", "overshoot (%)", ".2f"),
         Column("residual_mrad", "residual (mrad)", ".2f"),
         Column("offset_mrad", "offset (mrad)", ".2f"),
+    )
+    columns: list[Column | str] = [
+        "controller",
+        "condition",
+        *(_ALONG if trials[0].tracking is not None else reached),
         Column("solve_us_median", "solve (µs)", ".0f"),
         Column("solve_us_max", "at most (µs)", ".0f"),
     ]

@@ -10,6 +10,7 @@ import numpy as np
 from tmm_gen.closed_loop.figures import Figures, loop_figures
 from tmm_gen.closed_loop.loop import Loop, run_loop
 from tmm_gen.closed_loop.space_plant import plant_of
+from tmm_gen.closed_loop.tracking import Tracking, tracking_figures
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.command import Controller
 from tmm_gen.control.condition import Condition
@@ -38,6 +39,8 @@ class Trial:
         How good it was.
     compiled : bool
         Whether the controller was compiled C.
+    tracking : Tracking, optional
+        How well it followed, where there was something to follow.
     """
 
     kind: ControllerKind
@@ -45,17 +48,30 @@ class Trial:
     loop: Loop
     figures: Figures
     compiled: bool = False
+    tracking: Tracking | None = None
 
     def row(self) -> dict[str, object]:
-        """Return what a table shows: times in s, angles in mrad, microseconds; None where it never settles."""
-        loop, figures = self.loop, self.figures
-        return {
-            "controller": self.kind.name,
-            "condition": self.condition.name,
+        """Return what a table shows: times in s, angles in mrad, microseconds; None where it never settles.
+
+        Along a trajectory, mm that the end of the arm is off instead.
+        """
+        loop, figures, tracking = self.loop, self.figures, self.tracking
+        reached: dict[str, object] = {
             "settling_s": figures.settling,
             "overshoot_percent": 100.0 * figures.overshoot,
             "residual_mrad": 1e3 * figures.residual,
             "offset_mrad": 1e3 * figures.offset,
+        }
+        if tracking is not None:
+            reached = {
+                "off_rms_mm": 1e3 * tracking.rms,
+                "off_most_mm": 1e3 * tracking.largest,
+                "at_stops_mm": None if tracking.vibration is None else 1e3 * tracking.vibration,
+            }
+        return {
+            "controller": self.kind.name,
+            "condition": self.condition.name,
+            **reached,
             "solve_us_median": 1e6 * float(np.median(loop.seconds)),
             "solve_us_max": 1e6 * float(np.max(loop.seconds)),
             "iterations_max": int(np.max(loop.iterations)),
@@ -102,9 +118,10 @@ def compare(
         for kind in kinds:
             controller = made(kind, told[known], compiled)
             plant = plant_of(bench.scene, bench.problem, condition, seed)
-            loop = run_loop(controller, plant, duration)
+            loop = run_loop(controller, plant, duration, course=bench.course)
             figures = loop_figures(loop)
-            yield Trial(kind, condition, loop, figures, compiled and kind.name in EMITTED)
+            tracking = None if bench.course is None else tracking_figures(loop, plant, bench)
+            yield Trial(kind, condition, loop, figures, compiled and kind.name in EMITTED, tracking)
 
 
 def worst(
@@ -148,7 +165,14 @@ def worst(
 
 
 def made(kind: ControllerKind, bench: Bench, compiled: bool) -> Controller:
-    """Return a controller, as compiled C where that is asked for and exists."""
+    """Return a controller, as compiled C where that is asked for and exists.
+
+    Raises
+    ------
+    UserError
+        If the scene has a trajectory, and it follows none.
+    """
+    kind.require_follows(bench)
     if not compiled or kind.name not in EMITTED:
         return kind.make(bench)
     name, files = emit_controller(bench, kind.name)

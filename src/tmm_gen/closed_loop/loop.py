@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from tmm_gen.closed_loop.plant import Plant
 from tmm_gen.control.command import Controller, Status
+from tmm_gen.control.course import Course
 
 Array = NDArray[np.float64]
 
@@ -59,7 +60,9 @@ class Loop:
         return sum(status is not Status.OK for status in self.statuses)
 
 
-def run_loop(controller: Controller, plant: Plant, duration: float, timed: bool = True) -> Loop:
+def run_loop(
+    controller: Controller, plant: Plant, duration: float, timed: bool = True, course: Course | None = None
+) -> Loop:
     """Control an arm for some time.
 
     Parameters
@@ -73,6 +76,8 @@ def run_loop(controller: Controller, plant: Plant, duration: float, timed: bool 
     timed : bool
         Whether to look at the clock, which takes some systems as long as a controller takes for a sample; without,
         processor times are zero.
+    course : Course, optional
+        What is to be followed; the controller is told of the samples that it looks ahead.
     """
     clock = time.thread_time if timed else float  # float() is zero
     controller.reset()
@@ -84,6 +89,8 @@ def run_loop(controller: Controller, plant: Plant, duration: float, timed: bool 
     for sample in range(samples):
         measured = plant.measured()
         begin = clock()
+        if course is not None:
+            controller.follow(course.ahead(sample, plant.problem.horizon))
         controller.prepare()
         between = clock()
         command = controller.command(measured)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from tmm_gen.control.arms import arm_of
 from tmm_gen.control.condition import Condition
+from tmm_gen.control.course import Course, course_of
 from tmm_gen.control.linear import LinearModel
 from tmm_gen.control.links import links_model
 from tmm_gen.control.modes import modes_model
@@ -21,7 +22,7 @@ from tmm_gen.scene import Scene
 
 Array = NDArray[np.float64]
 
-_MODELS = ("step", "links", "modes", "inertia")
+_MODELS = ("step", "links", "modes", "inertia", "course")
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,6 +87,11 @@ class Bench:
         return other
 
     @property
+    def follows(self) -> bool:
+        """Whether a trajectory is to be followed."""
+        return self.scene.control is not None and self.scene.control.trajectory is not None
+
+    @property
     def assumed(self) -> Scene:
         """The scene controllers reckon with: with the payload of ``[control]``."""
         scene = self.scene
@@ -108,6 +114,11 @@ class Bench:
     def modes(self) -> LinearModel:
         """First modes of the fine arm."""
         return modes_model(self.assumed, self.problem)
+
+    @cached_property
+    def course(self) -> Course | None:
+        """What is to be followed, sample by sample; None where there is a reference alone."""
+        return course_of(self.assumed, self.problem)
 
     @cached_property
     def inertia(self) -> Array:

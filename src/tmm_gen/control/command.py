@@ -61,6 +61,25 @@ class Controller(Protocol):
     def reset(self) -> None:
         """Forget all measurements."""
 
+    def follow(self, angles: Array) -> Status:
+        """Take what the reference is to be over the horizon, before :meth:`prepare`.
+
+        It is kept until another is given, moves on by a sample with each measurement, and rests where it ends. Before
+        the first the reference is that of the scene.
+
+        Parameters
+        ----------
+        angles : array, (N, m)
+            Joint angles a sample after the measurement that comes, and at the samples after that, rad.
+
+        Returns
+        -------
+        Status
+            ``OK``; ``NOT_FINITE``: there is no such pose; ``INFEASIBLE``: the motors could not hold the arm at the end.
+            What is not OK leaves the former reference.
+        """
+        ...
+
     def prepare(self) -> None:
         """Do what needs no measurement, once a sample's torques are out; :meth:`command` does it where nobody did."""
 

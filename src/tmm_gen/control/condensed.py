@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.control.problem import ControlProblem
-from tmm_gen.control.terms import Goal, Kind
+from tmm_gen.control.terms import Goal, Kind, Wanted
 
 Array = NDArray[np.float64]
 
@@ -140,7 +140,14 @@ class Condensed:
                 blocks.append(lower)
         return np.vstack(blocks) if blocks else np.zeros((0, width))
 
-    def gradient(self, along: Outputs, inputs: Array, last: Array, disturbance: Array) -> Array:
+    def gradient(
+        self,
+        along: Outputs,
+        inputs: Array,
+        last: Array,
+        disturbance: Array,
+        wanted: Wanted | None = None,
+    ) -> Array:
         """Return f.
 
         Parameters
@@ -153,18 +160,21 @@ class Condensed:
             ``u[-1]``, N m.
         disturbance : array, (m,)
             ``d``, N m.
+        wanted : Wanted, optional
+            By default rest at the goal.
         """
-        weights, slopes, goal = self.problem.weights, self.slopes, self.goal
+        weights, slopes = self.problem.weights, self.slopes
+        wanted = Wanted.still(self.goal) if wanted is None else wanted
         changes = np.diff(inputs, axis=1, prepend=last[:, None])
-        torques = inputs - goal.torque[:, None] + disturbance[:, None]
+        torques = inputs - wanted.torque + disturbance[:, None]
         priced = weights.torque[:, None] * torques
         priced += weights.torque_step[:, None] * (changes @ self.difference)
-        found = priced.ravel() + along.end @ slopes.end
+        found = priced.ravel() + (along.end - wanted.end) @ slopes.end
         for every, slope, error in (
-            (weights.tip, slopes.tip, along.tip - goal.tip[:, None]),
-            (weights.hub, slopes.hub, along.hub - goal.hub[:, None]),
-            (weights.tip_rate, slopes.tip_rate, along.tip_rate),
-            (weights.hub_rate, slopes.hub_rate, along.hub_rate),
+            (weights.tip, slopes.tip, along.tip - wanted.tip),
+            (weights.hub, slopes.hub, along.hub - wanted.hub),
+            (weights.tip_rate, slopes.tip_rate, along.tip_rate - wanted.tip_rate),
+            (weights.hub_rate, slopes.hub_rate, along.hub_rate - wanted.hub_rate),
         ):
             for weight, rows, off in zip(every, slope, error, strict=True):
                 if weight:

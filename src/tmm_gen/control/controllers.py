@@ -11,14 +11,17 @@ from numpy.typing import NDArray
 from tmm_gen.control.arms import arm_of
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.command import Controller
-from tmm_gen.control.inverse_dynamics import quintic_way
+from tmm_gen.control.holding import held
+from tmm_gen.control.inverse_dynamics import quintic_way, rigid_torques
 from tmm_gen.control.linear_mpc import LinearMpc
 from tmm_gen.control.lqr import Regulator
 from tmm_gen.control.pd import PdController
 from tmm_gen.control.qp import require_daqp
 from tmm_gen.control.rti import RealTimeIteration
 from tmm_gen.control.shaper import Kind, shaper, slowest_vibration
-from tmm_gen.control.way import Way, stepped_way
+from tmm_gen.control.way import Way, shaped_way, stepped_way
+from tmm_gen.control.window import Window
+from tmm_gen.errors import UserError
 from tmm_gen.scene.control import Baselines
 from tmm_gen.scene.each import Each, by_names
 
@@ -43,6 +46,8 @@ class ControllerKind:
         Whether it solves quadratic programs, for which an extra is needed.
     arms_by_parts : bool
         Whether it is compared by default where motors are parts by name.
+    follows : bool
+        Whether it can follow a trajectory.
     """
 
     name: str
@@ -51,10 +56,28 @@ class ControllerKind:
     default: bool = True
     quadratic: bool = False
     arms_by_parts: bool = False
+    follows: bool = True
 
     def compared(self, bench: Bench) -> bool:
         """Return whether it is compared on an arm unless others are chosen."""
+        if bench.follows and not self.follows:
+            return False
         return self.default or (self.arms_by_parts and not bench.problem.motors.on_hub)
+
+    def require_follows(self, bench: Bench) -> None:
+        """Refuse a trajectory that it cannot follow.
+
+        Raises
+        ------
+        UserError
+            If the scene has one and it cannot.
+        """
+        if bench.follows and not self.follows:
+            others = ", ".join(kind.name for kind in CONTROLLERS if kind.follows)
+            raise UserError(
+                f"{bench.scene.source.origin}: the controller '{self.name}' follows no control.trajectory; take one of "
+                f"{others}."
+            )
 
 
 def _gains(bench: Bench, gains: Each[tuple[float, float]] | None) -> tuple[Array, Array]:
@@ -81,12 +104,20 @@ def make_pd(
     if shaping is not None:
         frequency, damping = slowest_vibration(model, problem, proportional, derivative)
         shapers = [shaper(shaping, frequency, damping, problem.sample_time)] * problem.count
-    return _pd(bench, proportional, derivative, stepped_way(model.goal.torque, shapers))
+    if bench.course is None:
+        return _pd(bench, proportional, derivative, stepped_way(model.goal.torque, shapers))
+    angles, rates, _ = Window.of(bench.course.angles, problem.sample_time).motion
+    torque = np.array([held(model.holds, model.goal, each) for each in angles])
+    return _pd(bench, proportional, derivative, shaped_way(angles, rates, torque, shapers))
 
 
 def make_inverse_dynamics(bench: Bench, gains: Each[tuple[float, float]] | None) -> PdController:
     """Return a PD controller along a quintic, with the torques of the rigid arm given beforehand."""
     model, problem = bench.modes, bench.problem
+    if bench.course is not None:
+        angles, rates, growth = Window.of(bench.course.angles, problem.sample_time).motion
+        torque = rigid_torques(bench.assumed, angles, rates, growth)
+        return _pd(bench, *_gains(bench, gains), shaped_way(angles, rates, torque))
     way = quintic_way(bench.assumed, problem, model.start_hub, model.goal)
     return _pd(bench, *_gains(bench, gains), way)
 
@@ -128,11 +159,12 @@ CONTROLLERS: tuple[ControllerKind, ...] = (
         "RTI, zero order",
         lambda b: RealTimeIteration(b.step, b.links, b.inertia, True),
         quadratic=True,
+        follows=False,
     ),
     ControllerKind(
         "rti", "RTI, full", lambda b: RealTimeIteration(b.step, b.links, b.inertia), quadratic=True
     ),
-    ControllerKind("nmpc", "NMPC to convergence", _nmpc, default=False),
+    ControllerKind("nmpc", "NMPC to convergence", _nmpc, default=False, follows=False),
 )
 
 BY_NAME = {kind.name: kind for kind in CONTROLLERS}

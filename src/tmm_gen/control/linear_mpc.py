@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from tmm_gen.control.command import Command
 from tmm_gen.control.condensed import Condensed
+from tmm_gen.control.following import Following
 from tmm_gen.control.kalman import KalmanFilter
 from tmm_gen.control.linear import LinearModel
 from tmm_gen.control.model_based import ModelBased
@@ -14,6 +15,7 @@ from tmm_gen.control.problem import ControlProblem
 from tmm_gen.control.qp import QuadraticProgram, Solution
 from tmm_gen.control.response import response
 from tmm_gen.control.terminal import end_rows
+from tmm_gen.control.terms import Wanted
 
 Array = NDArray[np.float64]
 
@@ -33,7 +35,9 @@ class LinearMpc(ModelBased):
 
     def __init__(self, model: LinearModel, problem: ControlProblem, inertia: Array) -> None:
         self.model = model
-        self.response = response(model, problem.horizon, end_rows(model, problem.weights))
+        self.end = end_rows(model, problem.weights)
+        self.response = response(model, problem.horizon, self.end)
+        self.following = Following(model, problem.sample_time)
         self.condensed = Condensed(problem, self.response.slopes, model.goal)
         still = np.zeros(problem.count)
         targets = np.repeat(np.concatenate([model.goal.tip, still, model.goal.hub, still]), problem.horizon)
@@ -60,7 +64,14 @@ class LinearMpc(ModelBased):
         along = made.outputs(found + self.offsets)
         nothing = np.zeros((self.problem.count, self.problem.horizon))
         return self._program.solve_softly(
-            self.condensed.gradient(along, nothing, last, disturbance),
-            *self.condensed.bounds(along, nothing, last),
+            self.condensed.gradient(along, nothing, last, disturbance, self._wanted()),
+            *self.condensed.bounds(along, nothing, last, without=("tip",) if self._window else ()),
             soft=self.condensed.soft,
         )
+
+    def _wanted(self) -> Wanted | None:
+        """Return what is wanted over the horizon, if anything but rest at the target."""
+        if self._window is None:
+            return None
+        first = self.delay.whole + self._passed
+        return self.following.wanted(self._window, first, self.problem.horizon, self.end)

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.control.command import Command
+from tmm_gen.control.following import Following
 from tmm_gen.control.kalman import KalmanFilter
 from tmm_gen.control.linear import LinearModel
 from tmm_gen.control.model_based import ModelBased
@@ -46,6 +47,7 @@ class Regulator(ModelBased):
         price = np.diag(torque)
         value = solve_discrete_are(a, b, cost, price)
         self.gain = np.linalg.solve(price + b.T @ value @ b, b.T @ value @ a)
+        self.following = Following(model, problem.sample_time)
         super().__init__(problem, KalmanFilter(model, problem), model.delay, inertia)
 
     def _forget(self) -> None:
@@ -53,4 +55,9 @@ class Regulator(ModelBased):
 
     def decide(self, state: Array, disturbance: Array, last: Array) -> Command:
         """Return the torques of the linear law; see :class:`ModelBased`."""
-        return Command(self.model.goal.torque - disturbance - self.gain @ state)
+        if self._window is None:
+            return Command(self.model.goal.torque - disturbance - self.gain @ state)
+        place = self.delay.whole + self._passed - 1
+        motion = self._window.at(place) if place >= 0 else self._window.before(self.problem.sample_time)
+        wanted, torque = self.following.at(motion)
+        return Command(torque - disturbance - self.gain @ (state - wanted))

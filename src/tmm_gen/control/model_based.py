@@ -13,6 +13,8 @@ from tmm_gen.control.credible import PATIENCE, Credible, credible
 from tmm_gen.control.delay import Delay, Pair
 from tmm_gen.control.problem import ControlProblem
 from tmm_gen.control.safe import safe_torque
+from tmm_gen.control.window import Window
+from tmm_gen.errors import UserError
 
 Array = NDArray[np.float64]
 
@@ -92,8 +94,25 @@ class ModelBased(ABC):
         self._past = np.tile(self.estimator.start, (self.delay.memory + 1, 1))
         self._hub, self._fresh, self._wrong = np.full(self.problem.count, np.nan), True, 0
         self._due = False
+        self._window: Window | None = None
+        self._passed = 0
         self._read = self.limits.sensors[self.problem.count :]
         self._forget()
+
+    def follow(self, angles: Array) -> Status:
+        """Take what the reference is to be over the horizon; see :class:`~tmm_gen.control.command.Controller`.
+
+        Raises
+        ------
+        UserError
+            If the arm stands on a hub.
+        """
+        if self.problem.motors.on_hub:
+            raise UserError("only arms whose motors are parts by name follow a reference: write the arm by parts")
+        if not np.all(np.isfinite(angles)):
+            return Status.NOT_FINITE
+        self._window, self._passed = Window.of(np.asarray(angles, float), self.problem.sample_time), 0
+        return Status.OK
 
     @abstractmethod
     def _forget(self) -> None:
@@ -152,6 +171,7 @@ class ModelBased(ABC):
         command = Command(self.problem.allowed(torque, last), command.status, command.iterations)
         self._past = np.vstack([self._past[1:], command.torque])
         self._due = True
+        self._passed += 1
         return command
 
     def _safe(self, hub: Array, rate: Array, last: Array) -> Array:

@@ -58,7 +58,11 @@ class PdController:
         """Forget all measurements."""
         nowhere = np.full(self.problem.count, math.nan)
         self._sample, self._hub, self._last, self._start = 0, nowhere, self.start, nowhere
-        self._wrong, self._gap = PATIENCE, False
+        self._wrong, self._gap, self._clock = PATIENCE, False, 0
+
+    def follow(self, angles: Array) -> Status:  # noqa: ARG002
+        """Do nothing: the whole way is known beforehand, since shapers and quintics need it."""
+        return Status.OK
 
     def prepare(self) -> None:
         """Do nothing: there is nothing to prepare."""
@@ -69,6 +73,7 @@ class PdController:
             return self._command(shown(measured, valid)[: self.problem.count])
 
     def _command(self, hub: Array) -> Command:
+        self._clock += 1
         if not self._believed(hub):
             self._gap = True
             unknown = np.full(len(hub), math.nan)
@@ -77,10 +82,12 @@ class PdController:
         unknown_rate = self._gap or bool(np.any(np.isnan(self._hub)))
         rate = np.zeros(len(hub)) if unknown_rate else (hub - self._hub) / self.problem.sample_time
         self._hub, self._gap = hub, False
-        share, speed, torque = self.way.at(self._sample)
-        along = self.goal.hub - self._start
+        share, speed, torque = self.way.at(self._clock - 1 if self.way.absolute else self._sample)
+        begin, along = self._start, self.goal.hub - self._start
+        if self.way.absolute:
+            begin, along = np.zeros(len(hub)), np.ones(len(hub))
         self._sample += 1
-        torque = torque + self.proportional * (self._start + share * along - hub)
+        torque = torque + self.proportional * (begin + share * along - hub)
         torque = torque + self.derivative * (speed * along - rate)
         self._last = self.problem.allowed(torque, self._last)
         return Command(self._last)

@@ -20,11 +20,14 @@ from tmm_gen.control.extended_kalman import ExtendedKalmanFilter, NonlinearFilte
 from tmm_gen.control.linear import LinearModel
 from tmm_gen.control.links import rest_state, target_state
 from tmm_gen.control.model_based import ModelBased
+from tmm_gen.control.pose import Pose, pose_in
 from tmm_gen.control.qp import QuadraticProgram
 from tmm_gen.control.response import response, split_outputs
 from tmm_gen.control.step_model import StepModel
 from tmm_gen.control.target import rest_with
 from tmm_gen.control.terminal import end_rows
+from tmm_gen.control.terms import Goal, Wanted
+from tmm_gen.control.window import Window
 from tmm_gen.errors import UserError
 
 Array = NDArray[np.float64]
@@ -108,6 +111,7 @@ class RealTimeIteration(ModelBased):
     def reset(self) -> None:
         """Forget all measurements, and what was aimed at."""
         self.goal, self.rest, self.moved = self.linear.goal, self.target, False
+        self._poses: list[Pose] = []
         super().reset()
 
     def aim(self, reference: Array) -> Status:
@@ -131,12 +135,8 @@ class RealTimeIteration(ModelBased):
         UserError
             If sensitivities are those of the scene's target, or the arm stands on a hub.
         """
+        self._require_movable()
         scene = self.model.scene
-        if self.zero_order or self.model.motors.on_hub:
-            raise UserError(
-                f"{scene.source.origin}: only full real-time iteration of motors by name takes another reference; "
-                "take the controller 'rti', or write another control.reference."
-            )
         if not np.all(np.isfinite(reference)):
             return Status.NOT_FINITE
         try:
@@ -147,8 +147,65 @@ class RealTimeIteration(ModelBased):
         if not np.all((found.goal.torque >= low) & (found.goal.torque <= high)):
             return Status.INFEASIBLE
         self.goal, self.rest, self.moved = found.goal, target_state(self.model, found), True
+        self._window, self._poses = None, []
         self._turned()
         return Status.OK
+
+    def follow(self, angles: Array) -> Status:
+        """Take what the reference is to be over the horizon; see :class:`ModelBased` and :meth:`aim`.
+
+        Sags and torques are those of the motion, by the kernel (:func:`~tmm_gen.control.pose.pose_in`); poses that
+        were found for the sample before are not sought again.
+        """
+        self._require_movable()
+        if not np.all(np.isfinite(angles)):
+            return Status.NOT_FINITE
+        window = Window.of(np.asarray(angles, float), self.problem.sample_time)
+        former, former_poses, passed = self._window, self._poses, self._passed
+        poses: list[Pose] = []
+        near = Pose(self.rest, self.goal.torque)
+        for i in range(window.count):
+            motion, known = window.at(i), former is not None and i + passed < former.count
+            if known:
+                near = former_poses[i + passed]
+            if known and former is not None and np.array_equal(former.at(i + passed), motion):
+                poses.append(near)
+                continue
+            found = pose_in(self.model, motion, near)
+            if found is None:
+                return Status.NOT_FINITE
+            poses.append(found)
+            near = found
+        still = pose_in(self.model, window.at(window.count), near)
+        if still is None:
+            return Status.NOT_FINITE
+        low, high = self.problem.torque
+        if not np.all((still.torque >= low) & (still.torque <= high)):
+            return Status.INFEASIBLE
+        tip, _, hub, _ = np.split(self.rows @ still.state, 4)
+        self.goal, self.rest = Goal(tip, hub, still.torque), still.state
+        self._window, self._poses, self._passed, self.moved = window, poses, 0, True
+        self._turned()
+        return Status.OK
+
+    def _require_movable(self) -> None:
+        if self.zero_order or self.model.motors.on_hub:
+            raise UserError(
+                f"{self.model.scene.source.origin}: only full real-time iteration of motors by name takes another "
+                "reference; take the controller 'rti', or write another control.reference."
+            )
+
+    def _wanted(self) -> tuple[Wanted, Pose]:
+        """Return what is wanted over the horizon, its end reckoned from the pose that is wanted there."""
+        still = Pose(self.rest, self.goal.torque)
+        if self._window is None:
+            return Wanted.still(self.goal), still
+        first = self.delay.whole + self._passed
+        poses = (self._poses[first:] + [still] * self.problem.horizon)[: self.problem.horizon]
+        outputs = self.rows @ np.column_stack([pose.state for pose in poses])
+        tip, tip_rate, hub, hub_rate = np.split(outputs, 4)
+        torque = np.column_stack([pose.torque for pose in poses])
+        return Wanted(tip, hub, tip_rate, hub_rate, torque, np.zeros(1)), poses[-1]
 
     def _forget(self) -> None:
         self._program.forget()
@@ -220,7 +277,7 @@ class RealTimeIteration(ModelBased):
         plan, along = self._plan, split_outputs(stacked, self._plan.shape)
         renewed = condensed is not self.prepared
         solution = self._program.solve_softly(
-            condensed.gradient(along, plan, last, disturbance),
+            condensed.gradient(along, plan, last, disturbance, self._wanted()[0]),
             *condensed.bounds(
                 along, plan, last, self.prepared.stopping, without=("tip",) if self.moved else ()
             ),
@@ -250,7 +307,8 @@ class RealTimeIteration(ModelBased):
         plan, unknown = self._plan, disturbance[:, None]
         inputs = np.vstack([np.hstack([last[:, None], plan[:, :-1]]) + unknown, plan + unknown])
         states = np.array(self.model.rollout(state, inputs))
-        left = np.append(states[:, -1] - self.rest, plan[:, -1] + disturbance - self.goal.torque)
+        _, end = self._wanted()
+        left = np.append(states[:, -1] - end.state, plan[:, -1] + disturbance - end.torque)
         along = np.append((self.rows @ states).ravel(), self.end @ left)
         if self.zero_order:
             return along, None, self.prepared

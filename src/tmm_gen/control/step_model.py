@@ -196,6 +196,15 @@ class StepModel:
         return [x, ca.densify(by_state), ca.densify(by_torques)]
 
     @cached_property
+    def _one_step(self) -> Any:
+        return self.module.jacobian_function()
+
+    def step_slopes(self, state: Array, torque: Array) -> tuple[Array, Array, Array]:
+        """Return the state after one step of the kernel, (s,), and its derivatives by state, (s, s), and torques, (s, m)."""
+        after, by_state, by_inputs = self._one_step(state, self._acting @ torque, self.parameters)
+        return np.array(after).ravel(), np.array(by_state), np.array(by_inputs) @ self._acting
+
+    @cached_property
     def sensor_slopes(self) -> Any:
         """``x -> h, dh/dx``."""
         import casadi as ca

@@ -67,7 +67,7 @@ def find_target(scene: Scene, problem: ControlProblem) -> Target:
         If there is no such position, or the motors cannot hold it.
     """
     target = rest_with(scene, problem.reference, "control.reference")
-    _require_within(scene, problem, target, "control.reference")
+    require_within(scene, problem, target, "control.reference")
     return target
 
 
@@ -85,7 +85,7 @@ def find_start(scene: Scene, problem: ControlProblem) -> Start:
         angles, rates = (np.concatenate([none, values]) for values in (initial.angles, initial.rates))
         return Start(angles, rates, np.zeros(motors.count))
     target = rest_with(scene, motors.hub @ np.array(initial.angles), "initial.angles")
-    _require_within(scene, problem, target, "initial.angles")
+    require_within(scene, problem, target, "initial.angles")
     return Start(target.angles, np.zeros(len(target.angles)), target.goal.torque)
 
 
@@ -132,8 +132,14 @@ def rest_with(scene: Scene, reference: Array, key: str) -> Target:
     )
 
 
-def _require_within(scene: Scene, problem: ControlProblem, target: Target, key: str) -> None:
-    """Refuse torques that the motors cannot give."""
+def require_within(scene: Scene, problem: ControlProblem, target: Target, key: str) -> None:
+    """Refuse torques that the motors cannot give.
+
+    Raises
+    ------
+    UserError
+        Naming the motor and ``key``, where the scene has the angles.
+    """
     motors = problem.motors
     low, high = problem.torque
     for k, (name, torque) in enumerate(zip(motors.names, target.goal.torque, strict=True)):

@@ -64,6 +64,34 @@ class Goal:
     torque: Array
 
 
+@dataclass(frozen=True, eq=False)
+class Wanted:
+    """What the cost compares the horizon with, (m, N) each, or (m, 1) where it is the same throughout.
+
+    Parameters
+    ----------
+    tip, hub, tip_rate, hub_rate : array
+        After samples 1 to N: rad, rad/s.
+    torque : array
+        In samples 0 to N - 1, N m.
+    end : array, (r,)
+        ``G s_N`` of what is wanted at the end, off what it is reckoned from.
+    """
+
+    tip: Array
+    hub: Array
+    tip_rate: Array
+    hub_rate: Array
+    torque: Array
+    end: Array
+
+    @classmethod
+    def still(cls, goal: Goal) -> Wanted:
+        """Return that the arm rests at a goal, from which its end is reckoned."""
+        none = np.zeros((len(goal.hub), 1))
+        return cls(goal.tip[:, None], goal.hub[:, None], none, none, goal.torque[:, None], np.zeros(1))
+
+
 @dataclass(frozen=True)
 class Kind:
     """N rows of the quadratic program, one per sample.

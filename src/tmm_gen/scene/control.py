@@ -8,6 +8,7 @@ from pydantic import Field, PlainValidator
 
 from tmm_gen.scene.each import Each, OneOrEach
 from tmm_gen.scene.table import Count, Finite, NonNegative, Positive, Table, fault, is_finite_number
+from tmm_gen.scene.trajectory import Keep, Trajectory
 
 
 def _range(value: object) -> tuple[float, float]:
@@ -231,6 +232,10 @@ class Control(Table):
         reckon with some of it.
     weights, bounds, sensors, estimator, baselines
         Tables of their own.
+    trajectory : Trajectory, optional
+        What to follow on the way, of an arm by parts; models stay linear about ``reference``.
+    keep : tuple of Keep
+        Half-planes that parts are to stay in, of an arm by parts.
     """
 
     reference: EachFinite = Field(description="angle to reach in rad", examples=["1.0"])
@@ -247,3 +252,5 @@ class Control(Table):
     sensors: Sensors = Field(default_factory=Sensors, description="what is measured")
     estimator: Estimator = Field(default_factory=Estimator, description="what a Kalman filter assumes")
     baselines: Baselines = Field(default_factory=Baselines, description="what it is compared with")
+    trajectory: Trajectory | None = Field(default=None, description="what to follow")
+    keep: tuple[Keep, ...] = Field(default=(), description="half-planes that parts stay in")

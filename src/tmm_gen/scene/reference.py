@@ -108,7 +108,13 @@ def _integrator_keys(header: str) -> Iterator[Key]:
 
 
 def _repeated(path: str) -> bool:
-    field = Document.model_fields.get(path)
+    table: type[Table] = Document
+    *outer, last = path.split(".")
+    for name in outer:
+        inner = _table_in(table.model_fields[name].annotation)
+        assert inner is not None
+        table = inner
+    field = table.model_fields.get(last)
     return field is not None and field.default == ()
 
 

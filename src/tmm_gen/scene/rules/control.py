@@ -53,6 +53,10 @@ def told_by_name(control: Control) -> Iterator[tuple[Path, Mapping[str, object]]
                 yield from walk(value, (*path, name))
             elif isinstance(value, Mapping):
                 yield (*path, name), value
+            elif isinstance(value, tuple):
+                for index, entry in enumerate(value):
+                    if isinstance(entry, Table):
+                        yield from walk(entry, (*path, name, index))
 
     yield from walk(control, ("control",))
 

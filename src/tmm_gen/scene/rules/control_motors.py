@@ -8,6 +8,7 @@ from tmm_gen.scene.control import Control
 from tmm_gen.scene.parts.document import PartsDocument
 from tmm_gen.scene.problem import Finding
 from tmm_gen.scene.rules.control import told_by_name, within_reach
+from tmm_gen.scene.rules.control_trajectory import can_be_followed
 from tmm_gen.scene.table import closest
 
 
@@ -67,6 +68,7 @@ def motors_told(control: Control, motors: tuple[str, ...]) -> Iterator[Finding]:
             )
     if not broken:
         yield from within_reach(control, motors)
+        yield from can_be_followed(document, control, motors)
 
 
 def driven(document: PartsDocument) -> tuple[str, ...]:

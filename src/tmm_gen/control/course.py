@@ -1,0 +1,127 @@
+"""The course a scene's ``[control.trajectory]`` describes: joint angles, sample by sample."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.control.problem import ControlProblem
+from tmm_gen.control.reach import rest_with_frame
+from tmm_gen.control.target import Target, require_within, rest_with
+from tmm_gen.errors import UserError
+from tmm_gen.inputs.curve import through
+from tmm_gen.inputs.given import read_tables
+from tmm_gen.inputs.signals import Table
+from tmm_gen.scene import Scene
+from tmm_gen.scene.each import by_names
+from tmm_gen.scene.trajectory import Trajectory
+
+Array = NDArray[np.float64]
+
+_STOP = 5
+"""Samples the reference stands still at least, to be a stop."""
+
+
+@dataclass(frozen=True, eq=False)
+class Course:
+    """Where the joints are to be.
+
+    Parameters
+    ----------
+    angles : array, (k, m)
+        At each sample from time zero, rad; after the last it stays.
+    """
+
+    angles: Array
+
+    def ahead(self, sample: int, count: int) -> Array:
+        """Return the angles of so many samples after one, (count, m)."""
+        return self.at(sample + 1 + np.arange(count))
+
+    def at(self, samples: NDArray[np.int64]) -> Array:
+        """Return the angles at samples, (len(samples), m)."""
+        return self.angles[np.minimum(samples, len(self.angles) - 1)]
+
+    def stops(self, samples: int) -> list[tuple[int, int]]:
+        """Return from when until when the reference stands still, in samples, behind a motion and within a run."""
+        moves = np.any(np.diff(self.at(np.arange(samples)), axis=0) != 0.0, axis=1)
+        edges = np.flatnonzero(np.diff(np.concatenate([[True], moves, [True]]).astype(int)))
+        spans = [(int(first), int(last)) for first, last in zip(edges[::2], edges[1::2], strict=True)]
+        return [(first, last) for first, last in spans if first > 0 and last - first >= _STOP]
+
+
+def course_of(scene: Scene, problem: ControlProblem) -> Course | None:
+    """Return the course that a scene describes; None where it has a reference alone.
+
+    Raises
+    ------
+    UserError
+        If a position is out of reach, the motors cannot hold the arm somewhere, or a file cannot be read.
+    """
+    way = scene.control.trajectory if scene.control is not None else None
+    if way is None:
+        return None
+    if way.file is not None:
+        return _from_file(scene, problem, way, Path(scene.source.origin).parent / way.file)
+    return Course(np.vstack(list(_quintics(scene, problem, way))))
+
+
+def _quintics(scene: Scene, problem: ControlProblem, way: Trajectory) -> Iterator[Array]:
+    """Yield the angles at all samples, stretch by stretch: from pose to pose, and the rests there."""
+    begin, now, sample = problem.start, 0.0, 0
+    for number, pose in enumerate(way.pose, 1):
+        key = f"control.trajectory.pose[{number}]"
+        if pose.angles is not None:
+            target = rest_with(scene, np.array(by_names(pose.angles, problem.motors.names)), key)
+            require_within(scene, problem, target, key)
+        else:
+            assert pose.frame is not None and pose.position is not None
+            target = _reached(scene, problem, pose.frame, np.array(pose.position), begin, f"{key}.position")
+        end = now + pose.duration + pose.dwell
+        count = int(np.ceil(end / problem.sample_time - 1e-9)) - sample
+        last = number == len(way.pose)
+        instants = problem.sample_time * (sample + np.arange(count + last))
+        t = np.clip((instants - now) / pose.duration, 0.0, 1.0)[:, None]
+        yield begin + (target.goal.hub - begin) * t**3 * (10.0 - 15.0 * t + 6.0 * t**2)
+        begin, now, sample = target.goal.hub, end, sample + count
+
+
+def _from_file(scene: Scene, problem: ControlProblem, way: Trajectory, path: Path) -> Course:
+    """Return the course that a CSV file tells, by joint angles or by positions of a part."""
+    names = problem.motors.names if way.frame is None else (f"{way.frame}_x", f"{way.frame}_y")
+    tables = [table for table in read_tables(path, names).values() if isinstance(table, Table)]
+    last = float(tables[0].times[-1])
+    instants = problem.sample_time * np.arange(int(np.ceil(last / problem.sample_time - 1e-9)) + 1)
+    told = np.column_stack([through(table).at(np.minimum(instants, last)) for table in tables])
+    if way.frame is None:
+        for row in (told[0], told[-1]):
+            require_within(scene, problem, rest_with(scene, row, path.name), path.name)
+        return Course(told)
+    angles, before = np.zeros((len(told), problem.count)), problem.start
+    for row, position, now in zip(angles, told, instants, strict=True):
+        key = f"{path.name}, t = {now:g} s"
+        before = row[:] = _reached(scene, problem, way.frame, position, before, key).goal.hub
+    return Course(angles)
+
+
+def _reached(
+    scene: Scene, problem: ControlProblem, frame: str, position: Array, before: Array, key: str
+) -> Target:
+    """Return the rest with a part somewhere, bent as before or else as at the scene's reference."""
+    starts = [before, problem.reference]
+    # a stretched arm could bend either way: as at the reference
+    if np.max(np.abs(before - problem.start)) == 0.0:
+        starts.reverse()
+    target = rest_with_frame(scene, frame, position, starts, key)
+    require_within(scene, problem, target, key)
+    for name, angle, bounds in zip(problem.motors.names, target.goal.hub, problem.hub, strict=True):
+        if bounds is not None and not bounds[0] <= angle <= bounds[1]:
+            raise UserError(
+                f"{scene.source.origin}: {key}: the joint of motor '{name}' would be at {angle:.4g} rad, beyond "
+                f"control.bounds.hub, [{bounds[0]:g}, {bounds[1]:g}]. Widen the bounds, or take another position."
+            )
+    return target

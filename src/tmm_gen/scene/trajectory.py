@@ -1,0 +1,106 @@
+"""``[control.trajectory]`` and ``[[control.keep]]``: what an arm by parts is to follow, and where its parts are to stay."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import Field, PlainValidator
+
+from tmm_gen.scene.each import Each, OneOrEach
+from tmm_gen.scene.table import Finite, NonNegative, Positive, Table, fault, is_finite_number
+
+
+def _pair(value: object) -> tuple[float, float]:
+    """Return ``[x, y]`` as a pair."""
+    numbers = value if isinstance(value, list | tuple) else ()
+    if len(numbers) == 2 and all(is_finite_number(number) for number in numbers):
+        return float(numbers[0]), float(numbers[1])
+    raise fault("must be two numbers, x and y", "Write for example `[0.5, -0.2]`.")
+
+
+def _direction(value: object) -> tuple[float, float]:
+    """Return a direction of any length but none."""
+    pair = _pair(value)
+    if pair == (0.0, 0.0):
+        raise fault("has no direction", "Write for example `[0.0, 1.0]`: upward.")
+    return pair
+
+
+Pair = Annotated[tuple[float, float], PlainValidator(_pair)]
+Direction = Annotated[tuple[float, float], PlainValidator(_direction)]
+EachAngle = Annotated[Each[float], PlainValidator(OneOrEach(Finite))]
+
+
+class PoseEntry(Table):
+    """``[[control.trajectory.pose]]``: where to go next, by joint angles or by where a part is to be.
+
+    Parameters
+    ----------
+    angles : float, or dict from str to float, optional
+        Of the motors' joints, rad.
+    frame : str, optional
+        Name of a part, whose outer end, at rest, is to be at ``position``.
+    position : (x, y), optional
+        m.
+    duration : float
+        Of the way there, a quintic, s.
+    dwell : float
+        Of the rest there, s.
+    """
+
+    angles: EachAngle | None = Field(
+        default=None, description="joint angles in rad", examples=["{ shoulder = 0.8, elbow = -1.2 }"]
+    )
+    frame: str | None = Field(default=None, description="part to be somewhere", examples=['"payload"'])
+    position: Pair | None = Field(
+        default=None, description="where its outer end is to be in m", examples=["[0.5, -0.2]"]
+    )
+    duration: Positive = Field(description="of the way there in s", examples=["0.8"])
+    dwell: NonNegative = Field(default=0.0, description="of the rest there in s", examples=["0.4"])
+
+
+class Trajectory(Table):
+    """``[control.trajectory]``: what to follow, by poses one after the other or by a file; at its end it stays.
+
+    Parameters
+    ----------
+    file : str, optional
+        CSV with a column ``time`` (s) and one by the name of each motor (rad), or those of ``frame``; relative to the
+        scene's folder. Cubic in between.
+    frame : str, optional
+        Name of a part: the file then has columns ``<frame>_x`` and ``<frame>_y``, m.
+    pose : tuple of PoseEntry
+        From where the scene starts.
+    """
+
+    file: str | None = Field(default=None, description="CSV file of the way", examples=['"way.csv"'])
+    frame: str | None = Field(
+        default=None, description="part whose positions the file has", examples=['"payload"']
+    )
+    pose: tuple[PoseEntry, ...] = Field(default=(), description="poses")
+
+
+class Keep(Table):
+    """``[[control.keep]]``: a half-plane that a part's outer end is to stay in, ``normal . position >= offset + margin``.
+
+    Parameters
+    ----------
+    frame : str
+        Name of the part.
+    normal : (x, y)
+        Away from wall or floor, of any length.
+    offset : float
+        How far the wall is from the base along the normal, m.
+    margin : float
+        To stay away from it, m.
+    weight : float
+        Of the square of what it comes nearer by, per sample, 1/m^2: the bound is soft.
+    """
+
+    frame: str = Field(description="part that is to keep away", examples=['"payload"'])
+    normal: Direction = Field(description="direction away from the wall", examples=["[0.0, 1.0]"])
+    offset: Finite = Field(description="of the wall along the normal in m", examples=["-0.3"])
+    margin: NonNegative = Field(default=0.0, description="to stay away from it in m", examples=["0.01"])
+    weight: Positive = Field(
+        default=1e4, description="weight of coming nearer in 1/m^2", examples=["1e4"]
+    )
