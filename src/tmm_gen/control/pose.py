@@ -54,13 +54,15 @@ def pose_in(model: StepModel, motion: Array, near: Pose) -> Pose | None:
     """
     motors = model.motors
     size, count = len(motors.lengths), motors.count
-    places = {name: model.places(name) for name in ("angle", "rate", "acceleration")}
+    places = {name: model.places(name) for name in ("angle", "rate")}
     step = model.problem.step
     rate, growth = (motors.turned @ each for each in motion[1:])
     angles = near.state[places["angle"]]
     angles = angles + motors.turned @ (motion[0] - motors.hub @ angles)
     state, torque = np.zeros(model.size), near.torque
-    state[places["rate"]], state[places["acceleration"]] = rate, growth
+    state[places["rate"]] = rate
+    if model.accelerations:
+        state[model.places("acceleration")] = growth
     slope = np.zeros((size + count, size + count))
     slope[size:, :size] = motors.hub
     for _ in range(TURNS):

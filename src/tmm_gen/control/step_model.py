@@ -80,6 +80,11 @@ class StepModel:
         wanted = [*hub, *(f"{quantity}_{i + 1}" for i in range(self.scene.stations))]
         return [self.names.index(name) for name in wanted]
 
+    @property
+    def accelerations(self) -> bool:
+        """Whether the state has them."""
+        return "acceleration_1" in self.names
+
     @cached_property
     def motors(self) -> Motors:
         """What turns the arm."""

@@ -107,6 +107,11 @@ class EmittedController:
         values = (self._number * self.motors)(*map(float, reference))
         return STATUSES[int(getattr(self._library, f"{self.name}_aim")(self._aligned(), values))]
 
+    def follow(self, angles: Array) -> Status:
+        """Take a reference that moves, (N, m), rad; of a controller that can."""
+        values = (self._number * angles.size)(*map(float, angles.ravel()))
+        return STATUSES[int(getattr(self._library, f"{self.name}_follow")(self._aligned(), values))]
+
     def prepare(self) -> None:
         """Do what needs no measurement; see :class:`~tmm_gen.control.command.Controller`."""
         getattr(self._library, f"{self.name}_prepare")(self._aligned())

@@ -77,6 +77,8 @@ class RtiData:
         What these make of the gradient, at the target.
     kinds : tuple of Kind
         What the rows of the program bound.
+    accelerations : bool
+        Whether the state has them.
     """
 
     size: int
@@ -108,6 +110,7 @@ class RtiData:
     end: Array
     end_gradient: Array
     kinds: tuple[Kind, ...]
+    accelerations: bool
 
 
 def rti_data(controller: RealTimeIteration) -> RtiData:
@@ -157,6 +160,7 @@ def rti_data(controller: RealTimeIteration) -> RtiData:
         end=controller.end,
         end_gradient=slopes.end.T @ controller.end,
         kinds=controller.prepared.kinds,
+        accelerations=model.accelerations,
     )
 
 

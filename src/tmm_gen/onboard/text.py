@@ -87,6 +87,11 @@ class ControllerText:
         return self.numbers(self.data.credible.surprise[i] for i in self.data.sensors)
 
     @property
+    def moves(self) -> bool:
+        """Whether the reference may be another one at run time."""
+        return False
+
+    @property
     def rolls_out(self) -> bool:
         """Whether a motion along the last plan is prepared."""
         return False

@@ -12,6 +12,7 @@ from tmm_gen.closed_loop.plant import Plant
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.command import Status
 from tmm_gen.control.condition import CONDITIONS, Condition
+from tmm_gen.control.course import Course
 from tmm_gen.control.extended_kalman import NonlinearFilter
 from tmm_gen.control.kalman import present_sensors
 from tmm_gen.control.rti import RealTimeIteration
@@ -106,6 +107,34 @@ def test_a_reference_that_moves_is_that_of_python(late: Bench) -> None:
         for reference, status in (([np.nan, 0.0], Status.NOT_FINITE), ([0.0, 0.0], Status.INFEASIBLE)):
             assert emitted.aim(np.array(reference)) is python.aim(np.array(reference)) is status
     assert python.goal.hub == pytest.approx(wanted)
+
+
+def test_a_reference_that_is_followed_is_that_of_python(late: Bench) -> None:
+    """Between two poses, told sample by sample, or left to itself for some; what cannot be reached leaves it as it was."""
+    name, files = emit_controller(late, "rti")
+    emitted = compiled(late, name, files)
+    python = RealTimeIteration(late.step, late.links, late.inertia)
+    python.estimator = NonlinearFilter(late.step, late.links)
+    python.reset()
+    plant, horizon = Plant(late.scene, late.problem, CONDITIONS[0]), late.problem.horizon
+    t = np.clip((np.arange(40) - 3.0) / 14.0, 0.0, 1.0)[:, None]
+    share = t**3 * (10.0 - 15.0 * t + 6.0 * t**2)
+    course = Course(late.problem.start + share * (np.array([0.6, -0.5]) - late.problem.start))
+    off, wrong = [], np.full((horizon, 2), np.nan)
+    for k in range(28):
+        ahead = course.ahead(k, horizon)
+        if k not in (8, 9, 10):
+            assert emitted.follow(ahead) is python.follow(ahead) is Status.OK
+        for reference, status in ((wrong, Status.NOT_FINITE), (np.zeros_like(wrong), Status.INFEASIBLE)):
+            assert emitted.follow(reference) is python.follow(reference) is status
+        seen = plant.measured()
+        expected, found = python.command(seen), emitted.command(seen)
+        np.testing.assert_allclose(found.torque, expected.torque, rtol=0.0, atol=2e-5)
+        assert found.status is expected.status
+        off.append(plant.angles()[2:] - course.angles[k])
+        plant.advance(found.torque)
+    assert np.max(np.abs(off)) < 0.05
+    assert np.max(np.abs(off[-4:])) < 0.02
 
 
 def test_encoders_that_come_and_go_are_those_of_python(two: Bench) -> None:
