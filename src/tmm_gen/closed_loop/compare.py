@@ -10,7 +10,7 @@ import numpy as np
 from tmm_gen.closed_loop.figures import Figures, loop_figures
 from tmm_gen.closed_loop.loop import Loop, run_loop
 from tmm_gen.closed_loop.space_plant import plant_of
-from tmm_gen.closed_loop.tracking import Tracking, tracking_figures
+from tmm_gen.closed_loop.tracking import Tracking, nearest_to_walls, tracking_figures
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.command import Controller
 from tmm_gen.control.condition import Condition
@@ -41,6 +41,8 @@ class Trial:
         Whether the controller was compiled C.
     tracking : Tracking, optional
         How well it followed, where there was something to follow.
+    nearest : float, optional
+        How near a part came to its wall, m, negative beyond it; where there are walls.
     """
 
     kind: ControllerKind
@@ -49,6 +51,7 @@ class Trial:
     figures: Figures
     compiled: bool = False
     tracking: Tracking | None = None
+    nearest: float | None = None
 
     def row(self) -> dict[str, object]:
         """Return what a table shows: times in s, angles in mrad, microseconds; None where it never settles.
@@ -72,6 +75,7 @@ class Trial:
             "controller": self.kind.name,
             "condition": self.condition.name,
             **reached,
+            **({} if self.nearest is None else {"to_wall_mm": 1e3 * self.nearest}),
             "solve_us_median": 1e6 * float(np.median(loop.seconds)),
             "solve_us_max": 1e6 * float(np.max(loop.seconds)),
             "iterations_max": int(np.max(loop.iterations)),
@@ -121,7 +125,9 @@ def compare(
             loop = run_loop(controller, plant, duration, course=bench.course)
             figures = loop_figures(loop)
             tracking = None if bench.course is None else tracking_figures(loop, plant, bench)
-            yield Trial(kind, condition, loop, figures, compiled and kind.name in EMITTED, tracking)
+            nearest = nearest_to_walls(loop, plant, bench.problem.keeps)
+            in_c = compiled and kind.name in EMITTED
+            yield Trial(kind, condition, loop, figures, in_c, tracking, nearest)
 
 
 def worst(
@@ -170,9 +176,9 @@ def made(kind: ControllerKind, bench: Bench, compiled: bool) -> Controller:
     Raises
     ------
     UserError
-        If the scene has a trajectory, and it follows none.
+        If the scene has a trajectory and it follows none, or walls and it keeps none.
     """
-    kind.require_follows(bench)
+    kind.require_able(bench)
     if not compiled or kind.name not in EMITTED:
         return kind.make(bench)
     name, files = emit_controller(bench, kind.name)

@@ -1,7 +1,8 @@
-"""By what closed loops along a trajectory are judged: how far the end of the arm is off, how it trembles at the stops."""
+"""By what closed loops along a trajectory are judged: how far the arm's end is off, how it trembles at the stops."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,6 +14,8 @@ from tmm_gen.control.bench import Bench
 from tmm_gen.control.prediction import fine_scene
 from tmm_gen.control.reach import Frame
 from tmm_gen.control.target import rest_with
+from tmm_gen.control.walls import Wall
+from tmm_gen.scene.trajectory import Keep
 
 Array = NDArray[np.float64]
 
@@ -26,8 +29,8 @@ class Tracking:
     rms, largest : float
         Distance from where it would rest with its joints as they are to be, m.
     vibration : float or None
-        Over the second half of each stop, and of what is left at the end: the diagonal of the smallest box it stays in, the
-        largest of them, m; None where the reference never stops.
+        Over the second half of each stop, and of what is left at the end: the diagonal of the smallest box it stays
+        in, the largest of them, m; None where the reference never stops.
     """
 
     rms: float
@@ -62,6 +65,13 @@ def end_places(plant: Plant, loop: Loop, name: str | None = None) -> Array:
     """Return where a part's outer end was at each sample, (samples, 2), m; by default that of the last part."""
     frame = Frame.of(plant.scene, name or plant.scene.parts[-1].name)
     return frame.place(np.array([state["angle"] for state in loop.states]))
+
+
+def nearest_to_walls(loop: Loop, plant: Plant, keeps: Sequence[Keep]) -> float | None:
+    """Return how near a part came to the wall it is to keep away from, m, negative beyond; None where there is none."""
+    angles = np.array([state["angle"] for state in loop.states])
+    walls = [Wall.of(plant.scene, keep) for keep in keeps]
+    return min((float(np.min(wall.along(angles))) - wall.offset for wall in walls), default=None)
 
 
 def wanted_places(bench: Bench, samples: int) -> Array:

@@ -5,7 +5,7 @@ What it says is stated in :mod:`tmm_gen.control.problem`; here are its arrays.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -31,6 +31,8 @@ class Outputs:
         After samples 1 to N: rad and rad/s; or their derivatives by the inputs, motor by motor.
     end : array, (r,) or (r, m N)
         ``G s_N``, what is left at the end: half its square is the cost to go; or its derivatives.
+    keep : array, (w, N) or (w, N, m N)
+        How far parts are along the normals of w walls, m; or their derivatives.
     """
 
     tip: Array
@@ -38,6 +40,7 @@ class Outputs:
     hub: Array
     hub_rate: Array
     end: Array
+    keep: Array = field(default_factory=lambda: np.zeros((0, 0)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -206,7 +209,8 @@ class Condensed:
                 continue
             value = getattr(along, kind.what)[kind.motor]
             way = float(value[1] - value[0]) if count > 1 else 0.0
-            ahead = value[0] + np.copysign(stopping[kind.motor] * way**2, way)
+            braked = 0.0 if kind.what == "keep" else float(stopping[kind.motor])
+            ahead = value[0] + np.copysign(braked * way**2, way)
             near = kind.what not in without
             near &= min(value[0], ahead) >= kind.low - BEYOND and max(value[0], ahead) <= kind.high + BEYOND
             if np.isfinite(kind.high):

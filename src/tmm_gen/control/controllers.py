@@ -48,6 +48,8 @@ class ControllerKind:
         Whether it is compared by default where motors are parts by name.
     follows : bool
         Whether it can follow a trajectory.
+    keeps : bool or None
+        Whether it keeps walls; None of a baseline, which knows of no bounds and is compared as it is.
     """
 
     name: str
@@ -57,21 +59,28 @@ class ControllerKind:
     quadratic: bool = False
     arms_by_parts: bool = False
     follows: bool = True
+    keeps: bool | None = None
 
     def compared(self, bench: Bench) -> bool:
         """Return whether it is compared on an arm unless others are chosen."""
-        if bench.follows and not self.follows:
+        if (bench.follows and not self.follows) or (bench.problem.keeps and self.keeps is False):
             return False
         return self.default or (self.arms_by_parts and not bench.problem.motors.on_hub)
 
-    def require_follows(self, bench: Bench) -> None:
-        """Refuse a trajectory that it cannot follow.
+    def require_able(self, bench: Bench) -> None:
+        """Refuse a trajectory that it cannot follow, and walls that it cannot keep.
 
         Raises
         ------
         UserError
-            If the scene has one and it cannot.
+            If the scene has such and it cannot.
         """
+        if bench.problem.keeps and self.keeps is False:
+            others = ", ".join(kind.name for kind in CONTROLLERS if kind.keeps)
+            raise UserError(
+                f"{bench.scene.source.origin}: the controller '{self.name}' keeps no control.keep; take {others}, or "
+                "remove the table."
+            )
         if bench.follows and not self.follows:
             others = ", ".join(kind.name for kind in CONTROLLERS if kind.follows)
             raise UserError(
@@ -149,10 +158,18 @@ CONTROLLERS: tuple[ControllerKind, ...] = (
         "lqr", "LQR, modes", lambda b: Regulator(b.modes, b.problem, _baselines(b).lqr, b.inertia)
     ),
     ControllerKind(
-        "mpc-links", "linear MPC, links", lambda b: LinearMpc(b.links, b.problem, b.inertia), quadratic=True
+        "mpc-links",
+        "linear MPC, links",
+        lambda b: LinearMpc(b.links, b.problem, b.inertia),
+        quadratic=True,
+        keeps=False,
     ),
     ControllerKind(
-        "mpc-modes", "linear MPC, modes", lambda b: LinearMpc(b.modes, b.problem, b.inertia), quadratic=True
+        "mpc-modes",
+        "linear MPC, modes",
+        lambda b: LinearMpc(b.modes, b.problem, b.inertia),
+        quadratic=True,
+        keeps=False,
     ),
     ControllerKind(
         "rti-zero",
@@ -160,11 +177,16 @@ CONTROLLERS: tuple[ControllerKind, ...] = (
         lambda b: RealTimeIteration(b.step, b.links, b.inertia, True),
         quadratic=True,
         follows=False,
+        keeps=False,
     ),
     ControllerKind(
-        "rti", "RTI, full", lambda b: RealTimeIteration(b.step, b.links, b.inertia), quadratic=True
+        "rti",
+        "RTI, full",
+        lambda b: RealTimeIteration(b.step, b.links, b.inertia),
+        quadratic=True,
+        keeps=True,
     ),
-    ControllerKind("nmpc", "NMPC to convergence", _nmpc, default=False, follows=False),
+    ControllerKind("nmpc", "NMPC to convergence", _nmpc, default=False, follows=False, keeps=False),
 )
 
 BY_NAME = {kind.name: kind for kind in CONTROLLERS}

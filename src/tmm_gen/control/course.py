@@ -66,7 +66,8 @@ def course_of(scene: Scene, problem: ControlProblem) -> Course | None:
     if way is None:
         return None
     if way.file is not None:
-        return _from_file(scene, problem, way, Path(scene.source.origin).parent / way.file)
+        folder = Path(scene.source.origin.partition(" (with ")[0]).parent  # of a scene that was changed too
+        return _from_file(scene, problem, way, folder / way.file)
     return Course(np.vstack(list(_quintics(scene, problem, way))))
 
 
@@ -79,13 +80,15 @@ def _quintics(scene: Scene, problem: ControlProblem, way: Trajectory) -> Iterato
             target = rest_with(scene, np.array(by_names(pose.angles, problem.motors.names)), key)
             require_within(scene, problem, target, key)
         else:
-            assert pose.frame is not None and pose.position is not None
+            assert pose.frame is not None
+            assert pose.position is not None
             target = _reached(scene, problem, pose.frame, np.array(pose.position), begin, f"{key}.position")
         end = now + pose.duration + pose.dwell
         count = int(np.ceil(end / problem.sample_time - 1e-9)) - sample
         last = number == len(way.pose)
         instants = problem.sample_time * (sample + np.arange(count + last))
-        t = np.clip((instants - now) / pose.duration, 0.0, 1.0)[:, None]
+        # rounded, since it stands still exactly where it stands still
+        t = np.clip(np.round((instants - now) / pose.duration, 12), 0.0, 1.0)[:, None]
         yield begin + (target.goal.hub - begin) * t**3 * (10.0 - 15.0 * t + 6.0 * t**2)
         begin, now, sample = target.goal.hub, end, sample + count
 

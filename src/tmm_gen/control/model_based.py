@@ -108,7 +108,9 @@ class ModelBased(ABC):
             If the arm stands on a hub.
         """
         if self.problem.motors.on_hub:
-            raise UserError("only arms whose motors are parts by name follow a reference: write the arm by parts")
+            raise UserError(
+                "only arms whose motors are parts by name follow a reference: write the arm by parts"
+            )
         if not np.all(np.isfinite(angles)):
             return Status.NOT_FINITE
         self._window, self._passed = Window.of(np.asarray(angles, float), self.problem.sample_time), 0

@@ -36,9 +36,9 @@ class Pose:
 def pose_in(model: StepModel, motion: Array, near: Pose) -> Pose | None:
     """Return the pose whose hubs have a motion, and whose links gain the rates that they would if nothing bent.
 
-    Newton's method on the tangents of the kernel's step, as the emitted C has it: all links turn as the hubs' rates have
-    it, and after a step with the torques they have gained what the hubs' accelerations make; how beams sag, and which
-    torques that takes, are the unknowns.
+    Newton's method on the tangents of the kernel's step, as the emitted C has it: all links turn as the hubs' rates
+    have it, and after a step with the torques they have gained what the hubs' accelerations make; how beams sag, and
+    which torques that takes, are the unknowns.
 
     Parameters
     ----------
@@ -70,9 +70,7 @@ def pose_in(model: StepModel, motion: Array, near: Pose) -> Pose | None:
         after, by_state, by_torque = model.step_slopes(state, torque)
         slope[:size, :size] = by_state[np.ix_(places["rate"], places["angle"])]
         slope[:size, size:] = by_torque[places["rate"]]
-        left = np.concatenate(
-            [rate + step * growth - after[places["rate"]], motion[0] - motors.hub @ angles]
-        )
+        left = np.concatenate([rate + step * growth - after[places["rate"]], motion[0] - motors.hub @ angles])
         try:
             change = np.linalg.solve(slope, left)
         except np.linalg.LinAlgError:

@@ -24,7 +24,8 @@ The state is first predicted over ``whole`` samples with torques already chosen;
 **Target.** ``(x_s, u_s)``: the arm at rest with ``tip = reference`` on a hub, ``hub = reference`` where motors are
 parts by name; ``hub_s`` and ``tip_s`` are its angles. Without gravity ``u_s = 0`` and all of them are the reference. An
 arm on a hub starts as its scene says; one whose motors are parts by name at rest, held by them at the joint angles its
-scene says.
+scene says. Where a trajectory is followed, each sample has a target of its own (:mod:`tmm_gen.control.pose`), rates
+included, and no tip is bounded.
 
 **Problem.** Over ``u = (u[0], ..., u[N-1])`` and one slack per stage and soft bound, all terms and rows once for each
 motor, with its own numbers,
@@ -37,6 +38,7 @@ motor, with its own numbers,
                 -rate T <= u_i - u_{i-1} <= rate T            (if there is a torque_rate)   i = 0..N-1
                 tip_low - s_i <= tip_i <= tip_high + s_i      (if there is an overshoot)    i = 1..N
                 hub_low - r_i <= hub_i <= hub_high + r_i      (if there are hub bounds)     i = 1..N
+                n . p(x_i) >= offset + margin - w_i           (for each wall)               i = 1..N
 
 A soft bound gives way, at all i, where the arm is more than 0.1 rad beyond it at i = 1, or will be even if it brakes
 (:meth:`tmm_gen.control.condensed.Condensed.bounds`): it would be passed at nearly every sample, whatever the torques.
@@ -55,9 +57,9 @@ by ``tip_s + overshoot (reference - start)``, where ``start`` is what the refere
 - *Zero-order real-time iteration*: the same rollout, but ``S`` is that of the linear MPC, prepared once.
 
 Decision variables are ``z = (u - u^, s, r)``; slacks of absent bounds are absent. The Hessian is the Gauss-Newton
-one. Rows in order: bounds of the torques (N), then rates of change (N), tip (N), hub (N), those present. What there is
-of each motor stands motor by motor, so that N after N belong together: ``u`` is all torques of the first, then all of
-the next.
+one. Rows in order: bounds of the torques (N), then rates of change (N), tip (N), hub (N), those present, and walls (N
+each), linear about ``u^``, with slacks of their own. What there is of each motor stands motor by motor, so that N after
+N belong together: ``u`` is all torques of the first, then all of the next.
 
 **Safe law.** If the QP is not solved, it is once more without its soft bounds. If that fails too, the controller
 applies :func:`tmm_gen.control.safe.safe_torque` and says so. Every torque that leaves a controller is within its
@@ -80,6 +82,7 @@ from tmm_gen.resources import scenes_dir
 from tmm_gen.scene import Scene
 from tmm_gen.scene.control import Control, Sensors
 from tmm_gen.scene.each import by_names
+from tmm_gen.scene.trajectory import Keep
 
 Array = NDArray[np.float64]
 
@@ -120,6 +123,8 @@ class ControlProblem:
         What is measured.
     estimator : Assumed
         What the Kalman filter assumes.
+    keeps : tuple of Keep
+        Half-planes that parts are to stay in.
     """
 
     horizon: int
@@ -137,6 +142,7 @@ class ControlProblem:
     weights: MotorWeights
     sensors: Sensors
     estimator: Assumed
+    keeps: tuple[Keep, ...] = ()
 
     @property
     def step(self) -> float:
@@ -172,6 +178,8 @@ class ControlProblem:
         for motor, bounds in enumerate(self.hub):
             if bounds is not None:
                 found.append(Kind("hub", motor, *bounds, float(self.weights.hub_bound[motor])))
+        for number, keep in enumerate(self.keeps):
+            found.append(Kind("keep", number, keep.offset + keep.margin, math.inf, keep.weight))
         return tuple(found)
 
     def allowed(self, torque: Array, last: Array) -> Array:
@@ -248,6 +256,7 @@ def control_problem(scene: Scene) -> ControlProblem:
             accelerometer=assumed.accelerometer,
             strain=assumed.strain,
         ),
+        keeps=control.keep,
     )
 
 

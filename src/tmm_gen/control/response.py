@@ -82,9 +82,20 @@ def response(model: LinearModel, horizon: int, end: Array) -> Response:
     )
 
 
-def split_outputs(stacked: Array, shape: tuple[int, ...]) -> Outputs:
-    """Return outputs that are stacked: of each of the four N for each motor, then those of the end; shape is (m, N)."""
+def split_outputs(stacked: Array, shape: tuple[int, ...], walls: int = 0) -> Outputs:
+    """Return outputs that are stacked: of each of the four N for each motor, those of the end, then N for each wall.
+
+    Parameters
+    ----------
+    stacked : array, (4 m N + r + w N, ...)
+        Numbers or derivatives.
+    shape : (int, int)
+        m and N.
+    walls : int
+        w.
+    """
     number = shape[0] * shape[1]
-    *outputs, end = np.split(stacked, number * np.arange(1, 5))
+    *outputs, behind = np.split(stacked, number * np.arange(1, 5))
+    end, keep = np.split(behind, [len(behind) - walls * shape[1]])
     tip, tip_rate, hub, hub_rate = (each.reshape(*shape, *stacked.shape[1:]) for each in outputs)
-    return Outputs(tip, tip_rate, hub, hub_rate, end)
+    return Outputs(tip, tip_rate, hub, hub_rate, end, keep.reshape(walls, shape[1], *stacked.shape[1:]))

@@ -7,7 +7,7 @@ optimal feedback control of systems governed by large differential algebraic equ
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -18,16 +18,12 @@ from tmm_gen.control.condensed import Condensed
 from tmm_gen.control.delay import Pair
 from tmm_gen.control.extended_kalman import ExtendedKalmanFilter, NonlinearFilter
 from tmm_gen.control.linear import LinearModel
-from tmm_gen.control.links import rest_state, target_state
-from tmm_gen.control.model_based import ModelBased
-from tmm_gen.control.pose import Pose, pose_in
+from tmm_gen.control.movable import Movable
 from tmm_gen.control.qp import QuadraticProgram
 from tmm_gen.control.response import response, split_outputs
 from tmm_gen.control.step_model import StepModel
-from tmm_gen.control.target import rest_with
 from tmm_gen.control.terminal import end_rows
-from tmm_gen.control.terms import Goal, Wanted
-from tmm_gen.control.window import Window
+from tmm_gen.control.walls import Wall
 from tmm_gen.errors import UserError
 
 Array = NDArray[np.float64]
@@ -43,9 +39,9 @@ class Prepared:
         State and disturbances that the motion below starts from, before the look over the delay.
     read : tuple of int
         Which sensors besides the encoders were read in the sample before.
-    along : array, (4 m N + r,)
-        Outputs along the last plan, stacked as :class:`~tmm_gen.control.response.Response` has them.
-    by_estimate : array, (4 m N + r, s + m)
+    along : array, (4 m N + r + w N,)
+        Outputs along the last plan, stacked as :func:`~tmm_gen.control.response.split_outputs` has them.
+    by_estimate : array, (4 m N + r + w N, s + m)
         What changes of the estimate make of them.
     condensed : Condensed
         With the sensitivities by the torques.
@@ -58,7 +54,7 @@ class Prepared:
     condensed: Condensed
 
 
-class RealTimeIteration(ModelBased):
+class RealTimeIteration(Movable):
     """Nonlinear MPC, one iteration per sample, warm-started by the last solution shifted.
 
     All but a few sums and the quadratic program comes before the measurement, about the motion that the predicted
@@ -86,126 +82,18 @@ class RealTimeIteration(ModelBased):
         self.model, self.linear, self.zero_order = model, linear, zero_order
         self.end = end_rows(linear, problem.weights)
         self.response = response(linear, problem.horizon, self.end)
-        self.prepared = Condensed(problem, self.response.slopes, linear.goal)
+        self.walls = [Wall.of(model.scene, keep) for keep in problem.keeps]
+        if zero_order and self.walls:
+            raise UserError(
+                f"{model.scene.source.origin}: zero-order real-time iteration keeps no control.keep; take the "
+                "controller 'rti'."
+            )
+        slopes = self.response.slopes
+        distances = np.zeros((len(self.walls), *slopes.tip.shape[1:]))
+        self.prepared = Condensed(problem, replace(slopes, keep=distances), linear.goal)
         kind = NonlinearFilter if zero_order else ExtendedKalmanFilter
         self._program = QuadraticProgram(self.prepared.hessian, self.prepared.rows, self.prepared.inputs)
         super().__init__(problem, kind(model, linear), model.delay, inertia)
-
-    @cached_property
-    def rows(self) -> Array:
-        """Rows that give tips, tip rates, hubs, hub rates from the state, (4 m, s)."""
-        model, motors = self.model, self.model.motors
-        return np.vstack(
-            [
-                model.rows(rows, quantity)
-                for rows in (motors.tip, motors.hub)
-                for quantity in ("angle", "rate")
-            ]
-        )
-
-    @property
-    def target(self) -> Array:
-        """The state at the target of the scene, (s,)."""
-        return rest_state(self.model, self.linear)
-
-    def reset(self) -> None:
-        """Forget all measurements, and what was aimed at."""
-        self.goal, self.rest, self.moved = self.linear.goal, self.target, False
-        self._poses: list[Pose] = []
-        super().reset()
-
-    def aim(self, reference: Array) -> Status:
-        """Take another reference from the next sample on: a step, or a little at a time.
-
-        The cost to go stays that of the scene's target, and tips are not bounded any more: nobody knows what would be
-        beyond. Where the arm finds no rest there, or the motors cannot hold it, the former reference stays.
-
-        Parameters
-        ----------
-        reference : array, (m,)
-            Joint angles, rad.
-
-        Returns
-        -------
-        Status
-            ``OK``; ``NOT_FINITE``: there is no rest; ``INFEASIBLE``: the motors could not hold it.
-
-        Raises
-        ------
-        UserError
-            If sensitivities are those of the scene's target, or the arm stands on a hub.
-        """
-        self._require_movable()
-        scene = self.model.scene
-        if not np.all(np.isfinite(reference)):
-            return Status.NOT_FINITE
-        try:
-            found = rest_with(scene, np.asarray(reference, float), "control.reference")
-        except UserError:
-            return Status.NOT_FINITE
-        low, high = self.problem.torque
-        if not np.all((found.goal.torque >= low) & (found.goal.torque <= high)):
-            return Status.INFEASIBLE
-        self.goal, self.rest, self.moved = found.goal, target_state(self.model, found), True
-        self._window, self._poses = None, []
-        self._turned()
-        return Status.OK
-
-    def follow(self, angles: Array) -> Status:
-        """Take what the reference is to be over the horizon; see :class:`ModelBased` and :meth:`aim`.
-
-        Sags and torques are those of the motion, by the kernel (:func:`~tmm_gen.control.pose.pose_in`); poses that
-        were found for the sample before are not sought again.
-        """
-        self._require_movable()
-        if not np.all(np.isfinite(angles)):
-            return Status.NOT_FINITE
-        window = Window.of(np.asarray(angles, float), self.problem.sample_time)
-        former, former_poses, passed = self._window, self._poses, self._passed
-        poses: list[Pose] = []
-        near = Pose(self.rest, self.goal.torque)
-        for i in range(window.count):
-            motion, known = window.at(i), former is not None and i + passed < former.count
-            if known:
-                near = former_poses[i + passed]
-            if known and former is not None and np.array_equal(former.at(i + passed), motion):
-                poses.append(near)
-                continue
-            found = pose_in(self.model, motion, near)
-            if found is None:
-                return Status.NOT_FINITE
-            poses.append(found)
-            near = found
-        still = pose_in(self.model, window.at(window.count), near)
-        if still is None:
-            return Status.NOT_FINITE
-        low, high = self.problem.torque
-        if not np.all((still.torque >= low) & (still.torque <= high)):
-            return Status.INFEASIBLE
-        tip, _, hub, _ = np.split(self.rows @ still.state, 4)
-        self.goal, self.rest = Goal(tip, hub, still.torque), still.state
-        self._window, self._poses, self._passed, self.moved = window, poses, 0, True
-        self._turned()
-        return Status.OK
-
-    def _require_movable(self) -> None:
-        if self.zero_order or self.model.motors.on_hub:
-            raise UserError(
-                f"{self.model.scene.source.origin}: only full real-time iteration of motors by name takes another "
-                "reference; take the controller 'rti', or write another control.reference."
-            )
-
-    def _wanted(self) -> tuple[Wanted, Pose]:
-        """Return what is wanted over the horizon, its end reckoned from the pose that is wanted there."""
-        still = Pose(self.rest, self.goal.torque)
-        if self._window is None:
-            return Wanted.still(self.goal), still
-        first = self.delay.whole + self._passed
-        poses = (self._poses[first:] + [still] * self.problem.horizon)[: self.problem.horizon]
-        outputs = self.rows @ np.column_stack([pose.state for pose in poses])
-        tip, tip_rate, hub, hub_rate = np.split(outputs, 4)
-        torque = np.column_stack([pose.torque for pose in poses])
-        return Wanted(tip, hub, tip_rate, hub_rate, torque, np.zeros(1)), poses[-1]
 
     def _forget(self) -> None:
         self._program.forget()
@@ -274,7 +162,7 @@ class RealTimeIteration(ModelBased):
     def _optimal(self, condensed: Condensed, stacked: Array, disturbance: Array, last: Array) -> Command:
         """Solve a quadratic program about the plan, along which the outputs are these."""
         low, high = (bound[:, None] for bound in self.problem.torque)
-        plan, along = self._plan, split_outputs(stacked, self._plan.shape)
+        plan, along = self._plan, split_outputs(stacked, self._plan.shape, len(self.walls))
         renewed = condensed is not self.prepared
         solution = self._program.solve_softly(
             condensed.gradient(along, plan, last, disturbance, self._wanted()[0]),
@@ -297,9 +185,9 @@ class RealTimeIteration(ModelBased):
 
         Returns
         -------
-        along : array, (4 m N + r,)
+        along : array, (4 m N + r + w N,)
             Outputs, stacked.
-        by_start : array, (4 m N + r, s + m)
+        by_start : array, (4 m N + r + w N, s + m)
             What changes of state and disturbance make of them; nothing of zero order.
         condensed : Condensed
             With the sensitivities by the torques.
@@ -309,7 +197,10 @@ class RealTimeIteration(ModelBased):
         states = np.array(self.model.rollout(state, inputs))
         _, end = self._wanted()
         left = np.append(states[:, -1] - end.state, plan[:, -1] + disturbance - end.torque)
-        along = np.append((self.rows @ states).ravel(), self.end @ left)
+        angles = states[self.model.places("angle")].T
+        along = np.concatenate(
+            [(self.rows @ states).ravel(), self.end @ left, *(wall.along(angles) for wall in self.walls)]
+        )
         if self.zero_order:
             return along, None, self.prepared
         return along, *self._linearised(state, states, inputs)
@@ -323,6 +214,9 @@ class RealTimeIteration(ModelBased):
         drives = np.array(by_torques).reshape(size, count, 2, motors)
         width = motors * count + size + motors
         slopes = np.zeros((4 * motors, count, width))
+        places = self.model.places("angle")
+        normals = [wall.slopes(states[places].T) for wall in self.walls]
+        distances = np.zeros((len(normals), count, width))
         carried = np.zeros((size, width))
         by_plan = carried[:, : motors * count].reshape(size, motors, count)
         by_start, by_unknown = carried[:, motors * count : -motors], carried[:, -motors:]
@@ -335,8 +229,16 @@ class RealTimeIteration(ModelBased):
             by_plan[:, :, stage] += then
             by_unknown += before + then
             slopes[:, stage] = self.rows @ carried
+            for distance, normal in zip(distances, normals, strict=True):
+                distance[stage] = normal[stage] @ carried[places]
         last = np.zeros((motors, width))
         last[:, count - 1 : motors * count : count] = last[:, -motors:] = np.eye(motors)
-        every = np.vstack([slopes.reshape(-1, width), self.end @ np.vstack([carried, last])])
-        found = split_outputs(every[:, : motors * count], (motors, count))
+        every = np.vstack(
+            [
+                slopes.reshape(-1, width),
+                self.end @ np.vstack([carried, last]),
+                distances.reshape(-1, width),
+            ]
+        )
+        found = split_outputs(every[:, : motors * count], (motors, count), len(normals))
         return every[:, motors * count :], Condensed(self.problem, found, self.goal)

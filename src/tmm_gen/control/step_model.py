@@ -205,7 +205,7 @@ class StepModel:
         return self.module.jacobian_function()
 
     def step_slopes(self, state: Array, torque: Array) -> tuple[Array, Array, Array]:
-        """Return the state after one step of the kernel, (s,), and its derivatives by state, (s, s), and torques, (s, m)."""
+        """Return the state after a step of the kernel, (s,), its derivatives by state, (s, s), and torques, (s, m)."""
         after, by_state, by_inputs = self._one_step(state, self._acting @ torque, self.parameters)
         return np.array(after).ravel(), np.array(by_state), np.array(by_inputs) @ self._acting
 

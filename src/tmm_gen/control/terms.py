@@ -98,17 +98,17 @@ class Kind:
 
     Parameters
     ----------
-    what : {"rate", "tip", "hub"}
-        Change of a torque, or an angle.
+    what : {"rate", "tip", "hub", "keep"}
+        Change of a torque, an angle, or how far a part is along the normal of a wall.
     motor : int
-        Whose.
+        Whose; or which of the walls.
     low, high : float
-        N m or rad.
+        N m, rad or m.
     weight : float
         Of passing it; infinite where it is hard.
     """
 
-    what: Literal["rate", "tip", "hub"]
+    what: Literal["rate", "tip", "hub", "keep"]
     motor: int
     low: float
     high: float

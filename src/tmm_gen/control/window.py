@@ -42,7 +42,7 @@ class Window:
     @property
     def count(self) -> int:
         """N."""
-        return self.motion.shape[1]
+        return int(self.motion.shape[1])
 
     def at(self, sample: int) -> Array:
         """Return the motion at one of the samples, (3, m): behind the last it rests there."""

@@ -1,4 +1,4 @@
-"""``[control.trajectory]`` and ``[[control.keep]]``: what an arm by parts is to follow, and where its parts are to stay."""
+"""``[control.trajectory]`` and ``[[control.keep]]``: what an arm by parts is to follow, where its parts are to stay."""
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ class Trajectory(Table):
 
 
 class Keep(Table):
-    """``[[control.keep]]``: a half-plane that a part's outer end is to stay in, ``normal . position >= offset + margin``.
+    """``[[control.keep]]``: a half-plane a part's outer end is to stay in, ``normal . position >= offset + margin``.
 
     Parameters
     ----------
@@ -101,6 +101,4 @@ class Keep(Table):
     normal: Direction = Field(description="direction away from the wall", examples=["[0.0, 1.0]"])
     offset: Finite = Field(description="of the wall along the normal in m", examples=["-0.3"])
     margin: NonNegative = Field(default=0.0, description="to stay away from it in m", examples=["0.01"])
-    weight: Positive = Field(
-        default=1e4, description="weight of coming nearer in 1/m^2", examples=["1e4"]
-    )
+    weight: Positive = Field(default=1e5, description="weight of coming nearer in 1/m^2", examples=["1e5"])

@@ -22,7 +22,9 @@ def moves_by_parts(document: Document) -> Iterator[Finding]:
     for path, there in ((_TRAJECTORY, control.trajectory), (("control", "keep"), control.keep)):
         if there:
             yield Finding(
-                path, "is for arms whose motors are parts by name", "Write the arm by parts, or remove the table."
+                path,
+                "is for arms whose motors are parts by name",
+                "Write the arm by parts, or remove the table.",
             )
 
 
@@ -46,16 +48,22 @@ def can_be_followed(document: PartsDocument, control: Control, motors: tuple[str
         return
     if bool(way.pose) == (way.file is not None):
         problem = "has both a file and poses" if way.pose else "has neither a file nor poses"
-        yield Finding(_TRAJECTORY, problem, "Write `file`, or [[control.trajectory.pose]] with `angles` and `duration`.")
+        yield Finding(
+            _TRAJECTORY, problem, "Write `file`, or [[control.trajectory.pose]] with `angles` and `duration`."
+        )
         return
     if way.frame is not None and way.file is None:
-        yield Finding((*_TRAJECTORY, "frame"), "is of a file, and there is none", "Write it in each pose.", way.frame)
+        yield Finding(
+            (*_TRAJECTORY, "frame"), "is of a file, and there is none", "Write it in each pose.", way.frame
+        )
     yield from _known((*_TRAJECTORY, "frame"), way.frame, frames)
     for index, pose in enumerate(way.pose):
         path: Path = (*_TRAJECTORY, "pose", index)
         if (pose.frame is None) != (pose.position is None) or (pose.angles is None) == (pose.frame is None):
             yield Finding(
-                path, "is told by `angles`, or by `frame` and `position`", "Write one of them, and that whole."
+                path,
+                "is told by `angles`, or by `frame` and `position`",
+                "Write one of them, and that whole.",
             )
             continue
         yield from _known((*path, "frame"), pose.frame, frames)

@@ -1,0 +1,155 @@
+"""A reference that moves at run time: a step, or what it is to be over the horizon."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.control.command import Status
+from tmm_gen.control.linear import LinearModel
+from tmm_gen.control.links import rest_state, target_state
+from tmm_gen.control.model_based import ModelBased
+from tmm_gen.control.pose import Pose, pose_in
+from tmm_gen.control.step_model import StepModel
+from tmm_gen.control.target import rest_with
+from tmm_gen.control.terms import Goal, Wanted
+from tmm_gen.control.window import Window
+from tmm_gen.errors import UserError
+
+Array = NDArray[np.float64]
+
+
+class Movable(ModelBased):
+    """A controller that predicts with the generated step, and aims at what it is told.
+
+    Attributes
+    ----------
+    goal : Goal
+        Where the arm is to rest in the end.
+    rest : array, (s,)
+        The state there.
+    moved : bool
+        Whether that is another than the scene's, or there is a way to it.
+    """
+
+    model: StepModel
+    linear: LinearModel
+    zero_order: bool
+
+    @cached_property
+    def rows(self) -> Array:
+        """Rows that give tips, tip rates, hubs, hub rates from the state, (4 m, s)."""
+        model, motors = self.model, self.model.motors
+        return np.vstack(
+            [
+                model.rows(rows, quantity)
+                for rows in (motors.tip, motors.hub)
+                for quantity in ("angle", "rate")
+            ]
+        )
+
+    @property
+    def target(self) -> Array:
+        """The state at the target of the scene, (s,)."""
+        return rest_state(self.model, self.linear)
+
+    def reset(self) -> None:
+        """Forget all measurements, and what was aimed at."""
+        self.goal, self.rest, self.moved = self.linear.goal, self.target, False
+        self._poses: list[Pose] = []
+        super().reset()
+
+    def aim(self, reference: Array) -> Status:
+        """Take another reference from the next sample on: a step, or a little at a time.
+
+        The cost to go stays that of the scene's target, and tips are not bounded any more: nobody knows what would be
+        beyond. Where the arm finds no rest there, or the motors cannot hold it, the former reference stays.
+
+        Parameters
+        ----------
+        reference : array, (m,)
+            Joint angles, rad.
+
+        Returns
+        -------
+        Status
+            ``OK``; ``NOT_FINITE``: there is no rest; ``INFEASIBLE``: the motors could not hold it.
+
+        Raises
+        ------
+        UserError
+            If sensitivities are those of the scene's target, or the arm stands on a hub.
+        """
+        self._require_movable()
+        scene = self.model.scene
+        if not np.all(np.isfinite(reference)):
+            return Status.NOT_FINITE
+        try:
+            found = rest_with(scene, np.asarray(reference, float), "control.reference")
+        except UserError:
+            return Status.NOT_FINITE
+        low, high = self.problem.torque
+        if not np.all((found.goal.torque >= low) & (found.goal.torque <= high)):
+            return Status.INFEASIBLE
+        self.goal, self.rest, self.moved = found.goal, target_state(self.model, found), True
+        self._window, self._poses = None, []
+        self._turned()
+        return Status.OK
+
+    def follow(self, angles: Array) -> Status:
+        """Take what the reference is to be over the horizon; see :class:`ModelBased` and :meth:`aim`.
+
+        Sags and torques are those of the motion, by the kernel (:func:`~tmm_gen.control.pose.pose_in`); poses that
+        were found for the sample before are not sought again.
+        """
+        self._require_movable()
+        if not np.all(np.isfinite(angles)):
+            return Status.NOT_FINITE
+        window = Window.of(np.asarray(angles, float), self.problem.sample_time)
+        former, former_poses, passed = self._window, self._poses, self._passed
+        poses: list[Pose] = []
+        near = Pose(self.rest, self.goal.torque)
+        for i in range(window.count):
+            motion, known = window.at(i), former is not None and i + passed < former.count
+            if known:
+                near = former_poses[i + passed]
+            if known and former is not None and np.array_equal(former.at(i + passed), motion):
+                poses.append(near)
+                continue
+            found = pose_in(self.model, motion, near)
+            if found is None:
+                return Status.NOT_FINITE
+            poses.append(found)
+            near = found
+        still = pose_in(self.model, window.at(window.count), near)
+        if still is None:
+            return Status.NOT_FINITE
+        low, high = self.problem.torque
+        if not np.all((still.torque >= low) & (still.torque <= high)):
+            return Status.INFEASIBLE
+        tip, _, hub, _ = np.split(self.rows @ still.state, 4)
+        self.goal, self.rest = Goal(tip, hub, still.torque), still.state
+        self._window, self._poses, self._passed, self.moved = window, poses, 0, True
+        self._turned()
+        return Status.OK
+
+    def _require_movable(self) -> None:
+        if self.zero_order or self.model.motors.on_hub:
+            raise UserError(
+                f"{self.model.scene.source.origin}: only full real-time iteration of motors by name takes another "
+                "reference; take the controller 'rti', or write another control.reference."
+            )
+
+    def _wanted(self) -> tuple[Wanted, Pose]:
+        """Return what is wanted over the horizon, its end reckoned from the pose that is wanted there."""
+        still = Pose(self.rest, self.goal.torque)
+        if self._window is None:
+            return Wanted.still(self.goal), still
+        first = self.delay.whole + self._passed
+        poses = (self._poses[first:] + [still] * self.problem.horizon)[: self.problem.horizon]
+        outputs = self.rows @ np.column_stack([pose.state for pose in poses])
+        tip, tip_rate, hub, hub_rate = np.split(outputs, 4)
+        torque = np.column_stack([pose.torque for pose in poses])
+        return Wanted(tip, hub, tip_rate, hub_rate, torque, np.zeros(1)), poses[-1]

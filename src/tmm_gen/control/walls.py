@@ -1,0 +1,47 @@
+"""Half-planes that parts of the arm are to stay in: how far they are along the normals, and what turns them there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.control.reach import Frame
+from tmm_gen.scene import Scene
+from tmm_gen.scene.trajectory import Keep
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Wall:
+    """A half-plane and the part that stays in it.
+
+    Parameters
+    ----------
+    frame : Frame
+        Outer end of the part.
+    normal : array, (2,)
+        Of length 1, away from the wall.
+    offset : float
+        Of the wall along it, m.
+    """
+
+    frame: Frame
+    normal: Array
+    offset: float
+
+    @classmethod
+    def of(cls, scene: Scene, keep: Keep) -> Wall:
+        """Return a wall of a scene, or of one of the same parts in other links."""
+        normal = np.array(keep.normal)
+        return cls(Frame.of(scene, keep.frame), normal / np.linalg.norm(normal), keep.offset)
+
+    def along(self, angles: Array) -> Array:
+        """Return how far the part is along the normal, (k,), m, for angles of the arm, (k, d), rad."""
+        return np.asarray(self.frame.place(angles) @ self.normal, float)
+
+    def slopes(self, angles: Array) -> Array:
+        """Return the derivatives by the angles, (k, d)."""
+        return np.asarray(np.einsum("i,kid->kd", self.normal, self.frame.slopes(angles)), float)

@@ -1,0 +1,211 @@
+"""Trajectories and walls: the course a scene tells, how controllers follow it, how the arm keeps away from a floor."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from tmm_gen.closed_loop.compare import Trial, compare
+from tmm_gen.control.bench import Bench
+from tmm_gen.control.condition import CONDITIONS
+from tmm_gen.control.controllers import BY_NAME
+from tmm_gen.control.course import course_of
+from tmm_gen.control.following import Following
+from tmm_gen.control.inverse_dynamics import rigid_torques
+from tmm_gen.control.pose import Pose, pose_in
+from tmm_gen.control.reach import Frame
+from tmm_gen.control.target import rest_with
+from tmm_gen.control.window import Window
+from tmm_gen.errors import UserError
+from tmm_gen.onboard.emit import emit_controller
+from tmm_gen.scene import Scene, load_scene
+
+ELBOW = Path(__file__).resolve().parents[3] / "scenes" / "elbow.toml"
+FLOOR = {"frame": "payload", "normal": [0.0, 2.0], "offset": -0.25, "margin": 0.01}
+DOWN = {"angles": {"shoulder": 0.0, "elbow": -1.0}, "duration": 0.6, "dwell": 0.3}
+
+
+@pytest.fixture(scope="module")
+def small(elbow: Scene) -> Scene:
+    """Two springs in each beam, half the horizon."""
+    changes = {"beam.upper.links": 2, "beam.forearm.links": 2, "control.horizon": 15, "control.substeps": 2}
+    return elbow.replace(**changes)
+
+
+@pytest.fixture(scope="module")
+def lowered(small: Scene) -> Bench:
+    """The payload goes down."""
+    return Bench.of(small.replace(**{"control.trajectory": {"pose": [DOWN]}}))
+
+
+def test_a_course_goes_by_quintics_and_stops(small: Scene) -> None:
+    """Halfway in time is halfway; a part's position is reached by the arm as it sags, bent like the reference."""
+    poses = [DOWN, {"frame": "payload", "position": [0.6, 0.2], "duration": 0.5, "dwell": 0.2}]
+    scene = small.replace(**{"control.trajectory": {"pose": poses}, "control.bounds.hub": None})
+    problem = Bench.of(scene).problem
+    course = course_of(scene, problem)
+    assert course is not None
+    assert_allclose(course.angles[15], [0.0, -0.5], atol=1e-12)
+    assert_allclose(course.at(np.array([30, 45])), [[0.0, -1.0]] * 2, atol=1e-12)
+    assert course.stops(90) == [(30, 45), (70, 89)]
+    assert_allclose(np.diff(course.angles[:4], axis=0)[0], 0.0, atol=1e-3)
+    rest = rest_with(scene, course.angles[-1], "here")
+    assert_allclose(Frame.of(scene, "payload").place(rest.angles), [0.6, 0.2], atol=1e-9)
+    assert course.angles[-1, 1] < 0.0
+
+
+def test_a_file_tells_joints_or_positions(small: Scene, tmp_path: Path) -> None:
+    """The same way, told by angles and by where the payload rests with them."""
+    times = np.linspace(0.0, 0.4, 11)
+    angles = np.outer(np.sin(2.0 * times), [0.5, -1.0])
+    frame = Frame.of(small, "payload")
+    places = [frame.place(rest_with(small, row, "here").angles) for row in angles]
+    for name, heading, rows in (
+        ("joints", "shoulder,elbow", angles),
+        ("places", "payload_x,payload_y", places),
+    ):
+        lines = [
+            f"{t!r},{x!r},{y!r}" for t, (x, y) in zip(times.tolist(), np.array(rows).tolist(), strict=True)
+        ]
+        (tmp_path / f"{name}.csv").write_text("\n".join([f"time,{heading}", *lines]) + "\n")
+    text = ELBOW.read_text()
+    found = []
+    for told in ('file = "joints.csv"', 'file = "places.csv"\nframe = "payload"'):
+        (tmp_path / "elbow.toml").write_text(f"{text}\n[control.trajectory]\n{told}\n")
+        changes = {"beam.upper.links": 2, "beam.forearm.links": 2}
+        scene = load_scene(tmp_path / "elbow.toml").replace(**changes)
+        course = course_of(scene, Bench.of(scene).problem)
+        assert course is not None
+        found.append(course.angles)
+    assert len(found[0]) == 21
+    assert_allclose(found[0][::2], angles, atol=1e-12)
+    assert_allclose(found[1][4:], found[0][4:], atol=3e-3)  # cubic in between, of other curves
+
+
+@pytest.mark.parametrize(
+    ("pose", "words"),
+    [
+        (
+            {"frame": "payload", "position": [0.95, 0.0]},
+            r"came no nearer than 0\.05.* between 0\.1 and 0\.9 m",
+        ),
+        ({"frame": "payload", "position": [0.05, 0.0]}, r"came no nearer than 0\.05"),
+        ({"frame": "payload", "position": [0.1, 0.1]}, r"beyond control\.bounds\.hub"),
+        ({"angles": {"shoulder": 0.0, "elbow": -9.0}}, r"beyond control\.bounds\.hub"),
+        ({"angles": 0.0, "frame": "payload"}, r"Write one of them"),
+        ({"frame": "paylod", "position": [0.5, 0.0]}, r"Did you mean 'payload'\?"),
+    ],
+)
+def test_what_cannot_be_reached_is_refused_in_a_line(
+    small: Scene, pose: dict[str, object], words: str
+) -> None:
+    changes = {"control.trajectory": {"pose": [{**pose, "duration": 0.5}]}}
+    with pytest.raises(UserError, match=words):
+        _ = Bench.of(small.replace(**changes)).course
+
+
+def test_differences_are_those_of_a_parabola() -> None:
+    """At the ends too; behind the last it rests, before the first it goes on evenly accelerated."""
+    t = 0.02 * np.arange(1, 9)[:, None]
+    window = Window.of(np.hstack([1.0 + 2.0 * t + 3.0 * t**2, -t]), 0.02)
+    assert_allclose(window.motion[1], np.hstack([2.0 + 6.0 * t, 0.0 * t - 1.0]), atol=1e-9)
+    assert_allclose(window.motion[2], np.broadcast_to([6.0, 0.0], (8, 2)), atol=1e-7)
+    assert_allclose(window.before(0.02), [[1.0, 0.0], [2.0, -1.0], [6.0, 0.0]], atol=1e-9)
+    assert_allclose(window.at(8)[1:], 0.0)
+
+
+def test_torques_of_a_motion_are_those_of_lagrange(small: Scene) -> None:
+    """With beams a thousand times as stiff; at rest those of the statics, beams as soft as they are."""
+    stiff = Bench.of(
+        small.replace(**{"beam.upper.bending_stiffness": 11200.0, "beam.forearm.bending_stiffness": 3150.0})
+    )
+    motion = np.array([[0.3, -0.8], [1.2, -2.0], [3.0, 5.0]])
+    model = stiff.step
+    found = pose_in(model, motion, Pose(model.initial(), model.start.torque))
+    assert found is not None
+    # the step ends half a sample's hundredth on: its hubs have turned by then
+    time = model.problem.step
+    later = np.array([motion[0] + time * motion[1], motion[1] + time * motion[2], motion[2]])
+    expected = rigid_torques(stiff.assumed, *later[:, None])[0]
+    assert_allclose(found.torque, expected, atol=0.02 * np.abs(expected).max())
+    soft = Bench.of(small)
+    rest = pose_in(
+        soft.step, motion * [[1.0], [0.0], [0.0]], Pose(soft.step.initial(), soft.step.start.torque)
+    )
+    target = rest_with(soft.step.scene, motion[0], "here")
+    assert rest is not None
+    assert_allclose(rest.torque, target.goal.torque, atol=1e-8)
+    assert_allclose(rest.state[: len(target.angles)], target.angles, atol=1e-8)
+
+
+def test_a_linear_model_stays_on_the_motion_it_is_told(lowered: Bench) -> None:
+    """Its own torques take it along even acceleration exactly, with nothing fed back."""
+    model, time = lowered.links, lowered.problem.sample_time
+    following = Following(model, time)
+
+    def at(t: float) -> np.ndarray:
+        rate, growth = np.array([0.3, -0.2]), np.array([2.0, 1.0])
+        return np.array([model.goal.hub + rate * t + 0.5 * growth * t**2, rate + growth * t, growth])
+
+    state, _ = following.at(at(0.0))
+    for k in range(10):
+        expected, torque = following.at(at(k * time))
+        assert_allclose(state, expected, atol=1e-8 * np.abs(expected).max())
+        state = model.transition @ state + model.drive @ (torque - model.goal.torque)
+    assert_allclose(model.goal.hub + model.hub @ state, at(10 * time)[0], atol=1e-9)
+
+
+def trials(bench: Bench, *names: str) -> dict[str, Trial]:
+    """Return the trials of controllers, as the scene says."""
+    kinds = [BY_NAME[name] for name in names]
+    return {trial.kind.name: trial for trial in compare(bench, kinds, CONDITIONS[:1], duration=1.2)}
+
+
+@pytest.mark.compiler
+def test_controllers_follow_and_without_a_wall_the_payload_goes_through_it(lowered: Bench) -> None:
+    """All come down to where they are told, below the floor; predicting along the motion is nearest all the way."""
+    found = trials(lowered, "pd-zv", "pd-id", "lqr", "mpc-links", "rti")
+    course = lowered.course
+    assert course is not None
+    rms = {}
+    for name, trial in found.items():
+        assert trial.tracking is not None
+        assert trial.figures.fallbacks == 0
+        rms[name] = trial.tracking.rms
+        assert_allclose(trial.loop.hub[-1], course.angles[-1], atol=0.25 if name.startswith("pd") else 0.04)
+    assert rms["rti"] < 0.02
+    assert rms["rti"] < min(rms["pd-zv"], rms["pd-id"])
+    assert {"off_rms_mm", "at_stops_mm"} <= found["rti"].row().keys()
+    walled = Bench.of(lowered.scene.replace(**{"control.keep": [FLOOR]}))
+    through, kept = trials(walled, "lqr", "rti").values()
+    assert through.nearest is not None
+    assert kept.nearest is not None
+    assert through.nearest < -0.1
+    assert kept.nearest > 0.0
+    for name in ("mpc-links", "rti-zero"):
+        with pytest.raises(UserError, match=r"keeps no control\.keep; take rti"):
+            BY_NAME[name].require_able(walled)
+    with pytest.raises(UserError, match="is not written in C yet"):
+        emit_controller(walled, "rti")
+    with pytest.raises(UserError, match=r"follows no control\.trajectory; take one of pd,"):
+        BY_NAME["rti-zero"].require_able(lowered)
+
+
+def test_what_turns_a_part_into_a_wall_is_how_its_place_changes(lowered: Bench) -> None:
+    """Sensitivities of the distances by torques, against rolling out once more."""
+    bench = Bench.of(lowered.scene.replace(**{"control.keep": [FLOOR], "control.trajectory": None}))
+    rti = BY_NAME["rti"].make(bench)
+    state, none = bench.step.initial(), np.zeros(2)
+    small, count = 1e-5, bench.problem.horizon
+    ends = []
+    for sign in (-1.0, 1.0):
+        rti._plan = np.repeat(bench.links.start_torque[:, None], count, axis=1)
+        rti._plan[1, 3] += sign * small
+        ends.append(rti._along(state, none, bench.links.start_torque)[0][-count:])
+    rti._plan = np.repeat(bench.links.start_torque[:, None], count, axis=1)
+    slopes = rti._along(state, none, bench.links.start_torque)[2].slopes.keep[0, :, count + 3]
+    expected = (ends[1] - ends[0]) / (2.0 * small)
+    assert_allclose(slopes, expected, atol=1e-5 * np.abs(expected).max())
