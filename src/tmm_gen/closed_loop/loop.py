@@ -40,6 +40,8 @@ class Loop:
         State of the arm's kernel at the start of each sample.
     goal : array, (m,)
         Polar angles of the tips to reach, rad.
+    wanted : array, (samples, m), optional
+        Joint angles along a trajectory, rad.
     """
 
     time: Array
@@ -53,6 +55,7 @@ class Loop:
     iterations: NDArray[np.int64]
     states: tuple[dict[str, Any], ...]
     goal: Array
+    wanted: Array | None = None
 
     @property
     def fallbacks(self) -> int:
@@ -111,4 +114,5 @@ def run_loop(
         iterations=np.array([command.iterations for command in commands]),
         states=tuple(plant.states[-samples:]),
         goal=plant.goal,
+        wanted=None if course is None else course.at(np.arange(samples)),
     )

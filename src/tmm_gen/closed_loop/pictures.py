@@ -64,7 +64,8 @@ def comparison_figure(trials: Sequence[Trial], problem: ControlProblem) -> Figur
             first, whose = trials[0].loop, "" if problem.motors.on_hub else f" of {name}"
             way = first.goal[k] - first.tip[0, k]
             edges = np.array([first.tip[0, k] - 0.1 * way, first.goal[k] + 0.25 * way])
-            axes[2 * k, 0].set_ylim(edges.min(), edges.max())
+            if first.wanted is None:
+                axes[2 * k, 0].set_ylim(edges.min(), edges.max())
             axes[2 * k, 0].set_ylabel(f"tip angle{whose} (rad)")
             axes[2 * k + 1, 0].set_ylabel(f"torque{whose} (N m)")
         axes[0, 0].legend(loc="lower right")
@@ -72,9 +73,12 @@ def comparison_figure(trials: Sequence[Trial], problem: ControlProblem) -> Figur
 
 
 def _targets(upper: Axes, lower: Axes, problem: ControlProblem, loop: Loop, k: int) -> None:
-    """Draw a motor's reference with its band, and the bounds of its torque."""
+    """Draw a motor's reference with its band, or what its joint is to follow, and the bounds of its torque."""
     width, goal = BAND * float(np.max(np.abs(loop.goal - loop.tip[0]))), loop.goal[k]
-    upper.axhspan(goal - width, goal + width, color=FAINT, alpha=0.25, linewidth=0)
+    if loop.wanted is None:
+        upper.axhspan(goal - width, goal + width, color=FAINT, alpha=0.25, linewidth=0)
+    else:  # the joint's, from which tips sag
+        upper.plot(loop.sampled, loop.wanted[:, k], color=FAINT, linewidth=3.0)
     for bound in problem.torque:
         lower.axhline(bound[k], color=FAINT, linewidth=1.0, linestyle=":")
 
