@@ -30,7 +30,9 @@ def motors_controlled(document: PartsDocument) -> Iterator[Finding]:
             ("control",), "does not control arms that branch yet", "Remove it, or one of the branches."
         )
         return
-    yield from motors_told(control, driven(document))
+    motors = driven(document)
+    wrong = list(motors_told(control, motors))
+    yield from wrong or can_be_followed(document, control, motors)
 
 
 def motors_told(control: Control, motors: tuple[str, ...]) -> Iterator[Finding]:
@@ -68,7 +70,6 @@ def motors_told(control: Control, motors: tuple[str, ...]) -> Iterator[Finding]:
             )
     if not broken:
         yield from within_reach(control, motors)
-        yield from can_be_followed(document, control, motors)
 
 
 def driven(document: PartsDocument) -> tuple[str, ...]:

@@ -16,16 +16,19 @@ _TRAJECTORY: Path = ("control", "trajectory")
 
 def moves_by_parts(document: Document) -> Iterator[Finding]:
     """Find a trajectory, or half-planes, of an arm that is not by parts."""
-    control = document.control
-    if control is None:
-        return
+    if document.control is not None:
+        yield from nothing_followed(
+            document.control,
+            "is for arms whose motors are parts by name",
+            "Write the arm by parts, or remove the table.",
+        )
+
+
+def nothing_followed(control: Control, problem: str, remedy: str) -> Iterator[Finding]:
+    """Find a trajectory, or half-planes, where neither can be had."""
     for path, there in ((_TRAJECTORY, control.trajectory), (("control", "keep"), control.keep)):
         if there:
-            yield Finding(
-                path,
-                "is for arms whose motors are parts by name",
-                "Write the arm by parts, or remove the table.",
-            )
+            yield Finding(path, problem, remedy)
 
 
 def can_be_followed(document: PartsDocument, control: Control, motors: tuple[str, ...]) -> Iterator[Finding]:
