@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 from tmm_gen.control.arms import arm_of
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.command import Controller
-from tmm_gen.control.holding import held
-from tmm_gen.control.inverse_dynamics import quintic_way, rigid_torques
+from tmm_gen.control.inverse_dynamics import quintic_way
 from tmm_gen.control.linear_mpc import LinearMpc
 from tmm_gen.control.lqr import Regulator
 from tmm_gen.control.pd import PdController
@@ -116,7 +115,7 @@ def make_pd(
     if bench.course is None:
         return _pd(bench, proportional, derivative, stepped_way(model.goal.torque, shapers))
     angles, rates, _ = Window.of(bench.course.angles, problem.sample_time).motion
-    torque = np.array([held(model.holds, model.goal, each) for each in angles])
+    torque = np.array([model.holds.torque(model.goal, each) for each in angles])
     return _pd(bench, proportional, derivative, shaped_way(angles, rates, torque, shapers))
 
 
@@ -125,7 +124,7 @@ def make_inverse_dynamics(bench: Bench, gains: Each[tuple[float, float]] | None)
     model, problem = bench.modes, bench.problem
     if bench.course is not None:
         angles, rates, growth = Window.of(bench.course.angles, problem.sample_time).motion
-        torque = rigid_torques(bench.assumed, angles, rates, growth)
+        torque = arm_of(bench.assumed).rigid_torques(angles, rates, growth)
         return _pd(bench, *_gains(bench, gains), shaped_way(angles, rates, torque))
     way = quintic_way(bench.assumed, problem, model.start_hub, model.goal)
     return _pd(bench, *_gains(bench, gains), way)

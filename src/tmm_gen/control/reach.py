@@ -7,13 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from tmm_gen.control.arm import arm_of
 from tmm_gen.control.motors import motors_of
 from tmm_gen.control.target import Target, rest_with
 from tmm_gen.control.terms import Goal
 from tmm_gen.errors import UserError
-from tmm_gen.modal.arm import linear_arm
-from tmm_gen.modal.matrices import matrices
-from tmm_gen.modal.rest import rest_at
 from tmm_gen.scene import Scene
 
 Array = NDArray[np.float64]
@@ -98,22 +96,21 @@ def _searched(
     scene: Scene, frame: Frame, position: Array, start: Array, key: str
 ) -> tuple[Target | None, float]:
     """Return the rest that is found from some joint angles, if any, and how near to the position the search came."""
-    motors = motors_of(scene)
+    motors, arm = motors_of(scene), arm_of(scene)
     size, count = len(motors.lengths), motors.count
     begun = rest_with(scene, start, key)
     angles, torque = begun.angles, begun.goal.torque
     slope = np.zeros((size + 2, size + count))
     slope[:size, size:], nearest = -motors.drive, np.inf
     for _ in range(_ITERATIONS):
-        rest = rest_at(scene, angles, inputs=motors.torques(torque))
-        linear = matrices(linear_arm(scene, rest))
+        held = arm.held(angles, motors.torques(torque))
         off = position - frame.place(angles)
-        slope[:size, :size], slope[size:, :size] = linear.stiffness, frame.slopes(angles)
-        change = np.linalg.lstsq(slope, np.concatenate([rest.unbalanced, off]), rcond=None)[0]
+        slope[:size, :size], slope[size:, :size] = held.matrices.stiffness, frame.slopes(angles)
+        change = np.linalg.lstsq(slope, np.concatenate([held.unbalanced, off]), rcond=None)[0]
         largest = float(np.max(np.abs(change[:size])))
         nearest = min(nearest, float(np.hypot(*off)))
         if np.hypot(*off) < _REACHED and largest < _REACHED:
-            return Target(angles, Goal(motors.tip @ angles, motors.hub @ angles, torque), linear), 0.0
+            return Target(angles, Goal(motors.tip @ angles, motors.hub @ angles, torque), held.matrices), 0.0
         share = min(1.0, _LARGEST / largest)
         angles, torque = angles + share * change[:size], torque + share * change[size:]
         if not np.all(np.isfinite(angles)):

@@ -9,12 +9,12 @@ import pytest
 from numpy.testing import assert_allclose
 
 from tmm_gen.closed_loop.compare import Trial, compare
+from tmm_gen.control.arm import arm_of
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.condition import CONDITIONS
 from tmm_gen.control.controllers import BY_NAME
 from tmm_gen.control.course import course_of
 from tmm_gen.control.following import Following
-from tmm_gen.control.inverse_dynamics import rigid_torques
 from tmm_gen.control.pose import Pose, pose_in
 from tmm_gen.control.reach import Frame
 from tmm_gen.control.target import rest_with
@@ -129,7 +129,7 @@ def test_torques_of_a_motion_are_those_of_lagrange(small: Scene) -> None:
     # the step ends half a sample's hundredth on: its hubs have turned by then
     time = model.problem.step
     later = np.array([motion[0] + time * motion[1], motion[1] + time * motion[2], motion[2]])
-    expected = rigid_torques(stiff.assumed, *later[:, None])[0]
+    expected = arm_of(stiff.assumed).rigid_torques(*later[:, None])[0]
     assert_allclose(found.torque, expected, atol=0.02 * np.abs(expected).max())
     soft = Bench.of(small)
     rest = pose_in(

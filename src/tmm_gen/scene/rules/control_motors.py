@@ -31,8 +31,8 @@ def motors_controlled(document: PartsDocument) -> Iterator[Finding]:
         )
         return
     motors = driven(document)
-    wrong = list(motors_told(control, motors))
-    yield from wrong or can_be_followed(document, control, motors)
+    broken = list(motors_told(control, motors))
+    yield from broken or can_be_followed(document, control, motors)
 
 
 def motors_told(control: Control, motors: tuple[str, ...]) -> Iterator[Finding]:

@@ -17,18 +17,18 @@ _TRAJECTORY: Path = ("control", "trajectory")
 def moves_by_parts(document: Document) -> Iterator[Finding]:
     """Find a trajectory, or half-planes, of an arm that is not by parts."""
     if document.control is not None:
-        yield from nothing_followed(
-            document.control,
-            "is for arms whose motors are parts by name",
-            "Write the arm by parts, or remove the table.",
-        )
+        yield from in_a_plane_by_parts(document.control)
 
 
-def nothing_followed(control: Control, problem: str, remedy: str) -> Iterator[Finding]:
-    """Find a trajectory, or half-planes, where neither can be had."""
+def in_a_plane_by_parts(control: Control) -> Iterator[Finding]:
+    """Find a trajectory, or half-planes, of another arm than a planar one by parts."""
     for path, there in ((_TRAJECTORY, control.trajectory), (("control", "keep"), control.keep)):
         if there:
-            yield Finding(path, problem, remedy)
+            yield Finding(
+                path,
+                "is for planar arms whose motors are parts by name",
+                "Remove the table, or write such an arm.",
+            )
 
 
 def can_be_followed(document: PartsDocument, control: Control, motors: tuple[str, ...]) -> Iterator[Finding]:
