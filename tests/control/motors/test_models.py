@@ -9,9 +9,10 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.linalg import expm, solve_discrete_are
 
+from tmm_gen.control.arms import arm_of
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.holding import held, holding
-from tmm_gen.control.inverse_dynamics import SPARED, quintic_way, rigid_torques
+from tmm_gen.control.inverse_dynamics import SPARED, quintic_way
 from tmm_gen.control.lqr import Regulator
 from tmm_gen.control.modes import modes_model
 from tmm_gen.control.target import find_target
@@ -120,7 +121,9 @@ def test_rigid_torques_are_those_of_the_textbooks_two_links() -> None:
     first = d11 * a[:, 0] + d12 * a[:, 1] + h * v[:, 1] * (2.0 * v[:, 0] + v[:, 1]) + g1
     second = d12 * a[:, 0] + d22 * a[:, 1] - h * v[:, 0] ** 2 + g2
     assert_allclose(
-        rigid_torques(parse_scene(PAIR), q, v, a), np.column_stack([first / 50.0, second / 20.0]), rtol=1e-9
+        arm_of(parse_scene(PAIR)).rigid_torques(q, v, a),
+        np.column_stack([first / 50.0, second / 20.0]),
+        rtol=1e-9,
     )
 
 
@@ -129,7 +132,7 @@ def test_what_holds_the_arm_up_is_what_a_rigid_one_needs() -> None:
     scene, random = parse_scene(PAIR), np.random.default_rng(8)
     hub = random.uniform(-3.0, 3.0, (4, 2))
     still, goal = np.zeros_like(hub), Goal(tip=hub[0], hub=hub[0], torque=np.array([0.2, 0.1]))
-    rigid = rigid_torques(scene, hub, still, still)
+    rigid = arm_of(scene).rigid_torques(hub, still, still)
     for k in range(4):
         assert_allclose(held(holding(scene), goal, hub[k]), goal.torque + rigid[k] - rigid[0], atol=1e-12)
 
