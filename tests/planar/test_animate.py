@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import base64
+import json
+import re
 from collections.abc import Callable
 from io import BytesIO
 from pathlib import Path
@@ -48,7 +51,12 @@ def test_a_gif_moves_at_the_pace_of_the_arm(moved: Any) -> None:
 def test_a_page_needs_nothing_else(moved: Any) -> None:
     page = animation(moved, "html").decode()
     assert "data:image/png;base64" in page
-    assert 'src="http' not in page
+    assert "//" not in re.sub(r'base64,[^"]+|const frames = .*', "", page)  # no address at all
+    frames = json.loads(re.search(r"const frames = (.*);", page)[1])  # type: ignore[index]
+    first, last = (Image.open(BytesIO(base64.b64decode(frames[k]))) for k in (0, -1))
+    assert len(frames) == 10
+    assert first.size == last.size == (448, 416)
+    assert np.any(np.array(first) != np.array(last))
 
 
 def test_without_a_trace_there_is_nothing_to_draw(unlike: Callable[..., Scene]) -> None:

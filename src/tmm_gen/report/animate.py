@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,9 +10,9 @@ from numpy.typing import NDArray
 from tmm_gen.inputs.signals import Table
 from tmm_gen.reference.floating import base_place
 from tmm_gen.reference.planar_arm import Arm
+from tmm_gen.report.film import FRAMES_PER_SECOND, film
 from tmm_gen.report.spread import spread
 from tmm_gen.scene import Scene
-from tmm_gen.scratch import scratch_folder
 from tmm_gen.simulate.places import ends, node_places, outline
 from tmm_gen.simulate.simulation import Simulation
 from tmm_gen.style import FAINT, INK, PALETTE, figure, style
@@ -23,7 +22,6 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-FRAMES_PER_SECOND = 25
 MOST_FRAMES = 250
 """Longer motions are shown faster than they are."""
 
@@ -74,17 +72,14 @@ def animation(simulation: Simulation, form: str) -> bytes:
     form : {"gif", "html"}
         An endless GIF, or a page with buttons that needs nothing else.
     """
-    from matplotlib.animation import FuncAnimation, HTMLWriter, PillowWriter
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-
     scene = simulation.scene
     shown, speed = frame_instants(simulation)
     x, y = _places(simulation)
     lines, tips = [outline(scene, places) for places in (x, y)], list(ends(scene))
     with style():
         made, axes = figure(5.6, 5.2)
-        FigureCanvasAgg(made)
         _ground(axes, scene, x[shown], y[shown])
+        base = [*axes.lines]  # it may hide the arm
         axes.set_title(scene.title)
         paths = [axes.plot([], [], color=PALETTE[5], linewidth=1.2, zorder=1)[0] for _ in tips]
         (arm,) = axes.plot(
@@ -101,7 +96,7 @@ def animation(simulation: Simulation, form: str) -> bytes:
         faster = "" if abs(speed - 1.0) < 0.05 else f", shown {speed:.2g} times as fast"
         clock = axes.text(0.02, 0.98, "", transform=axes.transAxes, va="top", color=INK)
 
-        def draw(index: int) -> tuple[Any, ...]:
+        def draw(index: int) -> None:
             k = shown[index]
             arm.set_data(lines[0][k], lines[1][k])
             tip.set_data(x[k, tips], y[k, tips])
@@ -110,16 +105,9 @@ def animation(simulation: Simulation, form: str) -> bytes:
             for path, number in zip(paths, tips, strict=True):
                 path.set_data(x[: k + 1, number], y[: k + 1, number])
             clock.set_text(f"{simulation.time[k]:.2f} s{faster}")
-            return arm, hub, tip, *paths, clock
 
-        moving = FuncAnimation(made, draw, frames=len(shown), blit=False)
-        with scratch_folder() as folder:
-            target = Path(folder, f"arm.{form}")
-            if form == "gif":
-                moving.save(target, writer=PillowWriter(fps=FRAMES_PER_SECOND), dpi=80)
-            else:
-                moving.save(target, writer=HTMLWriter(fps=FRAMES_PER_SECOND, embed_frames=True), dpi=80)
-            return target.read_bytes()
+        moving = sorted((*base, *paths, arm, hub, tip, clock), key=lambda artist: artist.get_zorder())
+        return film(made, moving, draw, len(shown), form, scene.title)
 
 
 def draw_shapes(axes: Axes, simulation: Simulation) -> None:

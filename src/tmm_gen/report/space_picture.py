@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from textwrap import fill
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.report.animate import FRAMES_PER_SECOND, SHAPES, frame_instants
+from tmm_gen.report.animate import SHAPES, frame_instants
+from tmm_gen.report.film import film
 from tmm_gen.report.space_motion import SpaceMotion, space_motion
-from tmm_gen.scratch import scratch_folder
 from tmm_gen.simulate.simulation import Simulation
 from tmm_gen.style import FAINT, INK, PALETTE, figure, style
 
@@ -78,9 +77,6 @@ def space_gif(simulation: Simulation) -> bytes:
     ValueError
         If the motion was not traced.
     """
-    from matplotlib.animation import FuncAnimation, PillowWriter
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-
     motion = space_motion(simulation)
     skeleton = motion.skeleton
     shown, speed = frame_instants(simulation)
@@ -90,7 +86,6 @@ def space_gif(simulation: Simulation) -> bytes:
     faster = "" if abs(speed - 1.0) < 0.05 else f", shown {speed:.2g} times as fast"
     with style():
         made, axes = figure(5.6, 5.2, subplot_kw={"projection": "3d"})
-        FigureCanvasAgg(made)
         ground = set_out(axes, motion, way)
         axes.set_title(fill(simulation.scene.title, _LINE), loc="left")
         below = [on_ground(axes, motion, points[0, list(line)], ground) for line in skeleton.lines]
@@ -102,7 +97,7 @@ def space_gif(simulation: Simulation) -> bytes:
         ends = [axes.plot([], [], [], "o", color=PALETTE[1], markersize=6.0)[0] for _ in skeleton.tips]
         clock = axes.text2D(0.02, 0.98, "", transform=axes.transAxes, va="top", color=INK)
 
-        def draw(index: int) -> tuple[Any, ...]:
+        def draw(index: int) -> None:
             place = points[index]
             for limb, shadow, line in zip(limbs, below, skeleton.lines, strict=True):
                 limb.set_data_3d(*place[list(line)].T)
@@ -111,13 +106,9 @@ def space_gif(simulation: Simulation) -> bytes:
                 path.set_data_3d(*way[: passed[index], tip.spot].T)
                 end.set_data_3d(*place[[tip.spot]].T)
             clock.set_text(f"{motion.time[shown[index]]:.2f} s{faster}")
-            return *limbs, *below, *ways, *ends, clock
 
-        moving = FuncAnimation(made, draw, frames=len(shown), blit=False)
-        with scratch_folder() as folder:
-            target = Path(folder, "arm.gif")
-            moving.save(target, writer=PillowWriter(fps=FRAMES_PER_SECOND), dpi=80)
-            return target.read_bytes()
+        moving = (*below, *ways, *limbs, *ends, clock)
+        return film(made, moving, draw, len(shown), "gif", simulation.scene.title)
 
 
 def set_out(axes: Any, motion: SpaceMotion, points: Array, narrowest: float = 0.3) -> float:
