@@ -28,13 +28,7 @@ def rest_row(scene: Scene, number: int, each: Equilibrium, origin: str) -> dict[
     angles = np.concatenate([[at.hub], at.angles])
     turned = at.angles - angles[[scene.inner(joint) for joint in range(1, scene.stations + 1)]]
     return {
-        "equilibrium": number,
-        "state": each.told(origin),
-        "stable": each.stable,
-        "from_start": each.reached and origin == FROM_START,
-        "from_near": each.reached and origin != FROM_START,
-        "falls": each.falls,
-        "idle": each.idle.shape[1],
+        **_judged(number, each, origin),
         "hub_angle": at.hub,
         "angles": at.angles,
         "nodes": place.T,
@@ -60,13 +54,7 @@ def space_rest_row(arm: SpatialArm, number: int, each: SpaceEquilibrium, origin:
     """Return what is known of an equilibrium of an arm in space."""
     rest = each.rest
     return {
-        "equilibrium": number,
-        "state": each.told(origin),
-        "stable": each.stable,
-        "from_start": each.reached and origin == FROM_START,
-        "from_near": each.reached and origin != FROM_START,
-        "falls": each.falls,
-        "idle": each.idle.shape[1],
+        **_judged(number, each, origin),
         "angles": rest.angles,
         "frames": [
             {"name": frame.name, **dict(zip("xyz", rest.place(frame).tolist(), strict=True))}
@@ -76,4 +64,16 @@ def space_rest_row(arm: SpatialArm, number: int, each: SpaceEquilibrium, origin:
             {"name": name, "angle": float(rest.angles[k - 1]), "torque": float(rest.passed[k - 1])}
             for k, name in parts_that_turn(arm)
         ],
+    }
+
+
+def _judged(number: int, each: Equilibrium | SpaceEquilibrium, origin: str) -> dict[str, Any]:
+    return {
+        "equilibrium": number,
+        "state": each.told(origin),
+        "stable": each.stable,
+        "from_start": each.reached and origin == FROM_START,
+        "from_near": each.reached and origin != FROM_START,
+        "falls": each.falls,
+        "idle": each.idle.shape[1],
     }
