@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.control.arm import arm_of
+from tmm_gen.control.arms import arm_of
 from tmm_gen.control.motors import motors_of
 from tmm_gen.control.target import Target, rest_with
 from tmm_gen.control.terms import Goal

@@ -9,7 +9,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from tmm_gen.closed_loop.compare import Trial, compare
-from tmm_gen.control.arm import arm_of
+from tmm_gen.control.arms import arm_of
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.condition import CONDITIONS
 from tmm_gen.control.controllers import BY_NAME
