@@ -69,8 +69,8 @@ def distances(plant: SpacePlant, loop: Loop) -> np.ndarray:
     return np.linalg.norm(np.array(places) - goal, axis=1)
 
 
-def trials(count: int, seed: int, conditions: list[str]) -> Rows:
-    """Return a row for each controller, condition and goal."""
+def trials(count: int, seed: int, conditions: list[str], out: Path) -> Rows:
+    """Return a row for each controller, condition and goal; what is done is kept in a file."""
     rows: Rows = []
     cases = [case for case in CONDITIONS if case.name in conditions]
     with progress("goals", total=count * len(cases) * len(TRIED)) as advance:
@@ -98,6 +98,7 @@ def trials(count: int, seed: int, conditions: list[str]) -> Rows:
                         }
                     )
                     advance(1, f"{name}, {case.title}, goal {number}")
+            write_whole(out, json.dumps(rows, indent=1) + "\n")
     return rows
 
 
@@ -138,9 +139,8 @@ def main() -> None:
     parser.add_argument("--out", type=Path, default=ROOT / "out" / "bench")
     parser.add_argument("--update", action="store_true")
     given = parser.parse_args()
-    rows = trials(given.goals, given.seed, given.conditions.split(","))
     given.out.mkdir(parents=True, exist_ok=True)
-    write_whole(given.out / "mpc_space.json", json.dumps(rows, indent=1))
+    rows = trials(given.goals, given.seed, given.conditions.split(","), given.out / "mpc_space.json")
     print(section(rows))
     if given.update:
         write_whole(PAGE, renewed(PAGE.read_text(encoding="utf-8"), section(rows), Path(__file__).name))
