@@ -13,9 +13,10 @@ from support.spatial.random_arms import random_arm, undamped
 
 from tmm_gen.inputs.signals import Sine, Table
 from tmm_gen.reference.spatial_arm import WorldArm
-from tmm_gen.reference.spatial_motion import given, motion
+from tmm_gen.reference.spatial_given import given
+from tmm_gen.reference.spatial_motion import motion
 from tmm_gen.reference.spatial_reference import outputs
-from tmm_gen.scene.spatial.arm import SpatialArm
+from tmm_gen.scene.spatial.arm import ArmInput, SpatialArm
 
 ARMS, STATES = 50, 20
 """A thousand states."""
@@ -188,5 +189,11 @@ def test_rest_is_where_nothing_lacks() -> None:
 
 
 def test_inputs_by_signal() -> None:
-    times = np.array([0.0, 0.1])
-    assert given({"u": Sine(2.0, 5.0)}, times)["u"] == pytest.approx(2.0 * np.sin(5.0 * times))
+    """What moves a base comes with its derivatives."""
+    times, told = np.array([0.0, 0.1]), Sine(2.0, 5.0)
+    arm = SpatialArm((), inputs=(ArmInput("push", "torque", joint=1), ArmInput("along", "place_x")))
+    found = given(arm, {"push": told, "along": told}, times)
+    assert found["push"] == pytest.approx(2.0 * np.sin(5.0 * times))
+    assert found["along_rate"] == pytest.approx(10.0 * np.cos(5.0 * times))
+    assert found["along_acceleration"] == pytest.approx(-50.0 * np.sin(5.0 * times))
+    assert found.keys() == {"push", "along", "along_rate", "along_acceleration"}
