@@ -239,8 +239,8 @@ def _motion(name: str, table: Table, rates: list[float] | None, accelerations: l
     fit = rates_fit(made, np.array(rates))
     if not 1.0 / _FIT <= fit <= _FIT:
         raise UserError(
-            f"{table.source}: the column '{name}{RATE}' is {fit:.3g} times the slope of '{name}'. It must be the "
-            f"derivative of '{name}' by seconds: correct it, or remove the column."
+            f"{table.source}: the column '{name}{RATE}' is {fit:.3g} times the slope of '{name}'. It must be in rad/s, "
+            f"and '{name}' in rad (in m/s and m of a place): correct it, or remove the column."
         )
     return made
 
