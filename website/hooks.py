@@ -29,9 +29,6 @@ MARKER = re.compile(r"<!-- (gallery|playground: (\w+)) -->")
 def on_config(config: Any, **_: Any) -> Any:
     """Give pages that may be absent their place: what is not there is left out."""
     reference = next(entry["Reference"] for entry in config.nav if "Reference" in entry)
-    if (ROOT / "docs" / "python.md").exists():
-        howto = next(entry["How to"] for entry in config.nav if "How to" in entry)
-        howto.insert(1, {"Use it from Python": "python.md"})
     if python_page():
         reference.insert(0, {"Python": "reference/python.md"})
     return config
