@@ -1,8 +1,8 @@
 """What each command takes: cold, with an empty cache and nothing compiled, and warm, the same once more.
 
-Every command runs in a process of its own, in a new folder; `build` the second time in the same one. CPU time is its own and that of what it calls, compilers
-and browsers too; it changes little where others work on the machine, wall time does. ``--update`` writes the table into
-docs/performance.md.
+Every command runs in a process of its own, in a new folder; `build` the second time in the same one. CPU time is its
+own and that of what it calls, compilers and browsers too; it changes little where others work on the machine, wall time
+does. ``--update`` writes the table into docs/performance.md.
 """
 
 from __future__ import annotations
