@@ -132,7 +132,9 @@ def test_a_reference_that_is_followed_is_that_of_python(late: Bench) -> None:
         np.testing.assert_allclose(found.torque, expected.torque, rtol=0.0, atol=2e-5)
         assert found.status is expected.status
         plant.advance(found.torque)
-    assert plant.angles()[3] < -0.3  # the elbow was at 0 and is to come to -0.5; the shoulder is too weak to keep up
+    assert (
+        plant.angles()[3] < -0.3
+    )  # the elbow was at 0 and is to come to -0.5; the shoulder is too weak to keep up
 
 
 def test_encoders_that_come_and_go_are_those_of_python(two: Bench) -> None:
