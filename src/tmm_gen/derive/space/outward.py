@@ -7,7 +7,6 @@ from functools import cache
 
 import sympy as sp
 
-from tmm_gen.derive.space.by_constants import by_constants
 from tmm_gen.derive.space.declaration import (
     ACCEL,
     ACCELERATION,
@@ -101,8 +100,7 @@ class Outward:
         ]
         *before, last = passages(pattern)
         self.crossings = (*(self._cross(e, "mount") for e in before), self._cross(last, "own"))
-        names = (OWN_FORCE, OWN_MOMENT)
-        own = body_force(self.sheet, pattern, self.omega, self.alpha, self.accel, names, sloped=sloped)
+        own = body_force(self.sheet, pattern, self.omega, self.alpha, self.accel, (OWN_FORCE, OWN_MOMENT))
         own = [let for let in own if let.symbol in wanted_forces(pattern)]
         carried = dict(zip((*OMEGA, *ALPHA, *ACCEL), (*self.omega, *self.alpha, *self.accel), strict=True))
         ends = pattern.driven and pattern.tip  # nobody asks how it moves
@@ -148,8 +146,6 @@ def body_force(
     alpha: sp.Matrix,
     accel: sp.Matrix,
     names: tuple[sp.Matrix, sp.Matrix],
-    *,
-    sloped: bool = False,
 ) -> list[Let]:
     """Return the force and the moment that a body takes, by the motion of its section; nothing of none.
 
@@ -159,8 +155,6 @@ def body_force(
         Receives what is named on the way; it comes before.
     names : tuple of 2 sympy.Matrix
         Of the force and of the moment.
-    sloped : bool
-        Whether slopes are taken too: these take momentum and angular momentum, which force and moment then share.
     """
     if not pattern.massive:
         unit = {**dict.fromkeys(names[0], "N"), **dict.fromkeys(names[1], "N m")} if pattern.loaded else {}
@@ -168,26 +162,22 @@ def body_force(
             Let(symbol, sp.Integer(0), "what acts where nothing has mass", unit[symbol]) for symbol in unit
         ]
     body = body_equations(body_of(pattern))
-    values = {
+    motion = {
         **dict(zip(OMEGA, omega, strict=True)),
         **dict(zip(ALPHA, alpha, strict=True)),
         **dict(zip(ACCEL, accel, strict=True)),
     }
-    if sloped:
-        momentum = sheet.vector("momentum", body.momentum.xreplace(values), "momentum of turning", "kg m/s")
-        spin = sheet.vector("spin", body.spin.xreplace(values), "angular momentum", "kg m^2/s")
-        force = body.force.xreplace(values) + omega.cross(momentum)
-        moment = body.moment.xreplace(values) + omega.cross(spin)
-    else:
-        force = by_constants(sheet, body.force + OMEGA.cross(body.momentum), values)
-        moment = by_constants(sheet, body.moment + OMEGA.cross(body.spin), values)
+    momentum = sheet.vector("momentum", body.momentum.xreplace(motion), "momentum of turning", "kg m/s")
+    spin = sheet.vector("spin", body.spin.xreplace(motion), "angular momentum", "kg m^2/s")
+    force = body.force.xreplace(motion) + omega.cross(momentum)
+    moment = body.moment.xreplace(motion) + omega.cross(spin)
     return [
         Let(symbol, value, doc, unit)
-        for symbols, found, doc, unit in (
+        for symbols, values, doc, unit in (
             (names[0], force, "force that the body takes", "N"),
             (names[1], moment, "moment that the body takes", "N m"),
         )
-        for symbol, value in zip(symbols, found, strict=True)
+        for symbol, value in zip(symbols, values, strict=True)
     ]
 
 

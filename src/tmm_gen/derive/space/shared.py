@@ -18,7 +18,7 @@ def with_shared(sheet: Sheet, values: sp.Matrix) -> sp.Matrix:
     Differences of inertias do not change from step to step, so that they cost a step nothing.
     """
     spreads = {
-        part: spread(sheet, part)
+        part: _spread(sheet, part)
         for value in values
         for part in sp.preorder_traversal(value)
         if part.is_Add and _is_constant(part)
@@ -37,8 +37,7 @@ def with_shared(sheet: Sheet, values: sp.Matrix) -> sp.Matrix:
     )
 
 
-def spread(sheet: Sheet, part: sp.Expr) -> sp.Expr:
-    """Return the name of a difference of two inertias."""
+def _spread(sheet: Sheet, part: sp.Expr) -> sp.Expr:
     more, less = (
         next(s for s in part.free_symbols if (part.coeff(s) > 0) == positive) for positive in (True, False)
     )
