@@ -1,7 +1,7 @@
 """Frames of a motion as an endless GIF, or as a page of HTML that needs nothing else.
 
 What stands still is drawn once, and what moves over it in each frame: laying out and drawing a whole figure two hundred
-times would take a minute.
+times takes several times as long.
 """
 
 from __future__ import annotations
