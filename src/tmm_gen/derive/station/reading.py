@@ -71,6 +71,7 @@ def walk(
     return tuple(lines)
 
 
+@cache
 def _energy(element: Element, energy: str | None) -> sp.Expr:
     if energy is None:
         return sp.Integer(0)
