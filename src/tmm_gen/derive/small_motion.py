@@ -60,12 +60,11 @@ EXTERNAL = Element(
 def linearised(element: Element) -> Element:
     """Return an element whose equations are those of small deviations from rest."""
     values = _rest(element.inboard, "in") | _rest(element.outboard, "out")
-    deviations = list(values)
+    symbols = (*values, *element.inputs)
     equations = []
     for equation in element.equations:
-        slopes = [sp.diff(equation, symbol).subs(values) for symbol in (*deviations, *element.inputs)]
-        terms = zip(slopes, (*deviations, *element.inputs), strict=True)
-        equations.append(sp.Add(*(slope * symbol for slope, symbol in terms)))
+        within = [symbol for symbol in symbols if symbol in equation.free_symbols]
+        equations.append(sp.Add(*(sp.diff(equation, each).subs(values) * each for each in within)))
     return Element(
         name=f"{element.name}_at_rest",
         source=element.source,
