@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -15,10 +16,11 @@ from tmm_gen.scene import Scene
 from tmm_gen.study.configuration import Configuration, Family, own
 from tmm_gen.study.excitation import Excitation
 from tmm_gen.study.explain import explained
-from tmm_gen.study.findings import findings
+from tmm_gen.study.findings import findings, summary
 from tmm_gen.study.outcome import Outcome, Result
 from tmm_gen.study.point import Point
 from tmm_gen.study.report import _race
+from tmm_gen.study.single_precision import single_precision
 from tmm_gen.study.study import Study
 from tmm_gen.study.tune import Tuning
 from tmm_gen.study.verify import Verified
@@ -197,3 +199,26 @@ def test_the_scene_as_it_was_is_compared_within_the_bound(
     else:
         assert "times" not in last
         assert "for a simulated second" in last
+
+
+def test_float32_is_held_against_the_same_in_float64(chain: Scene, chain_excitation: Excitation) -> None:
+    double = Family("newmark", None, None, 1, "float64", "c")
+    rows = [
+        (double, 0.1, 1e-3, 10.0),
+        (double, 0.01, 1e-5, 10.0),
+        (replace(double, real="float32"), 0.1, 1e-3, 7.0),
+        (replace(double, real="float32"), 0.01, 4e-5, 9.0),
+        (replace(double, real="float32", integrator="sdirk4"), 0.1, 1e-9, 1.0),  # alone: it is no pair
+    ]
+    points = tuple(
+        Point(Configuration(family, step), Result(Outcome.FINISHED, error=error), Cost(ns, 0.0, 1))
+        for family, step, error, ns in rows
+    )
+    study = Study(chain, chain_excitation, 1.0, points, stored=2)
+    *_, single = summary(study)
+    assert single == (
+        "float32 beside float64 (2 pairs): a step takes 0.80 times as long, and the least error is 4.0e-05 instead "
+        "of 1.0e-05."
+    )
+    assert any("2 were in the store" in each for each in summary(study))
+    assert single_precision(Study(chain, chain_excitation, 1.0, points[:2])) is None

@@ -107,6 +107,8 @@ def test_an_interrupted_study_goes_on_where_it_stopped(tmp_path: Path, arm: Scen
     with Store(path) as store:
         assert sorted(store.computations()) == sorted({task.key for task in make_tasks(arm, went, grid)})
     plain = run_study(arm, went, grid, rounds=0)
+    assert 2 <= resumed.stored < len(grid)
+    assert plain.stored == 0
     assert [point.result for point in resumed.points] == [point.result for point in plain.points]
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -153,8 +154,9 @@ _COLUMNS: list[Column | str] = [
 def _show(study: Study, written: list[Path], show_all: bool, json_mode: bool) -> None:
     from tmm_gen.study.excitation import unit
     from tmm_gen.study.findings import equal_steps, findings, summary
+    from tmm_gen.study.single_precision import single_precision
 
-    scene, went = study.scene, study.excitation
+    scene, went, single = study.scene, study.excitation, single_precision(study)
     rows = study.rows(study.points if show_all or json_mode else study.front())
     more = {
         "scene": scene.name,
@@ -164,6 +166,8 @@ def _show(study: Study, written: list[Path], show_all: bool, json_mode: bool) ->
         "until": went.until,
         "excitation": went.told(scene),
         "findings": [_finding(each) for each in findings(study)],
+        "float32": None if single is None else asdict(single),
+        "stored": study.stored,
         "by_tolerance": [{**each.values(), "equal_steps": equal_steps(study, each)} for each in study.chosen],
         "modelling": [
             {"links": each.links, "error": each.error, "order": each.order}

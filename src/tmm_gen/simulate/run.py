@@ -311,11 +311,12 @@ def _outputs(course: Course, stepper: Stepper, every: int, advance: Callable[[fl
                 f"scene '{scene.name}': the simulation has diverged: {error}.\n{guard.cause()}",
                 reason="it would diverge",
             ) from error
-        smaller = "Look"
+        why, smaller = f"{error}", "Look"
         if scene.model.iterates:
+            why = f"the step is too long for this motion ({error})"
             smaller = f"Try a smaller step, --step {step / 10:g}{more_sweeps(scene)}; or look"
         raise BrokenOffError(
-            f"scene '{scene.name}' cannot be solved: {error}.",
+            f"scene '{scene.name}' cannot be solved: {why}.",
             f"{smaller} for numbers that are far too large or small.",
         ) from error
     return outputs

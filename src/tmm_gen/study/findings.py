@@ -15,6 +15,7 @@ from tmm_gen.study.configuration import Family, own
 from tmm_gen.study.excitation import unit
 from tmm_gen.study.outcome import Outcome
 from tmm_gen.study.point import Point
+from tmm_gen.study.single_precision import single_precision
 from tmm_gen.study.study import Study
 
 LEVELS = (1e-2, 1e-4, 1e-6)
@@ -179,10 +180,13 @@ def summary(study: Study) -> list[str]:
     scene, went = study.scene, study.excitation
     travelled = f"{study.travel:.3g} {unit(scene, went.output)}"
     others = ", ".join(f"{study.count(each)} {each.value}" for each in Outcome if study.count(each))
+    stored = f" {study.stored} were in the store; times are measured anew." if study.stored else ""
+    single = single_precision(study)
     return [
         f"{went.until:g} s of {'; '.join(went.told(scene))}. Errors are relative to the travel of {travelled}.",
-        f"{len(study.points)} configurations: {others}.",
+        f"{len(study.points)} configurations: {others}.{stored}",
         *(each.sentence() for each in findings(study)),
+        *([single.sentence()] if single is not None else []),
         *(chosen_sentence(study, each) for each in study.chosen),
     ]
 

@@ -19,7 +19,7 @@ from tmm_gen.study.point import Point
 from tmm_gen.study.references import References
 from tmm_gen.study.serial import Serial
 from tmm_gen.study.store import Store
-from tmm_gen.study.tasks import Executor, make_tasks
+from tmm_gen.study.tasks import Executor, Task, make_tasks
 from tmm_gen.study.truth import Truth
 
 Advance = Callable[[float, str], None]
@@ -43,6 +43,8 @@ class Study:
         Of a beam: what its number of links costs in accuracy, by number.
     chosen : tuple of ChosenSteps
         Runs by tolerances, where any were asked for.
+    stored : int
+        How many of the points were in the store already.
     """
 
     scene: Scene
@@ -51,6 +53,7 @@ class Study:
     points: tuple[Point, ...]
     modelling: Mapping[int, Modelling] = field(default_factory=dict)
     chosen: tuple[ChosenSteps, ...] = ()
+    stored: int = 0
 
     @property
     def varies_links(self) -> bool:
@@ -147,9 +150,9 @@ def run_study(
         modelling = modelling_errors(links | {own(scene).family.links or 1}, references.of)
     advance(1, "computing")
     results: dict[Configuration, Result] = dict(refused)
-    for task, result in (executor or Serial()).results(
-        make_tasks(scene, excitation, possible), truths, store
-    ):
+    tasks = make_tasks(scene, excitation, possible)
+    stored = 0 if store is None else _stored(tasks, store)
+    for task, result in (executor or Serial()).results(tasks, truths, store):
         results[task.configuration] = _modelled(result, task.configuration, modelling)
         advance(1, task.configuration.family.label)
     chosen: tuple[ChosenSteps, ...] = ()
@@ -158,7 +161,13 @@ def run_study(
         chosen = tuple(runs(scene, excitation, serving(scene, grid), tolerances, truth, advance))
     costs = _costs(scene, excitation, results, rounds, advance) if rounds else {}
     points = tuple(Point(each, results[each], costs.get(each.family)) for each in grid)
-    return Study(scene, excitation, travel, points, modelling, chosen)
+    return Study(scene, excitation, travel, points, modelling, chosen, stored)
+
+
+def _stored(tasks: Sequence[Task], store: Path) -> int:
+    """Return how many results a store has already."""
+    with Store(store) as kept:
+        return sum(kept.result(task.key) is not None for task in tasks)
 
 
 def _truths(
