@@ -217,8 +217,8 @@ def test_float32_is_held_against_the_same_in_float64(chain: Scene, chain_excitat
     study = Study(chain, chain_excitation, 1.0, points, stored=2)
     *_, single = summary(study)
     assert single == (
-        "float32 beside float64 (2 pairs): a step takes 0.80 times as long, and the least error is 4.0e-05 instead "
-        "of 1.0e-05."
+        "float32 beside float64 (2 pairs): a step takes 0.80 times as long, and the least time error is 4.0e-05 "
+        "instead of 1.0e-05."
     )
     assert any("2 were in the store" in each for each in summary(study))
     assert single_precision(Study(chain, chain_excitation, 1.0, points[:2])) is None

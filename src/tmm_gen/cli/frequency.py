@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING
 
 import click
 
+from tmm_gen.cli.changes import changed_scene, set_option
 from tmm_gen.cli.console import Column, progress, say_written, table
 from tmm_gen.cli.given import picture_file, plot_option, positive, resting_input_option
-from tmm_gen.cli.kinds import served_scene
+from tmm_gen.cli.kinds import require_served
 from tmm_gen.cli.links import show_links
 from tmm_gen.cli.near import near_option
 from tmm_gen.cli.outputs import OutputFile, claim, write_outputs
@@ -35,6 +36,7 @@ if TYPE_CHECKING:
 )
 @resting_input_option
 @near_option
+@set_option
 @click.option("--csv", "csv_file", type=OutputFile(), help="Write the response.")
 @plot_option("magnitude and phase", "-frequency")
 @click.option(
@@ -58,6 +60,7 @@ def frequency(
     points: int,
     given: tuple[str, ...],
     near: tuple[str, ...],
+    changes: tuple[str, ...],
     csv_file: Path | None,
     picture: Path | None,
     error: float | None,
@@ -72,7 +75,7 @@ def frequency(
         raise click.UsageError("--links-for ERROR and --band HZ belong together.")
     if low is not None and high is not None and low >= high:
         raise click.UsageError(f"--low {low:g} must be less than --high {high:g}.")
-    loaded = served_scene("frequency", scene)
+    loaded = require_served("frequency", changed_scene(scene, changes))
     if error is not None and band is not None:
         show_links(loaded, error, band, json_mode)
         return

@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from tmm_gen.cli.changes import changed_scene, set_option
 from tmm_gen.cli.console import Column, progress, say_written, table
 from tmm_gen.cli.given import picture_file, plot_option, resting_input_option
-from tmm_gen.cli.kinds import served_scene
+from tmm_gen.cli.kinds import require_served
 from tmm_gen.cli.modes_table import say_unsure
 from tmm_gen.cli.near import near_option
 from tmm_gen.cli.outputs import claim, write_outputs
@@ -37,6 +38,7 @@ if TYPE_CHECKING:
 )
 @resting_input_option
 @near_option
+@set_option
 @plot_option("the mode shapes", "-modes")
 @click.option("--json", "json_mode", is_flag=True, help="One JSON object instead of a table.")
 def modes(
@@ -44,6 +46,7 @@ def modes(
     count: int,
     given: tuple[str, ...],
     near: tuple[str, ...],
+    changes: tuple[str, ...],
     picture: Path | None,
     json_mode: bool,
 ) -> None:
@@ -53,7 +56,7 @@ def modes(
     angles, or that near the angles of --near. A planar arm made from a [beam] is shown beside the exact continuous
     beam, straight and weightless.
     """
-    loaded = served_scene("modes", scene)
+    loaded = require_served("modes", changed_scene(scene, changes))
     from tmm_gen.inputs.given import constant_inputs
     from tmm_gen.modal.near import start_of
 

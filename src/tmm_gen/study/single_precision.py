@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from statistics import median
 
+from tmm_gen.study.point import Point
 from tmm_gen.study.study import Study
 
 
@@ -17,7 +18,7 @@ class SinglePrecision:
     pairs : int
         How many finished in both.
     least, least_double : float
-        Least errors of either, relative to the travel of the output.
+        Least time errors of either, relative to the travel of the output.
     time : float, optional
         Time of a step over that of float64, the median of all pairs; None where times were not measured.
     """
@@ -31,7 +32,7 @@ class SinglePrecision:
         """Say it."""
         took = "" if self.time is None else f"a step takes {self.time:.2f} times as long, and "
         return (
-            f"float32 beside float64 ({self.pairs} pair{'s' * (self.pairs > 1)}): {took}the least error is "
+            f"float32 beside float64 ({self.pairs} pair{'s' * (self.pairs > 1)}): {took}the least time error is "
             f"{self.least:.1e} instead of {self.least_double:.1e}."
         )
 
@@ -39,7 +40,7 @@ class SinglePrecision:
 def single_precision(study: Study) -> SinglePrecision | None:
     """Return what float32 costs in a study; None if no configuration was tried in both number types."""
     finished = {point.configuration: point for point in study.points if point.finished}
-    pairs = []
+    pairs: list[tuple[Point, Point]] = []
     for configuration, single in finished.items():
         family = replace(configuration.family, real="float64")
         double = finished.get(replace(configuration, family=family))
@@ -48,9 +49,10 @@ def single_precision(study: Study) -> SinglePrecision | None:
     if not pairs:
         return None
     times = [a.cost.ns_per_step / b.cost.ns_per_step for a, b in pairs if a.cost and b.cost]
-    return SinglePrecision(
-        len(pairs),
-        min(single.error for single, _ in pairs),
-        min(double.error for _, double in pairs),
-        median(times) if times else None,
-    )
+    least, least_double = (min(_time_error(pair[k]) for pair in pairs) for k in (0, 1))
+    return SinglePrecision(len(pairs), least, least_double, median(times) if times else None)
+
+
+def _time_error(point: Point) -> float:
+    assert point.result.error is not None  # it has finished
+    return point.result.error
