@@ -14,9 +14,16 @@ import matplotlib.colors
 import matplotlib.image
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 from support.browser import PHONE, excess_on_a_phone
 
-from tmm_gen.study.figures import step_picture, trade_picture
+from tmm_gen.study.figures import (
+    _operations_figure,
+    _step_figure,
+    _time_figure,
+    step_picture,
+    trade_picture,
+)
 from tmm_gen.study.report import report
 from tmm_gen.study.study import Study
 from tmm_gen.style import PALETTE
@@ -83,7 +90,21 @@ def test_browser_shows_it_on_a_phone(arm_page: str, browse: Callable[..., str], 
     assert dark[:200].sum() > 500
     for colour in ((0x00, 0x72, 0xB2), (0xD5, 0x5E, 0x00)):
         near = np.all(np.abs(seen - np.array(colour) / 255.0) < 0.05, axis=2)
-        assert near[400:].sum() > 100
+        assert np.ptp(np.nonzero(near[600:])[1]) > PHONE / 3  # farther apart than a legend draws them
+
+
+@pytest.mark.parametrize("which", ["chain_study", "arm_study"])
+@pytest.mark.parametrize("drawn", [_step_figure, _time_figure, _operations_figure])
+def test_pictures_show_every_point(
+    drawn: Callable[[Study, bool], Figure], which: str, request: pytest.FixtureRequest
+) -> None:
+    """Those of steps have time errors alone, which may be far below errors of modelling."""
+    axes = drawn(request.getfixturevalue(which), True).axes[0]
+    low, high = axes.get_ylim()
+    curves = [line for line in axes.lines if line.get_marker() != "None"]
+    found = np.concatenate([np.asarray(line.get_ydata(), float) for line in curves])
+    assert len(found) > 3
+    assert np.all((found >= low) & (found <= high))
 
 
 @pytest.mark.parametrize("path", REPORTS, ids=lambda path: path.stem)

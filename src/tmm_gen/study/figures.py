@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Literal
 
+import numpy as np
+
 from tmm_gen.errors import CheckFailed
 from tmm_gen.study.configuration import Family
 from tmm_gen.study.findings import by_family
@@ -93,16 +95,20 @@ def _microseconds(point: Point) -> float | None:
 
 def step_picture(study: Study, form: str = "svg", wide: bool = True) -> bytes:
     """Draw the time error against the step: slopes are orders."""
+    return picture(_step_figure(study, wide), form)
+
+
+def _step_figure(study: Study, wide: bool) -> Figure:
     with style():
         made, axes = figure(*_size(wide))
         shown = _drawn_families(study)
         for family, points in shown:
             steps = [p.configuration.step for p in points]
             _line(axes, shown, family, steps, [p.result.error or 0.0 for p in points])
-        _logarithmic(axes, study, "step (s)", "time error, relative to the travel")
+        _logarithmic(axes, "step (s)", "time error, relative to the travel")
         subtitle(axes, "Error against step", "slopes are orders of accuracy")
         _legend(made, shown, wide)
-        return picture(made, form)
+        return made
 
 
 def modelling_picture(study: Study, form: str = "svg", wide: bool = True) -> bytes:
@@ -130,7 +136,7 @@ def _cost_figure(study: Study, price: Price, title: str, what: str, wide: bool) 
         front = [(price(p) or 0.0, study.error(p)) for p in study.front(price)]
         axes.plot(*zip(*front, strict=True), "o", zorder=4, **_RING)
         whole = "time and modelling error" if study.varies_links else "time error"
-        _logarithmic(axes, study, what, f"{whole}, relative to the travel")
+        _logarithmic(axes, what, f"{whole}, relative to the travel")
         subtitle(axes, title, study.scene.name)
         _legend(made, shown, wide, rings=True)
         return made
@@ -177,12 +183,14 @@ def _told_apart(shown: list[tuple[Family, list[Point]]]) -> tuple[list[str], lis
     return integrators, list(dict.fromkeys(family.variant for family, _ in shown))
 
 
-def _logarithmic(axes: Axes, study: Study, x: str, y: str) -> None:
+def _logarithmic(axes: Axes, x: str, y: str) -> None:
+    """Set scales, labels and limits of axes whose lines are drawn: the least error has its place."""
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.set_xlabel(x)
     axes.set_ylabel(y)
-    low = min(study.error(p) for p in study.points if p.finished)
+    drawn = np.concatenate([np.asarray(line.get_ydata(), float) for line in axes.lines])
+    low = float(np.min(drawn[drawn > 0.0]))
     axes.set_ylim(max(low / 3.0, 1e-15), 2.0)
     for level in (1e-2, 1e-4, 1e-6):
         axes.axhline(level, color=FAINT, linewidth=0.6, zorder=0)
