@@ -54,9 +54,14 @@ def require_played(scene: Scene) -> None:
         Where the base is moved by an input, or floats in space.
     """
     if scene.motions:
+        remedy = (
+            'Give the base kind = "motor" and an input that acts = "torque"'
+            if scene.spatial is None
+            else 'Write kind = "clamp" under [base], and a [[motor]] on it where the base turns'
+        )
         raise UserError(
             f"scene '{scene.name}': the input '{scene.motions[0].name}' moves the base, which a playground does not "
-            'show yet. Give the base kind = "motor" and an input that acts = "torque".'
+            f"show yet. {remedy}."
         )
     if scene.spatial is not None and scene.spatial.base is not None:
         raise UserError(
