@@ -76,9 +76,10 @@ def _targets(upper: Axes, lower: Axes, problem: ControlProblem, loop: Loop, k: i
     """Draw a motor's reference with its band, or what its joint is to follow, and the bounds of its torque."""
     width, goal = BAND * float(np.max(np.abs(loop.goal - loop.tip[0]))), loop.goal[k]
     if loop.wanted is None:
-        upper.axhspan(goal - width, goal + width, color=FAINT, alpha=0.25, linewidth=0)
-    else:  # the joint's, from which tips sag
-        upper.plot(loop.sampled, loop.wanted[:, k], color=FAINT, linewidth=3.0)
+        band = f"target, within {100.0 * BAND:g} % of the way"
+        upper.axhspan(goal - width, goal + width, color=FAINT, alpha=0.25, linewidth=0, label=band)
+    else:  # tips sag from it
+        upper.plot(loop.sampled, loop.wanted[:, k], color=FAINT, linewidth=3.0, label="joint, as asked for")
     for bound in problem.torque:
         lower.axhline(bound[k], color=FAINT, linewidth=1.0, linestyle=":")
 
