@@ -140,7 +140,8 @@ def set_out(axes: Any, motion: SpaceMotion, points: Array, narrowest: float = 0.
     for name, axis, span in zip("xyz", (axes.xaxis, axes.yaxis, axes.zaxis), high - low, strict=True):
         axis.set_label_text(f"{name} (m)")
         axis.set_pane_color((1.0, 1.0, 1.0, 0.0))
-        axis.get_major_locator().set_params(nbins=max(2, round(6.0 * float(span) / longest)))
+        few = max(1, round(5.0 * float(span) / longest))  # labels of a narrow field would overlap
+        axis.get_major_locator().set_params(nbins=few, min_n_ticks=1)
         axis.set_tick_params(labelsize=8.0)
     foot = 0.05 * motion.reach * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1], [-1, -1]])
     plate = np.zeros((5, 3))
