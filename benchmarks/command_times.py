@@ -42,7 +42,7 @@ COMMANDS = (
     "integrators",
     "stability scenes/thesis10.toml",
     "trade scenes/thesis10.toml --integrators newmark,sdirk4",
-    "tune scenes/thesis10.toml --integrators newmark,sdirk4 --max-error 1e-4",
+    "tune scenes/thesis10.toml --integrators newmark,sdirk4 --max-error 1e-4 --max-time 1ms",
     "export scenes/arm10.toml --to mjcf --out arm10.xml",
     "export scenes/arm10.toml --to fmu --out arm10.fmu",
     "mpc scenes/swing.toml --controller lqr --controller mpc-modes --condition nominal",
