@@ -143,8 +143,7 @@ def drawn_arm(
         if number % 2 == 0:
             if branching:
                 on = str(random.choice(["base", *solid]))
-            motor = (number > 0 and on != "base") or kind != "prescribed"
-            on = _turns(random, hung, name, on, motor=motor, elastic=branching)
+            on = _turns(random, hung, name, on, elastic=branching)
             turning.append(name)
         else:
             on = _solid(random, hung, name, on)
@@ -191,15 +190,13 @@ def drawn_arm(
     return parse_scene(written(tables))
 
 
-def _turns(
-    random: np.random.Generator, hung: list[Any], name: str, on: str, *, motor: bool, elastic: bool
-) -> str:
+def _turns(random: np.random.Generator, hung: list[Any], name: str, on: str, *, elastic: bool) -> str:
     keys: dict[str, Any] = {"name": name, "on": on}
     if random.uniform() < 0.2:
         keys["damping"] = 0.0
     else:
         keys["damping"] = random.uniform(0.01, 0.2)
-    if motor and random.uniform() < 0.5:
+    if random.uniform() < 0.5:
         keys |= {"rotor_inertia": random.uniform(0.0, 3e-5), "gear": float(random.choice([1.0, 20.0, 100.0]))}
         if elastic and random.uniform() < 0.5:
             keys |= {

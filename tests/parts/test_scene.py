@@ -415,13 +415,6 @@ def test_numbers_of_parts_change_by_name(elbow_text: str) -> None:
     assert changed.tip.mass == 0.25
 
 
-def test_a_motor_on_a_moved_base_is_refused(elbow_text: str) -> None:
-    text = elbow_text.replace('kind = "clamp"', 'kind = "prescribed"')
-    text += '\n[[input]]\nname = "turn"\nat = "base"\nacts = "angle"\n'
-    with pytest.raises(SceneError, match="prescribes already"):
-        parse_scene(text)
-
-
 def test_drawn_arms_are_scenes(drawn: Callable[..., Scene]) -> None:
     assert all(drawn(seed, 2 + seed % 7).stations >= 1 for seed in range(10))
 

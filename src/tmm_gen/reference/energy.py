@@ -31,6 +31,9 @@ class Energy:
         W; what dampers of joints and hub turn to heat.
     supply : array
         W; what loads, motor and prescribed base put in.
+    borne : array
+        J; what the supply lacks of the work that a prescribed base does on rotors at its joints: it goes by their
+        acceleration, and was integrated by parts.
     """
 
     time: Array
@@ -39,6 +42,7 @@ class Energy:
     gravitational: Array
     dissipation: Array
     supply: Array
+    borne: Array
 
     @property
     def total(self) -> Array:
@@ -53,7 +57,8 @@ class Energy:
     @property
     def supplied(self) -> Array:
         """Work done on the arm so far, J."""
-        return _integral(self.time, self.supply)
+        done: Array = _integral(self.time, self.supply) + self.borne - self.borne[0]
+        return done
 
     @property
     def imbalance(self) -> float:
@@ -91,8 +96,9 @@ def energy(scene: Scene, signals: Mapping[str, Signal], time: Array, angle: Arra
     if scene.floats:
         base_x, base_y = base_place(arm, 1, time, angle, rate, still)
         supply += base_x * force_x.sum(axis=1) + base_y * force_y.sum(axis=1)
+    borne = np.zeros(len(time))
     if scene.prescribed:
-        base_angle, base_rate = arm.base_motion(time)
+        base_angle, base_rate, _ = arm.base_motion(time)
         for place in np.flatnonzero(arm.inner < 0):
             joint, moved = scene.joints[place], rate[:, place]
             spring = joint.stiffness * (base_angle + joint.rest - angle[:, place]) + joint.damping * (
@@ -100,17 +106,19 @@ def energy(scene: Scene, signals: Mapping[str, Signal], time: Array, angle: Arra
             )
             # of the load as Lagrange's equations have it, only what the base itself does is work put in
             supply += base_rate * spring - moved * (joint.stiffness * base_angle + joint.damping * base_rate)
+            borne += arm.rotors[place] * base_rate * (0.5 * base_rate - moved)
     return Energy(
         time,
-        kinetic_energy(arm, angle, rate, base_place(arm, 1, time, angle, rate, still)),
+        kinetic_energy(arm, time, angle, rate, base_place(arm, 1, time, angle, rate, still)),
         elastic_energy(arm, time, angle),
         gravitational_energy(arm, angle, base_place(arm, 0, time, angle, rate, still)),
         dissipation(arm, time, rate),
         supply,
+        borne,
     )
 
 
-def kinetic_energy(arm: Arm, angle: Array, rate: Array, base: tuple[Array, Array]) -> Array:
+def kinetic_energy(arm: Arm, time: Array, angle: Array, rate: Array, base: tuple[Array, Array]) -> Array:
     """Return the kinetic energy of base, links, tip and rotors, (k,), J; the base's velocity is given along x and y."""
     along_x = base[0][:, None] - arm.walked(np.sin(angle) * rate)
     along_y = base[1][:, None] + arm.walked(np.cos(angle) * rate)
@@ -118,7 +126,7 @@ def kinetic_energy(arm: Arm, angle: Array, rate: Array, base: tuple[Array, Array
     if isinstance(arm.scene.base, FloatingBase):
         found += 0.5 * arm.scene.base.mass * (base[0] ** 2 + base[1] ** 2)
     if arm.rotors.any():
-        found += 0.5 * arm.bent(rate) ** 2 @ arm.rotors
+        found += 0.5 * arm.wound(time, rate) ** 2 @ arm.rotors
     return found
 
 
@@ -140,7 +148,7 @@ def dissipation(arm: Arm, time: Array, rate: Array) -> Array:
     """Return what dampers of joints and hub turn to heat, (k,), W."""
     found: Array = np.sum(rate * arm.damper_torques(rate), axis=1)
     if arm.scene.prescribed:
-        _, base_rate = arm.base_motion(time)
+        _, base_rate, _ = arm.base_motion(time)
         for place in np.flatnonzero(arm.inner < 0):
             damping = arm.scene.joints[place].damping
             found += damping * (base_rate**2 - 2.0 * base_rate * rate[:, place])

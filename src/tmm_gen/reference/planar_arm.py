@@ -56,11 +56,15 @@ class Arm(Members):
         for item in self.scene.inputs:
             values = np.broadcast_to(self.signal(item.name).at(times), times.shape)
             place = station_of(item.at, self.scene.stations) - 1 + self.first
-            if item.acts == "angle":  # through the springs and the dampers of joints on the base
-                rate = self.signal(item.name).slope(times)
+            if item.acts == "angle":  # through springs, dampers and rotors of joints on the base
+                rate, acceleration = (
+                    self.signal(item.name).slope(times),
+                    self.signal(item.name).curvature(times),
+                )
                 for on_base in np.flatnonzero(self.inner < 0):
                     joint = self.scene.joints[on_base]
                     torque[:, on_base] += joint.stiffness * values + joint.damping * rate
+                    torque[:, on_base] += self.rotors[on_base] * acceleration
             elif item.acts == "drive":  # between both sides of the joint
                 geared = self.scene.joints[place - self.first].gear * values
                 torque[:, place] += geared
@@ -71,19 +75,26 @@ class Arm(Members):
                 {"torque": torque, "force_x": along_x, "force_y": along_y}[item.acts][:, place] += values
         return torque, along_x, along_y
 
-    def base_motion(self, times: Array) -> tuple[Array, Array]:
-        """Return angle and rate of a prescribed base, zero for a clamp, (k,) each."""
-        angle, rate = np.zeros((2, len(times)))
+    def base_motion(self, times: Array) -> tuple[Array, Array, Array]:
+        """Return angle, rate and acceleration of a prescribed base, zero for a clamp, (k,) each."""
+        angle, rate, acceleration = np.zeros((3, len(times)))
         for item in self.scene.inputs:
             if item.acts == "angle":
                 angle += self.signal(item.name).at(times)
                 rate += self.signal(item.name).slope(times)
-        return angle, rate
+                acceleration += self.signal(item.name).curvature(times)
+        return angle, rate, acceleration
 
     def strained(self, times: Array, q: Array) -> Array:
         """Return what the springs of the joints are wound up by, (k, joints), rad."""
         found = self.bent(q) - self.slack
         found[:, self.inner < 0] -= self.base_motion(times)[0][:, None]
+        return found
+
+    def wound(self, times: Array, v: Array) -> Array:
+        """Return how fast the two sides of each joint turn against each other, (k, joints), rad/s."""
+        found = self.bent(v)
+        found[:, self.inner < 0] -= self.base_motion(times)[1][:, None]
         return found
 
     # -- equations ----------------------------------------------------------------------------------------------

@@ -97,17 +97,17 @@ def read(arm: Arm, output: Output, times: Array, q: Array, v: Array, a: Array) -
     return dict(zip(quantity.columns(output.name), values, strict=True))
 
 
-def _ground(arm: Arm, number: int, times: Array) -> tuple[Array, Array]:
-    """Return the angle and the rate on the inner side of a joint where that is a prescribed base, zero elsewhere."""
-    angle, rate = arm.base_motion(times)
+def _ground(arm: Arm, number: int, times: Array) -> tuple[Array, Array, Array]:
+    """Return the motion on the inner side of a joint where that is a prescribed base, zero elsewhere."""
+    angle, rate, acceleration = arm.base_motion(times)
     on_base = float(arm.inner[number - 1] < 0)
-    return on_base * angle, on_base * rate
+    return on_base * angle, on_base * rate, on_base * acceleration
 
 
 def _energy(arm: Arm, which: str, times: Array, q: Array, v: Array, a: Array) -> Array:
     """Return an energy that depends on the present state alone, (k,), J."""
     if which == "kinetic":
-        return kinetic_energy(arm, q, v, base_place(arm, 1, times, q, v, a))
+        return kinetic_energy(arm, times, q, v, base_place(arm, 1, times, q, v, a))
     if which == "elastic":
         return elastic_energy(arm, times, q)
     return gravitational_energy(arm, q, base_place(arm, 0, times, q, v, a))
@@ -127,7 +127,7 @@ def _torque(arm: Arm, output: Output, times: Array, q: Array, v: Array, a: Array
         )
         return np.asarray(outside - arm.scene.tip.inertia * a[:, -1])
     number = max(station_of(output.at, arm.scene.stations), 1)
-    joint, (angle, rate) = arm.scene.joints[number - 1], _ground(arm, number, times)
+    joint, (angle, rate, _) = arm.scene.joints[number - 1], _ground(arm, number, times)
     bent, bent_rate = arm.bent(q)[:, number - 1] - angle, arm.bent(v)[:, number - 1] - rate
     return joint.stiffness * bent + joint.damping * bent_rate
 
@@ -136,7 +136,8 @@ def _through(arm: Arm, number: int, times: Array, q: Array, v: Array, a: Array) 
     """Return the torque of a joint's inner side on the outer one: motor, spring, damper, less what its rotor takes."""
     joint = arm.scene.joints[number - 1]
     bent = arm.strained(times, q)[:, number - 1]
-    bent_rate = arm.bent(v)[:, number - 1] - _ground(arm, number, times)[1]
+    _, rate, acceleration = _ground(arm, number, times)
+    bent_rate = arm.bent(v)[:, number - 1] - rate
     drive = sum(
         (
             joint.gear * np.broadcast_to(arm.signal(i.name).at(times), times.shape)
@@ -145,7 +146,7 @@ def _through(arm: Arm, number: int, times: Array, q: Array, v: Array, a: Array) 
         ),
         np.zeros(len(times)),
     )
-    rotor = arm.rotors[number - 1] * arm.bent(a)[:, number - 1]
+    rotor = arm.rotors[number - 1] * (arm.bent(a)[:, number - 1] - acceleration)
     return np.asarray(drive - rotor - joint.stiffness * bent - joint.damping * bent_rate)
 
 

@@ -1,7 +1,8 @@
 """A prescribed base: what drives it, what cannot, and what is said of it.
 
 Kernels take angle, rate and acceleration, and the same of places in space. An angle that jumps is none of a base: its
-rate would be infinite, and the damper of joint 1 with it. A rate that jumps is: the torque in joint 1 is finite.
+rate would be infinite, and the damper of joint 1 with it. A rate that jumps is, where springs and dampers alone stand
+on the base: the torque in joint 1 is finite. Masses that move with the base, and rotors, would be struck.
 """
 
 from __future__ import annotations
@@ -90,7 +91,7 @@ def _moving(signal: Signal) -> Signal:
     return through(signal) if isinstance(signal, Table) else signal
 
 
-def prescribed(scene: Scene, signals: Mapping[str, Signal]) -> dict[str, Signal]:
+def prescribed(scene: Scene, signals: Mapping[str, Signal], until: float) -> dict[str, Signal]:
     """Return the inputs of a scene, those of a prescribed base as motions that a base can make.
 
     Parameters
@@ -99,11 +100,13 @@ def prescribed(scene: Scene, signals: Mapping[str, Signal]) -> dict[str, Signal]
         With the step it is computed at.
     signals : mapping from str to Signal
         Inputs by name.
+    until : float
+        How long the base moves, s.
 
     Raises
     ------
     UserError
-        If one jumps, on the way or where the arm starts.
+        If one jumps, on the way or where the arm starts, or its rate does where that strikes masses or rotors.
     """
     found = dict(signals)
     for item in scene.motions:
@@ -112,6 +115,8 @@ def prescribed(scene: Scene, signals: Mapping[str, Signal]) -> dict[str, Signal]
             raise UserError(_jumps(scene, item, signal.before, signal.after, signal.instant, "", ""))
         if isinstance(signal, Curve):
             _refuse_jumps(scene, item, signal)
+            if _struck(scene):
+                _refuse_blows(scene, item, signal, until)
         _refuse_start(scene, item, signal)
         if item.name in signals:
             found[item.name] = signal
@@ -134,6 +139,29 @@ def _refuse_jumps(scene: Scene, item: Input, curve: Curve) -> None:
         where = f" ({table.row(row + 1)})" if table.lines else ""
         raise UserError(
             _jumps(scene, item, before, after, float(table.times[row]), within, others, where=where)
+        )
+
+
+def _struck(scene: Scene) -> bool:
+    """Whether masses move with the base, as in space, or rotors turn against it."""
+    on_base = (joint for k, joint in enumerate(scene.joints, start=1) if not scene.inner(k))
+    return scene.spatial is not None or any(joint.rotor_inertia for joint in on_base)
+
+
+def _refuse_blows(scene: Scene, item: Input, curve: Curve, until: float) -> None:
+    """Refuse a rate that jumps on the way; a base that moves when the clock starts had the arm with it before."""
+    for row, jump in curve.corners:
+        instant, table = float(curve.times[row]), curve.table
+        if not 0.0 < instant < until:
+            continue
+        where = f" ({table.row(row)})" if table.lines else ""
+        way = _way(
+            scene, item, float(table.values[0]), float(table.values[-1]), max(0.0, float(curve.times[0]))
+        )
+        raise UserError(
+            f"scene '{scene.name}', input '{item.name}'{where}: the rate of the prescribed base jumps by {jump:+.3g} "
+            f"{INPUT_UNITS[item.acts]}/s at t = {instant:.6g} s, which strikes what moves with it: a force without "
+            f"bounds. Use a smooth way, --input {way}, or give rows that round the corner off."
         )
 
 
@@ -186,10 +214,10 @@ def followed(scene: Scene, signals: Mapping[str, Signal], until: float) -> Itera
     """Yield what there is to say of how tables of a prescribed base are followed, in sentences."""
     for item in scene.motions:
         if isinstance(curve := signals.get(item.name), Curve):
-            yield from _followed(item, curve, until)
+            yield from _followed(item, curve, until, struck=_struck(scene))
 
 
-def _followed(item: Input, curve: Curve, until: float) -> Iterator[str]:
+def _followed(item: Input, curve: Curve, until: float, *, struck: bool) -> Iterator[str]:
     last = len(curve.times) - 1
     corners = [
         (float(curve.times[row]), jump)
@@ -197,6 +225,10 @@ def _followed(item: Input, curve: Curve, until: float) -> Iterator[str]:
         if 0.0 <= curve.times[row] < until * (1.0 - 1e-9) or (row < last and curve.times[row] < until)
     ]
     if not corners:
+        return
+    if struck:  # no other is left
+        ((_, jump),) = corners
+        yield f"{item.name} moves the base at {jump:+.3g} {INPUT_UNITS[item.acts]}/s when the clock starts already"
         return
     told = [f"{jump:+.3g} {INPUT_UNITS[item.acts]}/s at {time:.4g} s" for time, jump in corners[:_SHOWN]]
     more = f" and at {len(corners) - _SHOWN} more rows" if len(corners) > _SHOWN else ""

@@ -120,7 +120,7 @@ def simulate(
         If the kernel cannot be made, the steps are too many, a prescribed angle jumps, or a pivot vanishes.
     """
     steps = number_of_steps(until, scene.integrator.step)
-    signals = prescribed(scene, signals)
+    signals = prescribed(scene, signals, until)
     inputs = {item.name: signals.get(item.name, Constant(0.0)) for item in scene.inputs}
     time: Array = scene.integrator.step * np.arange(steps + 1, dtype=float)
     if every is not None:

@@ -102,7 +102,7 @@ class Unsolved:
         still = np.zeros_like(q)
         base = about_center(arm, 1, motion["q"], motion["v"], motion["a"])
         moved = float(
-            np.max(kinetic_energy(arm, motion["q"], motion["v"], base))
+            np.max(kinetic_energy(arm, times[1:], motion["q"], motion["v"], base))
             + np.ptp(elastic_energy(arm, times, q))
             + np.ptp(gravitational_energy(arm, q, about_center(arm, 0, q, still, still)))
         )

@@ -93,7 +93,7 @@ def excitation(
         raise UserError(
             f"--until {duration:g}: simulate between {_SHORTEST:g} and {_LONGEST:g} s; a few slow periods tell most."
         )
-    signals = prescribed(scene, given) if given else _default_signals(scene, duration)
+    signals = prescribed(scene, given, duration) if given else _default_signals(scene, duration)
     refuse_other_clock(signals, duration)
     chosen = Excitation(signals, duration, _output(scene, output).name)
     moving = any(not isinstance(signal, Constant) or signal.value for signal in signals.values())

@@ -139,13 +139,6 @@ def _carried(document: PartsDocument, entry: Entry, host: Entry | None) -> Itera
             f"Put a [[link]] between '{host.name}' and '{entry.name}', or make one of the two.",
             entry.part.on,
         )
-    if entry.table == "motor" and host is None and document.base.kind == "prescribed":
-        yield Finding(
-            path,
-            f"puts motor '{entry.name}' on a base whose angle an input prescribes already",
-            'Set base.kind = "clamp", or make it a [[joint]].',
-            entry.part.on,
-        )
     if isinstance(entry.part, MotorPart) and elastic(entry.part) and entry.part.rotor_inertia == 0.0:
         yield Finding(
             (*entry.path, "rotor_inertia"),
