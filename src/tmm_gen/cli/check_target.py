@@ -66,6 +66,8 @@ def _bits(found: Measurement) -> str:
     apart = (
         f"the state differs from this machine's by {found.difference.last_step:.1e} of its largest number after "
         f"{found.steps} steps"
+        if found.difference.last_step
+        else f"after {found.steps} steps the state is this machine's to the bit, but not all outputs on the way were"
     )
     libraries = [name for name in found.library_functions if not name.startswith("__aeabi_")]
     if libraries:
