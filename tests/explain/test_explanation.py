@@ -7,8 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from tmm_gen.explain.explanation import Explained, Explanation, explain
-from tmm_gen.explain.footprint import footprint
+from tmm_gen.explain.cost import footprint
+from tmm_gen.explain.explain import explain
+from tmm_gen.explain.explanation import Explained, Explanation
 from tmm_gen.explain.terms import terms_of
 from tmm_gen.scene import Scene
 
@@ -132,7 +133,7 @@ def test_it_is_counted_once(
         raise AssertionError("counted again")
 
     with monkeypatch.context() as patched:
-        patched.setattr("tmm_gen.explain.explanation._counted", refused)
+        patched.setattr("tmm_gen.explain.counting.counted", refused)
         assert explain(example("thesis2")) == first
         with pytest.raises(AssertionError):
             explain(scene.replace(**{"integrator.step": 0.02}))

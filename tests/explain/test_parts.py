@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from tmm_gen.explain.explanation import Explained, explain
+from tmm_gen.explain.explain import explain
+from tmm_gen.explain.explanation import Explained
 from tmm_gen.scene import parse_scene
 
 TWO = """\

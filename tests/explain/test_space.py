@@ -11,8 +11,9 @@ from support.spatial.moving import AFLOAT, TABLE
 
 from tmm_gen.c_language.real import REALS
 from tmm_gen.cli import main
-from tmm_gen.explain.explanation import Explained, Explanation, explain
-from tmm_gen.explain.footprint import footprint, footprint_of
+from tmm_gen.explain.cost import footprint, footprint_of
+from tmm_gen.explain.explain import explain
+from tmm_gen.explain.explanation import Explained, Explanation
 from tmm_gen.explain.space_shares import SHARED, shares
 from tmm_gen.program.build import build_program
 from tmm_gen.scene import Scene, parse_scene

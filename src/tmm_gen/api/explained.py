@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from tmm_gen.api.html import html_table
+from tmm_gen.explain.explain import explain as explanation_of
 from tmm_gen.explain.explanation import Explanation
-from tmm_gen.explain.explanation import explain as explanation_of
 from tmm_gen.explain.footprint import Footprint
 from tmm_gen.explain.rows import beam_sentences, headline, term_row, whole_sentence
 from tmm_gen.scene import Scene

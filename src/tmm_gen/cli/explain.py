@@ -31,7 +31,7 @@ def explain(scene: Path, changes: tuple[str, ...], json_mode: bool) -> None:
     loaded = require_served("explain", changed_scene(scene, changes))
     found_hints = hinted(loaded, json_mode)
     with progress(f"counting {loaded.name}") as advance:
-        from tmm_gen.explain.explanation import explain as explained
+        from tmm_gen.explain.explain import explain as explained
 
         found = explained(loaded, lambda term: advance(1, doing=f"counted {term}"))
     _show(found, found_hints, json_mode)

@@ -7,7 +7,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from tmm_gen.c_language.real import Real
-from tmm_gen.explain.footprint import Footprint, footprint_of
+from tmm_gen.explain.cost import footprint_of
+from tmm_gen.explain.footprint import Footprint
 from tmm_gen.program.count import count_by_station
 from tmm_gen.program.space.loads import load_title
 from tmm_gen.program.statements import Program, Routine, Section

@@ -8,6 +8,7 @@ themselves cancel. Forces follow from the power of what has no mass, and from Ki
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
 
 import sympy as sp
 
@@ -20,6 +21,7 @@ from tmm_gen.derive.space.declaration import (
     VELOCITY,
     Body,
     Passage,
+    hinge,
 )
 
 
@@ -70,6 +72,12 @@ class BodyEquations:
     spin: sp.Matrix
     force: sp.Matrix
     moment: sp.Matrix
+
+
+@cache
+def hinge_equations(axis: int) -> PassageEquations:
+    """Return the equations of a joint about one of its frame's axes: three of them serve every arm."""
+    return passage_equations(hinge(axis))
 
 
 def passage_equations(passage: Passage) -> PassageEquations:

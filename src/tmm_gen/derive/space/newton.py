@@ -8,11 +8,12 @@ by ``S k + e``, S of six rows and nine columns, and not symmetric.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cache
 
 import sympy as sp
 
-from tmm_gen.derive.space.declaration import ACCEL, ALPHA, ANGLE, AXES, OMEGA, RATE, hinge
-from tmm_gen.derive.space.equations import body_equations, passage_equations
+from tmm_gen.derive.space.declaration import ACCEL, ALPHA, ANGLE, AXES, OMEGA, RATE
+from tmm_gen.derive.space.equations import body_equations, hinge_equations
 from tmm_gen.derive.space.inward import ADMITTANCE, BIAS, IMBALANCE, IMPEDANCE, OWN, TORQUE, unchanged
 from tmm_gen.derive.space.outward import COSINE, OWN_FORCE, OWN_MOMENT, SINE, Crossing, Outward, body_of
 from tmm_gen.derive.space.shared import with_shared
@@ -70,7 +71,7 @@ class Newton:
         """Return the change of the section's motion per unknown of its joint."""
         known = self._out.known
         crossing = self._out.crossings[-1]
-        equations = passage_equations(hinge(self._out.pattern.axis))
+        equations = hinge_equations(self._out.pattern.axis)
         by_angle, by_rate, by_acceleration = self._gains
         here = _at(crossing)
 
@@ -256,7 +257,8 @@ def _by_circle(value: sp.Expr) -> sp.Expr:
     return value.xreplace({sp.sin(ANGLE): SINE, sp.cos(ANGLE): COSINE})
 
 
-def _turning(axis: int) -> sp.Matrix:
+@cache
+def _turning(axis: int) -> sp.ImmutableMatrix:
     """Return what a small turn makes of forces that turn with the joint, seen from its outer side."""
-    forces = passage_equations(hinge(axis)).forces
-    return (forces.T * forces.diff(ANGLE)).applyfunc(sp.trigsimp)
+    forces = hinge_equations(axis).forces
+    return sp.ImmutableMatrix((forces.T * forces.diff(ANGLE)).applyfunc(sp.trigsimp))

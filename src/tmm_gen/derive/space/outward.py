@@ -15,13 +15,17 @@ from tmm_gen.derive.space.declaration import (
     OMEGA,
     RATE,
     Body,
-    hinge,
     offset,
     rigid_body,
     turned,
     vector,
 )
-from tmm_gen.derive.space.equations import PassageEquations, body_equations, passage_equations
+from tmm_gen.derive.space.equations import (
+    PassageEquations,
+    body_equations,
+    hinge_equations,
+    passage_equations,
+)
 from tmm_gen.derive.space.pattern import Pattern
 from tmm_gen.derive.space.sheet import Sheet
 from tmm_gen.derive.station.lets import Let, Line, Update
@@ -226,7 +230,7 @@ def passages(pattern: Pattern) -> tuple[PassageEquations, ...]:
 
 @cache
 def _hinge(axis: int) -> PassageEquations:
-    return _by_circle(passage_equations(hinge(axis)))
+    return _by_circle(hinge_equations(axis))
 
 
 def _by_circle(equations: PassageEquations) -> PassageEquations:

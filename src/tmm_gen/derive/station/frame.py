@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import sympy as sp
 
@@ -121,12 +122,7 @@ class Frame:
 
     def slope(self, value: sp.Expr, kind: str) -> sp.Expr:
         """Differentiate by displacement, rate or acceleration of the station."""
-        if kind == "q":
-            turned = sp.diff(value, SINE) * COSINE - sp.diff(value, COSINE) * SINE
-            return sp.expand(self.turning * turned + sp.diff(value, OUTER["q"]))
-        if kind == "v":
-            return sp.expand(sp.diff(value, OUTER["v"]) + sp.diff(value, SQUARE) * self.square_slope)
-        return sp.expand(sp.diff(value, OUTER["a"]))
+        return _slope(value, kind, self.turning, self.square_slope)
 
     def along(self, value: sp.Expr) -> sp.Expr:
         """Differentiate by the unknown: displacement, rate and acceleration move together."""
@@ -137,6 +133,16 @@ class Frame:
         return value.xreplace(
             {symbols[kind]: sp.S.Zero for kind in self.still for symbols in (MOUNT, INNER, OUTER)}
         )
+
+
+@lru_cache(maxsize=1 << 12)  # each gain asks for the slopes of the same laws
+def _slope(value: sp.Expr, kind: str, turning: sp.Expr, square_slope: sp.Expr) -> sp.Expr:
+    if kind == "q":
+        turned = sp.diff(value, SINE) * COSINE - sp.diff(value, COSINE) * SINE
+        return sp.expand(turning * turned + sp.diff(value, OUTER["q"]))
+    if kind == "v":
+        return sp.expand(sp.diff(value, OUTER["v"]) + sp.diff(value, SQUARE) * square_slope)
+    return sp.expand(sp.diff(value, OUTER["a"]))
 
 
 def primitive(value: sp.Expr) -> sp.Expr:

@@ -162,7 +162,7 @@ class GivingWay:
                 impedances[own, own] = ratio * passes * self._load + more_outer * passes + more_inner
             else:
                 back = ratio * sign * stiffness - more_outer
-                impedances[own, k] = cheapest(back * self.answers[name], []) if name in self.answers else ZERO
+                impedances[own, k] = cheapest(back * self.answers[name], ()) if name in self.answers else ZERO
         if frame.about == "known":
             forces[own] = self._shares(known, stiffness) + more + more_outer * OWN
         else:

@@ -64,9 +64,9 @@ def composed(lines: Iterable[Line]) -> dict[sp.Symbol, sp.Expr]:
     found: dict[sp.Symbol, sp.Expr] = {}
     for line in lines:
         if isinstance(line, Let):
-            found[line.symbol] = line.value.subs(found, simultaneous=True)
+            found[line.symbol] = line.value.xreplace(found)
         elif isinstance(line, Update):
-            found |= {s: sp.sympify(v).subs(found, simultaneous=True) for s, v in line.values.items()}
+            found |= {s: sp.sympify(v).xreplace(found) for s, v in line.values.items()}
     return found
 
 

@@ -55,7 +55,7 @@ def walk(
                     at[outer] = OUTER[kind] if law.free == i else at[inner]
         added = _energy(element, energy)
         if added != 0:
-            lines.append(Update({TOTAL: TOTAL + added.subs(at, simultaneous=True)}))
+            lines.append(Update({TOTAL: TOTAL + added.xreplace(at)}))
         moves: dict[sp.Symbol, sp.Expr] = {}
         for i, c in enumerate(coordinates):
             if c.integrated or law.free is not None:
@@ -63,7 +63,7 @@ def walk(
             for kind in sorted(kinds):
                 relative = sp.expand(law.outer[i][kind] - getattr(element.inboard.motions[i], kind))
                 if relative != 0:
-                    moves[place(c, kind)] = place(c, kind) + relative.subs(at, simultaneous=True)
+                    moves[place(c, kind)] = place(c, kind) + relative.xreplace(at)
         if moves:
             lines.append(Update(moves))
         if law.free is not None:
@@ -103,7 +103,7 @@ def exact_forces(out: Outward, forces: tuple[sp.Symbol, ...]) -> list[Update]:
         for i, symbol in enumerate(forces):
             value = law.inner[i] + (law.ratio * law.own if law.free == i else 0)
             value = out.frame.settled(passed.at_point(value))
-            written = out.values.written(value).subs(values, simultaneous=True)
+            written = out.values.written(value).xreplace(values)
             if written != symbol:
                 found[symbol] = written
         if found:

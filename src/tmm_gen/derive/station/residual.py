@@ -74,7 +74,7 @@ def residual(elements: tuple[Element, ...], frame: Frame, *, moved: bool = False
         update: dict[sp.Symbol, sp.Expr] = {}
         for i, symbol in enumerate(forces):
             value = frame.settled(passed.at_point(passed.law.inner[i]))
-            value = out.values.written(value).subs(outside, simultaneous=True)
+            value = out.values.written(value).xreplace(outside)
             if passed.law.free == i:
                 value += passed.law.ratio * own
             if value != symbol:

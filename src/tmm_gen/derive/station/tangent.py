@@ -138,8 +138,8 @@ class Tangent:
         return symbol
 
     @property
-    def _levers(self) -> list[sp.Symbol]:
-        return [let.symbol for let in self._out.lets if let.symbol.name.startswith("lever")]
+    def _levers(self) -> tuple[sp.Symbol, ...]:
+        return tuple(let.symbol for let in self._out.lets if let.symbol.name.startswith("lever"))
 
     # -- the way in ----------------------------------------------------------------------------------------
 

@@ -108,8 +108,8 @@ class Through:
         return sp.expand(slope - constant) + symbol
 
     @property
-    def _levers(self) -> list[sp.Symbol]:
-        return [let.symbol for let in self._out.lets if let.symbol.name.startswith("lever")]
+    def _levers(self) -> tuple[sp.Symbol, ...]:
+        return tuple(let.symbol for let in self._out.lets if let.symbol.name.startswith("lever"))
 
     def _written(self, value: sp.Expr) -> sp.Expr:
         return self._out.values.written(value)

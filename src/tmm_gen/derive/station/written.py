@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import lru_cache
 
 import sympy as sp
 
@@ -21,7 +22,8 @@ def grouped(value: sp.Expr, differences: Mapping[str, tuple[sp.Symbol, sp.Symbol
     return sp.Add(value, *found)
 
 
-def cheapest(value: sp.Expr, levers: list[sp.Symbol]) -> sp.Expr:
+@lru_cache(maxsize=1 << 12)  # arms that differ in one thing ask for the rest alike
+def cheapest(value: sp.Expr, levers: tuple[sp.Symbol, ...]) -> sp.Expr:
     """Return the way of writing a value that takes the fewest operations."""
     symbols = value.free_symbols
     gains = [s for s in symbols if s.name.startswith("P_")]

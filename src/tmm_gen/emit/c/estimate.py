@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import random
 from dataclasses import dataclass, field
+from functools import cache
 from typing import Any
 
 import mpmath
@@ -21,12 +22,12 @@ _ROWS = 4093
 """A prime, so that remainders of mantissas are spread over all rows."""
 
 
+@cache  # of use to searches for a test's bounds alone
 def _signs() -> NDArray[np.float64]:
     draw = random.Random(2718).random  # the same on every machine and in every version of Python
     return np.array([[1.0 if draw() < 0.5 else -1.0 for _ in range(SAMPLES)] for _ in range(_ROWS)])
 
 
-_SIGNS = _signs()
 _NONE = np.zeros(SAMPLES)
 
 
@@ -141,5 +142,5 @@ def estimate_of(number: object) -> Estimate:
 def _rounded(value: Any, errors: NDArray[np.float64], units: float = 1.0) -> Estimate:
     """Return a result with a rounding error of its own, whose signs follow from its digits."""
     found = Estimate(value)
-    found.errors = errors + units * found.plain * _SIGNS[value.man % _ROWS]
+    found.errors = errors + units * found.plain * _signs()[value.man % _ROWS]
     return found

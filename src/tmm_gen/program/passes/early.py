@@ -140,14 +140,15 @@ def _early(sections: list[Section], late_names: Collection[str] = ()) -> set[Var
                 not r.variable.role.bound_at_prepare and r.variable not in early for r in refs_in(a.value)
             )
         }
+        staying = early - late
         # what a late statement reads must have one value: a recursion's own variable has many
         for section in sections:
             for statement in section.statements:
                 inside = statement.body if isinstance(statement, Loop) else (statement,)
                 for inner in inside:
-                    if isinstance(inner, Assign) and inner.target.variable in early - late:
+                    if isinstance(inner, Assign) and inner.target.variable in staying:
                         continue
-                    if isinstance(inner, Require) and _is_early(inner.value, early - late):
+                    if isinstance(inner, Require) and _is_early(inner.value, staying):
                         continue
                     for ref in refs_in(inner.value):
                         if ref.variable in early and ref.variable not in one_value:

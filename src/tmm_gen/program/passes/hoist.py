@@ -9,6 +9,7 @@ in this routine or another.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import lru_cache
 
 import sympy as sp
 
@@ -155,6 +156,7 @@ def _plainly_affine(value: sp.Expr, changing: list[Ref]) -> list[tuple[sp.Expr, 
     return [(ref, sp.Add(*found[ref])) for ref in (*changing, sp.S.One) if ref in found]
 
 
+@lru_cache(maxsize=1 << 12)  # a step's few factors stand in hundreds of sums
 def _factored(value: sp.Expr) -> sp.Expr:
     return value if value.is_Atom else sp.factor(value)
 

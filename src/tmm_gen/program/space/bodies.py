@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import sympy as sp
 
 from tmm_gen.derive.space.declaration import (
@@ -24,7 +26,8 @@ _MASS = sp.Symbol("mass")
 _PLACES = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
 
 
-def _derived() -> dict[str, tuple[sp.Expr, str, str]]:
+@cache
+def derived() -> dict[str, tuple[sp.Expr, str, str]]:
     """Return what a body's kinetic energy is made of, by the velocity of the joint's point."""
     energy = sp.expand(about_center(_MASS, _CENTER, symmetric(_CENTRAL)))
     found: dict[str, tuple[sp.Expr, str, str]] = {}
@@ -36,9 +39,6 @@ def _derived() -> dict[str, tuple[sp.Expr, str, str]]:
         inertia = sp.diff(energy, OMEGA[i], OMEGA[j])
         found[f"inertia_{pair}"] = (inertia, f"inertia about the joint's point, {pair}", "kg m^2")
     return found
-
-
-DERIVED = _derived()
 
 
 class Bodies:
@@ -57,7 +57,7 @@ class Bodies:
         self.variables: dict[str, Variable] = {}
         body: list[Assign] = []
         symbols = {s: layout.at(s.name, None) for s in (_MASS, *_CENTER, *_CENTRAL)}
-        for name, (value, doc, unit) in DERIVED.items():
+        for name, (value, doc, unit) in derived().items():
             written = sp.factor_terms(value.xreplace(symbols))
             if written == 0:
                 continue
@@ -76,7 +76,7 @@ class Bodies:
         self._base = {"mass": own["mass"]}
         symbols = {s: own.get(s.name, sp.Integer(0)) for s in (_MASS, *_CENTER, *_CENTRAL)}
         found = []
-        for name, (value, doc, unit) in DERIVED.items():
+        for name, (value, doc, unit) in derived().items():
             written = sp.factor_terms(value.xreplace(symbols))
             if written == 0:
                 continue

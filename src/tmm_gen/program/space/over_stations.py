@@ -246,9 +246,11 @@ class OverStations:
             told = (*BASE_PLACE, *BASE_VELOCITY)
             values |= {s: self._base_values[s] for s in told if s in self._base_values}
         if suffix:
-            named = _names_in(lines) - set(values) - set(carried)
-            for symbol in named:
-                self._scratch.described.setdefault(f"{symbol.name}{suffix}", _described(lines, symbol))
+            described = {
+                line.symbol: (line.doc, line.unit) for line in reversed(lines) if isinstance(line, Let)
+            }
+            for symbol in described.keys() - values.keys() - set(carried):
+                self._scratch.described.setdefault(f"{symbol.name}{suffix}", described[symbol])
                 values[symbol] = self._scratch.ref(f"{symbol.name}{suffix}")
         kept = needed(lines, frozenset(values) | frozenset(carried) | frozenset(self._totals))
         return Binding(self._scratch, values).lines(kept)
@@ -268,11 +270,3 @@ class OverStations:
 def gravity_values(layout: SpaceLayout) -> dict[sp.Symbol, sp.Expr]:
     """Return gravity by the symbols of its components."""
     return {s: layout.at(s.name, None) for s in GRAVITY}
-
-
-def _names_in(lines: Sequence[Line]) -> set[sp.Symbol]:
-    return {line.symbol for line in lines if isinstance(line, Let)}
-
-
-def _described(lines: Sequence[Line], symbol: sp.Symbol) -> tuple[str, str]:
-    return next((line.doc, line.unit) for line in lines if isinstance(line, Let) and line.symbol == symbol)
