@@ -191,21 +191,28 @@ class Condensed:
         last: Array,
         stopping: Array | None = None,
         without: tuple[str, ...] = (),
+        torque: tuple[Array, Array] | None = None,
     ) -> tuple[Array, Array]:
         """Return lower and upper bounds of the inputs and of the rows, with arguments as for :meth:`gradient`.
 
         Soft ones that the arm is far beyond at the first sample, or will be even if it brakes, are infinite;
         ``stopping`` is that of the target unless it is given. Kinds of rows ``without`` which it is to be are infinite.
+        Bounds of ``torque``, (m,) each, are the problem's unless others are given. Where the last torque is beyond them
+        its first change may be as large as they ask for.
         """
         stopping = self.stopping if stopping is None else stopping
         problem, count = self.problem, self.problem.horizon
-        low, high = ([(bound[:, None] - inputs).ravel()] for bound in problem.torque)
+        lowest, highest = problem.torque if torque is None else torque
+        low, high = ([(bound[:, None] - inputs).ravel()] for bound in (lowest, highest))
         changes = np.diff(inputs, axis=1, prepend=last[:, None])
         none = np.full(count, np.inf)
         for kind in self.kinds:
             if kind.what == "rate":
-                low.append(kind.low - changes[kind.motor])
-                high.append(kind.high - changes[kind.motor])
+                down, up = np.full(count, kind.low), np.full(count, kind.high)
+                down[0] = min(kind.low, highest[kind.motor] - last[kind.motor])
+                up[0] = max(kind.high, lowest[kind.motor] - last[kind.motor])
+                low.append(down - changes[kind.motor])
+                high.append(up - changes[kind.motor])
                 continue
             value = getattr(along, kind.what)[kind.motor]
             way = float(value[1] - value[0]) if count > 1 else 0.0

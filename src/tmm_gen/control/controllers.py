@@ -175,7 +175,6 @@ CONTROLLERS: tuple[ControllerKind, ...] = (
         "RTI, zero order",
         lambda b: RealTimeIteration(b.step, b.links, b.inertia, True),
         quadratic=True,
-        follows=False,
         keeps=False,
     ),
     ControllerKind(

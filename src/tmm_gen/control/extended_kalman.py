@@ -31,6 +31,7 @@ class NonlinearFilter:
         self._linear, self._stationary = linear, KalmanFilter(linear, model.problem)
         self.gain, self.sensors = self._stationary.gain, self._stationary.sensors
         self.home, self.start, self.length = linear.start_hub, linear.start_torque, linear.length
+        self._more = np.zeros((linear.count, linear.count))
         self._angles, self._rates = model.places("angle"), model.places("rate")
         self.reset()
 
@@ -56,7 +57,18 @@ class NonlinearFilter:
 
     def holds(self, hub: Array) -> Array:
         """Return the torques that hold an arm with its hubs there, rad, (m,), N m."""
-        return self._linear.holds.torque(self._linear.goal, hub) - self._parts(self.estimate)[1]
+        held = self._linear.holds.torque(self._linear.goal, hub) + self._more @ np.cos(np.cumsum(hub))
+        return np.asarray(held - self._parts(self.estimate)[1], float)
+
+    def carry(self, model: StepModel, more: Array) -> None:
+        """Predict by the step of the same arm with another payload.
+
+        Parameters
+        ----------
+        more : array, (m, m)
+            What the rows of :func:`~tmm_gen.control.holding.holding` grow by, N m.
+        """
+        self.model, self._more = model, more
 
     def surprise(self, measured: Array) -> Array:
         """Return how far a measurement is off what is expected, (m + 2,), NaN where there is no sensor."""

@@ -87,7 +87,11 @@ class FullNmpc(ModelBased):
         """The nonlinear programme."""
         import casadi as ca
 
-        problem, weights, size = self.problem, self.problem.weights, self.model.size
+        problem, size = (
+            self.model.problem,
+            self.model.size,
+        )  # its bounds are the scene's, whatever was told since
+        weights = problem.weights
         count, motors, goal = problem.horizon, problem.count, self.linear.goal
         wide = size + motors
         state = [ca.MX.sym(f"x{k}", wide) for k in range(count + 1)]

@@ -65,7 +65,9 @@ class LinearMpc(ModelBased):
         nothing = np.zeros((self.problem.count, self.problem.horizon))
         return self._program.solve_softly(
             self.condensed.gradient(along, nothing, last, disturbance, self._wanted()),
-            *self.condensed.bounds(along, nothing, last, without=("tip",) if self._window else ()),
+            *self.condensed.bounds(
+                along, nothing, last, without=("tip",) if self._window else (), torque=self.problem.torque
+            ),
             soft=self.condensed.soft,
         )
 

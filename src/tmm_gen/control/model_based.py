@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from dataclasses import replace
 from typing import Protocol
 
 import numpy as np
@@ -85,11 +86,13 @@ class ModelBased(ABC):
 
     def __init__(self, problem: ControlProblem, estimator: Estimator, delay: Delay, inertia: Array) -> None:
         self.problem, self.estimator, self.delay, self.inertia = problem, estimator, delay, inertia
+        self._widest = problem.torque
         self.limits = credible(problem, estimator.home, inertia, estimator.length)
         self.reset()
 
     def reset(self) -> None:
-        """Forget all measurements."""
+        """Forget all measurements, and what was told since."""
+        self.problem = replace(self.problem, torque=self._widest)
         self.estimator.reset()
         self._past = np.tile(self.estimator.start, (self.delay.memory + 1, 1))
         self._hub, self._fresh, self._wrong = np.full(self.problem.count, np.nan), True, 0
@@ -114,6 +117,32 @@ class ModelBased(ABC):
         if not np.all(np.isfinite(angles)):
             return Status.NOT_FINITE
         self._window, self._passed = Window.of(np.asarray(angles, float), self.problem.sample_time), 0
+        return Status.OK
+
+    def limit(self, lower: Array, upper: Array) -> Status:
+        """Take other bounds of the torques from the next command on, until :meth:`reset`.
+
+        They are kept from then on, at once: where the last torque is beyond them, a bound of how fast torques change
+        gives way. The scene's bounds stay the widest: what is beyond them is cut off.
+
+        Parameters
+        ----------
+        lower, upper : array, (m,)
+            N m.
+
+        Returns
+        -------
+        Status
+            ``OK``; ``NOT_FINITE``: one is not a number; ``INFEASIBLE``: they are crossed, or all beyond the scene's.
+            What is not OK leaves the former bounds.
+        """
+        lower, upper = np.asarray(lower, float), np.asarray(upper, float)
+        if not np.all(np.isfinite([lower, upper])):
+            return Status.NOT_FINITE
+        low, high = np.maximum(lower, self._widest[0]), np.minimum(upper, self._widest[1])
+        if np.any(lower > upper) or np.any(low > high):
+            return Status.INFEASIBLE
+        self.problem = replace(self.problem, torque=(low, high))
         return Status.OK
 
     @abstractmethod

@@ -1,4 +1,4 @@
-"""A reference that moves at run time: a step, or what it is to be over the horizon."""
+"""What moves at run time: the reference, by a step or as it is to be over the horizon; and the payload."""
 
 from __future__ import annotations
 
@@ -8,6 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.control.command import Status
+from tmm_gen.control.extended_kalman import NonlinearFilter
+from tmm_gen.control.holding import holding
 from tmm_gen.control.linear import LinearModel
 from tmm_gen.control.links import rest_state, target_state
 from tmm_gen.control.model_based import ModelBased
@@ -35,8 +37,9 @@ class Movable(ModelBased):
     """
 
     model: StepModel
+    unchanged: StepModel
     linear: LinearModel
-    zero_order: bool
+    estimator: NonlinearFilter
 
     @cached_property
     def rows(self) -> Array:
@@ -56,7 +59,9 @@ class Movable(ModelBased):
         return rest_state(self.model, self.linear)
 
     def reset(self) -> None:
-        """Forget all measurements, and what was aimed at."""
+        """Forget all measurements, what was aimed at and carried."""
+        self.model = self.unchanged
+        self.estimator.carry(self.model, np.zeros((self.linear.count, self.linear.count)))
         self.goal, self.rest, self.moved = self.linear.goal, self.target, False
         self._poses: list[Pose] = []
         super().reset()
@@ -80,7 +85,7 @@ class Movable(ModelBased):
         Raises
         ------
         UserError
-            If sensitivities are those of the scene's target, or the arm stands on a hub.
+            If the arm stands on a hub.
         """
         self._require_movable()
         scene = self.model.scene
@@ -90,13 +95,10 @@ class Movable(ModelBased):
             found = rest_with(scene, np.asarray(reference, float), "control.reference")
         except UserError:
             return Status.NOT_FINITE
-        low, high = self.problem.torque
-        if not np.all((found.goal.torque >= low) & (found.goal.torque <= high)):
-            return Status.INFEASIBLE
-        self.goal, self.rest, self.moved = found.goal, target_state(self.model, found), True
-        self._window, self._poses = None, []
-        self._turned()
-        return Status.OK
+        status = self._rest_in(Pose(target_state(self.model, found), found.goal.torque))
+        if status is Status.OK:
+            self._window, self._poses = None, []
+        return status
 
     def follow(self, angles: Array) -> Status:
         """Take what the reference is to be over the horizon; see :class:`ModelBased` and :meth:`aim`.
@@ -123,23 +125,73 @@ class Movable(ModelBased):
                 return Status.NOT_FINITE
             poses.append(found)
             near = found
-        still = pose_in(self.model, window.at(window.count), near)
+        status = self._rest_in(pose_in(self.model, window.at(window.count), near))
+        if status is Status.OK:
+            self._window, self._poses, self._passed = window, poses, 0
+        return status
+
+    def carry(self, payload: float) -> Status:
+        """Take another payload from the next sample on, until :meth:`reset`: predict, aim and hold the arm with it.
+
+        What is aimed at, and the way there, stay; sags and torques are found anew. Sensitivities of zero order, the
+        gains of a filter that has constant ones and the cost to go stay those of the scene's payload.
+
+        Parameters
+        ----------
+        payload : float
+            Mass at the tip, kg.
+
+        Returns
+        -------
+        Status
+            ``OK``; ``NOT_FINITE``: it is negative or not a number, or there is no rest with it; ``INFEASIBLE``: the
+            motors could not hold it where the arm is to rest. What is not OK leaves the former payload.
+
+        Raises
+        ------
+        UserError
+            If the arm stands on a hub, has no mass at its tip, or is one in space.
+        """
+        self._require_movable()
+        if not self.model.carries:
+            raise UserError(
+                f"{self.model.scene.source.origin}: only arms in a plane with a [[body]] at their end take another "
+                "payload; give it one, or leave the payload as it is."
+            )
+        if not 0.0 <= payload < np.inf:
+            return Status.NOT_FINITE
+        model, poses = self.unchanged.carrying(payload), list(self._poses)
+        for i in range(self._passed, len(poses)):
+            assert self._window is not None
+            found = pose_in(model, self._window.at(i), poses[i])
+            if found is None:
+                return Status.NOT_FINITE
+            poses[i] = found
+        still = np.zeros((3, self.problem.count))
+        still[0] = self.goal.hub
+        status = self._rest_in(pose_in(model, still, Pose(self.rest, self.goal.torque)))
+        if status is Status.OK:
+            self.model, self._poses = model, poses
+            self.estimator.carry(model, holding(model.scene) - holding(self.unchanged.scene))
+        return status
+
+    def _rest_in(self, still: Pose | None) -> Status:
+        """Aim at rest in a pose in the end, if there is such and the motors can hold it."""
         if still is None:
             return Status.NOT_FINITE
         low, high = self.problem.torque
         if not np.all((still.torque >= low) & (still.torque <= high)):
             return Status.INFEASIBLE
         tip, _, hub, _ = np.split(self.rows @ still.state, 4)
-        self.goal, self.rest = Goal(tip, hub, still.torque), still.state
-        self._window, self._poses, self._passed, self.moved = window, poses, 0, True
+        self.goal, self.rest, self.moved = Goal(tip, hub, still.torque), still.state, True
         self._turned()
         return Status.OK
 
     def _require_movable(self) -> None:
-        if self.zero_order or self.model.motors.on_hub:
+        if self.model.motors.on_hub:
             raise UserError(
-                f"{self.model.scene.source.origin}: only full real-time iteration of motors by name takes another "
-                "reference; take the controller 'rti', or write another control.reference."
+                f"{self.model.scene.source.origin}: only arms whose motors are parts by name take another reference or "
+                "payload while they run: write the arm by parts, or other numbers in the scene."
             )
 
     def _wanted(self) -> tuple[Wanted, Pose]:

@@ -79,7 +79,8 @@ class RealTimeIteration(Movable):
         self, model: StepModel, linear: LinearModel, inertia: Array, zero_order: bool = False
     ) -> None:
         problem = model.problem
-        self.model, self.linear, self.zero_order = model, linear, zero_order
+        self.model = self.unchanged = model
+        self.linear, self.zero_order = linear, zero_order
         self.end = end_rows(linear, problem.weights)
         self.response = response(linear, problem.horizon, self.end)
         self.walls = [Wall.of(model.scene, keep) for keep in problem.keeps]
@@ -167,7 +168,12 @@ class RealTimeIteration(Movable):
         solution = self._program.solve_softly(
             condensed.gradient(along, plan, last, disturbance, self._wanted()[0]),
             *condensed.bounds(
-                along, plan, last, self.prepared.stopping, without=("tip",) if self.moved else ()
+                along,
+                plan,
+                last,
+                self.prepared.stopping,
+                without=("tip",) if self.moved else (),
+                torque=self.problem.torque,
             ),
             soft=condensed.soft,
             hessian=condensed.hessian if renewed else None,

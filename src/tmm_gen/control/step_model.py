@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from typing import Any
 
@@ -21,6 +21,9 @@ from tmm_gen.control.target import Start, find_start
 from tmm_gen.scene import Scene
 
 Array = NDArray[np.float64]
+
+_PAYLOAD = "tip_mass"
+_WHATEVER_IT_CARRIES = ("module", "names", "motors", "lag", "delay", "start")
 
 
 @cache
@@ -51,6 +54,25 @@ class StepModel:
         other = StepModel(self.scene, problem)
         made = {key: value for key, value in self.__dict__.items() if key not in ("scene", "problem")}
         other.__dict__.update(made)
+        return other
+
+    @property
+    def carries(self) -> bool:
+        """Whether the mass at its tip is one of its parameters."""
+        planar = self.scene.spatial is None and self.scene.tip is not None
+        return planar and _PAYLOAD in self.module.PARAMETER_NAMES
+
+    def carrying(self, payload: float) -> StepModel:
+        """Return the model of the arm with another mass at its tip, kg, that starts as this one does."""
+        tip = self.scene.tip
+        assert tip is not None
+        laden = tip.model_copy(update={"mass": payload})
+        other = StepModel(replace(self.scene, tip=laden), self.problem)
+        parameters = self.parameters.copy()
+        parameters[self.module.PARAMETER_NAMES.index(_PAYLOAD)] = payload
+        other.__dict__.update(
+            {name: getattr(self, name) for name in _WHATEVER_IT_CARRIES}, parameters=parameters
+        )
         return other
 
     @cached_property

@@ -69,11 +69,6 @@ def emit_controller(
             f"{bench.scene.source.origin}: control.keep is not written in C yet. Remove the table, and keep the wall "
             "by control.bounds.hub."
         )
-    if bench.follows and controller != "rti":
-        raise UserError(
-            f"{bench.scene.source.origin}: the controller '{controller}' follows no control.trajectory in C; take "
-            "'rti', or remove the table."
-        )
     name = name or f"{bench.scene.name}_{controller.replace('-', '_')}"
     taken = {"daqp": "the solver's files", bench.scene.name: "the arm's own functions"}
     if name in taken and (name == "daqp" or controller not in LINEAR):

@@ -90,6 +90,7 @@ class EmittedController:
         motors: int = 1,
     ) -> None:
         self.name, self.sensors, self.motors = name, list(sensors), motors
+        self._several = f"{macro_prefix(name)}_MOTORS" in files[f"{name}.h"]
         self._number: Any = ctypes.c_double if real == "float64" else ctypes.c_float
         with scratch_folder() as folder:
             self._library = ctypes.CDLL(str(_compiled(folder, name, files, cc, flags, motors)))
@@ -111,6 +112,18 @@ class EmittedController:
         """Take a reference that moves, (N, m), rad; of a controller that can."""
         values = (self._number * angles.size)(*map(float, angles.ravel()))
         return STATUSES[int(getattr(self._library, f"{self.name}_follow")(self._aligned(), values))]
+
+    def limit(self, lower: Array, upper: Array) -> Status:
+        """Take other bounds of the torques, (m,) each, N m."""
+        ends = [(self._number * self.motors)(*map(float, each)) for each in (lower, upper)]
+        given = ends if self._several else [self._number(each[0]) for each in ends]
+        return STATUSES[int(getattr(self._library, f"{self.name}_limit")(self._aligned(), *given))]
+
+    def carry(self, payload: float) -> Status:
+        """Take another payload, kg; of a controller that can."""
+        return STATUSES[
+            int(getattr(self._library, f"{self.name}_carry")(self._aligned(), self._number(payload)))
+        ]
 
     def prepare(self) -> None:
         """Do what needs no measurement; see :class:`~tmm_gen.control.command.Controller`."""

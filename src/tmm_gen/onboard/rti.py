@@ -62,7 +62,12 @@ class RtiText(ControllerText):
     @property
     def moves(self) -> bool:
         """Whether the reference may be another one at run time."""
-        return self.full and self.several
+        return self.several
+
+    @property
+    def carries(self) -> bool:
+        """Whether the payload may be another one at run time."""
+        return self.moves and self.data.payload is not None
 
     @property
     def rolls_out(self) -> bool:
@@ -92,7 +97,7 @@ class RtiText(ControllerText):
     @property
     def needs_tangents(self) -> bool:
         """Whether the kernel's derivatives are used."""
-        return self.full
+        return self.full or self.moves
 
     @property
     def problem_motors(self) -> tuple[Motor, ...]:
@@ -249,7 +254,9 @@ def emit_rti(
     )
     context = {"mpc": mpc, "name": name, "NAME": mpc.NAME}
     kernel = {path.removeprefix("c/"): text for path, text in emit_kernel(program, scene).items()}
-    unused = () if full else (f"{kernel_name}_sensitivities.h", f"{kernel_name}_sensitivities.c")
+    unused = (
+        () if mpc.needs_tangents else (f"{kernel_name}_sensitivities.h", f"{kernel_name}_sensitivities.c")
+    )
     kernel = {path: text for path, text in kernel.items() if path not in unused}
     files = {
         f"{name}.h": render("control/rti.h.jinja", **context),

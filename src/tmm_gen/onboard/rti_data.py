@@ -59,6 +59,10 @@ class RtiData:
         Which there are: m encoders, then accelerometer and strain gauge.
     holds : array, (m, m)
         What holds the arm up, N m; see :func:`tmm_gen.control.holding.holding`.
+    holds_more : array, (m, m)
+        By how much these grow for each kilogram at the tip, N m/kg; zero where there is none.
+    payload : float or None
+        Mass at the tip, kg; None where it is no parameter of the kernel.
     target_torque, brake : array, (m,)
         N m; N m s/rad, of the safe law.
     gravity : float
@@ -99,6 +103,8 @@ class RtiData:
     shares: Array
     sensors: tuple[int, ...]
     holds: Array
+    holds_more: Array
+    payload: float | None
     target_torque: Array
     gravity: float
     brake: Array
@@ -127,6 +133,9 @@ def rti_data(controller: RealTimeIteration) -> RtiData:
     ahead_by, now_by = _by_sensors(controller, gains, program)
     scaled = program.scaling[:, None] * np.vstack([program.inverse, program.rows @ program.inverse])
     slopes, count = controller.prepared.slopes, problem.horizon
+    held, tip = holding(model.scene), model.scene.tip
+    payload = tip.mass if tip is not None and model.carries else None
+    more = np.zeros_like(held) if payload is None else holding(model.carrying(payload + 1.0).scene) - held
     lengths = motors.lengths.copy()
     for motor in motors.each:
         lengths[motor.place : motor.end] /= lengths[motor.place : motor.end].sum()
@@ -148,7 +157,9 @@ def rti_data(controller: RealTimeIteration) -> RtiData:
         lengths=lengths[model.scene.hub :],
         shares=model.delay.shares(problem.substeps),
         sensors=tuple(kalman.sensors),
-        holds=holding(model.scene),
+        holds=held,
+        holds_more=more,
+        payload=payload,
         target_torque=goal.torque,
         gravity=model.scene.model.gravity or 0.0,
         brake=controller.inertia / BRAKE_TIME,

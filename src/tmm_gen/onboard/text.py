@@ -92,6 +92,11 @@ class ControllerText:
         return False
 
     @property
+    def carries(self) -> bool:
+        """Whether the payload may be another one at run time."""
+        return False
+
+    @property
     def rolls_out(self) -> bool:
         """Whether a motion along the last plan is prepared."""
         return False
@@ -198,6 +203,11 @@ class ControllerText:
     def changes_bounded(self) -> bool:
         """Whether there is one at all."""
         return bool(np.any(np.isfinite(self.problem.torque_rate)))
+
+    @property
+    def rated(self) -> list[int]:
+        """Motors whose torques change only so fast; their changes are the first rows of the program."""
+        return [int(motor) for motor in np.flatnonzero(np.isfinite(self.problem.torque_rate))]
 
     @property
     def packed(self) -> NDArray[np.float64]:

@@ -109,6 +109,7 @@ def test_null_pointers_give_a_status(kind: str, bench: Bench, tmp_path: Path) ->
     write(tmp_path, {path: text for path, text in files.items() if not path.startswith("example")})
     macro = macro_prefix(name)
     (tmp_path / "main.c").write_text(f"""
+#include <math.h>
 #include "{name}.h"
 static {name}_controller c;
 int main(void)
@@ -122,6 +123,11 @@ int main(void)
     good = good && {name}_command_valid(0, 0, 0, 0) == {macro}_MISSING;
     good = good && {name}_command_valid(&c, y, 0, &u) == {macro}_OK && u > 1;
     good = good && {name}_command_valid(&c, 0, all, &u) == {macro}_MISSING && u == 0;
+    good = good && {name}_reset(&c) == {macro}_OK;
+    good = good && {name}_limit(0, -1, 1) == {macro}_MISSING && {name}_limit(&c, -1, 1) == {macro}_OK;
+    good = good && {name}_limit(&c, -1, NAN) == {macro}_NOT_FINITE && {name}_limit(&c, 1, -1) == {macro}_INFEASIBLE;
+    good = good && {name}_command(&c, y, &u) == {macro}_OK && u > 0.999 && u <= 1;
+    good = good && {name}_reset(&c) == {macro}_OK;
     return good && {name}_command_valid(&c, y, all, &u) == {macro}_OK ? 0 : 1;
 }}
 """)

@@ -11,7 +11,7 @@ import pytest
 
 from tmm_gen.closed_loop.plant import Plant
 from tmm_gen.control.bench import Bench
-from tmm_gen.control.command import Controller
+from tmm_gen.control.command import Controller, Status
 from tmm_gen.control.condition import CONDITIONS
 from tmm_gen.onboard.emit import EMITTED, emit_controller
 from tmm_gen.onboard.native import EmittedController
@@ -75,7 +75,10 @@ def test_it_does_what_the_one_in_python_does(
     name, files = emitting(kind)
     emitted = EmittedController(name, files, [0, 1], flags=("-O0", "-ffp-contract=off"))
     controller, plant = in_python(late, kind), Plant(late.scene, late.problem, CONDITIONS[1])
-    for _ in range(8 if kind == "rti" else 25):
+    for k in range(8 if kind == "rti" else 25):
+        if k in (2, 5):  # weak for a while
+            ends = np.array([-1.0]), np.array([2.0 if k == 2 else 1e6])
+            assert emitted.limit(*ends) is controller.limit(*ends) is Status.OK
         measured = plant.measured()
         torque = controller.command(measured).torque
         assert np.isclose(emitted.command(measured).torque, torque, rtol=0.0, atol=1e-6)

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import subprocess
+from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -88,19 +90,40 @@ def test_torques_are_those_of_python(
         plant.advance(expected.torque)
 
 
-def test_a_reference_that_moves_is_that_of_python(late: Bench) -> None:
+@pytest.fixture(scope="module")
+def pairs(late: Bench) -> Callable[[str], tuple[EmittedController, RealTimeIteration]]:
+    """Return a controller in C and its like in Python, as after a reset; each is made once."""
+
+    @cache
+    def make(kind: str) -> tuple[EmittedController, RealTimeIteration]:
+        python = RealTimeIteration(late.step, late.links, late.inertia, kind == "rti-zero")
+        python.estimator = NonlinearFilter(late.step, late.links)
+        return compiled(late, *emit_controller(late, kind)), python
+
+    def anew(kind: str) -> tuple[EmittedController, RealTimeIteration]:
+        for each in make(kind):
+            each.reset()
+        return make(kind)
+
+    return anew
+
+
+def follow_both(emitted: EmittedController, python: RealTimeIteration, seen: np.ndarray) -> np.ndarray:
+    """Return the torques of both, which must be the same, as their statuses must."""
+    expected, found = python.command(seen), emitted.command(seen)
+    np.testing.assert_allclose(found.torque, expected.torque, rtol=0.0, atol=2e-5)
+    assert found.status is expected.status
+    return found.torque
+
+
+def test_a_reference_that_moves_is_that_of_python(
+    late: Bench, pairs: Callable[[str], tuple[EmittedController, RealTimeIteration]]
+) -> None:
     """A step, then a little at a time; what cannot be reached, or held, leaves it as it was."""
-    name, files = emit_controller(late, "rti")
-    emitted = compiled(late, name, files)
-    python = RealTimeIteration(late.step, late.links, late.inertia)
-    python.estimator = NonlinearFilter(late.step, late.links)
-    python.reset()
+    emitted, python = pairs("rti")
     plant, wanted = Plant(late.scene, late.problem, CONDITIONS[0]), late.problem.reference
     for k in range(16):
-        seen = plant.measured()
-        expected, found = python.command(seen), emitted.command(seen)
-        np.testing.assert_allclose(found.torque, expected.torque, rtol=0.0, atol=2e-5)
-        plant.advance(expected.torque)
+        plant.advance(follow_both(emitted, python, plant.measured()))
         if k >= 2:
             wanted = np.array([0.5, -0.3]) if k == 2 else wanted + np.array([0.01, -0.02])
             assert emitted.aim(wanted) is python.aim(wanted) is Status.OK
@@ -109,32 +132,78 @@ def test_a_reference_that_moves_is_that_of_python(late: Bench) -> None:
     assert python.goal.hub == pytest.approx(wanted)
 
 
-def test_a_reference_that_is_followed_is_that_of_python(late: Bench) -> None:
-    """Told sample by sample, or left to itself for some; what cannot be reached leaves it as it was."""
-    name, files = emit_controller(late, "rti")
-    emitted = compiled(late, name, files)
-    python = RealTimeIteration(late.step, late.links, late.inertia)
-    python.estimator = NonlinearFilter(late.step, late.links)
-    python.reset()
-    plant, horizon = Plant(late.scene, late.problem, CONDITIONS[0]), late.problem.horizon
-    t = np.clip((np.arange(40) - 3.0) / 14.0, 0.0, 1.0)[:, None]
+def course_of(late: Bench, samples: int) -> Course:
+    """Return a way that begins where the arm rests, and ends at [0.6, -0.5]."""
+    t = np.clip((np.arange(samples) - 3.0) / 14.0, 0.0, 1.0)[:, None]
     share = t**3 * (10.0 - 15.0 * t + 6.0 * t**2)
-    course = Course(late.problem.start + share * (np.array([0.6, -0.5]) - late.problem.start))
-    wrong = np.full((horizon, 2), np.nan)
+    return Course(late.problem.start + share * (np.array([0.6, -0.5]) - late.problem.start))
+
+
+@pytest.mark.parametrize("kind", ["rti", "rti-zero"])
+def test_a_reference_that_is_followed_is_that_of_python(
+    kind: str, late: Bench, pairs: Callable[[str], tuple[EmittedController, RealTimeIteration]]
+) -> None:
+    """Told sample by sample, or left to itself for some; what cannot be reached leaves it as it was."""
+    emitted, python = pairs(kind)
+    plant, horizon = Plant(late.scene, late.problem, CONDITIONS[0]), late.problem.horizon
+    course, wrong = course_of(late, 40), np.full((horizon, 2), np.nan)
     for k in range(28):
         ahead = course.ahead(k, horizon)
         if k not in (8, 9, 10):
             assert emitted.follow(ahead) is python.follow(ahead) is Status.OK
         for reference, status in ((wrong, Status.NOT_FINITE), (np.zeros_like(wrong), Status.INFEASIBLE)):
             assert emitted.follow(reference) is python.follow(reference) is status
-        seen = plant.measured()
-        expected, found = python.command(seen), emitted.command(seen)
-        np.testing.assert_allclose(found.torque, expected.torque, rtol=0.0, atol=2e-5)
-        assert found.status is expected.status
-        plant.advance(found.torque)
-    assert (
-        plant.angles()[3] < -0.3
-    )  # the elbow was at 0 and is to come to -0.5; the shoulder is too weak to keep up
+        plant.advance(follow_both(emitted, python, plant.measured()))
+    # the elbow was at 0 and is to come to -0.5; the shoulder is too weak to keep up
+    assert plant.angles()[3] < -0.3
+
+
+LIMITS = {
+    2: ([-9.0, -0.05], [0.03, 9.0], Status.OK),  # the last torque is beyond, and may not change so fast
+    5: ([np.nan, 0.0], [0.1, 0.1], Status.NOT_FINITE),
+    6: ([0.0, 0.01], [0.1, 0.0], Status.INFEASIBLE),  # crossed
+    7: ([0.1, -0.1], [0.2, 0.1], Status.INFEASIBLE),  # all beyond the widest
+    8: ([0.01, -0.02], [0.01, -0.01], Status.OK),  # nothing to choose; no zero
+    14: ([-9.0, -9.0], [9.0, 9.0], Status.OK),
+}
+PAYLOADS = {
+    1: (0.2, Status.OK),
+    3: (np.nan, Status.NOT_FINITE),
+    4: (-0.1, Status.NOT_FINITE),
+    11: (1e300, Status.NOT_FINITE),
+    12: (0.25, Status.INFEASIBLE),  # not within the bounds of that time
+    15: (0.0, Status.OK),
+    18: (0.3, Status.OK),
+}
+
+
+@pytest.mark.parametrize("kind", ["rti", "rti-zero"])
+def test_bounds_and_payload_told_at_run_time_are_those_of_python(
+    kind: str, late: Bench, pairs: Callable[[str], tuple[EmittedController, RealTimeIteration]]
+) -> None:
+    """Along a trajectory, with encoders lost for a while: bounds are kept, and what cannot be changes nothing."""
+    emitted, python = pairs(kind)
+    plant, course = Plant(late.scene, late.problem, CONDITIONS[0]), course_of(late, 40)
+    widest = low, high = late.problem.torque
+    for k in range(24):
+        told = course.ahead(k, late.problem.horizon)
+        assert emitted.follow(told) is python.follow(told)
+        if k in PAYLOADS:
+            payload, status = PAYLOADS[k]
+            assert emitted.carry(payload) is python.carry(payload) is status, k
+        for each in (emitted, python):
+            if k % 2:
+                each.prepare()
+        if k in LIMITS:
+            lower, upper, status = LIMITS[k]
+            assert emitted.limit(np.array(lower), np.array(upper)) is status, k
+            assert python.limit(np.array(lower), np.array(upper)) is status, k
+            if status is Status.OK:
+                low, high = np.maximum(lower, widest[0]), np.minimum(upper, widest[1])
+        seen = plant.measured() * ([np.nan, np.nan, 1, 1] if k in (9, 10) else 1.0)
+        torque = follow_both(emitted, python, seen)
+        assert np.all((torque >= low - 1e-12) & (torque <= high + 1e-12)), k
+        plant.advance(torque)
 
 
 def test_encoders_that_come_and_go_are_those_of_python(two: Bench) -> None:

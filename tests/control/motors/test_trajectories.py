@@ -167,7 +167,7 @@ def trials(bench: Bench, *names: str) -> dict[str, Trial]:
 @pytest.mark.compiler
 def test_controllers_follow_and_without_a_wall_the_payload_goes_through_it(lowered: Bench) -> None:
     """All come down to where they are told, below the floor; predicting along the motion is nearest all the way."""
-    found = trials(lowered, "pd-zv", "pd-id", "lqr", "mpc-links", "rti")
+    found = trials(lowered, "pd-zv", "pd-id", "lqr", "mpc-links", "rti-zero", "rti")
     course = lowered.course
     assert course is not None
     rms = {}
@@ -191,7 +191,7 @@ def test_controllers_follow_and_without_a_wall_the_payload_goes_through_it(lower
     with pytest.raises(UserError, match="is not written in C yet"):
         emit_controller(walled, "rti")
     with pytest.raises(UserError, match=r"follows no control\.trajectory; take one of pd,"):
-        BY_NAME["rti-zero"].require_able(lowered)
+        BY_NAME["nmpc"].require_able(lowered)
 
 
 def test_what_turns_a_part_into_a_wall_is_how_its_place_changes(lowered: Bench) -> None:
