@@ -112,6 +112,24 @@ def test_newest_acceleration_costs_little(kind: str) -> None:
     assert 0 < newest - none <= 4
 
 
+DIRECTIONS = {"bend, bend": (446, 762), "link": (768, 1117)}
+"""Per joint of a step with one correction: that which keeps what its slopes are, once, and each direction of its
+tangent."""
+
+
+@pytest.mark.parametrize("kind", DIRECTIONS)
+def test_tangents(kind: str) -> None:
+    """The factors of the sweep are differentiated too, and so a direction takes about two steps."""
+    choices = SpaceChoices(1e-3, iterations=2, sensitivities=True)
+    few, many = (program_of(arm_of(kind, cells), choices=choices).sensitivities for cells in (10, 20))
+    assert few is not None
+    assert many is not None
+    joints = [len(arm_of(kind, cells).joints) for cells in (10, 20)]
+    for found, right in zip(("linearise", "tangent"), DIRECTIONS[kind], strict=True):
+        counts = [count_routine(getattr(each, found)).total for each in (few, many)]
+        assert Fraction(counts[1] - counts[0], joints[1] - joints[0]) == right
+
+
 FLOATS = {
     "bend, bend": (996, 586, 2601),
     "link": (1177, 687, 3005),

@@ -218,12 +218,12 @@ CASES = {
         "Write a [[body]]",
         ("[tip]\nmass = 0.1\n", '[[body]]\nname = "more"\non = "tool"\nmass = 0.1\n'),
     ),
-    "sensitivities": Case(
+    "sensitivities of constants": Case(
         MOTOR,
-        "[emit]\nsensitivities = true\n\n" + MOTOR,
-        "emit.sensitivities",
-        "are not generated of arms in space yet",
-        "Remove it",
+        '[emit]\nparameters = "bound"\nsensitivities = true\n\n' + MOTOR,
+        "emit.parameters",
+        "and emit.sensitivities exclude each other",
+        "remove sensitivities",
         ("sensitivities = true\n", ""),
     ),
     "compensated": Case(

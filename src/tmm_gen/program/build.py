@@ -82,6 +82,9 @@ def _in_space(scene: Scene, arm: SpatialArm, chosen: Integrator, *, auto: bool) 
         "integrator": chosen.title + parameters,
         "linearisation": f"{scene.model.linearisation}, {rounds}",
     }
+    derived = scene.emit.sensitivities and not auto
+    if derived:
+        _require_one_step(scene, chosen)
     stages = len(chosen.main.stages)
     choices = SpaceChoices(
         step=scene.integrator.step,
@@ -89,6 +92,7 @@ def _in_space(scene: Scene, arm: SpatialArm, chosen: Integrator, *, auto: bool) 
         held=predicts_held(stages, scene.model.sweeps, auto=auto),
         auto=auto,
         exact=exact,
+        sensitivities=derived,
         facts=tuple(facts.items()),
     )
     return build_in_space(arm, scene.name, scene.title, chosen, choices)
@@ -171,13 +175,18 @@ def _require_derivatives(scene: Scene, integrator: Integrator, row: Row) -> None
             f"{what} needs model.linearisation = 'newton', not '{scene.model.linearisation}', whose step is no "
             "iteration on the exact equations"
         )
-    if integrator.startup:
-        raise UserError(
-            f"{what} needs an integrator without start-up steps, such as 'newmark', 'generalized_alpha', 'bathe' or "
-            f"'sdirk4', not '{scene.integrator.name}'"
-        )
+    _require_one_step(scene, integrator)
     if row.counts_heat:
         raise UserError(f"{what} does not go with an output of dissipated energy; remove one of the two")
+
+
+def _require_one_step(scene: Scene, integrator: Integrator) -> None:
+    """Refuse derivatives of a step that needs other steps before it."""
+    if integrator.startup:
+        raise UserError(
+            f"scene '{scene.name}': emit.sensitivities = true needs an integrator without start-up steps, such as "
+            f"'newmark', 'generalized_alpha', 'bathe' or 'sdirk4', not '{scene.integrator.name}'"
+        )
 
 
 def _refuse_unsupported(scene: Scene) -> None:

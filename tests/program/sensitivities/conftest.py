@@ -241,6 +241,76 @@ def floating() -> Scene:
     return parse_scene(text + BRANCHES + hub + push + place)
 
 
+IN_SPACE = """
+name = "in_space"
+[model]
+kind = "spatial"
+gravity = [0, 0, -9.81]
+[integrator]
+name = "newmark"
+step = 5e-3
+[base]
+kind = "clamp"
+[[motor]]
+name = "yaw"
+axis = "z"
+rotor_inertia = 1e-5
+gear = 50
+damping = 0.1
+{links}
+[[joint]]
+name = "aside"
+on = "yaw"
+axis = "x"
+stiffness = 3.0
+[[body]]
+name = "weight"
+on = "aside"
+at = [0, 0.1, 0.05]
+mass = 0.4
+inertia = [1e-3, 2e-3, 1e-3]
+[[input]]
+name = "yaw_torque"
+at = "yaw"
+acts = "torque"
+[[input]]
+name = "elbow_torque"
+at = "joint_5"
+acts = "torque"
+[[input]]
+name = "push"
+at = "link_5"
+acts = "force"
+[[output]]
+name = "tip"
+at = "link_5"
+of = "position"
+[emit]
+sensitivities = true
+"""
+LINK = """\
+[[joint]]
+name = "joint_{number}"
+on = "{host}"
+axis = "{axis}"
+stiffness = 4.0
+damping = 0.02
+[[link]]
+name = "link_{number}"
+on = "joint_{number}"
+length = 0.1
+mass = 0.2
+inertia = [1e-4, 2e-4, 2e-4]
+"""
+
+
+def in_space() -> Scene:
+    """Return an arm in space with links that come in turn and are a loop, a branch, and a force in the world's axes."""
+    hosts = ["yaw", *(f"link_{k}" for k in range(1, 5))]
+    links = [LINK.format(number=k, host=host, axis="zy"[k % 2]) for k, host in enumerate(hosts, start=1)]
+    return parse_scene(IN_SPACE.format(links="".join(links)))
+
+
 @dataclass(frozen=True, eq=False)
 class Case:
     """A scene, a point, and CasADi's derivatives there.
@@ -300,6 +370,7 @@ SCENES: dict[str, Callable[[], Scene]] = {
     "floating, two iterations": lambda: floating().replace(**{"model.iterations": 2}),
     "sdirk4": lambda: unlike("motor").replace(**{"integrator.name": "sdirk4"}),
     "generalized_alpha": lambda: unlike("motor").replace(**{"integrator.name": "generalized_alpha"}),
+    "in space": in_space,
     "two iterations": lambda: unlike("motor").replace(**{"model.iterations": 2}),
 }
 

@@ -7,6 +7,7 @@ from typing import Any
 import casadi as ca
 import numpy as np
 import pytest
+from support.native_sensitivities import NativeSensitivities
 
 from tmm_gen.emit.c import emit_kernel
 from tmm_gen.errors import UserError
@@ -146,10 +147,20 @@ def test_finite_differences_agree_to_their_own_accuracy(case: Any) -> None:
 
 
 def test_a_direction_costs_less_than_a_step(case: Any) -> None:
-    program = case.program
-    assert count_routine(program.sensitivities.tangent).total < 0.8 * count_routine(program.main).total or (
-        program.sensitivities.point == ()
-    )
+    """In space, where factors are differentiated too, less than two."""
+    program, most = case.program, 0.8 if case.scene.spatial is None else 2.0
+    tangent, step = (count_routine(each).total for each in (program.sensitivities.tangent, program.main))
+    assert tangent < most * step or program.sensitivities.point == ()
+
+
+@pytest.mark.compiler
+@pytest.mark.parametrize("case", ["in space"], indirect=True)
+def test_single_precision_has_casadis_derivatives_to_its_own_digits(case: Any) -> None:
+    scene = case.scene.replace(**{"emit.real": "float32"})
+    kernel = NativeSensitivities(case.program, scene, flags=("-O0",))
+    nx, nu = len(case.x), len(case.u)
+    _, found = kernel.step(case.x, case.u, np.eye(nx, nx + nu), np.eye(nu, nx + nu, k=nx))
+    assert EXACT < relative(found, np.hstack([case.a, case.b])) < 1e-4
 
 
 def test_nothing_is_emitted_unless_asked_for() -> None:
@@ -169,6 +180,12 @@ def test_steps_without_derivatives_are_refused(changes: dict[str, object], said:
     scene = load_scene(scenes_dir() / "arm2.toml").replace(**{"emit.sensitivities": True, **changes})
     with pytest.raises(UserError, match=said):
         build_program(scene)
+
+
+@pytest.mark.parametrize("case", ["in space"], indirect=True)
+def test_steps_that_need_others_are_refused_in_space(case: Any) -> None:
+    with pytest.raises(UserError, match="start-up steps"):
+        build_program(case.scene.replace(**{"integrator.name": "houbolt"}))
 
 
 def _fill(values: dict[str, Any], variables: tuple[Any, ...], numbers: np.ndarray) -> None:

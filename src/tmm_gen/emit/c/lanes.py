@@ -14,7 +14,7 @@ from tmm_gen.c_language.names import local_name, macros
 from tmm_gen.c_language.wrap import INDENT, comment, statement
 from tmm_gen.emit.c.body import Body, sentence
 from tmm_gen.emit.c.printer import CPrinter
-from tmm_gen.program.passes.dependence import accesses, carried_scalars
+from tmm_gen.program.passes.dependence import accesses, first_uses
 from tmm_gen.program.statements import Assign, Loop, Statement
 from tmm_gen.program.variables import Ref, Role, Variable
 
@@ -77,13 +77,13 @@ class LaneBody(Body):
         return f"{text}[{LANE}]" if ref.variable.role in _WIDE and ref.variable not in narrow else text
 
     def _narrow(self) -> frozenset[Variable]:
-        """Return the scratch scalars that live within one station: they need no memory for their lanes."""
+        """Return the scratch scalars that every loop sets before it reads them: they need no memory for their lanes."""
         statements = tuple(self.routine.statements())
         return frozenset(
             variable
             for variable in self.routine.variables(Role.LOCAL)
             if all(
-                isinstance(s, Loop) and variable not in carried_scalars(s)
+                isinstance(s, Loop) and first_uses(s)[variable]
                 for s in statements
                 if any(a.variable == variable for a in accesses(s))
             )

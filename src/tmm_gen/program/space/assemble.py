@@ -12,6 +12,7 @@ from tmm_gen.program.finish import NOTHING_PREPARED, START_DOC, Factors, living,
 from tmm_gen.program.motion import history_values
 from tmm_gen.program.passes.early import EarlySets, lifted
 from tmm_gen.program.passes.hoist import Hoister
+from tmm_gen.program.sensitivities.differentiated import differentiated
 from tmm_gen.program.space.base import BaseStep, earlier, history_sources
 from tmm_gen.program.space.base_start import start_of_base, unit_start
 from tmm_gen.program.space.bodies import Bodies
@@ -39,6 +40,8 @@ class SpaceChoices:
         Whether corrections go on until one changes next to nothing.
     exact : bool
         Whether all sweeps are Newton's own.
+    sensitivities : bool
+        Whether the step's tangent is wanted; not of one that corrects until that changes next to nothing.
     facts : tuple of (str, str)
         For headers.
     """
@@ -48,6 +51,7 @@ class SpaceChoices:
     held: bool = False
     auto: bool = False
     exact: bool = False
+    sensitivities: bool = False
     facts: tuple[tuple[str, str], ...] = ()
 
 
@@ -134,7 +138,10 @@ class _Assembly:
             v.name for v in layout.held.values() if v.name.startswith(("base_place", "base_velocity"))
         )
         always = base.always if base else moved
-        return prepared(living(whole, auto=self.choices.auto, always=always), factors)
+        alive = living(whole, auto=self.choices.auto, always=always)
+        if self.choices.sensitivities:
+            alive = replace(alive, sensitivities=differentiated(alive, self.hoister))
+        return prepared(alive, factors)
 
     @property
     def _given(self) -> bool:

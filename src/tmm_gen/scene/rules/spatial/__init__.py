@@ -8,6 +8,7 @@ from tmm_gen.scene.problem import Finding
 from tmm_gen.scene.rules.beams import beams_given
 from tmm_gen.scene.rules.emission import (
     batch_suits,
+    bound_without_sensitivities,
     budget_not_empty,
     compensated_suits,
     favour_suits,
@@ -23,7 +24,7 @@ from tmm_gen.scene.rules.spatial.control import motors_in_space_controlled
 from tmm_gen.scene.rules.spatial.hanging import not_too_many, one_tree, part_names
 from tmm_gen.scene.rules.spatial.inertia import base_to_turn, something_to_turn
 from tmm_gen.scene.rules.spatial.parts import ends, in_range, inertias, rigid_gears, twists
-from tmm_gen.scene.rules.spatial.settings import boxed, emitted, keys_of_base, own_tables
+from tmm_gen.scene.rules.spatial.settings import boxed, keys_of_base, own_tables
 from tmm_gen.scene.rules.spatial.signals import (
     distinct_names,
     initial_by_name,
@@ -35,7 +36,7 @@ from tmm_gen.scene.spatial.document import SpatialDocument
 Rule = Callable[[SpatialDocument], Iterator[Finding]]
 
 RULES: tuple[tuple[Rule, ...], ...] = (
-    (keys_of_base, own_tables, emitted, part_names, beams_given, not_too_many),
+    (keys_of_base, own_tables, part_names, beams_given, not_too_many),
     (one_tree, twists, ends, rigid_gears, inertias),
     (in_range, initial_by_name),
     (
@@ -49,6 +50,7 @@ RULES: tuple[tuple[Rule, ...], ...] = (
         coupled_suits,
         steps_may_change,
         real_is_used,
+        bound_without_sensitivities,
         budget_not_empty,
         batch_suits,
         favour_suits,

@@ -60,18 +60,6 @@ def own_tables(document: SpatialDocument) -> Iterator[Finding]:
         )
 
 
-def emitted(document: SpatialDocument) -> Iterator[Finding]:
-    """Find what is not generated of arms in space yet."""
-    emit = document.emit
-    if emit.sensitivities:
-        yield Finding(
-            ("emit", "sensitivities"),
-            "are not generated of arms in space yet",
-            "Remove it; models in CasADi can be differentiated as they are.",
-            True,
-        )
-
-
 def boxed(document: SpatialDocument) -> Iterator[Finding]:
     """Find bounds on what is neither state nor input: of a force or a moment each component has its own."""
     names = [
