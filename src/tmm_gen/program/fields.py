@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from tmm_gen.derive.integrators.declaration import STEP, Integrator, Kind, Past
+from tmm_gen.derive.integrators.declaration import STEP, Integrator, Kind, Past, Scheme
 from tmm_gen.derive.integrators.relations import Unknown, affine_motion
 from tmm_gen.program.passes.prune import prune
 from tmm_gen.program.statements import Routine
@@ -26,6 +26,35 @@ def state_variable(past: Past, prefix: str, length: int | None) -> Variable:
     when = f", {_AGO.get(past.lag, f'{past.lag} steps')} ago" if past.lag else ""
     what = f"hub {name}" if prefix else f"{name} of each link, base to tip"
     return Variable(f"{prefix}{name}{age}", Role.STATE, length, what + when, unit)
+
+
+def stage_accelerations(scheme: Scheme, newest: Variable, prefix: str, whose: str) -> tuple[Variable, ...]:
+    """Return where a coupled scheme keeps its stages' accelerations, by which the next step is predicted; else nothing.
+
+    Parameters
+    ----------
+    newest : Variable
+        Acceleration of the history: that of a stage at the end of the step.
+    prefix : str
+        Of names.
+    whose : str
+        With "of".
+    """
+    if not scheme.coupled:
+        return ()
+    found = [
+        Variable(
+            f"{prefix}acceleration_stage{index}",
+            Role.STATE,
+            newest.length,
+            f"acceleration {whose}, at stage {index} of the last step",
+            newest.unit,
+        )
+        for index in range(1, len(scheme.stages) + 1)
+    ]
+    if scheme.stages[-1].instant == 1:
+        found[-1] = newest
+    return tuple(found)
 
 
 def gain_names(

@@ -62,6 +62,8 @@ class Inertial:
         Its way out.
     gain : sympy.Expr
         Acceleration per unknown.
+    acting : bool
+        Whether bodies take forces; otherwise joints' torques alone act.
 
     Attributes
     ----------
@@ -77,8 +79,8 @@ class Inertial:
     again: tuple[Line, ...]
     back: tuple[Line, ...]
 
-    def __init__(self, out: Outward, gain: sp.Expr = GAINS["a"]) -> None:
-        self._out, self._gain = out, gain
+    def __init__(self, out: Outward, gain: sp.Expr = GAINS["a"], *, acting: bool = True) -> None:
+        self._out, self._gain, self._acting = out, gain, acting
         self._axis = 3 + out.pattern.axis
         if out.pattern.given:
             self.inward = self.again = ()
@@ -151,7 +153,7 @@ class Inertial:
     def _balanced(self) -> tuple[sp.Matrix, list[Line]]:
         """Return the forces at the joint's outer side, and what torque the joint lacks."""
         sheet = Sheet()
-        bias = acting_forces(sheet, self._out)
+        bias = acting_forces(sheet, self._out, own=self._acting)
         imbalance = Let(IMBALANCE, bias[self._axis] + TORQUE, "torque that the joint lacks", "N m")
         return bias, [*sheet.lets, imbalance]
 
@@ -227,12 +229,18 @@ def _congruent(sheet: Sheet, inertia: sp.Matrix, through: sp.Matrix) -> sp.Matri
     return found
 
 
-def acting_forces(sheet: Sheet, out: Outward) -> sp.Matrix:
-    """Return the forces at the outer side of a station's joint, (6,): its body's own, and what hangs on it."""
-    own = [*OWN_FORCE, *OWN_MOMENT] if out.pattern.acted else [sp.Integer(0)] * 6
+def acting_forces(sheet: Sheet, out: Outward, *, own: bool = True) -> sp.Matrix:
+    """Return the forces at the outer side of a station's joint, (6,): its body's own, and what hangs on it.
+
+    Parameters
+    ----------
+    own : bool
+        Whether the body takes any.
+    """
+    body = [*OWN_FORCE, *OWN_MOMENT] if own and out.pattern.acted else [sp.Integer(0)] * 6
     carried = [0 if out.pattern.tip else symbol for symbol in BIAS]
     return named_forces(
-        sheet, sp.Matrix([mine + more for mine, more in zip(own, carried, strict=True)]), "acting"
+        sheet, sp.Matrix([mine + more for mine, more in zip(body, carried, strict=True)]), "acting"
     )
 
 

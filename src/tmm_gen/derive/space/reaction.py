@@ -4,16 +4,35 @@ from __future__ import annotations
 
 import sympy as sp
 
-from tmm_gen.derive.space.inward import BIAS, acting_forces, named_forces
+from tmm_gen.derive.space.inward import BIAS, IMBALANCE, TORQUE, acting_forces, named_forces
 from tmm_gen.derive.space.outward import Outward
 from tmm_gen.derive.space.sheet import Sheet
-from tmm_gen.derive.station.lets import Line, Update
+from tmm_gen.derive.station.lets import Let, Line, Update
 
 
 def passed_lines(out: Outward) -> tuple[Line, ...]:
     """Return how the forces pass to a station's inner side."""
     sheet = Sheet()
+    return _passed(sheet, out, acting_forces(sheet, out))
+
+
+def lacking_lines(out: Outward) -> tuple[Line, ...]:
+    """Return the torque that a joint lacks at its exact motion, and how the forces pass to the inner side.
+
+    Where the motion is given it lacks none; what such a joint carries passes no forces on.
+    """
+    if out.pattern.given:
+        return (Let(IMBALANCE, sp.Integer(0), "torque that the joint lacks", "N m"),)
+    sheet = Sheet()
     forces = acting_forces(sheet, out)
+    lacking = Let(IMBALANCE, forces[3 + out.pattern.axis] + TORQUE, "torque that the joint lacks", "N m")
+    if out.pattern.unyielding:
+        return (*sheet.lets, lacking)
+    *lets, passed = _passed(sheet, out, forces)
+    return (*lets, lacking, passed)
+
+
+def _passed(sheet: Sheet, out: Outward, forces: sp.Matrix) -> tuple[Line, ...]:
     *before, first = reversed(out.crossings)
     for crossing in before:
         forces = named_forces(sheet, crossing.equations.forces * forces)

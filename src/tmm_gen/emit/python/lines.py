@@ -40,7 +40,7 @@ def call(head: str, arguments: Sequence[str], indent: str = "", tail: str = "") 
         return [f"{indent}{head}(", inner, f"{indent}){tail}"]
     lines: list[str] = []
     for item in arguments:
-        lines += _operands(item, indent + _INDENT)
+        lines += (_literals if item.startswith('"') else _operands)(item, indent + _INDENT)
         if len(arguments) > 1 or not _split(item)[1]:
             lines[-1] += ","
     return [f"{indent}{head}(", *lines, f"{indent}){tail}"]
@@ -78,6 +78,18 @@ def _filled(text: str, first: str, others: str) -> list[str]:
         break_long_words=False,
         break_on_hyphens=False,
     )
+
+
+def _literals(quoted: str, indent: str) -> list[str]:
+    """Write a string as several that stand one below the other, broken at blanks, where it does not fit in a line."""
+    words = re.findall(r"[^ ]+ ?", quoted[1:-1])
+    lines = [words[0]]
+    for word in words[1:]:
+        if len(indent) + len(lines[-1]) + len(word) + len('"",') > WIDTH:
+            lines.append(word)
+        else:
+            lines[-1] += word
+    return [f'{indent}"{line}"' for line in lines]
 
 
 def _bracketed(head: str, value: str, indent: str) -> list[str]:

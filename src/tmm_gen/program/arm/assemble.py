@@ -19,6 +19,7 @@ from tmm_gen.program.arm.step import MakeWalks, StepBuilder
 from tmm_gen.program.arm.thesis import start_places
 from tmm_gen.program.arm.turns import TURNED, start_unturned, take_turns_out
 from tmm_gen.program.arm.walks import Walks
+from tmm_gen.program.coupled import first_stages
 from tmm_gen.program.fields import gain_names
 from tmm_gen.program.finish import NOTHING_PREPARED, START_DOC, Factors, living, prepared, stepped
 from tmm_gen.program.inputs import input_instants
@@ -29,8 +30,6 @@ from tmm_gen.program.sensitivities.step import step_sensitivities
 from tmm_gen.program.sensitivities.twins import linear_sensitivities
 from tmm_gen.program.statements import (
     Assign,
-    Loop,
-    Order,
     Program,
     Routine,
     Section,
@@ -239,9 +238,7 @@ class _Assembly:
         for stages, history in ((layout.hub_stages, layout.hub), (layout.stages, layout.state)):
             if not stages:
                 continue
-            newest = history[Past("a", 0)]
-            body = tuple(Assign(v.at(), newest.at()) for v in stages if v != newest)
-            kept += body if newest.length is None else [Loop(Order.OUTWARD, 0, layout.stations, body)]
+            kept += first_stages(stages, history[Past("a", 0)])
         return (Section("the first step is predicted by this acceleration", tuple(kept)),) if kept else ()
 
 

@@ -6,32 +6,25 @@ About known motion (a linear row) the systems of the eigenvalues are solved for 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import sympy as sp
 
 from tmm_gen.derive.integrators.declaration import KINDS, Kind, Past, Scheme
 from tmm_gen.derive.integrators.relations import AffineMotion
-from tmm_gen.derive.integrators.spectrum import Spectrum, fraction, spectrum_of
 from tmm_gen.derive.station.frame import GAINS, Frame
 from tmm_gen.program.arm.at_places import BASE, hub_unknown, solved_variable
 from tmm_gen.program.arm.layout import Layout
 from tmm_gen.program.arm.loads import Loads
 from tmm_gen.program.arm.motion import StageOf, motion_variable
 from tmm_gen.program.arm.walks import Walks
+from tmm_gen.program.coupled import GAIN_OF, ZERO, Coupled, seen
 from tmm_gen.program.inputs import input_instants
 from tmm_gen.program.motion import update_assignments
-from tmm_gen.program.passes.side_by_side import Lane, Pair, SideBySide
+from tmm_gen.program.passes.side_by_side import Pair, SideBySide
 from tmm_gen.program.statements import Assign, Loop, Order, Section, Statement
-from tmm_gen.program.variables import Ref, Role, Variable, local
-
-ZERO = sp.Integer(0)
-GAIN_OF: dict[Kind, Ref] = {
-    "q": local("angle_gain", "angle per unknown", "s^2"),
-    "v": local("rate_gain", "rate per unknown", "s"),
-}
-"""What stands for the gains of each system while its sweep is written."""
+from tmm_gen.program.variables import Ref, Variable
 
 
 @dataclass(frozen=True)
@@ -62,19 +55,9 @@ class CollocationStep:
     split: Callable[[list[Section]], list[Section]] = list
 
     @cached_property
-    def spectrum(self) -> Spectrum:
-        """Numbers of the scheme."""
-        return spectrum_of(self.scheme)
-
-    @cached_property
-    def systems(self) -> tuple[Lane, ...]:
-        """One for each eigenvalue."""
-        found = []
-        for index, (re, im) in enumerate(self.spectrum.values, start=1):
-            complex_ = im != 0
-            words = f"system of {'complex' if complex_ else 'real'} eigenvalue {index}"
-            found.append(Lane(f"_system{index}", words, (re, im) if complex_ else None))
-        return tuple(found)
+    def coupled(self) -> Coupled:
+        """Sums over the scheme's stages."""
+        return Coupled(self.scheme, self.step)
 
     @property
     def step(self) -> Ref:
@@ -86,7 +69,9 @@ class CollocationStep:
         known = Section(
             "motion known before the sweeps, in the system of each eigenvalue", tuple(self._known())
         )
-        swept = SideBySide(self.systems, self.seeds(), self._differing).sections(self._walks().sections())
+        swept = SideBySide(self.coupled.systems, self.seeds(), self._differing).sections(
+            self._walks().sections()
+        )
         found = [known, *self.split(swept), self._finish()]
         return tuple(s for s in found if s.statements)
 
@@ -94,56 +79,17 @@ class CollocationStep:
 
     def seeds(self) -> dict[Ref, list[Pair]]:
         """Return what differs from system to system: gains, and inputs, each by those of all stages."""
-        values = self.spectrum.values
-        seeds: dict[Ref, list[Pair]] = {
-            GAIN_OF["v"]: [(self.step * re, self.step * im) for re, im in values],
-            GAIN_OF["q"]: [
-                (self.step**2 * fraction(re**2 - im**2), self.step**2 * fraction(2 * re * im))
-                for re, im in values
-            ],
-        }
+        seeds = self.coupled.gains()
         for given in self.layout.inputs:
-            seeds[self.seen[given.name]] = self.combined(
-                [given.entry(i) for i in range(len(self.spectrum.nodes))]
+            seeds[self.seen[given.name]] = self.coupled.combined(
+                [given.entry(i) for i in range(len(self.coupled.stages))]
             )
         return seeds
-
-    def combined(self, at_stages: Sequence[sp.Expr]) -> list[Pair]:
-        """Return what values at the stages make in each system."""
-        found: list[Pair] = []
-        for row in self.spectrum.into:
-            re, im = (
-                sp.Add(*(weight[part] * value for weight, value in zip(row, at_stages, strict=True)))
-                for part in (0, 1)
-            )
-            found.append((re, im))
-        return found
-
-    def from_systems(self, weights: Sequence[sp.Expr], found: Ref) -> sp.Expr:
-        """Return a weighted sum of the stages by what each system has found.
-
-        Parameters
-        ----------
-        weights : sequence of sympy.Expr
-            Of the stages.
-        found : Ref
-            The unknown that systems solve for.
-        """
-        total = ZERO
-        for index, lane in enumerate(self.systems):
-            re, im = (
-                sp.Add(*(w * row[index][part] for w, row in zip(weights, self.spectrum.back, strict=True)))
-                for part in (0, 1)
-            )
-            of_real, of_imaginary = lane.ref(found)
-            total += fraction(re) * of_real - fraction(im) * of_imaginary
-        return total
 
     @cached_property
     def seen(self) -> dict[str, Ref]:
         """What stands for the inputs while walks are written."""
-        scratch = (replace(v, length=None, role=Role.LOCAL) for v in self.layout.inputs)
-        return {v.name: v.ref for v in scratch}
+        return seen(self.layout.inputs)
 
     def frame(self, *, still: frozenset[str] = frozenset()) -> Frame:
         """Return what the sweep of each system is derived for."""
@@ -181,15 +127,17 @@ class CollocationStep:
         if layout.row.boundary == "free":
             begun = self._from(*(layout.hub[Past(kind, 0)].ref for kind in ("q", "v")))
         elif layout.row.boundary == "prescribed":
-            given = [Loads(layout, i).prescribed for i in range(len(self.spectrum.nodes))]
-            begun = [self.combined([each[kind] for each in given]) for kind in ("q", "v")]
+            given = [Loads(layout, i).prescribed for i in range(len(self.coupled.spectrum.nodes))]
+            begun = [self.coupled.combined([each[kind] for each in given]) for kind in ("q", "v")]
         else:
             begun = self._from(ZERO, ZERO)
         return [*self._moved(base, *begun), Loop(Order.OUTWARD, 0, n, tuple(body))]
 
     def _from(self, angle: sp.Expr, rate: sp.Expr) -> list[list[Pair]]:
         """Return angle and rate in each system, by those at the start of the step."""
-        angles = [(angle + self.step * re * rate, self.step * im * rate) for re, im in self.spectrum.values]
+        angles = [
+            (angle + self.step * re * rate, self.step * im * rate) for re, im in self.coupled.spectrum.values
+        ]
         return [angles, [(rate, ZERO)] * len(angles)]
 
     def _moved(self, targets: tuple[Ref, Ref], angles: Sequence[Pair], rates: Sequence[Pair]) -> list[Assign]:
@@ -198,7 +146,7 @@ class CollocationStep:
             if target.variable not in self._differing:
                 found.append(Assign(target, values[0][0]))
                 continue
-            for lane, pair in zip(self.systems, values, strict=True):
+            for lane, pair in zip(self.coupled.systems, values, strict=True):
                 places = zip(lane.ref(target), pair, strict=True)
                 found += [Assign(ref, value) for ref, value in places if isinstance(ref, Ref)]
         return found
@@ -230,7 +178,9 @@ class CollocationStep:
         """Return the motion at the end of the step by what the systems have found."""
         angle, rate = (read(history[Past(kind, 0)]) for kind in ("q", "v"))
         return {
-            "q": angle + self.step * rate + self.step**2 * self.from_systems(self.spectrum.ends["q"], found),
-            "v": rate + self.step * self.from_systems(self.spectrum.ends["v"], found),
-            "a": self.from_systems(self.spectrum.ends["a"], found),
+            "q": angle
+            + self.step * rate
+            + self.step**2 * self.coupled.from_systems(self.coupled.spectrum.ends["q"], found),
+            "v": rate + self.step * self.coupled.from_systems(self.coupled.spectrum.ends["v"], found),
+            "a": self.coupled.from_systems(self.coupled.spectrum.ends["a"], found),
         }

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from tmm_gen.derive.integrators.declaration import KINDS, Integrator, Past, Scheme
 from tmm_gen.derive.integrators.history import history
 from tmm_gen.derive.integrators.relations import Unknown
-from tmm_gen.program.fields import state_variable
+from tmm_gen.program.fields import stage_accelerations, state_variable
 from tmm_gen.program.inputs import input_instants
 from tmm_gen.program.variables import Role, Variable
 from tmm_gen.row.row import Parameter, Row
@@ -112,27 +112,17 @@ def layout_of(row: Row, integrator: Integrator, step: float, unknown: Unknown, *
             Variable("initial_angle", Role.GIVEN, n, "angles to start from", "rad", row.angles),
             Variable("initial_rate", Role.GIVEN, n, "rates to start from", "rad/s", row.rates),
         ),
-        stages=_stages(row, integrator.main, state, "", n),
-        hub_stages=_stages(row, integrator.main, hub, "hub_", None) if row.boundary == "free" else (),
+        stages=_stages(row, integrator.main, state, ""),
+        hub_stages=_stages(row, integrator.main, hub, "hub_") if row.boundary == "free" else (),
     )
 
 
-def _stages(
-    row: Row, scheme: Scheme, history: dict[Past, Variable], prefix: str, length: int | None
-) -> tuple[Variable, ...]:
+def _stages(row: Row, scheme: Scheme, history: dict[Past, Variable], prefix: str) -> tuple[Variable, ...]:
     """Return where a coupled scheme keeps the accelerations of its stages for the next step's prediction."""
-    if not scheme.coupled or row.about != "prediction":
+    if row.about != "prediction":
         return ()
-    found = [_stage_kept(index + 1, prefix, length) for index in range(len(scheme.stages))]
-    if scheme.stages[-1].instant == 1:
-        found[-1] = history[Past("a", 0)]
-    return tuple(found)
-
-
-def _stage_kept(index: int, prefix: str, length: int | None) -> Variable:
     of = "of the hub" if prefix else "of each link, base to tip"
-    doc = f"acceleration {of}, at stage {index} of the last step"
-    return Variable(f"{prefix}acceleration_stage{index}", Role.STATE, length, doc, "rad/s^2")
+    return stage_accelerations(scheme, history[Past("a", 0)], prefix, of)
 
 
 def _parameter(found: Parameter) -> Variable:

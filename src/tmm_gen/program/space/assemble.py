@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import sympy as sp
 
-from tmm_gen.derive.integrators.declaration import CONSISTENT_START, Integrator, Scheme, past
+from tmm_gen.derive.integrators.declaration import CONSISTENT_START, Integrator, Past, Scheme, past
+from tmm_gen.program.coupled import first_stages
 from tmm_gen.program.fields import gain_names
 from tmm_gen.program.finish import NOTHING_PREPARED, START_DOC, Factors, living, prepared, stepped
 from tmm_gen.program.motion import history_values
@@ -16,6 +18,7 @@ from tmm_gen.program.sensitivities.differentiated import differentiated
 from tmm_gen.program.space.base import BaseStep, earlier, history_sources
 from tmm_gen.program.space.base_start import start_of_base, unit_start
 from tmm_gen.program.space.bodies import Bodies
+from tmm_gen.program.space.collocation import SpaceCollocation
 from tmm_gen.program.space.layout import SpaceLayout, instants, layout_of, moves_as_given
 from tmm_gen.program.space.outputs import output_routine
 from tmm_gen.program.space.step import SpaceStep
@@ -121,7 +124,11 @@ class _Assembly:
             step=layout.step,
             parameters=(*layout.parameters.values(), *(base.parameters.values() if base else ())),
             coefficients=factors.coefficients,
-            state=(*layout.state.values(), *(base.state if base else ()), *layout.held.values()),
+            state=(
+                *layout.moving,
+                *(base.state if base else ()),
+                *layout.held.values(),
+            ),
             inputs=layout.inputs,
             outputs=layout.outputs,
             given=layout.given,
@@ -151,7 +158,20 @@ class _Assembly:
     def _step(self, scheme: Scheme) -> tuple[Section, ...]:
         """Return the sections of a scheme's step."""
         layout = self.layout
-        step = SpaceStep(
+        step = self._coupled(scheme) if scheme.coupled else self._stepped(scheme)
+        before = earlier(layout.base) if layout.base else []
+        known = (Section("where the base was before", tuple(before)),) if before else ()
+        return (*known, *step.sections(), *self._hold(len(instants(scheme, given=self._given))))
+
+    def _coupled(self, scheme: Scheme) -> SpaceCollocation:
+        """Return what builds a step whose stages are solved at once."""
+        rounds, auto = self.choices.iterations, self.choices.auto
+        return SpaceCollocation(self.layout, self.bodies, scheme, rounds, auto, self._split)
+
+    def _stepped(self, scheme: Scheme) -> SpaceStep:
+        """Return what builds a step whose stages are solved one after another."""
+        layout = self.layout
+        return SpaceStep(
             layout,
             self.bodies,
             scheme,
@@ -160,13 +180,14 @@ class _Assembly:
             held=self.choices.held,
             auto=self.choices.auto,
             exact=self.choices.exact,
-            # what a given joint does not set of an array would be left open in the model
-            split=_whole if self._given else self.early.split,
+            split=self._split,
             base=self._base(scheme),
         )
-        before = earlier(layout.base) if layout.base else []
-        known = (Section("where the base was before", tuple(before)),) if before else ()
-        return (*known, *step.sections(), *self._hold(len(instants(scheme, given=self._given))))
+
+    @property
+    def _split(self) -> Callable[[list[Section], Section], list[Section]]:
+        # what a given joint does not set of an array would be left open in the model
+        return _whole if self._given else self.early.split
 
     def _base(self, scheme: Scheme) -> BaseStep | None:
         base = self.layout.base
@@ -181,6 +202,11 @@ class _Assembly:
             for name, variable in self.layout.held.items()
         )
         return (Section("inputs as they last acted", assigns),) if assigns else ()
+
+    def _held_first(self) -> tuple[Section, ...]:
+        """Let the first step be predicted by the acceleration at the start."""
+        kept = tuple(first_stages(self.layout.stages, self.layout.state[Past("a", 0)]))
+        return (Section("the first step is predicted by this acceleration", kept),) if kept else ()
 
     def _initialise(self) -> Routine:
         """Build the start: given motion, and the acceleration that satisfies the equations of motion."""
@@ -197,5 +223,6 @@ class _Assembly:
         )
         before = unit_start(layout.base) if layout.base else []
         given = (Section("where the base starts", tuple(before)),) if before else ()
-        sections = (bodies.section, *given, *lifted(list(step.sections()), ask=True), *self._hold(1))
+        swept = lifted(list(step.sections()), ask=True)
+        sections = (bodies.section, *given, *swept, *self._held_first(), *self._hold(1))
         return Routine("initialise", START_DOC, tuple(s for s in sections if s.statements))

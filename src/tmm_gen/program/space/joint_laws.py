@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import sympy as sp
@@ -45,7 +45,9 @@ class JointLaws:
         loop = Loop(Order.OUTWARD, 0, self.layout.stations, (Assign(target.at(), self._impedance),))
         return Section("impedances of the joints", () if self._impedance == 0 else (loop,))
 
-    def torques(self, target: Variable, moved: Mapping[Kind, sp.Expr], instant: int) -> Section:
+    def torques(
+        self, target: Variable, moved: Mapping[Kind, sp.Expr], value: Callable[[str], sp.Expr]
+    ) -> Section:
         """Return what sets the torque that each joint asks for.
 
         Parameters
@@ -54,8 +56,8 @@ class JointLaws:
             Array over the joints.
         moved : mapping from "q", "v", "a" to sympy.Expr
             Motion of the joint at station ``j``.
-        instant : int
-            Of the step, from 0, at which motors' torques are read.
+        value : callable
+            Returns a motor's torque by its column.
         """
         layout = self.layout
         law = (
@@ -67,7 +69,7 @@ class JointLaws:
         for item in self._driven:
             entry = target.entry(item.joint - 1)
             geared = layout.parameters.get(f"{item.name}_gear")
-            acting = layout.input(item.name, instant) * (geared.ref if geared else 1)
+            acting = value(item.name) * (geared.ref if geared else 1)
             statements.append(Assign(entry, entry - acting))
         return Section("torques of the joints' own", tuple(statements))
 

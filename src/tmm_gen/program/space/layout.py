@@ -10,7 +10,7 @@ import sympy as sp
 from tmm_gen.derive.integrators.declaration import CONSISTENT_START, KINDS, Integrator, Past, Scheme
 from tmm_gen.derive.integrators.history import history
 from tmm_gen.derive.space.declaration import AXES, PAIRS
-from tmm_gen.program.fields import MOTION_NAMES
+from tmm_gen.program.fields import MOTION_NAMES, stage_accelerations
 from tmm_gen.program.space.base_layout import BaseLayout, base_layout
 from tmm_gen.program.space.runs import StationTree
 from tmm_gen.program.variables import Ref, Role, Variable
@@ -39,6 +39,8 @@ class SpaceLayout:
         Inputs as they last acted, kept where an output needs them.
     base : BaseLayout or None
         Of a base that floats.
+    stages : tuple of Variable
+        Accelerations at the stages of the last step, where the next is predicted by them.
     """
 
     name: str
@@ -52,6 +54,7 @@ class SpaceLayout:
     outputs: tuple[Variable, ...]
     given: tuple[Variable, ...]
     base: BaseLayout | None = None
+    stages: tuple[Variable, ...] = ()
 
     @property
     def arm(self) -> SpatialArm:
@@ -62,6 +65,11 @@ class SpaceLayout:
     def stations(self) -> int:
         """Number of joints."""
         return self.tree.stations
+
+    @property
+    def moving(self) -> tuple[Variable, ...]:
+        """State of the joints."""
+        return tuple(dict.fromkeys((*self.state.values(), *self.stages)))
 
     def at(self, name: str, index: int | None, offset: int = 0) -> sp.Expr:
         """Return a parameter at a station of a loop, or at one with an index; zero where the arm has none of it."""
@@ -94,13 +102,15 @@ def layout_of(arm: SpatialArm, name: str, title: str, integrator: Integrator, st
     torques = {item.joint: item for item in arm.inputs if item.acts == "torque"}
     read = [torques[o.joint] for o in arm.outputs if o.quantity.read == "through" and o.joint in torques]
     base = base_layout(arm.base, ordered) if arm.base is not None else None
+    state = {p: _state(p, n) for p in ordered}
+    of_joints = "of each joint, base to tips"
     return SpaceLayout(
         name=name,
         title=title,
         tree=StationTree(arm, _marked(arm)),
         step=Variable("step", Role.STEP, doc="time step", unit="s", default=step),
         parameters={v.name: v for v in _parameters(arm)},
-        state={p: _state(p, n) for p in ordered},
+        state=state,
         held={
             column: Variable(f"held_{column}", Role.STATE, doc=f"{column} as it last acted", unit=unit)
             for column, unit in ({item.name: "N m" for item in read} | _loads_held(arm)).items()
@@ -136,6 +146,7 @@ def layout_of(arm: SpatialArm, name: str, title: str, integrator: Integrator, st
             *(base.given.values() if base else ()),
         ),
         base=base,
+        stages=stage_accelerations(integrator.main, state[Past("a", 0)], "", of_joints),
     )
 
 

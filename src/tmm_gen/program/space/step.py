@@ -7,24 +7,23 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from tmm_gen.derive.integrators.declaration import KINDS, STEP, Kind, Past, Scheme, stage
+from tmm_gen.derive.integrators.declaration import KINDS, STEP, Kind, Scheme, stage
 from tmm_gen.derive.integrators.relations import AffineMotion, affine_motion
-from tmm_gen.derive.space.declaration import BASE_ACCEL
 from tmm_gen.derive.space.inward import IMPEDANCE, OWN, TORQUE
 from tmm_gen.program.arm.motion import KNOWN_RATE, StartingPoint, starting_point
 from tmm_gen.program.fields import MOTION_NAMES
 from tmm_gen.program.motion import kept_stage_values, stage_variable, update_assignments
 from tmm_gen.program.space.base import BaseStep, gains_of
 from tmm_gen.program.space.bodies import Bodies
+from tmm_gen.program.space.given import base_moved, given_end, given_motion
 from tmm_gen.program.space.joint_laws import JointLaws
-from tmm_gen.program.space.layout import SpaceLayout, instants, kernel_columns
+from tmm_gen.program.space.layout import SpaceLayout
 from tmm_gen.program.space.loads import loads_on_frames
 from tmm_gen.program.space.over_stations import MOTION
 from tmm_gen.program.space.walks import SpaceWalks
 from tmm_gen.program.statements import Assign, Loop, Order, Repeat, Section, Statement, Until
 from tmm_gen.program.sweeps import LEAST_TURN, MOST_SWEEPS, SWEEPS
 from tmm_gen.program.variables import Role, Variable, local
-from tmm_gen.scene.signal import ACCELERATION
 
 _TURNED = local("turned", "sum of squares of what this correction changes angles by", "rad^2")
 
@@ -94,7 +93,7 @@ class SpaceStep:
         self, title: str, index: int, motion: AffineMotion, point: StartingPoint, finish: Section
     ) -> list[Section]:
         gains = {k: self._gain(motion, k) for k in KINDS}
-        laws = JointLaws(self.layout, gains)
+        laws, read = JointLaws(self.layout, gains), self._read(index)
         walks = SpaceWalks(
             self.layout,
             self.bodies,
@@ -102,16 +101,19 @@ class SpaceStep:
             tuple(gains.values()),
             laws.absent,
             exact=self.exact,
-            base=self.base.values if self.base else self._base_moved(index - 1),
+            base=self.base.values if self.base else base_moved(self.layout, read),
         )
         still = "a" in point.still
         begun = self.base.begin(point) if self.base else []
         first = [
-            Section("predicted motion", (*begun, self._begin(point), *self._given(index - 1))),
+            Section(
+                "predicted motion",
+                (*begun, self._begin(point), *self._given(index)),
+            ),
             laws.impedances(walks.array(IMPEDANCE)),
             self._torques(laws, index, walks, point.still),
             walks.outward(still=still),
-            *loads_on_frames(self.layout, walks, lambda column: self.layout.input(column, index - 1)),
+            *loads_on_frames(self.layout, walks, read),
             walks.inward(still=still),
             walks.back(still=still),
         ]
@@ -143,12 +145,12 @@ class SpaceStep:
                 (
                     *self._moved(motion, still=still),
                     self._improve(motion, still=still),
-                    *self._given(index - 1),
+                    *self._given(index),
                 ),
             ),
             self._torques(laws, index, walks, frozenset()),
             walks.outward(still=False),
-            *loads_on_frames(self.layout, walks, lambda column: self.layout.input(column, index - 1)),
+            *loads_on_frames(self.layout, walks, self._read(index)),
             walks.inward(still=False) if self.exact else walks.again(),
             walks.back(still=False),
         ]
@@ -168,34 +170,15 @@ class SpaceStep:
 
     def _torques(self, laws: JointLaws, index: int, walks: SpaceWalks, still: frozenset[str]) -> Section:
         moved = {k: sp.Integer(0) if k in still else self._motion(k).at() for k in KINDS}
-        return laws.torques(walks.array(TORQUE), moved, index - 1)
+        return laws.torques(walks.array(TORQUE), moved, self._read(index))
 
-    def _base_moved(self, instant: int) -> dict[sp.Symbol, sp.Expr]:
-        """Return how a base is accelerated at an instant of the step, from 0, where that is given."""
-        return {
-            symbol: self.layout.input(item.name + ACCELERATION, instant)
-            for symbol, item in zip(BASE_ACCEL, self.layout.arm.along, strict=True)
-            if item
-        }
+    def _given(self, index: int) -> list[Assign]:
+        """Set the motion of joints at a stage, from 1, where it is given."""
+        return given_motion(self.layout, {kind: self._motion(kind) for kind in KINDS}, index - 1)
 
-    def _given(self, instant: int) -> list[Statement]:
-        """Set the motion of joints at an instant of the step, from 0, where it is given."""
-        return [
-            Assign(self._motion(kind).entry(item.joint - 1), self.layout.input(name, instant))
-            for item in self.layout.arm.inputs
-            if item.acts == "angle"
-            for kind, name in zip(KINDS, kernel_columns(item), strict=True)
-        ]
-
-    def _given_end(self) -> list[Statement]:
-        """Set the motion of joints at the end of the step, where it is given."""
-        last = len(instants(self.scheme, given=True)) - 1
-        return [
-            Assign(self.layout.state[Past(kind, 0)].entry(item.joint - 1), self.layout.input(name, last))
-            for item in self.layout.arm.inputs
-            if item.acts == "angle"
-            for kind, name in zip(KINDS, kernel_columns(item), strict=True)
-        ]
+    def _read(self, index: int) -> Callable[[str], sp.Expr]:
+        """Return how inputs are read at a stage, from 1, by their columns."""
+        return lambda column: self.layout.input(column, index - 1)
 
     # -- motion ---------------------------------------------------------------------------------------------
 
@@ -282,7 +265,9 @@ class SpaceStep:
         if self.base:
             of_base += self.base.finish()
         loop = Loop(Order.OUTWARD, 0, n, tuple(body))
-        return Section(title + "motion at the end of the step", (*of_base, loop, *self._given_end()))
+        return Section(
+            title + "motion at the end of the step", (*of_base, loop, *given_end(self.layout, self.scheme))
+        )
 
 
 _OWN_DOC = ("what the sweep finds each joint to do", "rad/s^2")

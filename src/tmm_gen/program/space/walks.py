@@ -111,7 +111,7 @@ class SpaceWalks(OverStations):
             return Section("in: slopes of all forces, joints eliminated one by one", tuple(lines))
         at_base = self._of_base(lambda p: (*balance_lines(p), *force_lines()))
         statements = self.walk(
-            Order.INWARD, lambda p: inertial(p, still, self._gain).inward, CARRIED, base=at_base
+            Order.INWARD, lambda p: self._eliminated(p, still).inward, CARRIED, base=at_base
         )
         return Section("in: articulated inertia, joints eliminated one by one", tuple(statements))
 
@@ -119,7 +119,7 @@ class SpaceWalks(OverStations):
         """Return the way in of a correction."""
         at_base = self._of_base(lambda _: force_lines())
         statements = self.walk(
-            Order.INWARD, lambda p: inertial(p, False, self._gain).again, CARRIED[-6:], base=at_base
+            Order.INWARD, lambda p: self._eliminated(p, False).again, CARRIED[-6:], base=at_base
         )
         return Section("in: forces alone, with the factors of the sweep", tuple(statements))
 
@@ -133,9 +133,13 @@ class SpaceWalks(OverStations):
             return Section("back out: what each joint does", tuple(lines))
         at_base = self._of_base(lambda _: answer_lines(self._gain))
         statements = self.walk(
-            Order.OUTWARD, lambda p: inertial(p, True, self._gain).back, tuple(CHANGE), base=at_base
+            Order.OUTWARD, lambda p: self._eliminated(p, True).back, tuple(CHANGE), base=at_base
         )
         return Section("back out: what each joint does", tuple(statements))
+
+    def _eliminated(self, pattern: Pattern, still: bool) -> Inertial:
+        """Return how a station's joint is eliminated."""
+        return inertial(pattern, still, self._gain)
 
     @property
     def _falls(self) -> tuple[bool, ...]:

@@ -11,7 +11,7 @@ from tmm_gen.scene.spatial.arm import ZERO
 from tmm_gen.scene.spatial.values import AxisVector, Gravity, Place
 from tmm_gen.scene.table import Count, Finite, Table, fault
 
-SWEEPS = {"sdirk4": 3}
+SWEEPS = {"sdirk4": 3, "radau3": 3, "gauss3": 4}
 """Sweep and corrections that give a method its order with the inertial linearisation; two for the other methods."""
 
 
@@ -68,7 +68,7 @@ class SpatialModel(Model):
     iterations: Annotated[Count | Literal["auto"], BeforeValidator(sweeps_or_auto)] = Field(
         default="auto",
         description='sweep and corrections per stage; with "auto", `run` takes as many as it needs and kernels 2, with '
-        "sdirk4 3, with newton 1",
+        "sdirk4 and radau3 3, with gauss3 4, with newton 1",
         examples=['"auto"', "2"],
     )
     corrections: Annotated[int, BeforeValidator(corrections_counted)] = Field(

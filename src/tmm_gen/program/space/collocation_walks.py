@@ -1,0 +1,45 @@
+"""Walks of a step whose stages are solved at once: what its equations leave over, and a sweep for what mends that."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import sympy as sp
+
+from tmm_gen.derive.space.declaration import ANGLE
+from tmm_gen.derive.space.inward import BIAS, Inertial
+from tmm_gen.derive.space.outward import COSINE, SINE
+from tmm_gen.derive.space.pattern import Pattern
+from tmm_gen.derive.space.reaction import lacking_lines
+from tmm_gen.program.space.walks import SpaceWalks, outward
+from tmm_gen.program.statements import Assign, Loop, Order, Section
+
+
+@lru_cache(maxsize=256)
+def mending(pattern: Pattern) -> Inertial:
+    """Return the way in and back over stations of a pattern, where torques of joints alone act."""
+    return Inertial(outward(pattern, True), sp.S.One, acting=False)
+
+
+class ResidualWalks(SpaceWalks):
+    """Walks out with motion and in with exact forces, at the motion of a stage."""
+
+    def left_over(self) -> Section:
+        """Return the way in, to what torque each joint lacks."""
+        lines = self.walk(Order.INWARD, lambda p: lacking_lines(outward(p, False)), tuple(BIAS))
+        return Section("in: what the equations of the stages leave over", tuple(lines))
+
+
+class MendingWalks(SpaceWalks):
+    """The sweep that finds what changes of accelerations make up for what the equations leave over."""
+
+    def circles(self) -> Section:
+        """Return the sines of the joints' angles, which alone of the motion enter."""
+        angle = self._motion[ANGLE].at()
+        body = (Assign(self.array(SINE).at(), sp.sin(angle)), Assign(self.array(COSINE).at(), sp.cos(angle)))
+        loop = Loop(Order.OUTWARD, 0, self.layout.stations, body)
+        return Section("sines of the angles at the middle of the step", (loop,))
+
+    def _eliminated(self, pattern: Pattern, still: bool) -> Inertial:
+        del still
+        return mending(pattern)
