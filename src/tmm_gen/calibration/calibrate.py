@@ -17,12 +17,12 @@ from tmm_gen.calibration.fitted_keys import (
     replaced,
 )
 from tmm_gen.calibration.outcome import Calibration, Fitted
+from tmm_gen.calibration.telling import Told
 from tmm_gen.calibration.uncertainty import deviations
 from tmm_gen.errors import CheckFailed, UserError
 from tmm_gen.inputs.clock import starts_of
 from tmm_gen.inputs.signals import Signal
 from tmm_gen.scene import Scene
-from tmm_gen.scene.flat import require_flat
 
 __all__ = ["MOST_MISFIT", "Calibration", "Fitted", "Loss", "calibrate"]
 
@@ -37,9 +37,6 @@ _SCAN = np.geomspace(0.25, 4.0, 25)
 
 _FARTHEST = float(np.log(1e4))
 """Of a fitted number from the given one, in logarithms."""
-
-_FLAT = 1e12
-"""Condition number of the normal equations beyond which the record does not tell the parameters apart."""
 
 _HUBER = 1.345
 """Remains beyond so many standard deviations lose weight: 95 % as efficient as least squares where all are normal."""
@@ -88,7 +85,6 @@ def calibrate(
         If nothing recorded is an output, the clocks do not fit, a key is no positive number, or the record does not
         tell keys apart.
     """
-    require_flat(scene, "calibrations do not")
     chosen = tuple(keys or default_keys(scene))
     given = np.array([number_of(scene, key) for key in chosen])
     refuse_overlaps(scene, chosen)
@@ -101,17 +97,16 @@ def calibrate(
     left = fit.remains(logarithms)
     jacobian = _jacobian(fit, logarithms)
     normal = jacobian[np.abs(left) <= reach].T @ jacobian[np.abs(left) <= reach]
-    diagonal = np.sqrt(np.diag(normal))
     absent = [item.name for item in scene.inputs if item.name not in record]
-    if absent and not np.any(diagonal):
+    if absent and not np.any(normal):
         raise UserError(
             f"{scene.source.origin}: nothing that is fitted makes a difference, as inputs without a record are zero: "
             f"the record has no column {' or '.join(absent)}. Say what acted, for example --input {absent[0]}=1."
         )
-    told = _told(normal, diagonal)
-    if len(told) < len(chosen):
+    told = Told.of(normal)
+    if len(told.apart) < len(chosen):
         raise UserError(
-            f"{scene.source.origin}: the record does not tell {' and '.join(chosen)} apart. {_instead(chosen, told)}"
+            f"{scene.source.origin}: the record does not tell {' and '.join(chosen)} apart. {told.remedy(chosen)}"
         )
     misfit = _size(left, reach)
     if not misfit < most_misfit:
@@ -190,26 +185,6 @@ def _jacobian(fit: Fit, logarithms: Array) -> Array:
 def _size(remains: Array, reach: float) -> float:
     """Return the root mean square, of what lost weight no more than it counts."""
     return float(np.sqrt(np.mean(np.clip(remains, -reach, reach) ** 2)))
-
-
-def _told(normal: Array, diagonal: Array) -> list[int]:
-    """Return which parameters the record tells apart: all, or those that are left when what blurs them is taken out."""
-    left = [k for k in range(len(diagonal)) if diagonal[k] > 0.0]
-    while left:
-        scaled = (normal / np.outer(diagonal, diagonal).clip(min=1e-300))[np.ix_(left, left)]
-        if np.linalg.cond(scaled) <= _FLAT:
-            break
-        left.pop(int(np.argmax(np.abs(np.linalg.eigh(scaled)[1][:, 0]))))
-    return left
-
-
-def _instead(chosen: Sequence[str], told: Sequence[int]) -> str:
-    """Say what can be fitted in place of keys that are not told apart."""
-    without = " and ".join(key for k, key in enumerate(chosen) if k not in told)
-    livelier = "record a livelier motion"
-    if not told:
-        return f"Nothing recorded depends on them: {livelier}."
-    return f"Leave out {without}: {' '.join(f'--fit {chosen[k]}' for k in told)}; or {livelier}."
 
 
 def _unlike(scene: Scene, fit: Fit, misfit: float, most: float, loss: Loss) -> str:

@@ -15,6 +15,7 @@ from tmm_gen.inputs.signals import Signal, Table
 from tmm_gen.native import NativeKernel, compile_kernel
 from tmm_gen.native.series import Series
 from tmm_gen.program.build import build_program
+from tmm_gen.program.space.layout import parameter_values
 from tmm_gen.scene import Scene
 from tmm_gen.scene.columns import output_columns
 from tmm_gen.scene.model import FloatingBase
@@ -180,6 +181,11 @@ def _scale(values: Array, robust: bool) -> float:
 
 def parameters_of(scene: Scene) -> dict[str, Any]:
     """Return the physical parameters of a scene by their names in a kernel."""
+    if scene.spatial is not None:
+        return {
+            name: values if len(values) > 1 else values[0]
+            for name, values in parameter_values(scene.spatial).items()
+        }
     joints, links = scene.joints, scene.links
     found: dict[str, Any] = {
         "stiffness": [joint.stiffness for joint in joints],

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from tmm_gen.errors import UserError
@@ -26,6 +26,12 @@ _WRITTEN = {
 }
 """Keys by which a part, a joint or a beam says how it gives way; of each group the first that it has."""
 
+_TWISTED = ("torsional_stiffness", "material.shear")
+"""The same of how a beam in space twists, of which motion in a plane takes no notice."""
+
+_PLACES = ("length", "at", "end", "turn", "axis", "limits", "velocity", "rate")
+"""Of parts in space: where loads act and places are read follows from them, when the code is written."""
+
 _TABLES = ("base", *PARTS, "tip")
 """That say what an arm is."""
 
@@ -45,7 +51,7 @@ def default_keys(scene: Scene) -> tuple[str, ...]:
             f"{scene.source.origin}: no spring and no damper has a number above 0 to start from. Write one, or say "
             f"what to fit, by --fit and one of {', '.join(known)}."
         )
-    if scene.parts or scene.beam is not None:
+    if scene.parts or scene.spatial is not None or scene.beam is not None:
         return springs + dampers
     return (STIFFNESS, *((DAMPING,) if dampers else ()))
 
@@ -65,9 +71,10 @@ def number_of(scene: Scene, key: str) -> float:
     value = _at(scene, path)
     if value is None:
         raise UserError(f"{where}: has no number '{key}' to fit. {_others(scene, key, path, absent=True)}")
-    if path[-1] in _built_in(scene):
+    if not set(path[1:]).isdisjoint(_built_in(scene)):
+        what = "a count or a ratio" if scene.spatial is None else "a count or a place"
         raise UserError(
-            f"{where}: '{key}' is {show_value(value)}, a count or a ratio that the generated code has built in. "
+            f"{where}: '{key}' is {show_value(value)}, {what} that the generated code has built in. "
             f"{_others(scene, key, path)}"
         )
     if not _positive(value):
@@ -134,18 +141,32 @@ def _by_key(changed: Mapping[Path, float]) -> dict[str, object]:
 def _laws(scene: Scene, what: str) -> tuple[str, ...]:
     """Return the keys of all springs, or all dampers, that are written with a positive number."""
     data: Any = scene.source.data
-    if scene.parts:
+    if scene.spatial is not None:
+        places = [f"{table}.{part['name']}" for table in PARTS for part in data.get(table, ())]
+    elif scene.parts:
         places = [f"{part.kind}.{part.name}" for part in scene.parts]
     elif scene.beam is not None:
         places = ["beam"]
     else:
         places = [f"joint.{number}" for number in range(1, len(data.get("joint", ())) + 1)]
     found: list[str] = []
+    groups = _WRITTEN[what]
+    if scene.spatial is not None and what == STIFFNESS:
+        groups = (*groups, _TWISTED)
     for place in places:
-        for group in _WRITTEN[what]:
-            keys = [f"{place}.{key}" for key in group]
-            found += [key for key in keys if _positive(_at(scene, path_of(data, key)))][:1]
+        for group in groups:
+            written = ([*_entries(scene, f"{place}.{key}")] for key in group)
+            found += next((keys for keys in written if keys), [])
     return tuple(found)
+
+
+def _entries(scene: Scene, key: str) -> Iterator[str]:
+    """Yield a key that stands for a positive number, or those of the positive numbers of a list."""
+    value = _at(scene, path_of(scene.source.data, key))
+    if _positive(value):
+        yield key
+    elif isinstance(value, list):
+        yield from (f"{key}.{number}" for number, each in enumerate(value, start=1) if _positive(each))
 
 
 def _at(scene: Scene, path: Path) -> Any:
@@ -166,7 +187,8 @@ def _positive(value: object) -> bool:
 def _others(scene: Scene, key: str, path: Path, *, absent: bool = False) -> str:
     """Return what can be fitted in place of a key: numbers of the same part, or of the whole arm."""
     known = _numbers(scene.source.data, "", _built_in(scene))
-    beside = [each for each in known if path_of(scene.source.data, each)[:-1] == path[:-1]]
+    places = {each: path_of(scene.source.data, each) for each in known}
+    beside = [each for each in known if places[each][:-1] in (path[:-1], path)]
     if absent and not beside:
         return closest(key, known)
     start = "Write it there with a number to start from, if it has one, or fit" if absent else "Fit"
@@ -175,6 +197,8 @@ def _others(scene: Scene, key: str, path: Path, *, absent: bool = False) -> str:
 
 def _built_in(scene: Scene) -> tuple[str, ...]:
     """Return keys of numbers that stand in the code as they are."""
+    if scene.spatial is not None:
+        return ("links", *_PLACES)
     return ("links", "repeat", "ratio", *(("gear",) if scene.drivetrain else ()))
 
 
@@ -183,7 +207,15 @@ def _numbers(place: Any, key: str, without: Sequence[str]) -> list[str]:
     if isinstance(place, dict):
         below = place.items() if key else ((table, place[table]) for table in _TABLES if table in place)
     elif isinstance(place, list):
-        below = ((entry.get("name", number), entry) for number, entry in enumerate(place, start=1))
+        below = (
+            (entry.get("name", str(number)) if isinstance(entry, dict) else str(number), entry)
+            for number, entry in enumerate(place, start=1)
+        )
     else:
-        return [key] if _positive(place) and key.rpartition(".")[2] not in without else []
-    return [k for name, each in below for k in _numbers(each, f"{key}.{name}" if key else name, without)]
+        return [key] if _positive(place) else []
+    return [
+        k
+        for name, each in below
+        if name not in without
+        for k in _numbers(each, f"{key}.{name}" if key else name, without)
+    ]

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from tmm_gen.calibration.telling import hardly_apart
 from tmm_gen.calibration.uncertainty import SURE
 from tmm_gen.scene import Scene
 from tmm_gen.scene.problem import Path
@@ -97,6 +98,7 @@ class Calibration:
             f"what is left: {100 * self.misfit:.3g} % of the record's standard deviation, "
             f"{100 * self.misfit_before:.3g} % before"
         ]
+        said += hardly_apart([each.key for each in self.found], self.correlation)
         if self.outliers:
             said.append(f"{self.outliers} of {self.samples} samples are far off and were given less weight")
         if self.start:

@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING
 
 import click
 
+from tmm_gen.cli.changes import changed_scene
 from tmm_gen.cli.console import Column, progress, table
 from tmm_gen.cli.hints import hinted
-from tmm_gen.cli.kinds import served_scene
 from tmm_gen.errors import CheckFailed, UserError
 
 if TYPE_CHECKING:
@@ -126,7 +126,7 @@ def _load(paths: Sequence[Path]) -> list[Scene]:
     """Read all scenes before anything is written; no two may be one package."""
     loaded: dict[str, Scene] = {}
     for path in paths:
-        scene = served_scene("build", path)
+        scene = changed_scene(path)
         if (other := loaded.get(scene.name)) is not None and other.source.origin != scene.source.origin:
             raise UserError(
                 f"{path}: has the name '{scene.name}', as {other.source.origin} has. Change one of the two, "

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Literal
 
 import click
 
+from tmm_gen.cli.changes import changed_scene
 from tmm_gen.cli.console import Column, progress, say_written, table
 from tmm_gen.cli.given import finite, positive
-from tmm_gen.cli.kinds import served_scene
 from tmm_gen.cli.outputs import OutputFile, force_option, require_new, write_outputs
 from tmm_gen.reading import read_file
 
@@ -91,7 +91,7 @@ def calibrate(
     files have the same clock. Each number is given with the uncertainty the record leaves.
     """
     require_new(out, force)
-    loaded = served_scene("calibrate", scene)
+    loaded = changed_scene(scene)
     with progress(f"fitting {loaded.name}"):
         from tmm_gen.calibration.calibrate import calibrate as fit
         from tmm_gen.calibration.record import missing_inputs, read_record

@@ -20,7 +20,7 @@ set_option = click.option(
 """The option; gives a command the argument ``changes``."""
 
 
-def changed_scene(path: Path, changes: Sequence[str], step: float | None = None) -> Scene:
+def changed_scene(path: Path, changes: Sequence[str] = (), step: float | None = None) -> Scene:
     """Read a scene and change what is asked for.
 
     Raises

@@ -14,7 +14,6 @@ from tmm_gen.cli.check_target import TARGETS, check_target
 from tmm_gen.cli.console import Column, progress, table
 from tmm_gen.cli.given import positive
 from tmm_gen.cli.hints import hinted
-from tmm_gen.cli.kinds import require_served
 
 if TYPE_CHECKING:
     from tmm_gen.inputs.signals import Signal
@@ -91,7 +90,7 @@ def check(
     With --lint gcc and clang compile the C with all warnings, gcc's analyser and cppcheck with its MISRA
     addon look at it, and its own test is run under sanitizers.
     """
-    loaded = require_served("check", changed_scene(scene, changes, step))
+    loaded = changed_scene(scene, changes, step)
     if compensated and real == "float64":
         raise click.UsageError("--compensated is a way of computing in float32: leave --real out")
     if real is not None:

@@ -10,7 +10,6 @@ import click
 from tmm_gen.cli.changes import changed_scene, set_option
 from tmm_gen.cli.console import Column, progress, table
 from tmm_gen.cli.hints import hinted
-from tmm_gen.cli.kinds import require_served
 
 if TYPE_CHECKING:
     from tmm_gen.explain.explanation import Explanation
@@ -28,7 +27,7 @@ def explain(scene: Path, changes: tuple[str, ...], json_mode: bool) -> None:
     Each figure is counted: the program of the scene against that of the same scene with the term put in or taken
     out. Operations are floating-point operations, bytes are those of the C structs.
     """
-    loaded = require_served("explain", changed_scene(scene, changes))
+    loaded = changed_scene(scene, changes)
     found_hints = hinted(loaded, json_mode)
     with progress(f"counting {loaded.name}") as advance:
         from tmm_gen.explain.explain import explain as explained

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import click
 
+from tmm_gen.cli.changes import changed_scene
 from tmm_gen.cli.console import print_json, progress
-from tmm_gen.cli.kinds import served_scene
 from tmm_gen.cli.outputs import OutputFile, claim, write_outputs
 from tmm_gen.errors import UserError
 
@@ -42,7 +42,7 @@ def export(scene: Path, to: str, out: Path | None, fmi: str | None, cc: str, jso
     claim((out,), (scene,))
     if fmi is not None and to != "fmu":
         raise UserError(f"--fmi {fmi}: is for --to fmu only. Leave it out.")
-    chosen = served_scene(f"export --to {to}", scene)
+    chosen = changed_scene(scene)
     target = out or Path(f"{chosen.name}{_SUFFIX[to]}")
     if target.suffix.lower() != _SUFFIX[to]:
         raise UserError(f"--out {target}: must end in {_SUFFIX[to]}, or the other tool will not know it.")

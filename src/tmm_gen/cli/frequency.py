@@ -10,7 +10,6 @@ import click
 from tmm_gen.cli.changes import changed_scene, set_option
 from tmm_gen.cli.console import Column, progress, say_written, table
 from tmm_gen.cli.given import picture_file, plot_option, positive, resting_input_option
-from tmm_gen.cli.kinds import require_served
 from tmm_gen.cli.links import show_links
 from tmm_gen.cli.near import near_option
 from tmm_gen.cli.outputs import OutputFile, claim, write_outputs
@@ -75,7 +74,7 @@ def frequency(
         raise click.UsageError("--links-for ERROR and --band HZ belong together.")
     if low is not None and high is not None and low >= high:
         raise click.UsageError(f"--low {low:g} must be less than --high {high:g}.")
-    loaded = require_served("frequency", changed_scene(scene, changes))
+    loaded = changed_scene(scene, changes)
     if error is not None and band is not None:
         show_links(loaded, error, band, json_mode)
         return

@@ -12,7 +12,6 @@ import click
 from tmm_gen.cli.changes import changed_scene, set_option
 from tmm_gen.cli.console import Column, progress, say_written, table
 from tmm_gen.cli.given import picture_file, plot_option, resting_input_option
-from tmm_gen.cli.kinds import require_served
 from tmm_gen.cli.modes_table import say_unsure
 from tmm_gen.cli.near import near_option
 from tmm_gen.cli.outputs import claim, write_outputs
@@ -56,7 +55,7 @@ def modes(
     angles, or that near the angles of --near. A planar arm made from a [beam] is shown beside the exact continuous
     beam, straight and weightless.
     """
-    loaded = require_served("modes", changed_scene(scene, changes))
+    loaded = changed_scene(scene, changes)
     from tmm_gen.inputs.given import constant_inputs
     from tmm_gen.modal.near import start_of
 

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 import click
 
+from tmm_gen.cli.changes import changed_scene
 from tmm_gen.cli.console import progress
 from tmm_gen.cli.given import plot_option, positive
-from tmm_gen.cli.kinds import served_scene
 from tmm_gen.cli.mpc_tune import EVERYTHING, tuned
 from tmm_gen.cli.outputs import OutputFile, claim, force_option, require_new
 from tmm_gen.cli.study_options import one_thread
@@ -143,7 +143,7 @@ def mpc(
     from tmm_gen.cli.mpc_report import emit, list_all, show, write_files
 
     one_thread()
-    loaded = served_scene("mpc", scene)
+    loaded = changed_scene(scene)
     claim((picture, animated), (scene,))
     require_new(out, force)
     from tmm_gen.closed_loop.chosen import chosen

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
-from tmm_gen.cli.kinds import NOT_TO_START_WITH
 from tmm_gen.cli.outputs import write_outputs
 from tmm_gen.errors import UserError
 
@@ -15,6 +15,17 @@ if TYPE_CHECKING:
     from tmm_gen.scene.model import Kind
 
 # The scene package is imported inside: it loads pydantic, which `tmm-gen --help` has no use for.
+
+_NOT_TO_START_WITH: Mapping[tuple[str, str], str] = {
+    ("--control", "chain"): "a chain has no motor to be controlled. Add --kind planar.",
+    (
+        "--control",
+        "spatial",
+    ): "a new arm in space has no [control] yet. Add --kind planar, or write the table yourself.",
+    ("--motors", "chain"): "a chain has no motors at its joints. Add --kind planar.",
+    ("--motors", "spatial"): "an arm in space starts with two. Leave it out, or add --kind planar.",
+}
+"""Why a new scene of a kind does not begin with what an option of `new` asks for."""
 
 
 @click.command("new")
@@ -50,7 +61,7 @@ def new(name: str, kind: Kind, out: Path, control: bool, motors: int | None, for
     if fault := scene_name_fault(name):
         raise UserError(f"NAME: {fault[0]} (got {show_value(name)}). {fault[1]}")
     for option, given in (("--control", control), ("--motors", motors)):
-        if given and (refusal := NOT_TO_START_WITH.get((option, kind))):
+        if given and (refusal := _NOT_TO_START_WITH.get((option, kind))):
             raise UserError(f"{option}: {refusal}")
     target = out / f"{name}.toml"
     if target.is_symlink() or target.exists():

@@ -9,7 +9,6 @@ import click
 from tmm_gen.cli.changes import changed_scene, set_option
 from tmm_gen.cli.console import progress
 from tmm_gen.cli.given import positive
-from tmm_gen.cli.kinds import require_served
 from tmm_gen.cli.outputs import OutputFile, claim, write_outputs
 from tmm_gen.cli.study_options import words
 
@@ -52,7 +51,7 @@ def playground(
     """
     from tmm_gen.playground.webassembly import require_compiler
 
-    loaded = require_served("playground", changed_scene(scene, changes))
+    loaded = changed_scene(scene, changes)
     file = target or Path(f"{loaded.name}-playground.html")
     claim((file,), (scene,))
     require_compiler()

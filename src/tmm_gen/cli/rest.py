@@ -10,7 +10,6 @@ import click
 from tmm_gen.cli.changes import changed_scene, set_option
 from tmm_gen.cli.console import Column, print_json, progress, say_written, table
 from tmm_gen.cli.given import picture_file, plot_option, resting_input_option
-from tmm_gen.cli.kinds import require_served
 from tmm_gen.cli.near import near_option
 from tmm_gen.cli.outputs import claim, write_outputs
 from tmm_gen.cli.rest_table import say_starts, six, title_of
@@ -44,7 +43,7 @@ def rest(
     looked for from every quadrant of each joint that turns freely, as motors without a torque do. Angles of joints are
     those of the outer side against the inner one, torques what the inner side exerts on the outer one.
     """
-    loaded = require_served("rest", changed_scene(scene, changes))
+    loaded = changed_scene(scene, changes)
     from tmm_gen.inputs.given import constant_inputs
     from tmm_gen.modal.near import FROM_START, NEAR, start_of
     from tmm_gen.modal.situation import require_weight

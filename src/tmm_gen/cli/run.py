@@ -13,7 +13,6 @@ from tmm_gen.cli.changes import changed_scene, set_option
 from tmm_gen.cli.console import Column, progress, table
 from tmm_gen.cli.given import picture_file, plot_option
 from tmm_gen.cli.hints import hinted
-from tmm_gen.cli.kinds import require_served
 from tmm_gen.cli.outputs import OutputFile, claim, write_outputs
 from tmm_gen.errors import UserError
 
@@ -165,7 +164,7 @@ def run(
     from tmm_gen.simulate.rows import row_instants
     from tmm_gen.simulate.run import number_of_steps, simulate
 
-    chosen = require_served("run", changed_scene(scene, changes, step))
+    chosen = changed_scene(scene, changes, step)
     if tolerance is not None:
         chosen = chosen.replace(**{"integrator.tolerance": tolerance})
     if iterations is not None:

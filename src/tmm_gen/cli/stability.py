@@ -11,7 +11,6 @@ import click
 from tmm_gen.cli.changes import changed_scene, set_option
 from tmm_gen.cli.console import Column, progress, say_written, table
 from tmm_gen.cli.given import picture_file, plot_option
-from tmm_gen.cli.kinds import require_served
 from tmm_gen.cli.near import near_option
 from tmm_gen.cli.outputs import claim, write_outputs
 
@@ -58,7 +57,7 @@ def stability(
     the same growth is measured by running the generated kernel over a map of steps and stiffnesses; exit code 1 where
     it differs.
     """
-    loaded = require_served("stability", changed_scene(scene, changes))
+    loaded = changed_scene(scene, changes)
     from tmm_gen.modal.near import start_of
     from tmm_gen.stability.rows import mapped_integrators
 

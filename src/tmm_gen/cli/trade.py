@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from tmm_gen.cli.changes import changed_scene
 from tmm_gen.cli.console import Column, progress, say_written, table
 from tmm_gen.cli.given import picture_file, plot_option
 from tmm_gen.cli.grid_options import grid_options
-from tmm_gen.cli.kinds import served_scene
 from tmm_gen.cli.outputs import OutputFile, claim, write_outputs
 from tmm_gen.cli.study_options import one_of, one_thread, whole_numbers
 
@@ -91,7 +91,7 @@ def run(path: Path, options: dict[str, Any]) -> Study:
     from tmm_gen.study.grid import configurations
     from tmm_gen.study.study import run_study
 
-    scene = served_scene("trade", path)
+    scene = changed_scene(path)
     computes = executor(options["workers"], options["scheduler"])
     given = read_inputs(options["given"], *input_names(scene))
     went = excitation(scene, given, options["until"], options["output"])

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from tmm_gen.cli.changes import changed_scene
 from tmm_gen.cli.console import Column, progress, say_written, table
 from tmm_gen.cli.given import positive
-from tmm_gen.cli.kinds import served_scene
 from tmm_gen.cli.outputs import OutputFile, force_option, require_new, write_outputs
 from tmm_gen.cli.study_options import corrections_option, one_of, one_thread, whole_numbers, words
 
@@ -116,7 +116,7 @@ def _search(
     from tmm_gen.study.tune import tune as search
 
     bounds = read_error(max_error), read_time(max_time)
-    scene = served_scene("tune", path)
+    scene = changed_scene(path)
     auto = options["links"] == "auto"
     links = () if auto or options["links"] is None else _links(options["links"])
     axes = axes_of(scene, {**options, "links": links, "steps": (), "backends": ("c",)})

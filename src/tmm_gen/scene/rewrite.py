@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 from tmm_gen.scene.load import parse_scene
 from tmm_gen.scene.problem import Path, Problem, SceneError, show_path
@@ -25,8 +26,8 @@ def rewritten(text: str, origin: str, scene: Scene, changes: Mapping[Path, float
     scene : Scene
         What the new text must say.
     changes : mapping from path to float or sequence of float
-        New values, numbers or lists of them; each key must stand with its value on one line, no other key of
-        its name beside it.
+        New values: numbers, lists of them, or numbers in lists; each key must stand with its value on one line, no
+        other key of its name beside it.
 
     Raises
     ------
@@ -35,7 +36,8 @@ def rewritten(text: str, origin: str, scene: Scene, changes: Mapping[Path, float
     """
     rows = text.split("\n")
     lines = parse_scene(text, origin).source.lines
-    for path, value in changes.items():
+    for place, number in changes.items():
+        path, value = _whole(place, number, scene)
         line = lines.get(path)
         old = _LIST if isinstance(value, Sequence) else _NUMBER
         # at the start of a line, dotted or not, or in a table within it: material = { young = 70e9 }
@@ -55,6 +57,16 @@ def rewritten(text: str, origin: str, scene: Scene, changes: Mapping[Path, float
         problem = Problem(origin, 1, "", None, "cannot be rewritten", "Change the numbers by hand.")
         raise SceneError([problem])
     return whole
+
+
+def _whole(place: Path, value: float | Sequence[float], scene: Scene) -> tuple[Path, float | Sequence[float]]:
+    """Return a change as it is written: one of a number in a list by the whole list, as the scene has it."""
+    if not isinstance(place[-1], int):
+        return place, value
+    found: Any = scene.source.data
+    for part in place[:-1]:
+        found = found[part]
+    return place[:-1], found
 
 
 def _aligned(start: str, end: int, row: str) -> str:

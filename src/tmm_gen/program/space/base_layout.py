@@ -84,6 +84,27 @@ class BaseLayout:
         return frozenset(ref.variable.name for ref in newest)
 
 
+def base_numbers(base: FreeBase) -> list[tuple[str, str, str, float]]:
+    """Return what a base has that floats: name, words, unit, value."""
+    body = base.body
+    return [
+        ("mass", "mass of the base", "kg", body.mass),
+        *(
+            (f"center_{axis}", f"centre of mass of the base along {axis}", "m", value)
+            for axis, value in zip(AXES, body.center, strict=True)
+        ),
+        *(
+            (
+                f"center_inertia_{pair}",
+                f"inertia of the base about its centre of mass, {pair}",
+                "kg m^2",
+                value,
+            )
+            for pair, value in zip(PAIRS, body.inertia, strict=True)
+        ),
+    ]
+
+
 def base_layout(base: FreeBase, kept: Iterable[Past]) -> BaseLayout:
     """Choose the variables of a base that floats.
 
@@ -101,21 +122,6 @@ def base_layout(base: FreeBase, kept: Iterable[Past]) -> BaseLayout:
     if not body.mass > 0.0 or not all(moment > 0.0 for moment in body.inertia[:3]):
         raise ValueError("a base that floats needs mass and inertia about every axis")
     lags = sorted({p.lag for p in kept} | {0})
-    parameters = {
-        "mass": ("mass of the base", "kg", body.mass),
-        **{
-            f"center_{axis}": (f"centre of mass of the base along {axis}", "m", value)
-            for axis, value in zip(AXES, body.center, strict=True)
-        },
-        **{
-            f"center_inertia_{pair}": (
-                f"inertia of the base about its centre of mass, {pair}",
-                "kg m^2",
-                value,
-            )
-            for pair, value in zip(PAIRS, body.inertia, strict=True)
-        },
-    }
     places: tuple[tuple[Kind, str, str], ...] = (
         ("q", "place", "m"),
         ("v", "velocity", "m/s"),
@@ -125,7 +131,7 @@ def base_layout(base: FreeBase, kept: Iterable[Past]) -> BaseLayout:
         pattern=body_pattern(body),
         parameters={
             name: Variable(f"base_{name}", Role.PARAMETER, None, doc, unit, value)
-            for name, (doc, unit, value) in parameters.items()
+            for name, doc, unit, value in base_numbers(base)
             if value != 0.0
         },
         place={

@@ -11,7 +11,7 @@ from tmm_gen.derive.integrators.declaration import CONSISTENT_START, KINDS, Inte
 from tmm_gen.derive.integrators.history import history
 from tmm_gen.derive.space.declaration import AXES, PAIRS
 from tmm_gen.program.fields import MOTION_NAMES, stage_accelerations
-from tmm_gen.program.space.base_layout import BaseLayout, base_layout
+from tmm_gen.program.space.base_layout import BaseLayout, base_layout, base_numbers
 from tmm_gen.program.space.runs import StationTree
 from tmm_gen.program.variables import Ref, Role, Variable
 from tmm_gen.scene.quantity import INPUT_UNITS
@@ -212,9 +212,58 @@ def _state(past: Past, length: int) -> Variable:
     return Variable(f"{name}{age}", Role.STATE, length, f"{name} of each joint, base to tips{when}", unit)
 
 
+def parameter_values(arm: SpatialArm) -> dict[str, tuple[float, ...]]:
+    """Return all that parameters of an arm's kernel can be, by name: of each joint, or one number of the whole arm.
+
+    A kernel of the same parts, joints and axes takes them, whatever numbers it was built with: one value where
+    its parameter is the same everywhere.
+    """
+    return {
+        **{name: tuple(value(joint) for joint in arm.joints) for name, _, _, value in _of_joints()},
+        **{f"{name}_gear": (gear,) for name, _, gear in _gears(arm)},
+        **{f"gravity_{axis}": (value,) for axis, value in zip(AXES, arm.gravity, strict=True)},
+        **({f"base_{name}": (value,) for name, _, _, value in base_numbers(arm.base)} if arm.base else {}),
+    }
+
+
 def _parameters(arm: SpatialArm) -> list[Variable]:
     """Return the parameters that some joint has; what is zero in the scene is left out of the code and stays zero."""
-    table: list[tuple[str, str, str, Callable[[Revolute], float]]] = [
+    found = []
+    for name, doc, unit, value in _of_joints():
+        values = tuple(value(joint) for joint in arm.joints)
+        if any(values):
+            alike = len(set(values)) == 1
+            zeros = "" if alike or all(values) else "; what is zero here is not in the code"
+            found.append(
+                Variable(
+                    name,
+                    Role.PARAMETER,
+                    None if alike else len(values),
+                    f"{doc}, the same everywhere" if alike and len(values) > 1 else doc + zeros,
+                    unit,
+                    values[0] if alike else values,
+                )
+            )
+    for name, joint, gear in _gears(arm):
+        if gear != 1.0:
+            doc = f"turns of the motor per turn of '{joint}'"
+            found.append(Variable(f"{name}_gear", Role.PARAMETER, None, doc, "1", gear))
+    for axis, gravity in zip(AXES, arm.gravity, strict=True):
+        if gravity:
+            doc = f"gravity along {axis}"
+            found.append(Variable(f"gravity_{axis}", Role.PARAMETER, None, doc, "m/s^2", gravity))
+    return found
+
+
+def _gears(arm: SpatialArm) -> list[tuple[str, str, float]]:
+    """Return the inputs that are torques of motors: name, the joint's name, and its gear."""
+    driven = [(item.name, arm.joints[item.joint - 1]) for item in arm.inputs if item.acts == "torque"]
+    return [(name, joint.name, joint.gear) for name, joint in driven]
+
+
+def _of_joints() -> list[tuple[str, str, str, Callable[[Revolute], float]]]:
+    """Return what joints and their bodies have: name, words, unit, and how it is read off a joint."""
+    return [
         *(
             (
                 f"offset_{axis}",
@@ -238,32 +287,6 @@ def _parameters(arm: SpatialArm) -> list[Variable]:
         ("rest", "angle at which each joint's spring is slack", "rad", lambda joint: joint.rest),
         ("armature", "inertia of each joint's rotor, at the joint", "kg m^2", lambda joint: joint.armature),
     ]
-    found = []
-    for name, doc, unit, value in table:
-        values = tuple(value(joint) for joint in arm.joints)
-        if any(values):
-            alike = len(set(values)) == 1
-            zeros = "" if alike or all(values) else "; what is zero here is not in the code"
-            found.append(
-                Variable(
-                    name,
-                    Role.PARAMETER,
-                    None if alike else len(values),
-                    f"{doc}, the same everywhere" if alike and len(values) > 1 else doc + zeros,
-                    unit,
-                    values[0] if alike else values,
-                )
-            )
-    for item in arm.inputs:
-        gear = arm.joints[item.joint - 1].gear if item.acts == "torque" else 1.0
-        if gear != 1.0:
-            doc = f"turns of the motor per turn of '{arm.joints[item.joint - 1].name}'"
-            found.append(Variable(f"{item.name}_gear", Role.PARAMETER, None, doc, "1", gear))
-    for axis, gravity in zip(AXES, arm.gravity, strict=True):
-        if gravity:
-            doc = f"gravity along {axis}"
-            found.append(Variable(f"gravity_{axis}", Role.PARAMETER, None, doc, "m/s^2", gravity))
-    return found
 
 
 def _of_vector(field: str, k: int) -> Callable[[Revolute], float]:
