@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cache
 from typing import Literal
 
 import sympy as sp
@@ -51,6 +52,7 @@ class DiscreteCoefficients:
     E: sp.Expr
 
 
+@cache
 def affine_motion(scheme: Scheme, index: int, unknown: Unknown) -> AffineMotion:
     """Express motion at stage ``index`` (from 1) by the unknown of the sweep.
 
@@ -59,32 +61,6 @@ def affine_motion(scheme: Scheme, index: int, unknown: Unknown) -> AffineMotion:
     UnsuitableUnknownError
         If the stage's relations leave the motion undetermined by that unknown.
     """
-    key = (id(scheme), index, unknown)
-    if key not in _KNOWN:
-        _KNOWN[key] = (scheme, _affine_motion(scheme, index, unknown))
-    return _KNOWN[key][1]
-
-
-_KNOWN: dict[tuple[int, int, str], tuple[Scheme, AffineMotion]] = {}
-"""What has been solved, with its scheme, so that no other takes its identity."""
-
-
-def _coupled_motion(scheme: Scheme, index: int, unknown: Unknown) -> AffineMotion:
-    """Return motion at a stage whose offsets read all other stages, later ones too."""
-    if unknown != "acceleration":
-        raise UnsuitableUnknownError(
-            "stages that are solved all at once are solved for their accelerations; use unknown = 'acceleration'"
-        )
-    place, speed = scheme.stages[index - 1].relations
-    q, v, a = (stage(kind, index) for kind in KINDS)
-    rate = sp.expand(speed + v)
-    angle = sp.expand((place + q).subs(v, rate))
-    gain: dict[Kind, sp.Expr] = {"q": angle.coeff(a), "v": rate.coeff(a), "a": sp.S.One}
-    offset: dict[Kind, sp.Expr] = {"q": angle.subs(a, 0), "v": rate.subs(a, 0), "a": sp.S.Zero}
-    return AffineMotion(gain, offset)
-
-
-def _affine_motion(scheme: Scheme, index: int, unknown: Unknown) -> AffineMotion:
     if scheme.coupled:
         return _coupled_motion(scheme, index, unknown)
     motion = [stage(kind, index) for kind in KINDS]
@@ -102,6 +78,21 @@ def _affine_motion(scheme: Scheme, index: int, unknown: Unknown) -> AffineMotion
     for kind, value in zip(KINDS, solution, strict=True):
         gain[kind] = _simple(sp.diff(value, UNKNOWN))
         offset[kind] = _collect(value.subs(UNKNOWN, 0))
+    return AffineMotion(gain, offset)
+
+
+def _coupled_motion(scheme: Scheme, index: int, unknown: Unknown) -> AffineMotion:
+    """Return motion at a stage whose offsets read all other stages, later ones too."""
+    if unknown != "acceleration":
+        raise UnsuitableUnknownError(
+            "stages that are solved all at once are solved for their accelerations; use unknown = 'acceleration'"
+        )
+    place, speed = scheme.stages[index - 1].relations
+    q, v, a = (stage(kind, index) for kind in KINDS)
+    rate = sp.expand(speed + v)
+    angle = sp.expand((place + q).subs(v, rate))
+    gain: dict[Kind, sp.Expr] = {"q": angle.coeff(a), "v": rate.coeff(a), "a": sp.S.One}
+    offset: dict[Kind, sp.Expr] = {"q": angle.subs(a, 0), "v": rate.subs(a, 0), "a": sp.S.Zero}
     return AffineMotion(gain, offset)
 
 

@@ -86,10 +86,11 @@ def kinds_of(elements: tuple[Element, ...], energy: str) -> frozenset[str]:
     return frozenset(
         kind
         for element in elements
+        if (read := _energy(element, energy).free_symbols)
         for kind in KINDS
         for port in (element.inboard, element.outboard)
         for motion in port.motions
-        if _energy(element, energy).has(getattr(motion, kind))
+        if getattr(motion, kind) in read
     )
 
 
@@ -115,17 +116,11 @@ def exact_forces(out: Outward, forces: tuple[sp.Symbol, ...]) -> list[Update]:
 def energy_of_step() -> sp.Expr:
     """Return the integral over a step of the cubic through power and slope at both ends: fourth order."""
     tau = sp.Symbol("tau", real=True)
-    coefficients = sp.symbols("c0:4")
-    cubic = sum(c * tau**k for k, c in enumerate(coefficients))
-    slope = sp.diff(cubic, tau)
-    conditions = [
-        cubic.subs(tau, 0) - POWER_BEFORE,
-        slope.subs(tau, 0) - SLOPE_BEFORE,
-        cubic.subs(tau, STEP) - POWER_AFTER,
-        slope.subs(tau, STEP) - SLOPE_AFTER,
-    ]
-    found = sp.solve(conditions, coefficients, dict=True)[0]
-    return sp.expand(sp.integrate(cubic.subs(found), (tau, 0, STEP)))
+    powers = sp.Matrix([[tau**k for k in range(4)]])
+    slopes = powers.diff(tau)
+    ends = sp.Matrix.vstack(*(row.subs(tau, at) for at in (0, STEP) for row in (powers, slopes)))
+    found = ends.LUsolve(sp.Matrix([POWER_BEFORE, SLOPE_BEFORE, POWER_AFTER, SLOPE_AFTER]))
+    return sp.expand(sum(c * STEP ** (k + 1) / (k + 1) for k, c in enumerate(found)))
 
 
 __all__ = ["TOTAL", "energy_of_step", "exact_forces", "kinds_of", "place", "walk"]
