@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import ast
 import re
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
@@ -20,7 +19,7 @@ from tmm_gen.derive.integrators.registry import all_integrators, integrator, nam
 from tmm_gen.derive.integrators.relations import discrete_coefficients
 from tmm_gen.derive.integrators.stability import radius_at_infinity
 from tmm_gen.native.python_module import numpy_module
-from tmm_gen.scene import SceneError, load_scene
+from tmm_gen.scene import Scene, SceneError, load_scene
 from tmm_gen.scene.integrator import METHODS, Method, Parameter
 
 DOCUMENT = Path(__file__).resolve().parents[3] / "docs" / "integrators.md"
@@ -61,19 +60,25 @@ def test_what_it_says_of_single_methods() -> None:
     assert analyse(integrator("wilson", theta=1.366)).stability_limit.is_finite
 
 
+SNIPPETS = re.findall(r"^```python\n(.*?)^```$", DOCUMENT.read_text(), flags=re.M | re.S)
+HHT, *OTHERS = zip(SNIPPETS[::2], SNIPPETS[1::2], strict=True)
+"""Examples: a row and a file each."""
+
+
 @pytest.fixture
-def added(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
-    """Put the document's example where integrators are declared and looked for; nothing else."""
-    row, code = re.findall(r"^```python\n(.*?)^```$", DOCUMENT.read_text(), flags=re.M | re.S)
-    method = eval(row, {"Method": Method, "Parameter": Parameter})
-    monkeypatch.setattr("tmm_gen.scene.integrator.METHODS", (*METHODS, method))
-    (function,) = (node for node in ast.parse(code).body if isinstance(node, ast.FunctionDef))
-    (tmp_path / f"{function.name}.py").write_text(code)
+def added(request: pytest.FixtureRequest, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[str]:
+    """Put an example of the document where integrators are declared and looked for; nothing else."""
+    row, code = getattr(request, "param", HHT)
+    if row:
+        method = eval(row, {"Method": Method, "Parameter": Parameter})
+        monkeypatch.setattr("tmm_gen.scene.integrator.METHODS", (*METHODS, method))
+    (name,) = re.findall(r"^def (\w+)\(.*-> Integrator", code, re.MULTILINE) or [method.name]
+    (tmp_path / f"{name}.py").write_text(code)
     monkeypatch.setattr(package, "__path__", [*package.__path__, str(tmp_path)])
-    yield function.name
-    sys.modules.pop(f"{package.__name__}.{function.name}", None)
-    if hasattr(package, function.name):
-        delattr(package, function.name)
+    yield name
+    sys.modules.pop(f"{package.__name__}.{name}", None)
+    if hasattr(package, name):
+        delattr(package, name)
 
 
 def test_a_row_and_a_file_add_an_integrator(
@@ -125,6 +130,67 @@ def test_scenes_may_name_it_and_kernels_are_made_of_it(added: str) -> None:
             state = module.step(model, state, inputs)
         tips.append(np.array(state.angle))
     np.testing.assert_allclose(tips[0], tips[1], rtol=1e-12)
+
+
+def moved(scene: Scene, **changes: object) -> np.ndarray:
+    """Return where joints of a chain are after 40 steps under a torque that stays."""
+    module = numpy_module(scene.replace(**changes))
+    params, inputs = module.Params(), module.Input(**dict.fromkeys((i.name for i in scene.inputs), 1.0))
+    model, state = module.prepare(), module.initialise(params, inputs)
+    for _ in range(40):
+        state = module.step(model, state, inputs)
+    return np.array(state.angle)
+
+
+@pytest.mark.parametrize("added", OTHERS, indirect=True, ids=["tableau", "abscissae"])
+def test_a_tableau_or_abscissae_are_a_method(added: str) -> None:
+    """Each is of order 2 and L-stable, as the page says, and a chain's kernel goes by it."""
+    method = integrator(added)
+    found = analyse(method, 0.05)
+    assert (found.order, found.stages, found.stability_limit) == (2, 2, sp.oo)
+    assert radius_at_infinity(amplification(method.main)) == 0
+    assert method.main.coupled == (added == "halves")
+    scene = load_scene(DOCUMENT.parents[1] / "scenes" / "thesis2.toml")
+    exact = moved(scene, **{"integrator.name": "radau3"})
+    errors = [
+        np.max(np.abs(moved(scene, **{"integrator.name": name}) - exact)) for name in (added, "fox_euler")
+    ]
+    assert 0 < errors[0] < 0.2 * errors[1]
+
+
+@pytest.mark.parametrize(
+    ("added", "said"),
+    [
+        pytest.param(
+            ("", HHT[1]), r"hht\.py: .* no row: add Method\(\"hht\", \(Parameter\(\"alpha\", 0\.5\),\)\)"
+        ),
+        pytest.param((HHT[0].replace("alpha", "beta"), HHT[1]), "takes 'alpha', and its row .* has 'beta'"),
+        pytest.param((HHT[0], "def hht():\n    return 1\n"), "has a row .* but no function `hht`"),
+        pytest.param((HHT[0], "def hht() -> Integrator\n"), r"hht\.py:1: expected ':'"),
+        pytest.param(
+            (
+                "Method('hht')",
+                HHT[1].replace("alpha: sp.Expr", "").replace("return Int", "return 1 / 0, Int"),
+            ),
+            r"hht\.py:\d+: .* fails: NameError: name 'alpha'",
+        ),
+    ],
+    indirect=["added"],
+    ids=["no row", "other arguments", "no function", "no Python", "fails"],
+)
+def test_a_row_and_a_file_that_do_not_go_together_are_told(
+    added: str, said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """In one line that names the file, by whatever command."""
+    scene = DOCUMENT.parents[1] / "scenes" / "thesis2.toml"
+    listing = (
+        ["integrators"]
+        if "no function" not in said
+        else ["explain", str(scene), "--set", f"integrator.name={added}"]
+    )
+    assert main(listing) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert re.search(said, line)
 
 
 def test_the_example_is_gone_afterwards() -> None:

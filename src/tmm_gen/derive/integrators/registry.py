@@ -7,15 +7,21 @@ from __future__ import annotations
 
 import inspect
 import pkgutil
-from collections.abc import Callable
+import traceback
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from importlib import import_module
+from pathlib import Path
 
 import tmm_gen.derive.integrators as package
 from tmm_gen.derive.integrators.declaration import Integrator
 from tmm_gen.derive.integrators.parameters import Number, bind
-from tmm_gen.scene.integrator import method_named, underscored
+from tmm_gen.errors import UserError
+from tmm_gen.scene.integrator import Method, method_named, underscored
 
 Factory = Callable[..., Integrator]
+
+_TABLE = "METHODS of scene/integrator.py"
 
 
 def integrator(name: str, **parameters: Number) -> Integrator:
@@ -32,17 +38,27 @@ def integrator(name: str, **parameters: Number) -> Integrator:
     ------
     ValueError
         If the name or a parameter is unknown, or a value is out of its range.
+    UserError
+        If its row and its file do not go together, or the file fails.
     """
     factories = _factories()
     key = underscored(name)
-    if key not in factories:
-        raise ValueError(f"no integrator is named {name!r}; there are {', '.join(factories)}")
     method = method_named(key)
+    if key not in factories:
+        if method is not None:
+            raise UserError(
+                f"{_file(key)}: integrator '{key}' has a row in {_TABLE}, but no function `{key}` with "
+                "`-> Integrator` here. Write it, or remove the row."
+            )
+        raise ValueError(f"no integrator is named {name!r}; there are {', '.join(factories)}")
     if method is None:
-        raise ValueError(
-            f"{key}: its parameters are not declared; add a Method to METHODS of scene/integrator.py"
+        raise UserError(
+            f"{_file(key)}: integrator '{key}' has no row: add {_row(key, factories[key])} to {_TABLE}."
         )
-    return factories[key](**bind(method, parameters))
+    _require_arguments(method, factories[key])
+    bound = bind(method, parameters)
+    with _failing_in(key):
+        return factories[key](**bound)
 
 
 def names() -> tuple[str, ...]:
@@ -59,10 +75,68 @@ def _factories() -> dict[str, Factory]:
     """Look through the package anew, so that a module added at run time is found too."""
     found: dict[str, Factory] = {}
     for name in sorted(module.name for module in pkgutil.iter_modules(package.__path__)):
-        candidate = getattr(import_module(f"{package.__name__}.{name}"), name, None)
+        with _failing_in(name):
+            candidate = getattr(import_module(f"{package.__name__}.{name}"), name, None)
         if inspect.isfunction(candidate) and candidate.__annotations__.get("return") in (
             "Integrator",
             Integrator,
         ):
             found[name] = candidate
     return found
+
+
+def _row(name: str, factory: Factory) -> str:
+    """Return the row that a file asks for; defaults are the author's to choose."""
+    parameters = "".join(
+        f'Parameter("{argument}", 0.5), ' for argument in inspect.signature(factory).parameters
+    )
+    return f'Method("{name}"' + (f", ({parameters.rstrip()}))" if parameters else ")")
+
+
+def _require_arguments(method: Method, factory: Factory) -> None:
+    """Refuse a file whose arguments are not the parameters of its row.
+
+    Raises
+    ------
+    UserError
+        If names differ.
+    """
+    arguments = list(inspect.signature(factory).parameters)
+    told = [parameter.name for parameter in method.parameters]
+    if sorted(arguments) != sorted(told):
+        raise UserError(
+            f"{_file(method.name)}: integrator '{method.name}' takes {_listed(arguments)}, and its row in {_TABLE} has "
+            f"{_listed(told)}. Write the same names in both."
+        )
+
+
+def _listed(names: list[str]) -> str:
+    return ", ".join(f"'{name}'" for name in names) if names else "no parameter"
+
+
+def _file(name: str) -> Path:
+    """Return where an integrator is declared, or would be."""
+    folders = [Path(folder) for folder in package.__path__]
+    return next(
+        (f / f"{name}.py" for f in folders if (f / f"{name}.py").is_file()), folders[0] / f"{name}.py"
+    )
+
+
+@contextmanager
+def _failing_in(name: str) -> Iterator[None]:
+    """Say of whatever a declaration raises in which line of its file."""
+    try:
+        yield
+    except SyntaxError as error:
+        raise UserError(
+            f"{error.filename}:{error.lineno}: {error.msg}. Mend the integrator's file."
+        ) from error
+    except UserError:
+        raise
+    except Exception as error:
+        file = _file(name)
+        frames = traceback.extract_tb(error.__traceback__)
+        line = next((f":{frame.lineno}" for frame in reversed(frames) if Path(frame.filename) == file), "")
+        raise UserError(
+            f"{file}{line}: integrator '{name}' fails: {type(error).__name__}: {error}. Mend the integrator's file."
+        ) from error
