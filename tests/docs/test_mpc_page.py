@@ -51,7 +51,18 @@ def test_the_tutorial_from_a_new_scene_to_a_controller_in_c(place: Path) -> None
     stiffness = re.search(r"bending_stiffness = ([0-9.e+-]+)", fitted)
     assert stiffness is not None
     assert float(stiffness[1]) == pytest.approx(10.5, rel=5e-3)
-    run(place, [sys.executable, "-W", "ignore", "-c", "\n".join(blocks("python"))])
+    (loop,) = (block for block in blocks("c") if "crane" in block)
+    (place / "loop.c").write_text(
+        '#include "crane_mpc_modes.h"\nvoid read_sensors(crane_mpc_modes_real *measured);\n'
+        "void set_torque(crane_mpc_modes_real torque);\nint main(void)\n{\n"
+        "static crane_mpc_modes_controller controller;\nstatic crane_mpc_modes_real measured[3], torque;\n" + loop + "}\n"
+    )
+    strict = ["-std=c99", "-Wall", "-Wextra", "-Werror", "-fsyntax-only"]
+    run(place, ["gcc", *strict, "-Icontroller", "loop.c"])
+    shown = run(place, [sys.executable, "-W", "ignore", "-c", "\n".join(blocks("python"))])
+    tip, hub, reference = (float(number) for number in re.findall(r"-?[\d.]+", shown.splitlines()[0]))
+    assert reference > 0.1
+    assert (tip, hub) == pytest.approx((reference, reference), rel=0.02)  # own loop, a heavier arm: it arrived
 
 
 def test_the_figures_stated_are_in_the_page() -> None:
