@@ -55,7 +55,8 @@ def test_the_tutorial_from_a_new_scene_to_a_controller_in_c(place: Path) -> None
     (place / "loop.c").write_text(
         '#include "crane_mpc_modes.h"\nvoid read_sensors(crane_mpc_modes_real *measured);\n'
         "void set_torque(crane_mpc_modes_real torque);\nint main(void)\n{\n"
-        "static crane_mpc_modes_controller controller;\nstatic crane_mpc_modes_real measured[3], torque;\n" + loop + "}\n"
+        "static crane_mpc_modes_controller controller;\nstatic crane_mpc_modes_real measured[3], torque;\n"
+        f"{loop}}}\n"
     )
     strict = ["-std=c99", "-Wall", "-Wextra", "-Werror", "-fsyntax-only"]
     run(place, ["gcc", *strict, "-Icontroller", "loop.c"])
