@@ -64,10 +64,10 @@ def emit_controller(
             f"the controller '{controller}' is written in C for arms on a hub only; for motors by name "
             f"take one of: {others}"
         )
-    if bench.problem.keeps:
+    if bench.problem.keeps and controller != "rti":
         raise UserError(
-            f"{bench.scene.source.origin}: control.keep is not written in C yet. Remove the table, and keep the wall "
-            "by control.bounds.hub."
+            f"{bench.scene.source.origin}: the controller '{controller}' keeps no control.keep in C; take 'rti', or "
+            "remove the table."
         )
     name = name or f"{bench.scene.name}_{controller.replace('-', '_')}"
     taken = {"daqp": "the solver's files", bench.scene.name: "the arm's own functions"}

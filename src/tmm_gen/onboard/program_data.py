@@ -67,9 +67,9 @@ class ProgramData:
 
     @property
     def scaling(self) -> Array:
-        """What normalises the rows of ``R^-1`` and ``A R^-1``, (m N + r,)."""
-        scaling: Array = 1.0 / np.linalg.norm(np.vstack([self.inverse, self.rows @ self.inverse]), axis=1)
-        return scaling
+        """What normalises the rows of ``R^-1`` and ``A R^-1``, (m N + r,); one for rows of zeros."""
+        lengths = np.linalg.norm(np.vstack([self.inverse, self.rows @ self.inverse]), axis=1)
+        return np.asarray(1.0 / np.where(lengths > 0.0, lengths, 1.0), float)
 
 
 def program_data(problem: ControlProblem, condensed: Condensed) -> ProgramData:
@@ -79,6 +79,8 @@ def program_data(problem: ControlProblem, condensed: Condensed) -> ProgramData:
     low = [*problem.torque[0], *(kind.low for kind in kinds)]
     high = [*problem.torque[1], *(kind.high for kind in kinds)]
     soft = [0.0] * problem.count + [1.0 / kind.weight for kind in kinds]
+    # in each sample a motor has three kinds of bounds, a wall one: without room for them the solver begins cold again
+    met = condensed.inputs + len(problem.keeps) * count / 3.0
     return ProgramData(
         horizon=count,
         motors=problem.count,
@@ -88,6 +90,6 @@ def program_data(problem: ControlProblem, condensed: Condensed) -> ProgramData:
         high=np.minimum(np.repeat(high, count), INFINITE),
         softness=np.repeat(soft, count),
         stopping=condensed.stopping,
-        capacity=round(ACTIVE_PER_INPUT * condensed.inputs),
-        iteration_limit=ITERATIONS_PER_INPUT * condensed.inputs,
+        capacity=round(ACTIVE_PER_INPUT * met),
+        iteration_limit=round(ITERATIONS_PER_INPUT * met),
     )

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -14,11 +12,13 @@ from tmm_gen.c_language.real import REALS
 from tmm_gen.control.motor_rows import Motor
 from tmm_gen.control.rti import RealTimeIteration
 from tmm_gen.control.terms import Kind
+from tmm_gen.control.walls import Wall
 from tmm_gen.emit.c import emit_kernel
 from tmm_gen.emit.templates import render
 from tmm_gen.onboard.example_arm import ExampleArm
 from tmm_gen.onboard.folder import complete
 from tmm_gen.onboard.rti_data import RtiData, rti_data
+from tmm_gen.onboard.short_names import short_names
 from tmm_gen.onboard.solver import solver_files
 from tmm_gen.onboard.text import ControllerText
 from tmm_gen.program.build import build_program
@@ -112,9 +112,25 @@ class RtiText(ControllerText):
     @property
     def output_names(self) -> str:
         """The same in words."""
-        words = [(name.replace("_", " "), motor) for name, motor in self.outputs]
+        words = [(name.replace("_", " "), motor) for name, motor in self.outputs if name != "keep"]
         names = self.problem.motors.names
-        return ", ".join(f"{word} of {names[motor]}" if self.several else word for word, motor in words)
+        told = [f"{word} of {names[motor]}" if self.several else word for word, motor in words]
+        told += [f"distance of '{keep.frame}' along a normal" for keep in self.problem.keeps]
+        return ", ".join(told)
+
+    @property
+    def walls(self) -> tuple[Wall, ...]:
+        """What parts are to stay on one side of."""
+        return self.data.walls
+
+    @property
+    def spans(self) -> NDArray[np.float64]:
+        """Lengths of the links, (n,), m."""
+        return self.data.motors.lengths
+
+    def reach(self, wall: Wall) -> int:
+        """Return how many links there are up to the part that keeps away from a wall."""
+        return int(np.flatnonzero(wall.frame.lengths)[-1]) + 1
 
     def looked(self, output: tuple[str, int], state: str) -> str:
         """Write an output of a state.
@@ -126,6 +142,8 @@ class RtiText(ControllerText):
         state : str
             What stands before the state's members.
         """
+        if output[0] == "keep":
+            return f"along(normals[{output[1]}], {state}angle, {self.reach(self.walls[output[1]])})"
         name, motor = output[0], self.problem_motors[output[1]]
         values = f"{state}{'rate' if name.endswith('rate') else 'angle'}"
         if not self.several:
@@ -170,7 +188,8 @@ class RtiText(ControllerText):
     @property
     def stopping(self) -> list[float]:
         """Half the angle in which each kind of rows is stopped; see `ProgramData`."""
-        return [float(self.data.program.stopping[kind.motor]) for kind in self.row_kinds]
+        stopping = self.data.program.stopping
+        return [0.0 if kind.what == "keep" else float(stopping[kind.motor]) for kind in self.row_kinds]
 
     @property
     def answers(self) -> NDArray[np.float64]:
@@ -266,29 +285,3 @@ def emit_rti(
         **solver_files(name, mpc.single),
     }
     return complete(mpc, files, arm)
-
-
-def short_names(scene: str, kernel: str, files: Mapping[str, str]) -> dict[str, str]:
-    """Return a header that gives the kernel inside a controller the names it has when the scene is built.
-
-    Parameters
-    ----------
-    scene : str
-        Prefix of the short names.
-    kernel : str
-        Prefix of the others.
-    files : mapping of str to str
-        The kernel's.
-    """
-    headers = sorted(path for path in files if path.endswith(".h"))
-    words = {word for path in headers for word in re.findall(rf"\b{kernel}_\w+", files[path], re.IGNORECASE)}
-    names = [
-        (_shortened(word, scene, kernel), word) for word in sorted(words) if not word.endswith(("_H", "_h"))
-    ]
-    text = render("control/short_names.h.jinja", scene=scene, kernel=kernel, headers=headers, names=names)
-    return {f"{scene}.h": text} if f"{scene}.h" not in files else {}
-
-
-def _shortened(word: str, scene: str, kernel: str) -> str:
-    prefix = scene if word.startswith(kernel) else scene.upper()
-    return prefix + word[len(kernel) :]

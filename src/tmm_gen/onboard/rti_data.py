@@ -15,6 +15,7 @@ from tmm_gen.control.response import split_outputs
 from tmm_gen.control.rti import RealTimeIteration
 from tmm_gen.control.safe import BRAKE_TIME
 from tmm_gen.control.terms import Kind
+from tmm_gen.control.walls import Wall
 from tmm_gen.onboard.linear_data import gains_by_sensors
 from tmm_gen.onboard.program_data import ProgramData, program_data
 
@@ -34,7 +35,7 @@ class RtiData:
     motors : Motors
         What turns the arm, m of them.
     outputs : tuple of (str, int)
-        Those of `OUTPUTS` that are weighed or bounded, of a motor each.
+        Those of `OUTPUTS` that are weighed or bounded, of a motor each; then ``keep``, of each wall.
     weights, targets : tuple of float
         Of each output.
     gains : array, (2^(p - m), s + m, p)
@@ -83,6 +84,8 @@ class RtiData:
         What the rows of the program bound.
     accelerations : bool
         Whether the state has them.
+    walls : tuple of Wall
+        What parts are to stay on one side of.
     """
 
     size: int
@@ -117,17 +120,24 @@ class RtiData:
     end_gradient: Array
     kinds: tuple[Kind, ...]
     accelerations: bool
+    walls: tuple[Wall, ...]
 
 
 def rti_data(controller: RealTimeIteration) -> RtiData:
     """Return the tables of a controller; of its filter, the gain at the target."""
     model, linear, problem = controller.model, controller.linear, controller.problem
     motors, goal, still = model.motors, linear.goal, np.zeros(problem.count)
-    weights = {name: getattr(problem.weights, name) for name in OUTPUTS}
+    walls = range(len(controller.walls))
+    weights = {name: getattr(problem.weights, name) for name in OUTPUTS} | {"keep": np.zeros(len(walls))}
     bounded = {(kind.what, kind.motor) for kind in controller.prepared.kinds}
-    every = [(name, motor) for name in OUTPUTS for motor in range(problem.count)]
+    every = [
+        *((name, motor) for name in OUTPUTS for motor in range(problem.count)),
+        *(("keep", wall) for wall in walls),
+    ]
     outputs = tuple(each for each in every if weights[each[0]][each[1]] or each in bounded)
-    targets = {"tip": goal.tip, "tip_rate": still, "hub": goal.hub, "hub_rate": still}
+    targets = {"tip": goal.tip, "tip_rate": still, "hub": goal.hub, "hub_rate": still} | {
+        "keep": np.zeros(len(walls))
+    }
     kalman = KalmanFilter(linear, problem)
     gains, program = gains_by_sensors(kalman), program_data(problem, controller.prepared)
     ahead_by, now_by = _by_sensors(controller, gains, program)
@@ -172,11 +182,15 @@ def rti_data(controller: RealTimeIteration) -> RtiData:
         end_gradient=slopes.end.T @ controller.end,
         kinds=controller.prepared.kinds,
         accelerations=model.accelerations,
+        walls=tuple(controller.walls),
     )
 
 
 def _by_sensors(controller: RealTimeIteration, gains: Array, program: ProgramData) -> tuple[Array, Array]:
-    """Return what each sensor's being off makes of ``v = R^-T f`` and of the rows; see :class:`RtiData`."""
+    """Return what each sensor's being off makes of ``v = R^-T f`` and of the rows; see :class:`RtiData`.
+
+    Walls are none of what is prepared once.
+    """
     problem, size, condensed = controller.problem, controller.model.size, controller.prepared
     shape = (problem.count, problem.horizon)
     still, none = np.zeros(shape), np.zeros(problem.count)
@@ -184,7 +198,10 @@ def _by_sensors(controller: RealTimeIteration, gains: Array, program: ProgramDat
     def program_of(change: Array) -> tuple[Array, Array]:
         along = split_outputs(controller.by_estimate @ change, shape)
         gradient = condensed.gradient(along, still, none, change[size:])[: program.inputs]
-        rows = [still[0] if k.what == "rate" else getattr(along, k.what)[k.motor] for k in condensed.kinds]
+        rows = [
+            still[0] if k.what in ("rate", "keep") else getattr(along, k.what)[k.motor]
+            for k in condensed.kinds
+        ]
         return program.inverse.T @ gradient, np.concatenate(rows) if rows else np.zeros(0)
 
     shift, _ = program_of(np.zeros(size + problem.count))  # the target's own

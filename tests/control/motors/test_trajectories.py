@@ -188,8 +188,8 @@ def test_controllers_follow_and_without_a_wall_the_payload_goes_through_it(lower
     for name in ("mpc-links", "rti-zero"):
         with pytest.raises(UserError, match=r"keeps no control\.keep; take rti"):
             BY_NAME[name].require_able(walled)
-    with pytest.raises(UserError, match="is not written in C yet"):
-        emit_controller(walled, "rti")
+    with pytest.raises(UserError, match=r"'rti-zero' keeps no control\.keep in C; take 'rti'"):
+        emit_controller(walled, "rti-zero")
     with pytest.raises(UserError, match=r"follows no control\.trajectory; take one of pd,"):
         BY_NAME["nmpc"].require_able(lowered)
 
