@@ -224,7 +224,7 @@ class StepModel:
 
     @cached_property
     def _one_step(self) -> Any:
-        return self.module.jacobian_function()
+        return step_slopes(self.module)
 
     def step_slopes(self, state: Array, torque: Array) -> tuple[Array, Array, Array]:
         """Return the state after a step of the kernel, (s,), its derivatives by state, (s, s), and torques, (s, m)."""

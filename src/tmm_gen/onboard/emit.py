@@ -53,11 +53,6 @@ def emit_controller(
         raise UserError(
             f"the controller '{controller}' cannot be written in C; these can: {', '.join(EMITTED)}"
         )
-    if bench.scene.spatial is not None:
-        raise UserError(
-            f"{bench.scene.source.origin}: controllers are not written in C for arms in space yet. Leave out --emit "
-            "and --compiled: `tmm-gen mpc` runs them in Python, and your programs can by tmm_gen.control.controllers."
-        )
     if controller in LINEAR and not bench.problem.motors.on_hub:
         others = ", ".join(each for each in EMITTED if each not in LINEAR)
         raise UserError(

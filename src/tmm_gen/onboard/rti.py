@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -68,6 +69,45 @@ class RtiText(ControllerText):
     def carries(self) -> bool:
         """Whether the payload may be another one at run time."""
         return self.moves and self.data.payload is not None
+
+    @property
+    def in_space(self) -> bool:
+        """Whether angles are those of joints, each against what it stands on; in a plane all are against the ground."""
+        return self.data.weight is not None
+
+    @property
+    def behind(self) -> str:
+        """Where the angles end that turn with hub ``j``, of those from its own on."""
+        return "outer[j] + 1" if self.in_space else f"{macros(self.model)}_STATIONS"
+
+    @property
+    def bending(self) -> list[tuple[int, int, str]]:
+        """Ranges of angles that no motor turns, and what each is compared with."""
+        if not self.in_space:
+            return [(m.place + 1, m.end, f"state->angle[{m.place}]") for m in self.problem_motors]
+        places = [-1, *(motor.place for motor in self.problem_motors), self.data.motors.tip.shape[1]]
+        straight = self.number(0.0)
+        return [(a + 1, b, straight) for a, b in pairwise(places) if a + 1 < b]
+
+    @property
+    def weighs(self) -> bool:
+        """Whether an arm in space is to be held up."""
+        return self.data.weight is not None and bool(self.data.weight.terms)
+
+    @property
+    def lifts(self) -> bool:
+        """Whether an arm in a plane is to be held up."""
+        return bool(self.data.holds.any())
+
+    def spread(self, motor: int) -> tuple[str, int, int | str]:
+        """Return weights of angles in the tip's of a motor, an array, and from where to where they are not zero."""
+        if not self.several:
+            return "lengths", 0, f"{macros(self.model)}_STATIONS"
+        if not self.in_space:
+            here = self.problem_motors[motor]
+            return "lengths", here.place, here.end
+        places = np.flatnonzero(self.data.motors.tip[motor])
+        return f"tips[{motor}]", int(places[0]), int(places[-1]) + 1
 
     @property
     def rolls_out(self) -> bool:
@@ -146,14 +186,14 @@ class RtiText(ControllerText):
             return f"along(normals[{output[1]}], {state}angle, {self.reach(self.walls[output[1]])})"
         name, motor = output[0], self.problem_motors[output[1]]
         values = f"{state}{'rate' if name.endswith('rate') else 'angle'}"
+        weights, start, stop = self.spread(output[1])
         if not self.several:
-            stations = f"{macros(self.model)}_STATIONS"
             plain = {"hub": f"{state}hub_angle", "hub_rate": f"{state}hub_rate"}
-            return plain.get(name, f"dot(lengths, {values}, {stations})")
+            return plain.get(name, f"dot({weights}, {values}, {stop})")
         place, inner = motor.place, f" - {values}[{motor.host}]" if motor.host >= 0 else ""
         if name.startswith("hub"):
             return f"{values}[{place}]{inner}"
-        return f"dot(&lengths[{place}], &{values}[{place}], {motor.end - place}){inner}"
+        return f"dot(&{weights}[{start}], &{values}[{start}], {stop} - {start}){inner}"
 
     @property
     def output_weights(self) -> str:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from tmm_gen.control.arms import arm_of
 from tmm_gen.control.credible import Credible
 from tmm_gen.control.holding import holding
 from tmm_gen.control.kalman import KalmanFilter
@@ -18,6 +19,7 @@ from tmm_gen.control.terms import Kind
 from tmm_gen.control.walls import Wall
 from tmm_gen.onboard.linear_data import gains_by_sensors
 from tmm_gen.onboard.program_data import ProgramData, program_data
+from tmm_gen.onboard.weight import Weight, weight_of
 
 Array = NDArray[np.float64]
 
@@ -53,17 +55,19 @@ class RtiData:
     target_hub : array, (m,)
         rad.
     lengths : array, (n,)
-        Of the links, relative to the sum of those that the same motor carries.
+        Of the links of an arm in a plane, relative to the sum of those that the same motor carries.
     shares : array, (M,)
         Of the earlier torque in the steps of a sample.
     sensors : tuple of int
         Which there are: m encoders, then accelerometer and strain gauge.
     holds : array, (m, m)
-        What holds the arm up, N m; see :func:`tmm_gen.control.holding.holding`.
+        What holds up an arm in a plane, N m; see :func:`tmm_gen.control.holding.holding`.
     holds_more : array, (m, m)
         By how much these grow for each kilogram at the tip, N m/kg; zero where there is none.
     payload : float or None
         Mass at the tip, kg; None where it is no parameter of the kernel.
+    weight : Weight or None
+        What holds up an arm in space.
     target_torque, brake : array, (m,)
         N m; N m s/rad, of the safe law.
     gravity : float
@@ -108,6 +112,7 @@ class RtiData:
     holds: Array
     holds_more: Array
     payload: float | None
+    weight: Weight | None
     target_torque: Array
     gravity: float
     brake: Array
@@ -143,11 +148,13 @@ def rti_data(controller: RealTimeIteration) -> RtiData:
     ahead_by, now_by = _by_sensors(controller, gains, program)
     scaled = program.scaling[:, None] * np.vstack([program.inverse, program.rows @ program.inverse])
     slopes, count = controller.prepared.slopes, problem.horizon
-    held, tip = holding(model.scene), model.scene.tip
+    scene = model.scene
+    in_space, tip = scene.spatial is not None, scene.tip
+    held = np.zeros((problem.count, problem.count)) if in_space else holding(scene)
     payload = tip.mass if tip is not None and model.carries else None
     more = np.zeros_like(held) if payload is None else holding(model.carrying(payload + 1.0).scene) - held
     lengths = motors.lengths.copy()
-    for motor in motors.each:
+    for motor in () if in_space else motors.each:
         lengths[motor.place : motor.end] /= lengths[motor.place : motor.end].sum()
     return RtiData(
         size=model.size,
@@ -164,14 +171,15 @@ def rti_data(controller: RealTimeIteration) -> RtiData:
         target_hub=goal.hub,
         start=np.append(model.initial(), still),
         start_torque=linear.start_torque,
-        lengths=lengths[model.scene.hub :],
+        lengths=lengths[scene.hub :],
         shares=model.delay.shares(problem.substeps),
         sensors=tuple(kalman.sensors),
         holds=held,
         holds_more=more,
         payload=payload,
+        weight=weight_of(arm_of(scene), problem.count) if in_space else None,
         target_torque=goal.torque,
-        gravity=model.scene.model.gravity or 0.0,
+        gravity=0.0 if in_space else scene.model.gravity or 0.0,
         brake=controller.inertia / BRAKE_TIME,
         whole=controller.delay.whole,
         memory=controller.delay.memory,

@@ -48,8 +48,8 @@ def test_real_time_iterations_at_one_state_come_to_the_nonlinear_optimum(bench: 
 
 
 def test_what_cannot_be_had_says_so(words: str, bench: Bench) -> None:
-    with pytest.raises(UserError, match=r"not written in C for arms in space yet\. Leave out --emit"):
-        emit_controller(bench, "rti")
+    with pytest.raises(UserError, match="for motors by name take one of: rti-zero, rti"):
+        emit_controller(bench, "mpc-links")
     for old, new, told in (
         (
             'kind = "clamp"',

@@ -1,0 +1,131 @@
+"""Emitted C for an arm in space: the torques of Python, silence of compilers, and goals that it reaches."""
+
+from __future__ import annotations
+
+import subprocess
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from tmm_gen.closed_loop.loop import run_loop
+from tmm_gen.closed_loop.space_plant import plant_of
+from tmm_gen.control.arms import arm_of
+from tmm_gen.control.bench import Bench
+from tmm_gen.control.command import Status
+from tmm_gen.control.condition import CONDITIONS
+from tmm_gen.control.course import Course
+from tmm_gen.control.credible import PATIENCE
+from tmm_gen.control.extended_kalman import NonlinearFilter
+from tmm_gen.control.kalman import present_sensors
+from tmm_gen.control.rti import RealTimeIteration
+from tmm_gen.onboard.emit import emit_controller, usual_controller
+from tmm_gen.onboard.native import EmittedController
+from tmm_gen.onboard.weight import weight_of
+
+pytestmark = pytest.mark.compiler
+
+HEAVIER = replace(CONDITIONS[1], payload=1.2, friction=0.02)
+DAQP = 2e-5
+"""Both solve the same program to its tolerance, N m."""
+
+
+def compiled(bench: Bench, kind: str, real: str = "float64", flag: str = "-O0") -> EmittedController:
+    """Return an emitted controller."""
+    name, files = emit_controller(bench, kind, real)
+    flags = (flag, "-ffp-contract=off", "-Wall", "-Wextra", "-Werror")
+    sensors = present_sensors(bench.problem)
+    return EmittedController(name, files, sensors, real, flags=flags, motors=bench.problem.count)
+
+
+def in_python(bench: Bench, kind: str) -> RealTimeIteration:
+    """Return the controller with the filter that is emitted."""
+    found = RealTimeIteration(bench.step, bench.links, bench.inertia, kind == "rti-zero")
+    found.estimator = NonlinearFilter(bench.step, bench.links)
+    found.reset()
+    return found
+
+
+@pytest.fixture(scope="module")
+def zero(bench: Bench) -> EmittedController:
+    """Of zero order, the usual one."""
+    assert usual_controller(bench) == "rti-zero"
+    return compiled(bench, "rti-zero")
+
+
+def test_encoders_that_come_and_go_are_those_of_python(bench: Bench, zero: EmittedController) -> None:
+    """Flags at random, then none for long, so that the safe law holds the arm up and the estimate starts anew."""
+    zero.reset()
+    python, plant = in_python(bench, "rti-zero"), plant_of(bench.scene, bench.problem, CONDITIONS[1])
+    random, statuses = np.random.default_rng(5), []
+    for k in range(60):
+        seen, valid = plant.measured(), random.random(4) < (0.8 if k < 30 else float(k >= 40))
+        expected, found = python.command(seen, valid), zero.command(np.where(valid, seen, 7.0), valid)
+        assert_allclose(found.torque, expected.torque, rtol=0.0, atol=DAQP)
+        assert found.status is expected.status
+        statuses.append(found.status)
+        plant.advance(expected.torque)
+    assert {Status.OK, Status.REDUCED, Status.MEASUREMENT} == set(statuses)
+    assert set(statuses[30:40]) == {Status.MEASUREMENT}
+    assert set(statuses[40 + PATIENCE + 1 :]) == {Status.OK}
+
+
+def test_the_goal_is_reached(bench: Bench, zero: EmittedController) -> None:
+    """Against emitted C of an arm of more cells, with more payload than it was told, and friction."""
+    zero.reset()
+    loop = run_loop(zero, plant_of(bench.scene, bench.problem, HEAVIER), 1.6, timed=False)
+    assert np.max(np.abs(loop.tip[-1] - loop.goal)) < 2e-3
+    assert not loop.fallbacks
+
+
+def test_a_reference_that_is_followed_is_that_of_python(bench: Bench) -> None:
+    """Full sensitivities; what cannot be reached leaves the reference as it was, and a step ends it."""
+    late = Bench.of(bench.scene.replace(**{"control.delay": 0.03, "control.bounds.torque_rate": 40.0}))
+    emitted, python = compiled(late, "rti"), in_python(late, "rti")
+    plant, horizon = plant_of(late.scene, late.problem, CONDITIONS[0]), late.problem.horizon
+    share = np.clip((np.arange(40) - 3.0) / 16.0, 0.0, 1.0)[:, None]
+    way = share**3 * (10.0 - 15.0 * share + 6.0 * share**2)
+    course = Course(late.problem.start + way * (np.array([0.6, 0.1]) - late.problem.start))
+    for k in range(24):
+        if k < 16:
+            ahead = course.ahead(k, horizon)
+            assert emitted.follow(ahead) is python.follow(ahead) is Status.OK
+        elif k == 20:
+            assert emitted.aim(np.array([0.5, 0.2])) is python.aim(np.array([0.5, 0.2])) is Status.OK
+        lost = np.full((horizon, 2), np.nan)
+        assert emitted.follow(lost) is python.follow(lost) is Status.NOT_FINITE
+        seen = plant.measured()
+        expected, found = python.command(seen), emitted.command(seen)
+        assert_allclose(found.torque, expected.torque, rtol=0.0, atol=DAQP)
+        assert found.status is expected.status is Status.OK
+        plant.advance(expected.torque)
+    assert plant.angles()[2] > 0.3
+
+
+def test_a_folder_compiles_and_its_example_arrives(bench: Bench, tmp_path: Path) -> None:
+    """In single precision, by the flags that embedded projects have, and without a heap."""
+    _, files = emit_controller(bench, "rti-zero", "float32")
+    for path, text in files.items():
+        (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / path).write_text(text)
+        assert "malloc" not in text or path.startswith("daqp/")
+    strict = ["-std=c99", "-pedantic", "-Wall", "-Wextra", "-Wconversion", "-Wdouble-promotion", "-Wshadow"]
+    sources = [path for path in files if path.endswith(".c") and not path.startswith("daqp/")]
+    for command in (
+        ["gcc", *strict, "-Wundef", "-Werror", "-c", "-I.", *sources],
+        ["gcc", "-std=c99", "-O1", "*.o", "daqp/*.c", "-I.", "-o", "example.out", "-lm"],
+        ["./example.out"],
+    ):
+        text = " ".join(command)
+        done = subprocess.run(text, shell=True, cwd=tmp_path, capture_output=True, text=True, check=False)
+        assert (done.returncode, done.stderr) == (0, ""), text
+
+
+def test_what_holds_up_a_rigid_arm_is_a_sum_of_products(bench: Bench) -> None:
+    arm, hubs = arm_of(bench.scene), np.random.default_rng(2).uniform(-3.0, 3.0, (5, 2))
+    weight = weight_of(arm, 2)
+    right = arm.rigid_torques(hubs, np.zeros_like(hubs), np.zeros_like(hubs))
+    assert_allclose([weight.torques(hub) for hub in hubs], right, rtol=0.0, atol=1e-12)
+    assert len(weight.terms) < 4  # the yaw carries nothing, and turns nothing that weighs
