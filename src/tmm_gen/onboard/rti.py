@@ -99,10 +99,8 @@ class RtiText(ControllerText):
         """Whether an arm in a plane is to be held up."""
         return bool(self.data.holds.any())
 
-    def spread(self, motor: int) -> tuple[str, int, int | str]:
+    def spread(self, motor: int) -> tuple[str, int, int]:
         """Return weights of angles in the tip's of a motor, an array, and from where to where they are not zero."""
-        if not self.several:
-            return "lengths", 0, f"{macros(self.model)}_STATIONS"
         if not self.in_space:
             here = self.problem_motors[motor]
             return "lengths", here.place, here.end
@@ -186,14 +184,15 @@ class RtiText(ControllerText):
             return f"along(normals[{output[1]}], {state}angle, {self.reach(self.walls[output[1]])})"
         name, motor = output[0], self.problem_motors[output[1]]
         values = f"{state}{'rate' if name.endswith('rate') else 'angle'}"
-        weights, start, stop = self.spread(output[1])
         if not self.several:
+            stations = f"{macros(self.model)}_STATIONS"
             plain = {"hub": f"{state}hub_angle", "hub_rate": f"{state}hub_rate"}
-            return plain.get(name, f"dot({weights}, {values}, {stop})")
+            return plain.get(name, f"dot(lengths, {values}, {stations})")
         place, inner = motor.place, f" - {values}[{motor.host}]" if motor.host >= 0 else ""
         if name.startswith("hub"):
             return f"{values}[{place}]{inner}"
-        return f"dot(&{weights}[{start}], &{values}[{start}], {stop} - {start}){inner}"
+        weights, start, stop = self.spread(output[1])
+        return f"dot(&{weights}[{start}], &{values}[{start}], {stop - start}){inner}"
 
     @property
     def output_weights(self) -> str:
