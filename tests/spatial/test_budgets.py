@@ -152,3 +152,34 @@ def test_a_base_that_floats(kind: str) -> None:
             for choices in (once, twice, exact)
         ]
         assert (more[0], more[1] - more[0], more[2]) == FLOATS[kind]
+
+
+def geared(count: int, *, elastic: bool) -> SpatialArm:
+    """Return general links on motors, with a gear each that is rigid or not."""
+    joints: list[Revolute] = []
+    for k in range(count):
+        host = len(joints)
+        motor = Revolute(f"motor_{k}", host, (0.3, 0.1, 0.2), QUARTER, 2, damping=0.1, armature=0.1)
+        gear = Revolute(f"gear_{k}", host + 1, axis=2, body=BODY, stiffness=5.0, damping=0.1)
+        joints += [motor, gear] if elastic else [replace(motor, body=BODY)]
+    return SpatialArm(tuple(joints), gravity=(0.0, 0.0, -9.81))
+
+
+@pytest.mark.parametrize(
+    ("more", "choices"),
+    [
+        (24, SpaceChoices(1e-3, iterations=1)),
+        (24 + 22, SpaceChoices(1e-3, iterations=2)),
+    ],
+    ids=["sweep", "correction"],
+)
+def test_an_elastic_gear(more: int, choices: SpaceChoices) -> None:
+    """Over a rigid one as much as in a plane, where a step has one sweep."""
+    rigid, elastic = (
+        [
+            count_routine(program_of(geared(count, elastic=way), choices=choices).main).total
+            for count in (3, 4)
+        ]
+        for way in (False, True)
+    )
+    assert elastic[1] - elastic[0] == rigid[1] - rigid[0] + more

@@ -42,6 +42,8 @@ turn = [0.3, -0.2, 1.1]
 rotor_inertia = 2e-5
 gear = 100
 damping = 0.3
+stiffness = 800.0
+damping_time = 1e-3
 limits = [-2.0, 2.0]
 [[beam]]
 name = "upper"
@@ -110,6 +112,8 @@ in = "body"
         ("elbow", "acceleration"),
         ("elbow", "torque"),
         ("world", "torque"),
+        ("world", "angle"),
+        ("world", "rate"),
         ("tool", "position"),
         ("antenna", "position"),
         ("tool", "velocity"),
@@ -166,8 +170,9 @@ def test_random_arms_accelerate_as_the_reference(seed: int, everything: Scene) -
 
 def test_no_mass_is_made_up_between_joints(everything: Scene) -> None:
     model, _ = loaded(everything)
-    assert model.nv == len(arm_of(everything).joints) == 1 + 3 * 3 + 1 + 2 * 2
-    # one body each: the first motor's, three and two cells', the elbow's; and the world and the ground without any
+    assert model.nv == len(arm_of(everything).joints) == 2 + 3 * 3 + 1 + 2 * 2
+    # one body each: the first motor's beyond its gear, three and two cells', the elbow's; and the world and the ground
+    # without any
     assert model.nbody == 2 + 1 + 3 + 2 + 1
     assert min(model.body_mass[2:]) > 1e-3
 
@@ -193,6 +198,7 @@ def test_every_output_is_read_as_told(everything: Scene) -> None:
     assert v.tolist() == [joint.rate for joint in arm.joints]
     assert {0.2, 0.4} <= set(q)
     assert -1.0 in v
+    data.qpos[1], data.qvel[1] = q[1], v[1] = 0.01, 0.5  # the twist of the first motor's gear
     data.actuator("drive").ctrl = 0.7
     mujoco.mj_forward(model, data)
     found = {r.name: r.value(lambda sensor: list(data.sensor(sensor).data)) for r in exported.readings}
@@ -202,7 +208,10 @@ def test_every_output_is_read_as_told(everything: Scene) -> None:
     assert found["elbow_angle"] == pytest.approx(q[elbow])
     assert found["elbow_rate"] == pytest.approx(v[elbow])
     assert found["elbow_torque"] == pytest.approx(torque[elbow])
-    assert found["world_torque"] == pytest.approx(torque[0])
+    assert found["world_torque"] == pytest.approx(torque[1])
+    assert torque[1] != 0.0
+    assert found["world_angle"] == pytest.approx(q[0] + q[1])
+    assert found["world_rate"] == pytest.approx(v[0] + v[1])
     assert found["arm_kinetic_energy"] == pytest.approx(v @ world.mass_matrix(q) @ v / 2)
     places = world.tree.places(q)
     for output in arm.outputs:

@@ -50,33 +50,21 @@ CASES = {
         "`limits = [-2.0, 2.0]`",
         ("[2.0, -2.0]", "[-2.0, 2.0]"),
     ),
-    "elastic gear": Case(
-        "gear = 100",
+    "elastic gear without a rotor": Case(
+        "rotor_inertia = 2e-5\ngear = 100",
         "gear = 100\nstiffness = 900.0",
-        "motor[1].stiffness",
-        "is that of an elastic gear",
-        'put a [[joint]] with `on = "yaw"`, the same axis and `stiffness = 900`',
-        (
-            'stiffness = 900.0\n\n[[link]]\nname = "column"\non = "yaw"',
-            '[[joint]]\nname = "gear"\non = "yaw"\naxis = "z"\nstiffness = 900\n'
-            '\n[[link]]\nname = "column"\non = "gear"',
-        ),
-    ),
-    "rotor's damping": Case(
-        "gear = 100",
-        "gear = 100\nmotor_damping = 1e-4",
-        "motor[1].motor_damping",
-        "is that of an elastic gear",
-        "`damping` at the output is gear^2 times that of the rotor",
-        ("motor_damping = 1e-4", "damping = 1.0"),
+        "motor[1].rotor_inertia",
+        "a rotor behind an elastic gear cannot turn without inertia",
+        "`rotor_inertia = 1e-5`",
+        ("stiffness = 900.0", "stiffness = 900.0\nrotor_inertia = 1e-5"),
     ),
     "damping time of a gear": Case(
         "gear = 100",
         "gear = 100\ndamping_time = 1e-4",
         "motor[1].damping_time",
-        "is that of an elastic gear",
-        "Remove it",
-        ("\ndamping_time = 1e-4", ""),
+        "without `stiffness` the gear is rigid",
+        "Write `stiffness` too",
+        ("damping_time = 1e-4", "damping_time = 1e-4\nstiffness = 900.0"),
     ),
     "friction": Case(
         "gear = 100",

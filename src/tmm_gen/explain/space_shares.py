@@ -102,6 +102,9 @@ def _why(document: SpatialDocument, arm: SpatialArm, name: str, stations: Sequen
     first, last = stations[0] + 1, stations[-1] + 1
     if first == last:
         told = f"joint {first} about its {'xyz'[arm.joints[first - 1].axis]} axis"
+    elif _kind(document, name) == "motor":
+        axis = "xyz"[arm.joints[first - 1].axis]
+        told = f"joints {first} and {last} about one {axis} axis, the rotor and its elastic gear"
     else:
         cells = next(beam.links for beam in document.beam if beam.name == name)
         told = f"{cells} cell{'s' * (cells != 1)}, joints {first} to {last}"

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from tmm_gen.explain.terms import Term
+from tmm_gen.program.space.gears import shafts_of
 from tmm_gen.scene import Scene
 from tmm_gen.scene.spatial.arm import ZERO, SpatialArm, Vector
 
@@ -53,9 +54,13 @@ def _damping(arm: SpatialArm) -> Term:
 
 
 def _rotors(arm: SpatialArm) -> Term:
-    rotors = sum(joint.armature > 0.0 for joint in arm.joints)
-    why = f"{rotors} of {_moving(arm)} joints have a rotor" if rotors else "no joint has a rotor"
-    return Term("rotors", rotors > 0, why, lambda s: _with_rotors(s, 0.0 if rotors else _MORE))
+    others = _rigidly_driven(arm)
+    rotors = sum(arm.joints[k].armature > 0.0 for k in others)
+    behind = ", elastic gears aside" if len(others) < _moving(arm) else ""
+    why = f"{rotors} of {_moving(arm)} joints have" if rotors else "no joint has"
+    return Term(
+        "rotors", rotors > 0, f"{why} a rotor{behind}", lambda s: _with_rotors(s, 0.0 if rotors else _MORE)
+    )
 
 
 def _with_damping(scene: Scene, value: float) -> Scene:
@@ -67,9 +72,18 @@ def _with_damping(scene: Scene, value: float) -> Scene:
 
 def _with_rotors(scene: Scene, value: float) -> Scene:
     assert scene.spatial is not None
+    changed = _rigidly_driven(scene.spatial)
+    joints = enumerate(scene.spatial.joints)
     return _with_arm(
-        scene, joints=tuple(j if j.given else replace(j, armature=value) for j in scene.spatial.joints)
+        scene, joints=tuple(replace(j, armature=value) if k in changed else j for k, j in joints)
     )
+
+
+def _rigidly_driven(arm: SpatialArm) -> list[int]:
+    """Return the indices of joints that move by forces, without those of elastic gears, which need their rotors."""
+    shafts = shafts_of(arm, frozenset())
+    aside = shafts | {k + 1 for k in shafts}
+    return [k for k, joint in enumerate(arm.joints) if not joint.given and k not in aside]
 
 
 def _moving(arm: SpatialArm) -> int:

@@ -16,12 +16,12 @@ Array = NDArray[np.float64]
 
 def afloat_values(world: AfloatArm, output: ArmOutput, y: Array, u: Array, b: Array, inputs: Inputs) -> Array:
     """Return an output, (k,) or (k, components), from coordinates and their derivatives, (k, 7 + n) each."""
-    quantity, joint = output.quantity, output.joint - 1
+    quantity = output.quantity
     if quantity.read == "bend":
-        moving: Array = (y, u, b)[quantity.order][:, BASE + joint]
-        return moving
+        moving = (y, u, b)[quantity.order]
+        return np.asarray(sum(moving[:, BASE + number - 1] for number in output.turning))
     if quantity.read == "through":
-        return np.asarray(world.resting.torque(y[:, BASE:], u[:, BASE:], inputs)[:, joint])
+        return np.asarray(world.resting.torque(y[:, BASE:], u[:, BASE:], inputs)[:, output.passing - 1])
     if quantity.energy == "kinetic":
         return world.kinetic_energy(y, u)
     if quantity.energy == "gravitational":

@@ -68,12 +68,12 @@ def _values(world: WorldArm, output: ArmOutput, q: Array, v: Array, a: Array, in
     """Return an output, (k,) or (k, components)."""
     quantity = output.quantity
     if quantity.read == "bend":
-        moving: Array = (q, v, a)[quantity.order][:, output.joint - 1]
-        return moving
+        moving = (q, v, a)[quantity.order]
+        return np.asarray(sum(moving[:, number - 1] for number in output.turning))
     if quantity.read == "through" and world.arm.joints[output.joint - 1].given:  # what drives it
         return np.asarray(world.inverse_dynamics(q, v, a, inputs)[:, output.joint - 1])
     if quantity.read == "through":
-        return np.asarray(world.torque(q, v, inputs)[:, output.joint - 1])
+        return np.asarray(world.torque(q, v, inputs)[:, output.passing - 1])
     if quantity.read == "energy":
         return _energy(world, quantity.energy, q, v, inputs)
     assert output.frame is not None

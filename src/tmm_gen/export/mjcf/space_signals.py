@@ -83,19 +83,23 @@ class SpaceSignals:
                     f"{name}: all four numbers may have the other sign, the same orientation"
                 )
         elif quantity.order > 1:
-            joint = self.arm.joints[output.joint - 1].name
-            self.left_out.append(f"{name}: no sensor measures it; it is qacc of joint '{joint}'")
+            told = " and ".join(f"'{self.arm.joints[number - 1].name}'" for number in output.turning)
+            of = f"the sum of those of joints {told}" if output.gear else f"that of joint {told}"
+            self.left_out.append(f"{name}: no sensor measures it; as qacc it is {of}")
         else:
             kind = ("jointpos", "jointvel")[quantity.order]
-            Xml.SubElement(sensors, kind, name=name, joint=self.arm.joints[output.joint - 1].name)
-            self.readings.append(Reading(name, ((name, 0, 1.0),)))
+            joints = [self.arm.joints[number - 1].name for number in output.turning]
+            names = [name, f"{name}_{joints[-1]}"][: len(joints)]
+            for sensor, joint in zip(names, joints, strict=True):
+                Xml.SubElement(sensors, kind, name=sensor, joint=joint)
+            self.readings.append(Reading(name, tuple((sensor, 0, 1.0) for sensor in names)))
 
     def _torque(self, sensors: Xml.Element, output: ArmOutput) -> None:
         """Read what a joint passes on: its motor's torque, less its spring's and its damper's."""
-        joint, name = self.arm.joints[output.joint - 1], output.name
+        joint, name = self.arm.joints[output.passing - 1], output.name
         terms: list[tuple[str, int, float]] = []
         for item in self.arm.inputs:
-            if item.joint == output.joint:
+            if item.joint == output.passing:
                 Xml.SubElement(sensors, "actuatorfrc", name=f"{name}_{item.name}", actuator=item.name)
                 terms.append((f"{name}_{item.name}", 0, joint.gear))
         for part, kind, factor in (

@@ -75,7 +75,8 @@ def held_base(arm: SpatialArm, angle: float) -> tuple[SpatialArm, Turning | None
         return replace(item, joint=number(item.joint), frame=item.frame and frame(item.frame))
 
     def read(item: ArmOutput) -> ArmOutput:
-        return replace(item, joint=number(item.joint), frame=item.frame and frame(item.frame))
+        own = item.frame and frame(item.frame)
+        return replace(item, joint=number(item.joint), gear=number(item.gear), frame=own)
 
     held = replace(
         arm,

@@ -64,11 +64,11 @@ def _read(still: Still, inputs: Inputs, s: Complex, whole: Complex, output: ArmO
     if output.quantity.read == "bend":
         turning = still.numbers.turning
         if output.joint or turning is None:
-            return {output.name: factor * angles[:, output.joint - 1]}
+            return {output.name: factor * sum(angles[:, number - 1] for number in output.turning)}
         own = np.equal(inputs.columns, turning.column)  # the base's own angle
         return {output.name: factor * own}
     if output.quantity.read == "through":
-        joint = output.joint - 1
+        joint = output.passing - 1
         law = still.numbers.stiffness[joint] + still.numbers.damping[joint] * s
         return {output.name: inputs.torque[joint] - law[:, None] * angles[:, joint]}
     assert output.frame is not None

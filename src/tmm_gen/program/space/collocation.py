@@ -89,7 +89,7 @@ class SpaceCollocation:
     def _iteration(self, *, first: bool) -> list[Section]:
         """Return an iteration; the first leaves the factors for all others."""
         laws, over, mend = self._laws, self._over, self._mend
-        moved = {kind: self._at_stages(kind).at() for kind in KINDS}
+        moved = {kind: self._at_stages(kind) for kind in KINDS}
         at_stages = [
             laws.torques(over.array(TORQUE), moved, self._seen.__getitem__),
             over.outward(still=False),

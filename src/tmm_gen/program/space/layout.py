@@ -12,6 +12,7 @@ from tmm_gen.derive.integrators.history import history
 from tmm_gen.derive.space.declaration import AXES, PAIRS
 from tmm_gen.program.fields import MOTION_NAMES, stage_accelerations
 from tmm_gen.program.space.base_layout import BaseLayout, base_layout, base_numbers
+from tmm_gen.program.space.gears import set_aside, shafts_of
 from tmm_gen.program.space.runs import StationTree
 from tmm_gen.program.variables import Ref, Role, Variable
 from tmm_gen.scene.quantity import INPUT_UNITS
@@ -94,20 +95,22 @@ def layout_of(arm: SpatialArm, name: str, title: str, integrator: Integrator, st
         The scene's, s.
     """
     n = len(arm.joints)
+    marked, shafts = _marked(arm), _shafts(arm, coupled=any(s.coupled for s in integrator.schemes))
+    arm = set_aside(arm, shafts)
     kept = set(history(integrator, "acceleration")) | {Past(kind, 0) for kind in KINDS}
     ordered = sorted(kept, key=lambda p: (p.lag, KINDS.index(p.kind)))
     given = moves_as_given(arm)
     stages = max(len(instants(scheme, given=given)) for scheme in integrator.schemes)
     also = ", at each stage of the step" if stages > 1 else ""
     torques = {item.joint: item for item in arm.inputs if item.acts == "torque"}
-    read = [torques[o.joint] for o in arm.outputs if o.quantity.read == "through" and o.joint in torques]
+    read = [torques[o.passing] for o in arm.outputs if o.quantity.read == "through" and o.passing in torques]
     base = base_layout(arm.base, ordered) if arm.base is not None else None
     state = {p: _state(p, n) for p in ordered}
     of_joints = "of each joint, base to tips"
     return SpaceLayout(
         name=name,
         title=title,
-        tree=StationTree(arm, _marked(arm)),
+        tree=StationTree(arm, marked, shafts),
         step=Variable("step", Role.STEP, doc="time step", unit="s", default=step),
         parameters={v.name: v for v in _parameters(arm)},
         state=state,
@@ -212,12 +215,23 @@ def _state(past: Past, length: int) -> Variable:
     return Variable(f"{name}{age}", Role.STATE, length, f"{name} of each joint, base to tips{when}", unit)
 
 
-def parameter_values(arm: SpatialArm) -> dict[str, tuple[float, ...]]:
+def _shafts(arm: SpatialArm, *, coupled: bool) -> frozenset[int]:
+    """Return the shafts that sweeps pass over; stages that are solved at once keep them as joints."""
+    return frozenset() if coupled else shafts_of(arm, _marked(arm))
+
+
+def parameter_values(arm: SpatialArm, *, coupled: bool) -> dict[str, tuple[float, ...]]:
     """Return all that parameters of an arm's kernel can be, by name: of each joint, or one number of the whole arm.
 
     A kernel of the same parts, joints and axes takes them, whatever numbers it was built with: one value where
     its parameter is the same everywhere.
+
+    Parameters
+    ----------
+    coupled : bool
+        Whether its integrator solves all stages at once.
     """
+    arm = set_aside(arm, _shafts(arm, coupled=coupled))
     return {
         **{name: tuple(value(joint) for joint in arm.joints) for name, _, _, value in _of_joints()},
         **{f"{name}_gear": (gear,) for name, _, gear in _gears(arm)},

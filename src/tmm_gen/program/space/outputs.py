@@ -128,11 +128,12 @@ class _Readings:
     # -- joints ------------------------------------------------------------------------------------------------
 
     def _motion(self, output: ArmOutput, targets: list[Ref]) -> list[Statement]:
-        return [Assign(targets[0], self._state(KINDS[output.quantity.order]).entry(output.joint - 1))]
+        state = self._state(KINDS[output.quantity.order])
+        return [Assign(targets[0], sp.Add(*(state.entry(number - 1) for number in output.turning)))]
 
     def _torque(self, output: ArmOutput, targets: list[Ref]) -> list[Statement]:
         """Return what spring, damper and motor exert on the outer side, or what drives a joint that is given."""
-        layout, k = self._layout, output.joint - 1
+        layout, k = self._layout, output.passing - 1
         if layout.arm.joints[k].given:
             return self._driving(targets[0])
         stretched = self._state("q").entry(k) - layout.at("rest", k)
@@ -141,7 +142,7 @@ class _Readings:
         )
         driving = sp.Integer(0)
         for item in layout.arm.inputs:
-            if item.acts == "torque" and item.joint == output.joint:
+            if item.acts == "torque" and item.joint == output.passing:
                 gear = layout.parameters.get(f"{item.name}_gear")
                 driving += layout.held[item.name].ref * (gear.ref if gear else 1)
         return [Assign(targets[0], driving - resisting)]

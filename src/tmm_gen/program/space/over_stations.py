@@ -31,7 +31,7 @@ from tmm_gen.program.space.layout import SpaceLayout
 from tmm_gen.program.space.runs import Run
 from tmm_gen.program.space.turns import fixed
 from tmm_gen.program.statements import Assign, Loop, Order, Require, Statement
-from tmm_gen.program.variables import Ref, Role, Variable, local
+from tmm_gen.program.variables import Ref, Role, Variable, local, refs_in
 
 _KEPT: dict[sp.Symbol, tuple[str, str]] = {
     SINE: ("sine of each joint's angle", "1"),
@@ -201,7 +201,7 @@ class OverStations:
     ) -> list[Assign | Require]:
         """Add what a station takes over from where its branch begins, or leaves there."""
         tree, host = self.layout.tree, self.layout.tree.host(index)
-        branch = (host >= 0 or self.layout.base is not None) and host != index - 1
+        branch = (host >= 0 or self.layout.base is not None) and host != tree.before(index)
         if order is Order.OUTWARD:
             taken = [Assign(self._here(s), self._fork(host, s)) for s in carried] if branch else []
             left = [Assign(self._fork(index, s), self._here(s)) for s in carried] if tree.forks(index) else []
@@ -233,8 +233,9 @@ class OverStations:
         self, lines: Sequence[Line], slot: int, suffix: str, carried: Iterable[sp.Symbol], run: Run
     ) -> list[Assign | Require]:
         pattern = run.patterns[slot]
-        values: dict[sp.Symbol, sp.Expr] = self._values(slot) | fixed(
-            self.layout.arm.joints[run.start + slot].turn
+        total = self._with_shaft() if self.layout.tree.geared(run.start) else {}
+        values: dict[sp.Symbol, sp.Expr] = (
+            self._values(slot) | total | fixed(self.layout.arm.joints[run.start + slot].turn)
         )
         values |= {s: self._kept(s).at(slot) for s in self.read_later()}
         if pattern.rooted:
@@ -253,7 +254,17 @@ class OverStations:
                 self._scratch.described.setdefault(f"{symbol.name}{suffix}", described[symbol])
                 values[symbol] = self._scratch.ref(f"{symbol.name}{suffix}")
         kept = needed(lines, frozenset(values) | frozenset(carried) | frozenset(self._totals))
-        return Binding(self._scratch, values).lines(kept)
+        written = Binding(self._scratch, values).lines(kept)
+        read = {ref for statement in written for ref in refs_in(statement.value)}
+        sums = [(total[s], v.at(slot) + v.at(slot - 1)) for s, v in self._motion.items() if s in total]
+        return [*(Assign(both, value) for both, value in sums if both in read), *written]
+
+    def _with_shaft(self) -> dict[sp.Symbol, Ref]:
+        """Return what stands for the motion of a joint and of the shaft before it together."""
+        for symbol in self._motion:
+            words = f"{symbol.name} of a joint and its shaft together"
+            self._scratch.described.setdefault(f"geared_{symbol.name}", (words, ""))
+        return {symbol: self._scratch.ref(f"geared_{symbol.name}") for symbol in self._motion}
 
     def _values(self, slot: int) -> dict[sp.Symbol, sp.Expr]:
         """Return what symbols stand for at station ``j + slot``."""

@@ -52,10 +52,13 @@ class StationTree:
     arm : SpatialArm
     marked : frozenset of int
         Indices of stations that something is read off, or acts on: they stand in no run.
+    shafts : frozenset of int
+        Indices of stations that walks pass over, as they have neither mass nor place of their own.
     """
 
     arm: SpatialArm
     marked: frozenset[int] = frozenset()
+    shafts: frozenset[int] = frozenset()
 
     @property
     def stations(self) -> int:
@@ -68,7 +71,15 @@ class StationTree:
 
     def carried(self, index: int) -> tuple[int, ...]:
         """Return the stations that stand on one; -1 is the base."""
-        return tuple(k for k in range(self.stations) if self.host(k) == index)
+        return tuple(k for k in range(self.stations) if self.host(k) == index and k not in self.shafts)
+
+    def before(self, index: int) -> int:
+        """Return the index of the station that walks visit before one; -1 before the first."""
+        return index - 2 if index - 1 in self.shafts else index - 1
+
+    def geared(self, index: int) -> bool:
+        """Whether a station turns by the sum of its own angle and that of a shaft before it."""
+        return index - 1 in self.shafts
 
     def forks(self, index: int) -> bool:
         """Whether more than one station stands on one."""
@@ -103,13 +114,16 @@ class StationTree:
         return frozenset(i.frame.joint - 1 for i in self.arm.inputs if i.frame is not None)
 
     def runs(self) -> tuple[Run, ...]:
-        """Return all stations as runs, base to tips."""
+        """Return all stations as runs, base to tips, without shafts."""
         patterns = [self.pattern(k) for k in range(self.stations)]
         keys = [(p, joint.turn) for p, joint in zip(patterns, self.arm.joints, strict=True)]
         alone = [self._alone(k) for k in range(self.stations)]
         found: list[Run] = []
         at = 0
         while at < self.stations:
+            if at in self.shafts:
+                at += 1
+                continue
             length, times = (1, 1) if alone[at] else _repeated(keys, alone, at)
             found.append(Run(at, tuple(patterns[at : at + length]), times))
             at = found[-1].stop
@@ -118,7 +132,8 @@ class StationTree:
     def _alone(self, index: int) -> bool:
         """Whether a station begins or ends a branch, or is looked at by itself."""
         host = self.host(index)
-        return host != index - 1 or host < 0 or len(self.carried(index)) != 1 or index in self.marked
+        follows = host == index - 1 and host >= 0 and index not in self.shafts
+        return not follows or len(self.carried(index)) != 1 or index in self.marked
 
 
 def _repeated(keys: Sequence[tuple[Pattern, Turn]], alone: Sequence[bool], at: int) -> tuple[int, int]:

@@ -116,6 +116,7 @@ class SpaceStep:
             *loads_on_frames(self.layout, walks, read),
             walks.inward(still=still),
             walks.back(still=still),
+            laws.answers(walks.array(OWN)),
         ]
         if self.auto:
             rounds = f"corrections, until one changes next to nothing, {MOST_SWEEPS} at most"
@@ -153,6 +154,7 @@ class SpaceStep:
             *loads_on_frames(self.layout, walks, self._read(index)),
             walks.inward(still=False) if self.exact else walks.again(),
             walks.back(still=False),
+            laws.answers(walks.array(OWN)),
         ]
 
     def _cleared(self, still: bool) -> list[Section]:
@@ -169,7 +171,7 @@ class SpaceStep:
         return self.base.improve(gains_of(motion, self.layout.step), still=still) if self.base else []
 
     def _torques(self, laws: JointLaws, index: int, walks: SpaceWalks, still: frozenset[str]) -> Section:
-        moved = {k: sp.Integer(0) if k in still else self._motion(k).at() for k in KINDS}
+        moved = {k: self._motion(k) for k in KINDS if k not in still}
         return laws.torques(walks.array(TORQUE), moved, self._read(index))
 
     def _given(self, index: int) -> list[Assign]:

@@ -27,6 +27,22 @@ Rest = Annotated[
         examples=["0.1"],
     ),
 ]
+GearStiffness = Annotated[
+    Positive | None,
+    Field(
+        description="stiffness of the gear at the output in N m/rad",
+        examples=["4000.0"],
+        json_schema_extra={"absent": "a rigid gear"},
+    ),
+]
+MotorDamping = Annotated[
+    NonNegative,
+    Field(description="damping of the rotor, on the motor's side, in N m s/rad", examples=["1e-4"]),
+]
+GearDamping = Annotated[
+    NonNegative,
+    Field(description="damping of the gear's spring over its stiffness in s", examples=["0.001"]),
+]
 BeamDamping = Annotated[
     NonNegative, Field(description="damping of a spring over its stiffness in s", examples=["0.002"])
 ]

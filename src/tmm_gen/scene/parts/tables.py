@@ -8,7 +8,17 @@ from pydantic import AfterValidator, BeforeValidator, Field, PlainValidator
 
 from tmm_gen.scene.beam import Springs
 from tmm_gen.scene.identifier import Name
-from tmm_gen.scene.parts.fields import BeamDamping, Gear, Mass, OutputDamping, Rest, RotorInertia
+from tmm_gen.scene.parts.fields import (
+    BeamDamping,
+    Gear,
+    GearDamping,
+    GearStiffness,
+    Mass,
+    MotorDamping,
+    OutputDamping,
+    Rest,
+    RotorInertia,
+)
 from tmm_gen.scene.section import Uniform
 from tmm_gen.scene.signal import FileInput, FileOutput
 from tmm_gen.scene.table import STATION_LIMIT, Finite, Fraction, NonNegative, Positive, Table, fault
@@ -86,18 +96,9 @@ class MotorPart(Part):
     rotor_inertia: RotorInertia = 0.0
     gear: Gear = 1.0
     damping: OutputDamping = 0.0
-    stiffness: Positive | None = Field(
-        default=None,
-        description="stiffness of the gear at the output in N m/rad",
-        examples=["4000.0"],
-        json_schema_extra={"absent": "a rigid gear"},
-    )
-    motor_damping: NonNegative = Field(
-        default=0.0, description="damping of the rotor, on the motor's side, in N m s/rad", examples=["1e-4"]
-    )
-    damping_time: NonNegative = Field(
-        default=0.0, description="damping of the gear's spring over its stiffness in s", examples=["0.001"]
-    )
+    stiffness: GearStiffness = None
+    motor_damping: MotorDamping = 0.0
+    damping_time: GearDamping = 0.0
 
 
 class JointPart(Part):

@@ -6,10 +6,10 @@ import math
 from collections.abc import Iterator
 
 from tmm_gen.scene.parts.document import PartsDocument
-from tmm_gen.scene.parts.expansion import elastic
 from tmm_gen.scene.parts.order import BASE, Entry, Hanging, entries, hanging
 from tmm_gen.scene.parts.tables import BeamPart, BodyPart, MotorPart
 from tmm_gen.scene.problem import Finding, Path
+from tmm_gen.scene.rules.gears import broken_gears
 from tmm_gen.scene.table import STATION_LIMIT, closest
 
 
@@ -139,20 +139,8 @@ def _carried(document: PartsDocument, entry: Entry, host: Entry | None) -> Itera
             f"Put a [[link]] between '{host.name}' and '{entry.name}', or make one of the two.",
             entry.part.on,
         )
-    if isinstance(entry.part, MotorPart) and elastic(entry.part) and entry.part.rotor_inertia == 0.0:
-        yield Finding(
-            (*entry.path, "rotor_inertia"),
-            "is 0 or missing, and a rotor behind an elastic gear cannot turn without inertia",
-            "Write `rotor_inertia = 1e-5`, or remove `stiffness` for a rigid gear.",
-            entry.part.rotor_inertia,
-        )
-    if isinstance(entry.part, MotorPart) and not elastic(entry.part) and entry.part.damping_time:
-        yield Finding(
-            (*entry.path, "damping_time"),
-            "damps the spring of an elastic gear, and without `stiffness` the gear is rigid",
-            "Write `stiffness` too, or remove the key: `damping` and `motor_damping` damp a rigid gear.",
-            entry.part.damping_time,
-        )
+    if isinstance(entry.part, MotorPart):
+        yield from broken_gears(entry.part, entry.path)
     free = document.base.kind == "free"
     if isinstance(entry.part, BodyPart) and (host.turns if host else not free):
         yield Finding(

@@ -204,12 +204,25 @@ class ArmOutput:
         Number of the joint; 0 where it is none's.
     frame : Frame or None
         Whose place it is.
+    gear : int
+        Number of the joint that the spring of its elastic gear is; 0 where there is none.
     """
 
     name: str
     of: ArmQuantity
     joint: int = 0
     frame: Frame | None = None
+    gear: int = field(default=0, metadata=UNSAID)
+
+    @property
+    def turning(self) -> tuple[int, ...]:
+        """Numbers of the joints by whose sum the outer side turns against the inner one."""
+        return (self.joint, self.gear) if self.gear else (self.joint,)
+
+    @property
+    def passing(self) -> int:
+        """Number of the joint that passes a torque on to the outer side."""
+        return self.gear or self.joint
 
     @property
     def quantity(self) -> Quantity:

@@ -51,6 +51,8 @@ class SpatialExpansion:
         Outer end of each part by its name, in the order of ``joints``.
     numbers : dict from str to int
         Number of the joint that each motor or joint is, from 1.
+    gears : dict from str to int
+        Number of the joint that the spring of each motor's elastic gear is.
     inner : tuple of str
         Name of the part that each joint comes from.
     base : RigidBody
@@ -60,6 +62,7 @@ class SpatialExpansion:
     joints: tuple[Revolute, ...]
     frames: Mapping[str, Frame]
     numbers: Mapping[str, int]
+    gears: Mapping[str, int]
     inner: tuple[str, ...]
     base: RigidBody
 
@@ -74,6 +77,7 @@ class SpatialExpansion:
                 item.name,
                 item.of,
                 joint=self.numbers[item.at] if item.of in OF_JOINTS else 0,
+                gear=self.gears.get(item.at, 0) if item.of in OF_JOINTS else 0,
                 frame=None if item.of in OF_JOINTS else self._frame(item.at),
             )
             for item in items
@@ -124,6 +128,7 @@ class _Building:
     weights: list[Weight] = field(default_factory=lambda: [NOTHING])
     frames: dict[str, Frame] = field(default_factory=dict)
     numbers: dict[str, int] = field(default_factory=dict)
+    gears: dict[str, int] = field(default_factory=dict)
     inner: list[str] = field(default_factory=list)
 
     def joint(self, joint: Revolute, part: str) -> int:
@@ -149,7 +154,7 @@ class _Building:
             for joint, body in zip(self.joints, self.weights[1:], strict=True)
         )
         base = bodies[id(self.weights[0])]
-        return SpatialExpansion(joints, self.frames, self.numbers, tuple(self.inner), base)
+        return SpatialExpansion(joints, self.frames, self.numbers, self.gears, tuple(self.inner), base)
 
 
 def expanded(
@@ -208,10 +213,15 @@ def _turning(made: _Building, part: TurningPart, pose: Pose) -> Pose:
     )
     if isinstance(part, SpatialMotor):
         armature = nearest(exact(part.gear) ** 2 * exact(part.rotor_inertia))
-        joint = replace(joint, armature=armature, gear=part.gear)
+        damping = nearest(exact(part.damping) + exact(part.gear) ** 2 * exact(part.motor_damping))
+        joint = replace(joint, armature=armature, damping=damping, gear=part.gear)
     if isinstance(part, SpatialJoint):
         joint = replace(joint, stiffness=part.stiffness, rest=part.rest)
     number = made.numbers[part.name] = made.joint(joint, part.name)
+    if isinstance(part, SpatialMotor) and part.stiffness is not None:
+        twist = nearest(exact(part.stiffness) * exact(part.damping_time))
+        spring = Revolute(f"{part.name}_gear", number, axis=axis, stiffness=part.stiffness, damping=twist)
+        number = made.gears[part.name] = made.joint(spring, part.name)
     # at angle zero what hangs on it stands as the part was placed, seen from the joint's own frame
     return Pose(number, NOWHERE, settled(product(transposed(turn), pose.turn)))
 

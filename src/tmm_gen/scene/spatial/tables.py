@@ -6,12 +6,22 @@ from typing import Annotated
 
 from pydantic import Field
 
-from tmm_gen.scene.parts.fields import BeamDamping, Gear, Mass, OutputDamping, Rest, RotorInertia
+from tmm_gen.scene.parts.fields import (
+    BeamDamping,
+    Gear,
+    GearDamping,
+    GearStiffness,
+    Mass,
+    MotorDamping,
+    OutputDamping,
+    Rest,
+    RotorInertia,
+)
 from tmm_gen.scene.parts.tables import Part
 from tmm_gen.scene.section import Uniform
 from tmm_gen.scene.spatial.arm import ZERO, Vector
 from tmm_gen.scene.spatial.values import AxisVector, BothStiffnesses, Limits, Place, SixInertia
-from tmm_gen.scene.table import STATION_LIMIT, Finite, NonNegative, Positive
+from tmm_gen.scene.table import STATION_LIMIT, NonNegative, Positive
 
 
 class SpatialPart(Part):
@@ -65,7 +75,7 @@ class TurningPart(SpatialPart):
 
 
 class SpatialMotor(TurningPart):
-    """``[[motor]]`` in space: a driven joint with a rigid gear.
+    """``[[motor]]`` in space: a driven joint.
 
     Parameters
     ----------
@@ -73,15 +83,20 @@ class SpatialMotor(TurningPart):
         On the motor's side, kg m^2, not negative; acts along the joint ``gear^2``-fold.
     gear : float
         Turns of the motor per turn of the joint, positive.
-    stiffness, motor_damping, damping_time : float or None
-        Of an elastic gear; refused in words of their own.
+    stiffness : float or None
+        Of the gear, at the output, N m/rad; None for a rigid gear. `damping` is then that of the shaft against what the
+        motor is mounted on.
+    motor_damping : float
+        Of the rotor against what the motor is mounted on, on the motor's side, N m s/rad.
+    damping_time : float
+        Damping of the gear's spring over its stiffness, s.
     """
 
     rotor_inertia: RotorInertia = 0.0
     gear: Gear = 1.0
-    stiffness: Finite | None = Field(default=None, json_schema_extra={"hidden": True})
-    motor_damping: Finite | None = Field(default=None, json_schema_extra={"hidden": True})
-    damping_time: Finite | None = Field(default=None, json_schema_extra={"hidden": True})
+    stiffness: GearStiffness = None
+    motor_damping: MotorDamping = 0.0
+    damping_time: GearDamping = 0.0
 
 
 class SpatialJoint(TurningPart):

@@ -23,7 +23,7 @@ from tmm_gen.scene.rules.integration import (
 from tmm_gen.scene.rules.spatial.control import motors_in_space_controlled
 from tmm_gen.scene.rules.spatial.hanging import not_too_many, one_tree, part_names
 from tmm_gen.scene.rules.spatial.inertia import base_to_turn, something_to_turn
-from tmm_gen.scene.rules.spatial.parts import ends, in_range, inertias, rigid_gears, twists
+from tmm_gen.scene.rules.spatial.parts import elastic_gears, ends, in_range, inertias, twists
 from tmm_gen.scene.rules.spatial.settings import boxed, keys_of_base, own_tables
 from tmm_gen.scene.rules.spatial.signals import (
     distinct_names,
@@ -37,7 +37,7 @@ Rule = Callable[[SpatialDocument], Iterator[Finding]]
 
 RULES: tuple[tuple[Rule, ...], ...] = (
     (keys_of_base, own_tables, part_names, beams_given, not_too_many),
-    (one_tree, twists, ends, rigid_gears, inertias),
+    (one_tree, twists, ends, elastic_gears, inertias),
     (in_range, initial_by_name),
     (
         base_to_turn,

@@ -8,6 +8,7 @@ from fractions import Fraction
 
 from tmm_gen.scene.exact import exact
 from tmm_gen.scene.problem import Finding, Path
+from tmm_gen.scene.rules.gears import broken_gears
 from tmm_gen.scene.spatial.arm import Revolute
 from tmm_gen.scene.spatial.document import SpatialDocument
 from tmm_gen.scene.spatial.tables import RigidPart, SpatialBeam
@@ -60,26 +61,10 @@ def ends(document: SpatialDocument) -> Iterator[Finding]:
             )
 
 
-def rigid_gears(document: SpatialDocument) -> Iterator[Finding]:
-    """Find elastic gears, which a motor and a joint behind it say."""
+def elastic_gears(document: SpatialDocument) -> Iterator[Finding]:
+    """Find elastic gears whose rotors have no inertia, and what damps a spring that is not there."""
     for index, motor in enumerate(document.motor):
-        stiffness = motor.stiffness if motor.stiffness is not None else 4000.0
-        for key in ("stiffness", "motor_damping", "damping_time"):
-            value = getattr(motor, key)
-            if value is None:
-                continue
-            instead = (
-                f'Remove it; put a [[joint]] with `on = "{motor.name}"`, the same axis and '
-                f"`stiffness = {stiffness:g}` behind the motor, and hang on the joint what hangs on the motor now."
-                if key != "motor_damping"
-                else "Remove it; `damping` at the output is gear^2 times that of the rotor."
-            )
-            yield Finding(
-                ("motor", index, key),
-                "is that of an elastic gear, and gears of motors in space are rigid",
-                instead,
-                value,
-            )
+        yield from broken_gears(motor, ("motor", index))
 
 
 def inertias(document: SpatialDocument) -> Iterator[Finding]:
