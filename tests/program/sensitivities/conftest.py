@@ -258,11 +258,14 @@ rotor_inertia = 1e-5
 gear = 50
 damping = 0.1
 {links}
-[[joint]]
+[[motor]]
 name = "aside"
 on = "yaw"
 axis = "x"
+rotor_inertia = 1e-5
+gear = 20
 stiffness = 3.0
+damping_time = 1e-3
 [[body]]
 name = "weight"
 on = "aside"
@@ -305,7 +308,7 @@ inertia = [1e-4, 2e-4, 2e-4]
 
 
 def in_space() -> Scene:
-    """Return an arm in space with links that come in turn and are a loop, a branch, and a force in the world's axes."""
+    """Return an arm in space with links that come in turn and are a loop, an elastic gear on a branch, and a force."""
     hosts = ["yaw", *(f"link_{k}" for k in range(1, 5))]
     links = [LINK.format(number=k, host=host, axis="zy"[k % 2]) for k, host in enumerate(hosts, start=1)]
     return parse_scene(IN_SPACE.format(links="".join(links)))
