@@ -84,6 +84,10 @@ name = "load"
 at = "load"
 of = "position"
 [[output]]
+name = "hold"
+at = "base"
+of = "force"
+[[output]]
 name = "energy"
 at = "arm"
 of = "elastic_energy"
@@ -169,7 +173,7 @@ def test_frequencies_are_read_on_both_sides(scene: Scene) -> None:
     """The outer side turns by rotor and twist together; what it is turned by is the twisted spring's torque."""
     arm, s = arm_of(scene), 30.0j
     alone = tuple(ArmOutput(joint.name, "angle", joint=k) for k, joint in enumerate(arm.joints, start=1))
-    still = Still(ArmNumbers(replace(arm, outputs=arm.outputs[2:] + alone)), np.zeros(4), {})
+    still = Still(ArmNumbers(replace(arm, outputs=arm.outputs[3:] + alone)), np.zeros(4), {})
     found = {name: values[0] for name, values in space_response(still, s).items()}
     for at in ("yaw", "elbow"):
         rotor, twist = found[at], found[f"{at}_gear"]

@@ -63,6 +63,10 @@ of = "kinetic_energy"
 name = "weight"
 at = "arm"
 of = "gravitational_energy"
+[[output]]
+name = "hold"
+at = "base"
+of = "force"
 """
 SLIDES = "".join(f'<joint type="slide" axis="{axis}" />' for axis in ("1 0 0", "0 1 0", "0 0 1"))
 
@@ -86,6 +90,10 @@ def test_the_reference_takes_the_torques_that_mujoco_takes(seed: int) -> None:
     columns = {f"along_{axis}_acceleration": value for axis, value in zip("xyz", pulled, strict=True)}
     found = WorldArm(replace(arm, inputs=told)).inverse_dynamics(q, v, a, columns)
     assert found == pytest.approx(data.qfrc_inverse[3:], rel=1e-10, abs=1e-10 * np.abs(found).max())
+    # the slides carry a body of 1 kg besides
+    carried = WorldArm(replace(arm, inputs=told)).base_force(q, v, a, columns)
+    wanted = data.qfrc_inverse[:3] - (pulled - np.array(arm.gravity))
+    assert carried == pytest.approx(wanted, rel=1e-10, abs=1e-10 * np.abs(wanted).max())
     still = WorldArm(arm).inverse_dynamics(q, v, a, {})
     assert np.abs(found - still).max() > 1e-3 * np.abs(found).max()
 
@@ -104,7 +112,12 @@ def test_a_crane() -> None:
     sine, cosine = np.sin(turned[0]), np.cos(turned[0])
     x, z = trolley.at(found.time) - LENGTH * sine, -LENGTH * cosine
     along, up = trolley.slope(found.time) - LENGTH * cosine * turned[1], LENGTH * sine * turned[1]
+    swinging = np.array([slope(*pair)[1] for pair in zip(found.time, turned.T, strict=True)])
+    pulled = trolley.curvature(found.time) + LENGTH * (sine * turned[1] ** 2 - cosine * swinging)
+    lifted = LENGTH * (cosine * turned[1] ** 2 + sine * swinging)
     exact = {
+        "hold_x": MASS * pulled,
+        "hold_z": MASS * (GRAVITY + lifted),
         "load_x": x,
         "load_z": z,
         "speed_x": along,
@@ -156,6 +169,11 @@ FAULTS = {
         '[[link]]\nname = "post"\non = "base"\nend = [1, 0, 0]\n[[input]]\nname = "f"\nat = "post"\nacts = "force"\n'
         '[[joint]]\nname = "sway"\non = "base"',
         "moves as the base does, whatever acts on it",
+    ),
+    "held": (
+        'at = "base"\nof = "force"',
+        'at = "rope"\nof = "force"',
+        "cannot be force at 'rope': it is what a base",
     ),
     "read": (
         "[[joint]]",

@@ -79,6 +79,7 @@ inertia = [1e-3, 1e-3, 5e-4]
     for at, of in (
         *(("load", "position"), ("base", "angle"), ("base", "orientation"), ("load", "velocity")),
         ("base", "torque"),
+        ("base", "force"),
     )
 )
 
@@ -115,7 +116,7 @@ def test_a_joint_that_is_given_costs_no_elimination() -> None:
 
 
 def assert_driven(module: ModuleType, program: Program, arm: SpatialArm) -> None:
-    """What turns the table is all that bodies and pushes ask for about its axis, whatever the motion."""
+    """What turns the table, and what carries it, is all that bodies and pushes ask for, whatever the motion."""
     rng, n = np.random.default_rng(3), len(arm.joints)
     columns = {v.name: float(value) for v, value in zip(program.inputs, rng.normal(size=9), strict=True)}
     state = module.initialise(
@@ -124,11 +125,13 @@ def assert_driven(module: ModuleType, program: Program, arm: SpatialArm) -> None
         initial_angle=rng.normal(size=n),
         initial_rate=rng.normal(size=n),
     )
-    found = module.output(module.prepare(), state).base_torque
+    read = module.output(module.prepare(), state)
     moving = (state.angle, state.rate, state.acceleration)
     wanted = outputs(arm, *(x[None] for x in moving), {k: np.array([v]) for k, v in columns.items()})
-    assert abs(found) > 1.0
-    assert found == pytest.approx(wanted["base_torque"][0], rel=1e-12)
+    for column in ("torque", "force_x", "force_y", "force_z"):
+        found = getattr(read, f"base_{column}")
+        assert abs(found) > 0.5
+        assert found == pytest.approx(wanted[f"base_{column}"][0], rel=1e-12)
 
 
 @pytest.mark.compiler

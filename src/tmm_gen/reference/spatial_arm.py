@@ -158,6 +158,16 @@ class WorldArm:
         lacking: Values = turning + self.rotors * a - self.torque(q, v, inputs)
         return lacking
 
+    def base_force(self, q: Values, v: Values, a: Values, inputs: Inputs) -> Values:
+        """Return the force that the base exerts on the arm, (..., 3), N: what bodies take, less what acts on them."""
+        places = self.tree.places(q)
+        pull = self.tree.motions(places, v, a).carried(self.centers(places)[1])[1]
+        carried = moved(self.arm, inputs, ACCELERATION)
+        fall = self.gravity if carried is None else self.gravity - carried[..., None, :]
+        taken = self.masses[:, None] * (pull - fall) - self.loads(places, inputs)[0]
+        found: Values = taken.sum(axis=-2)
+        return found
+
     def torque(self, q: Values, v: Values, inputs: Inputs) -> Values:
         """Return what each joint passes on to its body: spring, damper and motor, (..., n), N m."""
         driven = np.zeros(len(self.arm.joints))

@@ -74,6 +74,8 @@ def _values(world: WorldArm, output: ArmOutput, q: Array, v: Array, a: Array, in
         return np.asarray(world.inverse_dynamics(q, v, a, inputs)[:, output.joint - 1])
     if quantity.read == "through":
         return np.asarray(world.torque(q, v, inputs)[:, output.passing - 1])
+    if quantity.read == "force":
+        return np.asarray(world.base_force(q, v, a, inputs))
     if quantity.read == "energy":
         return _energy(world, quantity.energy, q, v, inputs)
     assert output.frame is not None

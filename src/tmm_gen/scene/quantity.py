@@ -103,6 +103,7 @@ SPATIAL = {
     "rate": Quantity("rad/s", "rate", "bend", 1),
     "acceleration": Quantity("rad/s^2", "acceleration", "bend", 2),
     "torque": Quantity("N m", "torque", "through"),
+    "force": Quantity("N", "force", "force", parts="xyz"),
     "position": Quantity("m", "position", "place", parts="xyz"),
     "velocity": Quantity("m/s", "velocity", "place", 1, parts="xyz"),
     "orientation": Quantity("1", "orientation", "place", parts="wxyz"),
@@ -110,7 +111,8 @@ SPATIAL = {
     "elastic_energy": Quantity("J", "energy", "energy", energy="elastic"),
     "gravitational_energy": Quantity("J", "energy", "energy", energy="gravitational"),
 }
-"""Quantities of an arm in space: those of joints between their two sides, those of frames in world axes."""
+"""Quantities of an arm in space: those of joints between their two sides, those of frames, and the force
+of a base that something holds, in world axes."""
 
 _KINDS = {"chain": CHAIN, "planar": PLANAR, "spatial": SPATIAL}
 

@@ -40,6 +40,15 @@ def _passed(sheet: Sheet, out: Outward, forces: sp.Matrix) -> tuple[Line, ...]:
     return (*sheet.lets, Update(dict(zip(BIAS, forces, strict=True))))
 
 
+def based_lines(out: Outward, totals: sp.Matrix) -> tuple[Line, ...]:
+    """Return how the forces pass to a station's inner side; on the base they are added to totals, (3,), N."""
+    lines = passed_lines(out)
+    if not out.pattern.rooted:
+        return lines
+    added = {total: total + force for total, force in zip(totals, BIAS[:3], strict=True)}
+    return (*lines, Update(added))
+
+
 def axis_lines(out: Outward, target: sp.Symbol) -> tuple[Line, ...]:
     """Return the moment about a joint's axis, N m: what drives it where its motion is given."""
     sheet = Sheet()

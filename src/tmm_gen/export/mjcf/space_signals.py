@@ -71,6 +71,8 @@ class SpaceSignals:
             self.left_out.append(f"{name}: MuJoCo knows the sum of elastic and gravitational energy only")
         elif quantity.read == "through":
             self._torque(sensors, output)
+        elif quantity.read == "force":
+            self.left_out.append(f"{name}: MuJoCo measures the forces of single bodies on the base only")
         elif output.frame is not None:
             site = self._site(output.frame)
             kind = _SENSORS[quantity.components, quantity.order]

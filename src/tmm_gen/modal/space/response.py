@@ -55,8 +55,10 @@ def space_response(still: Still, s: ArrayLike) -> dict[str, Complex]:
 
 
 def answers(output: ArmOutput) -> bool:
-    """Whether an output is read off small motion: no energy, which goes with its square, nor what drives a base."""
-    return output.quantity.read != "energy" and (output.quantity.read != "through" or output.joint > 0)
+    """Whether an output is read off small motion: no energy, which goes with its square, nor what moves a base."""
+    if output.quantity.read == "through":
+        return output.joint > 0
+    return output.quantity.read not in ("energy", "force")
 
 
 def _read(still: Still, inputs: Inputs, s: Complex, whole: Complex, output: ArmOutput) -> dict[str, Complex]:

@@ -179,8 +179,11 @@ def kernel_columns(item: ArmInput | None) -> tuple[str, ...]:
 
 
 def _loads_held(arm: SpatialArm) -> dict[str, str]:
-    """Return the columns of forces and moments, with units, where an output is what drives a prescribed base."""
-    asked = any(o.quantity.read == "through" and arm.joints[o.joint - 1].given for o in arm.outputs)
+    """Return the columns of forces and moments, with units, where an output is what drives or holds a base."""
+    asked = any(
+        o.quantity.read == "force" or (o.quantity.read == "through" and arm.joints[o.joint - 1].given)
+        for o in arm.outputs
+    )
     loads = [item for item in arm.inputs if asked and item.frame is not None and item.frame.joint]
     return {column: INPUT_UNITS[f"{item.acts}_x"] for item in loads for column in item.columns}
 

@@ -10,8 +10,6 @@ from tmm_gen.derive.integrators.declaration import KINDS, Kind, Past
 from tmm_gen.derive.space.base_pose import AT, GOES, SPINS, STANDS, facing_line, quaternion_line
 from tmm_gen.derive.space.base_pose import velocity_lines as base_velocity
 from tmm_gen.derive.space.declaration import (
-    ACCEL,
-    ALPHA,
     AXES,
     BASE_ACCEL,
     BASE_PLACE,
@@ -19,7 +17,6 @@ from tmm_gen.derive.space.declaration import (
     OMEGA,
     VELOCITY,
 )
-from tmm_gen.derive.space.inward import BIAS
 from tmm_gen.derive.space.pattern import Pattern
 from tmm_gen.derive.space.pose import (
     FACING,
@@ -32,13 +29,13 @@ from tmm_gen.derive.space.pose import (
     quaternion_product,
     velocity_lines,
 )
-from tmm_gen.derive.space.reaction import axis_lines, passed_lines
+from tmm_gen.derive.space.reaction import axis_lines, based_lines, passed_lines
 from tmm_gen.derive.station.lets import Line, Update
 from tmm_gen.program.arm.loads import exactly
 from tmm_gen.program.space.bodies import Bodies
 from tmm_gen.program.space.layout import BASE_MOTION, SpaceLayout, kernel_columns
-from tmm_gen.program.space.loads import loads_on_frames
 from tmm_gen.program.space.over_stations import MOTION
+from tmm_gen.program.space.reactions import handed_in
 from tmm_gen.program.space.turns import quaternion_of
 from tmm_gen.program.space.walks import SpaceWalks, outward
 from tmm_gen.program.statements import Assign, Loop, Order, Routine, Section, Statement
@@ -46,6 +43,7 @@ from tmm_gen.program.variables import Ref, Variable
 from tmm_gen.scene.spatial.arm import ArmInput, ArmOutput, Frame
 
 _TOTAL = sp.Symbol("total", real=True)
+_FORCES = sp.Matrix(sp.symbols("total_x total_y total_z", real=True))
 
 
 def output_routine(layout: SpaceLayout, bodies: Bodies) -> Routine:
@@ -67,6 +65,7 @@ class _Readings:
         self._by: dict[str, Callable[[ArmOutput, list[Ref]], list[Statement]]] = {
             "bend": self._motion,
             "through": self._torque,
+            "force": self._force,
             "place": self._place,
             "energy": self._energy,
         }
@@ -148,7 +147,7 @@ class _Readings:
         return [Assign(targets[0], driving - resisting)]
 
     def _driving(self, target: Ref) -> list[Statement]:
-        """Return the moment about the axis of what moves as given: all forces, by the motion that the state has."""
+        """Return the moment about the axis of what moves as given."""
         walks = self._walks()
         total = walks.scalar(_TOTAL, "about the axis of what moves as given", "N m")
 
@@ -156,14 +155,20 @@ class _Readings:
             out = outward(pattern.freed, False)
             return axis_lines(out, _TOTAL) if pattern.given else passed_lines(out)
 
-        loads = loads_on_frames(self._layout, walks, lambda column: self._layout.held[column].ref, whole=True)
+        return [*handed_in(self._layout, walks, inward), Assign(target, total)]
+
+    def _force(self, _output: ArmOutput, targets: list[Ref]) -> list[Statement]:
+        """Return the force of a base that something holds: all that arrives at it, in the axes of the world."""
+        walks = self._walks()
+        totals = [walks.scalar(symbol, "force that has arrived at the base", "N") for symbol in _FORCES]
+
+        def inward(pattern: Pattern) -> Sequence[Line]:
+            return based_lines(outward(pattern.freed, False), _FORCES)
+
         return [
-            *walks.walk(
-                Order.OUTWARD, lambda p: outward(p.freed, False).lines, (*OMEGA, *ALPHA, *ACCEL), whole=True
-            ),
-            *(statement for section in loads for statement in section.statements),
-            *walks.walk(Order.INWARD, inward, tuple(BIAS), whole=True),
-            Assign(target, total),
+            *(Assign(total, sp.Integer(0)) for total in totals),
+            *handed_in(self._layout, walks, inward),
+            *(Assign(target, total) for target, total in zip(targets, totals, strict=True)),
         ]
 
     # -- frames ------------------------------------------------------------------------------------------------

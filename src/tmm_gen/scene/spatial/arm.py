@@ -178,6 +178,7 @@ ArmQuantity = Literal[
     "rate",
     "acceleration",
     "torque",
+    "force",
     "position",
     "orientation",
     "velocity",
@@ -194,12 +195,13 @@ class ArmOutput:
     Parameters
     ----------
     name : str
-        Columns: itself for a scalar; with ``_x``, ``_y``, ``_z`` for position and velocity of a frame, both in world
+        Columns: itself for a scalar; with ``_x``, ``_y``, ``_z`` for force, position and velocity, all in world
         axes; with ``_w``, ``_x``, ``_y``, ``_z`` for an orientation: the quaternion
         that half of each joint's angle makes on the way, which never jumps, so that ``w`` may be negative.
     of : str
         angle, rate, acceleration of a joint and the torque it passes on (its spring's, damper's and motor's);
-        position, orientation, velocity of a frame; an energy of the whole arm.
+        force that a base exerts on all that stands on it by joints; position, orientation, velocity of a frame; an
+        energy of the whole arm.
     joint : int
         Number of the joint; 0 where it is none's.
     frame : Frame or None

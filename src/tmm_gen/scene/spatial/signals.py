@@ -13,6 +13,7 @@ from tmm_gen.scene.spatial.arm import ArmQuantity
 from tmm_gen.scene.table import Table
 
 OF_JOINTS: tuple[ArmQuantity, ...] = ("angle", "rate", "acceleration", "torque")
+OF_BASE: tuple[ArmQuantity, ...] = ("force",)
 OF_FRAMES: tuple[ArmQuantity, ...] = ("position", "orientation", "velocity")
 OF_ARM: tuple[ArmQuantity, ...] = ("kinetic_energy", "elastic_energy", "gravitational_energy")
 

@@ -11,7 +11,7 @@ from tmm_gen.scene.rules.inputs import prescribed_motion
 from tmm_gen.scene.signal import PRESCRIBED, said
 from tmm_gen.scene.spatial.arm import ArmInput, ArmOutput
 from tmm_gen.scene.spatial.document import SpatialDocument
-from tmm_gen.scene.spatial.signals import OF_ARM, OF_FRAMES, OF_JOINTS
+from tmm_gen.scene.spatial.signals import OF_ARM, OF_BASE, OF_FRAMES, OF_JOINTS
 from tmm_gen.scene.spatial.tree import Hung
 from tmm_gen.scene.table import closest
 
@@ -86,6 +86,8 @@ def outputs_possible(document: SpatialDocument) -> Iterator[Finding]:
             )
         elif item.at == ARM:
             continue
+        elif item.of in OF_BASE:
+            yield from _held(document, path, item.at)
         elif item.at == BASE and not document.base.moves:
             yield Finding((*path, "at"), "cannot be the base, which never moves", "Name a part.", item.at)
         elif hung is None and item.at != BASE:
@@ -102,6 +104,20 @@ def outputs_possible(document: SpatialDocument) -> Iterator[Finding]:
             )
         elif hung and not document.base.moves and document.tree.mover(hung) is None:
             yield _fixed(document, (*path, "at"), hung)
+
+
+def _held(document: SpatialDocument, path: Path, at: str) -> Iterator[Finding]:
+    """Find a force that is asked for elsewhere than at a base that something holds."""
+    if at == BASE and not document.base.floats:
+        return
+    where = "a base that floats, which nothing holds" if at == BASE else f"'{at}'"
+    yield Finding(
+        (*path, "of"),
+        f'cannot be force at {where}: it is what a base of kind = "clamp" or "prescribed" exerts on the arm',
+        'Write `at = "base"` on such a base, or choose one of '
+        f"{', '.join(OF_FRAMES)} here, of motors and joints {', '.join(OF_JOINTS)} too.",
+        "force",
+    )
 
 
 def _unknown(document: SpatialDocument, path: Path, at: str) -> Finding:
