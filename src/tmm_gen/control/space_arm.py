@@ -83,10 +83,10 @@ class SpaceArm:
         return np.asarray(lacking @ self._motors.turned / self._motors.gears, float)
 
     def payloads(self) -> Mapping[str, float]:
-        """Return the masses of the bodies that are outermost on their branches."""
+        """Return the masses of the bodies that are outermost on their branches; frames have none."""
         entries: Any = self.scene.source.data.get("body", [])
-        masses = {entry["name"]: entry["mass"] for entry in entries}
-        return {f"body.{name}.mass": masses[name] for name in outer_bodies(self.scene)}
+        masses = {entry["name"]: entry["mass"] for entry in entries if "mass" in entry}
+        return {f"body.{name}.mass": masses[name] for name in outer_bodies(self.scene) if name in masses}
 
     def falling(self, more: float) -> list[float]:
         """Return gravity with some more of it along -z, m/s^2."""

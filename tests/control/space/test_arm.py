@@ -83,6 +83,12 @@ def test_the_tip_of_a_motor_is_how_far_the_payload_is_about_its_axis(bench: Benc
     assert np.count_nonzero(np.abs(motors.tip[:, bending]) > 0.1) == len(bending)
 
 
+def test_a_frame_without_mass_is_no_payload(words: str) -> None:
+    tool = '[[body]]\nname = "tool"\non = "upper"\nat = [0.1, 0, 0]\n[[input]]\n'
+    scene = parse_scene(words.replace("[[input]]\n", tool, 1), "reach.toml")
+    assert arm_of(scene).payloads() == {"body.payload.mass": 0.4}
+
+
 def test_slopes_of_a_step_are_its_derivatives(bench: Bench) -> None:
     step, random = bench.step, np.random.default_rng(2)
     state, torques = random.normal(0.0, 0.3, step.size), random.normal(0.0, 1.0, 2 * step.motors.count)
