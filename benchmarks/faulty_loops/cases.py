@@ -46,7 +46,8 @@ class Case:
         return sum(spell.samples for spell in self.spells)
 
 
-def _fault(turning: bool) -> st.SearchStrategy[tuple[int, float]]:
+def fault(turning: bool) -> st.SearchStrategy[tuple[int, float]]:
+    """Draw a kind of fault and its value; of an encoder, which turns, also whole turns."""
     added = st.floats(-3.0, 3.0) | st.sampled_from([1e3, -1e3])
     if turning:
         added |= st.integers(-3, 3).map(lambda turns: 2.0 * math.pi * turns)
@@ -69,7 +70,7 @@ def cases(draw: st.DrawFn) -> Case:
             break
         samples = draw(st.sampled_from([1, left]) | st.integers(1, left))
         left -= samples
-        faults = [draw(_fault(turning)) for turning in (True, False, False)]
+        faults = [draw(fault(turning)) for turning in (True, False, False)]
         kinds, values = zip(*faults, strict=True)
         spells.append(Spell(samples, kinds, values))
     return Case(start, draw(st.integers(0, 80)), tuple(spells))

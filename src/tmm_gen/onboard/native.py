@@ -141,7 +141,8 @@ class EmittedController:
         Time includes nothing but the controller's own. Which are valid is said in the same shape, or all are. Samples
         are prepared before their measurements, or left to themselves.
         """
-        seen = np.ascontiguousarray(np.asarray(measured, float)[:, self.sensors], self._number)
+        with np.errstate(over="ignore"):  # what a float cannot hold is infinite
+            seen = np.ascontiguousarray(np.asarray(measured, float)[:, self.sensors], self._number)
         count = len(seen)
         torques = np.zeros((count, self.motors), self._number)
         statuses, iterations = np.zeros(count, np.intc), np.zeros(count, np.intc)

@@ -23,3 +23,10 @@ def two(elbow: Scene) -> Bench:
     """Four links, eight samples: for what is slow."""
     changes = {"beam.upper.links": 1, "beam.forearm.links": 1, "control.horizon": 8, "control.substeps": 2}
     return Bench.of(elbow.replace(**changes, **{"control.modes": 4}))
+
+
+@pytest.fixture(scope="session")
+def firm_bench(elbow: Scene) -> Bench:
+    """With two springs in each beam, since a model of one lets the arm tremble for long."""
+    changes = {"beam.upper.links": 2, "beam.forearm.links": 2, "control.horizon": 12, "control.substeps": 2}
+    return Bench.of(elbow.replace(**changes))

@@ -1,0 +1,118 @@
+"""Emitted controllers of the arm with two motors, told and shown all that is wrong for a second: do all come back?
+
+    python benchmarks/arm_faults.py [--cases 300] [--controller rti ...] [--real float64 ...] [--out out/bench]
+
+For up to 50 samples encoders are stuck, lost, absurd or off by turns; the reference jumps, or is to be followed with a
+jump; bounds of torques are crossed, not finite or too narrow to hold the arm; payloads come and go, told or not, or
+told wrongly. Then sensors are true again, and the controller is told the scene's bounds and reference and the payload
+there is. Required is OK within one second and from then on, an arm that arrives (0.02 rad), and at all times a torque
+within the bounds in force. hypothesis draws the cases; exits with 1 if one fails.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import sys
+from collections import Counter
+from pathlib import Path
+
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
+from faulty_loops.arm_cases import ArmCase, arm_cases
+from faulty_loops.arm_loop import AFTER, ArmLoop, ArmOutcome
+from hypothesis import HealthCheck, Phase, given, seed, settings
+
+from tmm_gen.cli.console import plain, table
+from tmm_gen.control.bench import Bench
+from tmm_gen.files import write_whole
+from tmm_gen.onboard.emit import EMITTED, LINEAR
+from tmm_gen.scene import load_scene
+
+ROOT = Path(__file__).resolve().parents[1]
+WITHIN = 1.0
+"""s, in which OK must return."""
+Found = list[tuple[ArmCase, ArmOutcome]]
+
+
+def outcomes(loop: ArmLoop, count: int, number: int = 0) -> Found:
+    """Run as many cases as are asked for."""
+    found: Found = []
+
+    @seed(number)
+    @settings(
+        max_examples=count,
+        database=None,
+        deadline=None,
+        phases=[Phase.generate],
+        suppress_health_check=list(HealthCheck),
+    )
+    @given(case=arm_cases())
+    def run(case: ArmCase) -> None:
+        found.append((case, loop.run(case)))
+
+    run()
+    return found
+
+
+def failed(outcome: ArmOutcome, period: float) -> bool:
+    """Return whether a case ended as none must."""
+    latched = outcome.first_ok is None or outcome.last_other * period > WITHIN
+    return latched or outcome.last_off == AFTER or outcome.outside > 0 or outcome.refused > 0
+
+
+def row(controller: str, real: str, found: Found, period: float) -> dict[str, object]:
+    """Return a row of the table."""
+    statuses: Counter[str] = Counter()
+    answers: Counter[str] = Counter()
+    for _, outcome in found:
+        statuses.update(outcome.statuses)
+        answers.update(outcome.answers)
+    results = [outcome for _, outcome in found]
+    return {
+        "controller": controller,
+        "real": real,
+        "cases": len(found),
+        "latched": sum(each.first_ok is None or each.last_other * period > WITHIN for each in results),
+        "not_arrived": sum(each.last_off == AFTER for each in results),
+        "out_of_bounds": sum(each.outside > 0 for each in results),
+        "refused": sum(each.refused > 0 for each in results),
+        "worst_ok_s": period * max(each.first_ok or AFTER for each in results),
+        "worst_calm_s": period * max(each.last_other for each in results),
+        "worst_arrival_s": period * max(each.last_off for each in results),
+        "statuses": dict(statuses),
+        "answers": dict(answers),
+    }
+
+
+def main() -> int:
+    """Print a table; return 1 if a case failed."""
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("--cases", type=int, default=300)
+    parser.add_argument(
+        "--controller", action="append", choices=[each for each in EMITTED if each not in LINEAR]
+    )
+    parser.add_argument("--real", action="append", choices=["float64", "float32"])
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--scene", type=Path, default=ROOT / "scenes" / "elbow.toml")
+    parser.add_argument("--out", type=Path, default=Path("out/bench"))
+    asked = parser.parse_args()
+    bench = Bench.of(load_scene(asked.scene))
+    period, rows, bad = bench.problem.sample_time, [], []
+    for controller in asked.controller or ("rti",):
+        for real in asked.real or ("float64", "float32"):
+            found = outcomes(ArmLoop(bench, controller, real), asked.cases, asked.seed)
+            rows.append(row(controller, real, found, period))
+            bad += [(controller, real, *each) for each in found if failed(each[1], period)]
+            print(rows[-1], file=sys.stderr, flush=True)
+    table(rows, [key for key in rows[0] if key not in ("statuses", "answers")])
+    for each in bad[:20]:
+        print(*each)
+    asked.out.mkdir(parents=True, exist_ok=True)
+    write_whole(asked.out / "arm_faults.json", json.dumps(plain(rows), indent=1) + "\n")
+    return 1 if bad else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

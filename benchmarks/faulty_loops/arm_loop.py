@@ -1,0 +1,167 @@
+"""An emitted controller on the arm with two motors, through a case of troubles."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+from support.carrying import CarryingPlant, Loads
+
+from faulty_loops.arm_cases import ArmCase, Trouble
+from faulty_loops.cases import ADDED, INVALID, STUCK, VALUE
+from tmm_gen.control.bench import Bench
+from tmm_gen.control.command import Status
+from tmm_gen.control.kalman import present_sensors
+from tmm_gen.control.target import rest_with
+from tmm_gen.onboard.emit import emit_controller
+from tmm_gen.onboard.native import FLAGS, EmittedController
+
+Array = NDArray[np.float64]
+
+AFTER = 200
+"""Calm samples after the last trouble."""
+ARRIVED = 0.02
+"""Of each joint off its reference, rad."""
+
+
+@dataclass
+class ArmOutcome:
+    """What became of a case.
+
+    Parameters
+    ----------
+    first_ok : int or None
+        Calm samples after the last trouble up to the first that is OK.
+    last_other, last_off : int
+        Up to the last that is not OK, and up to the last at which a joint is more than `ARRIVED` off.
+    outside : int
+        Torques that are not finite, or out of the bounds that were in force.
+    refused : int
+        What was told in the end, could be, and was not taken.
+    statuses, answers : Counter
+        Of torques; of what was told, by function.
+    """
+
+    first_ok: int | None = None
+    last_other: int = 0
+    last_off: int = 0
+    outside: int = 0
+    refused: int = 0
+    statuses: Counter[str] = field(default_factory=Counter)
+    answers: Counter[str] = field(default_factory=Counter)
+
+
+class ArmLoop:
+    """An emitted controller on an arm that is finer than its model.
+
+    Parameters
+    ----------
+    bench : Bench
+        Of the scene.
+    controller, real : str
+        What is emitted.
+    flags : sequence of str
+        For the compiler.
+    """
+
+    def __init__(self, bench: Bench, controller: str, real: str, flags: Sequence[str] = FLAGS) -> None:
+        self.bench, self.problem = bench, bench.problem
+        name, files = emit_controller(bench, controller, real)
+        sensors = present_sensors(bench.problem)
+        self.controller = EmittedController(
+            name, files, sensors, real, flags=flags, motors=bench.problem.count
+        )
+        self.number = np.float64 if real == "float64" else np.float32
+        self.widest = tuple(self.number(each) for each in bench.problem.torque)
+
+    def run(self, case: ArmCase) -> ArmOutcome:
+        """Run a case."""
+        tip = self.bench.scene.tip
+        assert tip is not None
+        plant = CarryingPlant(self.bench.scene, self.problem, Loads(((0, tip.mass),)), seed=0)
+        rest = rest_with(plant.laden(tip.mass), np.array(case.start), "initial.angles")
+        plant.kernel.initialise(initial_angle=rest.angles, inputs=plant.motors.torques(rest.goal.torque))
+        self.controller.reset()
+        self.limits, found, carried = self.widest, ArmOutcome(), tip.mass
+        for _ in range(case.before):
+            self._sample(plant, plant.measured(), None, found)
+        for trouble in case.troubles:
+            if trouble.carried is not None:
+                carried = trouble.carried
+                plant.carry(carried)
+            self._tell(trouble, found)
+            held = plant.measured()
+            for _ in range(trouble.samples):
+                self._sample(plant, *self._spoilt(plant.measured(), held, trouble), found)
+        self._restore(carried, found)
+        for since in range(1, AFTER + 1):
+            status = self._sample(plant, plant.measured(), None, found)
+            if status is Status.OK and found.first_ok is None:
+                found.first_ok = since
+            if status is not Status.OK:
+                found.last_other = since
+            if not np.max(np.abs(plant.angles()[self.problem.count :] - self.problem.reference)) <= ARRIVED:
+                found.last_off = since
+        return found
+
+    def _sample(
+        self, plant: CarryingPlant, shown: Array, valid: NDArray[np.bool_] | None, found: ArmOutcome
+    ) -> Status:
+        """Let a sample pass, every other of them prepared; note what is wrong with its torques."""
+        if len(plant.states) % 2:
+            self.controller.prepare()
+        command = self.controller.command(shown, valid)
+        low, high = self.limits
+        found.outside += not np.all((command.torque >= low) & (command.torque <= high))
+        found.statuses[command.status.name.lower()] += 1
+        plant.advance(command.torque)
+        return command.status
+
+    def _spoilt(self, shown: Array, held: Array, trouble: Trouble) -> tuple[Array, NDArray[np.bool_]]:
+        """Return what faulty encoders show, and which are said to be valid."""
+        valid = np.ones(len(shown), bool)
+        for motor, (kind, value) in enumerate(trouble.faults):
+            if kind == STUCK:
+                shown[motor] = held[motor]
+            elif kind in (VALUE, INVALID):
+                shown[motor], valid[motor] = value, kind != INVALID
+            elif kind == ADDED:
+                shown[motor] += value
+        return shown, valid
+
+    def _tell(self, trouble: Trouble, found: ArmOutcome) -> None:
+        """Tell the controller all that a trouble has."""
+        controller, problem = self.controller, self.problem
+        if trouble.limits is not None:
+            shares, widest = np.array(trouble.limits), problem.torque[1]
+            if self._noted("limit", controller.limit(*(shares * widest)), found):
+                low, high = (self.number(each) for each in shares * widest)
+                self.limits = np.maximum(low, self.widest[0]), np.minimum(high, self.widest[1])
+        if trouble.reference is not None:
+            self._noted("aim", controller.aim(np.array(trouble.reference)), found)
+        if trouble.jump is not None:
+            at, *angles = trouble.jump
+            way = np.tile(problem.reference, (problem.horizon, 1))
+            way[at:] = angles
+            self._noted("follow", controller.follow(way), found)
+        if trouble.told is not None:
+            self._noted("carry", controller.carry(trouble.told), found)
+
+    def _restore(self, carried: float, found: ArmOutcome) -> None:
+        """Tell the controller what is true, and what the scene says; what is judged by the rest a second time."""
+        controller = self.controller
+        self.limits = self.widest
+        taken = [self._noted("limit", controller.limit(*self.problem.torque), found)]
+        self._noted("carry", controller.carry(carried), found)
+        taken.append(self._noted("aim", controller.aim(self.problem.reference), found))
+        taken.append(self._noted("carry", controller.carry(carried), found))
+        found.refused += not all(taken)
+
+    @staticmethod
+    def _noted(what: str, status: Status, found: ArmOutcome) -> bool:
+        """Count an answer; return whether it was taken."""
+        found.answers[f"{what}_{status.name.lower()}"] += 1
+        return status is Status.OK
