@@ -1,4 +1,4 @@
-"""Half-planes that parts of the arm are to stay in: how far they are along the normals, and what turns them there."""
+"""Half-planes and half-spaces that parts of the arm are to stay in: how far along the normals they are, what turns them."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.control.reach import Frame
+from tmm_gen.control.space_frame import SpaceFrame
 from tmm_gen.scene import Scene
 from tmm_gen.scene.trajectory import Keep
 
@@ -16,27 +17,28 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class Wall:
-    """A half-plane and the part that stays in it.
+    """A half-plane, or in space a half-space, and the part that stays in it.
 
     Parameters
     ----------
-    frame : Frame
+    frame : Frame or SpaceFrame
         Outer end of the part.
-    normal : array, (2,)
+    normal : array, (2,) or (3,)
         Of length 1, away from the wall.
     offset : float
         Of the wall along it, m.
     """
 
-    frame: Frame
+    frame: Frame | SpaceFrame
     normal: Array
     offset: float
 
     @classmethod
     def of(cls, scene: Scene, keep: Keep) -> Wall:
         """Return a wall of a scene, or of one of the same parts in other links."""
-        normal = np.array(keep.normal)
-        return cls(Frame.of(scene, keep.frame), normal / np.linalg.norm(normal), keep.offset)
+        normal, arm = np.array(keep.normal), scene.spatial
+        frame = Frame.of(scene, keep.frame) if arm is None else SpaceFrame.of(arm, keep.frame)
+        return cls(frame, normal / np.linalg.norm(normal), keep.offset)
 
     def along(self, angles: Array) -> Array:
         """Return how far the part is along the normal, (k,), m, for angles of the arm, (k, d), rad."""

@@ -12,12 +12,14 @@ from tmm_gen.c_language.names import bare_names, macros
 from tmm_gen.c_language.real import REALS
 from tmm_gen.control.motor_rows import Motor
 from tmm_gen.control.rti import RealTimeIteration
+from tmm_gen.control.space_frame import SpaceFrame
 from tmm_gen.control.terms import Kind
 from tmm_gen.control.walls import Wall
 from tmm_gen.emit.c import emit_kernel
 from tmm_gen.emit.templates import render
 from tmm_gen.onboard.example_arm import ExampleArm
 from tmm_gen.onboard.folder import complete
+from tmm_gen.onboard.joint_tables import JointTables
 from tmm_gen.onboard.rti_data import RtiData, rti_data
 from tmm_gen.onboard.short_names import short_names
 from tmm_gen.onboard.solver import solver_files
@@ -166,8 +168,16 @@ class RtiText(ControllerText):
         """Lengths of the links, (n,), m."""
         return self.data.motors.lengths
 
+    @property
+    def arm_joints(self) -> JointTables:
+        """Where the joints of an arm in space stand."""
+        assert self.data.joints is not None
+        return self.data.joints
+
     def reach(self, wall: Wall) -> int:
-        """Return how many links there are up to the part that keeps away from a wall."""
+        """Return how many links, in space joints, there are up to the part that keeps away from a wall."""
+        if isinstance(wall.frame, SpaceFrame):
+            return len(wall.frame.joints)
         return int(np.flatnonzero(wall.frame.lengths)[-1]) + 1
 
     def looked(self, output: tuple[str, int], state: str) -> str:
@@ -180,6 +190,8 @@ class RtiText(ControllerText):
         state : str
             What stands before the state's members.
         """
+        if output[0] == "keep" and self.in_space:
+            return f"along({output[1]}, {state}angle, 0)"
         if output[0] == "keep":
             return f"along(normals[{output[1]}], {state}angle, {self.reach(self.walls[output[1]])})"
         name, motor = output[0], self.problem_motors[output[1]]

@@ -17,6 +17,7 @@ from tmm_gen.control.rti import RealTimeIteration
 from tmm_gen.control.safe import BRAKE_TIME
 from tmm_gen.control.terms import Kind
 from tmm_gen.control.walls import Wall
+from tmm_gen.onboard.joint_tables import JointTables
 from tmm_gen.onboard.linear_data import gains_by_sensors
 from tmm_gen.onboard.program_data import ProgramData, program_data
 from tmm_gen.onboard.weight import Weight, weight_of
@@ -90,6 +91,8 @@ class RtiData:
         Whether the state has them.
     walls : tuple of Wall
         What parts are to stay on one side of.
+    joints : JointTables or None
+        Where the joints of an arm in space stand.
     """
 
     size: int
@@ -126,6 +129,7 @@ class RtiData:
     kinds: tuple[Kind, ...]
     accelerations: bool
     walls: tuple[Wall, ...]
+    joints: JointTables | None
 
 
 def rti_data(controller: RealTimeIteration) -> RtiData:
@@ -191,6 +195,7 @@ def rti_data(controller: RealTimeIteration) -> RtiData:
         kinds=controller.prepared.kinds,
         accelerations=model.accelerations,
         walls=tuple(controller.walls),
+        joints=None if scene.spatial is None else JointTables.of(scene.spatial),
     )
 
 

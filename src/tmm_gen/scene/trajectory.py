@@ -18,16 +18,18 @@ def _pair(value: object) -> tuple[float, float]:
     raise fault("must be two numbers, x and y", "Write for example `[0.5, -0.2]`.")
 
 
-def _direction(value: object) -> tuple[float, float]:
-    """Return a direction of any length but none."""
-    pair = _pair(value)
-    if pair == (0.0, 0.0):
-        raise fault("has no direction", "Write for example `[0.0, 1.0]`: upward.")
-    return pair
+def _direction(value: object) -> tuple[float, ...]:
+    """Return a direction in a plane or in space, of any length but none."""
+    numbers = value if isinstance(value, list | tuple) else ()
+    if len(numbers) not in (2, 3) or not all(is_finite_number(number) for number in numbers):
+        raise fault("must be a direction", "Write for example `[0.0, 1.0]`, and in space `[0.0, 0.0, 1.0]`.")
+    if not any(numbers):
+        raise fault("has no direction", "Write for example `[0.0, 1.0]`, and in space `[0.0, 0.0, 1.0]`.")
+    return tuple(float(number) for number in numbers)
 
 
 Pair = Annotated[tuple[float, float], PlainValidator(_pair)]
-Direction = Annotated[tuple[float, float], PlainValidator(_direction)]
+Direction = Annotated[tuple[float, ...], PlainValidator(_direction)]
 EachAngle = Annotated[Each[float], PlainValidator(OneOrEach(Finite))]
 
 
@@ -81,13 +83,13 @@ class Trajectory(Table):
 
 
 class Keep(Table):
-    """``[[control.keep]]``: a half-plane a part's outer end is to stay in, ``normal . position >= offset + margin``.
+    """``[[control.keep]]``: where a part's outer end is to stay, ``normal . position >= offset + margin``.
 
     Parameters
     ----------
     frame : str
         Name of the part.
-    normal : (x, y)
+    normal : (x, y), in space (x, y, z)
         Away from wall or floor, of any length.
     offset : float
         How far the wall is from the base along the normal, m.

@@ -19,6 +19,7 @@ from tmm_gen.control.credible import PATIENCE
 from tmm_gen.control.extended_kalman import NonlinearFilter
 from tmm_gen.control.kalman import present_sensors
 from tmm_gen.control.rti import RealTimeIteration
+from tmm_gen.control.walls import Wall
 from tmm_gen.onboard.emit import emit_controller, usual_controller
 from tmm_gen.onboard.native import EmittedController
 from tmm_gen.onboard.weight import weight_of
@@ -77,9 +78,9 @@ def test_the_goal_is_reached(bench: Bench, zero: EmittedController) -> None:
     assert not loop.fallbacks
 
 
-def test_a_reference_that_is_followed_is_that_of_python(bench: Bench) -> None:
-    """Full sensitivities; what cannot be reached leaves the reference as it was, and a step ends it."""
-    late = Bench.of(bench.scene.replace(**{"control.delay": 0.03, "control.bounds.torque_rate": 40.0}))
+def test_a_reference_that_is_followed_is_that_of_python(walled: Bench) -> None:
+    """Full sensitivities, into walls; what cannot be reached leaves the reference as it was, and a step ends it."""
+    late = Bench.of(walled.scene.replace(**{"control.delay": 0.03, "control.bounds.torque_rate": 40.0}))
     emitted, python = compiled(late, *emit_controller(late, "rti")), in_python(late, "rti")
     plant, horizon = plant_of(late.scene, late.problem, CONDITIONS[0]), late.problem.horizon
     share = np.clip((np.arange(40) - 3.0) / 16.0, 0.0, 1.0)[:, None]
@@ -99,6 +100,9 @@ def test_a_reference_that_is_followed_is_that_of_python(bench: Bench) -> None:
         assert found.status is expected.status is Status.OK
         plant.advance(expected.torque)
     assert plant.angles()[2] > 0.3
+    angles = np.array([state["angle"] for state in plant.states])
+    near = [Wall.of(plant.scene, keep).along(angles) - keep.offset for keep in late.problem.keeps]
+    assert np.min(near[0]) < 0.015  # the floor was met
 
 
 def test_what_holds_up_a_rigid_arm_is_a_sum_of_products(bench: Bench) -> None:

@@ -12,22 +12,55 @@ from tmm_gen.scene.problem import Finding, Path
 from tmm_gen.scene.table import closest
 
 _TRAJECTORY: Path = ("control", "trajectory")
+_SOLID = "beam, link or body"
+_NUMBERS = {2: "two", 3: "three"}
 
 
 def moves_by_parts(document: Document) -> Iterator[Finding]:
     """Find a trajectory, or half-planes, of an arm that is not by parts."""
-    if document.control is not None:
-        yield from in_a_plane_by_parts(document.control)
+    control = document.control
+    if control is None:
+        return
+    yield from no_trajectory(control)
+    if control.keep:
+        yield Finding(
+            ("control", "keep"),
+            "is for arms whose motors are parts by name",
+            "Remove the table, or write such an arm.",
+        )
 
 
-def in_a_plane_by_parts(control: Control) -> Iterator[Finding]:
-    """Find a trajectory, or half-planes, of another arm than a planar one by parts."""
-    for path, there in ((_TRAJECTORY, control.trajectory), (("control", "keep"), control.keep)):
-        if there:
+def no_trajectory(control: Control) -> Iterator[Finding]:
+    """Find a trajectory of another arm than a planar one by parts."""
+    if control.trajectory:
+        yield Finding(
+            _TRAJECTORY,
+            "is for planar arms whose motors are parts by name",
+            "Remove the table, or write such an arm.",
+        )
+
+
+def can_be_kept(control: Control, frames: tuple[str, ...], axes: str) -> Iterator[Finding]:
+    """Find walls of parts there are not, and normals of another dimension.
+
+    Parameters
+    ----------
+    frames : tuple of str
+        Names of the parts that move.
+    axes : {"xy", "xyz"}
+        Along which the arm moves.
+    """
+    kind = "part that moves" if len(axes) == 3 else _SOLID
+    for index, keep in enumerate(control.keep):
+        path: Path = ("control", "keep", index)
+        yield from _known((*path, "frame"), keep.frame, frames, kind)
+        if len(keep.normal) != len(axes):
+            upward = ", ".join("0.0" for _ in axes[1:])
             yield Finding(
-                path,
-                "is for planar arms whose motors are parts by name",
-                "Remove the table, or write such an arm.",
+                (*path, "normal"),
+                f"must be {_NUMBERS[len(axes)]} numbers: {', '.join(axes)}",
+                f"Write for example `[{upward}, 1.0]`: upward.",
+                list(keep.normal),
             )
 
 
@@ -44,8 +77,7 @@ def can_be_followed(document: PartsDocument, control: Control, motors: tuple[str
         Their names.
     """
     frames = tuple(part.name for part in document.expansion.parts if part.last)
-    for index, keep in enumerate(control.keep):
-        yield from _known(("control", "keep", index, "frame"), keep.frame, frames)
+    yield from can_be_kept(control, frames, "xy")
     way = control.trajectory
     if way is None:
         return
@@ -84,6 +116,6 @@ def can_be_followed(document: PartsDocument, control: Control, motors: tuple[str
                 )
 
 
-def _known(path: Path, frame: str | None, frames: tuple[str, ...]) -> Iterator[Finding]:
+def _known(path: Path, frame: str | None, frames: tuple[str, ...], kind: str = _SOLID) -> Iterator[Finding]:
     if frame is not None and frame not in frames:
-        yield Finding(path, "is not the name of a beam, link or body", closest(frame, frames), frame)
+        yield Finding(path, f"is not the name of a {kind}", closest(frame, frames), frame)

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from tmm_gen.scene.problem import Finding
 from tmm_gen.scene.rules.control_motors import motors_told
-from tmm_gen.scene.rules.control_trajectory import in_a_plane_by_parts
+from tmm_gen.scene.rules.control_trajectory import can_be_kept, no_trajectory
 from tmm_gen.scene.spatial.document import SpatialDocument
 
 
@@ -24,5 +24,7 @@ def motors_in_space_controlled(document: SpatialDocument) -> Iterator[Finding]:
         return
     numbers = document.expansion.numbers
     turned = {numbers[item.at] for item in document.input if item.acts == "torque"}
-    yield from in_a_plane_by_parts(control)
+    yield from no_trajectory(control)
+    frames = tuple(name for name, frame in document.expansion.frames.items() if frame.joint)
+    yield from can_be_kept(control, frames, "xyz")
     yield from motors_told(control, tuple(name for name, number in numbers.items() if number in turned))

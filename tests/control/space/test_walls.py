@@ -1,0 +1,68 @@
+"""Walls in space: where parts are, how that changes as joints turn, that real-time iterations keep away."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from tmm_gen.closed_loop.compare import compare
+from tmm_gen.closed_loop.plant import plant_scene
+from tmm_gen.control.bench import Bench
+from tmm_gen.control.condition import CONDITIONS
+from tmm_gen.control.controllers import BY_NAME
+from tmm_gen.control.walls import Wall
+from tmm_gen.errors import UserError
+from tmm_gen.modal.space.numbers import ArmNumbers
+from tmm_gen.modal.space.still import Still
+from tmm_gen.scene import SceneError, parse_scene
+
+
+def test_how_far_along_the_normal_a_part_is_and_what_turns_it_there(walled: Bench) -> None:
+    """Against the forms of small motion, which go from body to body."""
+    arm = walled.scene.spatial
+    assert arm is not None
+    numbers = ArmNumbers(arm)
+    angles = np.random.default_rng(3).uniform(-2.0, 2.0, (4, numbers.size))
+    for keep in walled.problem.keeps:
+        wall, normal = Wall.of(walled.scene, keep), np.array(keep.normal)
+        frame = next(each for each in arm.frames if each.name == keep.frame)
+        normal /= np.linalg.norm(normal)
+        for still, place, slopes in zip(
+            [Still(numbers, each, {}) for each in angles],
+            wall.along(angles),
+            wall.slopes(angles),
+            strict=True,
+        ):
+            assert_allclose(place, normal @ still.place(frame), atol=1e-14)
+            assert_allclose(slopes, normal @ still.moved(frame)[0][:, 6:], atol=1e-14)
+
+
+def test_real_time_iterations_keep_away_from_what_a_regulator_passes(walled: Bench) -> None:
+    """The arm that is controlled has more cells than the one thought of, and so bends otherwise."""
+    passing, keeping = compare(walled, [BY_NAME["lqr"], BY_NAME["rti"]], CONDITIONS[:1], duration=0.9)
+    assert passing.nearest is not None
+    assert keeping.nearest is not None
+    assert passing.nearest < -0.1
+    assert keeping.nearest > 0.0
+    assert not keeping.loop.fallbacks
+    angles, fine = keeping.loop.states[-1]["angle"], plant_scene(walled.scene, CONDITIONS[0])
+    for keep in walled.problem.keeps:  # both hold it up, at their margins, softly
+        there = Wall.of(fine, keep).along(angles[None])[0] - keep.offset
+        assert there == pytest.approx(keep.margin, abs=4e-3)
+
+
+def test_what_keeps_no_walls_says_so(walled: Bench, words: str) -> None:
+    for name in ("rti-zero", "nmpc", "mpc-links"):
+        with pytest.raises(UserError, match=r"keeps no control\.keep; take rti"):
+            BY_NAME[name].require_able(walled)
+    wall = '[[control.keep]]\nframe = "payload"\nnormal = [0, 0, 1]\noffset = -0.3\n'
+    assert parse_scene(words + wall, "reach.toml").control
+    for old, new, told in (
+        ("[0, 0, 1]", "[0, 1]", "must be three numbers: x, y, z"),
+        ("[0, 0, 1]", "[0, 0, 0]", "has no direction"),
+        ("[0, 0, 1]", "[0, 0, 0, 1]", "must be a direction"),
+        ("payload", "pay", "is not the name of a part that moves"),
+    ):
+        with pytest.raises(SceneError, match=told):
+            parse_scene(words + wall.replace(old, new), "reach.toml")
