@@ -186,7 +186,7 @@ def test_what_does_not_go_with_them_is_told_with_a_remedy(
     ("path", "told"),
     [
         ("scenes/cube.toml", "does not go with a base that floats yet"),
-        ("examples/space/arm6.toml", "does not go with arms in space yet"),
+        ("examples/space/satellite.toml", "does not go with a base that floats yet"),
         ("scenes/elbow.toml", "does not go with elastic gears yet"),
     ],
 )

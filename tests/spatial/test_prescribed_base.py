@@ -98,11 +98,12 @@ def driven(arm: SpatialArm) -> SpatialArm:
         ("newmark", SpaceChoices(1e-3, iterations=2), 2),
         ("generalized_alpha", SpaceChoices(1e-3, iterations=2), 2),
         ("sdirk4", SpaceChoices(1e-3, iterations=1, exact=True, held=True), 4),
+        ("gauss2", SpaceChoices(1e-3, iterations=3), 4),
     ],
-    ids=["newmark", "generalized-alpha", "sdirk4, exact"],
+    ids=["newmark", "generalized-alpha", "sdirk4, exact", "gauss2"],
 )
 def test_order(name: str, choices: SpaceChoices, order: int) -> None:
-    """Generalised alpha has its stage before the end of the step: the base is asked there too."""
+    """Generalised alpha and Gauss have their last stage before the end of the step: the base is asked there too."""
     arm = driven(random_arm(11, 3, tree=True, loads=False))
     fitted, _ = fitted_order(arm, package_of(arm, name, choices))
     assert fitted == pytest.approx(order, abs=SLOPE)

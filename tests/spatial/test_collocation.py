@@ -1,0 +1,147 @@
+"""Stages solved at once in space: orders, the same step in all backends, as many iterations as it takes."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from support.spatial.kernels import HEADED, package_of, program_of
+from support.spatial.random_arms import random_arm
+from support.spatial.yardsticks import cantilever
+
+from tmm_gen.inputs.signals import Sine
+from tmm_gen.native import compile_kernel
+from tmm_gen.native.python_module import casadi_module, numpy_module
+from tmm_gen.program.space.assemble import SpaceChoices
+from tmm_gen.program.statements import Loop
+from tmm_gen.reference.spatial_motion import motion
+from tmm_gen.scene import SceneError, parse_scene
+from tmm_gen.scene.spatial.arm import SpatialArm
+from tmm_gen.simulate.run import simulate
+from tmm_gen.verify.agreement import (
+    casadi_step,
+    largest_difference,
+    native_step,
+    numpy_step,
+    reached_vectors,
+)
+from tmm_gen.verify.check_row import SLOPE
+from tmm_gen.verify.spatial_order import fitted_order
+
+TOLERANCE, SINGLE = 1e-12, 2e-3
+ARM = """
+name = "swing"
+[model]
+kind = "spatial"
+gravity = [0, 0, -9.81]
+[integrator]
+name = "radau3"
+step = 0.01
+[base]
+kind = "clamp"
+[[motor]]
+name = "yaw"
+on = "base"
+axis = "z"
+rotor_inertia = 1e-3
+damping = 0.05
+[[joint]]
+name = "hinge"
+on = "yaw"
+at = [0.1, 0.0, 0.1]
+axis = "y"
+stiffness = 20.0
+damping = 0.05
+[[joint]]
+name = "elbow"
+on = "hinge"
+at = [0.3, 0.0, 0.0]
+axis = "y"
+stiffness = 10.0
+damping = 0.05
+[[body]]
+name = "rod"
+on = "hinge"
+mass = 0.5
+center = [0.15, 0.0, 0.0]
+inertia = [1e-3, 4e-3, 4e-3]
+[[body]]
+name = "load"
+on = "elbow"
+mass = 0.4
+center = [0.2, 0.0, 0.05]
+inertia = [1e-3, 2e-3, 2e-3]
+[[input]]
+name = "torque"
+at = "yaw"
+acts = "torque"
+[[output]]
+name = "elbow"
+at = "elbow"
+of = "angle"
+"""
+TORQUE = Sine(0.5, 6.0)
+
+
+def loaded() -> SpatialArm:
+    """Return a tree under forces and moments in world and body axes."""
+    return random_arm(4, 3, tree=True)
+
+
+def beam() -> SpatialArm:
+    """Return a beam, whose cells are loops."""
+    return replace(cantilever(4), gravity=(0.0, 0.0, -9.81))
+
+
+@pytest.mark.parametrize(
+    ("name", "iterations", "order"), [("radau2", 2, 3), ("radau3", 3, 5), ("gauss2", 2, 4), ("gauss3", 4, 6)]
+)
+def test_slope_is_the_derived_order(name: str, iterations: int, order: int) -> None:
+    """On a tree of joints about any axes, with springs, dampers, rotors and torques."""
+    arm = random_arm(5, 3, tree=True, loads=False)
+    fitted, _ = fitted_order(arm, package_of(arm, name, SpaceChoices(1e-3, iterations=iterations)))
+    assert fitted == pytest.approx(order, abs=2 * SLOPE if order == 6 else SLOPE)
+
+
+@pytest.mark.compiler
+@pytest.mark.parametrize(("arm", "name"), [(loaded(), "radau3"), (beam(), "gauss2")], ids=["tree", "beam"])
+def test_backends_take_the_same_step(arm: SpatialArm, name: str) -> None:
+    program = program_of(arm, name, SpaceChoices(1e-3, iterations=2))
+    module = numpy_module(HEADED, program)
+    ours = numpy_step(module, program)
+    vectors = list(reached_vectors(module, program, 2, relative=True))
+    native = native_step(compile_kernel(program, HEADED, flags=("-O0",)), program)
+    assert largest_difference(ours, native, vectors) < TOLERANCE
+    if name == "radau3":
+        models = casadi_step(casadi_module(HEADED, program), program)
+        assert largest_difference(ours, models, vectors) < TOLERANCE
+    else:
+        # cells come again and again in loops that do several joints at a time
+        assert any(s.stride > 1 for s in program.main.statements() if isinstance(s, Loop))
+        halved = HEADED.replace(**{"emit.real": "float32"})
+        single = native_step(compile_kernel(program, halved, flags=("-O0",)), program)
+        assert TOLERANCE < largest_difference(ours, single, vectors) < SINGLE
+
+
+def test_runs_iterate_as_often_as_it_takes() -> None:
+    """One iteration leaves more, and the reference tells how much."""
+    scene = parse_scene(ARM)
+    assert scene.spatial is not None
+    found = simulate(scene, {"torque": TORQUE}, 0.5)
+    assert found.sweeps_per_step is not None
+    assert 2.0 < found.sweeps_per_step < 8.0
+    exact = motion(scene.spatial, {"torque": TORQUE}, 0.01 * np.arange(1, 51))[0][:, 2]
+    once = numpy_module(scene.replace(**{"model.iterations": 1})).simulate(0.5, {"torque": TORQUE.at})
+    off, left = (float(np.max(np.abs(o["elbow"][1:] - exact))) for o in (found.outputs, once.outputs))
+    assert off < 1e-5
+    assert off < 0.2 * left
+
+
+def test_exact_slopes_are_refused_with_what_to_write() -> None:
+    text = ARM.replace('kind = "spatial"', 'kind = "spatial"\nlinearisation = "newton"')
+    with pytest.raises(SceneError, match='goes with linearisation = "inertial" in space') as caught:
+        parse_scene(text)
+    assert '`name = "sdirk4"`' in str(caught.value)
+    assert "radau3" not in parse_scene(text.replace("radau3", "sdirk4")).integrators
+    assert parse_scene(text.replace('"newton"', '"inertial"')).sweeps == 3
