@@ -1,4 +1,4 @@
-"""Half-planes and half-spaces that parts of the arm are to stay in: how far along the normals they are, what turns them."""
+"""Half-planes and half-spaces that parts of the arm are to stay in: how far along the normals, and what turns them."""
 
 from __future__ import annotations
 
