@@ -16,6 +16,7 @@ from tmm_gen.version import __version__
 
 if TYPE_CHECKING:
     from tmm_gen.api.arm import Arm
+    from tmm_gen.api.integrators import integrators
     from tmm_gen.api.load import load, parse
     from tmm_gen.api.profiles import chirp, ramp, sine, smooth, step
     from tmm_gen.api.sweep import sweep
@@ -28,6 +29,7 @@ __all__ = [
     "UserError",
     "__version__",
     "chirp",
+    "integrators",
     "load",
     "parse",
     "ramp",
@@ -39,6 +41,7 @@ __all__ = [
 
 _PLACES = {
     "Arm": "tmm_gen.api.arm",
+    "integrators": "tmm_gen.api.integrators",
     **dict.fromkeys(("load", "parse"), "tmm_gen.api.load"),
     **dict.fromkeys(("chirp", "ramp", "sine", "smooth", "step"), "tmm_gen.api.profiles"),
     "sweep": "tmm_gen.api.sweep",

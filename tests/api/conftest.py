@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import json
+import math
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 import pytest
 
 import tmm_gen as tg
+from tmm_gen.cli import main
 
 PLANAR: dict[str, Any] = {
     "name": "rod",
@@ -88,3 +92,35 @@ def shafts() -> tg.Arm:
 @pytest.fixture(scope="session")
 def probe() -> tg.Arm:
     return tg.Arm(AFLOAT)
+
+
+@pytest.fixture
+def said(capsys: pytest.CaptureFixture[str]) -> Callable[..., list[dict[str, Any]]]:
+    """Return the rows that a command prints as JSON."""
+
+    def command(*words: object) -> list[dict[str, Any]]:
+        capsys.readouterr()
+        assert main([*map(str, words), "--json"]) == 0
+        found: list[dict[str, Any]] = json.loads(capsys.readouterr().out)["rows"]
+        return found
+
+    return command
+
+
+@pytest.fixture
+def agree(said: Callable[..., list[dict[str, Any]]]) -> Callable[..., None]:
+    """Hold that rows are those of a command, to the last bit, but for columns that a clock fills, by how they begin."""
+
+    def plain(row: Mapping[str, Any], clocked: tuple[str, ...]) -> dict[str, Any]:
+        # JSON has no infinity
+        finite = {k: None if isinstance(v, float) and not math.isfinite(v) else v for k, v in row.items()}
+        kept = {k: v for k, v in finite.items() if not k.startswith(clocked)}
+        plain_one: dict[str, Any] = json.loads(json.dumps(kept, default=str))
+        return plain_one
+
+    def agreeing(found: Iterable[Mapping[str, Any]], *words: object, but: tuple[str, ...] = ()) -> None:
+        rows = [plain(row, but) for row in said(*words)]
+        assert rows
+        assert [plain(row, but) for row in found] == rows
+
+    return agreeing

@@ -81,8 +81,11 @@ def test_how_few_links(rod: tg.Arm, told: Callable[..., dict[str, object]]) -> N
     assert repr(found).startswith(f"<{found.links} links: ")
 
 
-def test_check(shafts: tg.Arm) -> None:
-    found = shafts.with_(emit__backends=["numpy", "casadi"]).check(brake=0.5)
+def test_check(shafts: tg.Arm, tmp_path: Path, said: Callable[..., list[dict[str, float]]]) -> None:
+    arm = shafts.with_(emit__backends=["numpy", "casadi"])
+    found = arm.check(brake=0.5)
+    rows = said("check", arm.save(tmp_path / "shafts.toml"), "--input", "brake=0.5")
+    assert [row.value for row in found.rows] == [row["value"] for row in rows]
     assert found
     assert found.rows[0].check == "numpy_against_casadi"
     assert repr(found) == f"<Check of shafts: everything holds, {len(found.rows)} comparisons>"
@@ -96,6 +99,8 @@ def test_build_and_casadi(shafts: tg.Arm, tmp_path: Path) -> None:
     assert (tmp_path / "shafts" / "kernel.py").is_file()
     assert repr(built) == f"<{tmp_path / 'shafts'}: built, {len(built.written)} files written>"
     assert shafts.build(tmp_path).state == "up to date"
+    # what is there is what the command would write
+    assert main(["build", str(shafts.save(tmp_path / "shafts.toml")), "--out", str(tmp_path), "--check"]) == 0
     with (tmp_path / "shafts" / "kernel.py").open("a") as file:
         file.write("# mine\n")
     with pytest.raises(tg.UserError, match=r"edited by hand .* or lose it with force=True"):
@@ -109,6 +114,9 @@ def test_export(rod: tg.Arm, tmp_path: Path) -> None:
     made = rod.export(tmp_path / "rod.xml")
     assert "</mujoco>" in made.file.read_text()
     assert isinstance(made.left_out, tuple)
+    theirs = tmp_path / "theirs.xml"
+    assert main(["export", str(rod.save(tmp_path / "rod.toml")), "--to", "mjcf", "--out", str(theirs)]) == 0
+    assert made.file.read_text() == theirs.read_text()
     for call, words in (
         (lambda: rod.export("rod.zip"), "must end in .fmu or .xml or .urdf"),
         (lambda: rod.export("rod.fmu", fmi=4), "fmi: must be 2 or 3, not 4"),  # type: ignore[arg-type]

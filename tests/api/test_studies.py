@@ -42,7 +42,9 @@ def test_explain(shafts: tg.Arm, tmp_path: Path, capsys: pytest.CaptureFixture[s
     assert found.statement in found._repr_html_()
 
 
-def test_stability(shafts: tg.Arm, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_stability(
+    shafts: tg.Arm, tmp_path: Path, agree: Callable[..., None], monkeypatch: pytest.MonkeyPatch
+) -> None:
     few = ("newmark", "sdirk4")  # the limits of all take seconds; tests of the command derive them
 
     def some(scene: Scene, wanted: Iterable[str] | None = None) -> list[Integrator]:
@@ -58,13 +60,14 @@ def test_stability(shafts: tg.Arm, monkeypatch: pytest.MonkeyPatch) -> None:
     assert repr(found) == "<Stability of shafts: sdirk4 is stable at any step>"
     assert "measured: the sdirk4 kernel grows as derived at all 4 steps" in found.statement
     assert len(found.plot().figure.axes) == 3
+    agree(found.rows, "stability", shafts.save(tmp_path / "shafts.toml"), "--cells", 0)
     assert "largest stable step (s)" in found._repr_html_()
     with pytest.raises(tg.UserError, match="draws maps, and cells=0 leaves them out"):
         replace(found, maps=()).plot()
 
 
 @pytest.mark.compiler
-def test_trade_and_tune(shafts: tg.Arm, tmp_path: Path) -> None:
+def test_trade_and_tune(shafts: tg.Arm, tmp_path: Path, agree: Callable[..., None]) -> None:
     found = shafts.trade(steps=[0.02, 0.01], **QUICK)  # type: ignore[arg-type]
     assert len(found) == len(found.rows) == 4
     errors = {row["configuration"]: row["error"] for row in found.rows if row["step"] == 0.01}
@@ -75,6 +78,9 @@ def test_trade_and_tune(shafts: tg.Arm, tmp_path: Path) -> None:
     assert "</svg>" in found.report(tmp_path / "page.html").read_text()
     assert found.plot().figure.axes
     assert "µs per simulated s" in found._repr_html_()
+    file, clocked = shafts.save(tmp_path / "shafts.toml"), ("ns_", "us_", "pareto")
+    words = ["--integrators", "newmark,sdirk4", "--until", 0.5, "--rounds", 1, "--input", "brake=0.5"]
+    agree(found.rows, "trade", file, "--steps", "0.02,0.01", *words, but=clocked)
 
     tuned = shafts.tune("1%", 1.0, **QUICK)  # type: ignore[arg-type]
     assert tuned
@@ -90,10 +96,12 @@ def test_trade_and_tune(shafts: tg.Arm, tmp_path: Path) -> None:
     )
     assert repr(tuned) == f"<Tuning of shafts: {tuned.integrator} at {tuned.step:.4g} s>"
     assert "within bounds" in tuned._repr_html_()
+    bounds = ["--max-error", "1%", "--max-time", "1s", "--out", tmp_path / "tuned.toml"]
+    agree(tuned.rows, "tune", file, *bounds, *words, but=clocked)
 
 
 @pytest.mark.compiler
-def test_mpc(swing: tg.Arm, tmp_path: Path) -> None:
+def test_mpc(swing: tg.Arm, tmp_path: Path, agree: Callable[..., None]) -> None:
     found = swing.mpc("pd", ["nominal", "soft"], until=0.2)
     assert [(row["controller"], row["condition"]) for row in found.rows] == [
         ("pd", "nominal"),
@@ -103,11 +111,13 @@ def test_mpc(swing: tg.Arm, tmp_path: Path) -> None:
     assert found[0].loop.tip.shape == (len(found[0].loop.time), 1)
     assert len(found.plot().figure.axes) == 4
     assert "solve (µs)" in found._repr_html_()
+    words = ["--controller", "pd", "--condition", "nominal", "--condition", "soft", "--until", 0.2]
+    agree(found.rows, "mpc", swing.save(tmp_path / "swing.toml"), *words, but=("solve",))
     assert "</script>" in found.animate(tmp_path / "arm.html").read_text()
 
 
 @pytest.mark.compiler
-def test_calibrate(swing: tg.Arm, stiffer: Run, tmp_path: Path) -> None:
+def test_calibrate(swing: tg.Arm, stiffer: Run, tmp_path: Path, agree: Callable[..., None]) -> None:
     key = "beam.bending_stiffness"
     found = swing.calibrate(stiffer, fit=key)
     assert found.values == pytest.approx({key: 15.0}, rel=1e-6)
@@ -115,6 +125,10 @@ def test_calibrate(swing: tg.Arm, stiffer: Run, tmp_path: Path) -> None:
     assert "change (%)" in found._repr_html_()
     assert repr(found).startswith("<Calibration of swing: beam.bending_stiffness = 15; ")
     assert found.deviations[key] < 1e-3
+    record, file = tmp_path / "record.csv", swing.save(tmp_path / "swing.toml")
+    stiffer.csv(record, inputs=True)
+    words = ["--fit", key, "--out", tmp_path / "fitted.toml"]
+    agree(swing.calibrate(record, fit=key).rows, "calibrate", file, record, *words)
 
     tip = stiffer["tip_y"].copy()
     tip[20] = np.nan  # a sample that is missing

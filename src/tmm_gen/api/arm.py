@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import cached_property
 from os import PathLike
+from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Literal, Unpack
 
@@ -14,10 +15,13 @@ from numpy.typing import NDArray
 from tmm_gen.api.changes import keys_of
 from tmm_gen.api.given import constants, free_angles, named, positive, required, signals
 from tmm_gen.api.guard import guarded
+from tmm_gen.api.picture import target_of
+from tmm_gen.api.several import Few, texts
 from tmm_gen.api.studied import Studied
 from tmm_gen.api.tables import Tables
 from tmm_gen.api.words import path_of, whole
 from tmm_gen.errors import UserError
+from tmm_gen.files import write_whole
 from tmm_gen.scene import scene_from
 
 if TYPE_CHECKING:
@@ -280,6 +284,30 @@ class Arm(Studied):
         from tmm_gen.api.exported import exported
 
         return exported(self.scene, file, fmi, cc)
+
+    @guarded
+    def playground(
+        self, file: str | PathLike[str], *, integrators: Few = None, until: float | None = None
+    ) -> Path:
+        """Write one page on which anybody plays with it, as WebAssembly; needs the extra `playground`.
+
+        Parameters
+        ----------
+        file : str or path
+            Ends in ``.html``.
+        integrators : str or iterable of str, optional
+            To choose from, besides its own and ``sdirk4``; by default ``newmark``, ``bathe``, ``houbolt``, ``zhai``.
+        until : float, optional
+            Length of a run, s; by default five slow periods, or fewer.
+        """
+        from tmm_gen.playground.page import playground
+
+        target = target_of(file, (".html",))
+        write_whole(
+            target,
+            playground(self.scene, texts("integrators", integrators), positive("until", until, "seconds")),
+        )
+        return target
 
     @guarded
     def casadi(self) -> ModuleType:

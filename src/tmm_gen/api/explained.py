@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from tmm_gen.api.html import html_table
@@ -69,6 +70,6 @@ class Explained:
         return html_table(headline(self.explanation), _COLUMNS, self.rows, self.statement.splitlines())
 
 
-def explained(scene: Scene) -> Explained:
-    """Return what a scene models."""
-    return Explained(explanation_of(scene))
+def explained(scene: Scene, advance: Callable[[str], None] = lambda term: None) -> Explained:
+    """Return what a scene models; ``advance`` hears of each term as it is counted."""
+    return Explained(explanation_of(scene, advance))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from os import PathLike
 from typing import Any
@@ -82,7 +83,12 @@ class Stability:
     @property
     def statement(self) -> str:
         """Of what the growth is, and whether kernels grow like that, in sentences."""
-        return "\n".join(notes_of(self.motion, self.standings, self.maps)[1:])
+        return "\n".join(self.notes[1:])
+
+    @property
+    def notes(self) -> list[str]:
+        """What ``tmm-gen stability`` says below its table."""
+        return notes_of(self.motion, self.standings, self.maps)
 
     @guarded
     def plot(self, file: str | PathLike[str] | None = None) -> Picture:
@@ -120,9 +126,23 @@ def stability_of(scene: Scene, maps: Few, cells: int | None, start: NDArray[np.f
     names = mapped_integrators(texts("maps", maps) or (scene.integrator.name,))
     columns = None if cells is None else whole("cells", cells, 0)
     motion = small_motion(scene, start)
-    found = standings(motion, scene_integrators(scene))
-    measured = []
-    if columns != 0:
-        wide = columns or sensible_columns(scene)
-        measured = [growth_map(motion, method, wide) for method in scene_integrators(scene, names)]
-    return Stability(motion, tuple(found), tuple(measured))
+    return Stability(motion, stands(motion), measured(motion, names, columns))
+
+
+def stands(motion: SmallMotion, advance: Callable[[str], None] = lambda name: None) -> tuple[Standing, ...]:
+    """Return where an arm stands with every integrator; ``advance`` hears of each."""
+    return tuple(standings(motion, scene_integrators(motion.scene), advance))
+
+
+def measured(
+    motion: SmallMotion,
+    names: list[str],
+    cells: int | None,
+    advance: Callable[[int], None] = lambda cells: None,
+) -> tuple[GrowthMap, ...]:
+    """Return maps of growth, none for no cells; ``advance`` hears of parts."""
+    if cells == 0:
+        return ()
+    columns = cells or sensible_columns(motion.scene)
+    methods = scene_integrators(motion.scene, names)
+    return tuple(growth_map(motion, method, columns, advance) for method in methods)

@@ -12,7 +12,7 @@ from tmm_gen.cli.console import Column, progress, table
 from tmm_gen.cli.hints import hinted
 
 if TYPE_CHECKING:
-    from tmm_gen.explain.explanation import Explanation
+    from tmm_gen.api.explained import Explained
 
 # SymPy is imported inside: `tmm-gen --help` has no use for it.
 
@@ -30,16 +30,16 @@ def explain(scene: Path, changes: tuple[str, ...], json_mode: bool) -> None:
     loaded = changed_scene(scene, changes)
     found_hints = hinted(loaded, json_mode)
     with progress(f"counting {loaded.name}") as advance:
-        from tmm_gen.explain.explain import explain as explained
+        from tmm_gen.api.explained import explained
 
         found = explained(loaded, lambda term: advance(1, doing=f"counted {term}"))
     _show(found, found_hints, json_mode)
 
 
-def _show(found: Explanation, hints: list[str], json_mode: bool) -> None:
-    from tmm_gen.explain.rows import beam_rows, beam_sentences, headline, term_row, whole_sentence
+def _show(found: Explained, hints: list[str], json_mode: bool) -> None:
+    from tmm_gen.explain.rows import beam_rows, beam_sentences, headline, whole_sentence
 
-    scene, own, everything = found.scene, found.own, found.everything
+    scene, own, everything = found.explanation.scene, found.cost, found.everything
     facts = {
         "scene": scene.name,
         "stations": scene.stations,
@@ -63,10 +63,10 @@ def _show(found: Explanation, hints: list[str], json_mode: bool) -> None:
         Column("state_bytes", "bytes of state", "+d"),
         Column("model_bytes", "of model", "+d"),
     ]
-    table([term_row(each) for each in found.terms], columns, json_mode, title=headline(found), more=facts)
+    table(found.rows, columns, json_mode, title=headline(found.explanation), more=facts)
     if json_mode:
         return
     for line in beam_sentences(scene):
         click.echo(line)
     click.echo("modelled: what the term costs; left out: what it would cost, and leaving it out saves")
-    click.echo(whole_sentence(found))
+    click.echo(whole_sentence(found.explanation))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import click
@@ -12,8 +11,6 @@ from tmm_gen.cli.console import Column, progress, table
 
 if TYPE_CHECKING:
     import sympy as sp
-
-    from tmm_gen.derive.integrators.analysis import Analysis
 
 # SymPy is imported inside: `tmm-gen --help` has no use for it.
 
@@ -36,15 +33,15 @@ def _finite(_context: click.Context, _parameter: click.Parameter, value: float) 
 )
 def integrators(json_mode: bool, zeta: float) -> None:
     """Show order, stability and dissipation of every integrator, derived from its declaration."""
-    from tmm_gen.derive.integrators.analysis import analyse
-    from tmm_gen.derive.integrators.registry import all_integrators
+    from tmm_gen.api.integrators import derived
+    from tmm_gen.derive.integrators.registry import names
 
-    methods = all_integrators()
-    rows = []
-    with progress("deriving", total=len(methods)) as advance:
-        for method in methods:
-            rows.append(_row(analyse(method, zeta), _exact if json_mode else _rounded))
-            advance(doing=f"derived {method.name}")
+    with progress("deriving", total=len(names())) as advance:
+        found = derived(zeta, advance=lambda name: advance(1, doing=f"derived {name}"))
+    rows = found.rows
+    if not json_mode:
+        for row, analysis in zip(rows, found, strict=True):
+            row |= {key: _rounded(getattr(analysis, key)) for key in ("period_error", "numerical_damping")}
     table(
         rows,
         [
@@ -64,34 +61,6 @@ def integrators(json_mode: bool, zeta: float) -> None:
         title="Ω = frequency in rad/s times step; period error and numerical damping ratio: leading terms",
         more={"zeta": zeta},
     )
-
-
-def _row(analysis: Analysis, term: Callable[[sp.Expr], str]) -> dict[str, object]:
-    """Return an analysis as plain data; `term` writes the leading terms."""
-    return {
-        "name": analysis.name,
-        "title": analysis.title,
-        "source": analysis.source,
-        "parameters": {name: float(value) for name, value in analysis.parameters.items()},
-        "order": analysis.order,
-        "stages": analysis.stages,
-        "startup_steps": analysis.startup_steps,
-        "history_depth": analysis.history_depth,
-        "explicit": analysis.explicit,
-        "unconditionally_stable": bool(analysis.stability_limit.is_infinite),
-        "stability_limit": float(analysis.stability_limit),
-        "stability_limit_exact": _exact(analysis.stability_limit),
-        "stability_limit_damped": float(analysis.stability_limit_damped),
-        "stability_limit_damped_exact": _exact(analysis.stability_limit_damped),
-        "rho_infinity": float(analysis.rho_infinity),
-        "period_error": term(analysis.period_error),
-        "numerical_damping": term(analysis.numerical_damping),
-    }
-
-
-def _exact(value: sp.Expr) -> str:
-    """Return an exact value as text; "inf" as the numbers beside it would be written."""
-    return "inf" if value.is_infinite else str(value).replace("**", "^")
 
 
 def _rounded(term: sp.Expr) -> str:

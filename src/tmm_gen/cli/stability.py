@@ -15,7 +15,7 @@ from tmm_gen.cli.near import near_option
 from tmm_gen.cli.outputs import claim, write_outputs
 
 if TYPE_CHECKING:
-    from tmm_gen.stability.limits import Standing
+    from tmm_gen.api.stability import Stability
     from tmm_gen.stability.map import GrowthMap
     from tmm_gen.stability.motion import SmallMotion
 
@@ -67,33 +67,29 @@ def stability(
     if picture is not None and cells == 0:
         raise click.UsageError("--plot draws maps: leave out --cells 0.")
     with progress(f"modes of {loaded.name}", total=len(loaded.integrators)) as advance:
-        from tmm_gen.stability.limits import scene_integrators, standings
+        from tmm_gen.api.stability import Stability, stands
         from tmm_gen.stability.motion import small_motion
 
         motion = small_motion(loaded, start)
-        found = standings(motion, scene_integrators(loaded), lambda name: advance(1, doing=f"derived {name}"))
-    maps = _measure(motion, chosen, cells)
-    files = _draw(maps, picture, loaded.name)
-    _show(motion, found, maps, files, json_mode)
-    return int(any(each.differs.any() for each in maps))
+        standings = stands(motion, lambda name: advance(1, doing=f"derived {name}"))
+    found = Stability(motion, standings, _measured(motion, chosen, cells))
+    _show(found, _draw(found.maps, picture, loaded.name), json_mode)
+    return int(not found.agrees)
 
 
-def _measure(motion: SmallMotion, names: list[str], cells: int | None) -> list[GrowthMap]:
+def _measured(motion: SmallMotion, names: list[str], cells: int | None) -> tuple[GrowthMap, ...]:
     """Derive and measure maps; none for zero cells."""
     if cells == 0:
-        return []
-    from tmm_gen.stability.limits import scene_integrators
-    from tmm_gen.stability.map import growth_map, map_cells, sensible_columns
+        return ()
+    from tmm_gen.api.stability import measured
+    from tmm_gen.stability.map import map_cells, sensible_columns
 
     columns = cells or sensible_columns(motion.scene)
     with progress("measuring growth", total=2 * map_cells(columns) * len(names)) as advance:
-        return [
-            growth_map(motion, method, columns, lambda done: advance(done))
-            for method in scene_integrators(motion.scene, names)
-        ]
+        return measured(motion, names, columns, lambda done: advance(done))
 
 
-def _draw(maps: list[GrowthMap], file: Path | None, name: str) -> list[Path]:
+def _draw(maps: tuple[GrowthMap, ...], file: Path | None, name: str) -> list[Path]:
     if file is None:
         return []
     from tmm_gen.stability.picture import map_picture
@@ -104,11 +100,8 @@ def _draw(maps: list[GrowthMap], file: Path | None, name: str) -> list[Path]:
     return write_outputs({target: image})
 
 
-def _show(
-    motion: SmallMotion, found: list[Standing], maps: list[GrowthMap], files: list[Path], json_mode: bool
-) -> None:
-    from tmm_gen.stability.rows import standing_row
-
+def _show(found: Stability, files: list[Path], json_mode: bool) -> None:
+    motion, maps = found.motion, found.maps
     scene, highest = motion.scene, motion.highest
     h = scene.integrator.step
     zeta = highest.damping_ratio or 0.0
@@ -139,15 +132,10 @@ def _show(
         Column("margin", "margin", _margin, "right"),
         Column("verdict"),
     ]
-    table([standing_row(each, h) for each in found], columns, json_mode, title=title, more=facts)
-    if not json_mode:
-        _say(motion, found, maps, files)
-
-
-def _say(motion: SmallMotion, found: list[Standing], maps: list[GrowthMap], files: list[Path]) -> None:
-    from tmm_gen.stability.rows import notes_of
-
-    for note in notes_of(motion, found, maps):
+    table(found.rows, columns, json_mode, title=title, more=facts)
+    if json_mode:
+        return
+    for note in found.notes:
         click.echo(note)
     say_written(files, "--plot draws the map, --map INTEGRATOR measures another" if maps else "")
 
