@@ -12,7 +12,7 @@ from dataclasses import replace
 import sympy as sp
 
 from tmm_gen.derive.station.lets import Let, Line, Pivot
-from tmm_gen.derive.station.shaft import TORQUES, UNKNOWN, Shaft
+from tmm_gen.derive.station.shaft import OWN, TORQUES, UNKNOWN, Shaft
 from tmm_gen.program.statements import Assign, Require
 from tmm_gen.program.variables import Ref, local
 from tmm_gen.scene.spatial.arm import UPRIGHT, ZERO, RigidBody, SpatialArm
@@ -91,16 +91,22 @@ class ElasticGear:
         """Return the torque of both together, and what of it remains for the way back."""
         return self._written(self._known, {_TORQUE: target})
 
-    def answer(self, shaft: Ref, joint: Ref) -> list[Assign | Require]:
+    def answer(self, shaft: Ref, joint: Ref, *, again: bool) -> list[Assign | Require]:
         """Return what each of both does, by what the sweep has found both to do.
 
         The gear's twist is written first, not as a difference: it may be many orders smaller.
+
+        Parameters
+        ----------
+        again : bool
+            Whether a sweep before has brought the torques on both sides of the shaft together.
         """
         twist = self._shaft.answer(_TURN, sp.Integer(0))
-        written = self._written([*self._answer, twist], {_FOUND: joint, UNKNOWN: joint})
+        known: dict[sp.Symbol, sp.Expr] = {_FOUND: joint, UNKNOWN: joint}
+        written = self._written([*self._answer, twist], known | ({OWN: sp.Integer(0)} if again else {}))
         return [*written, Assign(shaft, self._names[_TURN] - joint)]
 
-    def _written(self, lines: list[Line], values: Mapping[sp.Symbol, Ref]) -> list[Assign | Require]:
+    def _written(self, lines: list[Line], values: Mapping[sp.Symbol, sp.Expr]) -> list[Assign | Require]:
         names = {**self._names, **values}
         found: list[Assign | Require] = []
         for line in lines:

@@ -81,17 +81,38 @@ class JointLaws:
             statements += gear.known(target.entry(k + 1))
         return Section("torques of the joints' own", tuple(statements))
 
-    def answers(self, found: Variable) -> Section:
+    def moved_torques(self, target: Variable, impedance: Variable, found: Variable) -> Section:
+        """Return what changes these torques by what the sweep before has found joints to do: laws are linear.
+
+        Parameters
+        ----------
+        target, impedance, found : Variable
+            Arrays over the joints: torques, torques per unknown, unknowns.
+        """
+        if self._impedance(None) == 0:
+            return Section("torques of the joints' own", ())
+        changed = Assign(target.at(), target.at() + impedance.at() * found.at())
+        statements: list[Statement] = [
+            Loop(Order.OUTWARD, start, stop, (changed,)) for start, stop in self._stretches
+        ]
+        for k in sorted(self.layout.tree.shafts):
+            both = impedance.at() * (found.at(-1) + found.at())
+            statements.append(Loop(Order.OUTWARD, k + 1, k + 2, (Assign(target.at(), target.at() + both),)))
+        return Section("torques of the joints' own", tuple(statements))
+
+    def answers(self, found: Variable, *, again: bool) -> Section:
         """Return what sets what shafts and the joints behind them do, by what the sweep found both to do.
 
         Parameters
         ----------
         found : Variable
             Array over the joints.
+        again : bool
+            Whether a sweep before has brought the torques on both sides of each shaft together.
         """
         statements: list[Statement] = []
         for k, gear in self._gears().items():
-            statements += gear.answer(found.entry(k), found.entry(k + 1))
+            statements += gear.answer(found.entry(k), found.entry(k + 1), again=again)
         return Section("what shafts do, and their gears", tuple(statements))
 
     @property

@@ -116,7 +116,7 @@ class SpaceStep:
             *loads_on_frames(self.layout, walks, read),
             walks.inward(still=still),
             walks.back(still=still),
-            laws.answers(walks.array(OWN)),
+            laws.answers(walks.array(OWN), again=False),
         ]
         if self.auto:
             rounds = f"corrections, until one changes next to nothing, {MOST_SWEEPS} at most"
@@ -149,12 +149,12 @@ class SpaceStep:
                     *self._given(index),
                 ),
             ),
-            self._torques(laws, index, walks, frozenset()),
+            laws.moved_torques(walks.array(TORQUE), walks.array(IMPEDANCE), walks.array(OWN)),
             walks.outward(still=False),
             *loads_on_frames(self.layout, walks, self._read(index)),
             walks.inward(still=False) if self.exact else walks.again(),
             walks.back(still=False),
-            laws.answers(walks.array(OWN)),
+            laws.answers(walks.array(OWN), again=True),
         ]
 
     def _cleared(self, still: bool) -> list[Section]:
