@@ -3,10 +3,10 @@
     python benchmarks/space_time_to_error.py --pinocchio out/pin/cmeel.prefix --update
 
 The arms, torques and peers of `space_speed.py`, whose peers take Newmark's steps. tmm-gen takes Newmark's, those of
-sdirk4 with two corrections a stage and with one exact sweep, and those of radau3 in two iterations. Error: the largest of the tip's place at 0.05, 0.1, 0.15
-and 0.2 s against the reference. For each the fewest steps with the wanted error are sought, to 3 %, and the time of so
-many steps is taken in turns with the others (thread time, medians, medians of ratios). `--update` writes the table into
-docs/space.md.
+sdirk4 with two corrections a stage and with one exact sweep, and those of radau3 in two iterations. Error: the largest
+of the tip's place at 0.05, 0.1, 0.15 and 0.2 s against the reference. For each the fewest steps with the wanted error
+are sought, to 3 %, and the time of so many steps is taken in turns with the others (thread time, medians, medians of
+ratios). `--update` writes the table into docs/space.md.
 """
 
 from __future__ import annotations
