@@ -1,6 +1,6 @@
 """Pick and place with the arm of two motors: how its end trembles at stops, by controller, with payloads told or not.
 
-    python benchmarks/pick_and_place.py [--evaluations 40] [--loops 5] [--out out/bench] [--update]
+    python benchmarks/pick_and_place.py [--evaluations 24] [--loops 5] [--out out/bench] [--update]
 
 The gripper (0.1 kg) fetches one object and then another from below and lays them down above, along quintics. Where it
 goes next nobody knows before it sets off; weights come on the arm at that moment, and leave it likewise. Each
@@ -259,7 +259,7 @@ def section(rows: Sequence[dict[str, object]]) -> str:
 def main() -> None:
     """Run, print and keep."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
-    parser.add_argument("--evaluations", type=int, default=40, help="loops of each search")
+    parser.add_argument("--evaluations", type=int, default=24, help="loops of each search")
     parser.add_argument("--loops", type=int, default=5, help="that judge a controller")
     parser.add_argument("--out", type=Path, default=Path("out/bench"))
     parser.add_argument("--update", action="store_true", help=f"renew {PAGE.name}")
