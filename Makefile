@@ -47,9 +47,14 @@ check: $(CORE)  ## fail where generated/ differs from what scenes/ give
 	$(TMM) build --check
 	$(TMM) build examples/firmware/beam5.toml --out examples/firmware/generated --check
 
-PLAYGROUNDS := $(addprefix out/playground/, elbow.html arm10.html thesis10.html yaw3.html)
+# Playgrounds of the site: PLAYGROUNDS=all has one for each scene of the gallery, and takes five minutes; a playground
+# shows no base that an input moves and none that floats in space.
+UNPLAYED := scenes/arm50.toml examples/space/satellite.toml
+PLAYED := $(notdir $(basename $(filter-out $(UNPLAYED), $(wildcard scenes/*.toml examples/space/*.toml))))
+PLAYGROUNDS := elbow arm10 thesis10 yaw3
+PAGES = $(patsubst %, out/playground/%.html, $(if $(filter all, $(PLAYGROUNDS)), $(PLAYED), $(PLAYGROUNDS)))
 
-site: $(SITE) $(PLAYGROUNDS)  ## the documentation as a site in out/site; fails at any warning, broken link or page too wide
+site: $(SITE) $(PAGES)  ## the documentation as a site in out/site; fails at any warning, broken link or page too wide
 	NO_MKDOCS_2_WARNING=1 $(PY) -m mkdocs build --quiet --strict --config-file website/mkdocs.yml
 	$(PY) website/check.py out/site
 

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from tmm_gen.playground.page import refusal
 from tmm_gen.scene import Scene, load_scene
 from tmm_gen.simulate.places import node_places, outline
 from tmm_gen.simulate.skeleton import Skeleton
@@ -34,10 +35,15 @@ def cards(root: Path, playgrounds: set[str], sources: str) -> str:
         for path in sorted((root / folder).glob("*.toml")):
             scene = load_scene(path)
             links = [f'<a href="{sources}/{folder}/{path.name}.txt">scene file</a>']
+            picture = _drawn(scene)
             if scene.name in playgrounds:
-                links.insert(0, f'<a href="playground/{scene.name}.html">play with it</a>')
+                page = f'<a href="playground/{scene.name}.html"'
+                links.insert(0, f"{page}>play with it</a>")
+                picture = f'{page} title="Play with {scene.name}">{picture}</a>'
+            elif (why := refusal(scene)) is not None:
+                links.append(f"no playground: {html.escape(why[0])}")
             found.append(
-                f'<section><h3 id="{scene.name}">{scene.name}</h3>{_drawn(scene)}<p>{html.escape(scene.title)}.</p>'
+                f'<section><h3 id="{scene.name}">{scene.name}</h3>{picture}<p>{html.escape(scene.title)}.</p>'
                 f"<p>{_summary(path.read_text())}</p><p>{', '.join(links)}</p></section>"
             )
     return f'<div class="cards">{"".join(found)}</div>'

@@ -45,6 +45,22 @@ def served_names(scene: Scene, names: Sequence[str]) -> tuple[str, ...]:
     return tuple(dict.fromkeys(own))
 
 
+def refusal(scene: Scene) -> tuple[str, str] | None:
+    """Return why no page shows a scene yet, to be read after its name, and what helps; None where one does."""
+    if scene.motions:
+        remedy = (
+            'Give the base kind = "motor" and an input that acts = "torque"'
+            if scene.spatial is None
+            else 'Write kind = "clamp" under [base], and a [[motor]] on it where the base turns'
+        )
+        moved = f"the input '{scene.motions[0].name}' moves the base, which a playground does not show yet"
+        return moved, f"{remedy}."
+    if scene.spatial is not None and scene.spatial.base is not None:
+        remedy = '`tmm-gen run --animate FILE.html` does; or write kind = "clamp" under [base].'
+        return "its base floats in space, which a playground does not show yet", remedy
+    return None
+
+
 def require_played(scene: Scene) -> None:
     """Refuse a scene that no page shows yet.
 
@@ -53,21 +69,9 @@ def require_played(scene: Scene) -> None:
     UserError
         Where the base is moved by an input, or floats in space.
     """
-    if scene.motions:
-        remedy = (
-            'Give the base kind = "motor" and an input that acts = "torque"'
-            if scene.spatial is None
-            else 'Write kind = "clamp" under [base], and a [[motor]] on it where the base turns'
-        )
-        raise UserError(
-            f"scene '{scene.name}': the input '{scene.motions[0].name}' moves the base, which a playground does not "
-            f"show yet. {remedy}."
-        )
-    if scene.spatial is not None and scene.spatial.base is not None:
-        raise UserError(
-            f"scene '{scene.name}': its base floats in space, which a playground does not show yet. "
-            '`tmm-gen run --animate FILE.html` does; or write kind = "clamp" under [base].'
-        )
+    if (found := refusal(scene)) is not None:
+        why, remedy = found
+        raise UserError(f"scene '{scene.name}': {why}. {remedy}")
 
 
 def playground(
