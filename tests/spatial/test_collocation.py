@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from support.spatial.kernels import HEADED, package_of, program_of
 from support.spatial.random_arms import random_arm
-from support.spatial.yardsticks import cantilever
 
 from tmm_gen.inputs.signals import Sine
 from tmm_gen.native import compile_kernel
@@ -89,9 +86,17 @@ def loaded() -> SpatialArm:
     return random_arm(4, 3, tree=True)
 
 
-def beam() -> SpatialArm:
-    """Return a beam, whose cells are loops."""
-    return replace(cantilever(4), gravity=(0.0, 0.0, -9.81))
+def rope() -> SpatialArm:
+    """Return like joints one behind the other, which are a loop."""
+    begin, _, end = ARM.partition("[[motor]]")
+    end = end[end.index("[[output]]") :].replace('"elbow"', '"j4"')
+    for k in range(5):
+        begin += f'[[joint]]\nname = "j{k}"\non = "{f"j{k - 1}" if k else "base"}"\nat = [0.2, 0.0, 0.0]\n'
+        begin += 'axis = "y"\nstiffness = 9.0\ndamping = 0.02\n'
+        begin += f'[[body]]\nname = "b{k}"\non = "j{k}"\nmass = 0.1\ncenter = [0.1, 0.0, 0.0]\n'
+    arm = parse_scene(begin + end).spatial
+    assert arm is not None
+    return arm
 
 
 @pytest.mark.parametrize(
@@ -105,7 +110,7 @@ def test_slope_is_the_derived_order(name: str, iterations: int, order: int) -> N
 
 
 @pytest.mark.compiler
-@pytest.mark.parametrize(("arm", "name"), [(loaded(), "radau3"), (beam(), "gauss2")], ids=["tree", "beam"])
+@pytest.mark.parametrize(("arm", "name"), [(loaded(), "radau3"), (rope(), "gauss2")], ids=["tree", "rope"])
 def test_backends_take_the_same_step(arm: SpatialArm, name: str) -> None:
     program = program_of(arm, name, SpaceChoices(1e-3, iterations=2))
     module = numpy_module(HEADED, program)
@@ -116,9 +121,8 @@ def test_backends_take_the_same_step(arm: SpatialArm, name: str) -> None:
     if name == "radau3":
         models = casadi_step(casadi_module(HEADED, program), program)
         assert largest_difference(ours, models, vectors) < TOLERANCE
-    else:
-        # cells come again and again in loops that do several joints at a time
-        assert any(s.stride > 1 for s in program.main.statements() if isinstance(s, Loop))
+    else:  # in loops, like joints as one
+        assert any((s.start, s.stop) == (1, 4) for s in program.main.statements() if isinstance(s, Loop))
         halved = HEADED.replace(**{"emit.real": "float32"})
         single = native_step(compile_kernel(program, halved, flags=("-O0",)), program)
         assert TOLERANCE < largest_difference(ours, single, vectors) < SINGLE
@@ -130,12 +134,12 @@ def test_runs_iterate_as_often_as_it_takes() -> None:
     assert scene.spatial is not None
     found = simulate(scene, {"torque": TORQUE}, 0.5)
     assert found.sweeps_per_step is not None
-    assert 2.0 < found.sweeps_per_step < 8.0
+    assert 1.0 < found.sweeps_per_step < 4.0
     exact = motion(scene.spatial, {"torque": TORQUE}, 0.01 * np.arange(1, 51))[0][:, 2]
     once = numpy_module(scene.replace(**{"model.iterations": 1})).simulate(0.5, {"torque": TORQUE.at})
     off, left = (float(np.max(np.abs(o["elbow"][1:] - exact))) for o in (found.outputs, once.outputs))
     assert off < 1e-5
-    assert off < 0.2 * left
+    assert off < 0.3 * left
 
 
 def test_exact_slopes_are_refused_with_what_to_write() -> None:
