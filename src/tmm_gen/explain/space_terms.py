@@ -15,7 +15,8 @@ _MORE = 1e-3
 
 def space_terms(scene: Scene, arm: SpatialArm) -> list[Term]:
     """Return the terms of an arm in space, in the order of its file."""
-    return [_gravity(arm), _rounds(scene), _linearisation(scene), _damping(arm), _rotors(arm)]
+    slopes = [] if scene.coupled else [_linearisation(scene)]  # stages solved at once have one form
+    return [_gravity(arm), _rounds(scene), *slopes, _damping(arm), _rotors(arm)]
 
 
 def _gravity(arm: SpatialArm) -> Term:

@@ -65,7 +65,10 @@ class WholeStep:
     @property
     def size(self) -> int:
         """Rows of the matrix."""
-        return len(self._values) * len(self._stiffness)
+        kept = len(self._values)
+        if self._scheme.coupled:  # and iterations begin on the stages of the last step
+            kept = 2 + (len(self._scheme.stages) if self._left is not None else 0)
+        return kept * len(self._stiffness)
 
     def matrix(self, step: float) -> Array:
         """Return the amplification matrix at a step in s, (size, size), of the history in units of steps."""
@@ -80,7 +83,8 @@ class WholeStep:
 
         damping, stiffness = step * self._damping, step**2 * self._stiffness
         if self._scheme.coupled:
-            return self._at_once(damping, stiffness)
+            left = None if self._left is None else step**2 * self._left
+            return self._at_once(damping, stiffness, left)
         gains, offsets, update = self._numbers
         for index, (gain, offset) in enumerate(zip(gains, offsets, strict=True), start=1):
             known = {kind: linear(offset[kind]) for kind in KINDS}
@@ -93,8 +97,14 @@ class WholeStep:
         new = [linear(update[p.kind]) if p.lag == 0 else rows[past(p.kind, p.lag - 1)] for p in self._values]
         return np.vstack(new)
 
-    def _at_once(self, damping: Array, stiffness: Array) -> Array:
-        """Return it where all stages are solved at once, from their accelerations by the motion before."""
+    def _at_once(self, damping: Array, stiffness: Array, left: Array | None) -> Array:
+        """Return it where all stages are solved at once, from their accelerations by the motion before.
+
+        Parameters
+        ----------
+        left : array, (modes, modes), optional
+            What of the stiffness sweeps leave out: accelerations at the stages are then part of the history.
+        """
         spectrum = spectrum_of(self._scheme)
         weights, squared, nodes = (
             np.array(each.tolist(), float)
@@ -105,13 +115,22 @@ class WholeStep:
         system += np.kron(squared, np.diag(stiffness))
         still = np.kron(np.ones_like(nodes), np.diag(stiffness))
         moving = np.kron(nodes, np.diag(stiffness)) + np.kron(np.ones_like(nodes), damping)
-        found = -np.linalg.solve(system, np.hstack([still, moving]))
+        missing = np.hstack([still, moving])
+        if left is None:
+            found = -np.linalg.solve(system, missing)
+        else:
+            assert self._rounds is not None
+            ahead = np.kron(np.array(spectrum.ahead.tolist(), float), eye)
+            found = np.hstack([np.zeros_like(missing), ahead])
+            missing = np.hstack([missing, np.zeros_like(ahead)])
+            for _ in range(self._rounds.count):
+                found = found - np.linalg.solve(system - np.kron(squared, left), missing + system @ found)
         ends = {kind: np.array([float(w) for w in row]) for kind, row in spectrum.ends.items()}
         place, rate = (np.kron(ends[kind][None, :], eye) @ found for kind in ("q", "v"))
         place[:, :modes] += eye
-        place[:, modes:] += eye
-        rate[:, modes:] += eye
-        return np.vstack([place, rate])
+        place[:, modes : 2 * modes] += eye
+        rate[:, modes : 2 * modes] += eye
+        return np.vstack([place, rate] if left is None else [place, rate, found])
 
     def _solved(self, effective: Array, missing: Array, turned: float, latest: Array | None) -> Array:
         """Return what solves a stage, or what sweeps make of it, (modes, size).
