@@ -278,6 +278,9 @@ def test_stability(capsys: pytest.CaptureFixture[str]) -> None:
     assert found["highest_frequency"] == pytest.approx(max(row["angular_frequency"] for row in modes))
     own = next(row for row in found["rows"] if row["own"])
     assert own["verdict"] == "stable"
+    coupled = facts(*words[:2], "--set", 'integrator.name="radau2"', "--cells", "2", capsys=capsys)
+    assert all(each["cells_that_differ"] == 0 for each in coupled["maps"])
+    assert coupled["maps"]
     exact = facts(*words[:2], "--set", 'model.linearisation="newton"', "--cells", "0", capsys=capsys)
     exact_own = next(row for row in exact["rows"] if row["own"])
     assert exact_own["largest_step"] is None  # infinite
