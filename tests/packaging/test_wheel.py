@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import importlib.util
 import os
+import re
 import subprocess
 import sys
 import tarfile
@@ -74,6 +76,30 @@ def test_an_index_would_take_both(built: Path) -> None:
         pytest.importorskip("twine")
     said = _run([sys.executable, "-m", "twine", "check", "--strict", *built.iterdir()], built)
     assert said.count("PASSED") == 2
+
+
+def test_what_the_index_shows_links_nowhere_by_path(wheel: Path) -> None:
+    with zipfile.ZipFile(wheel) as archive:
+        (metadata,) = (name for name in archive.namelist() if name.endswith("/METADATA"))
+        shown = archive.read(metadata).decode()
+    assert "# tmm-gen" in shown
+    assert [to for to in re.findall(r"\]\(([^)]*)\)", shown) if not to.startswith(("https://", "#"))] == []
+
+
+def test_where_the_repository_has_an_address_links_lead_there(repository: Path) -> None:
+    specification = importlib.util.spec_from_file_location(
+        "pypi_page", repository / "packaging" / "pypi_page.py"
+    )
+    assert specification is not None
+    assert specification.loader is not None
+    module = importlib.util.module_from_spec(specification)
+    specification.loader.exec_module(module)
+    text = "![An arm](docs/a.gif)\n\n[more](docs/b.md#c), [here](#there), [else](https://e.org/f)\n"
+    assert module.page(text, "https://g.org/h") == (
+        "![An arm](https://g.org/h/raw/main/docs/a.gif)\n\n"
+        "[more](https://g.org/h/blob/main/docs/b.md#c), [here](#there), [else](https://e.org/f)\n"
+    )
+    assert module.page(text, "") == "\n\nmore, [here](#there), [else](https://e.org/f)\n"
 
 
 @pytest.fixture(scope="module")
