@@ -216,10 +216,12 @@ class Condensed:
                 continue
             value = getattr(along, kind.what)[kind.motor]
             way = float(value[1] - value[0]) if count > 1 else 0.0
-            braked = 0.0 if kind.what == "keep" else float(stopping[kind.motor])
+            braked = 0.0 if kind.what in ("keep", "hub_rate") else float(stopping[kind.motor])
             ahead = value[0] + np.copysign(braked * way**2, way)
             near = kind.what not in without
-            near &= min(value[0], ahead) >= kind.low - BEYOND and max(value[0], ahead) <= kind.high + BEYOND
+            if kind.what != "hub_rate":  # a hub that is too fast can be slowed down at once
+                near &= min(value[0], ahead) >= kind.low - BEYOND
+                near &= max(value[0], ahead) <= kind.high + BEYOND
             if np.isfinite(kind.high):
                 low.append(-none)
                 high.append(kind.high - value if near else none)

@@ -21,6 +21,7 @@ from tmm_gen.control.links import rest_state
 from tmm_gen.control.model_based import ModelBased
 from tmm_gen.control.step_model import StepModel
 from tmm_gen.control.terminal import end_rows
+from tmm_gen.errors import UserError
 
 Array = NDArray[np.float64]
 Solver = Literal["fatrop", "ipopt"]
@@ -65,12 +66,22 @@ class FullNmpc(ModelBased):
         What each motor turns, kg m^2, for the safe law.
     solver : {"fatrop", "ipopt"}
         What solves it.
+
+    Raises
+    ------
+    UserError
+        If rates of hubs are bounded.
     """
 
     def __init__(
         self, model: StepModel, linear: LinearModel, inertia: Array, solver: Solver = "fatrop"
     ) -> None:
         self.model, self.linear, self.solver = model, linear, solver
+        if np.any(np.isfinite(model.problem.hub_rate)):
+            raise UserError(
+                f"{model.scene.source.origin}: the controller 'nmpc' keeps no control.bounds.hub_rate; take 'rti', or "
+                "remove the key."
+            )
         self._guess: Array | None = None
         super().__init__(model.problem, ExtendedKalmanFilter(model, linear), model.delay, inertia)
 

@@ -38,6 +38,7 @@ motor, with its own numbers,
                 -rate T <= u_i - u_{i-1} <= rate T            (if there is a torque_rate)   i = 0..N-1
                 tip_low - s_i <= tip_i <= tip_high + s_i      (if there is an overshoot)    i = 1..N
                 hub_low - r_i <= hub_i <= hub_high + r_i      (if there are hub bounds)     i = 1..N
+                -rate - v_i <= hub'_i <= rate + v_i           (if there is a hub_rate)      i = 1..N
                 n . p(x_i) >= offset + margin - w_i           (for each wall)               i = 1..N
 
 A soft bound gives way, at all i, where the arm is more than 0.1 rad beyond it at i = 1, or will be even if it brakes
@@ -57,7 +58,7 @@ by ``tip_s + overshoot (reference - start)``, where ``start`` is what the refere
 - *Zero-order real-time iteration*: the same rollout, but ``S`` is that of the linear MPC, prepared once.
 
 Decision variables are ``z = (u - u^, s, r)``; slacks of absent bounds are absent. The Hessian is the Gauss-Newton
-one. Rows in order: bounds of the torques (N), then rates of change (N), tip (N), hub (N), those present, and walls (N
+one. Rows in order: bounds of the torques (N), then rates of change (N), tip (N), hub (N), its rate (N), those present, and walls (N
 each), linear about ``u^``, with slacks of their own. What there is of each motor stands motor by motor, so that N after
 N belong together: ``u`` is all torques of the first, then all of the next.
 
@@ -115,6 +116,8 @@ class ControlProblem:
         N m/s; infinite where there is none.
     hub : tuple of ((low, high) or None), length m
         rad.
+    hub_rate : array, (m,)
+        rad/s; infinite where there is none.
     tip : tuple of ((low, high) or None), length m
         Off the target, rad; one side is infinite.
     weights : MotorWeights
@@ -138,6 +141,7 @@ class ControlProblem:
     torque: tuple[Array, Array]
     torque_rate: Array
     hub: tuple[Pair | None, ...]
+    hub_rate: Array
     tip: tuple[Pair | None, ...]
     weights: MotorWeights
     sensors: Sensors
@@ -178,6 +182,10 @@ class ControlProblem:
         for motor, bounds in enumerate(self.hub):
             if bounds is not None:
                 found.append(Kind("hub", motor, *bounds, float(self.weights.hub_bound[motor])))
+        for motor, most in enumerate(self.hub_rate):
+            if math.isfinite(most):
+                weight = float(self.weights.hub_rate_bound[motor])
+                found.append(Kind("hub_rate", motor, -float(most), float(most), weight))
         for number, keep in enumerate(self.keeps):
             found.append(Kind("keep", number, keep.offset + keep.margin, math.inf, keep.weight))
         return tuple(found)
@@ -231,7 +239,7 @@ def control_problem(scene: Scene) -> ControlProblem:
     start = motors.prescribed @ np.array([*np.zeros(scene.hub), *scene.initial.angles])
     reference = np.array(by_names(control.reference, names))
     bounds, assumed = control.bounds, control.estimator
-    rate, hub = bounds.torque_rate, _hub_bounds(control, names)
+    rate, turning, hub = bounds.torque_rate, bounds.hub_rate, _hub_bounds(control, names)
     low, high = np.array(by_names(bounds.torque, names)).T
     return ControlProblem(
         horizon=control.horizon,
@@ -245,6 +253,7 @@ def control_problem(scene: Scene) -> ControlProblem:
         torque=(low, high),
         torque_rate=np.array(by_names(math.inf if rate is None else rate, names)),
         hub=hub,
+        hub_rate=np.array(by_names(math.inf if turning is None else turning, names)),
         tip=tuple(_tip_bound(control, float(way)) for way in reference - start),
         weights=MotorWeights.of(control.weights, names),
         sensors=control.sensors,

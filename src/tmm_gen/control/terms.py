@@ -28,6 +28,7 @@ class MotorWeights:
     torque_step: Array
     overshoot: Array
     hub_bound: Array
+    hub_rate_bound: Array
 
     @classmethod
     def of(cls, weights: Weights, names: tuple[str, ...]) -> MotorWeights:
@@ -98,17 +99,17 @@ class Kind:
 
     Parameters
     ----------
-    what : {"rate", "tip", "hub", "keep"}
-        Change of a torque, an angle, or how far a part is along the normal of a wall.
+    what : {"rate", "tip", "hub", "hub_rate", "keep"}
+        Change of a torque, an angle, a hub's rate, or how far a part is along the normal of a wall.
     motor : int
         Whose; or which of the walls.
     low, high : float
-        N m, rad or m.
+        N m, rad, rad/s or m.
     weight : float
         Of passing it; infinite where it is hard.
     """
 
-    what: Literal["rate", "tip", "hub", "keep"]
+    what: Literal["rate", "tip", "hub", "hub_rate", "keep"]
     motor: int
     low: float
     high: float

@@ -238,9 +238,9 @@ class RtiText(ControllerText):
 
     @property
     def stopping(self) -> list[float]:
-        """Half the angle in which each kind of rows is stopped; see `ProgramData`."""
-        stopping = self.data.program.stopping
-        return [0.0 if kind.what == "keep" else float(stopping[kind.motor]) for kind in self.row_kinds]
+        """Half the angle in which each kind of rows is stopped, negative of rates; see `ProgramData`."""
+        stopping, other = self.data.program.stopping, {"keep": 0.0, "hub_rate": -1.0}
+        return [other.get(kind.what, float(stopping[kind.motor % len(stopping)])) for kind in self.row_kinds]
 
     @property
     def answers(self) -> NDArray[np.float64]:

@@ -205,6 +205,11 @@ class ControllerText:
         return bool(np.any(np.isfinite(self.problem.torque_rate)))
 
     @property
+    def rates_bounded(self) -> bool:
+        """Whether a hub's rate is: the arm is never too far beyond such a bound to be slowed down."""
+        return bool(np.any(np.isfinite(self.problem.hub_rate)))
+
+    @property
     def rated(self) -> list[int]:
         """Motors whose torques change only so fast; their changes are the first rows of the program."""
         return [int(motor) for motor in np.flatnonzero(np.isfinite(self.problem.torque_rate))]

@@ -51,6 +51,8 @@ class Weights(Table):
         Of the change of torque from sample to sample, 1/(N m)^2; positive, since it makes the problem convex.
     overshoot, hub_bound : float
         Of what the tip angle passes its bound by, and the hub angle its own, 1/rad^2.
+    hub_rate_bound : float
+        Of what the hub's rate passes its own by, s^2/rad^2.
     """
 
     tip: EachPositive = Field(default=1.0, description="weight of the tip angle", examples=["1.0"])
@@ -65,6 +67,9 @@ class Weights(Table):
     hub_bound: EachPositive = Field(
         default=1e4, description="weight of passing the hub's bounds", examples=["1e4"]
     )
+    hub_rate_bound: EachPositive = Field(
+        default=1e3, description="weight of passing the bound of the hub's rate", examples=["1e3"]
+    )
 
 
 class Bounds(Table):
@@ -78,6 +83,8 @@ class Bounds(Table):
         Largest rate of change of the torque from sample to sample, N m/s; always kept.
     hub : (low, high), optional
         Of the hub's angle, rad; soft: passed where there is no other way.
+    hub_rate : float, optional
+        Largest rate of the hub's angle, rad/s; soft, and kept by predictive controllers of motors by name.
     overshoot : float, optional
         How far the tip may pass the reference, relative to the way from its start; soft.
     """
@@ -88,6 +95,9 @@ class Bounds(Table):
     )
     hub: EachRange | None = Field(
         default=None, description="bounds of the hub angle in rad", examples=["[-0.1, 1.02]"]
+    )
+    hub_rate: EachPositive | None = Field(
+        default=None, description="largest rate of the hub angle in rad/s", examples=["2.5"]
     )
     overshoot: NonNegative | None = Field(
         default=None, description="largest overshoot of the tip relative to its way", examples=["0.005"]

@@ -108,4 +108,12 @@ def walled(reach: Scene) -> Bench:
     """The same arm between walls, which it would pass where it rests with its joints at the reference."""
     floor = {"frame": "payload", "normal": [0.4, 0.2, 2.0], "offset": 0.1, "margin": 0.01}
     beside = {"frame": "upper", "normal": [0.0, -1.0, 0.0], "offset": -0.41, "margin": 0.02, "weight": 3e4}
-    return Bench.of(reach.replace(**{"control.keep": [floor, beside], "control.weights.hub_rate": 0.1}))
+    return Bench.of(
+        reach.replace(
+            **{
+                "control.keep": [floor, beside],
+                "control.weights.hub_rate": 0.1,
+                "control.bounds.hub_rate": 2.0,
+            }
+        )
+    )

@@ -1,4 +1,4 @@
-"""Walls in space: where parts are, how that changes as joints turn, that real-time iterations keep away."""
+"""Walls in space and rates of joints: where parts are, what turns them there, that real-time iterations keep bounds."""
 
 from __future__ import annotations
 
@@ -11,6 +11,9 @@ from tmm_gen.closed_loop.plant import plant_scene
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.condition import CONDITIONS
 from tmm_gen.control.controllers import BY_NAME
+from tmm_gen.control.full_nmpc import FullNmpc
+from tmm_gen.control.response import split_outputs
+from tmm_gen.control.rti import RealTimeIteration
 from tmm_gen.control.walls import Wall
 from tmm_gen.errors import UserError
 from tmm_gen.modal.space.numbers import ArmNumbers
@@ -66,3 +69,21 @@ def test_what_keeps_no_walls_says_so(walled: Bench, words: str) -> None:
     ):
         with pytest.raises(SceneError, match=told):
             parse_scene(words + wall.replace(old, new), "reach.toml")
+
+
+def test_plans_keep_bounds_of_how_fast_joints_turn(walled: Bench) -> None:
+    """Repeated at one state; without the bounds they would turn half as fast again."""
+    peaks = []
+    for bench in (walled, Bench.of(walled.scene.replace(**{"control.bounds.hub_rate": None}))):
+        rti = BY_NAME["rti"].make(bench)
+        assert isinstance(rti, RealTimeIteration)
+        state, none, last = bench.step.initial(), np.zeros(2), bench.links.start_torque
+        for _ in range(3):
+            rti._plan = np.hstack([rti._plan[:, :1], rti._plan[:, :-1]])  # decide() moves on by a sample
+            rti.decide(state, none, last)
+        along = split_outputs(rti._along(state, none, last)[0], rti._plan.shape, len(rti.walls))
+        peaks.append(np.max(np.abs(along.hub_rate), axis=1))
+    assert_allclose(peaks[0], 2.0, atol=2e-3)  # softly
+    assert np.all(peaks[1] > 2.7)
+    with pytest.raises(UserError, match=r"'nmpc' keeps no control\.bounds\.hub_rate"):
+        FullNmpc(walled.step, walled.links, walled.inertia)

@@ -40,6 +40,13 @@ def control_possible(document: Document) -> Iterator[Finding]:
             "Write the value alone, without a name.",
         )
         return
+    if control.bounds.hub_rate is not None:
+        yield Finding(
+            ("control", "bounds", "hub_rate"),
+            "is for arms whose motors are parts by name",
+            "Remove the key, or write such an arm.",
+            control.bounds.hub_rate,
+        )
     yield from within_reach(control, ("hub",))
 
 
