@@ -28,6 +28,11 @@ def test_the_tip_is_bounded_beyond_the_reference_whichever_way_it_goes(swing: Sc
     assert control_problem(swing.replace(**{"control.bounds.overshoot": None})).tip == (None,)
 
 
+def test_how_fast_the_hub_of_the_short_form_turns_is_not_bounded(swing: Scene) -> None:
+    with pytest.raises(UserError, match="is for arms whose motors are parts by name"):
+        swing.replace(**{"control.bounds.hub_rate": 2.0})
+
+
 def test_a_scene_without_control_is_refused() -> None:
     scene = load_scene(Path(__file__).parents[2] / "scenes" / "arm10.toml")
     with pytest.raises(UserError, match=r"arm10.toml: has no \[control\]"):

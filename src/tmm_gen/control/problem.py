@@ -58,9 +58,9 @@ by ``tip_s + overshoot (reference - start)``, where ``start`` is what the refere
 - *Zero-order real-time iteration*: the same rollout, but ``S`` is that of the linear MPC, prepared once.
 
 Decision variables are ``z = (u - u^, s, r)``; slacks of absent bounds are absent. The Hessian is the Gauss-Newton
-one. Rows in order: bounds of the torques (N), then rates of change (N), tip (N), hub (N), its rate (N), those present, and walls (N
-each), linear about ``u^``, with slacks of their own. What there is of each motor stands motor by motor, so that N after
-N belong together: ``u`` is all torques of the first, then all of the next.
+one. Rows in order: bounds of the torques (N), then rates of change (N), tip (N), hub (N), its rate (N), those present,
+and walls (N each), linear about ``u^``, with slacks of their own. What there is of each motor stands motor by motor, so
+that N after N belong together: ``u`` is all torques of the first, then all of the next.
 
 **Safe law.** If the QP is not solved, it is once more without its soft bounds. If that fails too, the controller
 applies :func:`tmm_gen.control.safe.safe_torque` and says so. Every torque that leaves a controller is within its

@@ -79,7 +79,8 @@ def program_data(problem: ControlProblem, condensed: Condensed) -> ProgramData:
     low = [*problem.torque[0], *(kind.low for kind in kinds)]
     high = [*problem.torque[1], *(kind.high for kind in kinds)]
     soft = [0.0] * problem.count + [1.0 / kind.weight for kind in kinds]
-    # in each sample a motor has three kinds of bounds, a wall or a hub's rate one: without room for them the solver begins cold again
+    # in each sample a motor has three kinds of bounds, a wall one, and a hub's rate: without room for them the solver
+    # begins cold again
     more = len(problem.keeps) + np.count_nonzero(np.isfinite(problem.hub_rate))
     met = condensed.inputs + more * count / 3.0
     return ProgramData(
