@@ -11,13 +11,14 @@ from support.spatial.moving import AFLOAT, TABLE
 
 from tmm_gen.emit.c import emit_kernel
 from tmm_gen.emit.c.box import box_of
+from tmm_gen.emit.c.handed import handed_at, handed_on
 from tmm_gen.emit.c.kernel import Kernel
 from tmm_gen.errors import UserError
 from tmm_gen.native import compile_kernel
 from tmm_gen.native.library import OutOfRangeError
 from tmm_gen.program.build import build_program
 from tmm_gen.program.count import count_routine
-from tmm_gen.program.statements import Program
+from tmm_gen.program.statements import Loop, Program, Require
 from tmm_gen.scene import Scene, parse_scene
 from tmm_gen.target import measure
 from tmm_gen.target.proof import IN_SPACE, analyse, driver
@@ -75,6 +76,22 @@ def test_what_is_checked_lies_far_beyond_what_states_of_the_box_lead_to(
             name: [draw.uniform(*BOX[key]) for _ in range(program.stations)] for name, key in keys.items()
         }
         guarded.step({name: draw.uniform(*BOX[name]) for name in BOX if name not in keys.values()})
+
+
+def test_each_joint_of_a_loops_body_is_checked() -> None:
+    """A body that does several joints at a time hands on under names of its own: 21 numbers, but those that vanish."""
+    program = build_program(parse_scene(BOOM.replace("links = 1", "links = 5")))
+    loops = [
+        loop
+        for loop in program.main.statements()
+        if isinstance(loop, Loop) and sum(isinstance(inner, Require) for inner in loop.body) > 1
+    ]
+    assert loops
+    for loop in loops:
+        pivots = sum(isinstance(inner, Require) for inner in loop.body)
+        handed = handed_at(loop, handed_on(program.main)).values()
+        assert len(handed) == pivots
+        assert all(len(numbers) >= 19 for numbers in handed), [len(numbers) for numbers in handed]
 
 
 def test_checks_refuse_what_leaves_their_bounds(boom: Scene, program: Program) -> None:

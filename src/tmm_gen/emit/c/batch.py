@@ -11,7 +11,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from tmm_gen.c_language.names import local_name, macros, member
+from tmm_gen.c_language.names import macros, member
 from tmm_gen.c_language.wrap import INDENT, statement
 from tmm_gen.emit.c.body import TOTAL, Body
 from tmm_gen.emit.c.fence import Fence
@@ -21,7 +21,7 @@ from tmm_gen.emit.c.structs import Struct, dimension
 from tmm_gen.emit.seal import sealed
 from tmm_gen.emit.templates import render
 from tmm_gen.program.statements import Assign, Repeat, Routine
-from tmm_gen.program.variables import Role, Variable, refs_in
+from tmm_gen.program.variables import Ref, Role, refs_in
 
 RIGHT = "right"
 """Mask of the arms that nothing has been found wrong with."""
@@ -64,11 +64,11 @@ class BatchBody(Body):
     def _fenced(self, value: str, largest: float, depth: int) -> list[str]:
         return self._within(value, self.real.literal(largest), "<", depth)
 
-    def _fenced_together(self, scalars: tuple[Variable, ...], depth: int) -> Iterator[str]:
+    def _fenced_together(self, handed: tuple[Ref, ...], depth: int, printer: CPrinter) -> Iterator[str]:
         """Yield checks that each number is below its share: so is then the sum; other arms are asked alone."""
-        share = self.fence.sum / 2.0 ** math.ceil(math.log2(len(scalars)))
-        for variable in scalars:
-            yield from self._within(local_name(variable), self.real.literal(share), "<", depth)
+        share = self.fence.sum / 2.0 ** math.ceil(math.log2(len(handed)))
+        for ref in handed:
+            yield from self._within(printer.text(ref), self.real.literal(share), "<", depth)
 
     def _turned(self, angle: str, name: str, depth: int, *, checked: bool) -> Iterator[str]:
         yield from statement(f"const real {name}_angle = {angle};", depth)

@@ -203,7 +203,7 @@ class Body:
                     for place, inner in enumerate(top.body):
                         yield from simple(inner, depth + 1, turns, checked)
                         if place in handed:
-                            yield from self._fenced_together(handed[place], depth + 1)
+                            yield from self._fenced_together(handed[place], depth + 1, printer)
                         straight.forget(inner.target) if isinstance(inner, Assign) else None
                     if sums is not None and (terms := sums.inside.get(top, ())):
                         text = " + ".join(self._judged(assign, printer) for assign in terms)
@@ -323,10 +323,10 @@ class Body:
             lines.append(f"{pad}/*@ admit -{small} <= {value}.low <= {small}; */")
         return lines
 
-    def _fenced_together(self, scalars: tuple[Variable, ...], depth: int) -> Iterator[str]:
+    def _fenced_together(self, handed: tuple[Ref, ...], depth: int, printer: CPrinter) -> Iterator[str]:
         """Yield one check of the sizes of numbers: rounding is monotone, so none exceeds their sum."""
         largest = self.fence.sum
-        numbers = [local_name(v) + self._high for v in scalars]
+        numbers = [printer.text(ref) + self._high for ref in handed]
         sizes = " + ".join(f"{self.real.function('fabs')}({number})" for number in numbers)
         yield from self._leave(f"!({sizes} < {self.real.literal(largest)})", "OUT_OF_RANGE", depth)
         # a prover does not conclude from a sum of sizes to its terms

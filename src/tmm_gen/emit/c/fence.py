@@ -161,7 +161,7 @@ def _watched(
                         f"handed_{len(totals)}", Role.WORK, stations, "sizes of what is handed on"
                     )
                     totals.append(total)
-                    body.append(Assign(total.at(), sp.Add(*(sp.Abs(v.ref) for v in places[place]))))
+                    body.append(Assign(total.at(), sp.Add(*(sp.Abs(ref) for ref in places[place]))))
             return [replace(statement, body=tuple(body))]
         return [statement]
 

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from functools import lru_cache
 
 from tmm_gen.derive.space.inward import BIAS
 from tmm_gen.program.statements import Assign, Loop, Order, Require, Routine
-from tmm_gen.program.variables import Role, Variable, refs_in
+from tmm_gen.program.variables import Ref, Role, Variable, refs_in
 
-_FORCES = tuple(symbol.name for symbol in BIAS)
-"""Ends of their names: a fork's have its number in front."""
+_FORCES = re.compile(rf"({'|'.join(symbol.name.partition('_')[2] for symbol in BIAS)})(_\d+)*$")
+"""Ends of their names: a fork's have its number in front, those of several joints in one body theirs behind."""
 
 
 @lru_cache(maxsize=16)
@@ -37,35 +38,40 @@ def handed_on(routine: Routine) -> frozenset[Variable]:
             if isinstance(inner, Assign):
                 written.add(inner.target.variable)
                 left |= {inner.target.variable} if behind else set()
-    return frozenset(v for v in read & left if v.role is Role.LOCAL and not v.name.endswith(_FORCES))
+    return frozenset(v for v in read & left if v.role is Role.LOCAL and not _FORCES.search(v.name))
 
 
-def handed_at(loop: Loop, scalars: frozenset[Variable]) -> dict[int, tuple[Variable, ...]]:
-    """Return what of some scalars a loop's joints leave, by the place in its body at which all of it is there.
+def handed_at(loop: Loop, scalars: frozenset[Variable]) -> dict[int, tuple[Ref, ...]]:
+    """Return what a loop's joints leave to the next ones, by the place in its body at which all of it is there.
+
+    A body that eliminates several joints hands on under names of its own, which the rest of it reads.
 
     Parameters
     ----------
     loop : Loop
         Any.
     scalars : frozenset of Variable
-        As :func:`handed_on` returns them.
+        As :func:`handed_on` returns them: what one round of a loop leaves to another.
     """
     if not _eliminates(loop):
         return {}
-    found: dict[int, tuple[Variable, ...]] = {}
-    since: dict[Variable, int] = {}
-    pivots = 0
-    for place, inner in enumerate(loop.body):
-        if isinstance(inner, Require):
-            found |= _all_there(since)
-            since, pivots = {}, pivots + 1
-        elif pivots and inner.target.variable in scalars:
-            since[inner.target.variable] = place
-    return found | _all_there(since)
-
-
-def _all_there(since: dict[Variable, int]) -> dict[int, tuple[Variable, ...]]:
-    return {max(since.values()): tuple(since)} if since else {}
+    found: dict[int, tuple[Ref, ...]] = {}
+    pivots = [place for place, inner in enumerate(loop.body) if isinstance(inner, Require)]
+    for begin, end in zip(pivots, [*pivots[1:], len(loop.body)], strict=True):
+        written = {
+            inner.target: place
+            for place, inner in enumerate(loop.body[:end])
+            if place > begin and isinstance(inner, Assign)
+        }
+        later = {ref for inner in loop.body[end:] for ref in refs_in(inner.value)}
+        left = {
+            ref: place
+            for ref, place in written.items()
+            if ref.variable in scalars or (ref in later and not _FORCES.search(ref.variable.name))
+        }
+        if left:
+            found[max(left.values())] = tuple(left)
+    return found
 
 
 def _eliminates(statement: object) -> bool:
