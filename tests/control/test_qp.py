@@ -79,8 +79,22 @@ def test_what_cannot_be_solved_is_said_and_forgotten() -> None:
 
 
 def test_an_indefinite_hessian_is_refused() -> None:
-    with pytest.raises(ValueError, match="positive definite"):
+    with pytest.raises(ArithmeticError, match="positive definite"):
         QuadraticProgram(np.diag([1.0, -1.0]), np.zeros((1, 2)), 2)
+
+
+@pytest.mark.parametrize("weight", [1e2, 1e12, 1e300])
+def test_slacks_may_weigh_whatever_they_do(weight: float) -> None:
+    """``1/2 (x - 2)^2 + W s^2 / 2`` under ``x - s <= 1``: so ``s = 1 / (1 + W)``; with all handed in anew too."""
+    hessian, rows, gradient = np.diag([1.0, weight]), np.array([[1.0, -1.0]]), np.array([-2.0, 0.0])
+    program = QuadraticProgram(hessian, rows, 1)
+    low, high = np.array([-5.0, -np.inf]), np.array([5.0, 1.0])
+    for anew in ({}, {"hessian": hessian, "rows": rows}):
+        found = program.solve(gradient, low, high, **anew)
+        assert found.status is Status.OK
+        assert_allclose(
+            found.point, [1.0 + 1.0 / (1.0 + weight), 1.0 / (1.0 + weight)], rtol=1e-9, atol=1e-300
+        )
 
 
 def test_no_rows_at_all_are_updated_too() -> None:

@@ -77,21 +77,27 @@ class QuadraticProgram:
         daqp = require_daqp()
         self._rows = rows
         self._bounded = bounded
+        # variables without bounds of their own, slacks, in units in which they weigh 1: however much they weigh, pivots
+        # are then of one size, and none is taken for zero
+        self._units = np.ones(len(hessian))
+        self._units[bounded:] = np.diag(hessian)[bounded:] ** -0.5
         self._solver: Any = daqp.Model()
         self._solver.settings = {"iter_limit": ITERATION_LIMIT}
         width = bounded + len(rows)
         self._cold = True
         self._left_out = np.ones(2 * width, bool)
         flag, _ = self._solver.setup(
-            np.ascontiguousarray(hessian),
+            np.ascontiguousarray(hessian * np.outer(self._units, self._units)),
             np.zeros(len(hessian)),
-            np.ascontiguousarray(rows),
+            np.ascontiguousarray(rows * self._units),
             np.full(width, INFINITE),
             np.full(width, -INFINITE),
             np.zeros(width, dtype=np.int32),
         )
         if flag < 0:
-            raise ValueError(f"DAQP refuses the problem (flag {flag}): is the Hessian positive definite?")
+            raise ArithmeticError(
+                f"DAQP finds no positive definite Hessian, flag {flag}: weights of [control] are too far apart"
+            )
 
     def forget(self) -> None:
         """Start the next solution from no active set."""
@@ -140,9 +146,11 @@ class QuadraticProgram:
         self._cold = self._cold or bool(np.any(left_out != self._left_out))
         self._left_out = left_out
         flag = self._solver.update(
-            H=None if hessian is None else np.ascontiguousarray(hessian),
-            f=gradient,
-            A=np.ascontiguousarray(rows) if rows is not None and len(rows) else None,  # DAQP fails at no rows
+            H=None if hessian is None else np.ascontiguousarray(hessian * np.outer(self._units, self._units)),
+            f=gradient * self._units,
+            A=np.ascontiguousarray(rows * self._units)
+            if rows is not None and len(rows)
+            else None,  # fails at none
             bupper=np.minimum(high, INFINITE),
             blower=np.maximum(low, -INFINITE),
             # without it the active set of the last solution stays: a warm start
@@ -152,7 +160,7 @@ class QuadraticProgram:
             self._cold = True
             return Solution(nothing, Status.NOT_FINITE, 0)
         point, _, flag, information = self._solver.solve()
-        point, iterations = np.asarray(point, float), int(information["iterations"])
+        point, iterations = self._units * np.asarray(point, float), int(information["iterations"])
         status = self._judged(flag, point, low, high)
         self._cold = status is not Status.OK
         return Solution(point, status, iterations)

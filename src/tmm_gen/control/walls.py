@@ -38,6 +38,9 @@ class Wall:
         """Return a wall of a scene, or of one of the same parts in other links."""
         normal, arm = np.array(keep.normal), scene.spatial
         frame = Frame.of(scene, keep.frame) if arm is None else SpaceFrame.of(arm, keep.frame)
+        normal /= np.max(
+            np.abs(normal)
+        )  # of any length: squares of what is very long or short leave the range
         return cls(frame, normal / np.linalg.norm(normal), keep.offset)
 
     def along(self, angles: Array) -> Array:

@@ -17,7 +17,9 @@ LINEAR = ("mpc-links", "mpc-modes")
 
 
 def usual_controller(bench: Bench) -> str:
-    """Return the controller written in C unless another is chosen: the cheapest there is for the arm."""
+    """Return the controller written in C unless another is chosen: the cheapest there is for the arm and its walls."""
+    if bench.problem.keeps:
+        return "rti"
     return "mpc-modes" if bench.problem.motors.on_hub else "rti-zero"
 
 
@@ -54,7 +56,8 @@ def emit_controller(
             f"the controller '{controller}' cannot be written in C; these can: {', '.join(EMITTED)}"
         )
     if controller in LINEAR and not bench.problem.motors.on_hub:
-        others = ", ".join(each for each in EMITTED if each not in LINEAR)
+        keeping = ("rti",) if bench.problem.keeps else EMITTED
+        others = ", ".join(each for each in keeping if each not in LINEAR)
         raise UserError(
             f"the controller '{controller}' is written in C for arms on a hub only; for motors by name "
             f"take one of: {others}"

@@ -185,7 +185,7 @@ def _quoted_number(value: object, whole: bool) -> bool:
 
 def _not_a_list(path: Path, field: FieldInfo | None) -> tuple[str, str]:
     if _is_array_of_tables(field):
-        return "must be an array of tables", f"Write [[{path[-1]}]] with double brackets."
+        return "must be an array of tables", f"Write {_header((*path, 0))} with double brackets."
     return "must be a list", _example(path, field)
 
 

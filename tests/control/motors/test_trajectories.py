@@ -20,7 +20,7 @@ from tmm_gen.control.reach import Frame
 from tmm_gen.control.target import rest_with
 from tmm_gen.control.window import Window
 from tmm_gen.errors import UserError
-from tmm_gen.onboard.emit import emit_controller
+from tmm_gen.onboard.emit import emit_controller, usual_controller
 from tmm_gen.scene import Scene, load_scene
 
 ELBOW = Path(__file__).resolve().parents[3] / "scenes" / "elbow.toml"
@@ -190,6 +190,7 @@ def test_controllers_follow_and_without_a_wall_the_payload_goes_through_it(lower
             BY_NAME[name].require_able(walled)
     with pytest.raises(UserError, match=r"'rti-zero' keeps no control\.keep in C; take 'rti'"):
         emit_controller(walled, "rti-zero")
+    assert usual_controller(walled) == "rti"  # and not one that would be refused then
     with pytest.raises(UserError, match=r"follows no control\.trajectory; take one of pd,"):
         BY_NAME["nmpc"].require_able(lowered)
 

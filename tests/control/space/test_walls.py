@@ -66,6 +66,7 @@ def test_what_keeps_no_walls_says_so(walled: Bench, words: str) -> None:
         ("[0, 0, 1]", "[0, 0, 0]", "has no direction"),
         ("[0, 0, 1]", "[0, 0, 0, 1]", "must be a direction"),
         ("payload", "pay", "is not the name of a part that moves"),
+        ("[[control.keep]]", "[control.keep]", r"Write \[\[control\.keep\]\] with double brackets"),
     ):
         with pytest.raises(SceneError, match=told):
             parse_scene(words + wall.replace(old, new), "reach.toml")
@@ -87,3 +88,20 @@ def test_plans_keep_bounds_of_how_fast_joints_turn(walled: Bench) -> None:
     assert np.all(peaks[1] > 2.7)
     with pytest.raises(UserError, match=r"'nmpc' keeps no control\.bounds\.hub_rate"):
         FullNmpc(walled.step, walled.links, walled.inertia)
+
+
+def test_walls_between_which_nothing_is_left_are_refused_with_an_offset_that_goes(words: str) -> None:
+    wall = '[[control.keep]]\nframe = "payload"\nnormal = {}\noffset = {}\n'
+    floor = wall.format([0, 0, 2], 0.3)
+    with pytest.raises(
+        SceneError, match=r"keep\[2\]\.offset: leaves 'payload' no place.*below -0\.3, or turn"
+    ):
+        parse_scene(words + floor + wall.format([0, 0, -7], -0.2), "reach.toml")
+    for normal, offset in (([0, 0, -7], -0.31), ([0, 0, 1], -0.2), ([0, 1, -1], -0.2)):
+        assert parse_scene(words + floor + wall.format(normal, offset), "reach.toml").control
+
+
+@pytest.mark.parametrize("length", [1e-320, 1e308])
+def test_a_normal_may_be_of_any_length(walled: Bench, length: float) -> None:
+    keep = walled.problem.keeps[0].model_copy(update={"normal": (0.0, length, 0.0)})
+    assert_allclose(Wall.of(walled.scene, keep).normal, [0.0, 1.0, 0.0])

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+from collections.abc import Iterator, Sequence
 
 from tmm_gen.scene.control import Control
 from tmm_gen.scene.document import Document
@@ -10,6 +11,7 @@ from tmm_gen.scene.each import by_names
 from tmm_gen.scene.parts.document import PartsDocument
 from tmm_gen.scene.problem import Finding, Path
 from tmm_gen.scene.table import closest
+from tmm_gen.scene.trajectory import Keep
 
 _TRAJECTORY: Path = ("control", "trajectory")
 _SOLID = "beam, link or body"
@@ -62,6 +64,30 @@ def can_be_kept(control: Control, frames: tuple[str, ...], axes: str) -> Iterato
                 f"Write for example `[{upward}, 1.0]`: upward.",
                 list(keep.normal),
             )
+        yield from _beyond_another(control.keep[:index], keep, (*path, "offset"))
+
+
+def _beyond_another(walls: Sequence[Keep], keep: Keep, path: Path) -> Iterator[Finding]:
+    """Find that nothing is left of where a part is to stay, between a wall and one across from it."""
+    normal = _unit(keep.normal)
+    for number, other in enumerate(walls, 1):
+        across = sum(a * b for a, b in zip(normal, _unit(other.normal), strict=False))
+        if other.frame == keep.frame and len(other.normal) == len(normal) and across < 1e-12 - 1.0:
+            edge = 0.0 - other.offset
+            if keep.offset > edge:
+                yield Finding(
+                    path,
+                    f"leaves '{keep.frame}' no place: control.keep[{number}] is across from it, and keeps to "
+                    f"at most {edge:.12g} m along this normal",
+                    f"Write an offset below {edge:.12g}, or turn one of the normals round.",
+                    keep.offset,
+                )
+
+
+def _unit(normal: tuple[float, ...]) -> list[float]:
+    longest = max(map(abs, normal))
+    length = math.hypot(*(each / longest for each in normal))
+    return [each / longest / length for each in normal]
 
 
 def can_be_followed(document: PartsDocument, control: Control, motors: tuple[str, ...]) -> Iterator[Finding]:
