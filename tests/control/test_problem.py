@@ -43,6 +43,10 @@ def test_a_torque_keeps_its_bounds(bench: Bench) -> None:
     problem = dataclasses.replace(bench.problem, torque_rate=np.array([50.0]))  # 1 N m a sample
     wanted, last = np.array([9.0, 9.0, -9.0, math.nan, math.inf]), np.array([2.5, 0.0, 0.0, 0.5, 2.9])
     assert_allclose(problem.allowed(wanted, last), [3.0, 1.0, -1.0, 0.0, 3.0])
+    told = dataclasses.replace(problem, torque=(np.array([0.5]), np.array([0.8])))  # both sides, at once
+    assert_allclose(
+        told.allowed(np.array([9.0, -9.0, math.nan]), np.array([2.5, -2.5, -2.5])), [0.8, 0.5, 0.5]
+    )
 
 
 def test_the_safe_law_brakes_the_hub(bench: Bench) -> None:

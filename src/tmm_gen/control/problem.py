@@ -198,11 +198,10 @@ class ControlProblem:
         torque : array, (m,)
             Wanted, N m.
         last : array, (m,)
-            Last torques commanded, N m; within the bounds.
+            Last torques commanded, N m. Where they are beyond the bounds, these are kept at once.
         """
         change = self.torque_rate * self.sample_time
-        low = np.maximum(self.torque[0], last - change)
-        high = np.minimum(self.torque[1], last + change)
+        low, high = np.clip(last - change, *self.torque), np.clip(last + change, *self.torque)
         return np.minimum(np.maximum(np.where(np.isnan(torque), 0.0, torque), low), high)
 
 

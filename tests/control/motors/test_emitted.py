@@ -175,6 +175,7 @@ LIMITS = {
     6: ([0.0, 0.01], [0.1, 0.0], Status.INFEASIBLE),  # crossed
     7: ([0.1, -0.1], [0.2, 0.1], Status.INFEASIBLE),  # all beyond the widest
     8: ([0.01, -0.02], [0.01, -0.01], Status.OK),  # nothing to choose; no zero
+    13: ([-9.0, 0.04], [9.0, 9.0], Status.OK),  # the elbow's last torque is beyond from below
     14: ([-9.0, -9.0], [9.0, 9.0], Status.OK),
 }
 PAYLOADS = {
