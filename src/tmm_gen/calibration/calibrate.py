@@ -98,15 +98,19 @@ def calibrate(
     jacobian = _jacobian(fit, logarithms)
     normal = jacobian[np.abs(left) <= reach].T @ jacobian[np.abs(left) <= reach]
     absent = [item.name for item in scene.inputs if item.name not in record]
+    silent = (
+        f"inputs without a record are zero: the record has no column {' or '.join(absent)}. Say what acted, for "
+        f"example --input {absent[0]}=1."
+        if absent
+        else ""
+    )
     if absent and not np.any(normal):
-        raise UserError(
-            f"{scene.source.origin}: nothing that is fitted makes a difference, as inputs without a record are zero: "
-            f"the record has no column {' or '.join(absent)}. Say what acted, for example --input {absent[0]}=1."
-        )
+        raise UserError(f"{scene.source.origin}: nothing that is fitted makes a difference, as {silent}")
     told = Told.of(normal)
     if len(told.apart) < len(chosen):
         raise UserError(
             f"{scene.source.origin}: the record does not tell {' and '.join(chosen)} apart. {told.remedy(chosen)}"
+            + (f" Note that {silent}" if told.unseen and absent else "")
         )
     misfit = _size(left, reach)
     if not misfit < most_misfit:

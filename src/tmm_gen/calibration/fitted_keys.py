@@ -35,6 +35,9 @@ _PLACES = ("length", "at", "end", "turn", "axis", "limits", "velocity", "rate")
 _TABLES = ("base", *PARTS, "tip")
 """That say what an arm is."""
 
+_SOLVED = ("integrator", "emit", "control")
+"""Tables that say how an arm is solved, written and controlled: a record of its motion tells nothing of their numbers."""
+
 
 def default_keys(scene: Scene) -> tuple[str, ...]:
     """Return what is fitted unless told otherwise: stiffness and damping, of each part or beam by itself.
@@ -62,7 +65,7 @@ def number_of(scene: Scene, key: str) -> float:
     Raises
     ------
     UserError
-        If there is none, it is not positive, or it is not free in the generated code.
+        If there is none, it is none of the arm's, it is not positive, or it is not free in the generated code.
     """
     if key in _WRITTEN:
         return 1.0
@@ -71,6 +74,11 @@ def number_of(scene: Scene, key: str) -> float:
     value = _at(scene, path)
     if value is None:
         raise UserError(f"{where}: has no number '{key}' to fit. {_others(scene, key, path, absent=True)}")
+    if path[0] in _SOLVED:
+        raise UserError(
+            f"{where}: '{key}' is {show_value(value)}, a number of [{path[0]}], which says nothing about the arm itself. "
+            f"{_others(scene, key, path)}"
+        )
     if not set(path[1:]).isdisjoint(_built_in(scene)):
         what = "a count or a ratio" if scene.spatial is None else "a count or a place"
         raise UserError(
