@@ -18,7 +18,7 @@ from tmm_gen.calibration.fit import parameters_of
 from tmm_gen.calibration.fitted_keys import default_keys, number_of
 from tmm_gen.cli import main
 from tmm_gen.derive.integrators.registry import integrator
-from tmm_gen.errors import UserError
+from tmm_gen.errors import CheckFailed, UserError
 from tmm_gen.inputs.signals import Signal, Table
 from tmm_gen.program.space.layout import layout_of
 from tmm_gen.reference.spatial_motion import motion
@@ -174,6 +174,19 @@ def test_combinations_that_a_record_cannot_tell_are_named(scene: Scene, record: 
     assert kept in (turret, rotor)
 
 
+@pytest.mark.compiler
+@pytest.mark.parametrize(("aside", "said"), [(0.0, "Nothing recorded depends on"), (0.02, "does not follow")])
+def test_torques_that_are_not_recorded_are_told(
+    scene: Scene, record: dict[str, Signal], aside: float, said: str
+) -> None:
+    """The arm falls without them; its yaw stands still where the payload is not held beside the plane of the fall."""
+    falling = scene.replace(**{"body.payload.center": [0.03, aside, 0.0]})
+    without = {name: signal for name, signal in record.items() if not name.endswith("torque")}
+    left_out = r".*has no column yaw_torque or shoulder_torque\. .*--input yaw_torque=1\.$"
+    with pytest.raises((UserError, CheckFailed), match=said + left_out):
+        calibrate(falling, without, ["motor.yaw.damping", "body.payload.mass"])
+
+
 def test_what_is_fitted_unless_told_otherwise(scene: Scene) -> None:
     keys = list(TRUTH)
     assert set(default_keys(scene)) == set(keys[:5])
@@ -186,7 +199,8 @@ def test_what_is_fitted_unless_told_otherwise(scene: Scene) -> None:
 
 
 @pytest.mark.parametrize(
-    "key", ["beam.forearm.length", "motor.shoulder.at", "beam.forearm.bending_stiffness"]
+    "key",
+    ["beam.forearm.length", "motor.shoulder.at", "beam.forearm.bending_stiffness", "integrator.step"],
 )
 def test_keys_that_are_none_are_refused_with_some_that_are(scene: Scene, key: str) -> None:
     built = scene.replace(**{"motor.shoulder.at": [0.0, 0.0, 0.08]})

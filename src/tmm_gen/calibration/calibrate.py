@@ -97,24 +97,18 @@ def calibrate(
     left = fit.remains(logarithms)
     jacobian = _jacobian(fit, logarithms)
     normal = jacobian[np.abs(left) <= reach].T @ jacobian[np.abs(left) <= reach]
-    absent = [item.name for item in scene.inputs if item.name not in record]
-    silent = (
-        f"inputs without a record are zero: the record has no column {' or '.join(absent)}. Say what acted, for "
-        f"example --input {absent[0]}=1."
-        if absent
-        else ""
-    )
+    absent = _absent(scene, record)
     if absent and not np.any(normal):
-        raise UserError(f"{scene.source.origin}: nothing that is fitted makes a difference, as {silent}")
+        raise UserError(f"{scene.source.origin}: nothing that is fitted makes a difference.{absent}")
     told = Told.of(normal)
     if len(told.apart) < len(chosen):
         raise UserError(
             f"{scene.source.origin}: the record does not tell {' and '.join(chosen)} apart. {told.remedy(chosen)}"
-            + (f" Note that {silent}" if told.unseen and absent else "")
+            f"{absent if told.unseen else ''}"
         )
     misfit = _size(left, reach)
     if not misfit < most_misfit:
-        raise CheckFailed(_unlike(scene, fit, misfit, most_misfit, loss))
+        raise CheckFailed(_unlike(scene, fit, misfit, most_misfit, loss) + absent)
     if (far := np.abs(logarithms) > 0.99 * _FARTHEST).any():
         raise CheckFailed(
             f"{scene.source.origin}: '{chosen[int(np.argmax(far))]}' leaves all bounds: the record asks for a value "
@@ -189,6 +183,17 @@ def _jacobian(fit: Fit, logarithms: Array) -> Array:
 def _size(remains: Array, reach: float) -> float:
     """Return the root mean square, of what lost weight no more than it counts."""
     return float(np.sqrt(np.mean(np.clip(remains, -reach, reach) ** 2)))
+
+
+def _absent(scene: Scene, record: Mapping[str, Signal]) -> str:
+    """Say which inputs the record leaves out; nothing where it has them all."""
+    names = [item.name for item in scene.inputs if item.name not in record]
+    if not names:
+        return ""
+    return (
+        f" Inputs without a record are zero: the record has no column {' or '.join(names)}. Say what acted, for "
+        f"example --input {names[0]}=1."
+    )
 
 
 def _unlike(scene: Scene, fit: Fit, misfit: float, most: float, loss: Loss) -> str:

@@ -36,7 +36,7 @@ _TABLES = ("base", *PARTS, "tip")
 """That say what an arm is."""
 
 _SOLVED = ("integrator", "emit", "control")
-"""Tables that say how an arm is solved, written and controlled: a record of its motion tells nothing of their numbers."""
+"""Tables that say how an arm is solved, written and controlled: no record tells their numbers."""
 
 
 def default_keys(scene: Scene) -> tuple[str, ...]:
@@ -76,7 +76,7 @@ def number_of(scene: Scene, key: str) -> float:
         raise UserError(f"{where}: has no number '{key}' to fit. {_others(scene, key, path, absent=True)}")
     if path[0] in _SOLVED:
         raise UserError(
-            f"{where}: '{key}' is {show_value(value)}, a number of [{path[0]}], which says nothing about the arm itself. "
+            f"{where}: '{key}' is {show_value(value)}, a number of [{path[0]}], which is not the arm's own. "
             f"{_others(scene, key, path)}"
         )
     if not set(path[1:]).isdisjoint(_built_in(scene)):

@@ -16,7 +16,7 @@ from tmm_gen.program.build import build_program
 from tmm_gen.program.count import count_routine
 from tmm_gen.program.evaluate import allocate, execute, key
 from tmm_gen.resources import scenes_dir
-from tmm_gen.scene import load_scene
+from tmm_gen.scene import load_scene, parse_scene
 
 EXACT = 1e-11
 FLAGS = ("-O1", "-ffp-contract=off")
@@ -144,6 +144,85 @@ def test_finite_differences_agree_to_their_own_accuracy(case: Any) -> None:
     # central differences: a fourth at half the step, unless the step is linear and rounding is all there is
     assert errors[1] < 1e-9 or errors[0] / errors[1] == pytest.approx(4.0, rel=0.2)
     assert errors[1] < 1e-2
+
+
+SOLVED_AT_ONCE = """
+name = "pair"
+[model]
+kind = "spatial"
+gravity = [0, 0, -9.81]
+[integrator]
+name = "radau2"
+step = 2e-2
+[base]
+kind = "clamp"
+[[motor]]
+name = "yaw"
+axis = "z"
+rotor_inertia = 2e-5
+gear = 20
+stiffness = 6.0
+damping_time = 1e-3
+[[body]]
+name = "post"
+on = "yaw"
+mass = 0.4
+center = [0.1, 0.0, 0.05]
+inertia = [1e-3, 2e-3, 2e-3, 0, 1e-4, 0]
+[[joint]]
+name = "elbow"
+on = "post"
+at = [0.2, 0.0, 0.1]
+axis = "y"
+stiffness = 0.5
+[[body]]
+name = "hand"
+on = "elbow"
+mass = 0.2
+center = [0.1, 0.05, 0.0]
+inertia = [1e-4, 1e-4, 1e-4]
+[[input]]
+name = "torque"
+at = "yaw"
+acts = "torque"
+[[output]]
+name = "hand"
+at = "hand"
+of = "position"
+[emit]
+sensitivities = true
+"""
+
+
+def test_stages_solved_at_once_in_space_have_the_slopes_that_differences_show() -> None:
+    """A complex sweep and a second iteration by its factors, behind an elastic gear; nothing is compiled."""
+    program = build_program(parse_scene(SOLVED_AT_ONCE))
+    found = program.sensitivities
+    sizes = [sum(v.length or 1 for v in group) for group in (program.state, program.inputs)]
+    random = np.random.default_rng(9)
+    point, along = (random.uniform(-0.6, 0.6, sum(sizes)) for _ in range(2))
+    groups = (program.step, *program.parameters, *program.coefficients, *program.state, *program.inputs)
+    values = allocate((*groups, *found.point), float)
+    execute(program.prepare, values)
+
+    def after(h: float) -> np.ndarray:
+        moved = dict(values)
+        _fill(moved, program.state, (point + h * along)[: sizes[0]])
+        _fill(moved, program.inputs, (point + h * along)[sizes[0] :])
+        execute(found.linearise, moved)
+        values.update({key(v): moved[key(v)] for v in found.point} if h == 0.0 else {})
+        return np.concatenate([np.ravel(moved[key(v)]) for v in program.state])
+
+    after(0.0)
+    _fill(values, found.state, along[: sizes[0]])
+    _fill(values, found.inputs, along[sizes[0] :])
+    execute(found.tangent, values)
+    slope = np.concatenate([np.ravel(values[key(v)]) for v in found.state])
+    errors = [
+        np.abs((after(h) - after(-h)) / (2.0 * h) - slope).max() / np.abs(slope).max() for h in (4e-3, 2e-3)
+    ]
+    assert errors[0] / errors[1] == pytest.approx(4.0, rel=0.05)
+    assert errors[1] < 1e-4
 
 
 def test_a_direction_costs_less_than_a_step(case: Any) -> None:
