@@ -51,14 +51,18 @@ def test_no_bit_differs_from_the_kernel(version: FmiVersion, boom: Scene, instan
     assert all(first[name] != value for name, value in unit.outputs().items())
 
 
-@pytest.mark.parametrize("text", [AFLOAT, TABLE], ids=["floats", "prescribed"])
+CARRIED = TABLE.replace("input = [", 'input = [{ name = "along", at = "base", acts = "place_x" }, ')
+
+
+@pytest.mark.parametrize("text", [AFLOAT, CARRIED], ids=["floats", "turned and carried"])
 def test_a_unit_on_a_base_that_moves_is_its_kernel(text: str, instance: Any, direct: Any) -> None:
-    """But for the rounding of a prescribed angle, which units follow between the instants at which it is set."""
+    """But for the rounding of what a base is told, which units follow between the instants at which it is set."""
     scene = parse_scene(text)
     unit, kernel = instance(scene, 3), direct(scene)
     given = {"push_x": 0.3, "push_y": -0.2, "push_z": 0.4}
     if scene.prescribed is not None:
         given |= {"table": 0.1, "table_rate": 0.5, "table_acceleration": -0.3}
+        given |= {"along": -0.2, "along_rate": 0.4, "along_acceleration": 0.7}
     kernel.prepare()
     kernel.initialise(given)
     unit.begin(**given)

@@ -97,6 +97,9 @@ def _sources(
     followed = [name for names in prescribed_names(program.inputs) for name in names]
     whole = fmu_variables(program, REALS[scene.emit.real], followed)
     variables = tuple(element for v in whole for element in v.elements()) if version == 2 else whole
+    described = [
+        {"name": each, "member": signal(each, scene.name), "stem": PREFIX + each} for each in followed
+    ]
     files = {path.removeprefix("c/"): text for path, text in emit_kernel(program, scene).items()}
     templates = {
         "fmi-instance.h": "fmi-instance.h.jinja",
@@ -114,10 +117,8 @@ def _sources(
                 token=token,
                 step=number(scene.integrator.step),
                 variables=variables,
-                followed=[
-                    {"name": each, "member": signal(each, scene.name), "stem": PREFIX + each}
-                    for each in followed
-                ],
+                followed=described,
+                ways=[described[k : k + 3] for k in range(0, len(described), 3)],
                 held=[signal(v.name, scene.name) for v in program.inputs if v.name not in followed],
                 instants=_rows(program),
             )
