@@ -226,6 +226,22 @@ CASES = {
         "remove sensitivities",
         ("sensitivities = true\n", ""),
     ),
+    "sensitivities by other sines": Case(
+        MOTOR,
+        '[emit]\ntrigonometry = "own"\nsensitivities = true\n\n' + MOTOR,
+        "emit.trigonometry",
+        "by the C library's sines",
+        "Remove it",
+        ('trigonometry = "own"\n', ""),
+    ),
+    "sensitivities of many arms": Case(
+        MOTOR,
+        "[emit]\nbatch = 8\nsensitivities = true\n\n" + MOTOR,
+        "emit.batch",
+        "which several arms at once have not",
+        "Remove one of them",
+        ("batch = 8\n", ""),
+    ),
     "compensated": Case(
         MOTOR,
         '[emit]\nreal = "float32"\ncompensated = true\n\n' + MOTOR,

@@ -42,13 +42,24 @@ def real_is_used(document: Document) -> Iterator[Finding]:
 
 
 def bound_without_sensitivities(document: Document) -> Iterator[Finding]:
-    """Find derivatives asked of a kernel whose parameters are constants: theirs are functions of a model."""
-    if document.emit.parameters == "bound" and document.emit.sensitivities:
+    """Find derivatives asked of a kernel whose parameters are constants or whose sines are its own."""
+    emit = document.emit
+    if not emit.sensitivities:
+        return
+    if emit.parameters == "bound":
         yield Finding(
             ("emit", "parameters"),
             "and emit.sensitivities exclude each other",
             'Write parameters = "free", or remove sensitivities.',
-            document.emit.parameters,
+            emit.parameters,
+        )
+    if emit.trigonometry == "own" and document.model.kind != "chain" and "c" in emit.backends:
+        beside = "" if emit.batch is None else " and batch, which needs it"
+        yield Finding(
+            ("emit", "trigonometry"),
+            "and emit.sensitivities exclude each other: derivatives are by the C library's sines",
+            f"Remove it{beside}, or remove sensitivities.",
+            emit.trigonometry,
         )
 
 
@@ -114,7 +125,15 @@ def batch_suits(document: Document) -> Iterator[Finding]:
             'Write batch = 8, or real = "float32" beside it.',
             emit.batch,
         )
-    if document.model.kind != "chain" and emit.trigonometry != "own":
+    if document.model.kind != "chain" and emit.trigonometry != "own" and emit.sensitivities:
+        yield Finding(
+            key,
+            "and emit.sensitivities exclude each other: derivatives are by the C library's sines, which several arms "
+            "at once have not",
+            "Remove one of them.",
+            emit.batch,
+        )
+    elif document.model.kind != "chain" and emit.trigonometry != "own":
         yield Finding(
             key,
             "needs sines for several arms at once, which a C library has not",
