@@ -66,7 +66,11 @@ def prediction_scene(scene: Scene, calibrate: bool = True) -> Scene:
     if scene.spatial is not None:
         # CasADi differentiates a step as it is, corrections and all
         return scene.replace(**changes)
-    changes |= {"emit.sensitivities": True, "emit.trigonometry": None, "emit.batch": None}  # by the library's sines
+    changes |= {
+        "emit.sensitivities": True,
+        "emit.trigonometry": None,
+        "emit.batch": None,
+    }  # by the library's sines
     changes["model.corrections"] = None
     if calibrate and scene.beam is not None:
         first, others = spring_factors(scene, step)
