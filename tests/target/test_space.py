@@ -92,6 +92,9 @@ def test_each_joint_of_a_loops_body_is_checked() -> None:
         handed = handed_at(loop, handed_on(program.main)).values()
         assert len(handed) == pivots
         assert all(len(numbers) >= 19 for numbers in handed), [len(numbers) for numbers in handed]
+        assert (
+            handed_at(loop, frozenset()) == {}
+        )  # without a box nothing is checked, and there is no status for it
 
 
 def test_checks_refuse_what_leaves_their_bounds(boom: Scene, program: Program) -> None:

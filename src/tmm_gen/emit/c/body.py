@@ -199,7 +199,7 @@ class Body:
                         yield f"{INDENT * depth}}}"
                     yield f"{INDENT * depth}{self._loop_head(top)} {{"
                     turns = Turns(names)
-                    handed = handed_at(top, self.fence.handed) if self.fence else {}
+                    handed = handed_at(top, self.fence.handed)
                     for place, inner in enumerate(top.body):
                         yield from simple(inner, depth + 1, turns, checked)
                         if place in handed:

@@ -51,9 +51,9 @@ def handed_at(loop: Loop, scalars: frozenset[Variable]) -> dict[int, tuple[Ref, 
     loop : Loop
         Any.
     scalars : frozenset of Variable
-        As :func:`handed_on` returns them: what one round of a loop leaves to another.
+        As :func:`handed_on` returns them: what one round of a loop leaves to another; none where nothing is checked.
     """
-    if not _eliminates(loop):
+    if not (scalars and _eliminates(loop)):
         return {}
     found: dict[int, tuple[Ref, ...]] = {}
     pivots = [place for place, inner in enumerate(loop.body) if isinstance(inner, Require)]
