@@ -41,6 +41,7 @@ def test_the_demonstration(
         )
         slope = np.polyfit(np.log(steps[-3:]), np.log(errors[-3:]), 1)[0]
         assert slope == pytest.approx(order, abs=0.25)
-        # what the words say lies between the rows that they come from
-        below, above = times[errors <= 0.01].min(), times[errors >= 0.01].max()
-        assert above - 0.01 <= takes[name] <= below + 0.01
+        # what the words say lies between the rows that they come from; clocks need not agree with the order of steps
+        closer = np.argsort(errors)
+        near = times[closer][np.searchsorted(errors[closer], 0.01) + np.array([-1, 0])]
+        assert near.min() - 0.01 <= takes[name] <= near.max() + 0.01

@@ -437,17 +437,16 @@ def test_keys_that_are_no_numbers(geartrain: Made, key: str, stands: str, proble
 
 
 def test_what_a_record_cannot_tell_is_named_with_what_it_can(elbow: Made) -> None:
-    """Two dampers side by side, a number without effect: the keys that are offered instead can be fitted."""
+    """Two dampers side by side: the keys that are offered instead can be fitted."""
     scene, record, truth = elbow
     side = scene.replace(**truth | {"motor.elbow.damping": 0.035, "motor.elbow.motor_damping": 1e-5})
     both = ["motor.elbow.damping", "motor.elbow.motor_damping", "beam.upper.bending_stiffness"]
-    for keys in (both, [*both[1:], "integrator.step"]):
-        with pytest.raises(UserError, match="does not tell") as caught:
-            calibrate(side, record, keys)
-        offered = re.findall(r"--fit (\S+?)[; ]", str(caught.value))
-        assert len(offered) == 2
-        assert set(offered) < set(keys)
-        assert len(calibrate(side, record, offered).found) == 2
+    with pytest.raises(UserError, match="does not tell") as caught:
+        calibrate(side, record, both)
+    offered = re.findall(r"--fit (\S+?)[; ]", str(caught.value))
+    assert len(offered) == 2
+    assert set(offered) < set(both)
+    assert len(calibrate(side, record, offered).found) == 2
     assert not {"motor.elbow.motor_damping"} & set(default_keys(side))
 
 
