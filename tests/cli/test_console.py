@@ -98,7 +98,7 @@ class Terminal(io.StringIO):
 def test_a_table_too_wide_for_the_terminal_becomes_records(monkeypatch: pytest.MonkeyPatch) -> None:
     stream = Terminal()
     monkeypatch.setattr(sys, "stdout", stream)
-    monkeypatch.setattr("shutil.get_terminal_size", lambda: os.terminal_size((60, 24)))
+    monkeypatch.setattr("shutil.get_terminal_size", lambda *_, **__: os.terminal_size((60, 24)))
     columns: list[Column | str] = ["name", Column("peak", "largest angle (rad)", ".3g"), "a_remark"]
     rows = [{"name": name, "peak": 1.0, "a_remark": "of some length " * 3} for name in ("first", "second")]
     table(rows, columns, title="T")
