@@ -156,14 +156,11 @@ def asked(scene: Scene, source: str | None, target: str | None) -> tuple[Input, 
         If there is none of that name, or none at all.
     """
     # energies go with the square of the motion; what drives or holds a base in space is not found of small motion
-    held = scene.spatial is not None and scene.prescribed is not None
     readable = tuple(
         item
         for item in scene.outputs
-        # what drives a prescribed base is no answer of the arm's own
         if not scene.quantity(item).of_arm
-        and not (held and item.at == BASE and item.of == "torque")
-        and not (scene.spatial is not None and item.of == "force")
+        and not (scene.spatial and item.at == BASE and scene.quantity(item).read in ("through", "force"))
     )
     chosen = _chosen(scene, scene.inputs, source, "--from", "[[input]]")
     return chosen, _chosen(scene, readable, target, "--to", "[[output]] of a place")
