@@ -139,6 +139,8 @@ def set_out(axes: Any, motion: SpaceMotion, points: Array, narrowest: float = 0.
     longest = float(np.max(high - low))
     for name, axis, span in zip("xyz", (axes.xaxis, axes.yaxis, axes.zaxis), high - low, strict=True):
         axis.set_label_text(f"{name} (m)")
+        # a label stands off by a share of the other side of the ground
+        axis.labelpad = 4.0 * min(7.0, longest / float((high - low)[1 if name == "x" else 0]))
         axis.set_pane_color((1.0, 1.0, 1.0, 0.0))
         few = max(1, round(5.0 * float(span) / longest))  # labels of a narrow field would overlap
         axis.get_major_locator().set_params(nbins=few, min_n_ticks=1)
