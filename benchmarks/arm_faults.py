@@ -22,7 +22,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 from faulty_loops.arm_cases import ArmCase, arm_cases
 from faulty_loops.arm_loop import AFTER, ArmLoop, ArmOutcome
-from hypothesis import HealthCheck, Phase, given, seed, settings
+from faulty_loops.drawing import outcomes_of
 
 from tmm_gen.cli.console import plain, table
 from tmm_gen.control.bench import Bench
@@ -38,22 +38,7 @@ Found = list[tuple[ArmCase, ArmOutcome]]
 
 def outcomes(loop: ArmLoop, count: int, number: int = 0) -> Found:
     """Run as many cases as are asked for."""
-    found: Found = []
-
-    @seed(number)
-    @settings(
-        max_examples=count,
-        database=None,
-        deadline=None,
-        phases=[Phase.generate],
-        suppress_health_check=list(HealthCheck),
-    )
-    @given(case=arm_cases())
-    def run(case: ArmCase) -> None:
-        found.append((case, loop.run(case)))
-
-    run()
-    return found
+    return outcomes_of(arm_cases(), loop.run, count, number)
 
 
 def failed(outcome: ArmOutcome, period: float) -> bool:

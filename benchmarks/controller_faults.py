@@ -18,8 +18,8 @@ from collections import Counter
 from pathlib import Path
 
 from faulty_loops.cases import Case, cases
+from faulty_loops.drawing import outcomes_of
 from faulty_loops.loop import FaultyLoop, Outcome
-from hypothesis import HealthCheck, Phase, given, seed, settings
 
 from tmm_gen.cli.console import plain, table
 from tmm_gen.control.bench import Bench
@@ -34,22 +34,7 @@ WITHIN = 1.0
 
 def outcomes(loop: FaultyLoop, count: int, number: int = 0) -> list[tuple[Case, Outcome]]:
     """Run as many cases as are asked for."""
-    found: list[tuple[Case, Outcome]] = []
-
-    @seed(number)
-    @settings(
-        max_examples=count,
-        database=None,
-        deadline=None,
-        phases=[Phase.generate],
-        suppress_health_check=list(HealthCheck),
-    )
-    @given(case=cases())
-    def run(case: Case) -> None:
-        found.append((case, loop.run(case)))
-
-    run()
-    return found
+    return outcomes_of(cases(), loop.run, count, number)
 
 
 def failed(outcome: Outcome) -> bool:

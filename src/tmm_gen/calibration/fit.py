@@ -15,7 +15,7 @@ from tmm_gen.inputs.signals import Signal, Table
 from tmm_gen.native import NativeKernel, compile_kernel
 from tmm_gen.native.series import Series
 from tmm_gen.program.build import build_program
-from tmm_gen.program.space.layout import parameter_values
+from tmm_gen.program.space.kernel_parameters import parameter_values
 from tmm_gen.scene import Scene
 from tmm_gen.scene.columns import output_columns
 from tmm_gen.scene.model import FloatingBase

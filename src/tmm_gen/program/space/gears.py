@@ -44,6 +44,17 @@ def shafts_of(arm: SpatialArm, marked: frozenset[int]) -> frozenset[int]:
     return frozenset(found)
 
 
+def marked_by(arm: SpatialArm) -> frozenset[int]:
+    """Return the indices of joints on whose bodies something acts or is read."""
+    frames = [item.frame for item in arm.inputs] + [item.frame for item in arm.outputs]
+    return frozenset(frame.joint - 1 for frame in frames if frame is not None and frame.joint)
+
+
+def passed_over(arm: SpatialArm, *, coupled: bool) -> frozenset[int]:
+    """Return the shafts that sweeps pass over; stages that are solved at once keep them as joints."""
+    return frozenset() if coupled else shafts_of(arm, marked_by(arm))
+
+
 def set_aside(arm: SpatialArm, shafts: frozenset[int]) -> SpatialArm:
     """Return an arm in which what a shaft turns stands where the shaft is mounted."""
     joints = list(arm.joints)
