@@ -110,6 +110,7 @@ def contenders(scene: Scene, arm: Arm, pinocchio: Path | None, folder: Path) -> 
     found = {
         "tmm-gen": ours(scene),
         "tmm-gen, sines of the C library": ours(scene.replace(**{"emit.trigonometry": "libm"})),
+        "tmm-gen, favour speed": ours(scene.replace(**{"emit.favour": "speed"})),
         "CasADi": theirs(Articulated(jointed, torques), arm),
     }
     if pinocchio is not None:
