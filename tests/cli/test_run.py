@@ -104,6 +104,13 @@ def test_a_run_with_its_inputs_is_a_record(folder: Path, capsys: pytest.CaptureF
     (found,) = json.loads(capsys.readouterr().out)["rows"]
     assert found["given"] == 12.0
     assert found["value"] == pytest.approx(15.0, rel=1e-6)
+    (folder / "record.csv").write_text((folder / "record.csv").read_text().replace("tip_y", "tipy", 1))
+    assert main(["calibrate", "one.toml", "record.csv", "--fit", "beam.bending_stiffness"]) == 0
+    told = capsys.readouterr().out
+    assert (
+        "'tipy' is neither an input nor an output of the scene and was not read: did you mean 'tip_y'?"
+        in told
+    )
     said = refuse(*arm, "--with-inputs", capsys=capsys)
     assert "--with-inputs: adds columns to what --csv writes. Add --csv FILE." in said
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, get_args
 
 import numpy as np
@@ -16,7 +16,7 @@ from tmm_gen.api.several import Few, texts
 from tmm_gen.api.words import path_of
 from tmm_gen.calibration.calibrate import Calibration, Loss
 from tmm_gen.calibration.calibrate import calibrate as fit
-from tmm_gen.calibration.record import known_columns, missing_inputs, read_record
+from tmm_gen.calibration.record import headings_of, known_columns, missing_inputs, read_record, unread
 from tmm_gen.errors import UserError
 from tmm_gen.inputs.clock import UNITS, from_start
 from tmm_gen.inputs.curve import through
@@ -119,7 +119,7 @@ def fitted(
         if name not in missing:
             raise UserError(f"{name}: is a column of the record. Leave it out.")
     given = {**recorded, **signals(scene, acting, 0)}
-    return fit(
+    done = fit(
         scene,
         from_start(given, 0.0, unit),
         texts("fit", keys) or None,
@@ -127,6 +127,14 @@ def fitted(
         loss=way,
         most_misfit=required("max_misfit", most_misfit, ""),
     )
+    return replace(done, unread=unread(scene, _headings(record)))
+
+
+def _headings(record: object) -> list[str]:
+    """Return the names of a record's columns; of a run's, which are the scene's own, none."""
+    if isinstance(record, Run):
+        return []
+    return list(record) if isinstance(record, Mapping) else headings_of(path_of("record", record))
 
 
 def _recorded(scene: Scene, record: object) -> dict[str, Signal]:

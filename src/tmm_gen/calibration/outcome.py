@@ -66,6 +66,8 @@ class Calibration:
         Of these, given less weight by Huber's loss.
     start : float
         When the motion started, on the clock of the record, s.
+    unread : tuple of str
+        What is said of columns of the record that the scene does not know.
     """
 
     scene: Scene
@@ -77,6 +79,7 @@ class Calibration:
     samples: int
     outliers: int
     start: float
+    unread: tuple[str, ...] = ()
 
     def rows(self) -> Iterator[dict[str, object]]:
         """Yield a row for each number."""
@@ -103,4 +106,4 @@ class Calibration:
             said.append(f"{self.outliers} of {self.samples} samples are far off and were given less weight")
         if self.start:
             said.append(f"the arm starts at {self.start:.10g} s of the record's clock")
-        return said
+        return [*said, *self.unread]

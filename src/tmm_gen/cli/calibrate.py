@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
@@ -94,7 +95,7 @@ def calibrate(
     loaded = changed_scene(scene)
     with progress(f"fitting {loaded.name}"):
         from tmm_gen.calibration.calibrate import calibrate as fit
-        from tmm_gen.calibration.record import missing_inputs, read_record
+        from tmm_gen.calibration.record import headings_of, missing_inputs, read_record, unread
         from tmm_gen.inputs.clock import UNITS, from_start
         from tmm_gen.inputs.given import input_names, read_inputs
 
@@ -109,6 +110,7 @@ def calibrate(
             loss=loss,
             most_misfit=most_misfit,
         )
+        done = replace(done, unread=unread(loaded, headings_of(record)))
     written = _write(scene, out, done, force)
     _show(loaded, done, written, json_mode)
 
@@ -141,6 +143,7 @@ def _show(scene: Scene, done: Calibration, written: list[Path], json_mode: bool)
         "outliers": done.outliers,
         "start": done.start,
         "correlation": done.correlation,
+        "unread": done.unread,
         "files": written,
     }
     table(
