@@ -8,9 +8,10 @@ peers' has springs and dampers implicit, as armatures, and one pass of the artic
 predicted with the last acceleration: one pass is the least that a method of second order costs them. tmm-gen's has
 Newton's exact slopes of everything. CasADi's code has the arm's numbers in it and checks nothing; tmm-gen's reads them
 from its model and checks inputs, pivots and the new state. On a processor with vectors that is code made with
-``[emit] favour = "speed"``; the default, small code for controllers, stands beside it. Pinocchio is general code, for any robot in space. Everyone:
-one thread, gcc -O3 -march=native, thread time, by turns; ratios within a round, then their median. Before that each
-peer's accelerations must be those of Lagrange's equations. Without Pinocchio, or g++, its rows are left out.
+``[emit] favour = "speed"``; the default, small code for controllers, stands beside it. Pinocchio is general code, for
+any robot in space. Everyone: one thread, gcc -O3 -march=native, thread time, by turns; ratios within a round, then
+their median. Before that each peer's accelerations must be those of Lagrange's equations. Without Pinocchio, or g++,
+its rows are left out.
 """
 
 from __future__ import annotations

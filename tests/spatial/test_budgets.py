@@ -39,6 +39,18 @@ def links(count: int, turn: Turn) -> SpatialArm:
     )
 
 
+def row(count: int) -> SpatialArm:
+    """Return links that all turn about one axis, whose masses lie off their joints but in one plane."""
+    body = RigidBody(1.0, (0.1, 0.0, 0.0), (0.01, 0.02, 0.03, 0.0, 0.0, 0.0))
+    return SpatialArm(
+        tuple(
+            Revolute(f"joint_{k + 1}", k, (0.3, 0.0, 0.0), axis=2, body=body, stiffness=5.0, damping=0.1)
+            for k in range(count)
+        ),
+        gravity=(0.0, -9.81, 0.0),
+    )
+
+
 @dataclass(frozen=True)
 class Cost:
     """Operations per joint and Newmark step, and what they should not exceed.
@@ -62,11 +74,15 @@ COSTS = {
     "bend, bend": Cost(Fraction(553, 2), Fraction(237, 2), Fraction(637), (290, 120, 710)),
     "bend, bend, twist": Cost(Fraction(778, 3), Fraction(322, 3), Fraction(1784, 3), (270, 110, 668)),
     "link": Cost(Fraction(477), Fraction(238), Fraction(1118), (511, 240, 1147)),
+    "planar": Cost(Fraction(120), Fraction(67), Fraction(198), (133, 67, 212)),
 }
+"""Of the last nothing turns out of its plane, and nothing is computed of what would."""
 
 
 def arm_of(kind: str, cells: int) -> SpatialArm:
     """Return the arm of a kind."""
+    if kind == "planar":
+        return row(cells)
     return links(cells, QUARTER) if kind == "link" else beam(cells, len(kind.split(",")))
 
 
@@ -107,9 +123,9 @@ def test_exact_step(kind: str) -> None:
 
 @pytest.mark.parametrize("kind", COSTS)
 def test_newest_acceleration_costs_little(kind: str) -> None:
-    """Predicting with it instead of with none takes up to four operations a joint."""
+    """Predicting with it instead of with none takes up to four operations a joint; in a plane, where few are, eight."""
     none, newest = (per_joint(kind, SpaceChoices(1e-3, iterations=1, held=held)) for held in (False, True))
-    assert 0 < newest - none <= 4
+    assert 0 < newest - none <= (8 if kind == "planar" else 4)
 
 
 DIRECTIONS = {"bend, bend": (445, 761), "link": (765, 1114)}
@@ -174,11 +190,14 @@ def geared(count: int, *, elastic: bool) -> SpatialArm:
     ids=["sweep", "correction"],
 )
 def test_an_elastic_gear(more: int, choices: SpaceChoices) -> None:
-    """Over a rigid one as much as in a plane, where a step has one sweep."""
+    """Over a rigid one as much as in a plane, where a step has one sweep.
+
+    Joints near the base cost less: some of their motion is zero yet.
+    """
     rigid, elastic = (
         [
             count_routine(program_of(geared(count, elastic=way), choices=choices).main).total
-            for count in (3, 4)
+            for count in (5, 6)
         ]
         for way in (False, True)
     )

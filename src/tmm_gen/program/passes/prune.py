@@ -18,23 +18,30 @@ def prune(routine: Routine, wanted: frozenset[Variable]) -> Routine:
     wanted : frozenset of Variable
         Results of the routine: state, coefficients or outputs that live on after it.
     """
-
-    def feeds_itself_only(assign: Assign, alive: frozenset[Variable]) -> bool:
-        return assign.target.variable not in alive
-
     while True:
-        alive = set(wanted)
-        for assign in routine.assignments():
-            for ref in refs_in(assign.value):
-                if ref.variable is not assign.target.variable:
-                    alive.add(ref.variable)
-        for value in _required(routine):
-            alive.update(ref.variable for ref in refs_in(value))
-        pruned = keep_assignments(routine, lambda a, alive=frozenset(alive): not feeds_itself_only(a, alive))  # type: ignore[misc]
+        alive = _alive(routine, wanted)
+        pruned = keep_assignments(routine, lambda a, alive=alive: a.target.variable in alive)  # type: ignore[misc]
         pruned = _without_unread(pruned, wanted)
         if pruned == routine:
             return routine
         routine = pruned
+
+
+def _alive(routine: Routine, wanted: frozenset[Variable]) -> set[Variable]:
+    """Return what is wanted, or read by what is; what only feeds itself, or others that do, is not among it."""
+    alive = set(wanted)
+    for value in _required(routine):
+        alive.update(ref.variable for ref in refs_in(value))
+    feeding: dict[Variable, set[Variable]] = {}
+    for assign in routine.assignments():
+        read = feeding.setdefault(assign.target.variable, set())
+        read.update(ref.variable for ref in refs_in(assign.value))
+    ahead = list(alive)
+    while ahead:
+        more = feeding.get(ahead.pop(), set()) - alive
+        alive |= more
+        ahead += more
+    return alive
 
 
 def without_requirements(routine: Routine, wanted: frozenset[Variable] = frozenset()) -> Routine:

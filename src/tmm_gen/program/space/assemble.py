@@ -14,6 +14,7 @@ from tmm_gen.program.finish import NOTHING_PREPARED, START_DOC, Factors, living,
 from tmm_gen.program.motion import history_values
 from tmm_gen.program.passes.early import EarlySets, lifted
 from tmm_gen.program.passes.hoist import Hoister
+from tmm_gen.program.passes.zeros import without_zeros
 from tmm_gen.program.sensitivities.differentiated import differentiated
 from tmm_gen.program.space.base import BaseStep, earlier, history_sources
 from tmm_gen.program.space.base_start import start_of_base, unit_start
@@ -95,6 +96,17 @@ def build_in_space(
     return _Assembly(layout_of(arm, name, title, integrator, choices.step), integrator, choices).program()
 
 
+def _without_zeros(program: Program) -> Program:
+    """Return a program whose steps and start do without what is always zero."""
+    return replace(
+        program,
+        startup=tuple(without_zeros(routine) for routine in program.startup),
+        main=without_zeros(program.main),
+        initialise=without_zeros(program.initialise),
+        output=without_zeros(program.output),
+    )
+
+
 def _whole(sections: list[Section], _then: Section) -> list[Section]:
     """Return the sections of a sweep as they are."""
     return sections
@@ -145,7 +157,7 @@ class _Assembly:
             v.name for v in layout.held.values() if v.name.startswith(("base_place", "base_velocity"))
         )
         always = base.always if base else moved
-        alive = living(whole, auto=self.choices.auto, always=always)
+        alive = living(_without_zeros(whole), auto=self.choices.auto, always=always)
         if self.choices.sensitivities:
             alive = replace(alive, sensitivities=differentiated(alive, self.hoister))
         return prepared(alive, factors)
