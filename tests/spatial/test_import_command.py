@@ -29,7 +29,7 @@ def test_the_scene_is_named_as_the_robot_and_never_replaced(
 ) -> None:
     assert main(["import", URDF]) == 0
     said = capsys.readouterr().out
-    assert said.startswith("wrote picker.toml: 4 motors, 0 gears that give way, 6 bodies, 0 beams\n")
+    assert said.startswith("wrote picker.toml: 4 motors, 6 bodies, all rigid\n")
     written = (place / "picker.toml").read_text()
     assert load_scene(place / "picker.toml").name == "picker"
     assert main(["import", URDF]) == 0  # the same again changes nothing

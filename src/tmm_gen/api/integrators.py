@@ -97,7 +97,9 @@ def derived(
     for name in map(underscored, names or known):
         if name not in known:
             raise UserError(f"integrator '{name}': choose from {', '.join(known)}.")
-        found.append(analyse(registry.integrator(name), zeta))
+        declared = registry.integrator(name)
+        with registry.failing_in(name):  # relations that are not linear, or leave nothing to solve for
+            found.append(analyse(declared, zeta))
         advance(name)
     return Integrators(tuple(found))
 

@@ -26,6 +26,8 @@ __all__ = ["COMMANDS", "main", "tmm_gen"]
 _PROGRAM = "tmm-gen"
 _OF_OUTPUT = (errno.EBADF, errno.EFBIG, errno.EIO, errno.ENOSPC, errno.EDQUOT)
 """What goes wrong with standard output, to which errors give no name."""
+_READER_WENT = 128 + 13
+"""Exit code of a command whose reader goes away: what shells have for SIGPIPE."""
 
 COMMANDS = {
     "new": LazyCommand("tmm_gen.cli.new:new", "Write a commented scene to start from."),
@@ -215,8 +217,12 @@ def _fail(message: str, code: int) -> int:
 
 
 def _printing_failed(error: OSError) -> int:
-    """Say that nobody takes the output; standard output points at nothing then, so that the exit stays quiet."""
+    """Say that the output cannot be written; standard output points at nothing then, so that the exit stays quiet.
+
+    A reader that has seen enough, such as ``head``, is no error: nothing is said, as by other commands in pipes.
+    """
     with contextlib.suppress(OSError, ValueError):  # standard output may be no file
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-    reason = "its reader went away" if isinstance(error, BrokenPipeError) else error.strerror or str(error)
-    return _fail(f"standard output: {reason}", UserError.exit_code)
+    if isinstance(error, BrokenPipeError):
+        return _READER_WENT
+    return _fail(f"standard output: {error.strerror or error}", UserError.exit_code)

@@ -60,8 +60,10 @@ def build(scenes: tuple[str, ...], check: bool, out: Path, force: bool, json_mod
         for line in drift:
             click.echo(line)
     table([row.as_dict() for row in rows], _columns(check), json_mode, more={"hints": hints})
-    if not json_mode and not check and (names := [s.name for s in loaded if "numpy" in s.emit.backends]):
-        click.echo(import_line(out, names))
+    if not json_mode and not check:
+        for backend, line in (("numpy", import_line), ("c", cmake_line)):
+            if names := [scene.name for scene in loaded if backend in scene.emit.backends]:
+                click.echo(line(out, names))
     if not json_mode:
         for row in rows:
             if row.without_motion:
@@ -84,14 +86,25 @@ def import_line(out: Path, names: Sequence[str]) -> str:
         Of the packages.
     """
     folder = out.resolve()
-    package = folder.name.isidentifier() and not iskeyword(folder.name)
-    root = folder.parent if package else folder
-    here = root == Path.cwd()
+    below = folder.parent == Path.cwd() and folder.name.isidentifier() and not iskeyword(folder.name)
     which = names[0] if len(names) == 1 else "NAME"
-    module = f"{folder.name}.{which}" if package else which
-    where = "this folder" if here else str(root)
-    path = "." if here else shlex.quote(str(root))
+    module = f"{folder.name}.{which}" if below else which
+    where, path = ("this folder", ".") if below else (str(out), shlex.quote(str(out)))
     return f"In Python: from {module} import simulate, with {where} on its path: PYTHONPATH={path} python SCRIPT.py"
+
+
+def cmake_line(out: Path, names: Sequence[str]) -> str:
+    """Return how a CMake project takes the C of packages.
+
+    Parameters
+    ----------
+    out : Path
+        Folder of the packages.
+    names : sequence of str
+        Of the packages.
+    """
+    which = names[0] if len(names) == 1 else "NAME"
+    return f"In CMake: add_subdirectory({out / which / 'c'}), and link tmm_{which}; without CMake compile {which}.c there"
 
 
 def scene_files(named: Sequence[str]) -> list[Path]:

@@ -53,9 +53,15 @@ def import_urdf(urdf: Path, flex: Path | None, out: Path | None, force: bool, js
             }
         )
         return
-    click.echo(
-        f"wrote {target}: {len(scene.motors)} motors, {len(scene.gears)} gears that give way, "
-        f"{len(scene.bodies)} bodies, {len(scene.beams)} beams"
-    )
+    counted = {
+        "motor": len(scene.motors),
+        "gear that gives way": len(scene.gears),
+        "body": len(scene.bodies),
+        "beam": len(scene.beams),
+    }
+    several = {"gear that gives way": "gears that give way", "body": "bodies"}
+    parts = [f"{n} {what if n == 1 else several.get(what, what + 's')}" for what, n in counted.items() if n]
+    rigid = "" if scene.gears or scene.beams else ", all rigid"
+    click.echo(f"wrote {target}: {', '.join(parts)}{rigid}")
     click.echo(f"{len(scene.decisions)} decisions stand in its comments")
     click.echo(f"next: read them, then `tmm-gen build {target}` and `tmm-gen run {target}`")

@@ -69,7 +69,7 @@ def _assign(data: dict[str, Any], path: Path, value: object) -> Finding | None:
         elif isinstance(place, list) and isinstance(part, int) and 0 <= part < len(place):
             place = place[part]
         else:
-            return _nowhere(path[: depth + 1])
+            return _nowhere(path[: depth + 1], place)
     last = path[-1]
     if isinstance(place, dict) and isinstance(last, str):
         place[last] = value
@@ -78,15 +78,24 @@ def _assign(data: dict[str, Any], path: Path, value: object) -> Finding | None:
     elif isinstance(place, list) and isinstance(last, int) and 0 <= last < len(place) and value is not None:
         place[last] = value
     else:
-        return _nowhere(path)
+        return _nowhere(path, place)
     return None
 
 
-def _nowhere(path: Path) -> Finding:
+def _nowhere(path: Path, place: object) -> Finding:
+    """Say that nothing is at a path whose last part was looked for in a place, and what is there by name."""
+    named = (
+        [item["name"] for item in place if isinstance(item, dict) and "name" in item]
+        if isinstance(place, list)
+        else []
+    )
+    table = ".".join(str(part) for part in path[:-1])
     return Finding(
         path,
         "is not in this scene",
-        "Name a key of the file, tables by name or counted from 1: link.2.inertia.",
+        f"There {'is' if len(named) == 1 else 'are'} {', '.join(f'{table}.{name}' for name in named)}."
+        if named
+        else "Name a key of the file, tables by name or counted from 1: link.2.inertia.",
     )
 
 

@@ -174,9 +174,19 @@ def test_a_tableau_or_abscissae_are_a_method(added: str) -> None:
             ),
             r"hht\.py:\d+: .* fails: NameError: name 'alpha'",
         ),
+        pytest.param(
+            (HHT[0], HHT[1].replace("sp.S.Half", "0.5")), r"hht\.py: .* the number 0\.\d+, of which"
+        ),
+        pytest.param(
+            (HHT[0], HHT[1].replace("sp.S.Half", "sp.pi / 6")), r"hht\.py: .* the number pi, of which"
+        ),
+        pytest.param(
+            (HHT[0], HHT[1].replace("weighted[1]))", "weighted[1] ** 2))")),
+            r"hht\.py: .* fails: NonlinearError: nonlinear term",
+        ),
     ],
     indirect=["added"],
-    ids=["no row", "other arguments", "no function", "no Python", "fails"],
+    ids=["no row", "other arguments", "no function", "no Python", "fails", "a decimal", "no root", "no line"],
 )
 def test_a_row_and_a_file_that_do_not_go_together_are_told(
     added: str, said: str, capsys: pytest.CaptureFixture[str]

@@ -13,6 +13,8 @@ from contextlib import contextmanager
 from importlib import import_module
 from pathlib import Path
 
+import sympy as sp
+
 import tmm_gen.derive.integrators as package
 from tmm_gen.derive.integrators.declaration import Integrator
 from tmm_gen.derive.integrators.parameters import Number, bind
@@ -57,8 +59,10 @@ def integrator(name: str, **parameters: Number) -> Integrator:
         )
     _require_arguments(method, factories[key])
     bound = bind(method, parameters)
-    with _failing_in(key):
-        return factories[key](**bound)
+    with failing_in(key):
+        declared = factories[key](**bound)
+    _require_exact(key, declared)
+    return declared
 
 
 def names() -> tuple[str, ...]:
@@ -75,7 +79,7 @@ def _factories() -> dict[str, Factory]:
     """Look through the package anew, so that a module added at run time is found too."""
     found: dict[str, Factory] = {}
     for name in sorted(module.name for module in pkgutil.iter_modules(package.__path__)):
-        with _failing_in(name):
+        with failing_in(name):
             candidate = getattr(import_module(f"{package.__name__}.{name}"), name, None)
         if inspect.isfunction(candidate) and candidate.__annotations__.get("return") in (
             "Integrator",
@@ -110,6 +114,27 @@ def _require_arguments(method: Method, factory: Factory) -> None:
         )
 
 
+def _require_exact(name: str, declared: Integrator) -> None:
+    """Refuse numbers of which order and limits could not be derived: decimals, pi, roots of polynomials.
+
+    Raises
+    ------
+    UserError
+        If there is one.
+    """
+    for scheme in declared.schemes:
+        relations = [relation for each in scheme.stages for relation in (each.instant, *each.relations)]
+        for expression in map(sp.sympify, (*relations, *scheme.update.values())):
+            odd = expression.atoms(sp.Function, sp.CRootOf) or {
+                atom for atom in expression.atoms() if atom.is_number and not atom.is_Rational
+            }
+            if odd:
+                raise UserError(
+                    f"{_file(name)}: integrator '{name}' has the number {min(odd, key=str)}, of which nothing exact can "
+                    "be derived. Write fractions and roots: sp.Rational(1, 3), sp.sqrt(3)."
+                )
+
+
 def _listed(names: list[str]) -> str:
     return ", ".join(f"'{name}'" for name in names) if names else "no parameter"
 
@@ -123,8 +148,19 @@ def _file(name: str) -> Path:
 
 
 @contextmanager
-def _failing_in(name: str) -> Iterator[None]:
-    """Say of whatever a declaration raises in which line of its file."""
+def failing_in(name: str) -> Iterator[None]:
+    """Say of whatever a declaration raises, or what follows from it, in which file and, where known, line.
+
+    Parameters
+    ----------
+    name : str
+        Of the integrator.
+
+    Raises
+    ------
+    UserError
+        In place of any other error.
+    """
     try:
         yield
     except SyntaxError as error:
