@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 from collections.abc import Callable
 from pathlib import Path
@@ -53,11 +54,18 @@ def test_another_package_brings_one(
     """Its text comes out; it cannot take the name of one of ours."""
     scene = (SCENES / "thesis2.toml").read_text().partition("[emit]")[0]
     (tmp_path / "thesis2.toml").write_text(scene + '[emit]\nbackends = ["listing", "c"]\n')
-    done = tmm_gen("build", "thesis2.toml", env={"PYTHONPATH": str(other_package)})
+    path = {"PYTHONPATH": os.pathsep.join((str(other_package), os.environ.get("PYTHONPATH", "")))}
+    done = tmm_gen("build", "thesis2.toml", env=path)
     assert done.returncode == 0, done.stderr
     made = tmp_path / "generated" / "thesis2"
     assert "thesis2: Two-station torsional chain" in (made / "listing.txt").read_text()
     assert (made / "c" / "thesis2.c").is_file()
+
+    # a build with nothing to do does not look at what it prints: another package may have changed
+    (other_package / "listing.py").write_text(LISTING.replace("*header_lines", "'changed', *header_lines"))
+    done = tmm_gen("build", "thesis2.toml", env=path)
+    assert done.returncode == 0, done.stderr
+    assert (made / "listing.txt").read_text().startswith("changed")
 
 
 def test_without_it_the_scene_is_refused_in_words(

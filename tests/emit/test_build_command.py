@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from tmm_gen.cli import main
+from tmm_gen.scene import Scene
 
 SCENE = """\
 name = "{name}"
@@ -153,7 +154,7 @@ def test_check_shows_the_difference_and_writes_nothing(
 
 def test_check_does_not_trust_the_cache(place: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["build", "arm"]) == 0
-    for entry in (place / "cache").rglob("*.json"):
+    for entry in (place / "cache" / "build").iterdir():
         kernel = place / "generated" / "arm" / "kernel.py"
         kernel.write_text(kernel.read_text().replace("2.0", "7.0"))
         import hashlib
@@ -212,7 +213,11 @@ def test_a_missing_file_is_written_again(place: Path) -> None:
     assert tree(place / "generated") == before
 
 
-HEAVY = ["sympy", "numpy", "casadi", "scipy", "jinja2", "matplotlib"]
+HEAVY = [
+    *("sympy", "numpy", "casadi", "scipy", "jinja2", "matplotlib"),
+    *("pydantic", "importlib.metadata", "tmm_gen.scene"),
+]
+"""Models that check scenes take twice as long to import as all that a build with nothing to do takes."""
 
 
 def imported(place: Path, words: list[str]) -> str:
@@ -232,37 +237,117 @@ def test_a_build_with_nothing_to_do_imports_nothing_heavy(place: Path) -> None:
     assert imported(place, ["build"]) == "imported:"
 
 
-@pytest.mark.parametrize("change", ["scene", "sources", "sympy", "cache"])
-def test_the_cache_forgets(place: Path, monkeypatch: pytest.MonkeyPatch, change: str) -> None:
-    from tmm_gen.package import cache
+@pytest.fixture
+def derived(place: Path, monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """Build a scene; return the names of those that are derived from then on."""
+    from tmm_gen.package import texts
 
+    emit, found = texts.emit_package, list[str]()
+
+    def emitted(scene: Scene) -> dict[str, str]:
+        found.append(scene.name)
+        return emit(scene)
+
+    monkeypatch.setattr(texts, "emit_package", emitted)
     assert main(["build", "arm"]) == 0
-    derived: list[str] = []
-    monkeypatch.setattr("tmm_gen.package.texts.emit_package", lambda scene: derived.append(scene.name) or {})
-    monkeypatch.setattr("tmm_gen.package.write.write_package", lambda *_, **__: cache_free())
-    monkeypatch.setattr("tmm_gen.package.cache.remember", lambda *_: None)
+    assert found == ["arm"]
+    found.clear()
+    return found
+
+
+CHANGES = (
+    "a source",
+    "a template",
+    "sympy",
+    "pydantic",
+    "python",
+    "damage",
+    "others may write",
+    "entries swapped",
+)
+
+
+@pytest.mark.parametrize("change", CHANGES)
+def test_the_cache_forgets(
+    place: Path, monkeypatch: pytest.MonkeyPatch, derived: list[str], change: str
+) -> None:
+    """Whatever decides what a build gives changes, or an entry cannot be believed: it is derived again."""
     assert main(["build", "arm"]) == 0
     assert derived == []
-    if change == "scene":
-        (place / "scenes" / "arm.toml").write_text(scene("arm", 2.5))
-    elif change == "cache":
-        for entry in (place / "cache").rglob("*.json"):
-            entry.write_text("{ spoiled")
-    else:
-        cache.generator_digest.cache_clear()
-        if change == "sympy":
-            monkeypatch.setattr(cache, "version", lambda name: "0.0")
-        else:
-            monkeypatch.setattr(cache, "templates_dir", lambda: place / "scenes")
+    forget(place, monkeypatch, change)
+    try:
+        assert main(["build", "arm"]) == 0
+        assert derived == ["arm"]
+        assert main(["build", "arm"]) == 0
+        assert derived == ["arm"]
+    finally:
+        forget_digests()
+
+
+def forget(place: Path, monkeypatch: pytest.MonkeyPatch, change: str) -> None:
+    """Change what entries are kept by, or all entries."""
+    from tmm_gen.package import generator
+
+    entries = sorted((place / "cache").rglob("*.json"))
+    assert [entry.parent.name for entry in entries] == ["build", "scene"]
+    told = [entry.read_text() for entry in entries]
+    known = generator.release
+    match change:
+        case "a source":
+            (place / "tmm_gen" / "package").mkdir(parents=True)
+            monkeypatch.setattr(generator, "__file__", str(place / "tmm_gen" / "package" / "generator.py"))
+        case "a template":
+            monkeypatch.setattr(generator, "templates_dir", lambda: place / "scenes")
+        case "sympy" | "pydantic":
+            monkeypatch.setattr(generator, "release", lambda name: "0" if name == change else known(name))
+        case "python":
+            monkeypatch.setattr(sys, "version", "3.99.0")
+        case "damage":
+            for entry, text in zip(entries, told, strict=True):
+                entry.write_text(text.replace("arm", "mra").replace("kernel", "lenrek"))
+        case "others may write":
+            for entry in entries:
+                entry.chmod(0o666)
+        case _:
+            for entry, text in zip(entries, reversed(told), strict=True):
+                entry.write_text(text)
+    forget_digests()
+
+
+def forget_digests() -> None:
+    """As a new process does."""
+    from tmm_gen.package import generator
+
+    generator.generator_digest.cache_clear()
+    generator.installed_digest.cache_clear()
+
+
+def test_a_changed_scene_is_derived_and_the_former_known_again(place: Path, derived: list[str]) -> None:
+    file, package = place / "scenes" / "arm.toml", place / "generated" / "arm"
+    before = tree(package)
+    file.write_text(scene("arm", 2.5))
     assert main(["build", "arm"]) == 0
-    cache.generator_digest.cache_clear()
     assert derived == ["arm"]
+    assert tree(package) != before
+    file.write_text(scene("arm"))
+    assert main(["build", "arm"]) == 0  # its texts are known by their hashes alone
+    assert derived == ["arm", "arm"]
+    assert tree(package) == before
+    file.write_text(scene("arm") + "# another spelling of the same scene\n")
+    assert main(["build", "arm"]) == 0
+    assert derived == ["arm", "arm"]
 
 
-def cache_free() -> object:
-    from tmm_gen.package.write import Changes
+def test_what_python_changed_is_not_taken_for_the_file(place: Path, derived: list[str]) -> None:
+    import tmm_gen as tg
 
-    return Changes({}, (), ())
+    before = tree(place / "generated")
+    (place / "scenes" / "arm.toml").write_text(scene("arm", 2.5))
+    tg.load("scenes/arm.toml").with_(joint__1__stiffness=3.5).build()
+    changed = tree(place / "generated")
+    assert main(["build", "arm"]) == 0
+    assert derived == ["arm", "arm"]
+    assert tree(place / "generated") not in (before, changed)
 
 
 def test_a_cache_that_cannot_be_written_is_no_error(place: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import shlex
 from collections.abc import Sequence
-from difflib import get_close_matches
 from keyword import iskeyword
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -17,6 +16,7 @@ from tmm_gen.cli.hints import hinted
 from tmm_gen.errors import CheckFailed, UserError
 
 if TYPE_CHECKING:
+    from tmm_gen.package.build import Built
     from tmm_gen.scene import Scene
 
 # Scenes are read, and what emits them is imported, inside: a build with nothing to do needs no SymPy.
@@ -43,27 +43,30 @@ def build(scenes: tuple[str, ...], check: bool, out: Path, force: bool, json_mod
     """
     from tmm_gen.package.build import BUILT, DRIFT, Built, built, compared
 
-    loaded = _load(scene_files(scenes))
+    loaded = _load(scene_files(scenes), None if check else out)
     with progress("comparing" if check else "building", total=len(loaded)) as advance:
         rows: list[Built] = []
         drift: list[str] = []
         hints: list[str] = []
-        for scene in loaded:
-            advance(0, scene.name)
-            row, found = compared(scene, out) if check else (built(scene, out, force), [])
-            rows.append(row)
-            if check or row.state == BUILT:  # as compilers warn of what they compile
-                hints += hinted(scene, json_mode)
-            drift += found
+        for name, scene in loaded.items():
+            advance(0, name)
+            if isinstance(scene, Built):
+                rows.append(scene)
+            else:
+                row, found = compared(scene, out) if check else (built(scene, out, force), [])
+                rows.append(row)
+                if check or row.state == BUILT:  # as compilers warn of what they compile
+                    hints += hinted(scene, json_mode)
+                drift += found
             advance()
     if not json_mode:
         for line in drift:
             click.echo(line)
     table([row.as_dict() for row in rows], _columns(check), json_mode, more={"hints": hints})
     if not json_mode and not check:
-        for backend, line in (("numpy", import_line), ("c", cmake_line)):
-            if names := [scene.name for scene in loaded if backend in scene.emit.backends]:
-                click.echo(line(out, names))
+        for file, taken in (("__init__.py", import_line), ("c/{}.c", cmake_line)):
+            if names := [row.scene for row in rows if _holds(row, file.format(row.scene))]:
+                click.echo(taken(out, names))
     if not json_mode:
         for row in rows:
             if row.without_motion:
@@ -128,6 +131,8 @@ def _scene_file(word: str, known: dict[str, Path]) -> Path:
         return path  # reading it says what is wrong with it
     if word in known:
         return known[word]
+    from difflib import get_close_matches
+
     if near := get_close_matches(word, known, n=1):
         remedy = f"Did you mean '{near[0]}'?"
     else:
@@ -135,18 +140,44 @@ def _scene_file(word: str, known: dict[str, Path]) -> Path:
     raise UserError(f"no scene '{word}' in {_SCENES}/. {remedy}")
 
 
-def _load(paths: Sequence[Path]) -> list[Scene]:
-    """Read all scenes before anything is written; no two may be one package."""
-    loaded: dict[str, Scene] = {}
+def _load(paths: Sequence[Path], out: Path | None) -> dict[str, Scene | Built]:
+    """Read all scenes before anything is written; no two may be one package.
+
+    Parameters
+    ----------
+    paths : sequence of Path
+        Of the scenes.
+    out : Path or None
+        Folder of the packages: scenes whose packages are known to be there are not read; None reads all.
+
+    Returns
+    -------
+    dict from str to Scene or Built
+        By name, in order of first mention.
+    """
+    from tmm_gen.package.build import up_to_date
+
+    loaded: dict[str, Scene | Built] = {}
+    origins: dict[str, str] = {}
     for path in paths:
-        scene = changed_scene(path)
-        if (other := loaded.get(scene.name)) is not None and other.source.origin != scene.source.origin:
+        scene: Scene | Built
+        if out is not None and (known := up_to_date(path, out)) is not None:
+            scene, name = known, known.scene
+        else:
+            scene = changed_scene(path)
+            name = scene.name
+        if (other := origins.setdefault(name, str(path))) != str(path):
             raise UserError(
-                f"{path}: has the name '{scene.name}', as {other.source.origin} has. Change one of the two, "
+                f"{path}: has the name '{name}', as {other} has. Change one of the two, "
                 "since the name is also the package's."
             )
-        loaded[scene.name] = scene
-    return list(loaded.values())
+        loaded[name] = scene
+    return loaded
+
+
+def _holds(row: Built, file: str) -> bool:
+    """Whether a package has a file: a kernel in NumPy, which its ``__init__.py`` shows, or in C."""
+    return file in (*row.written, *row.unchanged)
 
 
 def _columns(check: bool) -> list[Column | str]:

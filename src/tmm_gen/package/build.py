@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
-from difflib import unified_diff
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from tmm_gen.package.cache import is_up_to_date, remember
+from tmm_gen.package.known import is_rememberable, known_files, known_scene, remember
 from tmm_gen.package.write import (
     Changes,
     compare_package,
     text_of,
     without_motion,
     write_package,
-    written_files,
 )
-from tmm_gen.scene import Scene
+
+if TYPE_CHECKING:
+    from tmm_gen.scene import Scene
 
 BUILT, UP_TO_DATE, DRIFT = "built", "up to date", "drift"
 
@@ -55,6 +56,23 @@ class Built:
         return {item.name: getattr(self, item.name) for item in fields(self)}
 
 
+def up_to_date(path: Path, out: Path) -> Built | None:
+    """Return what is known of the package of a scene's file without reading the scene: that it is there; else None.
+
+    Parameters
+    ----------
+    path : Path
+        Of the scene.
+    out : Path
+        Folder of the packages.
+    """
+    if (scene := known_scene(path)) is None:
+        return None
+    name, digest = scene
+    files = known_files(digest, out / name)
+    return None if files is None else _row(name, out / name, UP_TO_DATE, Changes({}, (), files))
+
+
 def built(scene: Scene, out: Path, force: bool = False) -> Built:
     """Write a scene's package, unless it is known to be there already.
 
@@ -74,15 +92,17 @@ def built(scene: Scene, out: Path, force: bool = False) -> Built:
     OSError
         If a file cannot be written; nothing has changed then.
     """
-    folder = out / scene.name
-    if is_up_to_date(scene.digest, folder):
-        return _row(scene, folder, UP_TO_DATE, Changes({}, (), tuple(written_files(folder))))
+    folder, rememberable = out / scene.name, is_rememberable(scene)
+    if rememberable and (known := known_files(scene.digest, folder)) is not None:
+        remember(scene)
+        return _row(scene.name, folder, UP_TO_DATE, Changes({}, (), known))
     from tmm_gen.package.texts import emit_package  # SymPy: a build with nothing to do needs none
 
     files = emit_package(scene)
     changes = write_package(files, folder, force=force)
-    remember(scene.digest, files)
-    return _row(scene, folder, BUILT if changes.written or changes.stale else UP_TO_DATE, changes)
+    if rememberable:
+        remember(scene, files)
+    return _row(scene.name, folder, BUILT if changes.written or changes.stale else UP_TO_DATE, changes)
 
 
 def compared(scene: Scene, out: Path) -> tuple[Built, list[str]]:
@@ -94,26 +114,28 @@ def compared(scene: Scene, out: Path) -> tuple[Built, list[str]]:
     drift = bool(changes.written or changes.stale)
     wanted = {**changes.written, **dict.fromkeys(changes.stale, "")}
     lines = [line for path in sorted(wanted) for line in _difference(path, wanted[path])]
-    return _row(scene, folder, DRIFT if drift else UP_TO_DATE, changes), lines
+    return _row(scene.name, folder, DRIFT if drift else UP_TO_DATE, changes), lines
 
 
 def _difference(path: Path, wanted: str) -> list[str]:
     """Return what a build would change in a file."""
+    from difflib import unified_diff
+
     held = text_of(path) if path.is_file() else ""
     name = path.as_posix()
     before, after = (name if held else "/dev/null"), (name if wanted else "/dev/null")
     return list(unified_diff(held.splitlines(), wanted.splitlines(), before, after, lineterm=""))
 
 
-def _row(scene: Scene, folder: Path, state: str, changes: Changes) -> Built:
+def _row(name: str, folder: Path, state: str, changes: Changes) -> Built:
     written, removed, unchanged = (
         tuple(path.relative_to(folder).as_posix() for path in paths)
         for paths in (changes.written, changes.stale, changes.unchanged)
     )
-    return Built(scene.name, folder, state, written, removed, unchanged, _without_motion(scene, folder))
+    return Built(name, folder, state, written, removed, unchanged, _without_motion(name, folder))
 
 
-def _without_motion(scene: Scene, folder: Path) -> bool:
+def _without_motion(name: str, folder: Path) -> bool:
     """Whether the C's test has nothing to compare a motion with."""
-    test = folder / "c" / f"test_{scene.name}.c"
+    test = folder / "c" / f"test_{name}.c"
     return test.is_file() and without_motion(text_of(test))

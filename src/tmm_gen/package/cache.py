@@ -1,30 +1,17 @@
-"""Remembering what was built, so that a build with nothing to do need not derive anything.
-
-An entry says which files, with which hashes, follow from a scene with this tmm-gen and this SymPy. It holds
-no texts: where a file on disk is missing or differs, the package is derived anew.
-"""
+"""Remembering what follows from a scene with this tmm-gen and these packages, so that it need not be found again."""
 
 from __future__ import annotations
 
 import hashlib
 import json
 import os
-from collections.abc import Mapping
 from contextlib import suppress
-from functools import cache
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
 from tmm_gen.files import write_whole
-from tmm_gen.package.write import written_files
-from tmm_gen.reading import read_file
-from tmm_gen.resources import templates_dir
+from tmm_gen.package.generator import installed_digest
 from tmm_gen.trusted import digest_of, discard, own_content, own_folder
-from tmm_gen.version import __version__
-
-_BUILD = "build"
-"""Folder of what builds are known by."""
 
 _LARGEST = 2**22
 """Bytes of an entry."""
@@ -42,38 +29,6 @@ def cache_folder() -> Path:
     return Path(platformdirs.user_cache_dir("tmm-gen"))
 
 
-def is_up_to_date(digest: str, folder: Path) -> bool:
-    """Return whether a package on disk is known to be what its scene gives.
-
-    Parameters
-    ----------
-    digest : str
-        Of the scene.
-    folder : Path
-        Of the package.
-    """
-    known: dict[str, str] | None = kept(_BUILD, digest)
-    if not known:
-        return False
-    wanted = {folder / path: expected for path, expected in known.items()}
-    if any(path not in wanted for path in written_files(folder)):
-        return False
-    return all(_is_file_with(path, expected) for path, expected in wanted.items())
-
-
-def remember(digest: str, files: Mapping[str, str]) -> None:
-    """Record what a scene gives; a cache that cannot be written is no error.
-
-    Parameters
-    ----------
-    digest : str
-        Of the scene.
-    files : mapping from str to str
-        Text by path inside the package.
-    """
-    keep(_BUILD, digest, {path: digest_of(text.encode()) for path, text in files.items()})
-
-
 def keep(kind: str, digest: str, found: object) -> None:
     """Keep what was found of a scene, as JSON has it; a cache that cannot be written is no error.
 
@@ -82,9 +37,9 @@ def keep(kind: str, digest: str, found: object) -> None:
     kind : str
         Folder of the cache.
     digest : str
-        Of the scene.
+        Of the scene, or of the bytes that say it.
     found : object
-        Whatever follows from the scene with this tmm-gen and this SymPy.
+        Whatever follows from the scene with this tmm-gen and these packages.
     """
     body = json.dumps(found, indent=1, sort_keys=True) + "\n"
     entry = _entry(kind, digest)
@@ -96,27 +51,8 @@ def keep(kind: str, digest: str, found: object) -> None:
         entry.chmod(0o600)
 
 
-@cache
-def generator_digest() -> str:
-    """Return the hash of what decides, with the scene, what is generated: tmm-gen's files and SymPy."""
-    digest = hashlib.sha256(f"{__version__}\n{version('sympy')}\n".encode())
-    sources = Path(__file__).resolve().parents[1]
-    for root, pattern in ((sources, "*.py"), (templates_dir(), "*.jinja")):
-        for path in sorted(root.rglob(pattern)):
-            digest.update(f"{path.relative_to(root).as_posix()}\n".encode())
-            digest.update(hashlib.sha256(path.read_bytes()).digest())
-    return digest.hexdigest()
-
-
-def _is_file_with(path: Path, expected: str) -> bool:
-    try:
-        return digest_of(read_file(path)) == expected
-    except OSError:
-        return False
-
-
 def _entry(kind: str, digest: str) -> Path:
-    key = hashlib.sha256(f"{digest}\n{generator_digest()}".encode()).hexdigest()
+    key = hashlib.sha256(f"{kind}\n{digest}\n{installed_digest()}".encode()).hexdigest()
     return cache_folder() / kind / f"{key}.json"
 
 

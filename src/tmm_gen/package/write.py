@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -88,11 +88,20 @@ def write_package(files: Mapping[str, str], folder: Path, *, force: bool = False
     return changes
 
 
-def written_files(folder: Path) -> list[Path]:
-    """Return the files below a folder that tmm-gen wrote, edited since or not, sorted."""
+def written_files(folder: Path, beside: Container[Path] = ()) -> list[Path]:
+    """Return the files below a folder that tmm-gen wrote, edited since or not, sorted.
+
+    Parameters
+    ----------
+    folder : Path
+        Where to look; need not exist.
+    beside : container of Path
+        Files that are known of, and not looked at.
+    """
     if not folder.is_dir():
         return []
-    found = (path for path in folder.rglob("*") if path.suffix in SUFFIXES and path.is_file())
+    below = (path for path in folder.rglob("*") if path.suffix in SUFFIXES and path not in beside)
+    found = (path for path in below if path.is_file())
     return sorted(path for path in found if is_written_by_tmm_gen(text_of(path)))
 
 

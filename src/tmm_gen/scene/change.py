@@ -37,7 +37,7 @@ def changed(source: Source, changes: Mapping[str, object]) -> Source:
             line = nearest_line(source.lines, path[:1])
             problem = Problem(origin, line, show_path(path), fault.value, fault.message, fault.remedy)
             raise SceneError([problem])
-    return replace(source, origin=origin, data=data)
+    return replace(source, origin=origin, data=data, written="")
 
 
 def path_of(data: Any, key: str) -> Path:

@@ -17,6 +17,7 @@ from tmm_gen.scene.problem import Problem, SceneError, show_path
 from tmm_gen.scene.scene import Scene
 from tmm_gen.scene.source import Source
 from tmm_gen.scene.syntax import syntax_problem
+from tmm_gen.trusted import digest_of
 
 
 def load_scene(path: str | PathLike[str]) -> Scene:
@@ -58,7 +59,7 @@ def load_scene(path: str | PathLike[str]) -> Scene:
         raise SceneError(
             [Problem(origin, line, "", None, f"is not UTF-8 text ({byte})", "Save the file as UTF-8.")]
         ) from None
-    return parse_scene(text, origin)
+    return _parsed(text, origin, digest_of(content))
 
 
 def parse_scene(text: str, origin: str = "<string>") -> Scene:
@@ -81,9 +82,14 @@ def parse_scene(text: str, origin: str = "<string>") -> Scene:
     SceneError
         If the text is not a valid scene.
     """
+    return _parsed(text, origin)
+
+
+def _parsed(text: str, origin: str, written: str = "") -> Scene:
+    """Check the text of a scene file whose bytes have a digest."""
     try:
         data = tomllib.loads(text)
-        source = Source(origin, data, locate(text), check_data)
+        source = Source(origin, data, locate(text), check_data, written)
     except RecursionError:
         problem = Problem(origin, 1, "", None, "is nested too deeply", "Remove superfluous brackets.")
         raise SceneError([problem]) from None

@@ -26,9 +26,12 @@ class Source:
         Lines of its keys.
     check : callable
         Makes a scene of a source, or raises SceneError; carried along so that a scene needs not know its reader.
+    written : str
+        SHA-256 digest of the file's bytes; empty for what is not the content of a file, or no longer.
     """
 
     origin: str
     data: Mapping[str, object]
     lines: dict[Path, int]
     check: Callable[[Source], Scene]
+    written: str = ""

@@ -12,7 +12,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from tmm_gen.inputs.signals import Signal
-from tmm_gen.package.cache import generator_digest
+from tmm_gen.package.generator import generator_digest
 from tmm_gen.scene import Scene
 from tmm_gen.study.configuration import Configuration
 from tmm_gen.study.evaluate import evaluate
