@@ -198,6 +198,30 @@ class RtiText(ControllerText):
         return f"dot(&{weights}[{start}], &{values}[{start}], {stop - start}){inner}"
 
     @property
+    def weighed(self) -> list[int]:
+        """Which of the outputs are weighed."""
+        return [place for place, weight in enumerate(self.data.weights) if weight > 0.0]
+
+    @property
+    def weight_roots(self) -> NDArray[np.float64]:
+        """Roots of their weights."""
+        return np.sqrt([self.data.weights[place] for place in self.weighed])
+
+    @property
+    def squares(self) -> int:
+        """Squares that the cost along the plan and beyond is a sum of, a multiple of four."""
+        return -(-(self.horizon * len(self.weighed) + len(self.data.end)) // 4) * 4
+
+    @property
+    def sloped_kinds(self) -> list[int]:
+        """Of each kind of rows that bounds more than changes of torques, which of the outputs it bounds."""
+        return [self.place_of(kind) for kind in self.row_kinds if kind.what != "rate"]
+
+    def sloped_place(self, kind: int) -> int:
+        """Return which of these a kind of rows is."""
+        return sum(each.what != "rate" for each in self.row_kinds[:kind])
+
+    @property
     def output_weights(self) -> str:
         """Weights of the outputs, a list of numbers."""
         return ", ".join(self.number(value) for value in self.data.weights)
