@@ -184,7 +184,7 @@ def parameters_of(scene: Scene) -> dict[str, Any]:
     if scene.spatial is not None:
         return {
             name: values if len(values) > 1 else values[0]
-            for name, values in parameter_values(scene.spatial, coupled=scene.coupled).items()
+            for name, values in parameter_values(scene.spatial).items()
         }
     joints, links = scene.joints, scene.links
     found: dict[str, Any] = {

@@ -19,7 +19,9 @@ TORQUES = sp.symbols("shaft_torque gear_torque", real=True)
 """Of what turns a shaft, and of its gear, at the point of linearisation."""
 _IMPEDANCES = sp.symbols("shaft_impedance gear_impedance", real=True)
 _SHARES = sp.symbols("mount_share gear_share", real=True)
-_PIVOT, _ADMITTANCE, _GAP = sp.symbols("shaft_pivot shaft_admittance torque_gap", real=True)
+_PIVOT, _ADMITTANCE = sp.symbols("shaft_pivot shaft_admittance", real=True)
+GAP = sp.Symbol("torque_gap", real=True)
+"""What is over of the torques on a shaft."""
 _OF = "torque on a shaft per difference of unknowns, of what turns it", "the same of its gear"
 _IN = "share of what it is mounted on in a shaft's motion", "share of what its gear turns in a shaft's motion"
 
@@ -68,9 +70,9 @@ class Shaft:
         """Return the torque of both together, and how their difference moves the shaft."""
         doc_of_own = "unknown of a shaft if both its sides kept their motion"
         return [
-            Let(_GAP, self.torques[0] - self.torques[1], "what is over of the torques on a shaft", "N m"),
-            Let(OWN, self.sign * _ADMITTANCE * _GAP, doc_of_own),
-            Let(torque, self.torques[1] + self._named(_SHARES)[1] * _GAP, doc, "N m"),
+            Let(GAP, self.torques[0] - self.torques[1], "what is over of the torques on a shaft", "N m"),
+            Let(OWN, self.sign * _ADMITTANCE * GAP, doc_of_own),
+            Let(torque, self.torques[1] + self._named(_SHARES)[1] * GAP, doc, "N m"),
         ]
 
     def answer(self, inner: sp.Symbol, outer: sp.Symbol) -> Line:

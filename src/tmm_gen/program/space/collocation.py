@@ -91,14 +91,19 @@ class SpaceCollocation:
         laws, over, mend = self._laws, self._over, self._mend
         moved = {kind: self._at_stages(kind) for kind in KINDS}
         at_stages = [
-            laws.torques(over.array(TORQUE), moved, self._seen.__getitem__),
+            # laws are linear: the first iteration brings the torques on both sides of a shaft together for good
+            laws.lacking(
+                over.array(TORQUE), moved, self._seen.__getitem__, over.array(IMBALANCE) if first else None
+            ),
             over.outward(still=False),
             *loads_on_frames(self.layout, over, self._seen.__getitem__),
             over.left_over(),
         ]
         swept = [mend.inward(still=True) if first else mend.again(), mend.back()]
         if first:
-            swept = [laws.impedances(mend.array(IMPEDANCE)), mend.circles(), *swept]
+            torque, impedance = mend.array(TORQUE), mend.array(IMPEDANCE)
+            swept = [laws.impedances(impedance), laws.shared(torque), mend.circles(), *swept]
+        swept.append(laws.answers(mend.array(OWN), again=not first))
         where = "at the stages, and at the middle of the step" if first else "at the stages"
         motion = (
             *self._everywhere(lambda place: self._motion(place, middle=first)),
@@ -107,20 +112,22 @@ class SpaceCollocation:
         return [
             Section(f"motion {where}", motion),
             *self._side_by_side.sections(at_stages),
-            self._left_over(),
+            self._left_over(first=first),
             *self._apart.sections(swept),
             Section("improved accelerations of the stages", tuple(self._everywhere(self.coupled.improved))),
         ]
 
-    def _left_over(self) -> Section:
-        """Put together for each system what torques joints lack at the stages."""
+    def _left_over(self, *, first: bool) -> Section:
+        """Put together for each system what torques joints, and first of all shafts, lack at the stages."""
         lacking = [lane.ref(self._over.array(IMBALANCE).at())[0] for lane in self.coupled.stages]
         body: list[Assign] = []
         for lane, pair in zip(self.coupled.systems, self.coupled.combined(lacking), strict=True):
             parts = zip(lane.ref(self._mend.array(TORQUE).at()), pair, strict=True)
             body += [Assign(ref, value) for ref, value in parts if isinstance(ref, Ref)]
-        loop = Loop(Order.OUTWARD, 0, self.layout.stations, tuple(body))
-        return Section("what joints lack, in the system of each eigenvalue", (loop,))
+        stations = self.layout.stations
+        stretches = [(0, stations)] if first else self.layout.tree.stretches
+        loops = tuple(Loop(Order.OUTWARD, start, stop, tuple(body)) for start, stop in stretches)
+        return Section("what joints lack, in the system of each eigenvalue", loops)
 
     @cached_property
     def _seen(self) -> dict[str, Ref]:

@@ -35,10 +35,19 @@ class MendingWalks(SpaceWalks):
 
     def circles(self) -> Section:
         """Return the sines of the joints' angles, which alone of the motion enter."""
-        angle = self._motion[ANGLE].at()
+        loops = []
+        for start, stop in self.layout.tree.stretches:
+            angle = self._motion[ANGLE].at()
+            if self.layout.tree.geared(start):
+                loops.append(self._circle(start, start + 1, angle + self._motion[ANGLE].at(-1)))
+                start += 1
+            if start < stop:
+                loops.append(self._circle(start, stop, angle))
+        return Section("sines of the angles at the middle of the step", tuple(loops))
+
+    def _circle(self, start: int, stop: int, angle: sp.Expr) -> Loop:
         body = (Assign(self.array(SINE).at(), sp.sin(angle)), Assign(self.array(COSINE).at(), sp.cos(angle)))
-        loop = Loop(Order.OUTWARD, 0, self.layout.stations, body)
-        return Section("sines of the angles at the middle of the step", (loop,))
+        return Loop(Order.OUTWARD, start, stop, body)
 
     def _eliminated(self, pattern: Pattern, still: bool) -> Inertial:
         del still

@@ -12,7 +12,7 @@ from dataclasses import replace
 import sympy as sp
 
 from tmm_gen.derive.station.lets import Let, Line, Pivot
-from tmm_gen.derive.station.shaft import OWN, TORQUES, UNKNOWN, Shaft
+from tmm_gen.derive.station.shaft import GAP, OWN, TORQUES, UNKNOWN, Shaft
 from tmm_gen.program.statements import Assign, Require
 from tmm_gen.program.variables import Ref, local
 from tmm_gen.scene.spatial.arm import UPRIGHT, ZERO, RigidBody, SpatialArm
@@ -50,11 +50,6 @@ def marked_by(arm: SpatialArm) -> frozenset[int]:
     return frozenset(frame.joint - 1 for frame in frames if frame is not None and frame.joint)
 
 
-def passed_over(arm: SpatialArm, *, coupled: bool) -> frozenset[int]:
-    """Return the shafts that sweeps pass over; stages that are solved at once keep them as joints."""
-    return frozenset() if coupled else shafts_of(arm, marked_by(arm))
-
-
 def set_aside(arm: SpatialArm, shafts: frozenset[int]) -> SpatialArm:
     """Return an arm in which what a shaft turns stands where the shaft is mounted."""
     joints = list(arm.joints)
@@ -80,10 +75,9 @@ class ElasticGear:
     ) -> None:
         shaft = self._shaft = Shaft(impedances, TORQUES, 1, "kg m^2")
         own = zip(TORQUES, torques, ("torque on a shaft before the sweep", "torque of its gear"), strict=True)
-        self._known: list[Line] = [
-            *(Let(symbol, value, doc, "N m") for symbol, value, doc in own),
-            *shaft.known(_TORQUE, "torque of a motor and its gear"),
-        ]
+        self._torques = [Let(symbol, value, doc, "N m") for symbol, value, doc in own]
+        self._gap, *self._shared = shaft.known(_TORQUE, "torque of a motor and its gear")
+        self._known: list[Line] = [*self._torques, self._gap, *self._shared]
         self._answer: list[Line] = [Let(_TURN, _FOUND, "what a shaft and its joint do together", "rad/s^2")]
         lets = [line for line in (*shaft.ahead, *self._known, *self._answer) if isinstance(line, Let)]
         self._names = {let.symbol: local(f"{let.symbol.name}{index + 1}", let.doc, let.unit) for let in lets}
@@ -101,6 +95,14 @@ class ElasticGear:
     def known(self, target: Ref) -> list[Assign | Require]:
         """Return the torque of both together, and what of it remains for the way back."""
         return self._written(self._known, {_TORQUE: target})
+
+    def lacking(self, gap: Ref, joint: Ref) -> list[Assign | Require]:
+        """Return the torque of the gear, and what is over of those on the shaft, each by itself."""
+        return self._written([*self._torques, self._gap], {GAP: gap, TORQUES[1]: joint})
+
+    def shared(self, gap: Ref, joint: Ref) -> list[Assign | Require]:
+        """Return what both together lack in place of the joint, by what each of both does."""
+        return self._written([*self._shared], {GAP: gap, TORQUES[1]: joint, _TORQUE: joint})
 
     def answer(self, shaft: Ref, joint: Ref, *, again: bool) -> list[Assign | Require]:
         """Return what each of both does, by what the sweep has found both to do.

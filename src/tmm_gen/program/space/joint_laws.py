@@ -68,18 +68,48 @@ class JointLaws:
         value : callable
             Returns a motor's torque by its column.
         """
-        law = Assign(target.at(), self._torque(moved, None))
-        statements: list[Statement] = [
-            Loop(Order.OUTWARD, start, stop, (law,)) for start, stop in self._stretches
-        ]
-        shafts = self.layout.tree.shafts
-        for joint, acting in self._acting(value).items():
-            if joint not in shafts and joint - 1 not in shafts:
-                entry = target.entry(joint)
-                statements.append(Assign(entry, entry - acting))
+        statements = self._plain(target, moved, value)
         for k, gear in self._gears(moved, value).items():
             statements += gear.known(target.entry(k + 1))
         return Section("torques of the joints' own", tuple(statements))
+
+    def lacking(
+        self,
+        target: Variable,
+        moved: Mapping[Kind, Variable],
+        value: Callable[[str], sp.Expr],
+        over: Variable | None,
+    ) -> Section:
+        """Return what sets the torque that each joint asks for, where shafts are eliminated later.
+
+        Parameters
+        ----------
+        target, moved, value
+            As of :meth:`torques`.
+        over : Variable or None
+            Array over the joints: receives what is over of the torques on each shaft; None where nothing can be.
+        """
+        statements = self._plain(target, moved, value)
+        for k, gear in self._gears(moved, value).items():
+            joint = target.entry(k + 1)
+            if over is not None:
+                statements += gear.lacking(over.entry(k), joint)
+            else:
+                statements.append(Assign(joint, self._torque(moved, k + 1) - self._acting(value).get(k + 1, 0)))
+        return Section("torques of the joints' own", tuple(statements))
+
+    def shared(self, target: Variable) -> Section:
+        """Return what both lack together, in place of the joints behind shafts, by what each of both does.
+
+        Parameters
+        ----------
+        target : Variable
+            Array over the joints.
+        """
+        statements: list[Statement] = []
+        for k, gear in self._gears().items():
+            statements += gear.shared(target.entry(k), target.entry(k + 1))
+        return Section("torques that shafts pass on", tuple(statements))
 
     def moved_torques(self, target: Variable, impedance: Variable, found: Variable) -> Section:
         """Return what changes these torques by what the sweep before has found joints to do: laws are linear.
@@ -114,6 +144,21 @@ class JointLaws:
         for k, gear in self._gears().items():
             statements += gear.answer(found.entry(k), found.entry(k + 1), again=again)
         return Section("what shafts do, and their gears", tuple(statements))
+
+    def _plain(
+        self, target: Variable, moved: Mapping[Kind, Variable], value: Callable[[str], sp.Expr]
+    ) -> list[Statement]:
+        """Return what sets the torque that each joint asks for which has no shaft before it."""
+        law = Assign(target.at(), self._torque(moved, None))
+        statements: list[Statement] = [
+            Loop(Order.OUTWARD, start, stop, (law,)) for start, stop in self._stretches
+        ]
+        shafts = self.layout.tree.shafts
+        for joint, acting in self._acting(value).items():
+            if joint not in shafts and joint - 1 not in shafts:
+                entry = target.entry(joint)
+                statements.append(Assign(entry, entry - acting))
+        return statements
 
     @property
     def _stretches(self) -> list[tuple[int, int]]:

@@ -6,23 +6,18 @@ from collections.abc import Callable
 
 from tmm_gen.derive.space.declaration import AXES, PAIRS
 from tmm_gen.program.space.base_layout import base_numbers
-from tmm_gen.program.space.gears import passed_over, set_aside
+from tmm_gen.program.space.gears import marked_by, set_aside, shafts_of
 from tmm_gen.program.variables import Role, Variable
 from tmm_gen.scene.spatial.arm import Revolute, SpatialArm
 
 
-def parameter_values(arm: SpatialArm, *, coupled: bool) -> dict[str, tuple[float, ...]]:
+def parameter_values(arm: SpatialArm) -> dict[str, tuple[float, ...]]:
     """Return all that parameters of an arm's kernel can be, by name: of each joint, or one number of the whole arm.
 
     A kernel of the same parts, joints and axes takes them, whatever numbers it was built with: one value where
     its parameter is the same everywhere.
-
-    Parameters
-    ----------
-    coupled : bool
-        Whether its integrator solves all stages at once.
     """
-    arm = set_aside(arm, passed_over(arm, coupled=coupled))
+    arm = set_aside(arm, shafts_of(arm, marked_by(arm)))
     return {
         **{name: tuple(value(joint) for joint in arm.joints) for name, _, _, value in _of_joints()},
         **{f"{name}_gear": (gear,) for name, _, gear in _gears(arm)},

@@ -12,7 +12,7 @@ from tmm_gen.derive.integrators.history import history
 from tmm_gen.derive.space.declaration import AXES
 from tmm_gen.program.fields import MOTION_NAMES, stage_accelerations
 from tmm_gen.program.space.base_layout import BaseLayout, base_layout
-from tmm_gen.program.space.gears import marked_by, passed_over, set_aside
+from tmm_gen.program.space.gears import marked_by, set_aside, shafts_of
 from tmm_gen.program.space.kernel_parameters import parameters_of
 from tmm_gen.program.space.runs import StationTree
 from tmm_gen.program.variables import Ref, Role, Variable
@@ -96,7 +96,8 @@ def layout_of(arm: SpatialArm, name: str, title: str, integrator: Integrator, st
         The scene's, s.
     """
     n = len(arm.joints)
-    marked, shafts = marked_by(arm), passed_over(arm, coupled=any(s.coupled for s in integrator.schemes))
+    marked = marked_by(arm)
+    shafts = shafts_of(arm, marked)
     arm = set_aside(arm, shafts)
     kept = set(history(integrator, "acceleration")) | {Past(kind, 0) for kind in KINDS}
     ordered = sorted(kept, key=lambda p: (p.lag, KINDS.index(p.kind)))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -80,6 +81,13 @@ class StationTree:
     def geared(self, index: int) -> bool:
         """Whether a station turns by the sum of its own angle and that of a shaft before it."""
         return index - 1 in self.shafts
+
+    @property
+    def stretches(self) -> list[tuple[int, int]]:
+        """Where stations follow each other without a shaft among them, as (start, stop)."""
+        bounds = [-1, *sorted(self.shafts), self.stations]
+        found = [(before + 1, after) for before, after in itertools.pairwise(bounds)]
+        return [(start, stop) for start, stop in found if start < stop]
 
     def forks(self, index: int) -> bool:
         """Whether more than one station stands on one."""
