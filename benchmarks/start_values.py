@@ -17,7 +17,7 @@ from unittest.mock import patch
 import numpy as np
 import sympy as sp
 from marks import renewed
-from time_to_error import CHECKPOINTS, FLAGS, Run, Swing, arm
+from time_to_error import CHECKPOINTS, FLAGS, Run, Swing, arm, fewest
 
 from tmm_gen.derive.integrators.spectrum import Spectrum
 from tmm_gen.files import write_whole
@@ -69,8 +69,8 @@ def steps_needed(kind: str) -> int | None:
     given = {} if signal is None else {"motor": signal}
     response = planar_response(scene, given, np.concatenate([[0.0], CHECKPOINTS]))
     exact = np.column_stack([response["tip_x"], response["tip_y"]])[1:]
-    fewest = Run(compile_kernel(build_program(scene), scene, flags=FLAGS), signal, exact).fewest(WANTED)
-    return None if fewest is None else 10 * fewest
+    least = fewest(Run(compile_kernel(build_program(scene), scene, flags=FLAGS), signal, exact), WANTED)
+    return None if least is None else 10 * least
 
 
 def iterations(load: str, step: float) -> float | None:

@@ -1,13 +1,16 @@
 """Time to an error: kernels of coupled and of other stages on arms under gravity and under a motor, in one run.
 
     python benchmarks/time_to_error.py --links 10 50
+    python benchmarks/time_to_error.py --peers --links 2 5 10 20 50 100 --integrators radau3
 
 Arms of 1 m and 1 kg with a first clamped frequency of 2 Hz and a damping time of 2 ms, cut into links with a spring at
 every joint. Gravity: clamped, 0.4 kg at the tip, let go horizontally. Motor: a hub of 0.1 kg m^2 under a torque that
 swings the arm for half a second and takes the swing back. Error: the largest of the tip's place at 0.1, 0.2 ... 1 s
 against Lagrange's equations. For each integrator the fewest steps with the wanted error are sought, and the time of
 that run is taken in turns with the others (thread time, median of ratios; gcc -O3 -march=native,
-own sines, `favour = "speed"`).
+own sines, `favour = "speed"`). `--peers` puts beside them what CasADi writes in C for articulated bodies, with a step
+of Newmark's (generalised-alpha that damps nothing) and one of Runge and Kutta's about it; `--held-out` takes arms that
+nothing was ever chosen by.
 """
 
 from __future__ import annotations
@@ -17,6 +20,7 @@ import math
 import statistics
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -35,7 +39,8 @@ BESIDE = "sdirk4"
 CHECKPOINTS = 0.1 * np.arange(1, 11)
 ROUNDS = 15
 MOST_STEPS = 40_000
-FLAGS = ("-O3", "-march=native")
+FLAGS = ("-O3", "-march=native", "-ffp-contract=fast")
+"""As gcc itself takes -O3 -march=native without a standard to keep to, and as peers are compiled."""
 FIRST_CLAMPED = 1.8751040687119611
 """Root of ``cos x cosh x = -1``."""
 
@@ -64,9 +69,46 @@ of = "position"
 MOTOR = '[[input]]\nname = "motor"\nat = "base"\nacts = "torque"'
 
 
-def arm(kind: str, links: int, integrator: str, iterations: str = '"auto"', favour: str = "speed") -> Scene:
+@dataclass(frozen=True)
+class Make:
+    """What an arm is like, of 1 m and 1 kg.
+
+    Parameters
+    ----------
+    frequency : float
+        The first one if its base is clamped, Hz.
+    damping : float
+        Damping over stiffness of its joints, s.
+    tip, hub : float
+        Under gravity, kg; with a motor, kg m^2.
+    """
+
+    frequency: float = 2.0
+    damping: float = 2e-3
+    tip: float = 0.4
+    hub: float = 0.1
+
+
+USUAL = Make()
+HELD_OUT = (
+    ("gravity", 16, Make(frequency=3.3, damping=7e-4, tip=0.15)),
+    ("gravity", 35, Make(frequency=1.4, damping=5e-3, tip=0.9)),
+    ("motor", 8, Make(frequency=4.1, damping=1e-3, hub=0.03)),
+    ("motor", 64, Make(frequency=1.7, damping=3e-3, hub=0.5)),
+)
+"""Drawn when all was settled, to see whether anything had been fitted to the arms above."""
+
+
+def arm(
+    kind: str,
+    links: int,
+    integrator: str,
+    iterations: str = '"auto"',
+    favour: str = "speed",
+    make: Make = USUAL,
+) -> Scene:
     """Return a scene under "gravity" or under a "motor"."""
-    bending = (2.0 * math.pi * 2.0 / FIRST_CLAMPED**2) ** 2
+    bending = (2.0 * math.pi * make.frequency / FIRST_CLAMPED**2) ** 2
     length, stiffness = 1.0 / links, bending * links
     falls = kind == "gravity"
     text = ARM.format(
@@ -74,10 +116,10 @@ def arm(kind: str, links: int, integrator: str, iterations: str = '"auto"', favo
         iterations=iterations,
         integrator=integrator,
         favour=favour,
-        base='{ kind = "clamp" }' if falls else '{ kind = "motor", inertia = 0.1 }',
-        tip="tip = { mass = 0.4 }" if falls else "",
+        base='{ kind = "clamp" }' if falls else f'{{ kind = "motor", inertia = {make.hub!r} }}',
+        tip=f"tip = {{ mass = {make.tip!r} }}" if falls else "",
         stiffness=stiffness,
-        damping=2e-3 * stiffness,
+        damping=make.damping * stiffness,
         links=links,
         length=length,
         mass=length,
@@ -99,7 +141,7 @@ class Swing:
         s.
     """
 
-    size: float = 4.0 * (0.1 + 1.0 / 3.0)
+    size: float = 4.0 * (USUAL.hub + 1.0 / 3.0)
     until: float = 0.5
 
     @property
@@ -165,18 +207,6 @@ class Run:
         places = self.prepared(per_interval)()[per_interval - 1 :: per_interval]
         return float(np.max(np.linalg.norm(places - self.exact, axis=1)))
 
-    def fewest(self, wanted: float) -> int | None:
-        """Return the fewest steps between checkpoints with a wanted error."""
-        low, high = 0, 1
-        while not self.error(high) <= wanted:
-            low, high = high, 2 * high
-            if 10 * high > MOST_STEPS:
-                return None
-        while high - low > max(1, high // 100):
-            middle = (low + high) // 2
-            low, high = (low, middle) if self.error(middle) <= wanted else (middle, high)
-        return high
-
     def timer(self, per_interval: int) -> Callable[[], float]:
         """Return what measures the steps of one second, s of this thread.
 
@@ -186,42 +216,94 @@ class Run:
         return lambda: measured() * 10 * per_interval * 1e-9
 
 
-def measure(kind: str, links: int, integrators: tuple[str, ...], wanted: float) -> list[dict[str, object]]:
+class Stepping(Protocol):
+    """Somebody's steps of equal length."""
+
+    def error(self, per_interval: int) -> float:
+        """Return the largest error at the checkpoints, m, with so many steps between them."""
+        ...
+
+    def timer(self, per_interval: int) -> Callable[[], float]:
+        """Return what measures the steps of one second, s of this thread."""
+        ...
+
+
+def fewest(steps: Stepping, wanted: float) -> int | None:
+    """Return the fewest steps between checkpoints with a wanted error."""
+    low, high = 0, 1
+    while not steps.error(high) <= wanted:
+        low, high = high, 2 * high
+        if 10 * high > MOST_STEPS:
+            return None
+    while high - low > max(1, high // 100):
+        middle = (low + high) // 2
+        low, high = (low, middle) if steps.error(middle) <= wanted else (middle, high)
+    return high
+
+
+def peers(scene: Scene, signal: Swing | None, exact: Array) -> dict[str, Stepping]:
+    """Return steps about what CasADi writes for articulated bodies, by name."""
+    from peers.any_step import AnyStep
+    from peers.articulated import step_function
+    from peers.joint_arm import joint_arm
+    from peers.planar_solvers import rk4_function
+
+    jointed = joint_arm(scene)
+
+    def torque(time: float) -> Array:
+        return np.zeros(0) if signal is None else np.array([signal.at(time)], float)
+
+    return {
+        "peer: Newmark": AnyStep(jointed, torque, step_function, 3, exact),
+        "peer: RK4": AnyStep(jointed, torque, rk4_function, 2, exact),
+    }
+
+
+def measure(
+    kind: str, links: int, integrators: tuple[str, ...], wanted: float, make: Make, *, beside_peers: bool
+) -> list[dict[str, object]]:
     """Return one row for each integrator."""
-    signal = None if kind == "gravity" else Swing()
-    scene = arm(kind, links, BESIDE)
+    signal = None if kind == "gravity" else Swing(4.0 * (make.hub + 1.0 / 3.0))
+    scene = arm(kind, links, BESIDE, make=make)
     given = {} if signal is None else {"motor": signal}
     response = planar_response(scene, given, np.concatenate([[0.0], CHECKPOINTS]))
     exact = np.column_stack([response["tip_x"], response["tip_y"]])[1:]
-    runs = {}
+    runs: dict[str, Stepping] = {}
     for name in integrators:
-        named = arm(kind, links, name)
+        named = arm(kind, links, name, make=make)
         runs[name] = Run(compile_kernel(build_program(named), named, flags=FLAGS), signal, exact)
-    fewest = {name: run.fewest(wanted) for name, run in runs.items()}
-    timers = {name: runs[name].timer(count) for name, count in fewest.items() if count is not None}
+    if beside_peers:
+        runs |= peers(scene, signal, exact)
+    counts = {name: fewest(run, wanted) for name, run in runs.items()}
+    timers = {name: runs[name].timer(count) for name, count in counts.items() if count is not None}
     times: dict[str, list[float]] = {name: [] for name in timers}
     for _ in range(ROUNDS):
         for name, timer in timers.items():
             times[name].append(timer())
+    best = min(
+        (statistics.median(t), name) for name, t in times.items() if name.startswith("peer") == beside_peers
+    )
     rows: list[dict[str, object]] = []
-    for name, count in fewest.items():
+    for name, count in counts.items():
+        row: dict[str, object] = {"arm": f"{kind} {links}", "integrator": name, "steps": "-"}
+        rows.append(row)
         if count is None:
-            rows.append({"arm": f"{kind} {links}", "integrator": name, "steps": "-"})
             continue
-        ratio = statistics.median(a / b for a, b in zip(times[name], times[BESIDE], strict=True))
         seconds = statistics.median(times[name])
-        rows.append(
-            {
-                "arm": f"{kind} {links}",
-                "integrator": name,
-                "steps": 10 * count,
-                "error": f"{runs[name].error(count):.1e}",
-                "ms": f"{1e3 * seconds:.3f}",
-                "ns per link and step": f"{1e9 * seconds / (10 * count * links):.1f}",
-                f"time / {BESIDE}": f"{ratio:.2f}",
-            }
-        )
+        row |= {
+            "steps": 10 * count,
+            "error": f"{runs[name].error(count):.1e}",
+            "ms": f"{1e3 * seconds:.3f}",
+            "ns per link and step": f"{1e9 * seconds / (10 * count * links):.1f}",
+            f"time / {BESIDE}": _over(times[name], times[BESIDE]),
+        }
+        if beside_peers:
+            row["time / best peer"] = _over(times[name], times[best[1]])
     return rows
+
+
+def _over(times: list[float], others: list[float]) -> str:
+    return f"{statistics.median(a / b for a, b in zip(times, others, strict=True)):.3f}"
 
 
 def main() -> None:
@@ -232,18 +314,19 @@ def main() -> None:
     parser.add_argument("--links", type=int, nargs="+", default=[10, 50])
     parser.add_argument("--error", type=float, default=1e-6, help="of the tip, m")
     parser.add_argument("--integrators", nargs="+", default=list(INTEGRATORS))
+    parser.add_argument("--kinds", nargs="+", default=["gravity", "motor"])
+    parser.add_argument("--peers", action="store_true", help="beside other people's steps too")
+    parser.add_argument("--held-out", action="store_true", help="arms that nothing was chosen by")
     options = parser.parse_args()
     names = tuple(dict.fromkeys([BESIDE, *options.integrators]))
-    rows = [
-        row
-        for kind in ("gravity", "motor")
-        for links in options.links
-        for row in measure(kind, links, names, options.error)
-    ]
-    keys = list(rows[0])
-    print("| " + " | ".join(keys) + " |\n|" + "---|" * len(keys))
-    for row in rows:
-        print("| " + " | ".join(str(row.get(key, "-")) for key in keys) + " |")
+    usual = tuple((kind, links, USUAL) for kind in options.kinds for links in options.links)
+    keys: list[str] = []
+    for kind, links, make in HELD_OUT if options.held_out else usual:
+        for row in measure(kind, links, names, options.error, make, beside_peers=options.peers):
+            if not keys:
+                keys = list(row)
+                print("| " + " | ".join(keys) + " |\n|" + "---|" * len(keys))
+            print("| " + " | ".join(str(row.get(key, "-")) for key in keys) + " |", flush=True)
 
 
 if __name__ == "__main__":

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import casadi as ca
 import numpy as np
@@ -17,7 +18,7 @@ Array = NDArray[np.float64]
 LOOP = Path(__file__).with_name("articulated_loop.c")
 
 
-def accelerations(arm: JointArm, angles: ca.SX, rates: ca.SX, torques: ca.SX, armature: Array) -> ca.SX:
+def accelerations(arm: JointArm, angles: ca.SX, rates: ca.SX, torques: ca.SX, armature: Any) -> ca.SX:
     """Return accelerations of the joints (rad/s^2): Featherstone's recursion in axes of the world, linear in links.
 
     A body's inertia about its joint is kept as its six entries for (turn, x, y); gravity is the base's acceleration.
@@ -69,14 +70,24 @@ def accelerations(arm: JointArm, angles: ca.SX, rates: ca.SX, torques: ca.SX, ar
     return ca.vertcat(*found)
 
 
-def step_function(arm: JointArm) -> ca.Function:
+def inputs_of(arm: JointArm, *, any_step: bool) -> tuple[ca.SX, ca.SX, ca.SX]:
+    """Return what a step is given: torques of motors and, if of any length, that; and both on their own."""
+    u = ca.SX.sym("u", arm.gears.shape[1])
+    h = ca.SX.sym("h") if any_step else ca.SX(arm.step)
+    return (ca.vertcat(u, h) if any_step else u), u, h
+
+
+def step_function(arm: JointArm, *, any_step: bool = False) -> ca.Function:
     """Return one step of Newmark (1/4, 1/2) as ``x_next = step(x, u)``; ``x`` holds angles, rates, accelerations.
 
     Springs and dampers are implicit, which a recursion takes as armatures. Levers and centrifugal forces are those of
     the motion predicted with the last acceleration: of second order, with one pass of the recursion a step.
+    With ``any_step`` the last entry of ``u`` is its length, s.
     """
-    n, h = len(arm.lengths), arm.step
-    x, u = ca.SX.sym("x", 3 * n), ca.SX.sym("u", arm.gears.shape[1])
+    n = len(arm.lengths)
+    given, u, h = inputs_of(arm, any_step=any_step)
+    x = ca.SX.sym("x", 3 * n)
+    armature = arm.rotors + 0.5 * h * arm.damping + 0.25 * h**2 * arm.stiffness
     angle, rate, last = ca.vertsplit(x, n)
     rate_ahead = rate + h * last
     angle_ahead = angle + h * (rate + 0.5 * h * last)
@@ -84,9 +95,9 @@ def step_function(arm: JointArm) -> ca.Function:
     without_rate = rate_ahead - 0.5 * h * last
     torque = ca.mtimes(ca.SX(ca.sparsify(ca.DM(arm.gears))), u)
     torque = torque - arm.stiffness * (without_angle - arm.slack) - arm.damping * without_rate
-    new = accelerations(arm, angle_ahead, rate_ahead, torque, arm.armature)
+    new = accelerations(arm, angle_ahead, rate_ahead, torque, armature)
     found = ca.vertcat(without_angle + 0.25 * h**2 * new, without_rate + 0.5 * h * new, new)
-    return ca.Function("arm_step", [x, u], [ca.cse(found)])
+    return ca.Function("arm_step", [x, given], [ca.cse(found)])
 
 
 def start_function(arm: JointArm) -> ca.Function:
@@ -132,14 +143,15 @@ class Articulated:
         self._handle = ctypes.CDLL(str(compile_library(sources, "gcc", FLAGS)))
         self._handle.peer_seconds.restype = ctypes.c_double
 
-    def started(self, angles: Array, rates: Array) -> Array:
-        """Return angles, rates and accelerations of the joints at the start, (3 n,)."""
-        return np.concatenate([angles, rates, np.array(self._start(angles, rates, self._torques)).ravel()])
+    def started(self, angles: Array, rates: Array, torques: Array | None = None) -> Array:
+        """Return angles, rates and accelerations of the joints at the start, (3 n,), under torques, or its own."""
+        torques = self._torques if torques is None else torques
+        return np.concatenate([angles, rates, np.array(self._start(angles, rates, torques)).ravel()])
 
-    def advance(self, motion: Array, steps: int) -> tuple[Array, float]:
-        """Take so many steps; return the motion then, and the seconds they took."""
-        final = np.empty_like(motion)
+    def advance(self, motion: Array, steps: int, given: Array | None = None) -> tuple[Array, float]:
+        """Take so many steps with what is given, or its own torques; return the motion then, and the seconds."""
+        final, given = np.empty_like(motion), self._torques if given is None else given
         seconds = self._handle.peer_seconds(
-            pointer(motion), pointer(final), pointer(self._torques), len(motion), ctypes.c_long(steps)
+            pointer(motion), pointer(final), pointer(given), len(motion), ctypes.c_long(steps)
         )
         return final, seconds

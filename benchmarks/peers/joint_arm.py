@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ctypes
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -55,9 +55,18 @@ class JointArm:
 
 
 def joint_arm(scene: Scene) -> JointArm:
-    """Return a scene on a clamp, all of whose inputs, if there are any, are torques of motors."""
-    if scene.base.kind != "clamp" or {item.acts for item in scene.inputs} - {"drive"}:
-        raise ValueError("peers are written for arms on a clamp, moved by motors")
+    """Return a scene on a clamp, all of whose inputs, if there are any, are torques of motors; or on a hub.
+
+    A hub is a body without length and mass at a joint without spring, which its own inertia resists as a rotor.
+    """
+    hub = scene.base.kind == "motor"
+    if scene.base.kind not in ("clamp", "motor") or {i.acts for i in scene.inputs} - {
+        "torque" if hub else "drive"
+    }:
+        raise ValueError("peers are written for arms on a clamp or a hub, moved by motors")
+    if hub:
+        beyond = scene.replace(base={"kind": "clamp"}, input=None)
+        return _on_hub(joint_arm(beyond), scene.base.inertia, len(scene.inputs))
     arm = Arm(scene, {})
     centers = np.array([link.center for link in scene.links]) * arm.lengths
     masses, moments, inertias = arm.masses[:-1].copy(), arm.masses[:-1] * centers, arm.inertias.copy()
@@ -83,6 +92,26 @@ def joint_arm(scene: Scene) -> JointArm:
         gears,
         arm.gravity,
         scene.integrator.step,
+    )
+
+
+def _on_hub(arm: JointArm, inertia: float, inputs: int) -> JointArm:
+    """Return an arm whose clamp turns with a hub that all of some inputs turn."""
+
+    def behind(values: Array, hub: float = 0.0) -> Array:
+        return np.concatenate([[hub], values])
+
+    return replace(
+        arm,
+        lengths=behind(arm.lengths),
+        masses=behind(arm.masses),
+        first_moments=behind(arm.first_moments),
+        inertias=behind(arm.inertias),
+        stiffness=behind(arm.stiffness),
+        damping=behind(arm.damping),
+        slack=behind(arm.slack),
+        rotors=behind(arm.rotors, inertia),
+        gears=np.vstack([np.ones((1, inputs)), np.zeros((len(arm.lengths), inputs))]),
     )
 
 

@@ -13,31 +13,38 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
-from peers.articulated import accelerations
+from peers.articulated import accelerations, inputs_of
 from peers.joint_arm import JointArm
 
 Array = NDArray[np.float64]
 
 
 def slopes(arm: JointArm) -> ca.Function:
-    """Return what the motion of an arm without motors changes by, ``slope(x)``; ``x`` holds angles and rates."""
+    """Return what the motion of an arm whose motors rest changes by, ``slope(x)``; ``x`` holds angles and rates."""
     x = ca.SX.sym("x", 2 * len(arm.lengths))
+    return ca.Function("slope", [x], [ca.cse(_slope(arm, x, ca.SX.zeros(arm.gears.shape[1])))])
+
+
+def _slope(arm: JointArm, x: ca.SX, u: ca.SX) -> ca.SX:
     angle, rate = ca.vertsplit(x, len(arm.lengths))
-    torque = -arm.stiffness * (angle - arm.slack) - arm.damping * rate
-    found = ca.vertcat(rate, accelerations(arm, angle, rate, torque, arm.rotors))
-    return ca.Function("slope", [x], [ca.cse(found)])
+    torque = ca.mtimes(ca.SX(ca.sparsify(ca.DM(arm.gears))), u)
+    torque = torque - arm.stiffness * (angle - arm.slack) - arm.damping * rate
+    return ca.vertcat(rate, accelerations(arm, angle, rate, torque, arm.rotors))
 
 
-def rk4_function(arm: JointArm) -> ca.Function:
-    """Return a step of the classical method of Runge and Kutta, ``x_next = step(x, u)`` without any u."""
-    slope, h = slopes(arm), arm.step
+def rk4_function(arm: JointArm, *, any_step: bool = False) -> ca.Function:
+    """Return a step of the classical method of Runge and Kutta, ``x_next = step(x, u)``, torques held.
+
+    With ``any_step`` the last entry of ``u`` is its length, s.
+    """
+    given, u, h = inputs_of(arm, any_step=any_step)
     x = ca.SX.sym("x", 2 * len(arm.lengths))
-    first = slope(x)
-    second = slope(x + 0.5 * h * first)
-    third = slope(x + 0.5 * h * second)
-    last = slope(x + h * third)
+    first = _slope(arm, x, u)
+    second = _slope(arm, x + 0.5 * h * first, u)
+    third = _slope(arm, x + 0.5 * h * second, u)
+    last = _slope(arm, x + h * third, u)
     end = x + h / 6.0 * (first + 2.0 * second + 2.0 * third + last)
-    return ca.Function("arm_step", [x, ca.SX.sym("u", 0)], [ca.cse(end)])
+    return ca.Function("arm_step", [x, given], [ca.cse(end)])
 
 
 class Cvodes:

@@ -113,6 +113,7 @@ def build_unchecked(scene: Scene, chosen: Integrator, *, auto: bool = False) -> 
     if scene.model.linearisation != "newton":
         _require_one_implicit_stage(scene, chosen)
     row = row_of(scene, chosen)
+    once = row.about == "prediction" and not auto
     auto = auto and row.about == "prediction"
     derived = scene.emit.sensitivities and not auto
     if derived:
@@ -124,6 +125,8 @@ def build_unchecked(scene: Scene, chosen: Integrator, *, auto: bool = False) -> 
             step=scene.integrator.step,
             unknown=scene.model.unknown,
             iterations=scene.sweeps,
+            # no polynomial of a last step leads into the first one
+            first_iterations=scene.sweeps + 1 if scene.coupled and scene.model.auto and once else None,
             corrections=0 if auto else scene.model.corrections,
             walks=_walks(scene, row, derived=derived),
             places=scene.model.linearisation != "newton",

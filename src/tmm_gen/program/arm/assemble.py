@@ -52,6 +52,8 @@ class Choices:
         What sweeps solve for.
     iterations : int
         Sweeps per stage.
+    first_iterations : int, optional
+        Iterations of the first step where stages are coupled, if these are others than of all that follow.
     corrections : int
         Behind the sweeps of each stage, with the factors of the last.
     walks : callable
@@ -69,6 +71,7 @@ class Choices:
     step: float
     unknown: Unknown = "acceleration"
     iterations: int = 1
+    first_iterations: int | None = None
     corrections: int = 0
     walks: MakeWalks = Walks
     places: bool = False
@@ -106,6 +109,9 @@ class _Assembly:
         """Build the program."""
         layout = self.layout
         main, startup = stepped(self.integrator, self.hoister, self._step)
+        if self.choices.first_iterations is not None:
+            startup = (self.hoister.hoist(self._first_step()),)
+        instants = tuple(input_instants(self.row, scheme) for scheme in self.integrator.schemes)
         turned = TURNED if self.choices.turns_apart else None
         output = self.hoister.hoist(output_routine(layout, turned))
         combined = tuple(self.combinations.variables.values())
@@ -131,20 +137,33 @@ class _Assembly:
             startup=startup,
             main=main,
             output=output,
-            stage_instants=tuple(input_instants(self.row, scheme) for scheme in self.integrator.schemes),
+            stage_instants=(*instants, instants[-1])[-1 - len(startup) :],
             facts=self._facts(),
         )
         alive = living(whole, auto=self.choices.auto)
         return prepared(replace(alive, sensitivities=self._sensitivities(alive)), factors)
 
+    def _first_step(self) -> Routine:
+        """Return a first step of coupled stages, which no last step's polynomial leads into."""
+        iterations = self.choices.first_iterations
+        assert iterations is not None
+        scheme = self.integrator.main
+        sections = self._around(self._coupled(scheme, iterations).sections(), scheme)
+        return Routine("step_start1", "Start-up: take step 1.", sections)
+
     def _step(self, scheme: Scheme) -> tuple[Section, ...]:
         """Return the sections of a scheme's step."""
-        builder = self._coupled(scheme) if scheme.coupled else self._builder(scheme)
+        iterations = self.choices.iterations
+        builder = self._coupled(scheme, iterations) if scheme.coupled else self._builder(scheme)
         if scheme is self.integrator.main and isinstance(builder, StepBuilder):
             self._main_builder = builder
+        return self._around(builder.sections(), scheme)
+
+    def _around(self, sections: tuple[Section, ...], scheme: Scheme) -> tuple[Section, ...]:
+        """Return a step with what it counts and holds besides motion."""
         return (
             *heat_before(self.layout),
-            *builder.sections(),
+            *sections,
             *hold(self.layout, len(scheme.stages)),
             *heat_after(self.layout),
         )
@@ -168,14 +187,14 @@ class _Assembly:
             walks=self.choices.walks,
         )
 
-    def _coupled(self, scheme: Scheme) -> CollocationStep:
+    def _coupled(self, scheme: Scheme, iterations: int) -> CollocationStep:
         """Return what builds a step whose stages are solved at once."""
         known = self.row.about == "known"
         return (CollocationStep if known else PredictedCollocationStep)(
             layout=self.layout,
             prepared=self.combinations.variables,
             scheme=scheme,
-            iterations=self.choices.iterations,
+            iterations=iterations,
             auto=self.choices.auto,
             split=self.early.split,
         )
