@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from tmm_gen.cli.build import import_line
 from tmm_gen.cli import main
+from tmm_gen.cli.build import import_line
 
 
 @pytest.mark.parametrize("out", ["generated", "some folder/my-out", "elsewhere/gen"])

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import re
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from tmm_gen.playground.page import refusal
@@ -26,12 +28,31 @@ def test_all_playgrounds_are_of_the_scenes_that_have_one() -> None:
     assert {ROOT / name for name in listed.split()} == REFUSED
 
 
-def test_cards_lead_to_playgrounds_or_say_why_there_is_none(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.fixture
+def website(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     monkeypatch.syspath_prepend(str(ROOT / "website"))
-    try:
-        from gallery import cards
-    finally:
-        sys.modules.pop("gallery", None)
+    yield
+    for name in ("gallery", "pictures"):
+        sys.modules.pop(name, None)
+
+
+@pytest.mark.usefixtures("website")
+def test_a_picture_is_of_a_run_of_its_scene() -> None:
+    from pictures import drawn, picture
+
+    scene = load_scene(ROOT / "scenes" / "thesis2.toml")
+    now, kept = (np.array(re.findall(r"\d+\.\d", text), float) for text in (drawn(scene), picture(scene)))
+    np.testing.assert_allclose(now, kept, atol=0.2)  # px; the last digits are the machine's
+    with pytest.raises(
+        FileNotFoundError, match=r"thesis2\.svg is not of the scene as it is: run `python website/pict"
+    ):
+        picture(scene.replace(**{"integrator.step": 0.9 * scene.integrator.step}))
+
+
+@pytest.mark.usefixtures("website")
+def test_cards_lead_to_playgrounds_or_say_why_there_is_none() -> None:
+    from gallery import cards
+
     made = {scene.name for path, scene in SCENES.items() if path not in REFUSED} - {"swing"}
     shown = cards(ROOT, made, "source")
     found = {re.findall(r'id="(\w+)"', card)[0]: card for card in shown.split("<section>")[1:]}

@@ -107,7 +107,10 @@ def cmake_line(out: Path, names: Sequence[str]) -> str:
         Of the packages.
     """
     which = names[0] if len(names) == 1 else "NAME"
-    return f"In CMake: add_subdirectory({out / which / 'c'}), and link tmm_{which}; without CMake compile {which}.c there"
+    folder = out / which / "c"
+    return (
+        f"In CMake: add_subdirectory({folder}), and link tmm_{which}; without CMake compile {which}.c there"
+    )
 
 
 def scene_files(named: Sequence[str]) -> list[Path]:

@@ -130,8 +130,8 @@ def _require_exact(name: str, declared: Integrator) -> None:
             }
             if odd:
                 raise UserError(
-                    f"{_file(name)}: integrator '{name}' has the number {min(odd, key=str)}, of which nothing exact can "
-                    "be derived. Write fractions and roots: sp.Rational(1, 3), sp.sqrt(3)."
+                    f"{_file(name)}: integrator '{name}' has the number {min(odd, key=str)}, of which nothing exact "
+                    "can be derived. Write fractions and roots: sp.Rational(1, 3), sp.sqrt(3)."
                 )
 
 
