@@ -113,6 +113,7 @@ def animation(simulation: Simulation, form: str) -> bytes:
 def draw_shapes(axes: Axes, simulation: Simulation) -> None:
     """Draw the arm at instants spread over the motion, the later the darker, and the way of its tips."""
     import matplotlib as mpl
+    from matplotlib.patheffects import withStroke
 
     scene = simulation.scene
     x, y = _places(simulation)
@@ -126,14 +127,20 @@ def draw_shapes(axes: Axes, simulation: Simulation) -> None:
         axes.plot(x[k, tips], y[k, tips], "o", color=colour, markersize=6.0 if scene.tip else 3.5)
         if scene.floats:
             axes.plot(x[k, 0], y[k, 0], "s", color=colour, markersize=7.0)
-    for k, colour in ((shown[0], colours[0]), (shown[-1], colours[-1])):
-        axes.annotate(
+    dark = mpl.colormaps["Blues"]([0.6, 1.0])
+    for k, colour in ((shown[0], dark[0]), (shown[-1], dark[1])):
+        out = np.array([x[k, -1] - x[k, 0], y[k, -1] - y[k, 0]])
+        aside = 9.0 * out / max(float(np.linalg.norm(out)), 1e-12)  # away from the base, where no way of a tip is
+        told = axes.annotate(
             f"{simulation.time[k]:.3g} s",
             (x[k, -1], y[k, -1]),
-            (6, 4),
+            tuple(aside),
             textcoords="offset points",
             color=colour,
+            ha="left" if aside[0] > 2.0 else "right" if aside[0] < -2.0 else "center",
+            va="bottom" if aside[1] > 2.0 else "top" if aside[1] < -2.0 else "center",
         )
+        told.set_path_effects([withStroke(linewidth=2.0, foreground="white")])
 
 
 def _ground(axes: Axes, scene: Scene, x: Array, y: Array) -> None:
