@@ -14,9 +14,9 @@ from tmm_gen.native.python_module import numpy_module
 from tmm_gen.program.build import build_program
 from tmm_gen.program.evaluate import allocate, execute, key
 from tmm_gen.program.statements import Until
-from tmm_gen.program.sweeps import MOST_SWEEPS
 from tmm_gen.reference.planar_reference import planar_response
 from tmm_gen.scene import Scene, parse_scene
+from tmm_gen.scene.model import MOST_SWEEPS
 from tmm_gen.simulate.run import simulate
 from tmm_gen.simulate.tolerance import InaccurateError
 

@@ -142,6 +142,14 @@ def test_runs_iterate_as_often_as_it_takes() -> None:
     assert off < 0.3 * left
 
 
+def test_more_iterations_than_help_are_refused() -> None:
+    text = ARM.replace('kind = "spatial"', 'kind = "spatial"\niterations = 99')
+    with pytest.raises(SceneError, match="is more than 12") as caught:
+        parse_scene(text)
+    assert "Write 12 or less" in str(caught.value)
+    assert parse_scene(text.replace("99", "12")).sweeps == 12
+
+
 def test_exact_slopes_are_refused_with_what_to_write() -> None:
     text = ARM.replace('kind = "spatial"', 'kind = "spatial"\nlinearisation = "newton"')
     with pytest.raises(SceneError, match='goes with linearisation = "inertial" in space') as caught:

@@ -133,7 +133,9 @@ def test_steps_are_those_of_the_reference(
     scene: Scene, name: str, iterations: int, stiffness: tuple[float, float], longest: float, order: int
 ) -> None:
     """Outputs of both sides together; accelerations at the start; errors that fall by the order of the method."""
-    yaw, elbow = stiffness  # a step of one hundredth does not resolve stiff gears, and falls short of its order
+    yaw, elbow = (
+        stiffness  # a step of one hundredth does not resolve stiff gears, and falls short of its order
+    )
     scene = scene.replace(
         **{
             "integrator.name": name,

@@ -9,9 +9,6 @@ import sympy as sp
 from tmm_gen.program.statements import Assign, Routine, Section
 from tmm_gen.program.variables import Role, Variable
 
-MOST_SWEEPS = 12
-"""A step that so many sweeps do not solve is not solved by more: what they left is weighed when all is done."""
-
 LEAST_TURN = Variable(
     "least_turn",
     Role.PARAMETER,

@@ -13,11 +13,18 @@ Linearisation = Literal["newton", "taylor", "frozen", "inertial"]
 Sweep = Literal["riccati", "product"]
 Rounds = Annotated[int, Field(strict=True, ge=0)]
 Unknown = Literal["acceleration", "increment", "displacement"]
+MOST_SWEEPS = 12
+"""A stage that so many sweeps do not solve is not solved by more; each of them is code of its own in a kernel."""
 
 
 def sweeps_or_auto(value: object) -> object:
-    """Reject what is neither a number of sweeps nor "auto", in one sentence for both."""
+    """Reject what is neither a number of sweeps that makes sense nor "auto"."""
     number = isinstance(value, int) and not isinstance(value, bool) and value >= 1
+    if number and isinstance(value, int) and value > MOST_SWEEPS:
+        raise fault(
+            f"is more than {MOST_SWEEPS}, and what so many sweeps leave unsolved more do not solve",
+            f'Write {MOST_SWEEPS} or less, or `iterations = "auto"` and shorter steps.',
+        )
     if number or value == "auto":
         return value
     raise fault('must be "auto" or a whole number from 1', 'Write for example `iterations = "auto"`.')

@@ -17,8 +17,9 @@ from tmm_gen.program.arm.motion import Moving
 from tmm_gen.program.arm.step import StepBuilder
 from tmm_gen.program.arm.walks import Walks
 from tmm_gen.program.statements import Assign, Loop, Order, Repeat, Section, Statement, Until
-from tmm_gen.program.sweeps import LEAST_TURN, MOST_SWEEPS, SWEEPS
+from tmm_gen.program.sweeps import LEAST_TURN, SWEEPS
 from tmm_gen.program.variables import local
+from tmm_gen.scene.model import MOST_SWEEPS
 
 _TURNED = local("turned", "sum of squares of what this sweep changes angles by", "rad^2")
 

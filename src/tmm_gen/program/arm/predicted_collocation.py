@@ -24,8 +24,8 @@ from tmm_gen.program.fields import MOTION_NAMES
 from tmm_gen.program.inputs import input_instants
 from tmm_gen.program.passes.side_by_side import SideBySide
 from tmm_gen.program.statements import Assign, Loop, Order, Repeat, Section, Statement
-from tmm_gen.program.sweeps import MOST_SWEEPS
 from tmm_gen.program.variables import Ref, Role, Variable, local
+from tmm_gen.scene.model import MOST_SWEEPS
 
 
 @dataclass(frozen=True)

@@ -26,8 +26,8 @@ from tmm_gen.program.space.layout import SpaceLayout
 from tmm_gen.program.space.loads import loads_on_frames
 from tmm_gen.program.space.over_stations import MOTION
 from tmm_gen.program.statements import Assign, Loop, Order, Repeat, Section, Statement
-from tmm_gen.program.sweeps import MOST_SWEEPS
 from tmm_gen.program.variables import Ref, Role, Variable
+from tmm_gen.scene.model import MOST_SWEEPS
 
 ONE = sp.S.One
 

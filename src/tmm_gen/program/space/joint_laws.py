@@ -95,7 +95,9 @@ class JointLaws:
             if over is not None:
                 statements += gear.lacking(over.entry(k), joint)
             else:
-                statements.append(Assign(joint, self._torque(moved, k + 1) - self._acting(value).get(k + 1, 0)))
+                statements.append(
+                    Assign(joint, self._torque(moved, k + 1) - self._acting(value).get(k + 1, 0))
+                )
         return Section("torques of the joints' own", tuple(statements))
 
     def shared(self, target: Variable) -> Section:

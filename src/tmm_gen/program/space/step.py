@@ -22,8 +22,9 @@ from tmm_gen.program.space.loads import loads_on_frames
 from tmm_gen.program.space.over_stations import MOTION
 from tmm_gen.program.space.walks import SpaceWalks
 from tmm_gen.program.statements import Assign, Loop, Order, Repeat, Section, Statement, Until
-from tmm_gen.program.sweeps import LEAST_TURN, MOST_SWEEPS, SWEEPS
+from tmm_gen.program.sweeps import LEAST_TURN, SWEEPS
 from tmm_gen.program.variables import Role, Variable, local
+from tmm_gen.scene.model import MOST_SWEEPS
 
 _TURNED = local("turned", "sum of squares of what this correction changes angles by", "rad^2")
 
