@@ -7,11 +7,14 @@ import pytest
 from support.spatial.kernels import HEADED, package_of, program_of
 from support.spatial.random_arms import random_arm
 
+from tmm_gen.derive.space.inward import CARRIED
+from tmm_gen.emit.c.kernel import Kernel
 from tmm_gen.inputs.signals import Sine
 from tmm_gen.native import compile_kernel
 from tmm_gen.native.python_module import casadi_module, numpy_module
+from tmm_gen.program.build import build_program
 from tmm_gen.program.space.assemble import SpaceChoices
-from tmm_gen.program.statements import Loop
+from tmm_gen.program.statements import Assign, Loop, Require
 from tmm_gen.reference.spatial_motion import motion
 from tmm_gen.scene import SceneError, parse_scene
 from tmm_gen.scene.spatial.arm import SpatialArm
@@ -140,6 +143,23 @@ def test_runs_iterate_as_often_as_it_takes() -> None:
     off, left = (float(np.max(np.abs(o["elbow"][1:] - exact))) for o in (found.outputs, once.outputs))
     assert off < 1e-5
     assert off < 0.3 * left
+
+
+def test_what_a_proof_needs_is_checked() -> None:
+    """The size of each complex pivot before it is divided by, and what every system finds joints to do."""
+    box = {"angles": [-3.0, 3.0], "rates": [-9.0, 9.0], "accelerations": [-99.0, 99.0], "torque": [-1.0, 1.0]}
+    scene = parse_scene(ARM).replace(**{"emit.trigonometry": "own", "emit.box": box})
+    program = build_program(scene)
+    divided = 0
+    for loop in (s for s in program.main.statements() if isinstance(s, Loop)):
+        required = {inner.value for inner in loop.body if isinstance(inner, Require)}
+        below = {1 / inner.value for inner in loop.body if isinstance(inner, Assign) and inner.value.is_Pow}
+        divided += len(below)
+        assert below <= required
+    assert divided == 2 * 3
+    fence = Kernel.of(program, scene).fences["step"]
+    assert {"unknown_system1", "unknown_system2_re", "unknown_system2_im"} <= set(fence.largest)
+    assert {v.name.rpartition("_system")[0] for v in fence.handed} <= {s.name for s in CARRIED[:21]}
 
 
 def test_more_iterations_than_help_are_refused() -> None:

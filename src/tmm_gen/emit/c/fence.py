@@ -129,8 +129,11 @@ def kept_answers(routine: Routine) -> tuple[Variable, ...]:
 
 
 def found_by(routine: Routine) -> tuple[Variable, ...]:
-    """Return the array in which a step in space keeps what each joint is found to do: corrections begin with it."""
-    return tuple(v for v in routine.variables(Role.WORK) if v.name == OWN.name)
+    """Return the arrays in which a step in space keeps what each joint is found to do: corrections begin with them.
+
+    Where stages are solved at once there is one for each part of each system.
+    """
+    return tuple(v for v in routine.variables(Role.WORK) if v.name.partition("_system")[0] == OWN.name)
 
 
 def _watched(

@@ -9,8 +9,11 @@ from tmm_gen.derive.space.inward import BIAS
 from tmm_gen.program.statements import Assign, Loop, Order, Require, Routine
 from tmm_gen.program.variables import Ref, Role, Variable, refs_in
 
-_FORCES = re.compile(rf"({'|'.join(symbol.name.partition('_')[2] for symbol in BIAS)})(_\d+)*$")
-"""Ends of their names: a fork's have its number in front, those of several joints in one body theirs behind."""
+_FORCES = re.compile(
+    rf"({'|'.join(symbol.name.partition('_')[2] for symbol in BIAS)})(_\d+)*(_system\d+(_re|_im)?)?$"
+)
+"""Ends of their names: a fork's have its number in front, those of several joints in one body theirs behind, and those
+of a system of stages that are solved at once its own behind that."""
 
 
 @lru_cache(maxsize=16)

@@ -193,7 +193,11 @@ class _Split:
 
     def _inverse(self, value: Pair) -> Pair:
         re, im = self._named(value)
-        scale = self._let(1 / (re**2 + im**2), "scale")
+        size = self._let(re**2 + im**2, "size")
+        self._before.append(
+            Require(size)
+        )  # it may vanish by rounding alone, and intervals do not tell that it does not
+        scale = self._let(1 / size, "scale")
         return scale * re, -scale * im
 
     def _named(self, value: Pair) -> Pair:
