@@ -118,7 +118,7 @@ def test_one_iteration_is_near_what_as_many_as_it_takes_find(radau: Scene) -> No
 
 
 def test_the_first_step_iterates_once_more(radau: Scene) -> None:
-    """No polynomial leads into it: of an arm let go it leaves what its equations ask for, and later steps do with one."""
+    """No polynomial leads into it: of an arm let go it leaves what the equations ask for, and later steps take one."""
 
     def after(steps: int, iterations: int | str) -> np.ndarray:
         scene = radau.replace(**{"model.iterations": iterations, "integrator.step": 0.02})

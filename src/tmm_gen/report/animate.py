@@ -130,7 +130,8 @@ def draw_shapes(axes: Axes, simulation: Simulation) -> None:
     dark = mpl.colormaps["Blues"]([0.6, 1.0])
     for k, colour in ((shown[0], dark[0]), (shown[-1], dark[1])):
         out = np.array([x[k, -1] - x[k, 0], y[k, -1] - y[k, 0]])
-        aside = 9.0 * out / max(float(np.linalg.norm(out)), 1e-12)  # away from the base, where no way of a tip is
+        # away from the base, where no way of a tip is
+        aside = 9.0 * out / max(float(np.linalg.norm(out)), 1e-12)
         told = axes.annotate(
             f"{simulation.time[k]:.3g} s",
             (x[k, -1], y[k, -1]),

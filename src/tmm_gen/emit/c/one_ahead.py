@@ -88,7 +88,9 @@ class _Sweep:
                 if line.target not in carried or gains is None or not _fixed(gains.values(), loop):
                     return None
                 changes[line.target] = gains
-            elif line.target.offset is None and _affine(value, carried) and _fixed([value], loop, but=carried):
+            elif (
+                line.target.offset is None and _affine(value, carried) and _fixed([value], loop, but=carried)
+            ):
                 symbol = Variable(f"{line.target.variable.name} new", Role.LOCAL).ref
                 solved[symbol] = value
                 now[line.target] = symbol
@@ -133,7 +135,9 @@ class _Sweep:
             rests.append(Assign(rest.ref, value.xreplace(dict.fromkeys(self.unknowns, sp.S.Zero))))
             new.append(Assign(target, sp.Add(rest.ref, *terms)))
         start = self.loop.start
-        factors = Loop(Order.OUTWARD, start + 1, self.loop.stop, tuple(Assign(s, v) for v, s in shares.items()))
+        factors = Loop(
+            Order.OUTWARD, start + 1, self.loop.stop, tuple(Assign(s, v) for v, s in shares.items())
+        )
         changed = [
             Assign(c, sp.Add(c, *(gain * u for u, gain in gains.items()))) for c, gains in before.items()
         ]
