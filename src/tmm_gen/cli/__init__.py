@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import contextlib
 import errno
+import gc
 import os
 import signal
 import sys
@@ -26,6 +27,8 @@ __all__ = ["COMMANDS", "main", "tmm_gen"]
 _PROGRAM = "tmm-gen"
 _OF_OUTPUT = (errno.EBADF, errno.EFBIG, errno.EIO, errno.ENOSPC, errno.EDQUOT)
 """What goes wrong with standard output, to which errors give no name."""
+_NEW_OBJECTS = 50_000
+"""After which Python looks for circles among them: 700 by itself; expressions of SymPy make none, and are many."""
 _READER_WENT = 128 + 13
 """Exit code of a command whose reader goes away: what shells have for SIGPIPE."""
 
@@ -102,12 +105,22 @@ def main(arguments: Sequence[str] | None = None) -> int:
         )
     if any("\0" in word for word in words):
         return _fail("an argument holds a null character. Leave it out.", UserError.exit_code)
-    if arguments is None and not sys.warnoptions:
+    if arguments is None:
+        _alone()
+    with _ending_in_order():
+        return _code(words)
+
+
+def _alone() -> None:
+    """Set up a process that does nothing but this command."""
+    gc.set_threshold(_NEW_OBJECTS)
+    os.environ.setdefault(
+        "PYDANTIC_DISABLE_PLUGINS", "__all__"
+    )  # which it would look for in every package installed
+    if not sys.warnoptions:
         warnings.simplefilter(
             "ignore"
         )  # what libraries warn of is for those who write tmm-gen; python -W shows it
-    with _ending_in_order():
-        return _code(words)
 
 
 def _code(words: list[str]) -> int:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from functools import cache
-from typing import Any
-
-import jinja2
+from typing import TYPE_CHECKING, Any
 
 from tmm_gen.c_language.names import macros, signal
 from tmm_gen.resources import templates_dir
+
+if TYPE_CHECKING:
+    import jinja2
 
 
 def render(template: str, **context: Any) -> str:
@@ -29,6 +30,8 @@ def render(template: str, **context: Any) -> str:
 
 @cache
 def _environment() -> jinja2.Environment:
+    import jinja2  # who counts a program's operations prints nothing
+
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(templates_dir()),
         undefined=jinja2.StrictUndefined,

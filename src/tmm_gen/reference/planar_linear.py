@@ -31,8 +31,6 @@ class Vibration:
 
 def vibration(scene: Scene) -> Vibration:
     """Return natural frequencies and damping ratios of a planar scene without gravity, straight."""
-    from scipy.linalg import cholesky, solve_triangular, svd  # slow to import
-
     arm = Arm(scene, {})
     _, damping = arm.springs
     mass = arm.mass
@@ -46,9 +44,9 @@ def vibration(scene: Scene) -> Vibration:
     bends = unit[:, held] / np.sqrt(stiffness[held])
     whole = np.concatenate([np.ones((len(mass), hub)), unit[:, ~held]], axis=1)
     if turning:
-        whole = solve_triangular(cholesky(whole.T @ mass @ whole), whole.T, trans="T").T
+        whole = np.linalg.solve(np.linalg.cholesky(whole.T @ mass @ whole), whole.T).T
     bends = bends - whole @ (whole.T @ mass @ bends)
-    _, sizes, rows = svd(cholesky(mass) @ bends, full_matrices=False)
+    _, sizes, rows = np.linalg.svd(np.linalg.cholesky(mass).T @ bends, full_matrices=False)
     shapes = np.concatenate([whole, bends @ rows.T / sizes], axis=1)
     frequencies = np.concatenate([np.zeros(turning), 1.0 / sizes])
     modal = np.einsum("ji,jk,ki->i", shapes, damping, shapes)

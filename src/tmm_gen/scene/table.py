@@ -23,9 +23,12 @@ STATION_LIMIT = 100_000
 
 
 class Table(BaseModel):
-    """A table of the scene file: frozen, and every key is a declared one."""
+    """A table of the scene file: frozen, and every key is a declared one.
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    What checks it is built when it is first asked for: a scene has few of all tables.
+    """
+
+    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
 
 def hidden(field: FieldInfo) -> bool:

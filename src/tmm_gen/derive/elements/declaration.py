@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 
 import sympy as sp
 
@@ -69,14 +70,23 @@ class Element:
             found = (sp.sympify(values.get(symbol, symbol)) for symbol in symbols)
             return tuple(dict.fromkeys(s for value in found for s in sorted(value.free_symbols, key=str)))
 
-        others = {symbol: sp.sympify(value) for symbol, value in values.items()}
+        others = tuple((symbol, sp.sympify(value)) for symbol, value in values.items())
         return replace(
             self,
             parameters=written(self.parameters),
             inputs=written(self.inputs),
-            equations=tuple(equation.xreplace(others) for equation in self.equations),
-            energies={kind: energy.xreplace(others) for kind, energy in self.energies.items()},
+            equations=_replaced(self.equations, others),
+            energies=dict(zip(self.energies, _replaced(tuple(self.energies.values()), others), strict=True)),
         )
+
+
+@lru_cache(maxsize=1 << 12)  # arms that differ in one thing have the same elements besides
+def _replaced(
+    expressions: tuple[sp.Expr, ...], values: tuple[tuple[sp.Symbol, sp.Expr], ...]
+) -> tuple[sp.Expr, ...]:
+    """Write symbols of expressions by others."""
+    by_symbol = dict(values)
+    return tuple(each.xreplace(by_symbol) for each in expressions)
 
 
 def motion(name: str, side: str) -> Motion:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import sympy as sp
 
 from tmm_gen.derive.elements.declaration import Element, Motion, Port, motion
+from tmm_gen.derive.partial import partial
 
 LENGTH = sp.Symbol("l", positive=True)
 MASS = sp.Symbol("m", nonnegative=True)
@@ -40,12 +41,14 @@ def point_acceleration(
     distance : sympy.Expr
         From the inboard end, m.
     """
-    t = sp.Symbol("t")
-    theta = sp.Function("theta")(t)
-    rotating = (distance * sp.cos(theta), distance * sp.sin(theta))
-    values = {sp.diff(theta, t, 2): angle.a, sp.diff(theta, t): angle.v, theta: angle.q}
-    ax, ay = (sp.diff(part, t, 2).subs(values) for part in rotating)
+    rotating = (distance * sp.cos(angle.q), distance * sp.sin(angle.q))
+    ax, ay = (_by_time(_by_time(part, angle), angle) for part in rotating)
     return inner.a + ax, inner_y.a + ay
+
+
+def _by_time(value: sp.Expr, angle: Motion) -> sp.Expr:
+    """Differentiate by time what moves by an angle and its rate."""
+    return partial(value, angle.q) * angle.v + partial(value, angle.v) * angle.a
 
 
 _IN, _OUT = planar_port("in"), planar_port("out")

@@ -15,6 +15,7 @@ from typing import Literal
 import sympy as sp
 
 from tmm_gen.derive.integrators.declaration import KINDS, STEP, Kind, Scheme, past, stage
+from tmm_gen.derive.partial import partial
 
 Unknown = Literal["displacement", "increment", "acceleration"]
 
@@ -76,7 +77,7 @@ def affine_motion(scheme: Scheme, index: int, unknown: Unknown) -> AffineMotion:
     gain: dict[Kind, sp.Expr] = {}
     offset: dict[Kind, sp.Expr] = {}
     for kind, value in zip(KINDS, solution, strict=True):
-        gain[kind] = _simple(sp.diff(value, UNKNOWN))
+        gain[kind] = _simple(partial(value, UNKNOWN))
         offset[kind] = _collect(value.subs(UNKNOWN, 0))
     return AffineMotion(gain, offset)
 
@@ -108,7 +109,7 @@ def coupled_weights(scheme: Scheme) -> tuple[sp.ImmutableMatrix, sp.ImmutableMat
     accelerations = [stage("a", j + 1) for j in range(len(scheme.stages))]
 
     def weights(rate: sp.Expr) -> list[sp.Expr]:
-        return [sp.diff(rate, symbol) / STEP for symbol in accelerations]
+        return [partial(rate, symbol) / STEP for symbol in accelerations]
 
     matrix = [weights(declared.relations[1]) for declared in scheme.stages]
     rate = sp.sympify(scheme.update["v"])
@@ -134,7 +135,7 @@ def _collect(expression: sp.Expr) -> sp.Expr:
     values = sorted(
         (s for s in expression.free_symbols if "_past" in s.name or "_stage" in s.name), key=lambda s: s.name
     )
-    coefficients = [_simple(sp.diff(expression, value)) for value in values]
+    coefficients = [_simple(partial(expression, value)) for value in values]
     rest = _simple(expression.subs(dict.fromkeys(values, 0)))
     if rest != 0 or any(c.free_symbols & set(values) for c in coefficients):
         raise ValueError(f"relations are not linear and homogeneous in history: {expression}")

@@ -7,6 +7,7 @@ from functools import lru_cache
 
 import sympy as sp
 
+from tmm_gen.derive.partial import partial
 from tmm_gen.derive.station.law import KINDS
 from tmm_gen.derive.station.lets import Coordinate
 
@@ -138,11 +139,11 @@ class Frame:
 @lru_cache(maxsize=1 << 12)  # each gain asks for the slopes of the same laws
 def _slope(value: sp.Expr, kind: str, turning: sp.Expr, square_slope: sp.Expr) -> sp.Expr:
     if kind == "q":
-        turned = sp.diff(value, SINE) * COSINE - sp.diff(value, COSINE) * SINE
-        return sp.expand(turning * turned + sp.diff(value, OUTER["q"]))
+        turned = partial(value, SINE) * COSINE - partial(value, COSINE) * SINE
+        return sp.expand(turning * turned + partial(value, OUTER["q"]))
     if kind == "v":
-        return sp.expand(sp.diff(value, OUTER["v"]) + sp.diff(value, SQUARE) * square_slope)
-    return sp.expand(sp.diff(value, OUTER["a"]))
+        return sp.expand(partial(value, OUTER["v"]) + partial(value, SQUARE) * square_slope)
+    return sp.expand(partial(value, OUTER["a"]))
 
 
 def primitive(value: sp.Expr) -> sp.Expr:

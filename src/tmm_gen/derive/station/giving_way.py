@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sympy as sp
 
+from tmm_gen.derive.partial import partial
 from tmm_gen.derive.station.carried import ZERO, Carried
 from tmm_gen.derive.station.frame import RESIDUAL
 from tmm_gen.derive.station.law import KINDS
@@ -194,7 +195,7 @@ class GivingWay:
         return passes * self._bias + REFLECTION * known
 
     def _gain(self, value: sp.Expr, motion: object) -> sp.Expr:
-        return sp.expand(sp.Add(*(self._frame.gains[k] * sp.diff(value, getattr(motion, k)) for k in KINDS)))
+        return sp.expand(sp.Add(*(self._frame.gains[k] * partial(value, getattr(motion, k)) for k in KINDS)))
 
     def _known(self, passed: Passed, value: sp.Expr, symbol: sp.Symbol, doc: str) -> sp.Expr:
         """Return what stands for a force at the point of linearisation, and name it where it takes arithmetic."""

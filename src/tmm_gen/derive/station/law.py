@@ -9,6 +9,7 @@ from itertools import pairwise
 import sympy as sp
 
 from tmm_gen.derive.elements.declaration import Element, Motion, Port
+from tmm_gen.derive.partial import partial
 from tmm_gen.errors import UserError
 
 KINDS = ("q", "v", "a")
@@ -65,7 +66,7 @@ def law_of(element: Element) -> Law:
     by_inner = {
         getattr(outboard.motions[i], kind): value for i, m in outer.items() for kind, value in m.items()
     }
-    balance = [e.subs(by_inner) for e in element.equations if e.free_symbols & forces]
+    balance = [e.xreplace(by_inner) for e in element.equations if e.free_symbols & forces]
     unknown = [*inboard.forces, *(outboard.forces[i] for i in free)]
     solutions = list(sp.linsolve(balance, unknown))
     if len(solutions) != 1 or any(value.free_symbols & set(unknown) for value in solutions[0]):
@@ -92,8 +93,7 @@ def _outer_motion(motion: Motion, geometric: list[sp.Expr], inboard: Port) -> di
         symbol = getattr(motion, kind)
         for equation in geometric:
             if equation.has(symbol):
-                slope = sp.diff(equation, symbol)
-                found = {kind: sp.expand(symbol - equation / slope)}
+                found = {kind: sp.expand(symbol - equation / partial(equation, symbol))}
                 for lower, higher in pairwise(KINDS):
                     if lower in found:
                         found[higher] = sp.expand(by_time(found[lower], inboard))
@@ -106,7 +106,7 @@ def by_time(expression: sp.Expr, *ports: Port) -> sp.Expr:
     rates = {m.q: m.v for port in ports for m in port.motions} | {
         m.v: m.a for port in ports for m in port.motions
     }
-    return sp.Add(*(sp.diff(expression, s) * rate for s, rate in rates.items()))
+    return sp.Add(*(partial(expression, s) * rate for s, rate in rates.items()))
 
 
 @cache
@@ -117,7 +117,7 @@ def passes_on(element: Element) -> bool:
         return False
     inner, outer = (port.motions[law.free] for port in (element.inboard, element.outboard))
     pairs = [(getattr(inner, kind), getattr(outer, kind)) for kind in KINDS]
-    return all(sp.expand(sp.diff(law.own, a) + sp.diff(law.own, b)) == 0 for a, b in pairs)
+    return all(sp.expand(partial(law.own, a) + partial(law.own, b)) == 0 for a, b in pairs)
 
 
 def impedance_law(element: Element) -> sp.Expr:
@@ -128,6 +128,6 @@ def impedance_law(element: Element) -> sp.Expr:
     gains = (sp.Symbol(f"P_{kind}", real=True) for kind in KINDS)
     return sp.expand(
         sp.Add(
-            *(gain * sp.diff(law.own, getattr(motion, kind)) for gain, kind in zip(gains, KINDS, strict=True))
+            *(gain * partial(law.own, getattr(motion, kind)) for gain, kind in zip(gains, KINDS, strict=True))
         )
     )

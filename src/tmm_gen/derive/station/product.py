@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
+from tmm_gen.derive.partial import partial
 from tmm_gen.derive.station.frame import Frame
 from tmm_gen.derive.station.law import KINDS
 from tmm_gen.derive.station.lets import Let, Line, Update
@@ -66,7 +67,7 @@ def _through(passed: Passed, frame: Frame, gains: list[Line], known: list[Line])
     """Solve the balance of an element with motion through it for the force at its outer side."""
     own = frame.own
     law, outside = passed.at_point(passed.law.inner[own]), passed.element.outboard.forces[own]
-    share = sp.diff(law, outside)
+    share = partial(law, outside)
     slope = sp.Add(*(frame.gains[k] * frame.slope(law, k) for k in KINDS))
     rest = frame.settled(law - share * outside)
     if slope != 0 or share != 1:
@@ -81,7 +82,7 @@ def _over(passed: Passed, frame: Frame, names: list[sp.Symbol], gains: list[Line
     inside, outside = passed.element.inboard.motions[own], passed.element.outboard.motions[own]
 
     def gain(value: sp.Expr, motion: object) -> sp.Expr:
-        return sp.expand(sp.Add(*(frame.gains[k] * sp.diff(value, getattr(motion, k)) for k in KINDS)))
+        return sp.expand(sp.Add(*(frame.gains[k] * partial(value, getattr(motion, k)) for k in KINDS)))
 
     besides = law.inner[own]
     inner = law.ratio * gain(law.own, inside) + gain(besides, inside)

@@ -8,6 +8,7 @@ import sympy as sp
 
 from tmm_gen.derive.elements.declaration import Element
 from tmm_gen.derive.integrators.declaration import STEP
+from tmm_gen.derive.partial import partial
 from tmm_gen.derive.station.frame import INNER, OUTER
 from tmm_gen.derive.station.law import KINDS, by_time, law_of
 from tmm_gen.derive.station.lets import Coordinate, Line, Update
@@ -117,7 +118,7 @@ def energy_of_step() -> sp.Expr:
     """Return the integral over a step of the cubic through power and slope at both ends: fourth order."""
     tau = sp.Symbol("tau", real=True)
     powers = sp.Matrix([[tau**k for k in range(4)]])
-    slopes = powers.diff(tau)
+    slopes = powers.applyfunc(lambda power: partial(power, tau))
     ends = sp.Matrix.vstack(*(row.subs(tau, at) for at in (0, STEP) for row in (powers, slopes)))
     found = ends.LUsolve(sp.Matrix([POWER_BEFORE, SLOPE_BEFORE, POWER_AFTER, SLOPE_AFTER]))
     return sp.expand(sum(c * STEP ** (k + 1) / (k + 1) for k, c in enumerate(found)))

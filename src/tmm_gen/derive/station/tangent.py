@@ -14,6 +14,7 @@ from collections.abc import Mapping
 
 import sympy as sp
 
+from tmm_gen.derive.partial import partial
 from tmm_gen.derive.station.frame import OUTER, Frame, force, node, predicted_force
 from tmm_gen.derive.station.giving_way import ADMITTANCE, OWN, STIFFNESS, TORQUE
 from tmm_gen.derive.station.inward import Inward
@@ -160,11 +161,11 @@ class Tangent:
             name, doc = coordinate.force, f"{coordinate.force} at the inner end"
             change = self._slopes(linearised, name, doc, self.keep_in)
             for k, other in enumerate(c):
-                through = sp.diff(law, outside[k])
+                through = partial(law, outside[k])
                 change += self._out.values.written(through) * force(other)
                 by = self._kept(
                     f"{name}_by_predicted_{other.force}",
-                    sp.diff(linearised, predicted_force(other)),
+                    partial(linearised, predicted_force(other)),
                     f"{doc} per predicted {other.force}",
                     self.keep_in,
                 )
@@ -178,7 +179,7 @@ class Tangent:
             at_predicted = law.subs(as_predicted)
             ahead = self._slopes(at_predicted, f"predicted_{name}", f"predicted {doc}", self.keep_in)
             for k, other in enumerate(c):
-                ahead += self._out.values.written(sp.diff(law, outside[k])) * predicted_force(other)
+                ahead += self._out.values.written(partial(law, outside[k])) * predicted_force(other)
             ahead += self._by_nodes_and_loads(passed, law, {})
             if ahead != predicted_force(coordinate):
                 predicted[predicted_force(coordinate)] = ahead
@@ -208,9 +209,9 @@ class Tangent:
         change = sp.Integer(0)
         for c in self._carried:
             for symbol in (node(c), beyond(node(c))):
-                change += self._out.values.written(sp.diff(law, symbol)) * nodes.get(symbol, symbol)
+                change += self._out.values.written(partial(law, symbol)) * nodes.get(symbol, symbol)
         for symbol in passed.element.inputs:
-            change += self._out.values.written(sp.diff(law, symbol)) * symbol
+            change += self._out.values.written(partial(law, symbol)) * symbol
         return change
 
     def _give_way(self, passed: Passed) -> None:

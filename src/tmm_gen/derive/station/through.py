@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sympy as sp
 
+from tmm_gen.derive.partial import partial
 from tmm_gen.derive.station.carried import ZERO, Carried
 from tmm_gen.derive.station.law import KINDS
 from tmm_gen.derive.station.lets import Let
@@ -50,18 +51,18 @@ class Through:
         forces: dict[int, sp.Expr] = {}
         for i in size:
             law = passed.law.inner[i]
-            through = [self._written(passed.at_point(sp.diff(law, f))) for f in outside]
+            through = [self._written(passed.at_point(partial(law, f))) for f in outside]
             for k in size:
                 value = sum((through[j] * s[j, k] for j in size), ZERO)
                 if k == own:
                     slope = self._slope(passed, law)
                     self._require_known(passed, slope, outside[own])
-                    value += self._constant_named(passed, slope.subs(slopes_at))
+                    value += self._constant_named(passed, slope.xreplace(slopes_at))
                 else:
-                    value += self._written(passed.at_point(sp.diff(law, passed.element.inboard.motions[k].a)))
+                    value += self._written(passed.at_point(partial(law, passed.element.inboard.motions[k].a)))
                 if value != s[i, k]:
                     impedances[i, k] = cheapest(value, self._levers)
-            biased = self._written(frame.settled(passed.at_point(law))).subs(at_bias)
+            biased = self._written(frame.settled(passed.at_point(law))).xreplace(at_bias)
             if frame.residual:  # what is no change of a force is in what equations leave over
                 biased = sum((through[j] * e[j] for j in size), ZERO)
             if biased != e[i]:
@@ -70,7 +71,9 @@ class Through:
         carried.set(impedances, forces)
         carried.predict(
             [
-                cheapest(self._written(frame.settled(passed.at_point(law))).subs(at_predicted), self._levers)
+                cheapest(
+                    self._written(frame.settled(passed.at_point(law))).xreplace(at_predicted), self._levers
+                )
                 for law in passed.law.inner
             ]
         )

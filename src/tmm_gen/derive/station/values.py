@@ -73,8 +73,11 @@ class Values:
         """Put known values in the place of what they are: sums within the sum first, then products."""
         full = self._by_sums(full)
         products = {s: f for s, f in self._full.items() if f.is_Mul or f.is_Pow}
+        held = full.free_symbols
         for symbol, product in products.items():
-            full = full.subs(product, symbol)
+            if product.free_symbols <= held:  # looked at before SymPy looks into every product
+                full = full.subs(product, symbol)
+                held = full.free_symbols
         return full
 
     def _by_sums(self, full: sp.Expr) -> sp.Expr:

@@ -25,7 +25,7 @@ class RoutineText(PythonRoutine):
     def lines(self, absent: tuple[Variable, ...] = ()) -> list[str]:
         """Return the statements, indented once, after lists for arrays they fill and what is absent."""
         filled = {v for v in self._routine.written() if v.length is not None and v.role not in _GIVEN}
-        lines = [self._zeros(variable) for variable in sorted(filled | set(absent), key=lambda v: v.name)]
+        lines = [self._zeros(variable) for variable in self._names.in_order(filled | set(absent))]
         for section in self._routine.sections:
             lines += ["", *comment(section.title, _INDENT)]
             for statement in section.statements:

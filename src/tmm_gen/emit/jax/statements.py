@@ -44,7 +44,7 @@ class RoutineText(PythonRoutine):
         """Return the statements, indented once, after zeros for what they fill piece by piece and do not know."""
         filled = {v for v in self._routine.written() if v.length is not None} - self._rebound
         filled |= {v for k in range(len(self._statements)) for v in self._kept(k)}
-        made = sorted(filled - set(known), key=lambda v: v.name)
+        made = self._names.in_order(filled - set(known))
         lines = [f"{_INDENT}{self._names[v]} = {self._zeros(v)}" for v in made]
         place = 0
         for section in self._routine.sections:
@@ -121,7 +121,7 @@ class RoutineText(PythonRoutine):
         """Write a loop whose stations hand scalars on."""
         carried, later = carried_scalars(loop), self._later(place)
         alive = {v for v in written_scalars(loop) if not dead_after(v, later)}
-        carry = sorted(carried | alive, key=lambda v: v.name)
+        carry = self._names.in_order(carried | alive)
         targets = dict.fromkeys(s.target for s in loop.body if isinstance(s, Assign))
         written = [ref for ref in targets if ref.variable.length is not None]
         along: dict[Ref, str] = {}
@@ -211,9 +211,7 @@ class RoutineText(PythonRoutine):
         block = self._block(place)
         written = {v for k in block for v in _written(self._statements[k])}
         later = self._later(block.stop - 1) if block else ()
-        return sorted(
-            (v for v in written if v.length is not None or not dead_after(v, later)), key=lambda v: v.name
-        )
+        return self._names.in_order(v for v in written if v.length is not None or not dead_after(v, later))
 
     def _repeated(self, mark: Repeat | Until, place: int) -> list[str]:
         """Begin or end what is repeated, a function of what it hands on."""

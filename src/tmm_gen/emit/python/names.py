@@ -44,6 +44,10 @@ class Names:
         """Return the name of a variable."""
         return self._names.get(variable, variable.name)
 
+    def in_order(self, variables: Iterable[Variable]) -> list[Variable]:
+        """Return variables by name; what is kept of another is called like it, and stands behind it."""
+        return sorted(variables, key=lambda v: (v.name, self[v] != v.name))
+
     def beside(self, variable: Variable, word: str) -> str:
         """Return a name for something of a variable that no variable has."""
         name = f"{self[variable]}_{word}"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sympy as sp
 
 from tmm_gen.derive.integrators.declaration import STEP
+from tmm_gen.derive.partial import partial
 from tmm_gen.derive.station.reading import (
     POWER_AFTER,
     POWER_BEFORE,
@@ -32,7 +33,7 @@ def _heat(layout: Layout, power: sp.Symbol, slope: sp.Symbol, when: str) -> tupl
     if layout.dissipated is None:
         return ()
     rule = energy_of_step().subs(STEP, layout.step.ref)
-    share = sp.diff(rule, power) * power + sp.diff(rule, slope) * slope
+    share = partial(rule, power) * power + partial(rule, slope) * slope
     named = {
         power: local("heating", "power turned to heat", "W"),
         slope: local("heating_slope", unit="W/s"),

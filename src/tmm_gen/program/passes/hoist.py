@@ -62,7 +62,7 @@ class Hoister:
             return value
         if _plainly_nonlinear(value):
             return self._inside(value)
-        affine = _plainly_affine(value, changing) or _affine(value, changing)
+        affine = _plainly_affine(value, changing) or _affine(value, tuple(changing))
         if affine is None:
             return self._inside(value)
         by_factor: dict[sp.Expr, list[sp.Expr]] = {}
@@ -129,7 +129,8 @@ def _plainly_nonlinear(value: sp.Expr) -> bool:
     return nonlinear
 
 
-def _affine(value: sp.Expr, changing: list[Ref]) -> list[tuple[sp.Expr, sp.Expr]] | None:
+@lru_cache(maxsize=1 << 12)  # arms that differ in one thing have the same sums besides
+def _affine(value: sp.Expr, changing: tuple[Ref, ...]) -> list[tuple[sp.Expr, sp.Expr]] | None:
     """Return an expression as changing things with their factors, and 1 with the rest; None where it is not affine."""
     polynomial = sp.Poly(value, *changing) if value.is_polynomial(*changing) else None
     if polynomial is None or polynomial.total_degree() > 1:
