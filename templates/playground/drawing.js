@@ -121,11 +121,13 @@ function drawBase(pen, [x, y]) {
 function drawShaft(pen, wide, high, shown, fine, time) {
   // discs along a shaft, each with a hand, and the line through the hands' ends: it shows the wave of twist
   const stations = figure.hosts.length;
-  const radius = Math.min(0.32 * high, (0.8 * wide) / stations);
-  const across = (k) => 0.06 * wide + (k * (0.88 * wide)) / stations;
+  const crowded = stations > 30; // then only the line shows, as high as there is room for
+  const radius = crowded ? 0.32 * high : Math.min(0.32 * high, (0.8 * wide) / stations);
+  const edge = Math.max(0.06 * wide, 0.35 * radius + 12);
+  const across = (k) => edge + (k * (wide - 2 * edge)) / stations;
   const end = (k, angle) => [across(k) + 0.35 * radius * Math.sin(angle), high / 2 - radius * Math.cos(angle)];
   line(pen, [[across(0), high / 2], [across(stations), high / 2]], colours.faint, 4);
-  for (let k = 0; k <= stations; k++) {
+  for (let k = 0; k <= (crowded ? 0 : stations); k++) {
     pen.strokeStyle = k ? colours.grid : colours.ink;
     pen.lineWidth = k ? 1.5 : 3;
     pen.beginPath();
@@ -136,7 +138,7 @@ function drawShaft(pen, wide, high, shown, fine, time) {
     if (!run) continue;
     const ends = places(run, last(run, time)).map(([angle], k) => end(k, angle));
     figure.hosts.forEach((host, k) => line(pen, [ends[host], ends[k + 1]], colour, broad));
-    ends.forEach((point, k) => line(pen, [[across(k), high / 2], point], colour, 0.5 * broad));
+    if (!crowded) ends.forEach((point, k) => line(pen, [[across(k), high / 2], point], colour, 0.5 * broad));
     for (const number of figure.tips) dot(pen, ends[number], run === fine ? 10 : 6, colour);
   }
 }

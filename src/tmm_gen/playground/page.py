@@ -123,7 +123,7 @@ def playground(
     }
     # what a scene says must not end the element that holds it
     text = json.dumps(data, separators=(",", ":")).replace("<", "\\u003c")
-    told = went.told(scene)
+    told = [line.replace("^2", "²") for line in went.told(scene)]
     return render(
         "playground/page.html.jinja",
         name=scene.name,

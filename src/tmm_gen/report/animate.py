@@ -149,7 +149,7 @@ def _ground(axes: Axes, scene: Scene, x: Array, y: Array) -> None:
     reach = scene.reach
     left, right = float(min(x.min(), -0.1 * reach)), float(max(x.max(), 0.1 * reach))
     low, high = float(min(y.min(), -0.1 * reach)), float(max(y.max(), 0.1 * reach))
-    margin = 0.08 * reach
+    margin = 0.12 * reach
     axes.set_xlim(left - margin, right + margin)
     axes.set_ylim(low - margin, high + margin)
     axes.set_aspect("equal", adjustable="box")
