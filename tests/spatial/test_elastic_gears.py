@@ -21,6 +21,8 @@ from tmm_gen.reference.spatial_motion import motion
 from tmm_gen.reference.spatial_reference import outputs
 from tmm_gen.scene import Scene, parse_scene
 from tmm_gen.scene.spatial.arm import ArmOutput, Revolute, SpatialArm
+from tmm_gen.simulate.disturbance import disturbed
+from tmm_gen.simulate.run import simulate
 from tmm_gen.verify.agreement import (
     casadi_step,
     largest_difference,
@@ -174,6 +176,19 @@ def test_a_stiff_gear_is_a_rigid_one(scene: Scene, name: str, iterations: int) -
     both = np.reshape(ended[0].angle, (2, 2))
     np.testing.assert_allclose(both.sum(axis=1), ended[1].angle, rtol=0, atol=1e-11)
     assert 0.0 < np.abs(both[:, 1]).max() < 1e-11
+
+
+def test_a_stiff_gear_makes_no_motion_sensitive(scene: Scene) -> None:
+    """What a start disturbed in such a gear would ring with, no step follows: a run is not judged by it."""
+    stiff = scene.replace(**{f"motor.{at}.stiffness": 1e12 for at in ("yaw", "elbow")})
+    found = simulate(stiff, ACTING, 0.05).accuracy
+    assert found is not None
+    assert found.sensitivity is not None
+    assert 0.5 < found.sensitivity < 2.0
+    assert found.error < 1e-4
+    start = disturbed(stiff, 1e-9, 1e-3)
+    assert np.all(start[[1, 3]] < 1e-14)
+    np.testing.assert_array_equal(start[[0, 2]], disturbed(scene, 1e-9, 1e-6)[[0, 2]])
 
 
 @pytest.mark.compiler

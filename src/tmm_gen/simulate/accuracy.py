@@ -20,6 +20,7 @@ from tmm_gen.inputs.signals import Signal
 from tmm_gen.reference.chain_motion import exact_angles
 from tmm_gen.scene import Scene
 from tmm_gen.simulate.displacement import STILL, extent, lengths, placed
+from tmm_gen.simulate.disturbance import SIZES, disturbed
 from tmm_gen.simulate.planar_divergence import free_watch
 from tmm_gen.simulate.step_error import error_per_radian
 from tmm_gen.simulate.stepping import Course, Stepper
@@ -50,9 +51,6 @@ _LEAP = 0.5
 
 _SHORTEST = 4
 """Runs of fewer steps may be evenly accelerated, and cover as much in their last one."""
-
-DISTURBED = {"float64": 1e-9, "float32": 1e-4, "compensated": 1e-8}
-"""rad; well above rounding, well below what bends an arm."""
 
 HIGHEST = 3
 """Orders above count as this one: stiff arms do not always show more."""
@@ -228,12 +226,11 @@ class _Repetition:
 
     def sensitivity(self, factor: float, undisturbed: Trace) -> float | None:
         """Return how many times larger a small disturbance of the start becomes."""
-        size = DISTURBED[self.stepper.real(self.scene)]
-        signs = np.where(np.arange(self.scene.stations) % 3 == 0, 1.0, 0.5)
-        disturbed = self(factor, size * signs)
-        if disturbed is None:
+        size = SIZES[self.stepper.real(self.scene)]
+        other = self(factor, disturbed(self.scene, size, factor * self.scene.integrator.step))
+        if other is None:
             return None
-        apart = np.max(np.abs(disturbed.angle - undisturbed.angle)) / size
+        apart = np.max(np.abs(other.angle - undisturbed.angle)) / size
         return float(apart)
 
 

@@ -20,12 +20,13 @@ from tmm_gen.inputs.signals import Signal
 from tmm_gen.reference.frequency import fastest_mode
 from tmm_gen.scene import Scene
 from tmm_gen.scene.integrator import COARSEST
-from tmm_gen.simulate.accuracy import DISTURBED, HIGHEST, SENSITIVE, Accuracy, judged, order_of
+from tmm_gen.simulate.accuracy import HIGHEST, SENSITIVE, Accuracy, judged, order_of
 from tmm_gen.simulate.adaptive.chosen import Chosen
 from tmm_gen.simulate.adaptive.kernel import AnyLength
 from tmm_gen.simulate.adaptive.kinks import Kinks
 from tmm_gen.simulate.adaptive.march import Aim, March, StuckError, again, march
 from tmm_gen.simulate.displacement import STILL, extent, lengths, placed
+from tmm_gen.simulate.disturbance import SIZES, disturbed
 from tmm_gen.simulate.prescribed import kernel_signals
 from tmm_gen.simulate.stages import stage_polynomial
 from tmm_gen.simulate.stepping import EPSILON, Stepper
@@ -179,13 +180,13 @@ class _Passes:
         """Return the accuracy with what the motion makes of a small disturbance of its start."""
         if self.scene.model.linear:
             return accuracy
-        size = DISTURBED[self.stepper.real(self.scene)]
-        moved = size * np.where(np.arange(self.scene.stations) % 3 == 0, 1.0, 0.5)
+        size = SIZES[self.stepper.real(self.scene)]
+        moved = disturbed(self.scene, size, float(np.median(np.diff(run.times))))
         given = {"initial_angle": np.array(self.scene.initial.angles) + moved}
-        disturbed = again(self.scene, kernel, self.kinks, given, aim, run)
-        if disturbed is None:
+        other = again(self.scene, kernel, self.kinks, given, aim, run)
+        if other is None:
             return accuracy
-        growth = float(np.max(np.abs(disturbed - self.coarse)) / size)
+        growth = float(np.max(np.abs(other - self.coarse)) / size)
         # of a sensitive motion what steps change does not fall with their order
         share = 1.0 if growth > SENSITIVE else 1.0 / (2.0**self.relied - 1.0)
         return judged(share * self.off, self.far, np.array(run.times), self._least, growth)
