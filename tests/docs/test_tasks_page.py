@@ -9,6 +9,7 @@ import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -63,9 +64,38 @@ def test_it_works(
             exec(body, {})
 
 
+def test_the_integrator_is_that_of_its_own_page() -> None:
+    """Where it is added, and its order and limits are derived (tests/derive/integrators/test_document.py)."""
+    made = []
+    for text in (SECTIONS["Add an integrator"], (ROOT / "docs" / "integrators.md").read_text()):
+        names: dict[str, Any] = {}
+        exec(next(body for _, body in BLOCK.findall(text) if "def dirk2" in body), names)
+        made.append(names["dirk2"]())
+    assert (made[0].main, made[0].tableau) == (made[1].main, made[1].tableau)
+
+
+ALSO_READ = {"tutorial": "## 2.", "c-project": "## Without CMake", "urdf": "The scene it writes"}
+"""Where reading another page of the table of times ends."""
+
+
+def test_times_add_up() -> None:
+    """Words are those of the pages, read at 200 a minute; all is done within two minutes, as the page says."""
+    table = SECTIONS["How long each took"]
+    rows = re.findall(r"^\| ([^|]+) \| (\d+)([^|]*) \| (\d+) \| (\d+) \|", table, re.MULTILINE)
+    assert len(rows) == 12
+    for task, words, also, seconds, together in rows:
+        (section,) = [text for title, text in SECTIONS.items() if task.lower() in title.lower()]
+        read = len(section.split())
+        for page in re.findall(r"\]\(([\w-]+)\.md\)", also):
+            read += len((ROOT / "docs" / f"{page}.md").read_text().split(ALSO_READ[page])[0].split())
+        assert (task, int(words)) == (task, read)
+        assert abs(read * 60 / 200 + int(seconds) - int(together)) <= 1
+        assert int(together) <= 120
+
+
 def test_no_task_takes_more_than_ten_lines() -> None:
     """Of code at a time, so that nobody has to look for what matters."""
-    assert len(SECTIONS) == 14
+    assert len(SECTIONS) == 15
     for title, text in SECTIONS.items():
         for _, body in BLOCK.findall(text):
             assert body.count("\n") <= 10, title
