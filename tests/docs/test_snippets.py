@@ -45,7 +45,7 @@ RUN = {
     "tests/docs/test_mpc_page.py": {"mpc": {"console": 6, "python": 2}},
     "tests/docs/test_python_page.py": {"python": {"python": 13}},
     "tests/docs/test_space_page.py": {"space": {"console": 2}},
-    "tests/docs/test_tasks_page.py": {"tasks": {"console": 14, "python": 4, "cmake": 1, "c": 1}},
+    "tests/docs/test_tasks_page.py": {"tasks": {"console": 14, "python": 5, "cmake": 1, "c": 1}},
     "tests/docs/test_trade_page.py": {"trade": {"console": 2}},
     "tests/docs/test_tutorial_page.py": {"tutorial": {"console": 5, "python": 1, "c": 1}},
     "tests/docs/test_urdf_page.py": {"urdf": {"console": 4, "python": 2, "toml": 3}},
