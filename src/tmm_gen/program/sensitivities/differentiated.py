@@ -3,7 +3,8 @@
 A step with corrections takes forces across stations with factors that an earlier sweep has left, at a motion that has
 moved on since: what it finds is the solution of no linear equation, and its derivative needs that of every factor.
 This pass asks nothing of a step but that it is straight on, loops over stations included. What a slope is does not
-depend on the direction: it is computed once, beside the step, and read for each direction.
+depend on the direction: it is computed once, beside the step, and read for each direction. What follows one other
+thing alone, as sine and cosine follow an angle, has no change of its own: slopes are by the angle then.
 """
 
 from __future__ import annotations
@@ -37,14 +38,20 @@ def differentiated(program: Program, hoister: Hoister) -> Sensitivities:
     linearise, tangent = found.routines()
     state = changes_of(program.state)
     tangent = prune(hoister.hoist(tangent), frozenset(state))
-    needed = frozenset(v for v in tangent.read() if v.role is Role.POINT)
+    needed = _points(tangent)
+    linearise = prune(hoister.hoist(linearise), frozenset(program.state) | needed)
+    needed |= _points(linearise)  # slopes by what something follows have its own slope in them
     return Sensitivities(
         point=tuple(v for v in found.slopes.kept if v in needed),
         state=state,
         inputs=changes_of(program.inputs),
-        linearise=prune(hoister.hoist(linearise), frozenset(program.state) | needed),
+        linearise=linearise,
         tangent=tangent,
     )
+
+
+def _points(routine: Routine) -> frozenset[Variable]:
+    return frozenset(v for v in routine.read() if v.role is Role.POINT)
 
 
 class _Differentiation:
@@ -91,13 +98,19 @@ class _Differentiation:
             return [statement], []
         target = statement.target
         before: list[Assign | Require] = []
-        change = sp.Integer(0)
+        slopes: dict[Ref, sp.Expr] = {}
         for ref in sorted(refs_in(statement.value), key=lambda r: r.name):
             if ref.variable in self._moving:
-                slope, kept = self.slopes.of(statement, ref, loop)
-                before += kept
-                change += slope * _changed(ref)
+                leader, factor = self.slopes.led(ref, loop)
+                slopes[leader] = slopes.get(leader, sp.Integer(0)) + sp.diff(statement.value, ref) * factor
+        change = sp.Integer(0)
+        for leader, value in slopes.items():
+            slope, kept = self.slopes.of(target, leader, value, loop)
+            before += kept
+            change += slope * _changed(leader)
         self.slopes.assigned(target, loop)
+        if len(slopes) == 1:
+            self.slopes.follows(target, next(iter(slopes)), slope, loop)
         moves = target.variable in self._moving
         return [*before, statement], [Assign(_changed(target), change)] if moves else []
 

@@ -33,6 +33,7 @@ class Slopes:
         self._taken: dict[str, set[int]] = {}
         self._written: dict[Variable, set[int]] = {}
         self._variables: dict[str, Variable] = {}
+        self._leaders: dict[Variable, list[tuple[Ref, sp.Expr, Key] | None]] = {}
 
     @property
     def kept(self) -> tuple[Variable, ...]:
@@ -53,19 +54,50 @@ class Slopes:
         for place in _places(target, loop) if target.variable.length is not None else (0,):
             versions[place] += 1
 
-    def of(self, statement: Assign, ref: Ref, loop: Loop | None) -> tuple[sp.Expr, list[Assign]]:
-        """Return the slope of an assignment's value by something, and what keeps it, to stand before.
+    def follows(self, target: Ref, leader: Ref, slope: sp.Expr, loop: Loop | None) -> None:
+        """Note that a station's value now follows one other thing of that station alone, by a slope that is kept."""
+        if loop is None or target.offset != 0 or leader.offset != 0 or loop.stride != 1:
+            return
+        if any(
+            not ref.variable.role.bound_at_prepare and ref.variable.role is not Role.POINT
+            for ref in refs_in(slope)
+        ):
+            return
+        found = self._leaders.setdefault(target.variable, [None] * self._stations)
+        for place in loop.visits:
+            found[place] = (leader, slope, self._standing(target.variable, leader.variable, place))
+
+    def led(self, ref: Ref, loop: Loop | None) -> tuple[Ref, sp.Expr]:
+        """Return what something follows alone, as it stands, and by which slope; itself, and one, where nothing."""
+        found = self._leaders.get(ref.variable)
+        if found is None or loop is None or ref.offset != 0:
+            return ref, sp.Integer(1)
+        here = [found[place] for place in loop.visits]
+        first = here[0]
+        if first is None or any(
+            each is None
+            or each[:2] != first[:2]
+            or each[2] != self._standing(ref.variable, each[0].variable, place)
+            for each, place in zip(here, loop.visits, strict=True)
+        ):
+            return ref, sp.Integer(1)
+        return first[0], first[1]
+
+    def _standing(self, follower: Variable, leader: Variable, place: int) -> Key:
+        return self._of(follower)[place], self._of(leader)[place]
+
+    def of(self, target: Ref, ref: Ref, slope: sp.Expr, loop: Loop | None) -> tuple[sp.Expr, list[Assign]]:
+        """Return a slope as it stands in a tangent, and what keeps it, to stand before the assignment.
 
         Parameters
         ----------
-        statement : Assign
-            In the loop, or outside of any.
-        ref : Ref
-            What changes.
+        target, ref : Ref
+            What is assigned, and what it changes with.
+        slope : expression
+            Of one by the other.
         loop : Loop or None
             That the assignment stands in.
         """
-        slope = sp.diff(statement.value, ref)
         early, late = slope.as_independent(
             *(r for r in refs_in(slope) if not r.variable.role.bound_at_prepare), as_Add=False
         )
@@ -76,7 +108,7 @@ class Slopes:
         key = self._key(late, loop)
         if key in self._known:
             return early * self._known[key], []
-        kept = self._place(statement.target, ref, late, loop)
+        kept = self._place(target, ref, late, loop)
         self._known[key] = kept
         return early * kept, [Assign(kept, late)]
 
