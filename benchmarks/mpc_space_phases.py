@@ -2,7 +2,7 @@
 
     python benchmarks/mpc_space_phases.py --update
 
-The arm is that of `examples/space/wall3.toml`, its links of other numbers of cells; `rti-zero` knows of no wall, and has
+The arm is that of `examples/space/wall3.toml`, its links of other numbers of cells; `rti-zero` knows no wall, and has
 none. What sensors showed in a closed loop of `rti` with the arm as the scene says is shown again to each controller, by
 turns: medians over the repetitions of each sample, then over the samples. Compiled for this machine, one thread,
 processor time. `--update` renews docs/mpc-speed.md.
