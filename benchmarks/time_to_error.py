@@ -1,7 +1,7 @@
 """Time to an error: kernels of coupled and of other stages on arms under gravity and under a motor, in one run.
 
     python benchmarks/time_to_error.py --links 10 50
-    python benchmarks/time_to_error.py --peers --links 2 5 10 20 50 100 --integrators radau3
+    python benchmarks/time_to_error.py --update
 
 Arms of 1 m and 1 kg with a first clamped frequency of 2 Hz and a damping time of 2 ms, cut into links with a spring at
 every joint. Gravity: clamped, 0.4 kg at the tip, let go horizontally. Motor: a hub of 0.1 kg m^2 under a torque that
@@ -10,7 +10,7 @@ against Lagrange's equations. For each integrator the fewest steps with the want
 that run is taken in turns with the others (thread time, median of ratios; gcc -O3 -march=native,
 own sines, `favour = "speed"`). `--peers` puts beside them what CasADi writes in C for articulated bodies, with a step
 of Newmark's (generalised-alpha that damps nothing) and one of Runge and Kutta's about it; `--held-out` takes arms that
-nothing was ever chosen by.
+nothing was ever chosen by. `--update` writes what `radau3` takes beside them on all arms into docs/integrators.md.
 """
 
 from __future__ import annotations
@@ -18,13 +18,16 @@ from __future__ import annotations
 import argparse
 import math
 import statistics
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Protocol
 
 import numpy as np
+from marks import renewed
 from numpy.typing import ArrayLike, NDArray
 
+from tmm_gen.files import write_whole
 from tmm_gen.native import NativeKernel, compile_kernel
 from tmm_gen.native.recording import record
 from tmm_gen.program.build import build_program
@@ -36,6 +39,9 @@ Array = NDArray[np.float64]
 INTEGRATORS = ("sdirk4", "radau2", "radau3", "gauss2", "gauss3", "newmark")
 BESIDE = "sdirk4"
 """What others are compared with."""
+ALL_LINKS = (2, 5, 10, 20, 50, 100)
+ROOT = Path(__file__).resolve().parents[1]
+PAGE = ROOT / "docs" / "integrators.md"
 CHECKPOINTS = 0.1 * np.arange(1, 11)
 ROUNDS = 15
 MOST_STEPS = 40_000
@@ -306,6 +312,31 @@ def _over(times: list[float], others: list[float]) -> str:
     return f"{statistics.median(a / b for a, b in zip(times, others, strict=True)):.3f}"
 
 
+def beside(rows: Sequence[dict[str, object]], words: str) -> str:
+    """Return a line of the page: what radau3 takes on an arm, and who is the best of the others."""
+    named = {str(row["integrator"]): row for row in rows}
+    ours, key = named["radau3"], "time / best peer"
+    (best,) = (name for name, row in named.items() if row.get(key) == "1.000")
+    steps = f"{ours['steps']} ({named[BESIDE]['steps']}, {named[best]['steps']})"
+    peer = best.removeprefix("peer: ")
+    return f"| {words} | {steps} | {ours['ms']} | {ours[f'time / {BESIDE}']} | {ours[key]} | {peer} |"
+
+
+def update() -> None:
+    """Measure all arms beside peers, and write the page."""
+    arms = [(kind, links, USUAL) for kind in ("gravity", "motor") for links in ALL_LINKS]
+    lines = [
+        f"| arm, links | steps (`{BESIDE}`, best peer) | ms | of the time of `{BESIDE}` | of the best peer's | who |",
+        "|---|---|---:|---:|---:|---|",
+    ]
+    for kind, links, make in (*arms, *HELD_OUT):
+        rows = measure(kind, links, (BESIDE, "radau3"), 1e-6, make, beside_peers=True)
+        lines.append(beside(rows, f"{kind}, {links}" if make == USUAL else f"held out: {kind}, {links}"))
+        print(lines[-1], flush=True)
+    write_whole(PAGE, renewed(PAGE.read_text(), "\n".join(lines), "time_to_error.py"))
+    print(f"updated {PAGE}")
+
+
 def main() -> None:
     """Measure and print."""
     parser = argparse.ArgumentParser(
@@ -317,7 +348,13 @@ def main() -> None:
     parser.add_argument("--kinds", nargs="+", default=["gravity", "motor"])
     parser.add_argument("--peers", action="store_true", help="beside other people's steps too")
     parser.add_argument("--held-out", action="store_true", help="arms that nothing was chosen by")
+    parser.add_argument(
+        "--update", action="store_true", help="write docs/integrators.md, whatever else is asked"
+    )
     options = parser.parse_args()
+    if options.update:
+        update()
+        return
     names = tuple(dict.fromkeys([BESIDE, *options.integrators]))
     usual = tuple((kind, links, USUAL) for kind in options.kinds for links in options.links)
     keys: list[str] = []

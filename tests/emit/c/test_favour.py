@@ -121,6 +121,23 @@ def test_chains_from_station_to_station_are_as_short_as_they_can_be(arm10: Progr
     assert period(before) >= period(inward) + MULTIPLICATION
 
 
+def test_several_systems_go_out_one_station_ahead() -> None:
+    """Of a complex one, too, unknowns do not wait for changes just behind them, and no factor is written twice."""
+    program = build_program(scene("arm2", **{"integrator.name": "radau3", "model.iterations": 1}))
+    small, fast = lower(program), lower(program, apart=True)
+
+    def outward(routine: Routine) -> Loop:
+        loops = (s for s in routine.statements() if isinstance(s, Loop) and s.order is Order.OUTWARD)
+        (found,) = (s for s in loops if "unknown_system1" in {v.name for v in carried_scalars(s)})
+        return found
+
+    # two stations: an unknown into both changes of motion, four products of these into the unknown after next
+    assert period(outward(fast.main)) <= (2 * MULTIPLICATION + 6 * ADDITION) / 2
+    assert period(outward(small.main)) >= period(outward(fast.main)) + 2 * ADDITION
+    factors = [v for v in fast.main.written() if "_passed_on" in v.name]
+    assert len(factors) == 3  # of the real one; real and imaginary part of the other
+
+
 def test_what_it_costs_is_counted(arm10: Program) -> None:
     stations = arm10.stations
     small, fast = (count_routine(lower(arm10, apart=apart).main) for apart in (False, True))
