@@ -115,6 +115,11 @@ class Batch:
         return self._body(self.kernel.program.main, "step")
 
     @property
+    def startup(self) -> list[BatchBody]:
+        """The bodies of the integrator's first steps."""
+        return [self._body(routine, "step") for routine in self.kernel.program.startup]
+
+    @property
     def output(self) -> BatchBody:
         """The body of output."""
         return self._body(self.kernel.program.output, "output")
