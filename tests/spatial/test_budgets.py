@@ -128,7 +128,7 @@ def test_newest_acceleration_costs_little(kind: str) -> None:
     assert 0 < newest - none <= (8 if kind == "planar" else 4)
 
 
-DIRECTIONS = {"bend, bend": (445, 761), "link": (950, 990)}
+DIRECTIONS = {"bend, bend": (630, 637), "link": (950, 990)}
 """Per joint of a step with one correction: that which keeps what its slopes are, once, and each direction of its
 tangent."""
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterator
+from typing import Any
 
 import sympy as sp
 
@@ -56,7 +57,7 @@ class Slopes:
 
     def follows(self, target: Ref, leader: Ref, slope: sp.Expr, loop: Loop | None) -> None:
         """Note that a station's value now follows one other thing of that station alone, by a slope that is kept."""
-        if loop is None or target.offset != 0 or leader.offset != 0 or loop.stride != 1:
+        if loop is None or target.offset is None or leader.offset != target.offset:
             return
         if any(
             not ref.variable.role.bound_at_prepare and ref.variable.role is not Role.POINT
@@ -64,24 +65,26 @@ class Slopes:
         ):
             return
         found = self._leaders.setdefault(target.variable, [None] * self._stations)
-        for place in loop.visits:
-            found[place] = (leader, slope, self._standing(target.variable, leader.variable, place))
+        own, its = _moved(leader, -target.offset), _moved(slope, -target.offset)
+        for place in _places(target, loop):
+            found[place] = (own, its, self._standing(target.variable, leader.variable, place))
 
     def led(self, ref: Ref, loop: Loop | None) -> tuple[Ref, sp.Expr]:
         """Return what something follows alone, as it stands, and by which slope; itself, and one, where nothing."""
         found = self._leaders.get(ref.variable)
-        if found is None or loop is None or ref.offset != 0:
+        if found is None or loop is None or ref.offset is None:
             return ref, sp.Integer(1)
-        here = [found[place] for place in loop.visits]
+        places = _places(ref, loop)
+        here = [found[place] for place in places]
         first = here[0]
         if first is None or any(
             each is None
             or each[:2] != first[:2]
             or each[2] != self._standing(ref.variable, each[0].variable, place)
-            for each, place in zip(here, loop.visits, strict=True)
+            for each, place in zip(here, places, strict=True)
         ):
             return ref, sp.Integer(1)
-        return first[0], first[1]
+        return _moved(first[0], ref.offset), _moved(first[1], ref.offset)
 
     def _standing(self, follower: Variable, leader: Variable, place: int) -> Key:
         return self._of(follower)[place], self._of(leader)[place]
@@ -162,6 +165,12 @@ def _called(ref: Ref, loop: Loop | None) -> tuple[str, int]:
     if plain and number.isdigit() and 1 <= int(number) <= loop.stride:
         return plain, int(number) - 1
     return name, 0
+
+
+def _moved(value: Any, by: int) -> Any:
+    """Return an expression of a station's as it is of another, so many behind."""
+    refs = [r for r in refs_in(value) if r.offset is not None and by]
+    return value.xreplace({r: Ref(r.variable, r.offset + by, r.entry) for r in refs})
 
 
 def _numbered(name: str) -> Iterator[str]:
