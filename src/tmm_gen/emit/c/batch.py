@@ -8,25 +8,57 @@ says what is wrong with them.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 from tmm_gen.c_language.names import macros, member
 from tmm_gen.c_language.wrap import INDENT, statement
-from tmm_gen.emit.c.body import TOTAL, Body
+from tmm_gen.emit.c.body import Body
 from tmm_gen.emit.c.fence import Fence
+from tmm_gen.emit.c.finite import TOTAL
 from tmm_gen.emit.c.kernel import Kernel
+from tmm_gen.emit.c.leaving import Leaving
 from tmm_gen.emit.c.printer import CPrinter, element_at
 from tmm_gen.emit.c.structs import Struct, dimension
 from tmm_gen.emit.seal import sealed
 from tmm_gen.emit.templates import render
 from tmm_gen.program.statements import Assign, Repeat, Routine
-from tmm_gen.program.variables import Ref, Role, refs_in
+from tmm_gen.program.variables import Role, refs_in
 
 RIGHT = "right"
 """Mask of the arms that nothing has been found wrong with."""
 _ALL = "TMM_GEN_ALL"
 _CHOSEN = "TMM_GEN_CHOSEN"
+
+
+@dataclass(frozen=True)
+class Masking(Leaving):
+    """Writes checks that take arms out of the mask where they fail: no function is left for one arm of many."""
+
+    def _unless(self, one: str, other: str, status: str, depth: int) -> list[str]:
+        return list(statement(f"{RIGHT} &= (mask){one} & (mask){other};", depth))
+
+    def _within(self, value: str, bound: str, relation: str, depth: int) -> list[str]:
+        return self._unless(f"({value} {relation} {bound})", f"(-{value} {relation} {bound})", "", depth)
+
+    def fenced(self, value: str, largest: float, depth: int) -> list[str]:
+        """Return the check of a number's size."""
+        return self._within(value, self.real.literal(largest), "<", depth)
+
+    def fenced_together(self, values: Sequence[str], depth: int) -> Iterator[str]:
+        """Yield checks that each number is below its share: so is then the sum; other arms are asked alone."""
+        share = self.fence.sum / 2.0 ** math.ceil(math.log2(len(values)))
+        for value in values:
+            yield from self._within(value, self.real.literal(share), "<", depth)
+
+    def turned(self, angle: str, name: str, depth: int, *, refused: bool, told: bool) -> Iterator[str]:
+        """Yield sines and cosines of the angles of all arms; nothing is told to a prover."""
+        yield from statement(f"const real {name}_angle = {angle};", depth)
+        if refused:
+            yield from self._within(f"{name}_angle", f"{macros(self.name)}_LARGEST_ANGLE", "<=", depth)
+        yield f"{INDENT * depth}circle {name};"
+        yield f"{INDENT * depth}circles_of(&{name}_angle, &{name});"
 
 
 @dataclass(frozen=True)
@@ -55,28 +87,9 @@ class BatchBody(Body):
     def _zero(self) -> str:
         return f"{_ALL}({super()._zero})"
 
-    def _unless(self, one: str, other: str, status: str, depth: int) -> list[str]:
-        return list(statement(f"{RIGHT} &= (mask){one} & (mask){other};", depth))
-
-    def _within(self, value: str, bound: str, relation: str, depth: int) -> list[str]:
-        return self._unless(f"({value} {relation} {bound})", f"(-{value} {relation} {bound})", "", depth)
-
-    def _fenced(self, value: str, largest: float, depth: int) -> list[str]:
-        return self._within(value, self.real.literal(largest), "<", depth)
-
-    def _fenced_together(self, handed: tuple[Ref, ...], depth: int, printer: CPrinter) -> Iterator[str]:
-        """Yield checks that each number is below its share: so is then the sum; other arms are asked alone."""
-        share = self.fence.sum / 2.0 ** math.ceil(math.log2(len(handed)))
-        for ref in handed:
-            yield from self._within(printer.text(ref), self.real.literal(share), "<", depth)
-
-    def _turned(self, angle: str, name: str, depth: int, *, checked: bool) -> Iterator[str]:
-        yield from statement(f"const real {name}_angle = {angle};", depth)
-        if self.kind != "output":
-            bound = f"{macros(self.program.name)}_LARGEST_ANGLE"
-            yield from self._within(f"{name}_angle", bound, "<=", depth)
-        yield f"{INDENT * depth}circle {name};"
-        yield f"{INDENT * depth}circles_of(&{name}_angle, &{name});"
+    @cached_property
+    def _leaving(self) -> Masking:
+        return Masking(self.program.name, self.real, self.fence)
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -13,21 +12,21 @@ import sympy as sp
 from tmm_gen.c_language.names import local_name, macros, member
 from tmm_gen.c_language.real import Real
 from tmm_gen.c_language.wrap import INDENT, WIDTH, comment, statement
-from tmm_gen.emit.c.circle import Turns, angles_in, error_of
+from tmm_gen.emit.c.circle import Turns, angles_in
 from tmm_gen.emit.c.fence import Fence
-from tmm_gen.emit.c.finite import check
+from tmm_gen.emit.c.finite import TOTAL, check
 from tmm_gen.emit.c.given import given_element
 from tmm_gen.emit.c.guard import Sums, sums_of
 from tmm_gen.emit.c.handed import handed_at
+from tmm_gen.emit.c.leaving import Leaving
 from tmm_gen.emit.c.pair import PairPrinter, is_pair
 from tmm_gen.emit.c.printer import CPrinter, element_at
 from tmm_gen.emit.c.scalars import place_scalars
 from tmm_gen.emit.c.structs import described, dimension
+from tmm_gen.emit.c.words import sentence
 from tmm_gen.emit.expressions import element
 from tmm_gen.program.statements import Assign, Loop, Mark, Order, Program, Repeat, Require, Routine
 from tmm_gen.program.variables import Ref, Role, Variable, refs_in
-
-TOTAL = "total"
 
 SOURCES: dict[str, dict[Role, str]] = {
     "prepare": {Role.STEP: "", Role.PARAMETER: "params->", Role.COEFFICIENT: "model->"},
@@ -163,10 +162,13 @@ class Body:
         ) -> Iterator[str]:
             if self.own_circle:
                 for angle, name in turns.new_in(inner.value):
-                    yield from self._turned(printer.text(angle), name, depth, checked=angle in checked)
+                    refused = self.kind != "output" and angle not in checked
+                    yield from self._leaving.turned(
+                        printer.text(angle), name, depth, refused=refused, told=self.kind != "output"
+                    )
                 printer.turns = dict(turns.known)
             if isinstance(inner, Require):
-                yield from self._required(inner, printer.text(inner.value), depth)
+                yield from self._leaving.required(inner, printer.text(inner.value), depth)
                 return
             constant = placement.constant.get(next(positions))
             variable = inner.target.variable
@@ -176,7 +178,7 @@ class Body:
             value = self._stored(inner, printer)
             yield from statement(f"{head}{target} = {value};", depth)
             if variable.name in self.fence.largest:
-                yield from self._fenced(target, self.fence.largest[variable.name], depth)
+                yield from self._leaving.fenced(target, self.fence.largest[variable.name], depth)
             turns.forget(inner.target)
 
         straight = Turns(names)
@@ -195,7 +197,7 @@ class Body:
                     if checked:
                         yield f"{INDENT * depth}{self._loop_head(top)} {{"
                         for angle in checked:
-                            yield from self._in_range(printer.text(angle), depth + 1)
+                            yield from self._leaving.in_range(printer.text(angle), depth + 1)
                         yield f"{INDENT * depth}}}"
                     yield f"{INDENT * depth}{self._loop_head(top)} {{"
                     turns = Turns(names)
@@ -203,7 +205,8 @@ class Body:
                     for place, inner in enumerate(top.body):
                         yield from simple(inner, depth + 1, turns, checked)
                         if place in handed:
-                            yield from self._fenced_together(handed[place], depth + 1, printer)
+                            numbers = [printer.text(ref) for ref in handed[place]]
+                            yield from self._leaving.fenced_together(numbers, depth + 1)
                         straight.forget(inner.target) if isinstance(inner, Assign) else None
                     if sums is not None and (terms := sums.inside.get(top, ())):
                         text = " + ".join(self._judged(assign, printer) for assign in terms)
@@ -244,6 +247,10 @@ class Body:
         if not terms:
             return ""
         return "\n".join(check([" + ".join(terms)], f"{macros(self.program.name)}_NON_FINITE_STATE", 1))
+
+    @cached_property
+    def _leaving(self) -> Leaving:
+        return Leaving(self.program.name, self.real, self.fence)
 
     @cached_property
     def _sums(self) -> Sums | None:
@@ -303,36 +310,6 @@ class Body:
             return f"for (int j = {loop.start}; j < {stop}; {f'j{by}' if by else '++j'})"
         return f"for (int j = {stop} - {loop.stride}; j >= {loop.start}; {f'j -= {loop.stride}' if by else '--j'})"
 
-    # -- leaving the function -----------------------------------------------------------------------
-
-    def _required(self, required: Require, value: str, depth: int) -> list[str]:
-        least = self.real.literal(self.fence.least_of(required))
-        value += self._high
-        return self._unless(
-            f"({value} > {least})", f"({value} <= {self.real.largest_name})", "VANISHING_PIVOT", depth
-        )
-
-    def _fenced(self, value: str, largest: float, depth: int) -> list[str]:
-        number, pad = value + self._high, INDENT * depth
-        size = f"{self.real.function('fabs')}({number})"
-        lines = self._leave(f"!({size} < {self.real.literal(largest)})", "OUT_OF_RANGE", depth)
-        # one comparison is faster than two, but a prover does not conclude from a size to its number
-        lines.append(f"{pad}/*@ admit -{largest!r} < {number} < {largest!r}; */")
-        if self.real.pair:  # to a prover, the lower part is still that of a number not looked at
-            small = f"0x1p-24 * {largest!r}"
-            lines.append(f"{pad}/*@ admit -{small} <= {value}.low <= {small}; */")
-        return lines
-
-    def _fenced_together(self, handed: tuple[Ref, ...], depth: int, printer: CPrinter) -> Iterator[str]:
-        """Yield one check of the sizes of numbers: rounding is monotone, so none exceeds their sum."""
-        largest = self.fence.sum
-        numbers = [printer.text(ref) + self._high for ref in handed]
-        sizes = " + ".join(f"{self.real.function('fabs')}({number})" for number in numbers)
-        yield from self._leave(f"!({sizes} < {self.real.literal(largest)})", "OUT_OF_RANGE", depth)
-        # a prover does not conclude from a sum of sizes to its terms
-        for number in numbers:
-            yield f"{INDENT * depth}/*@ admit -{largest!r} < {number} < {largest!r}; */"
-
     def _checked_ahead(self, loop: Loop) -> list[sp.Expr]:
         """Return the angles of a loop that are checked in one of their own before it.
 
@@ -343,46 +320,3 @@ class Body:
         written = {inner.target.variable for inner in loop.body if isinstance(inner, Assign)}
         angles = dict.fromkeys(angle for inner in loop.body for angle in angles_in(inner.value))
         return [angle for angle in angles if not {ref.variable for ref in refs_in(angle)} & written]
-
-    def _in_range(self, angle: str, depth: int) -> list[str]:
-        """Return the check of an angle."""
-        largest = f"{macros(self.program.name)}_LARGEST_ANGLE"
-        size = f"{self.real.function('fabs')}({angle}{self._high})"
-        return self._leave(f"!({size} <= {largest})", "OUT_OF_RANGE", depth)
-
-    def _turned(self, angle: str, name: str, depth: int, *, checked: bool) -> Iterator[str]:
-        """Yield sine and cosine of an angle; before them, where the function can refuse, a check of its range."""
-        if self.kind != "output" and not checked:
-            yield from self._in_range(angle, depth)
-        yield from statement(f"const circle {name} = circle_of({angle});", depth)
-        if self.fence.handed and self.kind != "output":
-            # the circle is right to its error up to the largest angle; a prover sees polynomials of any angle
-            most = 1.0 + error_of(self.real)
-            for which in ("sine", "cosine"):
-                number = f"{name}.{which}{self._high}"
-                yield f"{INDENT * depth}/*@ admit {-most!r} <= {number} <= {most!r}; */"
-
-    def _unless(self, one: str, other: str, status: str, depth: int) -> list[str]:
-        return self._leave(f"!{one} || !{other}", status, depth)
-
-    def _leave(self, condition: str, status: str, depth: int) -> list[str]:
-        pad = INDENT * depth
-        return [
-            *statement(f"if ({condition}) {{", depth),
-            f"{pad}{INDENT}return {macros(self.program.name)}_{status};",
-            f"{pad}}}",
-        ]
-
-
-def sentence(title: str) -> str:
-    """Write the titles of a section as sentences, one for each stage they belong to."""
-    stages: dict[str, list[str]] = {}
-    for part in title.split("; "):
-        found = re.fullmatch(r"(Stage \d+ of \d+: )?(.*)", part)
-        assert found is not None
-        stages.setdefault(found[1] or "", []).append(found[2])
-    return " ".join(_capital(f"{stage}{'; '.join(parts)}.") for stage, parts in stages.items())
-
-
-def _capital(text: str) -> str:
-    return text[:1].upper() + text[1:]

@@ -4,11 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from tmm_gen.c_language.names import member
+from tmm_gen.c_language.names import macros, member
+from tmm_gen.c_language.real import Real
 from tmm_gen.c_language.wrap import INDENT, comment, statement
 from tmm_gen.emit.c.structs import dimension
+from tmm_gen.program.passes.dependence import written_elements
 from tmm_gen.program.statements import Program
 from tmm_gen.program.variables import Variable
+
+TOTAL = "total"
+"""What sums are called of which only it counts whether they are finite."""
 
 
 def finite_checks(
@@ -56,6 +61,30 @@ def finite_checks(
     yield f"{INDENT}if (!(lost >= {zero})) {{"
     yield f"{INDENT * 2}return {failure};"
     yield f"{INDENT}}}"
+
+
+def model_checks(program: Program, real: Real) -> Iterator[str]:
+    """Yield lines that leave prepare unless the sum of what it adds to the model is finite."""
+    sums = "(model->{0}.high + model->{0}.low)" if real.pair else "model->{0}"
+    single: list[str] = []
+    by_stations: dict[tuple[int, str], list[str]] = {}
+    checked = (program.step, *program.parameters)
+    for variable in (v for v in program.model if v not in checked):
+        if variable.length is None:
+            single.append(sums.format(variable.name))
+        for start, stop in written_elements(program.prepare, variable):
+            whole = dimension(variable, program)[1:-1]
+            stations = (start, whole if stop == variable.length else str(stop))
+            by_stations.setdefault(stations, []).append(variable.name)
+    if by_stations:
+        yield f"{INDENT}real {TOTAL} = {real.literal(0)}; /* of the model: is all of it finite? */"
+        single.append(TOTAL)
+    for (start, end), names in by_stations.items():
+        yield f"{INDENT}for (int j = {start}; j < {end}; ++j) {{"
+        yield from statement(f"{TOTAL} += {' + '.join(sums.format(f'{name}[j]') for name in names)};", 2)
+        yield f"{INDENT}}}"
+    if single:
+        yield from check([" + ".join(single)], f"{macros(program.name)}_NON_FINITE_MODEL", 1)
 
 
 def check(names: list[str], failure: str, depth: int) -> Iterator[str]:

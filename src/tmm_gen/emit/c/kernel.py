@@ -2,29 +2,28 @@
 
 from __future__ import annotations
 
-import textwrap
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from tmm_gen.c_language.names import bare_names, declared, macros, signal
+from tmm_gen.c_language.names import bare_names, macros
 from tmm_gen.c_language.real import Real, real_of
-from tmm_gen.c_language.wrap import INDENT, WIDTH, comment, statement
-from tmm_gen.emit.c.bind import bind
-from tmm_gen.emit.c.body import TOTAL, Body
+from tmm_gen.c_language.wrap import INDENT, comment
+from tmm_gen.emit.c.body import Body
 from tmm_gen.emit.c.box import complete_box
 from tmm_gen.emit.c.circle import Circle, PairCircle, has_angles, uses_circle
+from tmm_gen.emit.c.constants import constants, default_step, defaults
 from tmm_gen.emit.c.fence import Fence, fence_of
-from tmm_gen.emit.c.finite import check, finite_checks
+from tmm_gen.emit.c.finite import finite_checks, model_checks
 from tmm_gen.emit.c.given import given_checks, given_tables
 from tmm_gen.emit.c.lower import lower
+from tmm_gen.emit.c.members import member_lines
 from tmm_gen.emit.c.pair import functions_in, pair_literal
 from tmm_gen.emit.c.pair_outputs import rounded_last
-from tmm_gen.emit.c.structs import COUNTER, Struct, described, dimension, structs_of
+from tmm_gen.emit.c.structs import Struct, described, dimension, structs_of
+from tmm_gen.emit.c.words import head, instants, out_of_range, statuses
 from tmm_gen.emit.header import header_lines
-from tmm_gen.emit.runs import Run, runs
-from tmm_gen.program.passes.dependence import written_elements
-from tmm_gen.program.statements import Assign, Loop, Mark, Program, Require, Routine
+from tmm_gen.emit.runs import Run
+from tmm_gen.program.statements import Program, Routine
 from tmm_gen.program.variables import Variable
 from tmm_gen.scene import Scene
 
@@ -76,13 +75,7 @@ class Kernel:
 
     def comment(self, lead: str, *paragraphs: str) -> str:
         """Return the head of a file and paragraphs behind it, every line with a lead."""
-        width = WIDTH - len(lead) - 1
-        wrapped: list[str] = []
-        for line in self.header:
-            wrapped += textwrap.wrap(line, width, subsequent_indent=INDENT) or [""]
-        for paragraph in paragraphs:
-            wrapped += ["", *textwrap.wrap(paragraph, width)]
-        return "\n".join(f"{lead} {line}".rstrip() for line in wrapped)
+        return head(self.header, lead, paragraphs)
 
     def doxygen(self, text: str) -> str:
         """Return a comment on lines of its own."""
@@ -119,8 +112,7 @@ class Kernel:
     @property
     def instants(self) -> str:
         """The instants of the main step at which inputs are read, in words."""
-        named = [_instant(x) for x in self.program.stage_instants[-1]]
-        return named[0] if len(named) == 1 else f"{', '.join(named[:-1])} and {named[-1]}"
+        return instants(self.program.stage_instants[-1])
 
     @property
     def when(self) -> str:
@@ -132,14 +124,14 @@ class Kernel:
         """What a step may return, in words."""
         fenced = any(self.fences.get(r.name) for r in self.program.steps)
         fenced = fenced or (self.circle is not None and any(map(has_angles, self.program.steps)))
-        return _statuses(*self.program.steps, ranged=fenced)
+        return statuses(*self.program.steps, ranged=fenced)
 
     @property
     def statuses_of_start(self) -> str:
         """What initialise may return, in words."""
         start = self.program.initialise
         fenced = bool(self.fences.get(start.name)) or (self.circle is not None and has_angles(start))
-        return _statuses(start, ranged=fenced)
+        return statuses(start, ranged=fenced)
 
     def members(self, which: str, number: str = "") -> list[str]:
         """Return the members of a struct, documented beside, or above where that is too wide.
@@ -151,33 +143,7 @@ class Kernel:
         number : str, optional
             Type of its numbers, behind the kernel's name; by default its own.
         """
-        struct = self.structs[which]
-        number = number or ("pair" if struct.holds_pairs(self.real) else "real")
-        number = f"{self.program.name}_{number}"
-        chosen = which in ("inputs", "outputs")
-        members = [
-            (number, signal(f.name, self.program.name) if chosen else f.name, f.dimension, f.doc)
-            for f in struct.fields
-        ]
-        if not members:
-            members = [(number, "none", "", "unused: C has no empty structs")]
-            chosen = False
-        if struct.counter:
-            of_each = f"[{macros(self.program.name)}_BATCH]" if number.endswith("_many") else ""
-            members.append(
-                ("int", COUNTER, of_each, "how many of the integrator's first steps, which differ, are done")
-            )
-        widest = max(
-            len(f"{INDENT}{kind} {name}{length}; /**< {doc} */") for kind, name, length, doc in members
-        )
-        lines: list[str] = []
-        for kind, name, length, doc in members:
-            head, tail, remark = f"{INDENT}{kind} ", f"{length};", f" /**< {doc} */"
-            if widest > WIDTH:
-                lines += comment(doc, 1, "/**")
-                remark = ""
-            lines += declared(name, head, tail, remark) if chosen else [f"{head}{name}{tail}{remark}"]
-        return lines
+        return member_lines(self.structs[which], self.program, self.real, number)
 
     @property
     def bare_names(self) -> list[str]:
@@ -223,13 +189,8 @@ class Kernel:
     @property
     def range_doc(self) -> str:
         """The comment on the status OUT_OF_RANGE."""
-        what = []
-        if self.circle is not None:
-            what.append(f"an angle is beyond {macros(self.program.name)}_LARGEST_ANGLE")
-        if self.fenced:
-            what.append("an intermediate result is beyond what the box of the scene can lead to")
-        text = f"{', or '.join(what)}; nothing was changed."
-        return "\n".join(comment(text[:1].upper() + text[1:], 1, "/**"))
+        largest = f"{macros(self.program.name)}_LARGEST_ANGLE"
+        return out_of_range(largest if self.circle is not None else None, fenced=self.fenced)
 
     # -- bodies of functions ------------------------------------------------------------------------
 
@@ -292,29 +253,7 @@ class Kernel:
 
     def model_check(self) -> str:
         """Return statements that leave prepare unless the sum of the model is finite."""
-        failure = f"{macros(self.program.name)}_NON_FINITE_MODEL"
-        sums = "(model->{0}.high + model->{0}.low)" if self.real.pair else "model->{0}"
-        single: list[str] = []
-        by_stations: dict[tuple[int, str], list[str]] = {}
-        checked = (self.program.step, *self.program.parameters)
-        for variable in (v for v in self.program.model if v not in checked):
-            if variable.length is None:
-                single.append(sums.format(variable.name))
-            for start, stop in written_elements(self.program.prepare, variable):
-                whole = dimension(variable, self.program)[1:-1]
-                stations = (start, whole if stop == variable.length else str(stop))
-                by_stations.setdefault(stations, []).append(variable.name)
-        lines: list[str] = []
-        if by_stations:
-            lines.append(
-                f"{INDENT}real {TOTAL} = {self.real.literal(0)}; /* of the model: is all of it finite? */"
-            )
-            single.append(TOTAL)
-        for (start, end), names in by_stations.items():
-            lines.append(f"{INDENT}for (int j = {start}; j < {end}; ++j) {{")
-            lines += statement(f"{TOTAL} += {' + '.join(sums.format(f'{name}[j]') for name in names)};", 2)
-            lines.append(f"{INDENT}}}")
-        return "\n".join([*lines, *(check([" + ".join(single)], failure, 1) if single else ())])
+        return "\n".join(model_checks(self.program, self.real))
 
     def given_checks(self) -> str:
         """Return statements that leave initialise where what it is given is not finite."""
@@ -346,28 +285,11 @@ class Kernel:
 
     def constants(self) -> list[str]:
         """Return declarations of what is bound at generation and read when the kernel runs."""
-        routines = (self.program.initialise, *self.program.steps, self.program.output)
-        read = frozenset().union(*(routine.read() for routine in routines))
-        lines = []
-        for variable, values in bind(self.program, self.real).items():
-            if variable in read:
-                lines += self._constant(variable, values)
-        return lines
-
-    def _constant(self, variable: Variable, values: tuple[float, ...]) -> list[str]:
-        remark = comment(described(variable), 0)
-        literal = pair_literal if self.real.pair else self.real.shortest
-        head = f"static const {self.number} {variable.name}{dimension(variable, self.program)} ="
-        if variable.length is None:
-            line = f"{head} {literal(values[0])};"
-            beside = f"{line} {remark[0]}"
-            return [beside] if len(remark) == 1 and len(beside) <= WIDTH else [*remark, line]
-        numbers = textwrap.wrap(", ".join(map(literal, values)), WIDTH - len(INDENT))
-        return [*remark, f"{head} {{", *(INDENT + line for line in numbers), "};"]
+        return list(constants(self.program, self.real))
 
     def defaults(self) -> list[tuple[Variable, list[str], tuple[Run, ...] | None]]:
         """Return the scene's parameters as literals, those of arrays in lines that fit, and their long runs."""
-        return [(v, self._literals(v), _runs(v)) for v in self.program.parameters]
+        return list(defaults(self.program, self.real))
 
     def parameter(self, value: float) -> str:
         """Return a parameter's value as an expression."""
@@ -376,10 +298,7 @@ class Kernel:
     @property
     def default_step(self) -> str:
         """The scene's time step as a literal."""
-        assert isinstance(self.program.step.default, float)
-        if self.real.pair:
-            return f"(({self.program.name}_pair){pair_literal(self.program.step.default)})"
-        return self.real.literal(self.program.step.default)
+        return default_step(self.program, self.real)
 
     @property
     def number(self) -> str:
@@ -399,37 +318,3 @@ class Kernel:
 
     def _argument(self, variable: Variable) -> str:
         return variable.name if variable is self.program.step else f"params->{variable.name}"
-
-    def _literals(self, variable: Variable) -> list[str]:
-        values = variable.default if isinstance(variable.default, tuple) else (variable.default,)
-        literal = pair_literal if self.real.pair else self.real.literal
-        numbers = [literal(value) for value in values if value is not None]
-        return textwrap.wrap(", ".join(numbers), WIDTH - 2 * len(INDENT))
-
-
-def _runs(variable: Variable) -> tuple[Run, ...] | None:
-    return runs(variable.default) if isinstance(variable.default, tuple) else None
-
-
-def _flat(routine: Routine) -> Iterator[Assign | Require | Mark]:
-    for top in routine.statements():
-        yield from top.body if isinstance(top, Loop) else (top,)
-
-
-def _statuses(*routines: Routine, ranged: bool) -> str:
-    required = any(isinstance(s, Require) for r in routines for s in _flat(r))
-    names = [
-        "OK",
-        "NON_FINITE_INPUT",
-        "NULL_POINTER",
-        *(["VANISHING_PIVOT"] if required else []),
-        "NON_FINITE_STATE",
-    ]
-    names += ["OUT_OF_RANGE"] if ranged else []
-    return f"{', '.join(names[:-1])} or {names[-1]}"
-
-
-def _instant(at: float) -> str:
-    if at == 1:
-        return "the end of the step"
-    return "its beginning" if at == 0 else f"{at:.6g} of the step"

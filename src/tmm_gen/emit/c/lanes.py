@@ -12,8 +12,9 @@ from itertools import groupby
 
 from tmm_gen.c_language.names import local_name, macros
 from tmm_gen.c_language.wrap import INDENT, comment, statement
-from tmm_gen.emit.c.body import Body, sentence
+from tmm_gen.emit.c.body import Body
 from tmm_gen.emit.c.printer import CPrinter
+from tmm_gen.emit.c.words import sentence
 from tmm_gen.program.passes.dependence import accesses, first_uses
 from tmm_gen.program.statements import Assign, Loop, Statement
 from tmm_gen.program.variables import Ref, Role, Variable
