@@ -1,9 +1,8 @@
 """Closed loops of the arm with two motors: every controller under some conditions, on a finer arm.
 
-    python benchmarks/mpc_motors.py [--seeds 3] [--out out/bench] [--update]
+    python benchmarks/mpc_motors.py [--out out/bench] [--update]
 
-What is shown of each is the worst of several noises; what can be emitted runs as compiled C. `--update` renews
-docs/mpc.md.
+Encoders round and have no noise; what can be emitted runs as compiled C. `--update` renews docs/mpc.md.
 """
 
 from __future__ import annotations
@@ -11,7 +10,6 @@ from __future__ import annotations
 import argparse
 import json
 import os
-from collections.abc import Sequence
 from pathlib import Path
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
@@ -45,8 +43,8 @@ NOT_COMPARED = ("pd-zv", "pd-zvd")
 Rows = list[dict[str, object]]
 
 
-def trials(bench: Bench, seeds: int) -> Rows:
-    """Return a row for each controller and condition: the worst figures of so many noises."""
+def trials(bench: Bench) -> Rows:
+    """Return a row for each controller and condition."""
     kinds = [kind for kind in CONTROLLERS if kind.compared(bench) and kind.name not in NOT_COMPARED]
     cases = [case for case in CONDITIONS if case.name in TRIED]
     rows: Rows = []
@@ -55,26 +53,22 @@ def trials(bench: Bench, seeds: int) -> Rows:
             in_c = kind.name in EMITTED and kind.name not in LINEAR
             controller = made(kind, bench, in_c)
             for case in cases:
-                loops = [
-                    run_loop(controller, Plant(bench.scene, bench.problem, case, seed), DURATION)
-                    for seed in range(seeds)
-                ]
-                every = [loop_figures(loop) for loop in loops]
-                settling = [each.settling for each in every]
-                used = max(float(np.max(np.abs(loop.torque) / bench.problem.torque[1])) for loop in loops)
-                seconds, feedback = times(controller, bench, loops, case)
+                loop = run_loop(controller, Plant(bench.scene, bench.problem, case), DURATION)
+                found = loop_figures(loop)
+                seconds, feedback = times(controller, bench, loop, case)
                 rows.append(
                     {
                         "controller": kind.name,
                         "condition": case.name,
                         "compiled": in_c,
-                        "settling_s": None if None in settling else max(filter(None, settling)),
-                        "overshoot_percent": 100.0 * max(each.overshoot for each in every),
-                        "residual_mrad": 1e3 * max(each.residual for each in every),
-                        "torque_percent": 100.0 * used,
+                        "settling_s": found.settling,
+                        "overshoot_percent": 100.0 * found.overshoot,
+                        "residual_mrad": 1e3 * found.residual,
+                        "torque_percent": 100.0
+                        * float(np.max(np.abs(loop.torque) / bench.problem.torque[1])),
                         "solve_us": 1e6 * float(np.median(seconds)),
                         "feedback_us": 1e6 * float(np.median(feedback)),
-                        "fallbacks": sum(each.fallbacks for each in every),
+                        "fallbacks": found.fallbacks,
                     }
                 )
                 advance(1, f"{kind.title}, {case.title}")
@@ -99,15 +93,10 @@ class Noted:
         return self._controller.command(measured, valid)
 
 
-def times(
-    controller: Controller, bench: Bench, loops: Sequence[Loop], case: Condition
-) -> tuple[np.ndarray, np.ndarray]:
+def times(controller: Controller, bench: Bench, loop: Loop, case: Condition) -> tuple[np.ndarray, np.ndarray]:
     """Return processor times of whole samples and from measurements to torques, s; of C without what calls it."""
     if not isinstance(controller, EmittedController):
-        whole, feedback = (
-            np.concatenate([getattr(loop, name) for loop in loops]) for name in ("seconds", "feedback")
-        )
-        return whole, feedback
+        return loop.seconds, loop.feedback
     noted = Noted(controller)
     run_loop(noted, Plant(bench.scene, bench.problem, case), DURATION)
     runs = []
@@ -150,11 +139,10 @@ def _cell(row: dict[str, object]) -> str:
 def main() -> None:
     """Print the table, and renew the page if asked to."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
-    parser.add_argument("--seeds", type=int, default=3, help="noises")
     parser.add_argument("--out", type=Path, default=Path("out/bench"))
     parser.add_argument("--update", action="store_true", help=f"renew {PAGE.name}")
     given = parser.parse_args()
-    rows = trials(Bench.of(load_scene(SCENE)), given.seeds)
+    rows = trials(Bench.of(load_scene(SCENE)))
     columns = [
         "controller",
         "condition",
@@ -167,7 +155,7 @@ def main() -> None:
         Column("feedback_us", "from measurement (µs)", ".0f"),
         "fallbacks",
     ]
-    table(rows, columns, title=f"worst of {given.seeds} noises")
+    table(rows, columns, title="settling, overshoot, residual")
     given.out.mkdir(parents=True, exist_ok=True)
     write_whole(given.out / "mpc_motors.json", json.dumps(plain(rows), indent=1) + "\n")
     if given.update:

@@ -1,4 +1,4 @@
-"""What can go wrong with an arm of two motors: sensors, and all that its controller is told while it runs."""
+"""What can go wrong with an arm of several motors: sensors, and all that its controller is told while it runs."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 
 from faulty_loops.cases import LONGEST, fault
 
-Pair = tuple[float, float]
-HEAVIEST = 0.45
-"""What the arm really carries at most, kg."""
+Angles = tuple[float, ...]
+HEAVIEST = 1.5
+"""What the arm really carries at most, of what its scene says."""
 _WRONG = (math.nan, math.inf, -math.inf, 1e30, -1e30, -1.0)
 
 
@@ -25,21 +25,21 @@ class Trouble:
         How many.
     faults : tuple of (int, float)
         Kind of each encoder's fault, and its value; see :mod:`faulty_loops.cases`.
-    reference : (float, float), optional
+    reference : tuple of float, optional
         Joint angles that the controller is told to aim at, at once.
-    jump : (int, float, float), optional
-        Sample of the horizon from which on it is told to follow other joint angles.
-    limits : (pair, pair), optional
+    jump : (int, tuple of float), optional
+        Sample from which on it is told to follow other joint angles, if the horizon is as long.
+    limits : (tuple of float, tuple of float), optional
         Bounds of the torques that it is told, as shares of the scene's.
     carried, told : float, optional
-        What the arm carries from then on, and what the controller is told of that, kg.
+        What the arm carries from then on, and what the controller is told of that, as shares of the scene's payload.
     """
 
     samples: int
-    faults: tuple[tuple[int, float], tuple[int, float]]
-    reference: Pair | None
-    jump: tuple[int, float, float] | None
-    limits: tuple[Pair, Pair] | None
+    faults: tuple[tuple[int, float], ...]
+    reference: Angles | None
+    jump: tuple[int, Angles] | None
+    limits: tuple[Angles, Angles] | None
     carried: float | None
     told: float | None
 
@@ -48,7 +48,7 @@ class Trouble:
 class ArmCase:
     """An arm at rest at some joint angles, some calm samples, some troubles, calm again."""
 
-    start: Pair
+    start: Angles
     before: int
     troubles: tuple[Trouble, ...]
 
@@ -57,19 +57,28 @@ def _perhaps(strategy: st.SearchStrategy[object]) -> st.SearchStrategy[object]:
     return st.none() | strategy
 
 
-_ANGLES = st.tuples(st.floats(-0.5, 1.2), st.floats(-1.6, 0.5))
-_TOLD_ANGLES = _ANGLES | st.tuples(*[st.sampled_from(_WRONG) | st.floats(-4.0, 4.0)] * 2)
 _SHARES = st.sampled_from((*_WRONG, 0.0, 0.3, 1.0, 9.0)) | st.floats(-1.2, 1.2)
-_LIMITS = st.tuples(st.tuples(_SHARES, _SHARES), st.tuples(_SHARES, _SHARES)) | st.floats(0.0, 0.6).map(
-    lambda share: ((-share, -share), (share, share))  # too weak to hold the arm, or nearly
-)
 _CARRIED = st.floats(0.0, HEAVIEST)
-_TOLD_MASSES = _CARRIED | st.sampled_from(_WRONG) | st.floats(0.0, 5.0)
+_TOLD_MASSES = _CARRIED | st.sampled_from(_WRONG) | st.floats(0.0, 15.0)
 
 
 @st.composite
-def arm_cases(draw: st.DrawFn) -> ArmCase:
-    """Draw a case."""
+def arm_cases(draw: st.DrawFn, ranges: tuple[tuple[float, float], ...]) -> ArmCase:
+    """Draw a case.
+
+    Parameters
+    ----------
+    ranges : tuple of (float, float)
+        Joint angles that the arm is at, of each motor, rad.
+    """
+    motors = len(ranges)
+    angles = st.tuples(*(st.floats(*ends) for ends in ranges))
+    told_angles = angles | st.tuples(*[st.sampled_from(_WRONG) | st.floats(-4.0, 4.0)] * motors)
+    ends = st.tuples(*[_SHARES] * motors)
+    limits = st.tuples(ends, ends) | st.floats(0.0, 0.6).map(
+        lambda share: ((-share,) * motors, (share,) * motors)  # too weak to hold the arm, or nearly
+    )
+    jump = st.tuples(st.integers(0, 29), st.tuples(*[st.floats(-2.0, 2.0)] * motors))
     left, troubles = LONGEST, []
     for _ in range(draw(st.integers(1, 4))):
         if left == 0:
@@ -79,12 +88,12 @@ def arm_cases(draw: st.DrawFn) -> ArmCase:
         troubles.append(
             Trouble(
                 samples,
-                (draw(fault(True)), draw(fault(True))),
-                draw(_perhaps(_TOLD_ANGLES)),
-                draw(_perhaps(st.tuples(st.integers(0, 29), st.floats(-2.0, 2.0), st.floats(-2.0, 2.0)))),
-                draw(_perhaps(_LIMITS)),
+                tuple(draw(fault(True)) for _ in range(motors)),
+                draw(_perhaps(told_angles)),
+                draw(_perhaps(jump)),
+                draw(_perhaps(limits)),
                 draw(_perhaps(_CARRIED)),
                 draw(_perhaps(_TOLD_MASSES)),
             )
         )
-    return ArmCase(draw(_ANGLES), draw(st.integers(0, 40)), tuple(troubles))
+    return ArmCase(draw(angles), draw(st.integers(0, 40)), tuple(troubles))

@@ -1,4 +1,4 @@
-"""An emitted controller on the arm with two motors, through a case of troubles."""
+"""An emitted controller on an arm of several motors, in a plane or in space, through a case of troubles."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
-from support.carrying import CarryingPlant, Loads
+from support.carrying import CarryingPlant, Loads, carrying_plant, payload_of
 
 from faulty_loops.arm_cases import ArmCase, Trouble
 from faulty_loops.cases import ADDED, INVALID, STUCK, VALUE
@@ -74,23 +74,23 @@ class ArmLoop:
         self.controller = EmittedController(
             name, files, sensors, real, flags=flags, motors=bench.problem.count
         )
+        self.carries = f"{name}_carry(" in files[f"{name}.h"]
+        self.payload = payload_of(bench.scene)
         self.number = np.float64 if real == "float64" else np.float32
         self.widest = tuple(self.number(each) for each in bench.problem.torque)
 
     def run(self, case: ArmCase) -> ArmOutcome:
         """Run a case."""
-        tip = self.bench.scene.tip
-        assert tip is not None
-        plant = CarryingPlant(self.bench.scene, self.problem, Loads(((0, tip.mass),)), seed=0)
-        rest = rest_with(plant.laden(tip.mass), np.array(case.start), "initial.angles")
+        plant = carrying_plant(self.bench.scene, self.problem, Loads(((0, self.payload),)), seed=0)
+        rest = rest_with(plant.laden(self.payload), np.array(case.start), "initial.angles")
         plant.kernel.initialise(initial_angle=rest.angles, inputs=plant.motors.torques(rest.goal.torque))
         self.controller.reset()
-        self.limits, found, carried = self.widest, ArmOutcome(), tip.mass
+        self.limits, found, carried = self.widest, ArmOutcome(), self.payload
         for _ in range(case.before):
             self._sample(plant, plant.measured(), None, found)
         for trouble in case.troubles:
             if trouble.carried is not None:
-                carried = trouble.carried
+                carried = trouble.carried * self.payload
                 plant.carry(carried)
             self._tell(trouble, found)
             held = plant.measured()
@@ -143,21 +143,23 @@ class ArmLoop:
         if trouble.reference is not None:
             self._noted("aim", controller.aim(np.array(trouble.reference)), found)
         if trouble.jump is not None:
-            at, *angles = trouble.jump
+            at, angles = trouble.jump
             way = np.tile(problem.reference, (problem.horizon, 1))
             way[at:] = angles
             self._noted("follow", controller.follow(way), found)
-        if trouble.told is not None:
-            self._noted("carry", controller.carry(trouble.told), found)
+        if trouble.told is not None and self.carries:
+            self._noted("carry", controller.carry(trouble.told * self.payload), found)
 
     def _restore(self, carried: float, found: ArmOutcome) -> None:
         """Tell the controller what is true, and what the scene says; what is judged by the rest a second time."""
         controller = self.controller
         self.limits = self.widest
         taken = [self._noted("limit", controller.limit(*self.problem.torque), found)]
-        self._noted("carry", controller.carry(carried), found)
+        if self.carries:
+            self._noted("carry", controller.carry(carried), found)
         taken.append(self._noted("aim", controller.aim(self.problem.reference), found))
-        taken.append(self._noted("carry", controller.carry(carried), found))
+        if self.carries:
+            taken.append(self._noted("carry", controller.carry(carried), found))
         found.refused += not all(taken)
 
     @staticmethod

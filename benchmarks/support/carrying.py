@@ -9,6 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.closed_loop.plant import Plant
+from tmm_gen.closed_loop.space_plant import SpacePlant
+from tmm_gen.control.arms import arm_of
 from tmm_gen.control.command import Command, Flags, Status
 from tmm_gen.control.condition import Condition
 from tmm_gen.control.course import Course
@@ -72,9 +74,8 @@ class CarryingPlant(Plant):
     """
 
     def __init__(self, scene: Scene, problem: ControlProblem, loads: Loads, seed: int) -> None:
-        assert scene.tip is not None
         self.loads = loads
-        super().__init__(scene, problem, Condition("empty", "empty", loads.at(0) / scene.tip.mass), seed)
+        super().__init__(scene, problem, Condition("empty", "empty", loads.at(0) / payload_of(scene)), seed)
 
     def laden(self, mass: float) -> Scene:
         """Return the scene of the arm with a mass at its tip, kg."""
@@ -98,6 +99,32 @@ class CarryingPlant(Plant):
     def carry(self, mass: float) -> None:
         """Carry another mass at the tip, kg, from now on."""
         self.kernel.prepare({"tip_mass": mass}, self.step)
+
+
+class CarryingSpacePlant(CarryingPlant, SpacePlant):
+    """The same in space."""
+
+    def laden(self, mass: float) -> Scene:
+        """Return the scene of the arm whose outermost bodies have a mass, kg."""
+        return self.scene.replace(**dict.fromkeys(arm_of(self.scene).payloads(), mass))
+
+    def carry(self, mass: float) -> None:
+        """Carry another mass, kg, from now on."""
+        self.kernel.prepare(self._changes(self.laden(mass)), self.step)
+
+
+def payload_of(scene: Scene) -> float:
+    """Return the mass at the tip of an arm, in space of its first outermost body, kg."""
+    if scene.spatial is None:
+        assert scene.tip is not None
+        return scene.tip.mass
+    return float(next(iter(arm_of(scene).payloads().values())))
+
+
+def carrying_plant(scene: Scene, problem: ControlProblem, loads: Loads, seed: int) -> CarryingPlant:
+    """Return the arm of a scene with changing payload."""
+    kind = CarryingPlant if scene.spatial is None else CarryingSpacePlant
+    return kind(scene, problem, loads, seed)
 
 
 class Told:

@@ -39,6 +39,8 @@ class BoardRun:
         Of half of its samples at most.
     instructions_feedback : int
         From a measurement to its torque, of the longest sample.
+    instructions_reset : int
+        Of starting anew, which finds the matrices of controllers that renew them, and so takes what that does.
     code_bytes : int
         Flash: functions and tables of controller and solver, and of the C library what they call.
     ram_bytes : int
@@ -47,6 +49,9 @@ class BoardRun:
         Deepest stack of a sample, as used by the closed loop.
     bits_equal : bool
         Whether every torque has the bits it has on this machine.
+    torque_off : float
+        By how much a torque is another than on this machine, N m: predictions take the C library's sines, and these
+        differ.
     samples : int
         Length of the closed loop.
     fallbacks : int
@@ -59,10 +64,12 @@ class BoardRun:
     instructions_per_sample: int
     instructions_median: int
     instructions_feedback: int
+    instructions_reset: int
     code_bytes: int
     ram_bytes: int
     stack_bytes: int
     bits_equal: bool
+    torque_off: float
     samples: int
     fallbacks: int
 
@@ -112,10 +119,12 @@ def run_on_board(
             instructions_per_sample=int(counts.max()),
             instructions_median=int(np.median(counts)),
             instructions_feedback=int(phases[:, 1].max()),
+            instructions_reset=int(_number(there, "reset") / board.ticks_per_instruction),
             code_bytes=sizes_of(board, alone).flash,
             ram_bytes=_number(there, "ram") + static,
             stack_bytes=_number(there, "stack"),
             bits_equal=[row[:3] for row in samples] == [row[1:4] for row in here if row[0] == "torque"],
+            torque_off=float(np.max(np.abs(_torques(there, real) - _torques(here, real)))),
             samples=len(samples),
             fallbacks=sum(row[1] != "0" for row in samples),
         )
@@ -142,7 +151,13 @@ def _lay_out(
     prefix = macro_prefix(name)
     seen = table("measured", measured, f"[SAMPLES][{prefix}_SENSORS]", REALS[real])
     harness = render(
-        "control/board.c.jinja", name=name, NAME=prefix, samples=len(measured), counter=counter, table=seen
+        "control/board.c.jinja",
+        name=name,
+        NAME=prefix,
+        samples=len(measured),
+        torques=f"{prefix}_MOTORS" if f"define {prefix}_MOTORS" in files[f"{name}.h"] else "1",
+        counter=counter,
+        table=seen,
     )
     for path, text in {**files, "harness.c": harness}.items():
         (folder / path).parent.mkdir(parents=True, exist_ok=True)
@@ -181,3 +196,9 @@ def _lines(command: list[str | Path], folder: Path, where: str) -> list[list[str
 
 def _number(lines: list[list[str]], what: str) -> int:
     return next(int(words[1]) for words in lines if words[0] == what)
+
+
+def _torques(lines: list[list[str]], real: str) -> NDArray[np.float64]:
+    """Return the torques of all samples, from their bits."""
+    bits = b"".join(bytes.fromhex(words[1]) for words in lines if words[0] == "torque")
+    return np.frombuffer(bits, np.dtype(real)).astype(float)

@@ -156,8 +156,11 @@ def mpc(
         list_all(json_mode)
         return
     from tmm_gen.control.bench import Bench
+    from tmm_gen.control.walls import far_behind
 
     bench = Bench.of(loaded)
+    for said in far_behind(loaded, bench.problem):
+        click.echo(said, err=True)
     if tunables:
         tuned(scene, bench, tunables, evaluations, seed, workers, refine, out, force, json_mode)
         return

@@ -56,7 +56,7 @@ def show(scene: Scene, trials: list[Trial], until: float, files: list[Path], jso
         "controller",
         "condition",
         *(_ALONG if trials[0].tracking is not None else reached),
-        *([Column("to_wall_mm", "to the wall (mm)", ".1f")] if trials[0].nearest is not None else []),
+        *([Column("to_wall_mm", "to the wall (mm)", ".4g")] if trials[0].nearest is not None else []),
         Column("solve_us_median", "solve (µs)", ".0f"),
         Column("solve_us_max", "at most (µs)", ".0f"),
     ]

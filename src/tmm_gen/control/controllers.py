@@ -18,6 +18,7 @@ from tmm_gen.control.pd import PdController
 from tmm_gen.control.qp import require_daqp
 from tmm_gen.control.rti import RealTimeIteration
 from tmm_gen.control.shaper import Kind, shaper, slowest_vibration
+from tmm_gen.control.walls import keeps_no_walls
 from tmm_gen.control.way import Way, shaped_way, stepped_way
 from tmm_gen.control.window import Window
 from tmm_gen.errors import UserError
@@ -76,10 +77,7 @@ class ControllerKind:
         """
         if bench.problem.keeps and self.keeps is False:
             others = ", ".join(kind.name for kind in CONTROLLERS if kind.keeps)
-            raise UserError(
-                f"{bench.scene.source.origin}: the controller '{self.name}' keeps no control.keep; take {others}, or "
-                "remove the table."
-            )
+            raise keeps_no_walls(bench.scene, self.name, others)
         if bench.follows and not self.follows:
             others = ", ".join(kind.name for kind in CONTROLLERS if kind.follows)
             raise UserError(

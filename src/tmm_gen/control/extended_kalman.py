@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -31,7 +33,7 @@ class NonlinearFilter:
         self._linear, self._stationary = linear, KalmanFilter(linear, model.problem)
         self.gain, self.sensors = self._stationary.gain, self._stationary.sensors
         self.home, self.start, self.length = linear.start_hub, linear.start_torque, linear.length
-        self._more = np.zeros((linear.count, linear.count))
+        self._more: Callable[[Array], Array] = np.zeros_like
         self._angles, self._rates = model.places("angle"), model.places("rate")
         self.reset()
 
@@ -57,16 +59,16 @@ class NonlinearFilter:
 
     def holds(self, hub: Array) -> Array:
         """Return the torques that hold an arm with its hubs there, rad, (m,), N m."""
-        held = self._linear.holds.torque(self._linear.goal, hub) + self._more @ np.cos(np.cumsum(hub))
+        held = self._linear.holds.torque(self._linear.goal, hub) + self._more(hub)
         return np.asarray(held - self._parts(self.estimate)[1], float)
 
-    def carry(self, model: StepModel, more: Array) -> None:
+    def carry(self, model: StepModel, more: Callable[[Array], Array]) -> None:
         """Predict by the step of the same arm with another payload.
 
         Parameters
         ----------
-        more : array, (m, m)
-            What the rows of :func:`~tmm_gen.control.holding.holding` grow by, N m.
+        more : callable
+            From where hubs are, (m,), rad, to what holds up more than the scene's payload, (m,), N m.
         """
         self.model, self._more = model, more
 

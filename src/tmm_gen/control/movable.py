@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 from numpy.typing import NDArray
 
+from tmm_gen.control.arm import ControlledArm
+from tmm_gen.control.arms import arm_of
 from tmm_gen.control.command import Status
 from tmm_gen.control.extended_kalman import NonlinearFilter
-from tmm_gen.control.holding import holding
 from tmm_gen.control.linear import LinearModel
 from tmm_gen.control.links import rest_state, target_state
 from tmm_gen.control.model_based import ModelBased
@@ -61,7 +62,7 @@ class Movable(ModelBased):
     def reset(self) -> None:
         """Forget all measurements, what was aimed at and carried."""
         self.model = self.unchanged
-        self.estimator.carry(self.model, np.zeros((self.linear.count, self.linear.count)))
+        self.estimator.carry(self.model, np.zeros_like)
         self.goal, self.rest, self.moved = self.linear.goal, self.target, False
         self._poses: list[Pose] = []
         super().reset()
@@ -80,7 +81,8 @@ class Movable(ModelBased):
         Returns
         -------
         Status
-            ``OK``; ``NOT_FINITE``: there is no rest; ``INFEASIBLE``: the motors could not hold it.
+            ``OK``; ``NOT_FINITE``: there is no rest; ``INFEASIBLE``: the motors could not hold it, or it is more than
+            ten turns from where the arm starts, where no encoder is believed.
 
         Raises
         ------
@@ -133,8 +135,9 @@ class Movable(ModelBased):
     def carry(self, payload: float) -> Status:
         """Take another payload from the next sample on, until :meth:`reset`: predict, aim and hold the arm with it.
 
-        What is aimed at, and the way there, stay; sags and torques are found anew. Sensitivities of zero order, the
-        gains of a filter that has constant ones and the cost to go stay those of the scene's payload.
+        What is aimed at, and the way there, stay; sags and torques are found anew, and sensitivities of zero order
+        about the rest that is aimed at. The gains of a filter that has constant ones and the cost to go stay those of
+        the scene's payload.
 
         Parameters
         ----------
@@ -150,17 +153,21 @@ class Movable(ModelBased):
         Raises
         ------
         UserError
-            If the arm stands on a hub, has no mass at its tip, or is one in space.
+            If the arm stands on a hub, or has no one mass at its end.
         """
         self._require_movable()
         if not self.model.carries:
             raise UserError(
-                f"{self.model.scene.source.origin}: only arms in a plane with a [[body]] at their end take another "
-                "payload; give it one, or leave the payload as it is."
+                f"{self.model.scene.source.origin}: only arms with one [[body]] at their end, and with a mass, take "
+                "another payload; give it one, or leave the payload as it is."
             )
         if not 0.0 <= payload < np.inf:
             return Status.NOT_FINITE
-        model, poses = self.unchanged.carrying(payload), list(self._poses)
+        try:
+            model = self.unchanged.carrying(payload)
+        except UserError:  # no mass that a scene may have
+            return Status.NOT_FINITE
+        poses = list(self._poses)
         for i in range(self._passed, len(poses)):
             assert self._window is not None
             found = pose_in(model, self._window.at(i), poses[i])
@@ -172,7 +179,7 @@ class Movable(ModelBased):
         status = self._rest_in(pose_in(model, still, Pose(self.rest, self.goal.torque)))
         if status is Status.OK:
             self.model, self._poses = model, poses
-            self.estimator.carry(model, holding(model.scene) - holding(self.unchanged.scene))
+            self.estimator.carry(model, partial(_more, arm_of(model.scene), arm_of(self.unchanged.scene)))
         return status
 
     def _rest_in(self, still: Pose | None) -> Status:
@@ -183,6 +190,8 @@ class Movable(ModelBased):
         if not np.all((still.torque >= low) & (still.torque <= high)):
             return Status.INFEASIBLE
         tip, _, hub, _ = np.split(self.rows @ still.state, 4)
+        if not np.all(self.limits.is_place(hub)):
+            return Status.INFEASIBLE
         self.goal, self.rest, self.moved = Goal(tip, hub, still.torque), still.state, True
         self._turned()
         return Status.OK
@@ -205,3 +214,11 @@ class Movable(ModelBased):
         tip, tip_rate, hub, hub_rate = np.split(outputs, 4)
         torque = np.column_stack([pose.torque for pose in poses])
         return Wanted(tip, hub, tip_rate, hub_rate, torque, np.zeros(1)), poses[-1]
+
+
+def _more(laden: ControlledArm, other: ControlledArm, hub: Array) -> Array:
+    """Return what holds up more of one arm than of another with hubs there, if nothing bends, (m,), N m."""
+    hubs = hub[None]
+    still = np.zeros_like(hubs)
+    found = laden.rigid_torques(hubs, still, still) - other.rigid_torques(hubs, still, still)
+    return np.asarray(found[0], float)

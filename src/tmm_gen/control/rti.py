@@ -7,26 +7,30 @@ optimal feedback control of systems governed by large differential algebraic equ
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from functools import cached_property
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.control.command import Command, Status
 from tmm_gen.control.condensed import Condensed
+from tmm_gen.control.constant import Constant
 from tmm_gen.control.delay import Pair
 from tmm_gen.control.extended_kalman import ExtendedKalmanFilter, NonlinearFilter
 from tmm_gen.control.linear import LinearModel
 from tmm_gen.control.movable import Movable
 from tmm_gen.control.qp import QuadraticProgram
-from tmm_gen.control.response import response, split_outputs
+from tmm_gen.control.response import Response, split_outputs
 from tmm_gen.control.step_model import StepModel
 from tmm_gen.control.terminal import end_rows
-from tmm_gen.control.walls import Wall
-from tmm_gen.errors import UserError
+from tmm_gen.control.walls import Wall, keeps_no_walls
 
 Array = NDArray[np.float64]
+
+AWAY = 0.05
+"""Sensitivities of zero order are renewed where a joint is to rest so much elsewhere, rad."""
+MOVING = 1e-3
+"""What a reference moves by in a sample that is not about to rest, rad."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,7 +76,9 @@ class RealTimeIteration(Movable):
         What each motor turns, kg m^2, for the safe law.
     zero_order : bool
         Whether to keep the sensitivities of the linear model, and its filter's gain, instead of computing those
-        along the trajectory.
+        along the trajectory. They are renewed where the arm is told to carry something else, or to rest elsewhere:
+        what a torque does to an arm so much lighter, or folded, would be taken for a fraction of it, and iterations
+        would overshoot ever more.
     """
 
     def __init__(
@@ -82,19 +88,60 @@ class RealTimeIteration(Movable):
         self.model = self.unchanged = model
         self.linear, self.zero_order = linear, zero_order
         self.end = end_rows(linear, problem.weights)
-        self.response = response(linear, problem.horizon, self.end)
         self.walls = [Wall.of(model.scene, keep) for keep in problem.keeps]
         if zero_order and self.walls:
-            raise UserError(
-                f"{model.scene.source.origin}: zero-order real-time iteration keeps no control.keep; take the "
-                "controller 'rti'."
-            )
-        slopes = self.response.slopes
-        distances = np.zeros((len(self.walls), *slopes.tip.shape[1:]))
-        self.prepared = Condensed(problem, replace(slopes, keep=distances), linear.goal)
+            raise keeps_no_walls(model.scene, "rti-zero", "rti")
+        self._unladen = Constant(problem, linear, self.end, len(self.walls))
+        self._use(self._unladen)
         kind = NonlinearFilter if zero_order else ExtendedKalmanFilter
-        self._program = QuadraticProgram(self.prepared.hessian, self.prepared.rows, self.prepared.inputs)
         super().__init__(problem, kind(model, linear), model.delay, inertia)
+
+    def _use(self, constant: Constant) -> None:
+        """Take sensitivities of zero order, and the program that is made of them."""
+        prepared = constant.condensed
+        self.constant = constant
+        self._program = QuadraticProgram(prepared.hessian, prepared.rows, prepared.inputs)
+
+    @property
+    def prepared(self) -> Condensed:
+        """The program at the target, with what is carried."""
+        return self.constant.condensed
+
+    @property
+    def response(self) -> Response:
+        """How outputs answer there."""
+        return self.constant.response
+
+    @property
+    def by_estimate(self) -> Array:
+        """What changes of the estimate make of the outputs there, (4 m N + r, s + m)."""
+        return self.constant.by_estimate
+
+    def reset(self) -> None:
+        """Forget all measurements, what was aimed at and carried."""
+        if self.constant is not self._unladen:
+            self._use(self._unladen)
+        self._renewed_at = self._aimed = self.linear.goal.hub
+        super().reset()
+
+    def carry(self, payload: float) -> Status:
+        """Take another payload; see :class:`Movable`."""
+        status = super().carry(payload)
+        if status is Status.OK and self.zero_order:
+            self._renew()
+        return status
+
+    def _renew(self) -> None:
+        """Take sensitivities of zero order about the rest that is aimed at."""
+        self._use(self._unladen.about(self.model, self.rest, self.goal.torque))
+        self._renewed_at = self.goal.hub
+
+    def _keep_up(self) -> None:
+        """Renew sensitivities of zero order where the reference has come to rest elsewhere, or moves slowly."""
+        moving = np.max(np.abs(self.goal.hub - self._aimed)) > MOVING
+        self._aimed = self.goal.hub
+        if not moving and np.max(np.abs(self.goal.hub - self._renewed_at)) > AWAY:
+            self._renew()
 
     def _forget(self) -> None:
         self._program.forget()
@@ -105,6 +152,8 @@ class RealTimeIteration(Movable):
         self._about: Prepared | None = None
 
     def _shift(self) -> None:
+        if self.zero_order and self.model.carries:
+            self._keep_up()
         low, high = (bound[:, None] for bound in self.problem.torque)
         self._plan = np.clip(np.hstack([self._plan[:, 1:], self._plan[:, -1:]]), low, high)
         self._turned()
@@ -119,15 +168,6 @@ class RealTimeIteration(Movable):
         along, by_start, condensed = self._along(*self.estimator.ahead(known), self._past[-1])
         by_estimate = self.by_estimate if by_start is None else by_start @ self._until(known)
         return Prepared(np.append(*self.estimator.ahead([])), self._read, along, by_estimate, condensed)
-
-    @cached_property
-    def by_estimate(self) -> Array:
-        """What changes of the estimate make of the outputs, at the target, (4 m N + r, s + m)."""
-        linear, answer = self.linear, self.response
-        one = np.eye(linear.size + linear.count)
-        one[: linear.size] = np.column_stack([linear.transition, linear.drive])
-        until = np.linalg.matrix_power(one, self.delay.whole)
-        return np.asarray(np.column_stack([answer.by_state, answer.by_constant]) @ until, float)
 
     def _until(self, known: list[Pair]) -> Array:
         """Return what changes of the estimate make of it until the plan begins to act, (s + m, s + m)."""
@@ -171,7 +211,7 @@ class RealTimeIteration(Movable):
                 along,
                 plan,
                 last,
-                self.prepared.stopping,
+                self._unladen.condensed.stopping,
                 without=("tip",) if self.moved else (),
                 torque=self.problem.torque,
             ),

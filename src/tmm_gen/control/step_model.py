@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cache, cached_property
 from typing import Any
 
@@ -15,6 +15,7 @@ from tmm_gen.control.delay import Delay, delay_of
 from tmm_gen.control.lag import input_lag
 from tmm_gen.control.motor_rows import Motors
 from tmm_gen.control.motors import motors_of
+from tmm_gen.control.payload import changed_parameters, laden, payload_of
 from tmm_gen.control.problem import ControlProblem
 from tmm_gen.control.step_slopes import step_slopes
 from tmm_gen.control.target import Start, find_start
@@ -22,8 +23,7 @@ from tmm_gen.scene import Scene
 
 Array = NDArray[np.float64]
 
-_PAYLOAD = "tip_mass"
-_WHATEVER_IT_CARRIES = ("module", "names", "motors", "lag", "delay", "start")
+_WHATEVER_IT_CARRIES = ("module", "names", "motors", "lag", "delay", "start", "carries")
 
 
 @cache
@@ -56,20 +56,21 @@ class StepModel:
         other.__dict__.update(made)
         return other
 
-    @property
+    @cached_property
     def carries(self) -> bool:
-        """Whether the mass at its tip is one of its parameters."""
-        planar = self.scene.spatial is None and self.scene.tip is not None
-        return planar and _PAYLOAD in self.module.PARAMETER_NAMES
+        """Whether the mass at its tip is among its parameters."""
+        payload = payload_of(self.scene)
+        if payload is None:
+            return False
+        changed = changed_parameters(self.scene, laden(self.scene, payload + 1.0))
+        return set(changed) <= set(self.module.PARAMETER_NAMES)
 
     def carrying(self, payload: float) -> StepModel:
         """Return the model of the arm with another mass at its tip, kg, that starts as this one does."""
-        tip = self.scene.tip
-        assert tip is not None
-        laden = tip.model_copy(update={"mass": payload})
-        other = StepModel(replace(self.scene, tip=laden), self.problem)
+        other = StepModel(laden(self.scene, payload), self.problem)
         parameters = self.parameters.copy()
-        parameters[self.module.PARAMETER_NAMES.index(_PAYLOAD)] = payload
+        for name, value in changed_parameters(self.scene, other.scene).items():
+            parameters[self.module.PARAMETER_NAMES.index(name)] = value
         other.__dict__.update(
             {name: getattr(self, name) for name in _WHATEVER_IT_CARRIES}, parameters=parameters
         )

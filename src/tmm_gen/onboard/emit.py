@@ -5,6 +5,7 @@ from __future__ import annotations
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.linear_mpc import LinearMpc
 from tmm_gen.control.rti import RealTimeIteration
+from tmm_gen.control.walls import keeps_no_walls
 from tmm_gen.errors import UserError
 from tmm_gen.onboard.example_arm import example_arm
 from tmm_gen.onboard.linear import emit_linear_mpc
@@ -63,10 +64,7 @@ def emit_controller(
             f"take one of: {others}"
         )
     if bench.problem.keeps and controller != "rti":
-        raise UserError(
-            f"{bench.scene.source.origin}: the controller '{controller}' keeps no control.keep in C; take 'rti', or "
-            "remove the table."
-        )
+        raise keeps_no_walls(bench.scene, controller, "rti")
     name = name or f"{bench.scene.name}_{controller.replace('-', '_')}"
     taken = {"daqp": "the solver's files", bench.scene.name: "the arm's own functions"}
     if name in taken and (name == "daqp" or controller not in LINEAR):

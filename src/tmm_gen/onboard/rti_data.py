@@ -12,6 +12,7 @@ from tmm_gen.control.credible import Credible
 from tmm_gen.control.holding import holding
 from tmm_gen.control.kalman import KalmanFilter
 from tmm_gen.control.motor_rows import Motors
+from tmm_gen.control.payload import laden, payload_of
 from tmm_gen.control.response import split_outputs
 from tmm_gen.control.rti import RealTimeIteration
 from tmm_gen.control.safe import BRAKE_TIME
@@ -20,6 +21,7 @@ from tmm_gen.control.walls import Wall
 from tmm_gen.onboard.joint_tables import JointTables
 from tmm_gen.onboard.linear_data import gains_by_sensors
 from tmm_gen.onboard.program_data import ProgramData, program_data
+from tmm_gen.onboard.space_payload import SpacePayload
 from tmm_gen.onboard.weight import Weight, weight_of
 
 Array = NDArray[np.float64]
@@ -69,6 +71,8 @@ class RtiData:
         Mass at the tip, kg; None where it is no parameter of the kernel.
     weight : Weight or None
         What holds up an arm in space.
+    load : SpacePayload or None
+        Of an arm in space that takes another payload.
     target_torque, brake : array, (m,)
         N m; N m s/rad, of the safe law.
     gravity : float
@@ -116,6 +120,7 @@ class RtiData:
     holds_more: Array
     payload: float | None
     weight: Weight | None
+    load: SpacePayload | None
     target_torque: Array
     gravity: float
     brake: Array
@@ -153,10 +158,11 @@ def rti_data(controller: RealTimeIteration) -> RtiData:
     scaled = program.scaling[:, None] * np.vstack([program.inverse, program.rows @ program.inverse])
     slopes, count = controller.prepared.slopes, problem.horizon
     scene = model.scene
-    in_space, tip = scene.spatial is not None, scene.tip
+    in_space = scene.spatial is not None
     held = np.zeros((problem.count, problem.count)) if in_space else holding(scene)
-    payload = tip.mass if tip is not None and model.carries else None
-    more = np.zeros_like(held) if payload is None else holding(model.carrying(payload + 1.0).scene) - held
+    payload = payload_of(scene) if model.carries else None
+    heavier = scene if payload is None else laden(scene, payload + 1.0)
+    more = np.zeros_like(held) if in_space else holding(heavier) - held
     lengths = motors.lengths.copy()
     for motor in () if in_space else motors.each:
         lengths[motor.place : motor.end] /= lengths[motor.place : motor.end].sum()
@@ -181,7 +187,8 @@ def rti_data(controller: RealTimeIteration) -> RtiData:
         holds=held,
         holds_more=more,
         payload=payload,
-        weight=weight_of(arm_of(scene), problem.count) if in_space else None,
+        weight=weight_of(arm_of(scene), arm_of(heavier), problem.count) if in_space else None,
+        load=SpacePayload.of(scene, payload) if in_space and payload is not None else None,
         target_torque=goal.torque,
         gravity=0.0 if in_space else scene.model.gravity or 0.0,
         brake=controller.inertia / BRAKE_TIME,

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from tmm_gen.c_language.names import macros
 from tmm_gen.control.motor_rows import Motor
+from tmm_gen.control.rti import AWAY, MOVING
 from tmm_gen.control.space_frame import SpaceFrame
 from tmm_gen.control.terms import Kind
 from tmm_gen.control.walls import Wall
@@ -62,6 +63,26 @@ class RtiText(ControllerText):
     def carries(self) -> bool:
         """Whether the payload may be another one at run time."""
         return self.moves and self.data.payload is not None
+
+    @property
+    def renews(self) -> bool:
+        """Whether sensitivities of zero order are found while it runs, as they must be where the payload changes."""
+        return self.carries and not self.full
+
+    @property
+    def renewal(self) -> tuple[float, float]:
+        """What a reference that moves on moves by in a sample, and from how far away they are found anew, rad."""
+        return MOVING, AWAY
+
+    @property
+    def keeps_program(self) -> bool:
+        """Whether the program's matrices are the controller's, and not those of its target for ever."""
+        return self.full or self.renews
+
+    @property
+    def inputs_planned(self) -> int:
+        """Torques of the program, m N."""
+        return self.motors * self.horizon
 
     @property
     def in_space(self) -> bool:

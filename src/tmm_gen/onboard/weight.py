@@ -33,11 +33,14 @@ class Term:
         Of each hub's angle: 0 for 1, 1 for its cosine, 2 for its sine.
     amount : float
         N m.
+    more : float
+        By which it grows for each kilogram of payload, N m/kg.
     """
 
     motor: int
     factors: tuple[int, ...]
     amount: float
+    more: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -58,6 +61,11 @@ class Weight:
         return np.array([term.amount for term in self.terms])
 
     @property
+    def more(self) -> Array:
+        """By which these grow with the payload, N m/kg."""
+        return np.array([term.more for term in self.terms])
+
+    @property
     def motors(self) -> list[int]:
         """Which motor each term is for."""
         return [term.motor for term in self.terms]
@@ -75,25 +83,30 @@ class Weight:
         return np.asarray(torque - self.torques(hub), float)
 
 
-def weight_of(arm: ControlledArm, motors: int) -> Weight:
+def weight_of(arm: ControlledArm, heavier: ControlledArm, motors: int) -> Weight:
     """Return what holds up an arm that does not bend.
 
     Parameters
     ----------
-    arm : ControlledArm
-        In space.
+    arm, heavier : ControlledArm
+        In space; the same with a kilogram more of payload, or as it is.
     motors : int
         m.
     """
     angles = 2.0 * np.pi * np.arange(3) / 3.0
     hubs = np.array(list(product(angles, repeat=motors)))
     still = np.zeros_like(hubs)
-    asked = arm.rigid_torques(hubs, still, still).reshape(*(3,) * motors, motors)
+    asked = np.stack([each.rigid_torques(hubs, still, still) for each in (arm, heavier)], axis=-1)
+    asked = asked.reshape(*(3,) * motors, motors, 2)
     terms_of = np.linalg.inv(np.column_stack([np.ones(3), np.cos(angles), np.sin(angles)]))
     for axis in range(motors):
         asked = np.moveaxis(np.tensordot(terms_of, asked, (1, axis)), 0, axis)
     least = _NOTHING * float(np.max(np.abs(asked), initial=0.0))
-    places = np.argwhere(np.abs(asked) > least)
+    places = np.argwhere(np.max(np.abs(asked), axis=-1) > least)
     return Weight(
-        tuple(Term(int(at[-1]), tuple(map(int, at[:-1])), float(asked[tuple(at)])) for at in places)
+        tuple(
+            Term(int(motor), tuple(map(int, at)), float(amount), float(heavy - amount))
+            for *at, motor in places
+            for amount, heavy in [asked[(*at, motor)]]
+        )
     )

@@ -1,19 +1,35 @@
-"""The emitted linear MPC on emulated microcontrollers: the host's bits, within its budget."""
+"""Emitted controllers on emulated microcontrollers: the host's bits, or nearly, within their budgets."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
 
+import numpy as np
 import pytest
 from support.mpc_on_board import run_on_board
 
 from tmm_gen.control.bench import Bench
 from tmm_gen.onboard.emit import emit_controller
+from tmm_gen.scene import load_scene
 
 pytestmark = pytest.mark.compiler
 
 INSTRUCTIONS = 200_000
 FLASH, RAM = 50_000, 32_000
+ELBOW = Path(__file__).resolve().parents[3] / "scenes" / "elbow.toml"
+
+
+@dataclass(frozen=True)
+class Budget:
+    """What zero-order iterations of `elbow` may take on a Cortex-M7 in single precision, sensitivities found there."""
+
+    instructions: int = 1_920_000
+    reset: int = 5_830_000
+    flash: int = 39_000
+    ram: int = 112_400
+    stack: int = 5_320
 
 
 @pytest.fixture(scope="module")
@@ -47,3 +63,19 @@ def test_bits_and_budget(
         assert found.instructions_per_sample <= INSTRUCTIONS
     assert 0 < found.instructions_median <= found.instructions_per_sample
     assert 0 < found.instructions_feedback < found.instructions_per_sample
+
+
+@pytest.mark.usefixtures("tools")
+def test_two_motors_in_single_precision_are_within_their_budget() -> None:
+    """Of an arm that rests where it starts; what sines of another library make of its torques is nothing."""
+    bench, budget = Bench.of(load_scene(ELBOW)), Budget()
+    name, files = emit_controller(bench, "rti-zero", "float32")
+    still = np.tile(bench.problem.start, (4, 1))
+    found = run_on_board("cortex-m7", name, files, still, "float32")
+    assert found.fallbacks == 0
+    assert 0.0 < found.torque_off < 1e-5
+    assert 0.6 * budget.instructions < found.instructions_per_sample <= budget.instructions
+    assert 0.6 * budget.reset < found.instructions_reset <= budget.reset
+    assert found.code_bytes <= budget.flash
+    assert found.ram_bytes <= budget.ram
+    assert found.stack_bytes <= budget.stack

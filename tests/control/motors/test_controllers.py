@@ -15,6 +15,7 @@ from tmm_gen.control.full_nmpc import FullNmpc
 from tmm_gen.control.kalman import KalmanFilter
 from tmm_gen.control.linear_mpc import LinearMpc
 from tmm_gen.control.rti import RealTimeIteration
+from tmm_gen.scene import Scene
 
 NONE = np.zeros(2)
 
@@ -100,6 +101,36 @@ def test_torques_nobody_commanded_are_found_motor_by_motor(two: Bench, kind: typ
         state = np.array(step.sample(state, np.tile(acting + unknown, 2))).ravel()
     _, disturbance = filtered.ahead([])
     assert_allclose(disturbance, unknown, rtol=0.03)
+
+
+def test_sensitivities_of_zero_order_are_those_of_what_is_carried_and_where(two: Bench) -> None:
+    """Those of an arm whose scene has that payload and that reference; after a reset, those of its own."""
+    elsewhere = {"shoulder": 0.3, "elbow": -0.5}
+    light = two.scene.replace(**{"body.payload.mass": 0.05})
+    told = RealTimeIteration(two.step, two.links, two.inertia, zero_order=True)
+    own = told.prepared.slopes
+    assert told.carry(np.nan) is Status.NOT_FINITE
+    assert told.prepared.slopes is own
+    assert told.carry(0.05) is Status.OK
+    _same_answers(told, light)
+    assert told.aim(np.array([*elsewhere.values()])) is Status.OK
+    seen = np.array([*two.links.start_hub, np.nan, np.nan])
+    for _ in range(3):  # the reference has to stay for a sample
+        told.command(seen)
+    _same_answers(told, light.replace(**{"control.reference": elsewhere}))
+    told.reset()
+    assert told.prepared.slopes is own
+
+
+def _same_answers(found: RealTimeIteration, scene: Scene) -> None:
+    """Check that sensitivities are those of a scene, and others than were found first."""
+    other = Bench.of(scene)
+    wanted = RealTimeIteration(other.step, other.links, other.inertia, zero_order=True).prepared.slopes
+    first = found._unladen.condensed.slopes
+    for name in ("tip", "tip_rate", "hub", "hub_rate"):
+        here, there, before = (getattr(each, name) for each in (found.prepared.slopes, wanted, first))
+        assert_allclose(here, there, atol=1e-5 * np.abs(there).max())
+        assert np.abs(here - before).max() > 0.3 * np.abs(before).max()
 
 
 def test_an_encoder_that_is_off_makes_the_estimate_wait(two: Bench) -> None:

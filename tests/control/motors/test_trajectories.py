@@ -186,9 +186,9 @@ def test_controllers_follow_and_without_a_wall_the_payload_goes_through_it(lower
     assert through.nearest < -0.1
     assert kept.nearest > 0.0
     for name in ("mpc-links", "rti-zero"):
-        with pytest.raises(UserError, match=r"keeps no control\.keep; take rti"):
+        with pytest.raises(UserError, match=r":\d+: control\.keep: .* keeps no walls; take rti"):
             BY_NAME[name].require_able(walled)
-    with pytest.raises(UserError, match=r"'rti-zero' keeps no control\.keep in C; take 'rti'"):
+    with pytest.raises(UserError, match=r":\d+: control\.keep: .*'rti-zero' keeps no walls; take rti"):
         emit_controller(walled, "rti-zero")
     assert usual_controller(walled) == "rti"  # and not one that would be refused then
     with pytest.raises(UserError, match=r"follows no control\.trajectory; take one of pd,"):

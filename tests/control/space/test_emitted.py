@@ -22,7 +22,7 @@ from tmm_gen.control.rti import RealTimeIteration
 from tmm_gen.control.walls import Wall
 from tmm_gen.onboard.emit import emit_controller, usual_controller
 from tmm_gen.onboard.native import EmittedController
-from tmm_gen.onboard.weight import weight_of
+from tmm_gen.onboard.weight import Weight, weight_of
 
 pytestmark = pytest.mark.compiler
 
@@ -54,11 +54,19 @@ def zero(bench: Bench) -> EmittedController:
 
 
 def test_encoders_that_come_and_go_are_those_of_python(bench: Bench, zero: EmittedController) -> None:
-    """Flags at random, then none for long, so that the safe law holds the arm up and the estimate starts anew."""
+    """Flags at random, then none for long, so that the safe law holds the arm up and the estimate starts anew.
+
+    What it carries is told, wrongly at first and of a mass that it cannot have: predictions, sensitivities and safe law
+    are of that.
+    """
     zero.reset()
     python, plant = in_python(bench, "rti-zero"), plant_of(bench.scene, bench.problem, CONDITIONS[1])
     random, statuses = np.random.default_rng(5), []
+    told = {3: 0.1, 9: -1.0, 12: np.inf, 14: 9.0, 24: 0.6}
     for k in range(60):
+        if k in told:
+            taken = {0.1: Status.OK, 0.6: Status.OK, 9.0: Status.INFEASIBLE}.get(told[k], Status.NOT_FINITE)
+            assert zero.carry(told[k]) is python.carry(told[k]) is taken
         seen, valid = plant.measured(), random.random(4) < (0.8 if k < 30 else float(k >= 40))
         expected, found = python.command(seen, valid), zero.command(np.where(valid, seen, 7.0), valid)
         assert_allclose(found.torque, expected.torque, rtol=0.0, atol=DAQP)
@@ -92,6 +100,9 @@ def test_a_reference_that_is_followed_is_that_of_python(walled: Bench) -> None:
             assert emitted.follow(ahead) is python.follow(ahead) is Status.OK
         elif k == 20:
             assert emitted.aim(np.array([0.5, 0.2])) is python.aim(np.array([0.5, 0.2])) is Status.OK
+        if k in (7, 9):
+            payload = 0.5 if k == 7 else 0.4  # which it has
+            assert emitted.carry(payload) is python.carry(payload) is Status.OK
         lost = np.full((horizon, 2), np.nan)
         assert emitted.follow(lost) is python.follow(lost) is Status.NOT_FINITE
         seen = plant.measured()
@@ -107,7 +118,11 @@ def test_a_reference_that_is_followed_is_that_of_python(walled: Bench) -> None:
 
 def test_what_holds_up_a_rigid_arm_is_a_sum_of_products(bench: Bench) -> None:
     arm, hubs = arm_of(bench.scene), np.random.default_rng(2).uniform(-3.0, 3.0, (5, 2))
-    weight = weight_of(arm, 2)
+    weight = weight_of(arm, arm_of(bench.scene.replace(**{"body.payload.mass": 1.4})), 2)
     right = arm.rigid_torques(hubs, np.zeros_like(hubs), np.zeros_like(hubs))
     assert_allclose([weight.torques(hub) for hub in hubs], right, rtol=0.0, atol=1e-12)
+    laden = arm_of(bench.scene.replace(**{"body.payload.mass": 0.9}))
+    asked = laden.rigid_torques(hubs, np.zeros_like(hubs), np.zeros_like(hubs)) - right
+    heavier = Weight(tuple(replace(term, amount=term.more) for term in weight.terms))
+    assert_allclose([0.5 * heavier.torques(hub) for hub in hubs], asked, rtol=0.0, atol=1e-12)
     assert len(weight.terms) < 4  # the yaw carries nothing, and turns nothing that weighs

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -14,7 +16,8 @@ from tmm_gen.control.controllers import BY_NAME
 from tmm_gen.control.full_nmpc import FullNmpc
 from tmm_gen.control.response import split_outputs
 from tmm_gen.control.rti import RealTimeIteration
-from tmm_gen.control.walls import Wall
+from tmm_gen.control.target import rest_with
+from tmm_gen.control.walls import Wall, far_behind
 from tmm_gen.errors import UserError
 from tmm_gen.modal.space.numbers import ArmNumbers
 from tmm_gen.modal.space.still import Still
@@ -55,9 +58,20 @@ def test_real_time_iterations_keep_away_from_what_a_regulator_passes(walled: Ben
         assert there == pytest.approx(keep.margin, abs=4e-3)
 
 
+def test_an_arm_that_starts_far_behind_a_wall_is_told(walled: Bench) -> None:
+    """By the wall's number, and how far: further than a wall holds."""
+    assert far_behind(walled.scene, walled.problem) == []
+    moved = Bench.of(walled.scene.replace(**{"control.keep[2].offset": 0.3}))
+    (told,) = far_behind(moved.scene, moved.problem)
+    upper = Wall.of(moved.scene, moved.problem.keeps[1])
+    angles = rest_with(moved.scene, moved.problem.start, "start").angles
+    assert re.match(r".*:\d+: control\.keep\[2\]: 'upper' starts .* m beyond", told)
+    assert f"starts {0.3 + 0.02 - upper.along(angles[None])[0]:.3g} m" in told
+
+
 def test_what_keeps_no_walls_says_so(walled: Bench, words: str) -> None:
     for name in ("rti-zero", "nmpc", "mpc-links"):
-        with pytest.raises(UserError, match=r"keeps no control\.keep; take rti"):
+        with pytest.raises(UserError, match=r":\d+: control\.keep: .* keeps no walls; take rti"):
             BY_NAME[name].require_able(walled)
     wall = '[[control.keep]]\nframe = "payload"\nnormal = [0, 0, 1]\noffset = -0.3\n'
     assert parse_scene(words + wall, "reach.toml").control
