@@ -32,7 +32,7 @@ def changed_parameters(scene: Scene, other: Scene) -> dict[str, float]:
     if scene.spatial is None or other.spatial is None:
         assert other.tip is not None
         return {_TIP: other.tip.mass}
-    before, after = (parameter_values(each.spatial, coupled=each.coupled) for each in (scene, other))
+    before, after = parameter_values(scene.spatial), parameter_values(other.spatial)
     return {
         f"{name}_{place + 1}": value
         for name in before

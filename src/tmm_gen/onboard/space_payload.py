@@ -73,14 +73,14 @@ class SpacePayload:
     @property
     def pairs(self) -> list[tuple[str, int, int]]:
         """Parameters that are moments of inertia, and their axes."""
-        named = ((f"center_inertia_{pair}", *(AXES.index(axis) for axis in pair)) for pair in PAIRS)
+        named = ((f"center_inertia_{pair}", AXES.index(pair[0]), AXES.index(pair[1])) for pair in PAIRS)
         return [each for each in named if each[0] in self.names]
 
 
 def _moments(scene: Scene, place: int) -> tuple[Array, Array, Array]:
     """Return mass, first and second moments of what moves with a joint, about the joint."""
     assert scene.spatial is not None
-    values = parameter_values(scene.spatial, coupled=scene.coupled)
+    values = parameter_values(scene.spatial)
     mass = np.array(values["mass"][place])
     center = np.array([values[f"center_{axis}"][place] for axis in AXES])
     inertia = np.zeros((3, 3))
