@@ -169,8 +169,10 @@ def _called(ref: Ref, loop: Loop | None) -> tuple[str, int]:
 
 def _moved(value: Any, by: int) -> Any:
     """Return an expression of a station's as it is of another, so many behind."""
-    refs = [r for r in refs_in(value) if r.offset is not None and by]
-    return value.xreplace({r: Ref(r.variable, r.offset + by, r.entry) for r in refs})
+    moved = {
+        r: Ref(r.variable, r.offset + by, r.entry) for r in refs_in(value) if r.offset is not None and by
+    }
+    return value.xreplace(moved)
 
 
 def _numbered(name: str) -> Iterator[str]:
