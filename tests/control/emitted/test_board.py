@@ -25,7 +25,7 @@ ELBOW = Path(__file__).resolve().parents[3] / "scenes" / "elbow.toml"
 class Budget:
     """What zero-order iterations of `elbow` may take on a Cortex-M7 in single precision, sensitivities found there."""
 
-    instructions: int = 1_920_000
+    instructions: int = 2_050_000
     reset: int = 5_830_000
     flash: int = 39_000
     ram: int = 112_400
