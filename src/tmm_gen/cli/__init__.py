@@ -114,13 +114,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _alone() -> None:
     """Set up a process that does nothing but this command."""
     gc.set_threshold(_NEW_OBJECTS)
-    os.environ.setdefault(
-        "PYDANTIC_DISABLE_PLUGINS", "__all__"
-    )  # which it would look for in every package installed
+    # which pydantic would look for in every package installed
+    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
+    # what libraries warn of is for those who write tmm-gen; python -W shows it
     if not sys.warnoptions:
-        warnings.simplefilter(
-            "ignore"
-        )  # what libraries warn of is for those who write tmm-gen; python -W shows it
+        warnings.simplefilter("ignore")
 
 
 def _code(words: list[str]) -> int:
