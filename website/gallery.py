@@ -8,7 +8,6 @@ from pathlib import Path
 
 from pictures import gallery_scenes, picture
 
-from tmm_gen.playground.page import refusal
 from tmm_gen.scene import load_scene
 
 
@@ -33,8 +32,6 @@ def cards(root: Path, playgrounds: set[str], sources: str) -> str:
             page = f'<a href="playground/{scene.name}.html"'
             links.insert(0, f"{page}>play with it</a>")
             shown = f'{page} title="Play with {scene.name}">{shown}</a>'
-        elif (why := refusal(scene)) is not None:
-            links.append(f"no playground: {html.escape(why[0])}")
         found.append(
             f'<section><h3 id="{scene.name}">{scene.name}</h3>{shown}<p>{html.escape(scene.title)}.</p>'
             f"<p>{_summary(path.read_text())}</p><p>{', '.join(links)}</p></section>"

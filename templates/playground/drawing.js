@@ -52,7 +52,7 @@ function fit(run) {
 }
 
 function groundCorners() {
-  if (figure.kind !== "spatial") return [];
+  if (figure.kind !== "spatial" || figure.floats) return [];
   const half = 0.5 * figure.reach;
   const level = (x, y) => [0, 1, 2].map((k) => x * figure.axes[0][k] + y * figure.axes[1][k]);
   return [level(-half, -half), level(half, -half), level(half, half), level(-half, half)];

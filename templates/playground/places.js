@@ -36,8 +36,18 @@ function about(axis, angle) {
 
 const turns = (figure.joints ?? []).map((joint) => joint.turn.flat());
 
+function turnOf([w, x, y, z]) {
+  // a unit quaternion's rotation, by rows
+  return [
+    1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y),
+    2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x),
+    2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y),
+  ];
+}
+
 function placesInSpace(row) {
-  const [bodies, axes] = [[[0, 0, 0]], [[1, 0, 0, 0, 1, 0, 0, 0, 1]]];
+  const base = Array.from(row.subarray(figure.joints.length)); // place and quaternion where it floats
+  const [bodies, axes] = figure.floats ? [[base], [turnOf(base.slice(3))]] : [[[0, 0, 0]], [[1, 0, 0, 0, 1, 0, 0, 0, 1]]];
   figure.joints.forEach((joint, k) => {
     bodies.push(sum(bodies[joint.host], times(axes[joint.host], joint.at)));
     axes.push(product(product(axes[joint.host], turns[k]), about(joint.axis, row[k])));

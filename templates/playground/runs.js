@@ -22,12 +22,18 @@ async function engine(method) {
   return { method, params, inputs, state, signals, begin: playground_begin, advance: playground_advance };
 }
 
+function value(signal, time) {
+  if (!signal.way) return signal.amplitude * Math.sin(signal.frequency * time);
+  const share = Math.min(Math.max(time / signal.duration, 0), 1) - 0.5;
+  return signal.way.reduceRight((sum, coefficient) => sum * share + coefficient, 0);
+}
+
 function setInputs({ method, inputs, signals }, time, step, instants, load) {
   // what acts at each stage of the step that begins at a time
   signals.forEach((signal, k) => {
     for (let slot = 0; slot < method.slots; slot++) {
       const at = time + step * instants[Math.min(slot, instants.length - 1)];
-      inputs[k * method.slots + slot] = signal ? load * signal.amplitude * Math.sin(signal.frequency * at) : 0;
+      inputs[k * method.slots + slot] = signal ? load * value(signal, at) : 0;
     }
   });
 }

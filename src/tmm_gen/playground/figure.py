@@ -20,7 +20,7 @@ def figure_of(scene: Scene) -> dict[str, Any]:
         in a plane and of a chain: ``hosts`` (number of the link that each stands on, 0 for the base), ``lengths`` in m,
         whether it ``floats`` and whether its base ``turns``. Of an arm in space: ``joints`` (host, place, turn by rows,
         axis), ``spots`` (number of the body, place on it), ``lines`` through spots, and the ``axes`` of the view by
-        rows, the third upward.
+        rows, the third upward; and whether its base ``floats``.
     """
     if scene.spatial is not None:
         return {"kind": "spatial", "unit": "m", "reach": scene.reach, **_in_space(scene.spatial)}
@@ -41,6 +41,7 @@ def figure_of(scene: Scene) -> dict[str, Any]:
 def _in_space(arm: SpatialArm) -> dict[str, Any]:
     skeleton = Skeleton(arm)
     return {
+        "floats": arm.base is not None,
         "joints": [
             {"host": joint.host, "at": joint.at, "turn": joint.turn, "axis": joint.axis}
             for joint in arm.joints

@@ -31,6 +31,10 @@ PLAIN = {
 """How a page's kernels are emitted whatever the scene asks for: it may have no C library, and sliders change all."""
 
 
+_OF_BASE = (*(f"base_place_{axis}" for axis in "xyz"), *(f"base_quaternion_{part}" for part in "wxyz"))
+"""Members of the state that say where a base is that floats."""
+
+
 def plain(scene: Scene, name: str) -> Scene:
     """Return a scene with another integrator, emitted for a page."""
     data: Mapping[str, Any] = scene.source.data
@@ -50,9 +54,9 @@ def method(scene: Scene, name: str) -> dict[str, Any]:
         Ready for JSON: ``name`` and ``title``; ``wasm`` in base 64; ``operations`` of a step; ``stages``, by step from
         the first on, the last for all others: instants in steps at which inputs act; ``slots``, for how many stages an
         input has room; ``inputs``, names in order; ``angles``, ``count`` and ``base``: where in the state, in numbers,
-        those of the links or joints begin, how many they are, and where the base's x and y are; ``parameters``, all in
-        order; ``payloads``, for each of `FACTORS` those numbers that differ, as pairs of index and value; ``stiff``:
-        pairs of where a stiffness and its damping stand.
+        those of the links or joints begin, how many they are, and where the base's place is, in space its quaternion
+        too; ``parameters``, all in order; ``payloads``, for each of `FACTORS` those numbers that differ, as pairs of
+        index and value; ``stiff``: pairs of where a stiffness and its damping stand.
     """
     wanted = plain(scene, name)
     payload = payload_of(wanted)
@@ -87,7 +91,7 @@ def method(scene: Scene, name: str) -> dict[str, Any]:
         "inputs": [variable.name for variable in program.inputs],
         "angles": places["angle"],
         "count": program.stations,
-        "base": [places[key] for key in ("base_place_x", "base_place_y") if key in places],
+        "base": [places[key] for key in _OF_BASE if key in places],
         "parameters": own,
         "payloads": payloads,
         "stiff": _stiff(params),

@@ -9,8 +9,8 @@ from typing import Any
 
 from tmm_gen.emit.templates import render
 from tmm_gen.errors import UserError
-from tmm_gen.inputs.signals import Sine
 from tmm_gen.playground.figure import figure_of
+from tmm_gen.playground.load import loads
 from tmm_gen.playground.method import method
 from tmm_gen.playground.payload import FACTORS, payload_of
 from tmm_gen.scene import Scene
@@ -45,33 +45,19 @@ def served_names(scene: Scene, names: Sequence[str]) -> tuple[str, ...]:
     return tuple(dict.fromkeys(own))
 
 
-def refusal(scene: Scene) -> tuple[str, str] | None:
-    """Return why no page shows a scene yet, to be read after its name, and what helps; None where one does."""
-    if scene.motions:
-        remedy = (
-            'Give the base kind = "motor" and an input that acts = "torque"'
-            if scene.spatial is None
-            else 'Write kind = "clamp" under [base], and a [[motor]] on it where the base turns'
-        )
-        moved = f"the input '{scene.motions[0].name}' moves the base, which a playground does not show yet"
-        return moved, f"{remedy}."
-    if scene.spatial is not None and scene.spatial.base is not None:
-        remedy = '`tmm-gen run --animate FILE.html` does; or write kind = "clamp" under [base].'
-        return "its base floats in space, which a playground does not show yet", remedy
-    return None
-
-
 def require_played(scene: Scene) -> None:
     """Refuse a scene that no page shows yet.
 
     Raises
     ------
     UserError
-        Where the base is moved by an input, or floats in space.
+        Where an input moves the base in space.
     """
-    if (found := refusal(scene)) is not None:
-        why, remedy = found
-        raise UserError(f"scene '{scene.name}': {why}. {remedy}")
+    if scene.motions and scene.spatial is not None:
+        raise UserError(
+            f"scene '{scene.name}': the input '{scene.motions[0].name}' moves its base in space, which a playground "
+            'does not show yet. Write kind = "clamp" under [base], and a [[motor]] on it where the base turns.'
+        )
 
 
 def playground(
@@ -108,11 +94,7 @@ def playground(
     data = {
         "name": scene.name,
         "figure": figure_of(scene),
-        "signals": [
-            {"name": key, "amplitude": signal.amplitude, "frequency": signal.frequency}
-            for key, signal in went.signals.items()
-            if isinstance(signal, Sine)
-        ],
+        "signals": loads(scene, went.signals),
         "until": length,
         "step": scene.integrator.step,
         "halvings": HALVINGS,

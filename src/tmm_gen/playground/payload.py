@@ -72,6 +72,7 @@ def _values(scene: Scene, integrator: Integrator) -> Iterator[tuple[str, tuple[f
         yield from ((each.name, each.values) for each in row_of(scene, integrator).parameters)
         return
     layout = layout_of(scene.spatial, scene.name, scene.title, integrator, scene.integrator.step)
-    for variable in layout.parameters.values():
+    of_base = layout.base.parameters.values() if layout.base else ()
+    for variable in (*layout.parameters.values(), *of_base):
         value = variable.default
         yield variable.name, value if isinstance(value, tuple) else (float(value or 0.0),)

@@ -21,8 +21,7 @@ def _way() -> Polynomial:
     return way / (2.0 * way(0.5))
 
 
-_WAY = _way()
-_RATE, _ACCELERATION = _WAY.deriv(), _WAY.deriv(2)
+_WAY = 0.5 + _way()
 
 
 @dataclass(frozen=True)
@@ -50,19 +49,23 @@ class Rise:
         """End of the rise, s."""
         return self.duration
 
+    def way(self, order: int) -> Polynomial:
+        """Return the way, or its derivative of an order, by how far on it is: -1/2 before it begins, 1/2 at its end."""
+        return self.amplitude / self.duration**order * (_WAY.deriv(order) if order else _WAY)
+
     def at(self, time: ArrayLike) -> Array:
         """Return the values at instants."""
-        values: Array = self.amplitude * (0.5 + _WAY(self._share(time)))
+        values: Array = self.way(0)(self._share(time))
         return values
 
     def slope(self, time: ArrayLike) -> Array:
         """Return the rates at instants."""
-        slopes: Array = self.amplitude / self.duration * _RATE(self._share(time))
+        slopes: Array = self.way(1)(self._share(time))
         return slopes
 
     def curvature(self, time: ArrayLike) -> Array:
         """Return the accelerations at instants."""
-        curvatures: Array = self.amplitude / self.duration**2 * _ACCELERATION(self._share(time))
+        curvatures: Array = self.way(2)(self._share(time))
         return curvatures
 
     def _share(self, time: ArrayLike) -> Array:
