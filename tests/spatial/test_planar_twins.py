@@ -15,6 +15,7 @@ from support.spatial.kernels import angles_of
 from tmm_gen.native.python_module import numpy_module
 from tmm_gen.program.build import build_program
 from tmm_gen.scene import Scene, parse_scene
+from tmm_gen.scene.model import MOST_SWEEPS
 
 STEPS, STEP = 200, 2e-3
 ALIKE = 1e-10
@@ -90,7 +91,7 @@ def moved(kind: str, arm: str, integrator: str) -> np.ndarray:
         iterated = scene(kind, arm, integrator, '"auto"')
         module, least = numpy_module(iterated, build_program(iterated, auto=True)), {"least_turn": 1e-6}
     else:
-        module, least = numpy_module(scene(kind, arm, integrator, 14 if kind == "spatial" else 6)), {}
+        module, least = numpy_module(scene(kind, arm, integrator, MOST_SWEEPS if kind == "spatial" else 6)), {}
     count = len(hosts(arm))
     angle, rate = np.linspace(0.5, -0.4, count), np.linspace(-1.0, 2.0, count)
     if kind == "planar":
