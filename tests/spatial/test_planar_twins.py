@@ -91,7 +91,8 @@ def moved(kind: str, arm: str, integrator: str) -> np.ndarray:
         iterated = scene(kind, arm, integrator, '"auto"')
         module, least = numpy_module(iterated, build_program(iterated, auto=True)), {"least_turn": 1e-6}
     else:
-        module, least = numpy_module(scene(kind, arm, integrator, MOST_SWEEPS if kind == "spatial" else 6)), {}
+        sweeps = MOST_SWEEPS if kind == "spatial" else 6
+        module, least = numpy_module(scene(kind, arm, integrator, sweeps)), {}
     count = len(hosts(arm))
     angle, rate = np.linspace(0.5, -0.4, count), np.linspace(-1.0, 2.0, count)
     if kind == "planar":
