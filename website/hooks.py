@@ -23,6 +23,10 @@ LINK = re.compile(r"(?<=\]\()(\.\./[^)#\s]+)")
 SHIM = re.compile(r'"https://unpkg\.com/iframe-worker/shim[^"]*"')
 """What the plugin `offline` fetches from elsewhere; `search.js` does the same."""
 
+CODE = re.compile(r"<code[^>]*>.*?</code>", re.S)
+WHOLE = re.compile(r"(?<=[\s>])--?[A-Za-z][\w-]*|\d+e-(?:<span[^>]*>)?\d+(?:</span>)?")
+"""Options and numbers, which lines may not break at their hyphens."""
+
 MARKER = re.compile(r"<!-- (gallery|playground: (\w+)) -->")
 
 
@@ -61,6 +65,11 @@ def on_page_markdown(markdown: str, page: Any, **_: Any) -> str:
     up = posixpath.relpath(".", posixpath.dirname(uri) or ".")
     markdown = LINK.sub(lambda found: posixpath.join(up, _shown(_target(uri, found[1]))), markdown)
     return MARKER.sub(lambda found: _filled(found[1], found[2]), markdown)
+
+
+def on_page_content(html: str, **_: Any) -> str:
+    """Keep options and numbers of commands whole where lines end."""
+    return CODE.sub(lambda code: WHOLE.sub(r'<span class="whole">\g<0></span>', code[0]), html)
 
 
 def on_post_page(output: str, page: Any, **_: Any) -> str:
