@@ -194,9 +194,8 @@ class _Split:
     def _inverse(self, value: Pair) -> Pair:
         re, im = self._named(value)
         size = self._let(re**2 + im**2, "size")
-        self._before.append(
-            Require(size)
-        )  # it may vanish by rounding alone, and intervals do not tell that it does not
+        # it may vanish by rounding alone, and intervals do not tell that it does not
+        self._before.append(Require(size))
         scale = self._let(1 / size, "scale")
         return scale * re, -scale * im
 
