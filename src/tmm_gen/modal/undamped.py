@@ -22,7 +22,7 @@ _DENSE = 60
 _MOST_DENSE = 2000
 """Free angles up to which all modes are found where a few alone are not known well enough."""
 
-_KNOWN = 1e-8
+KNOWN = 1e-8
 """Bound of an error that is good enough."""
 
 _JACOBI = 60
@@ -65,7 +65,7 @@ def undamped_modes(linear: Linear, count: int | None = None) -> Undamped:
     sought = wanted - turning.shape[1]
     few = size > _DENSE and 3 * (sought + springs.negative) < size
     found = _sorted(linear, springs, turning, sought, few)
-    if few and size <= _MOST_DENSE and np.max(found.bounds, initial=0.0) > _KNOWN:
+    if few and size <= _MOST_DENSE and np.max(found.bounds, initial=0.0) > KNOWN:
         # one very soft joint hides the others from an iteration on the whole
         found = _sorted(linear, springs, turning, sought, few=False)
     return found
