@@ -23,6 +23,9 @@ LINK = re.compile(r"(?<=\]\()(\.\./[^)#\s]+)")
 SHIM = re.compile(r'"https://unpkg\.com/iframe-worker/shim[^"]*"')
 """What the plugin `offline` fetches from elsewhere; `search.js` does the same."""
 
+ROLE = re.compile(r":(?:attr|class|data|func|meth|mod):\s*(?=<code)")
+"""What docstrings write before names for another tool."""
+
 CODE = re.compile(r"<code[^>]*>.*?</code>", re.S)
 WHOLE = re.compile(r"(?<=[\s>])--?[A-Za-z][\w-]*|\d+e-(?:<span[^>]*>)?\d+(?:</span>)?")
 """Options and numbers, which lines may not break at their hyphens."""
@@ -68,7 +71,8 @@ def on_page_markdown(markdown: str, page: Any, **_: Any) -> str:
 
 
 def on_page_content(html: str, **_: Any) -> str:
-    """Keep options and numbers of commands whole where lines end."""
+    """Keep options and numbers of commands whole where lines end, and roles of docstrings out of sight."""
+    html = ROLE.sub("", html)
     return CODE.sub(lambda code: WHOLE.sub(r'<span class="whole">\g<0></span>', code[0]), html)
 
 
