@@ -66,6 +66,28 @@ def to_lock(urdf: Path) -> list[str]:
     return [j.name for j in robot.joints.values() if j.kind == "prismatic" or (j.mimic and j.kind != "fixed")]
 
 
+def told(pin: ModuleType, robot: Path, states: int, folder: Path) -> list[str]:
+    """Say how a file compares, as it is or with joints locked, or why it is refused."""
+    said: list[str] = []
+    locked: list[str] = []
+    try:
+        imported_scene(robot)
+    except UserError as error:
+        said.append(f"{robot.name}: refused: {error}")
+        try:
+            locked = to_lock(robot)
+        except UserError:
+            return said
+        if not locked:
+            return said
+        said.append(f"{robot.name}: with {', '.join(locked)} locked:")
+    try:
+        count, apart = difference(pin, robot, locked, states, folder)
+    except UserError as error:
+        return [*said, f"{robot.name}: refused: {error}"]
+    return [*said, f"{robot.name}: {count} joints, {states} states: {apart:.1e}"]
+
+
 def main() -> None:
     """Print the largest differences."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -88,17 +110,7 @@ def main() -> None:
             f"{given.arms} robots drawn at random, {joints} joints, {given.states} states each: {worst:.1e}"
         )
         for robot in given.robots:
-            locked: list[str] = []
-            try:
-                imported_scene(robot)
-            except UserError as error:
-                print(f"{robot.name}: refused: {error}")
-                locked = to_lock(robot)
-                if not locked:
-                    continue
-                print(f"{robot.name}: with {', '.join(locked)} locked:")
-            count, apart = difference(pin, robot, locked, given.states, folder)
-            print(f"{robot.name}: {count} joints, {given.states} states: {apart:.1e}")
+            print("\n".join(told(pin, robot, given.states, folder)))
 
 
 if __name__ == "__main__":

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from tmm_gen.cli import main
+from tmm_gen.scene import load_scene
 from tmm_gen.urdf.faults import UrdfError
 from tmm_gen.urdf.scene_text import imported_scene
 
@@ -57,7 +58,7 @@ def test_what_all_others_are_made_of_is_good(tmp_path: Path) -> None:
         ("\n<!DOCTYPE robot [<!ENTITY a 'b'>]>\n<robot name='&a;'/>", "robot.urdf:2: <!DOCTYPE>: is not allowed"),
         ('<!DOCTYPE robot SYSTEM "file:///etc/passwd">\n<robot name="x"/>', "robot.urdf:1: <!DOCTYPE>: is not"),
         ("<sdf/>", "robot.urdf:1: <sdf>: is no <robot>. Name a URDF file"),
-        ("<robot/>", "robot.urdf:1: <robot>: has no attribute name. Add it, for example name=\"arm\"."),
+        ("<robot/>", "robot.urdf:1: robot 'robot': has no <link>. Name a file that holds the links."),
         ("<robot name='x'/>", "robot.urdf:1: robot 'x': has no <link>."),
         (
             "<robot name='x' xmlns:xacro='http://www.ros.org/wiki/xacro'>\n<xacro:arm/></robot>",
@@ -206,6 +207,37 @@ def test_the_remedy_for_joints_that_slide_works(tmp_path: Path) -> None:
     scene = imported_scene(tmp_path / "robot.urdf", tmp_path / "lock.toml")
     assert 'name = "f"\non = "j"\nat = [0, 0.25, 0]\n' in scene.text
     assert "# prismatic joint 'finger 1' locked at 0.25 m merged into 'j'" in scene.text
+
+
+def test_what_files_of_real_robots_hold_is_read(tmp_path: Path) -> None:
+    """A robot without a name, an impossible inertia that is part of the clamp, and what rounding leaves of zero."""
+    impossible = (
+        '<inertial><mass value="1e-6"/><inertia ixx="2e-8" iyy="3e-8" izz="4e-8" ixy="6e-8"/></inertial>'
+    )
+    rounded = '<inertia ixx="0" iyy="4e-18" izz="0" ixy="1e-20"/>'
+    link = f'<link name="c"><inertial><mass value="1"/>{rounded}</inertial></link>'
+    joint = '<joint name="k" type="fixed"><parent link="b"/><child link="c"/></joint>'
+    text = with_joint("", tail=f"{link}\n{joint}").replace(' name="arm"', "")
+    (tmp_path / "robot.urdf").write_text(
+        text.replace('<link name="a"/>', f'<link name="a">{impossible}</link>')
+    )
+    scene = imported_scene(tmp_path / "robot.urdf")
+    (tmp_path / "scene.toml").write_text(scene.text)
+    arm = load_scene(tmp_path / "scene.toml").spatial
+    assert arm is not None
+    assert [joint.body.mass for joint in arm.joints] == [2.0]
+    assert "inertia left out: it is what rounding left of zero" in scene.text
+    assert "link 'a' is part of the clamped base: its mass does nothing" in scene.decisions
+    assert "the robot has no name: it is called after its file" in scene.decisions
+
+
+@pytest.mark.parametrize("lock", ["lock", "rotor_inertia"])
+def test_the_remedies_for_joints_that_carry_nothing_work(lock: str, tmp_path: Path) -> None:
+    (tmp_path / "robot.urdf").write_text(
+        with_joint("", tail=JOINT.format("").replace('"j"', '"k"').replace('"b"', '"c"') + '<link name="c"/>')
+    )
+    (tmp_path / "give.toml").write_text(f"[joint.k]\n{lock} = 0.01\n")
+    assert "j" in imported_scene(tmp_path / "robot.urdf", tmp_path / "give.toml").motors
 
 
 @pytest.mark.parametrize("name", ["nothing.urdf", "folder", "a/b"])

@@ -15,7 +15,7 @@ from tmm_gen.urdf.identifiers import Names
 from tmm_gen.urdf.placement import Place
 from tmm_gen.urdf.robot import RobotJoint, RobotLink
 from tmm_gen.urdf.tree import RobotTree
-from tmm_gen.urdf.weights import cannot_be, own_inertia, require_inertia
+from tmm_gen.urdf.weights import cannot_be, is_rounding, own_inertia, require_inertia, require_possible
 
 PLACES = ("base", "arm", "tip")
 """Words that a scene has for places, which no part may be called by."""
@@ -71,6 +71,7 @@ class Parts:
         robot = self.tree.robot
         faults, of_sidecar = Faults(robot.file), Faults(self.flexibility.file)
         self._name()
+        require_possible(self.tree, faults)
         require_inertia(self.tree, self.flexibility, faults)
         standing = {self.tree.root.name: Standing("base", Place.of())}
         for link in self.tree.outward():
@@ -148,7 +149,9 @@ class Parts:
             entry.put("mass", inertial.mass)
             if inertial.origin.at.any():
                 entry.put("center", inertial.origin.at.tolist())
-            if inertia.any():
+            if is_rounding(inertial):
+                entry.decisions.append("inertia left out: it is what rounding left of zero")
+            elif inertia.any():
                 entry.put("inertia", _six(inertia))
         else:
             moves = here.place.at.any() or not np.array_equal(here.place.turn, np.eye(3))

@@ -7,14 +7,12 @@ from collections import Counter
 from pathlib import Path
 from typing import TypeVar, get_args
 
-import numpy as np
-
 from tmm_gen.scene.table import closest
 from tmm_gen.urdf.attributes import Reader
 from tmm_gen.urdf.content import content_of
 from tmm_gen.urdf.faults import Faults
 from tmm_gen.urdf.markup import Element, read_markup
-from tmm_gen.urdf.placement import Vector, matrix_of
+from tmm_gen.urdf.placement import Vector
 from tmm_gen.urdf.robot import KINDS, Inertial, Kind, Robot, RobotJoint, RobotLink
 
 _OF_LINKS = ("inertial", "visual", "collision")
@@ -32,8 +30,6 @@ _OF_JOINTS = (
 _OF_ROBOTS = ("link", "joint", "material", "transmission", "gazebo")
 _PRODUCTS = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
 _Named = TypeVar("_Named", RobotLink, RobotJoint)
-_ROUNDING = 1e-9
-"""Of the largest moment of inertia: how far digits cut off may make a matrix seem impossible."""
 
 
 def read_robot(path: Path) -> Robot:
@@ -61,12 +57,14 @@ def read_robot(path: Path) -> Robot:
         remedy = "Name a URDF file: its outermost element is <robot name=...>."
         faults.add(root.line, f"<{root.tag}>", "is no <robot>", remedy)
         faults.settle()
-    name = Reader(faults, "").text(root, "name", "arm")
     _refuse_xacro(root, faults)
+    name = root.attributes.get("name", "").strip() or path.name.partition(".")[0]
     Reader(faults, f"robot '{name}'").misspelt(root, _OF_ROBOTS)
     links: dict[str, RobotLink] = {}
     joints: dict[str, RobotJoint] = {}
     notes: list[str] = []
+    if not root.attributes.get("name", "").strip():
+        notes.append("the robot has no name: it is called after its file")
     for element in root.children:
         if element.tag == "link":
             _keep(links, _link(element, faults, notes), "link", faults)
@@ -132,26 +130,8 @@ def _inertial(element: Element, reader: Reader) -> Inertial:
             )
     ixx, iyy, izz, ixy, ixz, iyz = numbers
     inertia = (ixx, iyy, izz, ixy, ixz, iyz)
-    _possible(inertia, inertia_element, reader)
-    return Inertial(element.line, mass, reader.origin(element), inertia)
-
-
-def _possible(
-    inertia: tuple[float, float, float, float, float, float], element: Element | None, reader: Reader
-) -> None:
-    """Refuse an inertia matrix by which a body would turn the wrong way about some axis."""
-    largest = max(map(abs, inertia))
-    if element is None or largest == 0.0:
-        return
-    # over the largest, so that neither huge nor tiny ones leave the range
-    least = float(np.linalg.eigvalsh(matrix_of(inertia) / largest)[0])
-    if least < -_ROUNDING:
-        reader.faults.add(
-            element.line,
-            f"{reader.owner} <inertia>",
-            f"has the principal moment {least * largest:g} kg m^2; no body has a negative one",
-            "Check signs and the axes of the products of inertia.",
-        )
+    line = element.line if inertia_element is None else inertia_element.line
+    return Inertial(element.line, mass, reader.origin(element), inertia, line)
 
 
 def _joint(element: Element, faults: Faults, notes: list[str]) -> RobotJoint:

@@ -28,12 +28,15 @@ class Inertial:
         Centre of mass, and the axes of the inertia, in the link's frame.
     inertia : tuple of float, length 6
         About the centre of mass, in those axes: xx, yy, zz, xy, xz, yz, kg m^2.
+    inertia_line : int
+        Of the element that says the inertia.
     """
 
     line: int
     mass: float
     origin: Place
     inertia: tuple[float, float, float, float, float, float]
+    inertia_line: int
 
 
 @dataclass(frozen=True)

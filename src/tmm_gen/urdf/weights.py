@@ -14,6 +14,10 @@ from tmm_gen.urdf.tree import RobotTree
 
 _ROUNDING = 1e-13
 """Of the largest moment of inertia at hand: what is less is none."""
+_DIGITS = 1e-9
+"""Of the largest moment of inertia: how far digits cut off may make a matrix seem impossible."""
+_SPECK = 1e-6
+"""m; a moment of inertia that mass as near as this to the centre has is none."""
 
 
 def own_inertia(inertial: Inertial) -> Floats:
@@ -29,6 +33,38 @@ def cannot_be(inertia: Floats) -> bool:
     """Whether no body of positive mass has an inertia: one principal moment exceeds the sum of the others."""
     low, middle, high = np.linalg.eigvalsh(inertia)
     return bool(high > (low + middle) * (1.0 + 1e-6))
+
+
+def is_rounding(inertial: Inertial) -> bool:
+    """Whether an inertia is what rounding left of zero: that of no body, and far too small for this mass."""
+    largest = max(map(abs, inertial.inertia))
+    return largest <= inertial.mass * _SPECK**2 and _least(inertial) < 0.0
+
+
+def _least(inertial: Inertial) -> float:
+    """Return the least principal moment, kg m^2."""
+    largest = max(map(abs, inertial.inertia))
+    # over the largest, so that neither huge nor tiny ones leave the range
+    return largest * float(np.linalg.eigvalsh(matrix_of(inertial.inertia) / largest)[0]) if largest else 0.0
+
+
+def require_possible(tree: RobotTree, faults: Faults) -> None:
+    """Refuse inertias by which a body would turn the wrong way; those of the clamped base do nothing."""
+    clamped = {tree.root.name}
+    for link in tree.outward():
+        here = link.name in clamped
+        clamped |= {j.child for j in tree.leaving.get(link.name, ()) if here and j.kind == "fixed"}
+        inertial = link.inertial
+        if here or inertial is None or is_rounding(inertial):
+            continue
+        least = _least(inertial)
+        if least < -_DIGITS * max(map(abs, inertial.inertia)):
+            faults.add(
+                inertial.inertia_line,
+                f"link '{link.name}' <inertia>",
+                f"has the principal moment {least:g} kg m^2; no body has a negative one",
+                "Check signs and the axes of the products of inertia.",
+            )
 
 
 @dataclass
@@ -74,8 +110,8 @@ def require_inertia(tree: RobotTree, flexibility: Flexibility, faults: Faults) -
                     joint.line,
                     f"joint '{joint.name}'",
                     "carries nothing that has inertia about its axis",
-                    "Give a link behind it an <inertial>, or the joint a rotor_inertia in a file given by --flex, or "
-                    'make it type="fixed".',
+                    "Give a link behind it an <inertial>, or the joint a rotor_inertia or `lock = 0.0` in a file given "
+                    "by --flex.",
                 )
 
 
