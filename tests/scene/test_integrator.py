@@ -20,6 +20,7 @@ def test_names() -> None:
         "generalized_alpha",
         "bathe",
         "park",
+        "mixed",
         "zhai",
         "sdirk2",
         "sdirk4",
@@ -59,6 +60,8 @@ def test_defaults_are_in_range(method: Method) -> None:
         ("bathe", "gamma", 0.6, True),
         ("zhou", "g1", -3.0, True),
         ("zhai", "psi", -0.1, True),
+        ("mixed", "delta", 0.01, True),
+        ("mixed", "delta", -1e-9, False),
     ],
 )
 def test_ranges(chain: str, name: str, parameter: str, value: float, accepted: bool) -> None:

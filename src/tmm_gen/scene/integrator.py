@@ -105,6 +105,7 @@ METHODS: tuple[Method, ...] = (
     Method("bathe", (Parameter("gamma", 0.5, 0.0, 1.0, open=True),)),
     Method("park", multistep=True),
     Method("zhai", (Parameter("psi", 0.5), Parameter("phi", 0.5)), {}, multistep=True),
+    Method("mixed", (Parameter("delta", 0.0, 0.0, 0.03125),), multistep=True),
     Method("sdirk2"),
     Method("sdirk4"),
     Method("radau2", coupled=True),

@@ -19,7 +19,7 @@ from tmm_gen.derive.integrators.stability import radius_at_infinity, stability_l
 from tmm_gen.errors import UserError
 
 NAMES = names()
-UNCONDITIONAL = sorted({*NAMES} - {"zhou", "zhai"})
+UNCONDITIONAL = sorted({*NAMES} - {"mixed", "zhou", "zhai"})
 
 
 def linear(name: str, **parameters: float | sp.Expr) -> Amplification:
@@ -117,6 +117,8 @@ def test_zhai_undamped_is_the_central_difference_method() -> None:
         integrator("zhai", psi=0.3, phi=0.4),
         integrator("zhou"),
         integrator("zhou", g1=0, g2=0),
+        integrator("mixed"),
+        integrator("mixed", delta=0.02),
     ],
     ids=lambda m: "-".join([m.name, *map(str, m.parameters.values())]),
 )

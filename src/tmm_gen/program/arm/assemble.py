@@ -109,9 +109,9 @@ class _Assembly:
         """Build the program."""
         layout = self.layout
         main, startup = stepped(self.integrator, self.hoister, self._step)
-        if self.choices.first_iterations is not None:
-            startup = (self.hoister.hoist(self._first_step()),)
         instants = tuple(input_instants(self.row, scheme) for scheme in self.integrator.schemes)
+        if self.choices.first_iterations is not None:
+            startup, instants = (self.hoister.hoist(self._first_step()),), (*instants, instants[-1])
         turned = TURNED if self.choices.turns_apart else None
         output = self.hoister.hoist(output_routine(layout, turned))
         combined = tuple(self.combinations.variables.values())
@@ -137,7 +137,7 @@ class _Assembly:
             startup=startup,
             main=main,
             output=output,
-            stage_instants=(*instants, instants[-1])[-1 - len(startup) :],
+            stage_instants=instants,
             facts=self._facts(),
         )
         alive = living(whole, auto=self.choices.auto)
