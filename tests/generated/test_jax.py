@@ -27,7 +27,7 @@ jnp = jax.numpy
 
 ROOT = Path(__file__).resolve().parents[2]
 CASES: dict[str, tuple[str, dict[str, Any], bool]] = {
-    "chain with start-up steps": ("scenes/thesis2", {"integrator.name": "zhou"}, True),
+    "chain with start-up steps": ("scenes/thesis2", {"integrator.name": "mixed"}, True),
     "sweeps until it is solved": ("scenes/arm2", {"integrator.name": "newmark", "integrator.step": 0.02}, True),
     "chain with stages": ("scenes/drivetrain", {"integrator.name": "sdirk2"}, False),
     "geared shafts": ("scenes/geartrain", {}, False),

@@ -15,6 +15,7 @@ BUDGETS = {
     "park": (28, 123),
     "zhai": (17, 82),
     "zhou": (26, 119),
+    "mixed": (30, 123),
     "bathe": (46, 234),
     "generalized_alpha": (31, 122),
     "sdirk2": (40, 230),

@@ -16,7 +16,7 @@ pytestmark = pytest.mark.compiler
 
 ROOT = Path(__file__).resolve().parents[3]
 CASES: dict[str, dict[str, Any]] = {
-    "thesis10": {"integrator": {"name": "houbolt", "step": 0.002}, "emit.batch": 8},
+    "thesis10": {"integrator": {"name": "mixed", "step": 0.002}, "emit.batch": 8},
     "arm2": {"integrator": {"name": "sdirk4", "step": 0.002}, "emit.trigonometry": "own", "emit.batch": 4},
     "fall10": {"emit.real": "float32", "emit.trigonometry": "own", "emit.batch": 16},
     "drivetrain": {"emit.batch": 8},

@@ -137,7 +137,7 @@ def test_a_prescribed_angle_alone_is_gone_to_along_a_straight_line(
 def test_start_up_steps_and_single_precision(
     version: FmiVersion, scene_named: Any, instance: Any, direct: Any
 ) -> None:
-    scene = scene_named("thesis2").replace(**{"integrator.name": "houbolt", "emit.real": "float32"})
+    scene = scene_named("thesis2").replace(**{"integrator.name": "mixed", "emit.real": "float32"})
     unit, kernel = instance(scene, version), direct(scene)
     assert kernel.program.startup
     unit.begin(tip_torque=1.0)

@@ -111,8 +111,10 @@ class Kernel:
 
     @property
     def instants(self) -> str:
-        """The instants of the main step at which inputs are read, in words."""
-        return instants(self.program.stage_instants[-1])
+        """The instants of a step at which inputs are read, in words; first steps that differ are told apart."""
+        *early, main = self.program.stage_instants
+        told = [f"in step {k} {instants(at)}" for k, at in enumerate(early, start=1) if at != main]
+        return ", ".join([*told, f"{'then ' if told else ''}{instants(main)}"])
 
     @property
     def when(self) -> str:
