@@ -60,6 +60,7 @@ WORDS = (
     ),
     *("newmark", "sdirk4", "sdirk2", "park", "houbolt", "bathe", "wilson", "zhou", "zhai", "fox_euler"),
     *(
+        "mixed",
         "generalized_alpha",
         "acceleration",
         "riccati",

@@ -133,3 +133,17 @@ def test_text_does_not_depend_on_the_hash_seed(tmp_path: Any, chain: Any) -> Non
         texts.add(done.stdout)
     (text,) = texts
     assert len(text) > 10_000
+
+
+@pytest.mark.parametrize(
+    ("integrator", "told"),
+    [
+        ("mixed", "in step 1 0.333333 of the step and the end of the step, then the end of the step"),
+        ("bathe", "0.5 of the step and the end of the step"),
+    ],
+)
+def test_the_header_says_when_inputs_are_read_in_first_steps_too(
+    integrator: str, told: str, chain: Any
+) -> None:
+    header = " ".join(chain(integrator=integrator).files["c/arm.h"].replace("\n *", "").split())
+    assert f"at which inputs are read: {told}. */" in header

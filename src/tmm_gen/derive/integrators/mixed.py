@@ -75,7 +75,7 @@ def stable_weights() -> tuple[tuple[sp.Expr, ...], tuple[sp.Expr, ...]]:
 
 
 def integral_weights(instants: tuple[sp.Expr, ...], times: int) -> tuple[sp.Expr, ...]:
-    """Return the weights of accelerations in the integral over the step, ``times`` over, of the polynomial through them."""
+    """Return weights of accelerations in the integral over the step, ``times`` over, of the polynomial through them."""
     found = []
     for polynomial in lagrange(instants):
         for _ in range(times):
