@@ -67,7 +67,7 @@ at = "forearm"
 of = "position"
 """
 CASES: dict[str, tuple[str, dict[str, Any]]] = {
-    "start-up steps, a chain": ("scenes/thesis10", {"integrator": {"name": "houbolt", "step": 0.002}, "emit.batch": 8}),
+    "start-up steps, a chain": ("scenes/thesis10", {"integrator": {"name": "mixed", "step": 0.002}, "emit.batch": 8}),
     "stages": ("scenes/arm2", {**OWN_SINES, "integrator": {"name": "sdirk4", "step": 0.002}}),
     "four lanes, branches": ("scenes/gripper", {**OWN_SINES, "emit.batch": 4}),
     "a free base": ("scenes/cube", OWN_SINES),
