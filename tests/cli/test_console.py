@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import re
 import json
 import math
 import os
@@ -16,6 +17,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tmm_gen.cli import console
 from tmm_gen.cli.console import Column, plain, print_json, progress, table
 
 JSON_VALUES = st.recursive(
@@ -123,6 +125,26 @@ def test_progress_is_silent_where_nobody_looks(monkeypatch: pytest.MonkeyPatch) 
         advance()
         advance(1, "still measuring")
     assert stream.getvalue() == ""
+
+
+def test_long_work_says_so_in_lines_where_nobody_sees_a_bar(monkeypatch: pytest.MonkeyPatch) -> None:
+    stream, told = io.StringIO(), threading.Event()
+    write = stream.write
+
+    def watch(text: str) -> int:
+        if "refining" in text:
+            told.set()
+        return write(text)
+
+    monkeypatch.setattr(stream, "write", watch)
+    monkeypatch.setattr(sys, "stderr", stream)
+    monkeypatch.setattr(console, "_QUIET", 0.01)
+    before = threading.active_count()
+    with progress("checking arm", 1.0) as advance:
+        advance(0.4, "refining the step")
+        assert told.wait(timeout=60)
+    assert re.search(r"^checking arm: refining the step \(40 %\), \d+ s so far$", stream.getvalue(), re.M)
+    assert threading.active_count() == before
 
 
 def test_progress_does_not_show_for_short_work(monkeypatch: pytest.MonkeyPatch) -> None:

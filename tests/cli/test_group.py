@@ -15,6 +15,8 @@ from tmm_gen import __version__, cli
 from tmm_gen.cli.lazy import LazyCommand
 from tmm_gen.errors import CheckFailed, UserError
 from tmm_gen.scene.problem import Problem, SceneError
+from tmm_gen.study.outcome import Outcome, Result
+from tmm_gen.study.store import Store
 
 Call = Callable[..., subprocess.CompletedProcess[str]]
 HEAVY = {"sympy", "numpy", "scipy", "casadi", "matplotlib", "mpmath", "pydantic", "rich", "jinja2"}
@@ -120,13 +122,26 @@ def test_errors_end_with_their_code(
     assert capsys.readouterr().err == said
 
 
-def test_an_interrupted_study_says_how_to_go_on(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+def test_an_interrupted_study_says_what_is_kept(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    for words in (["--store", "study.sqlite"], ["--store=study.sqlite"]):
-        monkeypatch.setattr(cli, "_invoke", lambda _: (_ for _ in ()).throw(KeyboardInterrupt))
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(cli, "_invoke", lambda _: (_ for _ in ()).throw(KeyboardInterrupt))
+
+    def said(*words: str) -> str:
         assert cli.main(["trade", "arm.toml", *words]) == 130
-        assert "study.sqlite keeps what was computed" in capsys.readouterr().err
+        return capsys.readouterr().err
+
+    assert (
+        said("--store", "none.sqlite") == "error: interrupted. none.sqlite was not begun: nothing is kept.\n"
+    )
+    assert not Path("none.sqlite").exists()
+    with Store(Path("study.sqlite")) as store:
+        assert "study.sqlite keeps nothing yet" in said("--store=study.sqlite")
+        store.keep_reference("a", b"motion")
+        assert "keeps the reference motion, but no result yet" in said("--store", "study.sqlite")
+        store.keep("b", Result(Outcome.DIVERGED))
+        assert "keeps 1 result: the same command goes on" in said("--store", "study.sqlite")
 
 
 @pytest.mark.parametrize("defect", [ZeroDivisionError("0/0"), OSError("no file named")])

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from tmm_gen.cli import main
+from tmm_gen.control.bench import Bench
 
 pytestmark = pytest.mark.compiler
 
@@ -49,6 +50,17 @@ def test_a_controller_is_written_in_c(tmm_gen: Call, tmp_path: Path, repository:
     assert (tmp_path / "controller" / f"{shown['name']}.h").is_file()
     assert (tmp_path / "controller" / "daqp" / "LICENSE").is_file()
     assert (tmp_path / "controller" / "example" / "example.c").is_file()
+
+
+def test_a_folder_that_has_a_controller_is_refused_before_the_work(
+    tmp_path: Path, repository: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "CMakeLists.txt").write_text("mine")
+    monkeypatch.setattr(Bench, "of", lambda _: pytest.fail("work was begun"))
+    assert main(["mpc", str(repository / "scenes" / "swing.toml"), "--emit", "."]) == 2
+    assert "--emit .: there is a CMakeLists.txt already." in capsys.readouterr().err
+    assert (tmp_path / "CMakeLists.txt").read_text() == "mine"
 
 
 def test_a_controller_can_have_a_name_of_its_own(tmm_gen: Call, tmp_path: Path, repository: Path) -> None:

@@ -14,6 +14,7 @@ import sys
 import threading
 import warnings
 from collections.abc import Iterator, Sequence
+from pathlib import Path
 
 import click
 from click.shell_completion import shell_complete
@@ -135,9 +136,9 @@ def _code(words: list[str]) -> int:
             return _printing_failed(stop.__context__)
         raise
     except KeyboardInterrupt:
-        return _fail(_interrupted(words), 130)
+        return _fail(_ended("interrupted", words), 130)
     except _ToldToEnd:
-        return _fail("told to end", 143)
+        return _fail(_ended("told to end", words), 143)
     except OSError as error:
         if error.filename is None:
             if error.errno not in _OF_OUTPUT:
@@ -181,13 +182,15 @@ def _usage(error: click.ClickException) -> str:
     return f"{ended} `{context.command_path} --help` shows what there is."
 
 
-def _interrupted(words: list[str]) -> str:
-    """Return what to say of an interruption: a study with a store can go on."""
+def _ended(how: str, words: list[str]) -> str:
+    """Return what to say of an end before the end: a study with a store can go on, from what is in it."""
     for word, following in zip(words, [*words[1:], ""], strict=True):
         option, _, value = word.partition("=")
         if option == "--store" and (store := value or following):
-            return f"interrupted. {store} keeps what was computed: the same command goes on from there."
-    return "interrupted"
+            from tmm_gen.study.store import kept_in
+
+            return f"{how}. {store} {kept_in(Path(store))}"
+    return how
 
 
 class _ToldToEnd(BaseException):

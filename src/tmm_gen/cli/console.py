@@ -7,8 +7,9 @@ import math
 import shutil
 import sys
 import threading
+import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from enum import Enum
 from pathlib import PurePath
@@ -20,6 +21,8 @@ __all__ = ["Advance", "Column", "plain", "print_json", "progress", "say_written"
 
 # rich is imported inside functions: it costs more than all of `tmm-gen --help`.
 
+_QUIET = 15.0
+"""Seconds of work after which those who see no bar are told that it goes on."""
 _WIDE = 10_000  # columns; a table that goes to a file or a pipe is not to be folded
 
 
@@ -208,10 +211,39 @@ class Advance(Protocol):
 
 
 @contextmanager
+def _in_lines(title: str, total: float | None) -> Iterator[Advance]:
+    """Say on standard error how long work goes on, in lines that become rarer the longer it does."""
+    over, begun = threading.Event(), time.monotonic()
+    done, now, stream = 0.0, "", sys.stderr
+
+    def advance(count: float = 1, doing: str | None = None) -> None:
+        nonlocal done, now
+        done, now = done + count, doing or now
+
+    def tell() -> None:
+        wait = _QUIET
+        while not over.wait(wait):
+            wait = time.monotonic() - begun
+            share = f" ({min(100.0 * done / total, 99.0):.0f} %)" if total and done else ""
+            what = f": {now}" if now and now != title else ""
+            with suppress(OSError, ValueError):  # a stream that was closed meanwhile
+                print(f"{title}{what}{share}, {wait:.0f} s so far", file=stream, flush=True)
+
+    teller = threading.Thread(target=tell, daemon=True)
+    teller.start()
+    try:
+        yield advance
+    finally:
+        over.set()
+        teller.join()
+
+
+@contextmanager
 def progress(doing: str, total: float | None = None, *, after: float = 1.0) -> Iterator[Advance]:
     """Show a progress bar on standard error while the block runs.
 
-    Nothing is shown where standard error is not a terminal, nor for work shorter than `after`.
+    Nothing is shown of work shorter than `after`. Where standard error is no terminal a line says what is being done,
+    once the work has taken `_QUIET` seconds, and again each time it has taken twice as long.
 
     Parameters
     ----------
@@ -228,7 +260,8 @@ def progress(doing: str, total: float | None = None, *, after: float = 1.0) -> I
         To be called as work is done.
     """
     if not sys.stderr.isatty():
-        yield lambda count=1, doing=None: None
+        with _in_lines(doing, total) as tell:
+            yield tell
         return
 
     from rich.console import Console

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from tmm_gen.cli.console import Column, progress, table
-from tmm_gen.cli.outputs import write_outputs
+from tmm_gen.cli.outputs import OutputFolder, write_outputs
 
 if TYPE_CHECKING:
     from tmm_gen.report.arm_demo import ArmDemo
@@ -44,7 +44,7 @@ _THESIS_COLUMNS: list[Column | str] = [
 @click.command("demo")
 @click.option(
     "--out",
-    type=click.Path(file_okay=False, path_type=Path),
+    type=OutputFolder(),
     default=Path("out/demo"),
     show_default=True,
     help="Folder for kernels, table and picture; made if missing.",

@@ -11,7 +11,7 @@ from tmm_gen.cli.changes import changed_scene
 from tmm_gen.cli.console import progress
 from tmm_gen.cli.given import plot_option, positive
 from tmm_gen.cli.mpc_tune import EVERYTHING, tuned
-from tmm_gen.cli.outputs import OutputFile, claim, force_option, require_new
+from tmm_gen.cli.outputs import OutputFile, OutputFolder, claim, force_option, require_new
 from tmm_gen.cli.study_options import one_thread
 
 if TYPE_CHECKING:
@@ -64,7 +64,7 @@ _MOVING = (".gif", ".html")
     "--emit",
     "folder",
     metavar="DIR",
-    type=click.Path(file_okay=False, path_type=Path),
+    type=OutputFolder(),
     help="Write the controller as C for a microcontroller, for a hub mpc-modes, for motors by name rti-zero unless "
     "one is chosen; no comparison.",
 )
@@ -140,7 +140,7 @@ def mpc(
     rounds and its other sensors are noisy. Conditions change it in ways the controllers do not know, except for
     gravity and delay.
     """
-    from tmm_gen.cli.mpc_report import emit, list_all, show, write_files
+    from tmm_gen.cli.mpc_report import emit, list_all, require_free, show, write_files
 
     one_thread()
     loaded = changed_scene(scene)
@@ -155,6 +155,8 @@ def mpc(
     if listed:
         list_all(json_mode)
         return
+    if folder is not None and not tunables:
+        require_free(folder, force)
     from tmm_gen.control.bench import Bench
     from tmm_gen.control.walls import far_behind
 

@@ -94,6 +94,23 @@ def write_files(bench: Bench, trials: list[Trial], picture: Path | None, animate
     return write_outputs(files)
 
 
+def require_free(folder: Path, force: bool) -> None:
+    """Refuse a folder that has a controller, before one is made.
+
+    Raises
+    ------
+    UserError
+        If there is one, unless forced.
+    """
+    from tmm_gen.onboard.folder import CMAKE, EXAMPLE
+
+    taken = next((name for name in (CMAKE, EXAMPLE) if (folder / name).exists()), None)
+    if taken and not force:
+        raise UserError(
+            f"--emit {folder}: there is a {taken} already. Name another folder, or replace what is there with --force."
+        )
+
+
 def emit(
     bench: Bench, names: list[str], folder: Path, real: str, prefix: str | None, force: bool, json_mode: bool
 ) -> None:

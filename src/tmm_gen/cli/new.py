@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from tmm_gen.cli.outputs import write_outputs
+from tmm_gen.cli.outputs import OutputFolder, write_outputs
 from tmm_gen.errors import UserError
 
 if TYPE_CHECKING:
@@ -39,7 +39,7 @@ _NOT_TO_START_WITH: Mapping[tuple[str, str], str] = {
 )
 @click.option(
     "--out",
-    type=click.Path(file_okay=False, path_type=Path),
+    type=OutputFolder(),
     default=Path("scenes"),
     show_default=True,
     help="Folder to write to; made if missing.",

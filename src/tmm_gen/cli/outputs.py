@@ -12,7 +12,7 @@ import click
 from tmm_gen.errors import UserError
 from tmm_gen.files import require_target, write_tree_whole
 
-__all__ = ["OutputFile", "claim", "force_option", "require_new", "write_outputs"]
+__all__ = ["OutputFile", "OutputFolder", "claim", "force_option", "require_new", "write_outputs"]
 
 force_option = click.option("--force", is_flag=True, help="Replace what is there under that name.")
 """The option of commands that write scenes or sources; gives the argument ``force``."""
@@ -44,6 +44,19 @@ class OutputFile(click.Path):
             raise UserError(f"{option} {path}: {error.strerror}.") from None
         _require_place(target, f"{option} {path}")
         return path
+
+
+class OutputFolder(click.Path):
+    """A folder to write into, known to be none that cannot be before any work begins."""
+
+    def __init__(self) -> None:
+        super().__init__(file_okay=False, path_type=Path)
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Path:
+        """Return the path, or say on one line why nothing can be written there."""
+        folder = Path(super().convert(value, param, ctx))
+        _require_place(folder / "any", f"{param.opts[-1] if param else 'folder'} {folder}")
+        return folder
 
 
 def _require_place(target: Path, where: str) -> None:

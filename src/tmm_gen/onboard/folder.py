@@ -11,6 +11,9 @@ from tmm_gen.onboard.text import ControllerText
 EXAMPLE = "example/example.c"
 """The only source with a ``main``, in a folder of its own, so that the others can be taken all together."""
 
+CMAKE = "CMakeLists.txt"
+"""How to build it."""
+
 
 def library_sources(files: Mapping[str, str]) -> list[str]:
     """Return the sources of a controller, without its example."""
@@ -18,7 +21,7 @@ def library_sources(files: Mapping[str, str]) -> list[str]:
 
 
 def complete(mpc: ControllerText, files: Mapping[str, str], arm: ExampleArm) -> dict[str, str]:
-    """Return the files with a CMakeLists.txt and an example.
+    """Return the files with how to build them and an example.
 
     Parameters
     ----------
@@ -33,5 +36,5 @@ def complete(mpc: ControllerText, files: Mapping[str, str], arm: ExampleArm) -> 
     return {
         **files,
         EXAMPLE: render("control/example.c.jinja", **context),
-        "CMakeLists.txt": render("control/CMakeLists.txt.jinja", **context),
+        CMAKE: render("control/CMakeLists.txt.jinja", **context),
     }

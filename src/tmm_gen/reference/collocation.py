@@ -100,6 +100,7 @@ def integrate(
     now, q, v = float(breaks[0]), np.array(angle, float), np.array(rate, float)
     ends, angles, rates, coefficients = [now], [], [], []
     h = span * 1e-3
+    once, twice = _integrals(np.array([1.0]))
     for goal in np.asarray(breaks, float)[1:].tolist():
         guess: Array | None = None
         while now < goal:
@@ -121,7 +122,6 @@ def integrate(
             angles.append(q)
             rates.append(v)
             coefficients.append(c)
-            once, twice = _integrals(np.array([1.0]))
             q = q + size * v + size**2 * (twice @ c)[0]
             v = v + size * (once @ c)[0]
             now = ends[-1]

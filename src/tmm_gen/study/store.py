@@ -18,7 +18,7 @@ from types import TracebackType
 from typing import Any
 
 from tmm_gen.study.outcome import Outcome, Result
-from tmm_gen.study.store_errors import ForeignStoreError, damaged, told
+from tmm_gen.study.store_errors import ForeignStoreError, StoreError, damaged, told
 
 _LAYOUT = 2
 """Changes with the tables below; a file of another layout is refused."""
@@ -108,6 +108,11 @@ class Store:
         """Put a reference motion in."""
         self._keep("reference", key, content)
 
+    def counts(self) -> tuple[int, int]:
+        """Return how many results and how many reference motions there are, of all studies that used the file."""
+        (found,) = self._run("SELECT (SELECT COUNT(*) FROM result), (SELECT COUNT(*) FROM reference)")
+        return int(found[0]), int(found[1])
+
     def begin(self, key: str) -> None:
         """Note that a result is being computed."""
         self._run("INSERT INTO computation VALUES (?, ?, ?)", key, os.getpid(), time.time())
@@ -184,6 +189,22 @@ class Store:
             "SELECT name, sql FROM sqlite_master WHERE type = 'table'"
         ).fetchall()
         return dict(found)
+
+
+def kept_in(path: Path) -> str:
+    """Return what a store has for who goes on with an interrupted study, in words that follow its name."""
+    if not path.exists():
+        return "was not begun: nothing is kept."
+    try:
+        with Store(path) as store:
+            results, references = store.counts()
+    except StoreError:
+        return "cannot be read: what it keeps is not known."
+    if results:
+        return f"keeps {results} result{'s' * (results > 1)}: the same command goes on from there."
+    if references:
+        return "keeps the reference motion, but no result yet: the same command goes on from there."
+    return "keeps nothing yet."
 
 
 def _digest(table: str, key: str, content: bytes) -> str:
