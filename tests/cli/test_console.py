@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import io
-import re
 import json
 import math
 import os
+import re
 import sys
 import threading
 from enum import Enum

@@ -54,7 +54,7 @@ class OutputFolder(click.Path):
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Path:
         """Return the path, or say on one line why nothing can be written there."""
-        folder = Path(super().convert(value, param, ctx))
+        folder = Path(os.fsdecode(super().convert(value, param, ctx)))
         _require_place(folder / "any", f"{param.opts[-1] if param else 'folder'} {folder}")
         return folder
 
