@@ -74,6 +74,18 @@ def test_what_is_told_is_told_of_each_motor_in_the_order_of_the_arm() -> None:
     assert np.all(np.isinf(problem.torque_rate))
 
 
+def test_modes_are_no_fewer_than_motors() -> None:
+    assert control_problem(parse_scene(ARM + CONTROL)).modes == 6
+    written = CONTROL.replace("[control]", "[control]\nmodes = 2")
+    assert control_problem(parse_scene(ARM + written)).modes == 2
+    third = '[[motor]]\nname = "third"\non = "fore"\nrotor_inertia = 1e-5\n'
+    third += '[[link]]\nname = "hand"\non = "third"\nlength = 0.1\nmass = 0.1\ninertia = 1e-3\n'
+    third += '[[input]]\nname = "u3"\nat = "third"\nacts = "torque"\n'
+    told = "[control]\nreference = 0.5\nmodes = 2\n[control.bounds]\ntorque = 0.3\n"
+    with pytest.raises(SceneError, match="modes: must be at least 3, the number of motors"):
+        parse_scene(ARM + third + told)
+
+
 def test_one_number_is_for_all() -> None:
     one = CONTROL.replace("{ first = 0.5, second = -1.0 }", "0.25")
     assert control_problem(parse_scene(ARM + one)).reference.tolist() == [0.25, 0.25]

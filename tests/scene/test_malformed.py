@@ -32,6 +32,7 @@ TABLES = [
     Case("missing table", '[base]\nkind = "clamp"\n', "", 1, "base", None, '`kind = "clamp"`', "missing"),
     Case("missing name", 'name = "arm"\n', "", 1, "name", None, '`name = "arm10"`', "missing"),
     Case("one bracket too few", "[[output]]", "[output]", 34, "output", None, "[[output]] with double"),
+    Case("one bracket once", "[[link]]", "[link]", 20, "link", "[link]", "[[link]] with double brackets, as in line"),
     Case("one bracket too many", "[base]", "[[base]]", 13, "base", [{"kind": "clamp"}], "[base] with single"),
     Case("value for a table", "[base]\nkind", "base", 1, "base", None, "[base]"),
     Case("no choice", '"riccati"', '"ricatti"', 6, "model.sweep", "ricatti", "'riccati'?"),

@@ -244,7 +244,7 @@ def control_problem(scene: Scene) -> ControlProblem:
         horizon=control.horizon,
         sample_time=control.sample_time,
         substeps=control.substeps,
-        modes=control.modes,
+        modes=control.counted_modes(motors.count),
         motors=motors,
         reference=reference,
         start=start,

@@ -233,8 +233,9 @@ class Control(Table):
         Time between samples, T, s.
     substeps : int
         Steps of the generated kernel per sample, M.
-    modes : int
-        Modes of the fine arm where the prediction is by modes, the turning of the whole arm among them.
+    modes : int, optional
+        Modes of the fine arm where the prediction is by modes, the turning of the whole arm among them; of several
+        motors each turns it by one. See `counted_modes`.
     delay : float
         From a measurement to the torque that answers it, s; known and compensated.
     payload : float
@@ -252,7 +253,12 @@ class Control(Table):
     horizon: Horizon = Field(default=30, description="samples looked ahead", examples=["30"])
     sample_time: Positive = Field(default=0.02, description="time between samples in s", examples=["0.02"])
     substeps: Substeps = Field(default=2, description="steps of the kernel per sample", examples=["2"])
-    modes: Modes = Field(default=3, description="modes of a prediction by modes", examples=["3"])
+    modes: Modes | None = Field(
+        default=None,
+        description="modes of a prediction by modes",
+        examples=["3"],
+        json_schema_extra={"absent": "3; of several motors 4 more than there are"},
+    )
     delay: NonNegative = Field(default=0.0, description="from measurement to torque in s", examples=["0.01"])
     payload: Positive = Field(
         default=1.0, description="tip mass models reckon with, by the scene's", examples=["1.05"]
@@ -264,3 +270,7 @@ class Control(Table):
     baselines: Baselines = Field(default_factory=Baselines, description="what it is compared with")
     trajectory: Trajectory | None = Field(default=None, description="what to follow")
     keep: tuple[Keep, ...] = Field(default=(), description="half-planes that parts stay in")
+
+    def counted_modes(self, motors: int) -> int:
+        """Return the number of modes for so many motors: besides those that turn the arm, some in which it bends."""
+        return self.modes or (3 if motors == 1 else motors + 4)

@@ -68,7 +68,9 @@ def syntax_problem(text: str, origin: str, error: ValueError) -> Problem:
         key, value = pair[1], pair[2]
     elif header := _HEADER.match(row):
         key = header[1]
-    if message == "Invalid value" or message.startswith("Expected newline"):
+    if message.startswith("Cannot overwrite") and row.lstrip().startswith("[[") and key:
+        line, value, remedy = _written_once(rows, line, key, value)
+    elif message == "Invalid value" or message.startswith("Expected newline"):
         remedy = _value_remedy(value)
     else:
         remedy = next((advice for start, advice in _REMEDIES if message.startswith(start)), _FORM)
@@ -81,6 +83,14 @@ def _inside_brackets(message: str, row: str, column: int) -> bool:
     if message == "Invalid value":
         return 0 < column <= row.find("=")
     return message.startswith("Unclosed") and not 0 <= row.find("=") < column - 1
+
+
+def _written_once(rows: list[str], line: int, key: str, value: str) -> tuple[int, str, str]:
+    """Return the line, text and remedy of a [[table]] that is written as a [table], or as a key, above."""
+    for number, row in enumerate(rows[: line - 1], start=1):
+        if (header := _HEADER.match(row)) and header[1] == key and not row.lstrip().startswith("[["):
+            return number, row.strip(), f"Write [[{key}]], with double brackets, as in line {line}."
+    return line, value, "Give each key once in its table."
 
 
 def _opening_line(rows: list[str], line: int) -> int:

@@ -90,6 +90,13 @@ def within_reach(control: Control, motors: tuple[str, ...]) -> Iterator[Finding]
                     "Widen the bounds, or set another reference.",
                     list(hub),
                 )
+    if control.modes is not None and control.modes < len(motors):
+        yield Finding(
+            ("control", "modes"),
+            f"must be at least {len(motors)}, the number of motors: each turns the arm by a mode of its own",
+            "Remove the key, or write more: some that bend are to follow them.",
+            control.modes,
+        )
     if control.delay > MOST_DELAY * control.sample_time:
         yield Finding(
             ("control", "delay"),
