@@ -172,7 +172,7 @@ def test_calibrate(swing: tg.Arm, stiffer: Run, tmp_path: Path, agree: Callable[
         (lambda arm: arm.tune(1e-3, 1.0, target="z80"), 'target="z80": no such microcontroller'),
         (lambda arm: arm.mpc("pdd"), 'controllers="pdd": there is none. Did you mean pd'),
         (lambda arm: arm.mpc("pd", seed=-1), "seed: must be a whole number from 0"),
-        (lambda arm: arm.mpc("pd"), "only planar arms are controlled"),
+        (lambda arm: arm.mpc("pd"), "has nothing that controllers turn"),
         (lambda arm: arm.calibrate("no.csv"), "no.csv: no such file"),
         (lambda arm: arm.calibrate({"end": [1.0]}), "record: has no 'time'"),
         (lambda arm: arm.calibrate({"time": [0.0]}), "record: has none of the outputs end, twist"),

@@ -36,6 +36,8 @@ def test_the_scene_is_named_as_the_robot_and_never_replaced(
     assert main(["import", URDF, "--flex", FLEX]) == 2
     assert "picker.toml: exists already" in capsys.readouterr().err
     assert (place / "picker.toml").read_text() == written
+    assert main(["import", URDF, "--out", "my arm.toml"]) == 0
+    assert "then `tmm-gen build 'my arm.toml'` and" in capsys.readouterr().out
     assert main(["import", URDF, "--flex", FLEX, "--force"]) == 0
     assert (place / "picker.toml").read_text() != written
 

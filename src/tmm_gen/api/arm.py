@@ -266,7 +266,10 @@ class Arm(Studied):
         """
         from tmm_gen.package.build import built
 
-        return built(self.scene, path_of("out", out), force)
+        folder = path_of("out", out)
+        if folder.exists() and not folder.is_dir():
+            raise UserError(f"out: {folder} is a file, not a folder. Name another place.")
+        return built(self.scene, folder, force)
 
     @guarded
     def export(self, file: str | PathLike[str], *, fmi: Literal[2, 3] = 2, cc: str = "gcc") -> Exported:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shlex
 from collections.abc import Sequence
 from keyword import iskeyword
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
 # Scenes are read, and what emits them is imported, inside: a build with nothing to do needs no SymPy.
 
 _SCENES = Path("scenes")
+_PACKAGES = Path("generated")
 
 
 @click.command("build")
@@ -30,7 +32,7 @@ _SCENES = Path("scenes")
 @click.option(
     "--out",
     type=click.Path(file_okay=False, path_type=Path),
-    default=Path("generated"),
+    default=_PACKAGES,
     show_default=True,
     help="Folder of the packages; made if missing.",
 )
@@ -74,7 +76,8 @@ def build(scenes: tuple[str, ...], check: bool, out: Path, force: bool, json_mod
                     f"{row.scene}: the C's test holds no motion, as no start leads to steps within range"
                 )
     if differing := [row.scene for row in rows if row.state == DRIFT]:
-        command = " ".join(["tmm-gen build", *scenes])
+        elsewhere = [] if out == _PACKAGES else ["--out", str(out)]
+        command = shlex.join(["tmm-gen", "build", *scenes, *elsewhere])
         raise CheckFailed(f"{out}/ is not what the scenes give: {', '.join(differing)}. Run `{command}`.")
 
 
@@ -107,7 +110,11 @@ def cmake_line(out: Path, names: Sequence[str]) -> str:
         Of the packages.
     """
     which = names[0] if len(names) == 1 else "NAME"
-    folder = out / which / "c"
+    folder = str(out / which / "c")
+    if not re.fullmatch(r"[\w./+-]+", folder):
+        folder = '"' + re.sub(r'(["\\$])', r"\\\1", folder) + '"'
+    if out.is_absolute() or ".." in out.parts:  # CMake asks where to build what is not in its own tree
+        folder += f" {which}"
     return (
         f"In CMake: add_subdirectory({folder}), and link tmm_{which}; without CMake compile {which}.c there"
     )

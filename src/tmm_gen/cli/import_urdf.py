@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from pathlib import Path
 
 import click
@@ -64,4 +65,5 @@ def import_urdf(urdf: Path, flex: Path | None, out: Path | None, force: bool, js
     rigid = "" if scene.gears or scene.beams else ", all rigid"
     click.echo(f"wrote {target}: {', '.join(parts)}{rigid}")
     click.echo(f"{len(scene.decisions)} decisions stand in its comments")
-    click.echo(f"next: read them, then `tmm-gen build {target}` and `tmm-gen run {target}`")
+    named = shlex.quote(str(target))
+    click.echo(f"next: read them, then `tmm-gen build {named}` and `tmm-gen run {named}`")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -142,4 +143,4 @@ def emit(
     table(rows, ["file", Column("bytes", form="d")], json_mode, title=title, more=facts)
     if not json_mode:
         click.echo(f"call {name}_command() once per sample; {folder / (name + '.h')} says how")
-        click.echo(f"try it: cd {folder} && cc -O2 *.c */*.c -lm && ./a.out")
+        click.echo(f"try it: cd {shlex.quote(str(folder))} && cc -O2 *.c */*.c -lm && ./a.out")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -74,4 +75,5 @@ def new(name: str, kind: Kind, out: Path, control: bool, motors: int | None, for
     write_outputs({target: first + template(name, kind, control, motors or 0)}, force=force)
     click.echo(f"wrote {target}")
     then = "mpc" if control else "run"
-    click.echo(f"next: edit it, then `tmm-gen build {target}` and `tmm-gen {then} {target}`")
+    named = shlex.quote(str(target))
+    click.echo(f"next: edit it, then `tmm-gen build {named}` and `tmm-gen {then} {named}`")

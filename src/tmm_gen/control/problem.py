@@ -219,8 +219,8 @@ def control_problem(scene: Scene) -> ControlProblem:
     controlled = flat or scene.spatial is not None
     if control is None and not controlled:
         raise UserError(
-            f"{scene.source.origin}: only planar arms are controlled, by a torque at a hub that turns or by those of "
-            f'motors on a clamp. Take one with kind = "planar" under [model] and kind = "motor" under [base], such '
+            f"{scene.source.origin}: has nothing that controllers turn: a hub with a torque, or motors on a clamp. "
+            f'Take an arm with kind = "planar" under [model] and kind = "motor" under [base], such '
             f"as {scenes_dir() / 'swing.toml'}, or with [[motor]], such as {scenes_dir() / 'elbow.toml'}."
         )
     motors = motors_of(scene)

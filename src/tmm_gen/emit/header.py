@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from tmm_gen.emit.places import places
 from tmm_gen.emit.seal import PLACEHOLDER
 from tmm_gen.program.count import Operations, count_routine
 from tmm_gen.program.statements import Program
@@ -19,6 +20,7 @@ def header_lines(program: Program, scene: Scene) -> list[str]:
         PLACEHOLDER,
         "",
         *(f"{fact}: {value}" for fact, value in program.facts.items()),
+        *(f"{what} in arrays, from 0: {whose}" for what, whose in places(scene).items()),
         *(f"operations of {place}: {cost}" for place, cost in _costs(program)),
     ]
 

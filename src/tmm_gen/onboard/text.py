@@ -139,7 +139,7 @@ class ControllerText:
     @property
     def braking(self) -> str:
         """Torques of the safe law for hubs that turn by 1 rad/s, N m."""
-        return ", ".join(self.number(-value) for value in np.atleast_1d(self.data.brake))
+        return ", ".join(f"{-value:.5g}" for value in np.atleast_1d(self.data.brake))
 
     @property
     def horizon(self) -> int:

@@ -134,7 +134,7 @@ def planar_row(scene: Scene, integrator: str) -> Row:
         loads=(*(load for group in loads.values() for load in group.values()), *drives),
         prescribed=prescribed_of(scene),
         readings=tuple(
-            reading_of(scene, o, f"{o.name}: {o.of.replace('_', ' ')}", -1) for o in scene.outputs
+            reading_of(scene, o, f"output {o.name}: {o.of.replace('_', ' ')}", -1) for o in scene.outputs
         ),
         held=_held(scene),
         fall=gravity,

@@ -308,7 +308,8 @@ class Body:
         by = f" += {loop.stride}" if loop.stride > 1 else ""
         if loop.order is Order.OUTWARD:
             return f"for (int j = {loop.start}; j < {stop}; {f'j{by}' if by else '++j'})"
-        return f"for (int j = {stop} - {loop.stride}; j >= {loop.start}; {f'j -= {loop.stride}' if by else '--j'})"
+        last = str(int(stop) - loop.stride) if stop.isdecimal() else f"{stop} - {loop.stride}"
+        return f"for (int j = {last}; j >= {loop.start}; {f'j -= {loop.stride}' if by else '--j'})"
 
     def _checked_ahead(self, loop: Loop) -> list[sp.Expr]:
         """Return the angles of a loop that are checked in one of their own before it.

@@ -18,7 +18,7 @@ from tmm_gen.program.space.runs import StationTree
 from tmm_gen.program.variables import Ref, Role, Variable
 from tmm_gen.scene.quantity import INPUT_UNITS
 from tmm_gen.scene.signal import ACCELERATION, PRESCRIBED, RATE
-from tmm_gen.scene.spatial.arm import ArmInput, SpatialArm
+from tmm_gen.scene.spatial.arm import ArmInput, ArmOutput, SpatialArm
 
 BASE_MOTION = (("place", "m"), ("velocity", "m/s"), ("acceleration", "m/s^2"))
 """What is said of a base that is moved along."""
@@ -127,9 +127,9 @@ def layout_of(arm: SpatialArm, name: str, title: str, integrator: Integrator, st
             for column, doc, unit in _columns(arm, item)
         ),
         outputs=tuple(
-            Variable(column, Role.OUTPUT, doc=f"{o.of.replace('_', ' ')}: {column}", unit=o.quantity.unit)
+            Variable(column, Role.OUTPUT, doc=doc, unit=o.quantity.unit)
             for o in arm.outputs
-            for column in o.columns
+            for column, doc in zip(o.columns, _output_docs(arm, o), strict=True)
         ),
         given=(
             Variable(
@@ -206,6 +206,18 @@ def _columns(arm: SpatialArm, item: ArmInput) -> Iterable[tuple[str, str, str]]:
     unit = "N" if item.acts == "force" else "N m"
     axes = "world axes" if item.axes == "world" else "its own axes"
     return [(column, f"{item.acts} on '{item.frame.name}', in {axes}", unit) for column in item.columns]
+
+
+def _output_docs(arm: SpatialArm, output: ArmOutput) -> list[str]:
+    """Return what each column of an output is, in the words of `tmm_gen.scene.columns`."""
+    quantity, of = output.quantity, output.of.replace("_", " ")
+    if output.joint:
+        what = f"{of} at '{arm.joints[output.joint - 1].name}'"
+    elif output.frame is not None:
+        what = f"{of} at '{output.frame.name}'"
+    else:
+        what = f"{of} of the arm" if quantity.of_arm else f"{of} at the base"
+    return [what + f", {part}" for part in quantity.components] if quantity.components else [what]
 
 
 def _state(past: Past, length: int) -> Variable:

@@ -50,7 +50,7 @@ def output_routine(layout: SpaceLayout, bodies: Bodies) -> Routine:
     """Build the outputs from the state."""
     readings = _Readings(layout, bodies)
     sections = tuple(
-        Section(f"{o.name}: {o.of.replace('_', ' ')}", tuple(readings.statements(o)))
+        Section(f"output {o.name}: {o.of.replace('_', ' ')}", tuple(readings.statements(o)))
         for o in layout.arm.outputs
     )
     return Routine("output", "Read the outputs off the state.", sections)
