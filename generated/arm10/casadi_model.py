@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: d9d28dc691ae4f0a1d62cb9cfa9f4612d111fa76a756dd286c77eac7f930ab35
-# sha256 of the rest of this file: f678262c3ab8c227c0c0e6d254ed2351e13e9443d0415792a59c7c7cf218ce09
+# sha256 of the rest of this file: 1b2b97132ca2c781c86e9b627a58e14a566505958e1d09aa68738298a8059bc2
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 10
@@ -508,16 +508,16 @@ def _output(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     angle = ca.vertsplit(x[3:13])
     rate = ca.vertsplit(x[13:23])
 
-    # tip: position
+    # output tip: position
     tip_x: Any = 0.0
     tip_y: Any = 0.0
     for j in range(STATIONS):
         tip_x = tip_x + length * ca.cos(angle[j])
         tip_y = tip_y + length * ca.sin(angle[j])
 
-    # hub: angle
+    # output hub: angle
     hub = hub_angle
 
-    # root: torque
+    # output root: torque
     root = damping[0] * (rate[0] - hub_rate) + stiffness[0] * (angle[0] - hub_angle)
     return _column(tip_x, tip_y, hub, root)

@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: d9d28dc691ae4f0a1d62cb9cfa9f4612d111fa76a756dd286c77eac7f930ab35
-# sha256 of the rest of this file: 783cc7be94cf7a332de63c0677de728af97edc7720bf26030529e9e31e3d0a88
+# sha256 of the rest of this file: a0356dfdebd4abb6099b73402d62c8f96fdb226531ed84cdcfc8b891bf8b31c8
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 10
@@ -757,17 +757,17 @@ def output(model: Model, state: State) -> Output:
     rate = _spread(rate, batch, True)
     acceleration = _spread(acceleration, batch, True)
 
-    # tip: position
+    # output tip: position
     tip_x: Any = 0.0
     tip_y: Any = 0.0
     for j in range(STATIONS):
         tip_x = tip_x + length * np.cos(angle[j])
         tip_y = tip_y + length * np.sin(angle[j])
 
-    # hub: angle
+    # output hub: angle
     hub = hub_angle
 
-    # root: torque
+    # output root: torque
     root = damping[0] * (rate[0] - hub_rate) + stiffness[0] * (angle[0] - hub_angle)
     return Output(
         tip_x=_spread(tip_x, batch, False),

@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: c5e09abbb61734735cef8cfddf39dd959eb5765da3ad6484bed2957b4fdf212c
-# sha256 of the rest of this file: a44215fb5ee86b6d1800dff28bd032265c0b529ae5143a6985579918ffd6f404
+# sha256 of the rest of this file: 6acba0fa1ceb9bc60af645232aa961fad80577a4a0c558ca7a5e81db5e12d0e8
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 2
@@ -516,16 +516,16 @@ def _output(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     angle = ca.vertsplit(x[3:5])
     rate = ca.vertsplit(x[5:7])
 
-    # tip: position
+    # output tip: position
     tip_x: Any = 0.0
     tip_y: Any = 0.0
     for j in range(STATIONS):
         tip_x = tip_x + length[j] * ca.cos(angle[j])
         tip_y = tip_y + length[j] * ca.sin(angle[j])
 
-    # hub: angle
+    # output hub: angle
     hub = hub_angle
 
-    # elbow: torque
+    # output elbow: torque
     elbow = damping[1] * (rate[1] - rate[0]) + stiffness[1] * (angle[1] - angle[0])
     return _column(tip_x, tip_y, hub, elbow)

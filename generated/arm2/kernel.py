@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: c5e09abbb61734735cef8cfddf39dd959eb5765da3ad6484bed2957b4fdf212c
-# sha256 of the rest of this file: 67507e50c4f24eadf71605efe7d48d278345fc39eaecc0a4410381095edea4b9
+# sha256 of the rest of this file: 058a316d2d6b85ffb27b828be6997c8295c833e5337a58bc643520a437fad11c
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 2
@@ -762,17 +762,17 @@ def output(model: Model, state: State) -> Output:
     rate = _spread(rate, batch, True)
     acceleration = _spread(acceleration, batch, True)
 
-    # tip: position
+    # output tip: position
     tip_x: Any = 0.0
     tip_y: Any = 0.0
     for j in range(STATIONS):
         tip_x = tip_x + length[j] * np.cos(angle[j])
         tip_y = tip_y + length[j] * np.sin(angle[j])
 
-    # hub: angle
+    # output hub: angle
     hub = hub_angle
 
-    # elbow: torque
+    # output elbow: torque
     elbow = damping[1] * (rate[1] - rate[0]) + stiffness[1] * (angle[1] - angle[0])
     return Output(
         tip_x=_spread(tip_x, batch, False),

@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
-# sha256 of the rest of this file: e1a31b5ecb0e26dfb43847a4f4247607675bb4dbed4efd9c5c9d81f5be6fbd78
+# sha256 of the rest of this file: 707bf28798477d6de3fae185b9f6b4110cac05510765f26a98d7d317c08813f2
 #
 # model: planar arm, large rotations, tip mass
 # stations: 50
@@ -1079,17 +1079,17 @@ def _output(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     acceleration_x: list[Any] = [0.0] * (STATIONS + 1)
     acceleration_y: list[Any] = [0.0] * (STATIONS + 1)
 
-    # tip: position
+    # output tip: position
     tip_x: Any = 0.0
     tip_y: Any = 0.0
     for j in range(STATIONS):
         tip_x = tip_x + length * ca.cos(angle[j])
         tip_y = tip_y + length * ca.sin(angle[j])
 
-    # tip_angle: angle
+    # output tip_angle: angle
     tip_angle = angle[49]
 
-    # reaction: force
+    # output reaction: force
     a_x: Any = 0.0
     a_y: Any = 0.0
     acceleration_x[0] = a_x
@@ -1115,6 +1115,6 @@ def _output(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         reaction_x = reaction_x - acceleration_x[j] * reaction_x_per_acceleration_x_2
         reaction_y = reaction_y - acceleration_y[j] * reaction_x_per_acceleration_x_2
 
-    # drive: torque
+    # output drive: torque
     drive = damping[0] * (rate[0] - hub_rate) + stiffness[0] * (angle[0] - hub_angle)
     return _column(tip_x, tip_y, tip_angle, reaction_x, reaction_y, drive)

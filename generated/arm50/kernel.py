@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
-# sha256 of the rest of this file: 9fb715c71ad7afc351a1dca1c5d33a778a6b81b71a3cdb9e23c3d8966950758f
+# sha256 of the rest of this file: 5ee2b068ac5766e78275a82ce960275b852d5b92d572e01d56ad91203dd6ccdc
 #
 # model: planar arm, large rotations, tip mass
 # stations: 50
@@ -1371,17 +1371,17 @@ def output(model: Model, state: State) -> Output:
     acceleration_x = np.zeros((STATIONS + 1, *batch), dtype)
     acceleration_y = np.zeros((STATIONS + 1, *batch), dtype)
 
-    # tip: position
+    # output tip: position
     tip_x: Any = 0.0
     tip_y: Any = 0.0
     for j in range(STATIONS):
         tip_x = tip_x + length * np.cos(angle[j])
         tip_y = tip_y + length * np.sin(angle[j])
 
-    # tip_angle: angle
+    # output tip_angle: angle
     tip_angle = angle[49]
 
-    # reaction: force
+    # output reaction: force
     a_x: Any = 0.0
     a_y: Any = 0.0
     acceleration_x[0] = a_x
@@ -1407,7 +1407,7 @@ def output(model: Model, state: State) -> Output:
         reaction_x = reaction_x - acceleration_x[j] * reaction_x_per_acceleration_x_2
         reaction_y = reaction_y - acceleration_y[j] * reaction_x_per_acceleration_x_2
 
-    # drive: torque
+    # output drive: torque
     drive = damping[0] * (rate[0] - hub_rate) + stiffness[0] * (angle[0] - hub_angle)
     return Output(
         tip_x=_spread(tip_x, batch, False),

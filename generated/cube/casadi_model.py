@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: f046f23ff154c77eb0de6f429bf04f6275910b87af75eea62b4aa0e7be8a3583
-# sha256 of the rest of this file: 35875f4b66cc1e2dfde8291aeb33a463fc6a4e994fba5e549760216bb3935ba6
+# sha256 of the rest of this file: 7e40eedea962aa0d9c7a863b64281c7b90742466e09035ae666ee1d1cf353c97
 #
 # model: planar arm, large rotations
 # stations: 12
@@ -11,6 +11,8 @@
 # linearisation: newton
 # sweep: riccati
 # unknown: acceleration
+# joints in arrays, from 0: left_latch 0, right_latch 6
+# links in arrays, from 0: left_yoke 0, left_panel 1 to 5, right_yoke 6, right_panel 7 to 11
 # operations of a step: 1462, 121.8 per station (686 additions, 734 multiplications, 18 divisions, 24 sines
 #     and cosines)
 # operations of prepare: 201, 16.75 per station (62 additions, 139 multiplications)
@@ -1057,14 +1059,14 @@ def _output(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     base_place_x = x[39]
     base_place_y = x[42]
 
-    # attitude: angle
+    # output attitude: angle
     attitude = hub_angle
 
-    # hub: position
+    # output hub: position
     hub_x = base_place_x
     hub_y = base_place_y
 
-    # right_end: position
+    # output right_end: position
     right_end_x = base_place_x
     right_end_y = base_place_y
     for j in range(6, 7):
@@ -1074,6 +1076,6 @@ def _output(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         right_end_x = right_end_x + length[j] * ca.cos(angle[j])
         right_end_y = right_end_y + length[j] * ca.sin(angle[j])
 
-    # latch_torque: joint torque
+    # output latch_torque: joint torque
     latch_torque = damping[6] * (hub_rate - rate[6]) + stiffness[6] * (hub_angle - angle[6])
     return _column(attitude, hub_x, hub_y, right_end_x, right_end_y, latch_torque)

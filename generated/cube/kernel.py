@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: f046f23ff154c77eb0de6f429bf04f6275910b87af75eea62b4aa0e7be8a3583
-# sha256 of the rest of this file: ac42fd1006c96e3c0ab194b30247697ade3193bebc9e1a989770dbf795826179
+# sha256 of the rest of this file: 7fcb63f36e31ef3b7e79541c713b751770f15a1a818cc6cd0b454aefd50842ab
 #
 # model: planar arm, large rotations
 # stations: 12
@@ -11,6 +11,8 @@
 # linearisation: newton
 # sweep: riccati
 # unknown: acceleration
+# joints in arrays, from 0: left_latch 0, right_latch 6
+# links in arrays, from 0: left_yoke 0, left_panel 1 to 5, right_yoke 6, right_panel 7 to 11
 # operations of a step: 1462, 121.8 per station (686 additions, 734 multiplications, 18 divisions, 24 sines
 #     and cosines)
 # operations of prepare: 201, 16.75 per station (62 additions, 139 multiplications)
@@ -1100,21 +1102,21 @@ def output(model: Model, state: State) -> Output:
     base_velocity_y = _spread(base_velocity_y, batch, False)
     base_acceleration_y = _spread(base_acceleration_y, batch, False)
 
-    # attitude: angle
+    # output attitude: angle
     attitude = hub_angle
 
-    # hub: position
+    # output hub: position
     hub_x = base_place_x
     hub_y = base_place_y
 
-    # right_end: position
+    # output right_end: position
     right_end_x = base_place_x
     right_end_y = base_place_y
     for j in range(6, STATIONS):
         right_end_x = right_end_x + length[j] * np.cos(angle[j])
         right_end_y = right_end_y + length[j] * np.sin(angle[j])
 
-    # latch_torque: joint torque
+    # output latch_torque: joint torque
     latch_torque = damping[6] * (hub_rate - rate[6]) + stiffness[6] * (hub_angle - angle[6])
     return Output(
         attitude=_spread(attitude, batch, False),

@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: b7474d2f501b0139799e3f1e1a14aa2a3a455ea0221cabb6918551519b3600d0
-# sha256 of the rest of this file: 0a38451ff5ed69e5f630e1985cf0f23781ebc5d4bf68acb60bb2d366da25bffe
+# sha256 of the rest of this file: 0d2d8505bb01fa8131b7ae2d2d6c34b3a279ac767af0db0982c234d5b77fcbe8
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 12
@@ -11,6 +11,8 @@
 # linearisation: newton
 # sweep: riccati
 # unknown: acceleration
+# joints in arrays, from 0: shoulder 0, elbow 6
+# links in arrays, from 0: upper 0 to 5, forearm 6 to 11
 # operations of a step: 1385, 115.4 per station (638 additions, 711 multiplications, 12 divisions, 24 sines
 #     and cosines)
 # operations of prepare: 213, 17.75 per station (59 additions, 154 multiplications)
@@ -961,7 +963,7 @@ def _output(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     length = model["length"]
     angle = ca.vertsplit(x[0:12])
 
-    # payload: position
+    # output payload: position
     payload_x: Any = 0.0
     payload_y: Any = 0.0
     for j in range(1):
@@ -977,9 +979,9 @@ def _output(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         payload_x = payload_x + length[j] * ca.cos(angle[j])
         payload_y = payload_y + length[j] * ca.sin(angle[j])
 
-    # shoulder: joint angle
+    # output shoulder: joint angle
     shoulder = angle[0]
 
-    # elbow: joint angle
+    # output elbow: joint angle
     elbow = angle[6] - angle[5]
     return _column(payload_x, payload_y, shoulder, elbow)

@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: b7474d2f501b0139799e3f1e1a14aa2a3a455ea0221cabb6918551519b3600d0
-# sha256 of the rest of this file: 64a19ad3e5a5e810fe5738fa4e105cc90b0bf1aba75ec7417c7088d7d2972b4d
+# sha256 of the rest of this file: 14c00b2d416c5fe614827d6a87cc47624e999fcb1ef1de461e2015b2c84deb82
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 12
@@ -11,6 +11,8 @@
 # linearisation: newton
 # sweep: riccati
 # unknown: acceleration
+# joints in arrays, from 0: shoulder 0, elbow 6
+# links in arrays, from 0: upper 0 to 5, forearm 6 to 11
 # operations of a step: 1385, 115.4 per station (638 additions, 711 multiplications, 12 divisions, 24 sines
 #     and cosines)
 # operations of prepare: 213, 17.75 per station (59 additions, 154 multiplications)
@@ -959,17 +961,17 @@ def output(model: Model, state: State) -> Output:
     rate = _spread(rate, batch, True)
     acceleration = _spread(acceleration, batch, True)
 
-    # payload: position
+    # output payload: position
     payload_x: Any = 0.0
     payload_y: Any = 0.0
     for j in range(STATIONS):
         payload_x = payload_x + length[j] * np.cos(angle[j])
         payload_y = payload_y + length[j] * np.sin(angle[j])
 
-    # shoulder: joint angle
+    # output shoulder: joint angle
     shoulder = angle[0]
 
-    # elbow: joint angle
+    # output elbow: joint angle
     elbow = angle[6] - angle[5]
     return Output(
         payload_x=_spread(payload_x, batch, False),

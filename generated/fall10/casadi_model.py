@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 225557ccb20983327784b6fc8326b9127fb185b183a5e99d150385ab258b9303
-# sha256 of the rest of this file: 0cdc0dd3a8f1876b172683d5665439d2ad8a1994986bd9284ebeea1f68846ba8
+# sha256 of the rest of this file: d0d2fd1f0aacfc2a08cb3cffbf0517a45bf55a0836d0e8032d9cef69637f8355
 #
 # model: planar arm, large rotations, gravity
 # stations: 10
@@ -461,20 +461,20 @@ def _output(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     angle = ca.vertsplit(x[0:10])
     rate = ca.vertsplit(x[10:20])
 
-    # tip: position
+    # output tip: position
     tip_x: Any = 0.0
     tip_y: Any = 0.0
     for j in range(STATIONS):
         tip_x = tip_x + length * ca.cos(angle[j])
         tip_y = tip_y + length * ca.sin(angle[j])
 
-    # speed: velocity
+    # output speed: velocity
     speed_x: Any = 0.0
     speed_y: Any = 0.0
     for j in range(STATIONS):
         speed_x = speed_x - length * rate[j] * ca.sin(angle[j])
         speed_y = speed_y + length * rate[j] * ca.cos(angle[j])
 
-    # root: torque
+    # output root: torque
     root = angle[0] * stiffness[0] + damping[0] * rate[0]
     return _column(tip_x, tip_y, speed_x, speed_y, root)

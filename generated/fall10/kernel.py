@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 225557ccb20983327784b6fc8326b9127fb185b183a5e99d150385ab258b9303
-# sha256 of the rest of this file: 84daad6622aa0fac3a499bce9f344a13ecf9e06061c0abde7788b51f8da4a01b
+# sha256 of the rest of this file: 062db524cd4b6247285094b9c6637f0bcbe980d878a266dcf2ddfe1969a174dd
 #
 # model: planar arm, large rotations, gravity
 # stations: 10
@@ -636,21 +636,21 @@ def output(model: Model, state: State) -> Output:
     rate = _spread(rate, batch, True)
     acceleration = _spread(acceleration, batch, True)
 
-    # tip: position
+    # output tip: position
     tip_x: Any = 0.0
     tip_y: Any = 0.0
     for j in range(STATIONS):
         tip_x = tip_x + length * np.cos(angle[j])
         tip_y = tip_y + length * np.sin(angle[j])
 
-    # speed: velocity
+    # output speed: velocity
     speed_x: Any = 0.0
     speed_y: Any = 0.0
     for j in range(STATIONS):
         speed_x = speed_x - length * rate[j] * np.sin(angle[j])
         speed_y = speed_y + length * rate[j] * np.cos(angle[j])
 
-    # root: torque
+    # output root: torque
     root = angle[0] * stiffness[0] + damping[0] * rate[0]
     return Output(
         tip_x=_spread(tip_x, batch, False),

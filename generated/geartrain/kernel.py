@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 066060c018d378c5aa38f61f583a4ed37c9ee269f8287dfe93f42445474eebe1
-# sha256 of the rest of this file: 27432d76b6251644a1f1fc2ebf4728f0c09146f78322701bcf90ca84a69bf4f1
+# sha256 of the rest of this file: fdf0f9ccc13c0cd5abac002901233db114a3182f5d1b75dbce819e240e0f28ad
 #
 # model: torsional chain (linear)
 # stations: 4
@@ -10,6 +10,8 @@
 # integrator: Generalised alpha (Chung & Hulbert 1993), rho_inf = 0.8
 # sweep: riccati
 # unknown: acceleration
+# joints in arrays, from 0: coupling 0, belt 1, second 2, shaft 3
+# links in arrays, from 0: pinion 0, layshaft 0, feeder 1, wheel 2, table 3
 # operations of a step: 159, 39.75 per station (75 additions, 84 multiplications)
 # operations of prepare: 75, 18.75 per station (13 additions, 51 multiplications, 11 divisions)
 """geartrain: Servo with two stages of gears on a table and a feeder.

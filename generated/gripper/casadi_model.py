@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: c8f8226e93fd9d4e49ccbb14a6d21dfabaa9c32be55619277914a499c6eae156
-# sha256 of the rest of this file: d47615513d19d4c0f743833dbfa9f4c52c128cc5860b46b75cd1fe978a1e0fa5
+# sha256 of the rest of this file: ccf380ab9b69fa06d0f39a31bced97959533ece7828a0693ad056a2f07592767
 #
 # model: planar arm, large rotations, gravity
 # stations: 8
@@ -11,6 +11,8 @@
 # linearisation: newton
 # sweep: riccati
 # unknown: acceleration
+# joints in arrays, from 0: left 4, left_hinge 5, right 6, right_hinge 7
+# links in arrays, from 0: wrist 0 to 3, left_finger 4, left_pad 5, right_finger 6, right_pad 7
 # operations of a step: 892, 111.5 per station (404 additions, 464 multiplications, 8 divisions, 16 sines and
 #     cosines)
 # operations of prepare: 148, 18.5 per station (42 additions, 106 multiplications)
@@ -1086,7 +1088,7 @@ def _output(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     length = model["length"]
     angle = ca.vertsplit(x[0:8])
 
-    # left_tip: position
+    # output left_tip: position
     left_tip_x: Any = 0.0
     left_tip_y: Any = 0.0
     for j in range(4):
@@ -1099,7 +1101,7 @@ def _output(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         left_tip_x = left_tip_x + length[j] * ca.cos(angle[j])
         left_tip_y = left_tip_y + length[j] * ca.sin(angle[j])
 
-    # right_tip: position
+    # output right_tip: position
     right_tip_x: Any = 0.0
     right_tip_y: Any = 0.0
     for j in range(4):
@@ -1112,9 +1114,9 @@ def _output(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
         right_tip_x = right_tip_x + length[j] * ca.cos(angle[j])
         right_tip_y = right_tip_y + length[j] * ca.sin(angle[j])
 
-    # left: joint angle
+    # output left: joint angle
     left = angle[4] - angle[3]
 
-    # right: joint angle
+    # output right: joint angle
     right = angle[6] - angle[3]
     return _column(left_tip_x, left_tip_y, right_tip_x, right_tip_y, left, right)

@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: c8f8226e93fd9d4e49ccbb14a6d21dfabaa9c32be55619277914a499c6eae156
-# sha256 of the rest of this file: 143727095773d948e61011b3643b1d13073850082f9a0db8c7e071acec11e70e
+# sha256 of the rest of this file: 40dc8d856177c7b40e397b6321d05950000b9e23555913983684455d064cc1f9
 #
 # model: planar arm, large rotations, gravity
 # stations: 8
@@ -11,6 +11,8 @@
 # linearisation: newton
 # sweep: riccati
 # unknown: acceleration
+# joints in arrays, from 0: left 4, left_hinge 5, right 6, right_hinge 7
+# links in arrays, from 0: wrist 0 to 3, left_finger 4, left_pad 5, right_finger 6, right_pad 7
 # operations of a step: 892, 111.5 per station (404 additions, 464 multiplications, 8 divisions, 16 sines and
 #     cosines)
 # operations of prepare: 148, 18.5 per station (42 additions, 106 multiplications)
@@ -1202,14 +1204,14 @@ def output(model: Model, state: State) -> Output:
     rate = _spread(rate, batch, True)
     acceleration = _spread(acceleration, batch, True)
 
-    # left_tip: position
+    # output left_tip: position
     left_tip_x: Any = 0.0
     left_tip_y: Any = 0.0
     for j in range(6):
         left_tip_x = left_tip_x + length[j] * np.cos(angle[j])
         left_tip_y = left_tip_y + length[j] * np.sin(angle[j])
 
-    # right_tip: position
+    # output right_tip: position
     right_tip_x: Any = 0.0
     right_tip_y: Any = 0.0
     for j in range(4):
@@ -1219,10 +1221,10 @@ def output(model: Model, state: State) -> Output:
         right_tip_x = right_tip_x + length[j] * np.cos(angle[j])
         right_tip_y = right_tip_y + length[j] * np.sin(angle[j])
 
-    # left: joint angle
+    # output left: joint angle
     left = angle[4] - angle[3]
 
-    # right: joint angle
+    # output right: joint angle
     right = angle[6] - angle[3]
     return Output(
         left_tip_x=_spread(left_tip_x, batch, False),

@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: c9c08efbdc9f2f1b1ddadadab522649e5100f98e9cdabe31fcf56b416283c60f
-# sha256 of the rest of this file: 50c7c322db39f231ea37d0497fba188f97963d50f0ee604363abbf089efc32fe
+# sha256 of the rest of this file: 0f48e2e709041cb415bdb25608c070a13d6fcd12c74812da50aef020e28ed7f0
 #
 # model: planar arm, large rotations, tip mass
 # stations: 5
@@ -486,13 +486,13 @@ def _output(model: dict[str, Any], x: ca.SX, stages: Sequence[ca.SX]) -> ca.SX:
     hub_angle = x[0]
     angle = ca.vertsplit(x[3:8])
 
-    # tip: position
+    # output tip: position
     tip_x: Any = 0.0
     tip_y: Any = 0.0
     for j in range(STATIONS):
         tip_x = tip_x + length * ca.cos(angle[j])
         tip_y = tip_y + length * ca.sin(angle[j])
 
-    # hub: angle
+    # output hub: angle
     hub = hub_angle
     return _column(tip_x, tip_y, hub)

@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: c9c08efbdc9f2f1b1ddadadab522649e5100f98e9cdabe31fcf56b416283c60f
-# sha256 of the rest of this file: 84dd38ec6cbe7cda107b2c5b6e88d3cc20feea4973a9dbc17e1971591f6c52d2
+# sha256 of the rest of this file: 3506c9fb907e28b46f75a0d4410a0e695c99fa186c18fa287d6ad096eb893047
 #
 # model: planar arm, large rotations, tip mass
 # stations: 5
@@ -711,14 +711,14 @@ def output(model: Model, state: State) -> Output:
     rate = _spread(rate, batch, True)
     acceleration = _spread(acceleration, batch, True)
 
-    # tip: position
+    # output tip: position
     tip_x: Any = 0.0
     tip_y: Any = 0.0
     for j in range(STATIONS):
         tip_x = tip_x + length * np.cos(angle[j])
         tip_y = tip_y + length * np.sin(angle[j])
 
-    # hub: angle
+    # output hub: angle
     hub = hub_angle
     return Output(
         tip_x=_spread(tip_x, batch, False), tip_y=_spread(tip_y, batch, False), hub=_spread(hub, batch, False)

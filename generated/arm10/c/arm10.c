@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: d9d28dc691ae4f0a1d62cb9cfa9f4612d111fa76a756dd286c77eac7f930ab35
- * sha256 of the rest of this file: e178d9f1113a4ee4ba7751e4ef5de538641d32f07b52c202ab905412f67723c6
+ * sha256 of the rest of this file: 056fd181968ffd11cc80380f4b1b6a15d5d31147bf934e70cb54013a082868b9
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 10
@@ -526,7 +526,7 @@ void arm10_output(
     }
     const real length = model->length;
 
-    /* Tip: position. */
+    /* Output tip: position. */
     outputs->tip_x = 0.0;
     outputs->tip_y = 0.0;
     for (int j = 0; j < ARM10_STATIONS; ++j) {
@@ -535,10 +535,10 @@ void arm10_output(
         outputs->tip_y = outputs->tip_y + length * turn_1.sine;
     }
 
-    /* Hub: angle. */
+    /* Output hub: angle. */
     outputs->hub = state->hub_angle;
 
-    /* Root: torque. */
+    /* Output root: torque. */
     outputs->root = model->damping[0] * (state->rate[0] - state->hub_rate)
         + model->stiffness[0] * (state->angle[0] - state->hub_angle);
 }

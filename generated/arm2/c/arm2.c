@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: c5e09abbb61734735cef8cfddf39dd959eb5765da3ad6484bed2957b4fdf212c
- * sha256 of the rest of this file: 6d5a55cf77100de562a8a9a0a1f76445ca8149f487a6e29e865d7793326c0af4
+ * sha256 of the rest of this file: 7753e201107dae63ff036f66af73f8bdb430488fba3f5c98c47ae1489c5e6a7d
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 2
@@ -467,7 +467,7 @@ void arm2_output(
     if (model == NULL || state == NULL || outputs == NULL) {
         return;
     }
-    /* Tip: position. */
+    /* Output tip: position. */
     outputs->tip_x = 0.0;
     outputs->tip_y = 0.0;
     for (int j = 0; j < ARM2_STATIONS; ++j) {
@@ -475,10 +475,10 @@ void arm2_output(
         outputs->tip_y = outputs->tip_y + model->length[j] * sin(state->angle[j]);
     }
 
-    /* Hub: angle. */
+    /* Output hub: angle. */
     outputs->hub = state->hub_angle;
 
-    /* Elbow: torque. */
+    /* Output elbow: torque. */
     outputs->elbow = model->damping[1] * (state->rate[1] - state->rate[0])
         + model->stiffness[1] * (state->angle[1] - state->angle[0]);
 }

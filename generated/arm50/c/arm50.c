@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 7e2e87b8a48332cf3886a22711bd9428eeea692a0d70cc5ae1662962d37ffc57
- * sha256 of the rest of this file: 39f0e50a5f9ccb9bc5a15d421c8089d5312120dd4ff69111e5d081771bdd96c7
+ * sha256 of the rest of this file: a1b87106dd6a89caa5f24c47f7c264a2be2608d3047a6423c81ea76b4d0bc958
  *
  * model: planar arm, large rotations, tip mass
  * stations: 50
@@ -874,14 +874,14 @@ void arm50_output(
     real acceleration_x[ARM50_STATIONS + 1]; /* acceleration of the nodes along x [m/s^2] */
     real acceleration_y[ARM50_STATIONS + 1]; /* acceleration of the nodes along y [m/s^2] */
 
-    /* Tip: position. */
+    /* Output tip: position. */
     outputs->tip_x = 0.0;
     outputs->tip_y = 0.0;
 
-    /* Tip_angle: angle. */
+    /* Output tip_angle: angle. */
     outputs->tip_angle = state->angle[49];
 
-    /* Tip: position; reaction: force. */
+    /* Output tip: position; output reaction: force. */
     real a_x = 0.0;
     real a_y = 0.0;
     acceleration_x[0] = a_x;
@@ -905,7 +905,7 @@ void arm50_output(
         outputs->reaction_y = outputs->reaction_y - acceleration_y[j] * reaction_x_per_acceleration_x_2;
     }
 
-    /* Drive: torque. */
+    /* Output drive: torque. */
     outputs->drive = model->damping[0] * (state->rate[0] - state->hub_rate)
         + model->stiffness[0] * (state->angle[0] - state->hub_angle);
 }

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: f046f23ff154c77eb0de6f429bf04f6275910b87af75eea62b4aa0e7be8a3583
- * sha256 of the rest of this file: 71fda624c0faf67ff10aeb2c1d4ce314893f43cabab58389c655ff57b8d6e9e4
+ * sha256 of the rest of this file: 324f9b3bd779afa7e29833ca92c1a3cc151d00f0265dbc3c577f4177d3554c92
  *
  * model: planar arm, large rotations
  * stations: 12
@@ -12,6 +12,8 @@
  * linearisation: newton
  * sweep: riccati
  * unknown: acceleration
+ * joints in arrays, from 0: left_latch 0, right_latch 6
+ * links in arrays, from 0: left_yoke 0, left_panel 1 to 5, right_yoke 6, right_panel 7 to 11
  * operations of a step: 1462, 121.8 per station (686 additions, 734 multiplications, 18 divisions, 24 sines
  *     and cosines)
  * operations of prepare: 201, 16.75 per station (62 additions, 139 multiplications)
@@ -314,7 +316,7 @@ cube_status cube_initialise(
         force_y = force_y + answer_own[j] * impedance_yu;
         torque = joint_torque;
     }
-    for (int j = 7 - 1; j >= 6; --j) {
+    for (int j = 6; j >= 6; --j) {
         const real joint_torque = params->damping[j] * (predicted_rate[0] - predicted_rate[j + 1])
             + params->stiffness[j] * (predicted_angle[0] - predicted_angle[j + 1]);
         impedance_xx = impedance_xx + start_node_mass[j];
@@ -358,7 +360,7 @@ cube_status cube_initialise(
     force_x = 0.0;
     force_y = 0.0;
     torque = 0.0;
-    for (int j = 6 - 1; j >= 1; --j) {
+    for (int j = 5; j >= 1; --j) {
         const real joint_torque = params->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + params->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
         impedance_xx = impedance_xx + start_node_mass[j];
@@ -388,7 +390,7 @@ cube_status cube_initialise(
         force_y = force_y + answer_own[j] * impedance_yu;
         torque = joint_torque;
     }
-    for (int j = 1 - 1; j >= 0; --j) {
+    for (int j = 0; j >= 0; --j) {
         const real joint_torque = params->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + params->rest[j] * params->stiffness[j]
             + params->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
@@ -626,7 +628,7 @@ cube_status cube_step(
         impedance_uu = impedance_uu * transmission[j];
         torque = joint_torque - answer_own[j] * model->joint_impedance[j];
     }
-    for (int j = 7 - 1; j >= 6; --j) {
+    for (int j = 6; j >= 6; --j) {
         const real joint_torque = model->damping[j] * (predicted_rate[0] - predicted_rate[j + 1])
             + model->stiffness[j] * (predicted_angle[0] - predicted_angle[j + 1]);
         impedance_xx = impedance_xx + model->node_mass[j];
@@ -689,7 +691,7 @@ cube_status cube_step(
     force_x = 0.0;
     force_y = 0.0;
     torque = 0.0;
-    for (int j = 6 - 1; j >= 1; --j) {
+    for (int j = 5; j >= 1; --j) {
         const real joint_torque = model->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + model->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
         impedance_xx = impedance_xx + model->node_mass[j];
@@ -728,7 +730,7 @@ cube_status cube_step(
         impedance_uu = impedance_uu * transmission[j];
         torque = joint_torque - answer_own[j] * model->joint_impedance[j];
     }
-    for (int j = 1 - 1; j >= 0; --j) {
+    for (int j = 0; j >= 0; --j) {
         const real joint_torque = model->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + model->rest[j] * model->stiffness[j]
             + model->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
@@ -875,14 +877,14 @@ void cube_output(
     if (model == NULL || state == NULL || outputs == NULL) {
         return;
     }
-    /* Attitude: angle. */
+    /* Output attitude: angle. */
     outputs->attitude = state->hub_angle;
 
-    /* Hub: position. */
+    /* Output hub: position. */
     outputs->hub_x = state->base_place_x;
     outputs->hub_y = state->base_place_y;
 
-    /* Right_end: position. */
+    /* Output right_end: position. */
     outputs->right_end_x = state->base_place_x;
     outputs->right_end_y = state->base_place_y;
     for (int j = 6; j < CUBE_STATIONS; ++j) {
@@ -890,7 +892,7 @@ void cube_output(
         outputs->right_end_y = outputs->right_end_y + model->length[j] * sin(state->angle[j]);
     }
 
-    /* Latch_torque: joint torque. */
+    /* Output latch_torque: joint torque. */
     outputs->latch_torque = model->damping[6] * (state->hub_rate - state->rate[6])
         + model->stiffness[6] * (state->hub_angle - state->angle[6]);
 }

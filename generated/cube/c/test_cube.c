@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: f046f23ff154c77eb0de6f429bf04f6275910b87af75eea62b4aa0e7be8a3583
- * sha256 of the rest of this file: 2484888777344a6e94f6bd97de53fe42fec77a77252c877cdb381a1ad679eac7
+ * sha256 of the rest of this file: dfc91b1df4aa89c34743238becf7e8bb5ca54708f6445307f53496f19571c084
  *
  * model: planar arm, large rotations
  * stations: 12
@@ -12,6 +12,8 @@
  * linearisation: newton
  * sweep: riccati
  * unknown: acceleration
+ * joints in arrays, from 0: left_latch 0, right_latch 6
+ * links in arrays, from 0: left_yoke 0, left_panel 1 to 5, right_yoke 6, right_panel 7 to 11
  * operations of a step: 1462, 121.8 per station (686 additions, 734 multiplications, 18 divisions, 24 sines
  *     and cosines)
  * operations of prepare: 201, 16.75 per station (62 additions, 139 multiplications)

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: b7474d2f501b0139799e3f1e1a14aa2a3a455ea0221cabb6918551519b3600d0
- * sha256 of the rest of this file: 067e29a8896c850e9b99f1afb7489a4b3dcd8546e6618f2bd98c07dfa24c6f32
+ * sha256 of the rest of this file: a4055bb2a209b1cbcbf9a2f93fafbc537d104ce17419d48b38a957a4870b5ae3
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 12
@@ -12,6 +12,8 @@
  * linearisation: newton
  * sweep: riccati
  * unknown: acceleration
+ * joints in arrays, from 0: shoulder 0, elbow 6
+ * links in arrays, from 0: upper 0 to 5, forearm 6 to 11
  * operations of a step: 1385, 115.4 per station (638 additions, 711 multiplications, 12 divisions, 24 sines
  *     and cosines)
  * operations of prepare: 213, 17.75 per station (59 additions, 154 multiplications)
@@ -205,14 +207,14 @@ elbow_status elbow_prepare(
         model->joint_impedance[j] = 0.5 * params->damping[j] * step
             + 0.25 * (step * step) * params->stiffness[j];
     }
-    for (int j = 7 - 1; j >= 6; --j) {
+    for (int j = 6; j >= 6; --j) {
         model->joint_impedance[j] = model->armature[j] + 0.5 * params->damping[j] * step;
     }
-    for (int j = 6 - 1; j >= 1; --j) {
+    for (int j = 5; j >= 1; --j) {
         model->joint_impedance[j] = 0.5 * params->damping[j] * step
             + 0.25 * (step * step) * params->stiffness[j];
     }
-    for (int j = 1 - 1; j >= 0; --j) {
+    for (int j = 0; j >= 0; --j) {
         model->joint_impedance[j] = model->armature[j] + 0.5 * params->damping[j] * step;
     }
 
@@ -391,7 +393,7 @@ elbow_status elbow_initialise(
         torque = joint_torque;
         impedance_uu = 0.0;
     }
-    for (int j = 7 - 1; j >= 6; --j) {
+    for (int j = 6; j >= 6; --j) {
         const real joint_torque = params->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + drive[j] * params->gear[j]
             + start_armature[j] * (predicted_acceleration[j] - predicted_acceleration[j + 1]);
@@ -428,7 +430,7 @@ elbow_status elbow_initialise(
         impedance_uu = impedance_uu * transmission[j];
         torque = joint_torque - answer_own[j] * start_armature[j];
     }
-    for (int j = 6 - 1; j >= 1; --j) {
+    for (int j = 5; j >= 1; --j) {
         const real joint_torque = params->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + params->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
         impedance_xx = impedance_xx + start_node_mass[j];
@@ -464,7 +466,7 @@ elbow_status elbow_initialise(
         impedance_xu = 0.0;
         impedance_yu = 0.0;
     }
-    for (int j = 1 - 1; j >= 0; --j) {
+    for (int j = 0; j >= 0; --j) {
         const real joint_torque = params->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + drive[j] * params->gear[j]
             + start_armature[j] * (predicted_acceleration[j] - predicted_acceleration[j + 1]);
@@ -677,7 +679,7 @@ elbow_status elbow_step(
         impedance_uu = impedance_uu * transmission[j];
         torque = joint_torque - answer_own[j] * model->joint_impedance[j];
     }
-    for (int j = 7 - 1; j >= 6; --j) {
+    for (int j = 6; j >= 6; --j) {
         const real joint_torque = model->armature[j]
             * (predicted_acceleration[j] - predicted_acceleration[j + 1])
             + model->damping[j] * (predicted_rate[j] - predicted_rate[j + 1]) + drive[j] * model->gear[j];
@@ -717,7 +719,7 @@ elbow_status elbow_step(
         impedance_uu = impedance_uu * transmission[j];
         torque = joint_torque - answer_own[j] * model->joint_impedance[j];
     }
-    for (int j = 6 - 1; j >= 1; --j) {
+    for (int j = 5; j >= 1; --j) {
         const real joint_torque = model->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + model->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
         impedance_xx = impedance_xx + model->node_mass[j];
@@ -756,7 +758,7 @@ elbow_status elbow_step(
         impedance_uu = impedance_uu * transmission[j];
         torque = joint_torque - answer_own[j] * model->joint_impedance[j];
     }
-    for (int j = 1 - 1; j >= 0; --j) {
+    for (int j = 0; j >= 0; --j) {
         const real joint_torque = model->armature[j]
             * (predicted_acceleration[j] - predicted_acceleration[j + 1])
             + model->damping[j] * (predicted_rate[j] - predicted_rate[j + 1]) + drive[j] * model->gear[j];
@@ -832,7 +834,7 @@ void elbow_output(
     if (model == NULL || state == NULL || outputs == NULL) {
         return;
     }
-    /* Payload: position. */
+    /* Output payload: position. */
     outputs->payload_x = 0.0;
     outputs->payload_y = 0.0;
     for (int j = 0; j < ELBOW_STATIONS; ++j) {
@@ -841,9 +843,9 @@ void elbow_output(
         outputs->payload_y = outputs->payload_y + model->length[j] * turn_1.sine;
     }
 
-    /* Shoulder: joint angle. */
+    /* Output shoulder: joint angle. */
     outputs->shoulder = state->angle[0];
 
-    /* Elbow: joint angle. */
+    /* Output elbow: joint angle. */
     outputs->elbow = state->angle[6] - state->angle[5];
 }

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: b7474d2f501b0139799e3f1e1a14aa2a3a455ea0221cabb6918551519b3600d0
- * sha256 of the rest of this file: e9736d750d8beed8b96405b5c17e0cf12664fe98644ca819e38b54ceae9419f5
+ * sha256 of the rest of this file: 7044da2a3ac6d62928302863f81eca382747abc28584fb5c41506df169f98438
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 12
@@ -12,6 +12,8 @@
  * linearisation: newton
  * sweep: riccati
  * unknown: acceleration
+ * joints in arrays, from 0: shoulder 0, elbow 6
+ * links in arrays, from 0: upper 0 to 5, forearm 6 to 11
  * operations of a step: 1385, 115.4 per station (638 additions, 711 multiplications, 12 divisions, 24 sines
  *     and cosines)
  * operations of prepare: 213, 17.75 per station (59 additions, 154 multiplications)

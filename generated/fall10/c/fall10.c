@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 225557ccb20983327784b6fc8326b9127fb185b183a5e99d150385ab258b9303
- * sha256 of the rest of this file: 4f74cc4af9c0febc8fd598084bffc1882d46411a7ea1c0710b072e205d6f4a04
+ * sha256 of the rest of this file: 494640172c28385658d978e6ce0464236c5711ce5aeb352942573aea95dd2c76
  *
  * model: planar arm, large rotations, gravity
  * stations: 10
@@ -394,11 +394,11 @@ void fall10_output(
     }
     const real length = model->length;
 
-    /* Tip: position. */
+    /* Output tip: position. */
     outputs->tip_x = 0.0;
     outputs->tip_y = 0.0;
 
-    /* Tip: position; speed: velocity. */
+    /* Output tip: position; output speed: velocity. */
     outputs->speed_x = 0.0;
     outputs->speed_y = 0.0;
     for (int j = 0; j < FALL10_STATIONS; ++j) {
@@ -408,6 +408,6 @@ void fall10_output(
         outputs->speed_y = outputs->speed_y + length * state->rate[j] * cos(state->angle[j]);
     }
 
-    /* Root: torque. */
+    /* Output root: torque. */
     outputs->root = state->angle[0] * model->stiffness[0] + model->damping[0] * state->rate[0];
 }

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 066060c018d378c5aa38f61f583a4ed37c9ee269f8287dfe93f42445474eebe1
- * sha256 of the rest of this file: 7ca4530a34884b2b755fccd24f881af917a50c2828f79badd31c1a76d52e460f
+ * sha256 of the rest of this file: 9f067140dcb5ee3f598bd2f42f99ceed43f56e40418c1ad4d57d7517671f0a44
  *
  * model: torsional chain (linear)
  * stations: 4
@@ -11,6 +11,8 @@
  * integrator: Generalised alpha (Chung & Hulbert 1993), rho_inf = 0.8
  * sweep: riccati
  * unknown: acceleration
+ * joints in arrays, from 0: coupling 0, belt 1, second 2, shaft 3
+ * links in arrays, from 0: pinion 0, layshaft 0, feeder 1, wheel 2, table 3
  * operations of a step: 159, 39.75 per station (75 additions, 84 multiplications)
  * operations of prepare: 75, 18.75 per station (13 additions, 51 multiplications, 11 divisions)
  * number type: double
@@ -128,7 +130,7 @@ geartrain_status geartrain_prepare(
         model->reflection[j] = -model->admittance[j] * impedance;
         impedance = impedance * model->transmission[j];
     }
-    for (int j = 3 - 1; j >= 2; --j) {
+    for (int j = 2; j >= 2; --j) {
         impedance = impedance - params->inertia[j];
         const real joint_impedance = (55.0 / 108.0) * params->damping[j] * step
             + (125.0 / 486.0) * (step * step) * params->stiffness[j];
@@ -142,7 +144,7 @@ geartrain_status geartrain_prepare(
         impedance = impedance * model->transmission[j] * model->turn[j];
     }
     const real impedance_of_branch_3 = impedance;
-    for (int j = 2 - 1; j >= 1; --j) {
+    for (int j = 1; j >= 1; --j) {
         impedance = -params->inertia[j];
         const real joint_impedance = (55.0 / 108.0) * params->damping[j] * step
             + (125.0 / 486.0) * (step * step) * params->stiffness[j];
@@ -156,7 +158,7 @@ geartrain_status geartrain_prepare(
         impedance = impedance * model->transmission[j] * model->turn[j];
     }
     impedance = impedance + impedance_of_branch_3;
-    for (int j = 1 - 1; j >= 0; --j) {
+    for (int j = 0; j >= 0; --j) {
         impedance = impedance - params->inertia[j];
         const real joint_impedance = (55.0 / 108.0) * params->damping[j] * step
             + (125.0 / 486.0) * (step * step) * params->stiffness[j];
@@ -266,7 +268,7 @@ geartrain_status geartrain_initialise(
         answer_own[j] = start_admittance * (torque - joint_torque);
         torque = joint_torque;
     }
-    for (int j = 3 - 1; j >= 2; --j) {
+    for (int j = 2; j >= 2; --j) {
         const real joint_torque = params->damping[j] * known_rate[j + 1]
             + known_angle[j + 1] * params->stiffness[j] - params->damping[j] * known_rate[1] * start_turn[j]
             - known_angle[1] * start_turn[j] * params->stiffness[j];
@@ -281,7 +283,7 @@ geartrain_status geartrain_initialise(
         torque = joint_torque * start_turn[j];
     }
     const real torque_of_branch_3 = torque;
-    for (int j = 2 - 1; j >= 1; --j) {
+    for (int j = 1; j >= 1; --j) {
         const real joint_torque = params->damping[j] * known_rate[j + 1]
             + known_angle[j + 1] * params->stiffness[j] - params->damping[j] * known_rate[j] * start_turn[j]
             - known_angle[j] * start_turn[j] * params->stiffness[j];
@@ -295,7 +297,7 @@ geartrain_status geartrain_initialise(
         torque = joint_torque * start_turn[j];
     }
     torque = torque + torque_of_branch_3;
-    for (int j = 1 - 1; j >= 0; --j) {
+    for (int j = 0; j >= 0; --j) {
         const real joint_torque = params->damping[j] * (known_rate[j + 1] - known_rate[j])
             + params->stiffness[j] * (known_angle[j + 1] - known_angle[j]);
         torque = load_torque[j] + torque;
@@ -393,7 +395,7 @@ geartrain_status geartrain_step(
         answer_own[j] = model->admittance[j] * (torque - joint_torque);
         torque = joint_torque * model->reflection[j] + torque * model->transmission[j];
     }
-    for (int j = 3 - 1; j >= 2; --j) {
+    for (int j = 2; j >= 2; --j) {
         const real joint_torque = model->damping[j] * known_rate[j + 1]
             + known_angle[j + 1] * model->stiffness[j] - model->damping[j] * known_rate[1] * model->turn[j]
             - known_angle[1] * model->stiffness[j] * model->turn[j];
@@ -402,7 +404,7 @@ geartrain_status geartrain_step(
         torque = joint_torque * model->reflection[j] + torque * model->transmission[j];
     }
     const real torque_of_branch_3 = torque;
-    for (int j = 2 - 1; j >= 1; --j) {
+    for (int j = 1; j >= 1; --j) {
         const real joint_torque = model->damping[j] * known_rate[j + 1]
             + known_angle[j + 1] * model->stiffness[j] - model->damping[j] * known_rate[j] * model->turn[j]
             - known_angle[j] * model->stiffness[j] * model->turn[j];
@@ -410,7 +412,7 @@ geartrain_status geartrain_step(
         torque = joint_torque * model->reflection[j] + load_torque[j] * model->transmission[j];
     }
     torque = torque + torque_of_branch_3;
-    for (int j = 1 - 1; j >= 0; --j) {
+    for (int j = 0; j >= 0; --j) {
         const real joint_torque = model->damping[j] * (known_rate[j + 1] - known_rate[j])
             + model->stiffness[j] * (known_angle[j + 1] - known_angle[j]);
         torque = load_torque[j] + torque;

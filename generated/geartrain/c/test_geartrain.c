@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 066060c018d378c5aa38f61f583a4ed37c9ee269f8287dfe93f42445474eebe1
- * sha256 of the rest of this file: 078e627fb815b1d453612374c725d743910b91656a91b627c3251da63954fcd0
+ * sha256 of the rest of this file: d067ff09f197803cdb7b52c8640e96617bc82d559707f023f04a0b00dfccf774
  *
  * model: torsional chain (linear)
  * stations: 4
@@ -11,6 +11,8 @@
  * integrator: Generalised alpha (Chung & Hulbert 1993), rho_inf = 0.8
  * sweep: riccati
  * unknown: acceleration
+ * joints in arrays, from 0: coupling 0, belt 1, second 2, shaft 3
+ * links in arrays, from 0: pinion 0, layshaft 0, feeder 1, wheel 2, table 3
  * operations of a step: 159, 39.75 per station (75 additions, 84 multiplications)
  * operations of prepare: 75, 18.75 per station (13 additions, 51 multiplications, 11 divisions)
  * number type: double

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: c8f8226e93fd9d4e49ccbb14a6d21dfabaa9c32be55619277914a499c6eae156
- * sha256 of the rest of this file: bc942aec24d061c6192c84fa8591a9505491db098183c1e1735fc60df1c27df8
+ * sha256 of the rest of this file: 15c01d1fa0d3b9d941c7c824bb6f8ed31822c2117773a85c8122c009783c60bb
  *
  * model: planar arm, large rotations, gravity
  * stations: 8
@@ -12,6 +12,8 @@
  * linearisation: newton
  * sweep: riccati
  * unknown: acceleration
+ * joints in arrays, from 0: left 4, left_hinge 5, right 6, right_hinge 7
+ * links in arrays, from 0: wrist 0 to 3, left_finger 4, left_pad 5, right_finger 6, right_pad 7
  * operations of a step: 892, 111.5 per station (404 additions, 464 multiplications, 8 divisions, 16 sines and
  *     cosines)
  * operations of prepare: 148, 18.5 per station (42 additions, 106 multiplications)
@@ -159,17 +161,17 @@ gripper_status gripper_prepare(
         model->joint_impedance[j] = 0.5 * params->damping[j] * step
             + 0.25 * (step * step) * params->stiffness[j];
     }
-    for (int j = 7 - 1; j >= 6; --j) {
+    for (int j = 6; j >= 6; --j) {
         model->joint_impedance[j] = model->armature[j] + 0.5 * params->damping[j] * step;
     }
-    for (int j = 6 - 1; j >= 5; --j) {
+    for (int j = 5; j >= 5; --j) {
         model->joint_impedance[j] = 0.5 * params->damping[j] * step
             + 0.25 * (step * step) * params->stiffness[j];
     }
-    for (int j = 5 - 1; j >= 4; --j) {
+    for (int j = 4; j >= 4; --j) {
         model->joint_impedance[j] = model->armature[j] + 0.5 * params->damping[j] * step;
     }
-    for (int j = 4 - 1; j >= 0; --j) {
+    for (int j = 3; j >= 0; --j) {
         model->joint_impedance[j] = 0.5 * params->damping[j] * step
             + 0.25 * (step * step) * params->stiffness[j];
     }
@@ -362,7 +364,7 @@ gripper_status gripper_initialise(
         force_y = force_y + answer_own[j] * impedance_yu;
         torque = joint_torque;
     }
-    for (int j = 7 - 1; j >= 6; --j) {
+    for (int j = 6; j >= 6; --j) {
         const real joint_torque = params->damping[j] * (predicted_rate[4] - predicted_rate[j + 1])
             + drive[j] * params->gear[j]
             + start_armature[j] * (predicted_acceleration[4] - predicted_acceleration[j + 1]);
@@ -411,7 +413,7 @@ gripper_status gripper_initialise(
     const real force_x_of_branch_7 = force_x;
     const real force_y_of_branch_7 = force_y;
     const real torque_of_branch_7 = torque;
-    for (int j = 6 - 1; j >= 5; --j) {
+    for (int j = 5; j >= 5; --j) {
         const real joint_torque = params->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + params->rest[j] * params->stiffness[j]
             + params->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
@@ -441,7 +443,7 @@ gripper_status gripper_initialise(
         force_y = force_y + answer_own[j] * impedance_yu;
         torque = joint_torque;
     }
-    for (int j = 5 - 1; j >= 4; --j) {
+    for (int j = 4; j >= 4; --j) {
         const real joint_torque = params->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + drive[j] * params->gear[j]
             + start_armature[j] * (predicted_acceleration[j] - predicted_acceleration[j + 1]);
@@ -490,7 +492,7 @@ gripper_status gripper_initialise(
     force_x = force_x + force_x_of_branch_7;
     force_y = force_y + force_y_of_branch_7;
     torque = torque + torque_of_branch_7;
-    for (int j = 4 - 1; j >= 0; --j) {
+    for (int j = 3; j >= 0; --j) {
         const real joint_torque = params->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + params->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
         impedance_xx = impedance_xx + start_node_mass[j];
@@ -722,7 +724,7 @@ gripper_status gripper_step(
         impedance_uu = impedance_uu * transmission[j];
         torque = joint_torque - answer_own[j] * model->joint_impedance[j];
     }
-    for (int j = 7 - 1; j >= 6; --j) {
+    for (int j = 6; j >= 6; --j) {
         const real joint_torque = model->armature[j]
             * (predicted_acceleration[4] - predicted_acceleration[j + 1])
             + model->damping[j] * (predicted_rate[4] - predicted_rate[j + 1]) + drive[j] * model->gear[j];
@@ -774,7 +776,7 @@ gripper_status gripper_step(
     const real force_x_of_branch_7 = force_x;
     const real force_y_of_branch_7 = force_y;
     const real torque_of_branch_7 = torque;
-    for (int j = 6 - 1; j >= 5; --j) {
+    for (int j = 5; j >= 5; --j) {
         const real joint_torque = model->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + model->rest[j] * model->stiffness[j]
             + model->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
@@ -813,7 +815,7 @@ gripper_status gripper_step(
         impedance_uu = impedance_uu * transmission[j];
         torque = joint_torque - answer_own[j] * model->joint_impedance[j];
     }
-    for (int j = 5 - 1; j >= 4; --j) {
+    for (int j = 4; j >= 4; --j) {
         const real joint_torque = model->armature[j]
             * (predicted_acceleration[j] - predicted_acceleration[j + 1])
             + model->damping[j] * (predicted_rate[j] - predicted_rate[j + 1]) + drive[j] * model->gear[j];
@@ -865,7 +867,7 @@ gripper_status gripper_step(
     force_x = force_x + force_x_of_branch_7;
     force_y = force_y + force_y_of_branch_7;
     torque = torque + torque_of_branch_7;
-    for (int j = 4 - 1; j >= 0; --j) {
+    for (int j = 3; j >= 0; --j) {
         const real joint_torque = model->damping[j] * (predicted_rate[j] - predicted_rate[j + 1])
             + model->stiffness[j] * (predicted_angle[j] - predicted_angle[j + 1]);
         impedance_xx = impedance_xx + model->node_mass[j];
@@ -957,11 +959,11 @@ void gripper_output(
     if (model == NULL || state == NULL || outputs == NULL) {
         return;
     }
-    /* Left_tip: position. */
+    /* Output left_tip: position. */
     outputs->left_tip_x = 0.0;
     outputs->left_tip_y = 0.0;
 
-    /* Left_tip: position; right_tip: position. */
+    /* Output left_tip: position; output right_tip: position. */
     outputs->right_tip_x = 0.0;
     outputs->right_tip_y = 0.0;
     for (int j = 0; j < 4; ++j) {
@@ -979,9 +981,9 @@ void gripper_output(
         outputs->right_tip_y = outputs->right_tip_y + model->length[j] * sin(state->angle[j]);
     }
 
-    /* Left: joint angle. */
+    /* Output left: joint angle. */
     outputs->left = state->angle[4] - state->angle[3];
 
-    /* Right: joint angle. */
+    /* Output right: joint angle. */
     outputs->right = state->angle[6] - state->angle[3];
 }

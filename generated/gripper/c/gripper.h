@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: c8f8226e93fd9d4e49ccbb14a6d21dfabaa9c32be55619277914a499c6eae156
- * sha256 of the rest of this file: 1c17b4dc603dcd3bb2a4067ce082a273f4f75226f18d6b4aec7f97cde4d25ead
+ * sha256 of the rest of this file: a18a7e29cbe1b226f3f7ae1f226836cbb03842f731daf11cbb61e0df2abc2e34
  *
  * model: planar arm, large rotations, gravity
  * stations: 8
@@ -12,6 +12,8 @@
  * linearisation: newton
  * sweep: riccati
  * unknown: acceleration
+ * joints in arrays, from 0: left 4, left_hinge 5, right 6, right_hinge 7
+ * links in arrays, from 0: wrist 0 to 3, left_finger 4, left_pad 5, right_finger 6, right_pad 7
  * operations of a step: 892, 111.5 per station (404 additions, 464 multiplications, 8 divisions, 16 sines and
  *     cosines)
  * operations of prepare: 148, 18.5 per station (42 additions, 106 multiplications)

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: c9c08efbdc9f2f1b1ddadadab522649e5100f98e9cdabe31fcf56b416283c60f
- * sha256 of the rest of this file: 90360bbb2b608adb831f856b959fa396bd7c7d20cd8020e73bea647e9df75798
+ * sha256 of the rest of this file: 7bb6dea193d1aaf90f99dacca4bdad61a175882c4b6175ab20ecec3a79bc9e50
  *
  * model: planar arm, large rotations, tip mass
  * stations: 5
@@ -435,7 +435,7 @@ void swing_output(
     }
     const real length = model->length;
 
-    /* Tip: position. */
+    /* Output tip: position. */
     outputs->tip_x = 0.0;
     outputs->tip_y = 0.0;
     for (int j = 0; j < SWING_STATIONS; ++j) {
@@ -443,6 +443,6 @@ void swing_output(
         outputs->tip_y = outputs->tip_y + length * sin(state->angle[j]);
     }
 
-    /* Hub: angle. */
+    /* Output hub: angle. */
     outputs->hub = state->hub_angle;
 }

@@ -2,7 +2,7 @@
 #
 # Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
 # scene digest: 7cda6afdfe9f28eb257c67670c83631d86f159a73ec0c14225ebe1e38843e797
-# sha256 of the rest of this file: 61dc2840377828c78c019b8e83ff17a0abd084d4d407e2a2ad1652b3bbad2eb5
+# sha256 of the rest of this file: 92cf96ec3038e0d5fbc64ab351e9c89e51c853af142ae361dcc33c0bb8923231
 #
 # model: planar arm, large rotations, gravity, tip mass
 # stations: 5
@@ -743,10 +743,10 @@ def output(model: Model, state: State) -> Output:
     rate = _spread(rate, batch, True)
     acceleration = _spread(acceleration, batch, True)
 
-    # hub: angle
+    # output hub: angle
     hub = hub_angle
 
-    # tip: position
+    # output tip: position
     tip_x: Any = 0.0
     tip_y: Any = 0.0
     for j in range(STATIONS):

@@ -3,7 +3,7 @@
  *
  * Written by tmm-gen 0.2.0. Do not edit: change the scene and run `tmm-gen build`.
  * scene digest: 7cda6afdfe9f28eb257c67670c83631d86f159a73ec0c14225ebe1e38843e797
- * sha256 of the rest of this file: 3e7bcd80c49259132731cd6afca36a74168a55e93341b31500624692e982212a
+ * sha256 of the rest of this file: e6522927927b3012535711bf30bd58abc412604c3882b1b44918d98f9ada5250
  *
  * model: planar arm, large rotations, gravity, tip mass
  * stations: 5
@@ -419,10 +419,10 @@ void beam5_output(
     if (state == NULL || outputs == NULL) {
         return;
     }
-    /* Hub: angle. */
+    /* Output hub: angle. */
     outputs->hub = state->hub_angle;
 
-    /* Tip: position. */
+    /* Output tip: position. */
     outputs->tip_x = 0.0f;
     outputs->tip_y = 0.0f;
     for (int j = 0; j < BEAM5_STATIONS; ++j) {
